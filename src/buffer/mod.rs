@@ -1,0 +1,164 @@
+//! The air buffer: cylinder to pressure, force and sizing, equations (1)–(15) and (26)–(28) of the paper.
+//!
+//! Two cylinders at each end of the bed brake it over its overrun x; the air follows p·vᵏ = const. All pressures are
+//! absolute. Knows the bed's overrun, not the angles of any cam.
+
+pub mod balance;
+pub mod energy;
+pub mod regime;
+pub mod spring;
+
+use std::f64::consts::PI;
+
+/// The bed and the crank that reverses it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bed {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Crank radius r, m: the whole overrun.
+    pub crank_radius: f64,
+    /// Turns of the crank for one turn of the main shaft.
+    pub crank_turns_per_main_shaft_turn: f64,
+}
+
+impl Bed {
+    /// Angular speed ω of the crank, rad/s, at a speed of the main shaft in revolutions per minute.
+    #[must_use]
+    pub fn crank_speed(&self, rpm: f64) -> f64 {
+        2.0 * PI * rpm * self.crank_turns_per_main_shaft_turn / 60.0
+    }
+
+    /// Largest inertia force m ω² r, N: equation (1) at the end of the overrun.
+    #[must_use]
+    pub fn largest_inertia(&self, rpm: f64) -> f64 {
+        let omega = self.crank_speed(rpm);
+        self.mass * omega * omega * self.crank_radius
+    }
+}
+
+/// A pair of cylinders sized at the design speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cylinder {
+    /// Area F of one piston, m².
+    pub piston_area: f64,
+    /// Polytropic exponent k.
+    pub exponent: f64,
+    /// Ambient pressure p0, Pa, absolute.
+    pub ambient_pressure: f64,
+    /// A at the design speed, 1/m.
+    design_loading: f64,
+    design_rpm: f64,
+}
+
+impl Cylinder {
+    /// Sizes the pair so that the air of the end pressure holds the bed at x = r at the design speed,
+    /// equations (3), (4) and (13): A = (q − 1)/r.
+    #[must_use]
+    pub fn sized(bed: &Bed, design_rpm: f64, exponent: f64, ambient_pressure: f64, end_pressure: f64) -> Self {
+        let piston_area = bed.largest_inertia(design_rpm) / (2.0 * (end_pressure - ambient_pressure));
+        let design_loading = (end_pressure / ambient_pressure - 1.0) / bed.crank_radius;
+        Self { piston_area, exponent, ambient_pressure, design_loading, design_rpm }
+    }
+
+    /// Bore `D_a`, m.
+    #[must_use]
+    pub fn bore(&self) -> f64 {
+        (4.0 * self.piston_area / PI).sqrt()
+    }
+
+    /// A = m ω²/(2 p0 F) of equation (11) at a speed, 1/m: grows with the square of the speed.
+    #[must_use]
+    pub fn loading(&self, rpm: f64) -> f64 {
+        let ratio = rpm / self.design_rpm;
+        self.design_loading * ratio * ratio
+    }
+
+    /// Force of the pair of pistons for a pressure ratio p/p0, N, against the ambient pressure behind them.
+    #[must_use]
+    pub fn force(&self, pressure_ratio: f64) -> f64 {
+        self.unit_force() * (pressure_ratio - 1.0)
+    }
+
+    /// 2 p0 F, N: what every dimensionless force is multiplied by.
+    #[must_use]
+    pub fn unit_force(&self) -> f64 {
+        2.0 * self.ambient_pressure * self.piston_area
+    }
+}
+
+/// A buffer with a fixed bottom, its column by (7) so that the end pressure is right at x = r.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlainBuffer {
+    /// Column L at the start of compression, m.
+    pub column: f64,
+    loading: f64,
+    exponent: f64,
+}
+
+impl PlainBuffer {
+    /// Column by (7) for the loading A: `h_a` = r.
+    #[must_use]
+    pub fn new(loading: f64, exponent: f64, crank_radius: f64) -> Self {
+        let column = balance::column_for(crank_radius, loading * crank_radius, exponent);
+        Self { column, loading, exponent }
+    }
+
+    /// Air force over 2 p0 F at overrun x, equation (9).
+    #[must_use]
+    pub fn air(&self, x: f64) -> f64 {
+        libm::expm1(-self.exponent * libm::log1p(-x / self.column))
+    }
+
+    /// Where the residual A x − air is largest, and its value over 2 p0 F.
+    ///
+    /// The residual is concave in x and zero at both ends; its slope A − (k/L)(L/(L−x))^(k+1) vanishes at
+    /// x = L (1 − c^(−1/(k+1))), c = L A/k.
+    #[must_use]
+    pub fn largest_residual(&self) -> (f64, f64) {
+        let c = self.column * self.loading / self.exponent;
+        let x = -self.column * libm::expm1(-libm::log(c) / (self.exponent + 1.0));
+        (x, self.loading * x - self.air(x))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::KILOGRAM_FORCE;
+
+    /// The machine of the reference numbers: press ДПИ, inferred from the figures of the paper.
+    pub(crate) fn reference(end_pressure_at: f64) -> (Bed, Cylinder) {
+        let bed = Bed { mass: 978.2, crank_radius: 0.18, crank_turns_per_main_shaft_turn: 3.0 };
+        let cylinder = Cylinder::sized(&bed, 35.0, 1.35, 98_066.5, end_pressure_at * 98_066.5);
+        (bed, cylinder)
+    }
+
+    #[test]
+    fn the_paper_s_machine_has_the_paper_s_speed_and_force() {
+        let (bed, cylinder) = reference(2.0);
+        assert!((bed.crank_speed(35.0) * bed.crank_radius - 1.979).abs() < 5e-4, "bed speed, about 2 m/s");
+        assert!((bed.largest_inertia(35.0) / KILOGRAM_FORCE - 2170.8).abs() < 0.05, "P_max in kgf");
+        // (11) from its own terms is (13).
+        let omega = bed.crank_speed(35.0);
+        let by_11 = bed.mass * omega * omega / cylinder.unit_force();
+        assert!((cylinder.loading(35.0) / by_11 - 1.0).abs() < 1e-15);
+        assert!((cylinder.bore() / 0.3717 - 1.0).abs() < 1e-3, "bore {}", cylinder.bore());
+    }
+
+    #[test]
+    fn a_plain_buffer_leaves_the_known_share_of_the_force() {
+        for (end_pressure, share) in [(2.0, 0.150), (5.0, 0.336)] {
+            let (bed, cylinder) = reference(end_pressure);
+            let loading = cylinder.loading(35.0);
+            let plain = PlainBuffer::new(loading, cylinder.exponent, bed.crank_radius);
+            let (x, residual) = plain.largest_residual();
+            let got = residual / (loading * bed.crank_radius);
+            assert!((got - share).abs() < 5e-4, "q = {end_pressure}: {got}");
+            for other in [0.9 * x, 1.1 * x] {
+                assert!(loading * other - plain.air(other) < residual);
+            }
+            let end = loading * bed.crank_radius - plain.air(bed.crank_radius);
+            assert!(end.abs() < 1e-14 * end_pressure, "balanced at the end: {end}");
+        }
+    }
+}

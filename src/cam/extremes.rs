@@ -1,0 +1,81 @@
+//! The worst places of a disc cam, solved from exact derivatives.
+
+use super::Disc;
+use crate::follower::Follower;
+use crate::law::{Law, Piece};
+use crate::numeric::extremum::{self, Extremum};
+
+/// Cells a piece is cut into: pressure angle and curvature of a piece have a handful of extrema.
+const CELLS: u32 = 32;
+
+/// Largest value of a quantity over the turn; `quantity` gives value and derivative at a cam angle of a piece.
+fn largest<L: Law, F: Follower>(disc: &Disc<L, F>, quantity: impl Fn(usize, f64) -> (f64, f64)) -> Extremum {
+    let in_piece = |(index, piece): (usize, &Piece)| {
+        let cells = if piece.dwell { 1 } else { CELLS };
+        let range = (piece.start, piece.end);
+        extremum::largest(|angle| quantity(index, angle).0, |angle| quantity(index, angle).1, range, cells)
+    };
+    disc.law.pieces().iter().enumerate().map(in_piece).fold(
+        Extremum { at: 0.0, value: f64::NEG_INFINITY },
+        |best, next| {
+            if next.value > best.value || best.value.is_nan() { next } else { best }
+        },
+    )
+}
+
+/// Largest |pressure angle|, rad.
+pub fn pressure_angle<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
+    let signed = |sign: f64| {
+        largest(disc, |piece, angle| {
+            let contact = disc.contact(piece, angle);
+            (sign * contact.pressure_angle, sign * contact.pressure_angle_slope)
+        })
+    };
+    let (rise, fall) = (signed(1.0), signed(-1.0));
+    if rise.value >= fall.value { rise } else { fall }
+}
+
+/// Largest curvature of the pitch curve, 1/m: the sharpest convex place.
+pub fn convex_pitch_curvature<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
+    largest(disc, |piece, angle| {
+        let pitch = disc.contact(piece, angle).pitch;
+        (pitch.curvature, pitch.curvature_slope)
+    })
+}
+
+/// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.
+///
+/// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
+pub fn concave_profile_curvature<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
+    let pitch = largest(disc, |piece, angle| {
+        let pitch = disc.contact(piece, angle).pitch;
+        (-pitch.curvature, -pitch.curvature_slope)
+    });
+    Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * disc.follower.roller_radius()) }
+}
+
+/// A corner of the pitch curve between two pieces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner {
+    /// The cam angle, rad.
+    pub angle: f64,
+    /// Turn of the tangent, rad: positive to the left (convex), negative to the right (concave).
+    pub turn: f64,
+}
+
+/// A turn below this is no corner, rad: far below the 0.05° a shop tolerates, far above rounding (1e-12).
+const LEAST_CORNER: f64 = 1e-9;
+
+/// The corners of the pitch curve, in the order of the pieces; each stands at the end of a piece.
+pub fn corners<L: Law, F: Follower>(disc: &Disc<L, F>) -> Vec<Corner> {
+    let pieces = disc.law.pieces();
+    let turn = |index: usize| {
+        let next = (index + 1) % pieces.len();
+        let (before, after) = (pieces.get(index)?, pieces.get(next)?);
+        let left = disc.contact(index, before.end).pitch.tangent;
+        let right = disc.contact(next, after.start).pitch.tangent;
+        let turn = libm::atan2(left.perp(&right), left.dot(&right));
+        (turn.abs() > LEAST_CORNER).then_some(Corner { angle: before.end, turn })
+    };
+    (0..pieces.len()).filter_map(turn).collect()
+}

@@ -1,0 +1,178 @@
+//! The cam as exact curves: pitch curve, normal, curvature, pressure angle, profile.
+//!
+//! Curves here are functions of the cam angle with exact derivatives; nothing is sampled. SI units and radians.
+
+pub mod extremes;
+pub mod rotary;
+pub mod size;
+
+use crate::follower::Follower;
+use crate::law::{Jet, Law};
+use nalgebra::Vector2;
+
+/// A point of a plane curve with what belongs to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// The point.
+    pub point: Vector2<f64>,
+    /// Unit tangent in the direction of growing parameter.
+    pub tangent: Vector2<f64>,
+    /// Arc length per unit of the parameter; negative where an offset has turned back on itself.
+    pub speed: f64,
+    /// Curvature, positive where the curve turns left.
+    pub curvature: f64,
+    /// Derivative of the curvature by the arc length.
+    pub curvature_slope: f64,
+}
+
+impl Frame {
+    /// From the first three derivatives by the parameter.
+    ///
+    /// κ = C'×C''/ℓ³ and dκ/dt = C'×C'''/ℓ³ − 3 κ (C'·C'')/ℓ², ℓ = |C'|.
+    #[must_use]
+    pub fn from_derivatives(
+        point: Vector2<f64>,
+        first: Vector2<f64>,
+        second: Vector2<f64>,
+        third: Vector2<f64>,
+    ) -> Self {
+        let speed = first.norm();
+        let cube = speed * speed * speed;
+        let curvature = first.perp(&second) / cube;
+        let by_parameter = first.perp(&third) / cube - 3.0 * curvature * first.dot(&second) / (speed * speed);
+        Self { point, tangent: first / speed, speed, curvature, curvature_slope: by_parameter / speed }
+    }
+
+    /// The unit normal to the right of the tangent: outward for a curve that runs counter-clockwise.
+    #[must_use]
+    pub fn outward(&self) -> Vector2<f64> {
+        Vector2::new(self.tangent.y, -self.tangent.x)
+    }
+
+    /// The parallel curve at `distance` to the left (inward), same parameter.
+    ///
+    /// With m = 1 − κ·distance: speed × m, curvature / m, curvature slope / m³.
+    #[must_use]
+    pub fn offset_inward(&self, distance: f64) -> Self {
+        let m = 1.0 - self.curvature * distance;
+        Self {
+            point: self.point - self.outward() * distance,
+            tangent: self.tangent,
+            speed: self.speed * m,
+            curvature: self.curvature / m,
+            curvature_slope: self.curvature_slope / (m * m * m),
+        }
+    }
+}
+
+/// Law and follower together: every curve of a disc cam.
+#[derive(Debug, Clone)]
+pub struct Disc<L, F> {
+    /// The law.
+    pub law: L,
+    /// The follower.
+    pub follower: F,
+}
+
+/// What is known at one cam angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Lift and its derivatives.
+    pub lift: Jet,
+    /// The pitch curve.
+    pub pitch: Frame,
+    /// Angle from the outward normal to the drive direction, rad: positive where the lift grows (centred follower).
+    pub pressure_angle: f64,
+    /// Its derivative by the cam angle.
+    pub pressure_angle_slope: f64,
+}
+
+impl<L: Law, F: Follower> Disc<L, F> {
+    /// Pitch curve and pressure angle at a cam angle of a piece of the law.
+    #[must_use]
+    pub fn contact(&self, piece: usize, angle: f64) -> Contact {
+        let lift = self.law.jet(piece, angle);
+        let pitch = self.follower.pitch(angle, &lift);
+        let frame = Frame::from_derivatives(pitch.point, pitch.first, pitch.second, pitch.third);
+        let normal = frame.outward();
+        // The normal turns at the rate κ ℓ of the tangent, the drive at its own rate.
+        Contact {
+            lift,
+            pitch: frame,
+            pressure_angle: libm::atan2(normal.perp(&pitch.drive), normal.dot(&pitch.drive)),
+            pressure_angle_slope: pitch.drive_turn - frame.curvature * frame.speed,
+        }
+    }
+
+    /// The profile at a cam angle of a piece: the parallel curve at the roller's radius.
+    #[must_use]
+    pub fn profile(&self, piece: usize, angle: f64) -> Frame {
+        self.contact(piece, angle).pitch.offset_inward(self.follower.roller_radius())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follower::TranslatingRoller;
+    use crate::law::EccentricCircle;
+
+    /// The eccentric circle has everything in closed form: pitch curve and profile are circles about (e, 0), the
+    /// pressure angle has sin α = −(e/ρ) sin θ.
+    #[test]
+    fn eccentric_circle_in_closed_form() {
+        let (e, rho, roller) = (0.012, 0.06, 0.015);
+        let disc = Disc { law: EccentricCircle::new(e, rho), follower: TranslatingRoller::new(rho - e, 0.0, roller) };
+        for i in 0..360 {
+            let angle = f64::from(i).to_radians();
+            let contact = disc.contact(0, angle);
+            let profile = disc.profile(0, angle);
+            let centre = Vector2::new(e, 0.0);
+            assert!(((contact.pitch.point - centre).norm() - rho).abs() < 1e-16);
+            assert!(((profile.point - centre).norm() - (rho - roller)).abs() < 1e-16);
+            assert!((contact.pitch.curvature * rho - 1.0).abs() < 1e-13);
+            assert!((profile.curvature * (rho - roller) - 1.0).abs() < 1e-13);
+            assert!((contact.pitch.curvature_slope * rho * rho).abs() < 1e-12);
+            let sine = -e / rho * libm::sin(angle);
+            assert!((libm::sin(contact.pressure_angle) - sine).abs() < 1e-14);
+            let slope = -e / rho * libm::cos(angle) / libm::cos(contact.pressure_angle);
+            assert!((contact.pressure_angle_slope - slope).abs() < 1e-13);
+        }
+    }
+
+    /// Curvature slope of pitch curve and profile against central differences, offset follower included.
+    #[test]
+    fn frame_derivatives_belong_to_the_curve() {
+        struct Wave;
+        impl Law for Wave {
+            fn pieces(&self) -> &[crate::law::Piece] {
+                const WHOLE: [crate::law::Piece; 1] =
+                    [crate::law::Piece { start: 0.0, end: std::f64::consts::TAU, dwell: false }];
+                &WHOLE
+            }
+            fn jet(&self, _: usize, a: f64) -> Jet {
+                let (sin, cos) = (libm::sin(3.0 * a), libm::cos(3.0 * a));
+                Jet { s: 0.004 * (1.0 + sin), ds: 0.012 * cos, dds: -0.036 * sin, ddds: -0.108 * cos }
+            }
+        }
+        let disc = Disc { law: Wave, follower: TranslatingRoller::new(0.1, 0.02, 0.01) };
+        let h = 1e-3;
+        for i in 0..90 {
+            let angle = 0.07 * f64::from(i);
+            let pitch = |n: f64| disc.contact(0, angle + n * h).pitch;
+            let profile = |n: f64| disc.profile(0, angle + n * h);
+            for frame in [&pitch as &dyn Fn(f64) -> Frame, &profile] {
+                let here = frame(0.0);
+                let point = |n| frame(n).point;
+                let tangent = ((point(1.0) - point(-1.0)) * 8.0 - (point(2.0) - point(-2.0))) / (12.0 * h);
+                assert!((tangent - here.tangent * here.speed).norm() < 1e-10);
+                let k = |n| frame(n).curvature;
+                let slope = (8.0 * (k(1.0) - k(-1.0)) - (k(2.0) - k(-2.0))) / (12.0 * h * here.speed);
+                assert!((slope - here.curvature_slope).abs() < 1e-5 * (1.0 + slope.abs()), "{slope} {here:?}");
+            }
+            let alpha = |n: f64| disc.contact(0, angle + n * h).pressure_angle;
+            let slope = (8.0 * (alpha(1.0) - alpha(-1.0)) - (alpha(2.0) - alpha(-2.0))) / (12.0 * h);
+            assert!((slope - disc.contact(0, angle).pressure_angle_slope).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! The translating roller, centred or offset.
+
+use super::{Follower, Pitch};
+use crate::law::Jet;
+use nalgebra::Vector2;
+
+/// A roller on a straight path at distance `offset` from the shaft.
+///
+/// Its centre is u·û(θ) + ε·n̂(θ), u = √(R_p² − ε²) + s, û the direction of the path and n̂ = û turned by +90°; ε > 0
+/// lies along the follower's apparent motion, against the rotation of the cam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TranslatingRoller {
+    prime_radius: f64,
+    offset: f64,
+    roller_radius: f64,
+    /// √(R_p² − ε²), m.
+    height: f64,
+}
+
+impl TranslatingRoller {
+    /// Prime radius, offset and roller radius in m; |offset| < prime radius.
+    #[must_use]
+    pub fn new(prime_radius: f64, offset: f64, roller_radius: f64) -> Self {
+        let height = ((prime_radius - offset) * (prime_radius + offset)).sqrt();
+        Self { prime_radius, offset, roller_radius, height }
+    }
+}
+
+impl Follower for TranslatingRoller {
+    fn pitch(&self, angle: f64, lift: &Jet) -> Pitch {
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let along = Vector2::new(cos, sin);
+        let across = Vector2::new(-sin, cos);
+        let (offset, u) = (self.offset, self.height + lift.s);
+        // û' = n̂ and n̂' = −û.
+        Pitch {
+            point: along * u + across * offset,
+            first: along * (lift.ds - offset) + across * u,
+            second: along * (lift.dds - u) + across * (2.0 * lift.ds - offset),
+            third: along * (lift.ddds - 3.0 * lift.ds + offset) + across * (3.0 * lift.dds - u),
+            drive: along,
+            drive_turn: 1.0,
+        }
+    }
+
+    fn roller_radius(&self) -> f64 {
+        self.roller_radius
+    }
+
+    fn prime_radius(&self) -> f64 {
+        self.prime_radius
+    }
+}

@@ -1,0 +1,10 @@
+//! camgen: cam profiles a CNC shop can cut.
+#![forbid(unsafe_code)]
+
+pub mod buffer;
+pub mod cam;
+pub mod follower;
+pub mod law;
+pub mod machine;
+pub mod numeric;
+pub mod units;

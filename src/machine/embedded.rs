@@ -1,0 +1,21 @@
+//! The machine files carried in the binary.
+
+/// A machine file in the binary.
+#[derive(Debug, Clone, Copy)]
+pub struct Embedded {
+    /// The name it is asked for by.
+    pub name: &'static str,
+    /// Its text.
+    pub toml: &'static str,
+}
+
+/// Every embedded machine; the first is the default.
+pub const EMBEDDED: &[Embedded] = &[
+    Embedded { name: "dpi", toml: include_str!("../../profiles/dpi.toml") },
+    Embedded { name: "dpi-paper", toml: include_str!("../../profiles/dpi-paper.toml") },
+];
+
+/// Their names in one list for a message.
+pub(crate) fn names() -> String {
+    EMBEDDED.iter().map(|machine| machine.name).collect::<Vec<_>>().join(", ")
+}

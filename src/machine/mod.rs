@@ -1,0 +1,495 @@
+//! The machine file: TOML to a [`Machine`] in SI units with every value in range.
+//!
+//! One of the two doors of the library: what comes out of here is a machine that can be computed. Whatever can be told
+//! by line and column is told here; rooms behind this one do not see a negative mass.
+
+mod embedded;
+mod reader;
+
+pub use embedded::{EMBEDDED, Embedded};
+pub use reader::{Excerpt, Fault, MachineError};
+
+use crate::buffer::balance::Column;
+use crate::buffer::{Bed, Cylinder};
+use crate::law::Transition;
+use crate::units::Dimension::{Angle, Length, Mass, Pressure};
+use reader::{Reader, above, within};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::io::Read;
+use std::path::Path;
+
+/// Longest length in a machine file, m: a cam of a kilometre is a slip of the pen, not a cam.
+const LONGEST: f64 = 1e3;
+/// Heaviest bed, kg.
+const HEAVIEST: f64 = 1e7;
+/// Highest pressure, Pa.
+const HIGHEST_PRESSURE: f64 = 1e9;
+/// Highest speed, ratio or lever.
+const LARGEST_NUMBER: f64 = 1e5;
+/// Largest machine file, bytes.
+const LARGEST_FILE: u64 = 1 << 20;
+
+/// How the cam turns, seen in the drawing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rotation {
+    /// Clockwise: the cam angle grows counter-clockwise in the drawing.
+    Clockwise,
+    /// Counter-clockwise: the drawing is mirrored about X.
+    CounterClockwise,
+}
+
+/// Material of a cam, for its mass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Material {
+    /// Carbon and low-alloy steel.
+    Steel,
+    /// Grey cast iron.
+    CastIron,
+    /// Tin bronze.
+    Bronze,
+    /// Wrought aluminium alloy.
+    Aluminium,
+}
+
+impl Material {
+    /// Density, kg/m³, customary values.
+    #[must_use]
+    pub fn density(self) -> f64 {
+        match self {
+            Material::Steel => 7850.0,
+            Material::CastIron => 7200.0,
+            Material::Bronze => 8800.0,
+            Material::Aluminium => 2700.0,
+        }
+    }
+}
+
+/// The disc of a rotary cam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CamData {
+    /// Turns of the cam for one turn of the crank.
+    pub turns_per_crank_turn: f64,
+    /// Roller travel per bottom travel.
+    pub lever: f64,
+    /// Base radius, m; `None` is `auto`.
+    pub base_radius: Option<f64>,
+    /// Thickness, m.
+    pub thickness: Option<f64>,
+    /// Radius of the bore, m.
+    pub bore_radius: Option<f64>,
+    /// Material.
+    pub material: Material,
+    /// How it turns.
+    pub rotation: Rotation,
+}
+
+/// The translating roller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollerData {
+    /// Radius, m.
+    pub radius: f64,
+    /// Offset of its path from the shaft, m.
+    pub offset: f64,
+}
+
+/// How the efficiency of a translating cam enters equation (18).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EfficiencyModel {
+    /// The loss is always on the driven side.
+    Consistent,
+    /// As the paper prints it.
+    Printed,
+}
+
+/// The cam plate on the bed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TranslatingData {
+    /// Arm of the roller l1, m.
+    pub roller_arm: f64,
+    /// Arm of the bottom l2, m.
+    pub bottom_arm: f64,
+    /// Angle Δ between the roller's velocity and the line of the bed at ψ = 0, rad.
+    pub delta: f64,
+    /// Friction angle ρ, rad.
+    pub friction_angle: f64,
+    /// Efficiency η.
+    pub efficiency: f64,
+    /// Model of the efficiency.
+    pub efficiency_model: EfficiencyModel,
+    /// Radius of the roller, m.
+    pub roller_radius: f64,
+    /// Height of the plate, m.
+    pub plate_height: Option<f64>,
+}
+
+/// What the column does at each speed of a conoid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ConoidMode {
+    /// Reset by (14).
+    Adjusted,
+    /// Stays.
+    Fixed,
+}
+
+/// How the conoid shifts with the speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shift {
+    /// z linear in n.
+    Linear,
+    /// z linear in n².
+    Square,
+}
+
+/// The cam for many speeds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConoidData {
+    /// Axial travel between the extreme speeds, m.
+    pub axial_travel: f64,
+    /// What the column does.
+    pub mode: ConoidMode,
+    /// How the cam shifts.
+    pub shift: Shift,
+}
+
+/// What a cam must keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest |pressure angle|, rad.
+    pub pressure_angle: f64,
+    /// Smallest convex radius of the pitch curve over the roller radius.
+    pub min_convex_pitch_radius_over_roller: f64,
+    /// Radius of the tool that must get into the concave parts, m.
+    pub cutter_radius: Option<f64>,
+    /// Least metal between bore and profile, m.
+    pub wall: f64,
+}
+
+/// A machine in SI units, every value in range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Machine {
+    /// What the sheet and the report call it.
+    pub name: String,
+    /// Bed and crank.
+    pub bed: Bed,
+    /// Polytropic exponent k.
+    pub polytropic_exponent: f64,
+    /// Ambient pressure, Pa, absolute.
+    pub ambient_pressure: f64,
+    /// End pressure at the design speed, Pa, absolute.
+    pub end_pressure: f64,
+    /// Air column.
+    pub column: Column,
+    /// Lead e, m.
+    pub lead: f64,
+    /// Design speed of the main shaft, rpm.
+    pub design_rpm: f64,
+    /// Follower.
+    pub roller: RollerData,
+    /// Disc.
+    pub cam: CamData,
+    /// Transition.
+    pub transition: Transition,
+    /// Plate on the bed, when described.
+    pub translating: Option<TranslatingData>,
+    /// Conoid, when described.
+    pub conoid: Option<ConoidData>,
+    /// Limits.
+    pub limits: Limits,
+}
+
+/// A speed of the main shaft a machine can be asked for, rpm: above 0, at most [`LARGEST_NUMBER`].
+///
+/// # Errors
+/// A message with the range.
+pub fn valid_rpm(rpm: f64) -> Result<f64, String> {
+    if rpm > 0.0 && rpm <= LARGEST_NUMBER {
+        Ok(rpm)
+    } else {
+        Err(format!("a speed must be above 0 and at most {LARGEST_NUMBER} rpm: {rpm}"))
+    }
+}
+
+impl Machine {
+    /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
+    ///
+    /// # Errors
+    /// All faults found, each with its place.
+    pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
+        let mut read = Reader::new(source, text, overrides);
+        let name = read.text("name", "my press");
+        let bed = read_bed(&mut read);
+        let polytropic_exponent = read.number("buffer.polytropic_exponent", Some(1.35), within(1.0, 3.0));
+        let pressure = above(0.0, HIGHEST_PRESSURE);
+        let ambient_pressure = read.quantity("buffer.ambient_pressure", Pressure, "1 at", pressure);
+        let end_pressure = read.quantity("buffer.end_pressure", Pressure, "2 at", pressure);
+        if end_pressure <= ambient_pressure {
+            let (end, ambient) = (read.typed("buffer.end_pressure"), read.typed("buffer.ambient_pressure"));
+            read.fail(
+                "buffer.end_pressure",
+                format!("end_pressure must be above ambient_pressure: {end} ≤ {ambient}"),
+                Some("both are absolute; an end pressure of 1 at gauge is 2 at absolute".into()),
+            );
+        }
+        let column = read.word_or_quantity(
+            "buffer.column",
+            &[("matched", Column::Matched), ("return", Column::Return)],
+            Length,
+            above(0.0, LONGEST),
+            Column::Length,
+        );
+        let lead = read.quantity_or("buffer.lead", Length, 0.0, within(0.0, LONGEST));
+        let design_rpm = read.number("design.rpm", Some(35.0), above(0.0, LARGEST_NUMBER));
+        let radius = read.quantity("follower.roller.radius", Length, "30 mm", above(0.0, LONGEST));
+        let offset = read.quantity_or("follower.roller.offset", Length, 0.0, within(-LONGEST, LONGEST));
+        let cam = read_cam(&mut read, radius, offset);
+        let transition = read_transition(&mut read);
+        let translating = read.has("translating").then(|| read_translating(&mut read, radius)).flatten();
+        let conoid = read.has("conoid").then(|| read_conoid(&mut read)).flatten();
+        let limits = Limits {
+            pressure_angle: read.quantity_or("limits.pressure_angle", Angle, PI / 6.0, above(0.0, FRAC_PI_2)),
+            min_convex_pitch_radius_over_roller: read.number(
+                "limits.min_convex_pitch_radius_over_roller",
+                Some(2.0),
+                within(0.0, LARGEST_NUMBER),
+            ),
+            cutter_radius: read.optional("limits.cutter_radius", Length, above(0.0, LONGEST)).map(|q| q.si),
+            wall: read.quantity_or("limits.wall", Length, 0.0, within(0.0, LONGEST)),
+        };
+        read.finish()?;
+        // Every `None` above has left a fault, so `finish` has returned before.
+        let (Some(column), Some(cam), Some(transition)) = (column, cam, transition) else {
+            return Err(MachineError { faults: Vec::new() });
+        };
+        Ok(Self {
+            name,
+            bed,
+            polytropic_exponent,
+            ambient_pressure,
+            end_pressure,
+            column,
+            lead,
+            design_rpm,
+            roller: RollerData { radius, offset },
+            cam,
+            transition,
+            translating,
+            conoid,
+            limits,
+        })
+    }
+
+    /// Reads an embedded machine by its name, or a file. Returns the machine and the word that names its files.
+    ///
+    /// # Errors
+    /// All faults found; a file that cannot be read is one of them.
+    pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
+        if let Some(embedded) = EMBEDDED.iter().find(|machine| machine.name == name_or_path) {
+            let machine = Self::from_toml(&format!("{name_or_path} (embedded)"), embedded.toml, overrides)?;
+            return Ok((machine, name_or_path.to_owned()));
+        }
+        let path = Path::new(name_or_path);
+        let text = read_text(path).map_err(|why| MachineError {
+            faults: vec![Fault {
+                message: format!("cannot read the machine file `{name_or_path}`: {why}"),
+                help: Some(format!("give a path to a TOML file or an embedded machine: {}", embedded::names())),
+                place: None,
+            }],
+        })?;
+        let machine = Self::from_toml(name_or_path, &text, overrides)?;
+        let stem = path.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy().into_owned());
+        Ok((machine, stem))
+    }
+
+    /// The pair of cylinders, sized at the design speed.
+    #[must_use]
+    pub fn cylinder(&self) -> Cylinder {
+        let (k, p0, end) = (self.polytropic_exponent, self.ambient_pressure, self.end_pressure);
+        Cylinder::sized(&self.bed, self.design_rpm, k, p0, end)
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, String> {
+    if path.is_dir() {
+        return Err("it is a directory".into());
+    }
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+    let mut bytes = Vec::new();
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(format!("it is larger than {LARGEST_FILE} bytes"));
+    }
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
+}
+
+fn read_bed(read: &mut Reader<'_>) -> Bed {
+    Bed {
+        mass: read.quantity("bed.mass", Mass, "978.2 kg", above(0.0, HEAVIEST)),
+        crank_radius: read.quantity("bed.crank_radius", Length, "180 mm", above(0.0, LONGEST)),
+        crank_turns_per_main_shaft_turn: read.number(
+            "bed.crank_turns_per_main_shaft_turn",
+            Some(3.0),
+            above(0.0, LARGEST_NUMBER),
+        ),
+    }
+}
+
+fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<CamData> {
+    let turns_per_crank_turn = read.number("cam.cam_turns_per_crank_turn", Some(1.0), above(0.0, LARGEST_NUMBER));
+    let lever = read.number("cam.lever", Some(1.0), above(0.0, LARGEST_NUMBER));
+    let base_radius = read.word_or_quantity("cam.base_radius", &[("auto", None)], Length, above(0.0, LONGEST), Some);
+    let thickness = read.optional("cam.thickness", Length, above(0.0, LONGEST)).map(|q| q.si);
+    let bore_radius = read.optional("cam.bore_radius", Length, above(0.0, LONGEST)).map(|q| q.si);
+    let material = read.word(
+        "cam.material",
+        &[
+            ("steel", Material::Steel),
+            ("cast-iron", Material::CastIron),
+            ("bronze", Material::Bronze),
+            ("aluminium", Material::Aluminium),
+        ],
+    );
+    let rotation = read.word("cam.rotation", &[("cw", Rotation::Clockwise), ("ccw", Rotation::CounterClockwise)]);
+    if let Some(Some(base)) = base_radius {
+        if offset.abs() >= base + roller_radius {
+            let typed = read.typed("follower.roller.offset");
+            read.fail(
+                "cam.base_radius",
+                format!("base radius and roller radius together must exceed the follower's offset of {typed}"),
+                None,
+            );
+        }
+        if bore_radius.is_some_and(|bore| bore >= base) {
+            let (base, bore) = (read.typed("cam.base_radius"), read.typed("cam.bore_radius"));
+            read.fail("cam.bore_radius", format!("bore_radius must be below base_radius: {bore} ≥ {base}"), None);
+        }
+    }
+    Some(CamData {
+        turns_per_crank_turn,
+        lever,
+        base_radius: base_radius?,
+        thickness,
+        bore_radius,
+        material: material?,
+        rotation: rotation?,
+    })
+}
+
+fn read_transition(read: &mut Reader<'_>) -> Option<Transition> {
+    let width = read.quantity_or("transition.width", Angle, PI / 9.0, above(0.0, PI));
+    let from: fn(f64) -> [Transition; 3] =
+        |width| [Transition::RunUp { width }, Transition::Blend { width }, Transition::None];
+    let [run_up, blend, none] = from(width);
+    read.word("transition.kind", &[("run-up", run_up), ("blend", blend), ("none", none)])
+}
+
+fn read_translating(read: &mut Reader<'_>, roller_radius: f64) -> Option<TranslatingData> {
+    let length = above(0.0, LONGEST);
+    let model = [("consistent", EfficiencyModel::Consistent), ("printed", EfficiencyModel::Printed)];
+    Some(TranslatingData {
+        roller_arm: read.quantity("translating.roller_arm", Length, "300 mm", length),
+        bottom_arm: read.quantity("translating.bottom_arm", Length, "300 mm", length),
+        delta: read.quantity("translating.delta", Angle, "90 deg", above(0.0, PI)),
+        friction_angle: read.quantity_or("translating.friction_angle", Angle, 0.0, within(0.0, FRAC_PI_2)),
+        efficiency: read.number("translating.efficiency", Some(1.0), above(0.0, 1.0)),
+        efficiency_model: read.word("translating.efficiency_model", &model)?,
+        roller_radius: read.quantity_or("translating.roller_radius", Length, roller_radius, length),
+        plate_height: read.optional("translating.plate_height", Length, length).map(|q| q.si),
+    })
+}
+
+fn read_conoid(read: &mut Reader<'_>) -> Option<ConoidData> {
+    Some(ConoidData {
+        axial_travel: read.quantity("conoid.axial_travel", Length, "120 mm", above(0.0, LONGEST)),
+        mode: read.word("conoid.mode", &[("adjusted", ConoidMode::Adjusted), ("fixed", ConoidMode::Fixed)])?,
+        shift: read.word("conoid.shift", &[("linear", Shift::Linear), ("square", Shift::Square)])?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn dpi(overrides: &[&str]) -> Result<Machine, MachineError> {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        Machine::load("dpi", &overrides).map(|(machine, _)| machine)
+    }
+
+    fn message(overrides: &[&str]) -> String {
+        dpi(overrides).expect_err("a fault").to_string()
+    }
+
+    #[test]
+    fn every_embedded_machine_and_the_template_read() {
+        for embedded in EMBEDDED {
+            let (machine, stem) =
+                Machine::load(embedded.name, &[]).unwrap_or_else(|e| panic!("{}: {e}", embedded.name));
+            assert_eq!(stem, embedded.name);
+            assert!(machine.translating.is_some() && machine.conoid.is_some());
+        }
+        let template = include_str!("../../templates/machine.toml");
+        assert!(Machine::from_toml("template", template, &[]).is_ok());
+    }
+
+    #[test]
+    fn an_override_replaces_a_value() {
+        let machine = dpi(&["follower.roller.radius=25mm", "cam.base_radius = auto", "cam.lever=2"]).expect("valid");
+        assert_eq!(machine.roller.radius, 0.025);
+        assert_eq!(machine.cam.lever, 2.0);
+    }
+
+    #[test]
+    fn faults_name_value_place_and_remedy() {
+        for (set, parts) in [
+            ("bed.mass=978.2", vec!["has no unit", "kg, lb", "--set:1:"]),
+            ("bed.mass=978 mm", vec!["unit of length, not of mass"]),
+            ("bed.mass=-3 kg", vec!["must be above 0 kg", "-3 kg"]),
+            ("bed.mass=0 kg", vec!["must be above 0 kg"]),
+            ("bed.mass=nan kg", vec!["not a finite number"]),
+            ("bed.mass=1e300 kg", vec!["at most 10000000 kg"]),
+            ("bed.mass=heavy", vec!["does not start with a number"]),
+            ("buffer.end_pressure=0.9 at", vec!["end_pressure must be above ambient_pressure: 0.9 at ≤ 1 at"]),
+            ("buffer.column=long", vec!["or \"matched\" or \"return\""]),
+            ("transition.kind=smooth", vec!["one of \"run-up\", \"blend\", \"none\""]),
+            ("cam.thicknes=3 mm", vec!["unknown key `cam.thicknes`", "did you mean `cam.thickness`?"]),
+            ("cam.bore_radius", vec!["no `=`"]),
+            ("design.rpm=0", vec!["must be above 0"]),
+            ("design.rpm=35 rpm", vec!["not a bare number"]),
+            ("name=", vec!["must be a text"]),
+        ] {
+            let text = message(&[set]);
+            for part in parts {
+                assert!(text.contains(part), "{set}: no {part:?} in\n{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn several_faults_of_a_file_come_at_once_in_its_order() {
+        let toml = "name = \"x\"\n[bed]\nmass = 5\ncrank_radius = \"180 kg\"\n[follower.roller]\nradius = true\n[camm]\nlever = 1\n";
+        let error = Machine::from_toml("bad.toml", toml, &[]).expect_err("faults");
+        let text = error.to_string();
+        for part in [
+            "bad.toml:3:8",
+            "bad.toml:4:16",
+            "bad.toml:6:10",
+            "missing key `buffer.ambient_pressure`",
+            "bad.toml:8:1",
+            "^^^^^\n",
+            "did you mean `cam.lever`?",
+        ] {
+            assert!(text.contains(part), "no {part:?} in\n{text}");
+        }
+        let lines: Vec<usize> = error.faults.iter().filter_map(|f| f.place.as_ref()).map(|p| p.line).collect();
+        assert!(lines.is_sorted(), "{lines:?}");
+        let broken = Machine::from_toml("bad.toml", "name = \n[bed\n", &[]).expect_err("not TOML").to_string();
+        assert!(broken.contains("not TOML") && broken.contains("bad.toml:1:"), "{broken}");
+    }
+
+    #[test]
+    fn files_that_cannot_be_read_are_told() {
+        for (path, part) in [("no-such.toml", "cannot read"), ("src", "directory"), ("/dev/zero", "larger than")] {
+            let text = Machine::load(path, &[]).expect_err(path).to_string();
+            assert!(text.contains(part) && text.contains("dpi-paper"), "{text}");
+        }
+    }
+}

@@ -1,0 +1,469 @@
+//! A TOML text and overrides, read key by key, with every fault told at its place.
+//!
+//! The file is flattened to dotted paths with their places. Reading a key declares it, with its kind, range and
+//! default: there is no second list of keys to keep in step. What was never declared is an unknown key. A fault does
+//! not stop the reading; all of them are shown at once.
+
+use crate::units::{self, Dimension, Quantity, QuantityError};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+use toml::de::{DeTable, DeValue};
+
+/// One fault: what was wrong, where, and what would be right.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// What was wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: Option<String>,
+    /// Where, when there is a place.
+    pub place: Option<Excerpt>,
+}
+
+/// A place in a text, with the line it stands on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Excerpt {
+    /// Name of the file, or of the flag.
+    pub source: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// The whole line.
+    pub text: String,
+    /// Characters to mark.
+    pub width: usize,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.message)?;
+        if let Some(place) = &self.place {
+            let margin = " ".repeat(place.line.to_string().len());
+            write!(f, "\n{margin}--> {}:{}:{}", place.source, place.line, place.column)?;
+            write!(f, "\n{margin} |\n{} | {}", place.line, place.text)?;
+            write!(f, "\n{margin} | {}{}", " ".repeat(place.column - 1), "^".repeat(place.width.max(1)))?;
+        }
+        if let Some(help) = &self.help {
+            write!(f, "\n  help: {help}")?;
+        }
+        Ok(())
+    }
+}
+
+/// All faults of a machine file and its overrides.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct MachineError {
+    /// At least one.
+    pub faults: Vec<Fault>,
+}
+
+impl fmt::Display for MachineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let texts: Vec<String> = self.faults.iter().map(Fault::to_string).collect();
+        f.write_str(&texts.join("\n"))
+    }
+}
+
+/// What a value may be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bounds {
+    low: f64,
+    low_included: bool,
+    high: f64,
+}
+
+/// Above the low end, up to and including the high one.
+pub(crate) const fn above(low: f64, high: f64) -> Bounds {
+    Bounds { low, low_included: false, high }
+}
+
+/// From the low end to the high one, both included.
+pub(crate) const fn within(low: f64, high: f64) -> Bounds {
+    Bounds { low, low_included: true, high }
+}
+
+impl Bounds {
+    fn holds(self, value: f64) -> bool {
+        value <= self.high && if self.low_included { value >= self.low } else { value > self.low }
+    }
+
+    /// Which end is broken, in words: `above 0 mm`.
+    fn broken(self, value: f64, show: impl Fn(f64) -> String) -> String {
+        if value > self.high {
+            format!("at most {}", show(self.high))
+        } else if self.low_included {
+            format!("at least {}", show(self.low))
+        } else {
+            format!("above {}", show(self.low))
+        }
+    }
+}
+
+#[derive(Debug, Clone)]
+enum Scalar {
+    Text(String),
+    Number(String),
+    Other(&'static str),
+}
+
+#[derive(Debug, Clone)]
+enum Place {
+    File { key: Range<usize>, value: Range<usize> },
+    Flag,
+}
+
+#[derive(Debug, Clone)]
+struct Entry {
+    value: Scalar,
+    place: Place,
+    known: bool,
+}
+
+pub(crate) struct Reader<'a> {
+    source: &'a str,
+    text: &'a str,
+    entries: BTreeMap<String, Entry>,
+    /// Tables that stand in the file, so that a table with nothing declared in it is an unknown key too.
+    declared: Vec<&'static str>,
+    faults: Vec<Fault>,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads a TOML text named `source`, then the overrides, each `key=value`.
+    pub(crate) fn new(source: &'a str, text: &'a str, overrides: &[String]) -> Self {
+        let mut reader = Self { source, text, entries: BTreeMap::new(), declared: Vec::new(), faults: Vec::new() };
+        let (table, errors) = DeTable::parse_recoverable(text);
+        for error in errors {
+            let place = error.span().map(|span| reader.excerpt(&span));
+            reader.faults.push(Fault { message: format!("not TOML: {}", error.message()), help: None, place });
+        }
+        reader.flatten("", table.get_ref());
+        for text in overrides {
+            reader.override_with(text);
+        }
+        reader
+    }
+
+    fn flatten(&mut self, prefix: &str, table: &DeTable<'_>) {
+        for (key, value) in table {
+            let path =
+                if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
+            let scalar = match value.get_ref() {
+                DeValue::Table(inner) => {
+                    self.flatten(&path, inner);
+                    continue;
+                }
+                DeValue::String(text) => Scalar::Text(text.to_string()),
+                DeValue::Integer(_) | DeValue::Float(_) => {
+                    let written = self.text.get(value.span()).unwrap_or_default();
+                    Scalar::Number(written.replace('_', ""))
+                }
+                other => Scalar::Other(other.type_str()),
+            };
+            let place = Place::File { key: key.span(), value: value.span() };
+            self.entries.insert(path, Entry { value: scalar, place, known: false });
+        }
+    }
+
+    fn override_with(&mut self, text: &str) {
+        let Some((key, value)) = text.split_once('=') else {
+            self.faults.push(Fault {
+                message: format!("--set {text}: no `=`"),
+                help: Some("write --set KEY=VALUE, e.g. --set follower.roller.radius=25mm".into()),
+                place: None,
+            });
+            return;
+        };
+        let value = value.trim().trim_matches('"').to_owned();
+        let entry = Entry { value: Scalar::Text(value), place: Place::Flag, known: false };
+        self.entries.insert(key.trim().to_owned(), entry);
+    }
+
+    fn excerpt(&self, span: &Range<usize>) -> Excerpt {
+        let at = span.start.min(self.text.len());
+        let before = self.text.get(..at).unwrap_or_default();
+        let line_start = before.rfind('\n').map_or(0, |n| n + 1);
+        let line_end = self.text.get(at..).and_then(|rest| rest.find('\n')).map_or(self.text.len(), |n| at + n);
+        let width = self.text.get(at..span.end.clamp(at, line_end)).unwrap_or_default().chars().count();
+        Excerpt {
+            source: self.source.to_owned(),
+            line: before.matches('\n').count() + 1,
+            column: self.text.get(line_start..at).unwrap_or_default().chars().count() + 1,
+            text: self.text.get(line_start..line_end).unwrap_or_default().trim_end().to_owned(),
+            width,
+        }
+    }
+
+    fn place(&self, key: &str, of_value: bool) -> Option<Excerpt> {
+        let entry = self.entries.get(key)?;
+        match &entry.place {
+            Place::File { key, value } => Some(self.excerpt(if of_value { value } else { key })),
+            Place::Flag => {
+                let shown = match &entry.value {
+                    Scalar::Text(text) | Scalar::Number(text) => text.as_str(),
+                    Scalar::Other(_) => "",
+                };
+                let column = if of_value { key.chars().count() + 2 } else { 1 };
+                let width = if of_value { shown.chars().count() } else { key.chars().count() };
+                let text = format!("{key}={shown}");
+                Some(Excerpt { source: "--set".into(), line: 1, column, text, width })
+            }
+        }
+    }
+
+    /// Notes a fault at the value of a key; the key's own default or absence has no place.
+    pub(crate) fn fail(&mut self, key: &str, message: String, help: Option<String>) {
+        let place = self.place(key, true);
+        self.faults.push(Fault { message, help, place });
+    }
+
+    fn declare(&mut self, key: &'static str) -> Option<Scalar> {
+        self.declared.push(key);
+        let entry = self.entries.get_mut(key)?;
+        entry.known = true;
+        Some(entry.value.clone())
+    }
+
+    /// Whether a table or key stands in the file or is set by a flag.
+    pub(crate) fn has(&self, path: &str) -> bool {
+        self.entries.keys().any(|key| key == path || key.strip_prefix(path).is_some_and(|rest| rest.starts_with('.')))
+    }
+
+    fn missing(&mut self, key: &'static str, example: &str) {
+        self.faults.push(Fault {
+            message: format!("missing key `{key}` in {}", self.source),
+            help: Some(format!("add it, e.g. {example}")),
+            place: None,
+        });
+    }
+
+    /// A text, required.
+    pub(crate) fn text(&mut self, key: &'static str, example: &str) -> String {
+        match self.declare(key) {
+            Some(Scalar::Text(text)) if !text.trim().is_empty() && !text.chars().any(char::is_control) => text,
+            Some(_) => {
+                self.fail(key, format!("`{key}` must be a text"), Some(format!("e.g. \"{example}\"")));
+                String::new()
+            }
+            None => {
+                self.missing(key, &format!("\"{example}\""));
+                String::new()
+            }
+        }
+    }
+
+    /// One of a few words; the first is the default.
+    pub(crate) fn word<T: Copy>(&mut self, key: &'static str, words: &[(&str, T)]) -> Option<T> {
+        let list = || words.iter().map(|(word, _)| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
+        match self.declare(key) {
+            None => words.first().map(|(_, value)| *value),
+            Some(Scalar::Text(text)) => {
+                let found = words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value);
+                if found.is_none() {
+                    self.fail(key, format!("`{key}` cannot be \"{text}\""), Some(format!("one of {}", list())));
+                }
+                found
+            }
+            Some(_) => {
+                self.fail(key, format!("`{key}` must be a word"), Some(format!("one of {}", list())));
+                None
+            }
+        }
+    }
+
+    /// A bare number, or the default.
+    pub(crate) fn number(&mut self, key: &'static str, default: Option<f64>, bounds: Bounds) -> f64 {
+        let text = match self.declare(key) {
+            Some(Scalar::Number(text) | Scalar::Text(text)) => text,
+            Some(Scalar::Other(kind)) => {
+                self.fail(key, format!("`{key}` must be a number, not {kind}"), None);
+                return f64::NAN;
+            }
+            None => {
+                return default.unwrap_or_else(|| {
+                    self.missing(key, &format!("{}", bounds.low.max(1.0)));
+                    f64::NAN
+                });
+            }
+        };
+        match units::parse_bare(&text) {
+            Ok(value) if bounds.holds(value) => value,
+            Ok(value) => {
+                let limit = bounds.broken(value, |v| v.to_string());
+                self.fail(key, format!("`{key}` must be {limit}: {value}"), None);
+                f64::NAN
+            }
+            Err(error) => {
+                let help = format!("`{key}` is a bare number, without a unit");
+                self.fail(key, format!("`{key}`: {error}"), Some(help));
+                f64::NAN
+            }
+        }
+    }
+
+    /// A quantity that may be absent. A fault gives `None` too.
+    pub(crate) fn optional(&mut self, key: &'static str, dimension: Dimension, bounds: Bounds) -> Option<Quantity> {
+        match self.declare(key)? {
+            Scalar::Text(text) => self.quantity_text(key, &text, dimension, bounds, ""),
+            Scalar::Number(text) => {
+                self.not_a_quantity(key, dimension, &QuantityError::MissingUnit { found: text }, "");
+                None
+            }
+            Scalar::Other(kind) => {
+                self.fail(key, format!("`{key}` must be a quantity of {dimension}, not {kind}"), None);
+                None
+            }
+        }
+    }
+
+    /// A required quantity; NaN after a fault.
+    pub(crate) fn quantity(&mut self, key: &'static str, dimension: Dimension, example: &str, bounds: Bounds) -> f64 {
+        if !self.entries.contains_key(key) {
+            self.declared.push(key);
+            self.missing(key, &format!("\"{example}\""));
+            return f64::NAN;
+        }
+        self.optional(key, dimension, bounds).map_or(f64::NAN, |quantity| quantity.si)
+    }
+
+    /// A quantity with a default in SI units; NaN after a fault.
+    pub(crate) fn quantity_or(&mut self, key: &'static str, dimension: Dimension, default: f64, bounds: Bounds) -> f64 {
+        if !self.entries.contains_key(key) {
+            self.declared.push(key);
+            return default;
+        }
+        self.optional(key, dimension, bounds).map_or(f64::NAN, |quantity| quantity.si)
+    }
+
+    /// A word or a quantity; the first word is the default.
+    pub(crate) fn word_or_quantity<T: Copy>(
+        &mut self,
+        key: &'static str,
+        words: &[(&str, T)],
+        dimension: Dimension,
+        bounds: Bounds,
+        from: fn(f64) -> T,
+    ) -> Option<T> {
+        let or_words = words.iter().map(|(word, _)| format!(" or \"{word}\"")).collect::<String>();
+        match self.declare(key) {
+            None => words.first().map(|(_, value)| *value),
+            Some(Scalar::Text(text)) => match words.iter().find(|(word, _)| *word == text) {
+                Some((_, value)) => Some(*value),
+                None => self.quantity_text(key, &text, dimension, bounds, &or_words).map(|q| from(q.si)),
+            },
+            Some(Scalar::Number(text)) => {
+                self.not_a_quantity(key, dimension, &QuantityError::MissingUnit { found: text }, &or_words);
+                None
+            }
+            Some(Scalar::Other(kind)) => {
+                self.fail(key, format!("`{key}` must be a quantity of {dimension}{or_words}, not {kind}"), None);
+                None
+            }
+        }
+    }
+
+    fn quantity_text(
+        &mut self,
+        key: &'static str,
+        text: &str,
+        dimension: Dimension,
+        bounds: Bounds,
+        or_words: &str,
+    ) -> Option<Quantity> {
+        match units::parse(text, dimension) {
+            Ok(quantity) if bounds.holds(quantity.si) => Some(quantity),
+            Ok(quantity) => {
+                let limit = bounds.broken(quantity.si, |v| quantity.in_same_unit(v));
+                self.fail(key, format!("`{key}` must be {limit}: {}", text.trim()), None);
+                None
+            }
+            Err(error) => {
+                self.not_a_quantity(key, dimension, &error, or_words);
+                None
+            }
+        }
+    }
+
+    fn not_a_quantity(&mut self, key: &'static str, dimension: Dimension, error: &QuantityError, or_words: &str) {
+        let units = dimension.unit_list();
+        let help = format!("`{key}` is a {dimension}: a number and one of {units}{or_words}");
+        self.fail(key, format!("`{key}`: {error}"), Some(help));
+    }
+
+    /// The value of a key as it was typed, for messages that compare two keys.
+    pub(crate) fn typed(&self, key: &str) -> String {
+        match self.entries.get(key).map(|entry| &entry.value) {
+            Some(Scalar::Text(text) | Scalar::Number(text)) => text.clone(),
+            _ => "its default".into(),
+        }
+    }
+
+    /// All faults found, unknown keys among them; `Ok` when there are none.
+    pub(crate) fn finish(mut self) -> Result<(), MachineError> {
+        let unknown: Vec<String> =
+            self.entries.iter().filter(|(_, entry)| !entry.known).map(|(key, _)| key.clone()).collect();
+        for key in unknown {
+            let nearest = nearest(&key, &self.declared);
+            self.faults.push(Fault {
+                message: format!("unknown key `{key}`"),
+                help: nearest.map(|near| format!("did you mean `{near}`?")),
+                place: self.place(&key, false),
+            });
+        }
+        if self.faults.is_empty() {
+            return Ok(());
+        }
+        self.faults.sort_by_key(|fault| fault.place.as_ref().map(|place| (place.source.clone(), place.line)));
+        Err(MachineError { faults: self.faults })
+    }
+}
+
+/// The known key with the smallest edit distance; a key whose last part fits exactly is nearer than any other.
+pub(crate) fn nearest<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    known.iter().copied().min_by_key(|candidate| {
+        (edit_distance(&last(key), &last(candidate)) * 2).min(edit_distance(key, candidate) * 2 + 1)
+    })
+}
+
+/// Levenshtein's distance, one row at a time.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        for (cell, cb) in row.iter_mut().skip(1).zip(b.chars()) {
+            let replaced = diagonal + usize::from(ca != cb);
+            diagonal = *cell;
+            left = replaced.min(diagonal + 1).min(left + 1);
+            *cell = left;
+        }
+        if let Some(first) = row.first_mut() {
+            *first = i + 1;
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edit_distances() {
+        for (a, b, distance) in [("", "", 0), ("abc", "", 3), ("kitten", "sitting", 3), ("thicknes", "thickness", 1)] {
+            assert_eq!(edit_distance(a, b), distance, "{a} {b}");
+            assert_eq!(edit_distance(b, a), distance, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn a_key_in_the_wrong_table_is_named() {
+        let known = ["bed.mass", "cam.thickness", "follower.roller.radius"];
+        assert_eq!(nearest("cam.thicknes", &known), Some("cam.thickness"));
+        assert_eq!(nearest("bed.thickness", &known), Some("cam.thickness"));
+        assert_eq!(nearest("roller.radius", &known), Some("follower.roller.radius"));
+    }
+}

@@ -1,0 +1,128 @@
+//! Bracketed root finding: Chandrupatla's method.
+//!
+//! T. R. Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function
+//! without using derivatives", Advances in Engineering Software 28 (1997) 145–149. Inverse quadratic interpolation
+//! where his criterion on the three last points shows it to be monotone, bisection otherwise. The bracket always
+//! holds a change of sign, so what is returned is proved, not hoped for.
+
+/// Bisection halves the bracket; from the widest bracket of `f64` to neighbouring numbers takes 2098 halvings at the
+/// worst, a bracket within a few powers of two 60. Interpolation ends sooner. Running out means the function is not a
+/// number somewhere in the bracket.
+const MAX_STEPS: usize = 200;
+
+/// Why there is no root to return.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum RootError {
+    /// The function has one sign at both ends.
+    #[error("no change of sign between {low} and {high}")]
+    NoSignChange {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+    /// The function was not a number inside the bracket.
+    #[error("not a number near {at}")]
+    NotANumber {
+        /// The place.
+        at: f64,
+    },
+}
+
+/// The root of `f` between `low` and `high`, to `tolerance` (absolute) or to neighbouring numbers.
+///
+/// # Errors
+/// [`RootError`] when the ends do not bracket a change of sign, or a value is NaN.
+pub fn bracketed(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: f64) -> Result<f64, RootError> {
+    let (mut a, mut b) = (low, high);
+    let (mut fa, mut fb) = (f(a), f(b));
+    if fa.is_nan() || fb.is_nan() {
+        return Err(RootError::NotANumber { at: if fa.is_nan() { a } else { b } });
+    }
+    if fa == 0.0 {
+        return Ok(a);
+    }
+    if fb == 0.0 {
+        return Ok(b);
+    }
+    if fa.is_sign_positive() == fb.is_sign_positive() {
+        return Err(RootError::NoSignChange { low, high });
+    }
+    let mut fraction = 0.5;
+    for _ in 0..MAX_STEPS {
+        let x = a + fraction * (b - a);
+        let fx = f(x);
+        if fx.is_nan() {
+            return Err(RootError::NotANumber { at: x });
+        }
+        // (c, fc) is the point that leaves; the new bracket is a, b with a the newest.
+        let (c, fc);
+        if fx.is_sign_positive() == fa.is_sign_positive() {
+            (c, fc) = (a, fa);
+        } else {
+            (c, fc) = (b, fb);
+            (b, fb) = (a, fa);
+        }
+        (a, fa) = (x, fx);
+        let best = if fa.abs() < fb.abs() { a } else { b };
+        let least_step = 2.0 * f64::EPSILON * best.abs() + 0.5 * tolerance;
+        let limit = least_step / (b - a).abs();
+        if limit > 0.5 || fa == 0.0 {
+            return Ok(best);
+        }
+        let xi = (a - b) / (c - b);
+        let phi = (fa - fb) / (fc - fb);
+        let interpolate = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
+        fraction = if interpolate {
+            fa / (fb - fa) * (fc / (fb - fc)) + (c - a) / (b - a) * (fa / (fc - fa)) * (fb / (fc - fb))
+        } else {
+            0.5
+        };
+        fraction = fraction.clamp(limit, 1.0 - limit);
+    }
+    Ok(if fa.abs() < fb.abs() { a } else { b })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Roots in closed form, with what makes each hard.
+    #[test]
+    fn finds_known_roots_to_rounding_in_few_steps() {
+        type Case = (&'static str, fn(f64) -> f64, f64, f64, f64);
+        let cases: &[Case] = &[
+            ("smooth", |x| x * x - 2.0, 0.0, 2.0, std::f64::consts::SQRT_2),
+            ("flat triple root", |x| (x - 1.0).powi(3), 0.0, 3.0, 1.0),
+            ("steep", |x| libm::exp(x) - 1e8, 0.0, 100.0, 18.420_680_743_952_367),
+            ("root at an end", |x| x, 0.0, 1.0, 0.0),
+            ("tiny", |x| x - 1e-300, -1.0, 1.0, 1e-300),
+        ];
+        for (name, f, low, high, root) in cases {
+            let mut calls = 0;
+            let got = bracketed(
+                |x| {
+                    calls += 1;
+                    f(x)
+                },
+                *low,
+                *high,
+                0.0,
+            )
+            .expect(name);
+            // The triple root is only defined to the cube root of the smallest change of f.
+            let tolerance = if name.contains("triple") { 1e-5 } else { 4.0 * f64::EPSILON * root.abs().max(1e-16) };
+            assert!((got - root).abs() <= tolerance, "{name}: {got}");
+            assert!(calls <= 120, "{name}: {calls} calls");
+        }
+    }
+
+    #[test]
+    fn names_what_is_wrong() {
+        assert_eq!(bracketed(|x| x * x + 1.0, -1.0, 1.0, 0.0), Err(RootError::NoSignChange { low: -1.0, high: 1.0 }));
+        assert!(matches!(
+            bracketed(|x| if x.abs() < 0.9 { f64::NAN } else { x }, -1.0, 1.0, 0.0),
+            Err(RootError::NotANumber { .. })
+        ));
+    }
+}

@@ -1,0 +1,261 @@
+//! Text to SI number of the right kind: the only place where units exist.
+//!
+//! A quantity is a decimal number followed by a unit, `"180 mm"` or `"5um"`. Everything behind this door is SI `f64`
+//! and radians.
+
+use std::fmt;
+
+/// The kind of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// Metres inside.
+    Length,
+    /// Radians inside.
+    Angle,
+    /// Kilograms inside.
+    Mass,
+    /// Pascals inside.
+    Pressure,
+    /// Newtons inside.
+    Force,
+    /// Seconds inside.
+    Time,
+    /// Newtons per metre inside.
+    Stiffness,
+}
+
+struct Unit {
+    symbol: &'static str,
+    dimension: Dimension,
+    /// SI = number × `multiply` / `divide`: a division by a power of ten is correctly rounded where a
+    /// multiplication by its inverse is not, so that "180 mm" is the `f64` nearest to 0.18.
+    multiply: f64,
+    divide: f64,
+}
+
+const fn unit(symbol: &'static str, dimension: Dimension, multiply: f64, divide: f64) -> Unit {
+    Unit { symbol, dimension, multiply, divide }
+}
+
+/// One kilogram-force in newtons (exact, CGPM 1901); one technical atmosphere is 1e4 of them per square metre.
+pub const KILOGRAM_FORCE: f64 = 9.80665;
+
+const UNITS: &[Unit] = &[
+    unit("um", Dimension::Length, 1.0, 1e6),
+    unit("µm", Dimension::Length, 1.0, 1e6),
+    unit("mm", Dimension::Length, 1.0, 1e3),
+    unit("cm", Dimension::Length, 1.0, 1e2),
+    unit("m", Dimension::Length, 1.0, 1.0),
+    unit("in", Dimension::Length, 25.4, 1e3),
+    unit("deg", Dimension::Angle, std::f64::consts::PI, 180.0),
+    unit("rad", Dimension::Angle, 1.0, 1.0),
+    unit("kg", Dimension::Mass, 1.0, 1.0),
+    unit("lb", Dimension::Mass, 0.453_592_37, 1.0),
+    unit("Pa", Dimension::Pressure, 1.0, 1.0),
+    unit("kPa", Dimension::Pressure, 1e3, 1.0),
+    unit("MPa", Dimension::Pressure, 1e6, 1.0),
+    unit("bar", Dimension::Pressure, 1e5, 1.0),
+    unit("at", Dimension::Pressure, 98_066.5, 1.0),
+    unit("psi", Dimension::Pressure, 6_894.757_293_168_361, 1.0),
+    unit("kgf/cm2", Dimension::Pressure, 98_066.5, 1.0),
+    unit("N", Dimension::Force, 1.0, 1.0),
+    unit("kN", Dimension::Force, 1e3, 1.0),
+    unit("kgf", Dimension::Force, KILOGRAM_FORCE, 1.0),
+    unit("s", Dimension::Time, 1.0, 1.0),
+    unit("ms", Dimension::Time, 1.0, 1e3),
+    unit("N/mm", Dimension::Stiffness, 1e3, 1.0),
+    unit("kgf/cm", Dimension::Stiffness, 980.665, 1.0),
+];
+
+impl Dimension {
+    /// The units that fit, in the order of the documentation, as one list for a message: `um, mm, cm, m, in`.
+    #[must_use]
+    pub fn unit_list(self) -> String {
+        let symbols: Vec<&str> =
+            UNITS.iter().filter(|u| u.dimension == self && u.symbol.is_ascii()).map(|u| u.symbol).collect();
+        symbols.join(", ")
+    }
+}
+
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Dimension::Length => "length",
+            Dimension::Angle => "angle",
+            Dimension::Mass => "mass",
+            Dimension::Pressure => "pressure",
+            Dimension::Force => "force",
+            Dimension::Time => "time",
+            Dimension::Stiffness => "stiffness",
+        })
+    }
+}
+
+/// Why a text is not a quantity of the kind asked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum QuantityError {
+    /// No number at the start of the text.
+    #[error("`{found}` does not start with a number")]
+    NotANumber {
+        /// The text.
+        found: String,
+    },
+    /// NaN, infinite or beyond the range of `f64`.
+    #[error("`{found}` is not a finite number")]
+    NotFinite {
+        /// The text.
+        found: String,
+    },
+    /// A number alone.
+    #[error("`{found}` has no unit")]
+    MissingUnit {
+        /// The text.
+        found: String,
+    },
+    /// Nothing camgen knows.
+    #[error("unknown unit `{unit}`")]
+    UnknownUnit {
+        /// What stands behind the number.
+        unit: String,
+    },
+    /// A unit of another kind.
+    #[error("`{unit}` is a unit of {found}, not of {expected}")]
+    WrongKind {
+        /// The unit.
+        unit: &'static str,
+        /// Its kind.
+        found: Dimension,
+        /// The kind asked for.
+        expected: Dimension,
+    },
+    /// A unit where a bare number stands.
+    #[error("`{found}` is not a bare number")]
+    NotBare {
+        /// The text.
+        found: String,
+    },
+}
+
+/// A parsed quantity: its SI value and the unit it was written in, for messages in the user's own unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quantity {
+    /// The value in SI units or radians.
+    pub si: f64,
+    symbol: &'static str,
+    si_per_unit: f64,
+}
+
+impl Quantity {
+    /// An SI value written in the unit of this quantity, `"0.9 at"`.
+    #[must_use]
+    pub fn in_same_unit(&self, si: f64) -> String {
+        // Ten digits drop the rounding of the conversion and keep everything a person typed.
+        let number: f64 = format!("{:.9e}", si / self.si_per_unit).parse().unwrap_or(si);
+        format!("{number} {}", self.symbol)
+    }
+}
+
+/// Splits a text into its leading number and the rest. The longest prefix that is a number wins, so that `1e-3 m`
+/// keeps its exponent and `3 m` does not lose its unit.
+fn split_number(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let mut ends: Vec<usize> = text.char_indices().map(|(at, _)| at).skip(1).collect();
+    ends.push(text.len());
+    ends.into_iter().rev().find_map(|end| {
+        let (head, tail) = (text.get(..end)?, text.get(end..)?);
+        head.trim_end().parse::<f64>().ok().map(|number| (number, tail.trim()))
+    })
+}
+
+/// Parses a quantity of the given kind.
+///
+/// # Errors
+/// Every case of [`QuantityError`] but `NotBare`.
+pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, QuantityError> {
+    let found = text.trim().to_owned();
+    let Some((number, symbol)) = split_number(text) else {
+        return Err(QuantityError::NotANumber { found });
+    };
+    if !number.is_finite() {
+        return Err(QuantityError::NotFinite { found });
+    }
+    if symbol.is_empty() {
+        return Err(QuantityError::MissingUnit { found });
+    }
+    let Some(unit) = UNITS.iter().find(|u| u.symbol == symbol) else {
+        return Err(QuantityError::UnknownUnit { unit: symbol.to_owned() });
+    };
+    if unit.dimension != dimension {
+        return Err(QuantityError::WrongKind { unit: unit.symbol, found: unit.dimension, expected: dimension });
+    }
+    let si = number * unit.multiply / unit.divide;
+    if !si.is_finite() {
+        return Err(QuantityError::NotFinite { found });
+    }
+    Ok(Quantity { si, symbol: unit.symbol, si_per_unit: unit.multiply / unit.divide })
+}
+
+/// Parses a bare number: a ratio, an exponent, revolutions per minute.
+///
+/// # Errors
+/// `NotANumber`, `NotFinite`, or `NotBare` when something follows the number.
+pub fn parse_bare(text: &str) -> Result<f64, QuantityError> {
+    let found = text.trim().to_owned();
+    match split_number(text) {
+        None => Err(QuantityError::NotANumber { found }),
+        Some((number, _)) if !number.is_finite() => Err(QuantityError::NotFinite { found }),
+        Some((number, "")) => Ok(number),
+        Some(_) => Err(QuantityError::NotBare { found }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_unit_reads_as_its_si_value() {
+        let cases = [
+            ("180 mm", Dimension::Length, 0.18),
+            ("7.1 in", Dimension::Length, 0.18034),
+            ("5um", Dimension::Length, 5e-6),
+            ("1e-3 m", Dimension::Length, 1e-3),
+            ("3 deg", Dimension::Angle, 0.052_359_877_559_829_89),
+            ("978.2 kg", Dimension::Mass, 978.2),
+            ("2 at", Dimension::Pressure, 196_133.0),
+            ("1.96 bar", Dimension::Pressure, 196_000.0),
+            ("14.503773773020923 psi", Dimension::Pressure, 100_000.0),
+            ("2170.8 kgf", Dimension::Force, 21_288.275_82),
+            ("4 ms", Dimension::Time, 0.004),
+            ("60.3 kgf/cm", Dimension::Stiffness, 59_134.099_5),
+        ];
+        for (text, dimension, si) in cases {
+            let got = parse(text, dimension).expect(text).si;
+            assert!((got - si).abs() <= 4.0 * f64::EPSILON * si, "{text}: {got} is not {si}");
+        }
+        assert_eq!(parse("180 mm", Dimension::Length).expect("mm").si.to_bits(), 0.18_f64.to_bits());
+    }
+
+    #[test]
+    fn each_error_has_its_text() {
+        type E = QuantityError;
+        let length = |text: &str| parse(text, Dimension::Length).expect_err(text);
+        assert_eq!(length("mm"), E::NotANumber { found: "mm".into() });
+        assert_eq!(length(""), E::NotANumber { found: String::new() });
+        assert_eq!(length("nan mm"), E::NotFinite { found: "nan mm".into() });
+        assert_eq!(length("1e999 mm"), E::NotFinite { found: "1e999 mm".into() });
+        assert_eq!(length("180"), E::MissingUnit { found: "180".into() });
+        assert_eq!(length("180 ells"), E::UnknownUnit { unit: "ells".into() });
+        assert_eq!(length("2,5 mm"), E::UnknownUnit { unit: ",5 mm".into() });
+        assert_eq!(length("180 kg"), E::WrongKind { unit: "kg", found: Dimension::Mass, expected: Dimension::Length });
+        assert_eq!(parse_bare("35 rpm"), Err(E::NotBare { found: "35 rpm".into() }));
+        assert_eq!(parse_bare(" 35 "), Ok(35.0));
+    }
+
+    #[test]
+    fn a_limit_is_told_in_the_unit_the_user_wrote() {
+        let typed = parse("0.9 at", Dimension::Pressure).expect("at");
+        assert_eq!(typed.in_same_unit(98_066.5), "1 at");
+        assert_eq!(typed.in_same_unit(typed.si), "0.9 at");
+    }
+}
