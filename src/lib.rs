@@ -3,6 +3,8 @@
 
 pub mod buffer;
 pub mod cam;
+pub mod contour;
+pub mod drawing;
 pub mod follower;
 pub mod law;
 pub mod machine;

@@ -49,6 +49,18 @@ impl Frame {
         Vector2::new(self.tangent.y, -self.tangent.x)
     }
 
+    /// The same curve in a unit `factor` times smaller, 1000 for millimetres.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            point: self.point * factor,
+            tangent: self.tangent,
+            speed: self.speed * factor,
+            curvature: self.curvature / factor,
+            curvature_slope: self.curvature_slope / (factor * factor),
+        }
+    }
+
     /// The parallel curve at `distance` to the left (inward), same parameter.
     ///
     /// With m = 1 − κ·distance: speed × m, curvature / m, curvature slope / m³.

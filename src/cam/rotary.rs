@@ -136,7 +136,13 @@ impl Rotary {
             if piece.dwell {
                 0.0
             } else {
-                extremum::largest_without_slope(|a| residual(index, a), (piece.start, piece.end), RESIDUAL_CELLS).value
+                extremum::largest_without_slope(
+                    |a| residual(index, a),
+                    (piece.start, piece.end),
+                    RESIDUAL_CELLS,
+                    extremum::TO_ROUNDING,
+                )
+                .value
             }
         };
         law.pieces().iter().enumerate().map(worst).fold(0.0, f64::max)

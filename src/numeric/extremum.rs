@@ -44,12 +44,17 @@ pub fn largest(
     best
 }
 
-/// Golden sections after the cells: the bracket shrinks by 0.618 each, to √ε of its width, where a flat top ends.
-const GOLDEN_SECTIONS: u32 = 38;
+/// Golden sections that shrink a bracket to √ε of its width, where a flat top ends: 0.618 each.
+pub const TO_ROUNDING: u32 = 38;
 
 /// The largest value of `value` on `[low, high]` when no derivative is at hand: the best of `cells` + 1 points, then
-/// golden sections between its neighbours (Kiefer 1953).
-pub fn largest_without_slope(mut value: impl FnMut(f64) -> f64, (low, high): (f64, f64), cells: u32) -> Extremum {
+/// `sections` golden sections between its neighbours (Kiefer 1953).
+pub fn largest_without_slope(
+    mut value: impl FnMut(f64) -> f64,
+    (low, high): (f64, f64),
+    cells: u32,
+    sections: u32,
+) -> Extremum {
     let at = |cell: u32| low + (high - low) * (f64::from(cell.min(cells)) / f64::from(cells));
     let mut best = Extremum { at: low, value: value(low) };
     let mut best_cell = 0;
@@ -64,7 +69,7 @@ pub fn largest_without_slope(mut value: impl FnMut(f64) -> f64, (low, high): (f6
     let mut inner = Extremum { at: right - golden * (right - left), value: 0.0 };
     let mut outer = Extremum { at: left + golden * (right - left), value: 0.0 };
     (inner.value, outer.value) = (value(inner.at), value(outer.at));
-    for _ in 0..GOLDEN_SECTIONS {
+    for _ in 0..sections {
         if inner.value >= outer.value {
             (right, outer) = (outer.at, inner);
             inner.at = right - golden * (right - left);
@@ -90,7 +95,7 @@ mod tests {
         // cos 5x = −0.02 on the last hill.
         let exact = (2.0 * std::f64::consts::TAU + libm::acos(-0.02)) / 5.0;
         assert!((top.at - exact).abs() < 4e-15, "{top:?}");
-        let without = largest_without_slope(hills, (0.0, 3.0), 16);
+        let without = largest_without_slope(hills, (0.0, 3.0), 16, TO_ROUNDING);
         assert!((without.at - exact).abs() < 1e-7 && (without.value - hills(exact)).abs() < 1e-15, "{without:?}");
         let end = largest(|x| x * x, |x| 2.0 * x, (-1.0, 2.0), 4);
         assert_eq!(end, Extremum { at: 2.0, value: 4.0 });

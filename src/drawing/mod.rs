@@ -1,0 +1,4 @@
+//! Design to drawing.
+
+pub mod arcs;
+pub mod outline;
