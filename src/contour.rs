@@ -49,6 +49,13 @@ impl Segment {
         (self.start + self.end) * 0.5 + left * ((1.0 - self.bulge * self.bulge) / (4.0 * self.bulge))
     }
 
+    /// Middle of the segment, mm: off the chord by the sagitta, half the chord times the bulge, to the right.
+    #[must_use]
+    pub fn middle(&self) -> Vector2<f64> {
+        let chord = self.end - self.start;
+        (self.start + self.end) * 0.5 + Vector2::new(chord.y, -chord.x) * (0.5 * self.bulge)
+    }
+
     /// Length, mm.
     #[must_use]
     pub fn length(&self) -> f64 {
@@ -258,6 +265,7 @@ mod tests {
         let (area, moment) = quarter.area_and_moments();
         assert!((area - PI / 4.0).abs() < 1e-15, "{area}");
         assert!((moment - Vector2::new(1.0, 1.0) / 3.0).norm() < 1e-15, "{moment}");
+        assert!((quarter.middle().norm() - 1.0).abs() < 1e-15);
         assert!((quarter.centre()).norm() < 1e-15 && (quarter.radius() - 1.0).abs() < 1e-15);
     }
 

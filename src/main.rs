@@ -1,1 +1,11 @@
-fn main() {}
+//! The command line of camgen: what was typed, what it means, and the exit code.
+
+#![forbid(unsafe_code)]
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main()
+}

@@ -1,0 +1,49 @@
+//! The sharpest convex place: of the profile (undercut) and of the pitch curve (contact stress).
+
+use super::{Finding, Subject, cam_degrees, passing_radius, verdict};
+use crate::cam::extremes;
+use crate::follower::Follower;
+
+/// Smallest convex radius of the pitch curve, m, and its cam angle; 0 at a convex corner.
+fn sharpest(subject: &Subject<'_>) -> (f64, f64) {
+    let disc = &subject.rotary.disc;
+    match extremes::corners(disc).iter().find(|corner| corner.turn > 0.0) {
+        Some(corner) => (0.0, corner.angle),
+        None => {
+            let smooth = extremes::convex_pitch_curvature(disc);
+            (1.0 / smooth.value, smooth.at)
+        }
+    }
+}
+
+/// The profile exists where the convex radius of the pitch curve exceeds the roller's.
+pub(super) fn undercut(subject: &Subject<'_>) -> Option<Finding> {
+    let (radius, angle) = sharpest(subject);
+    let left = radius - subject.rotary.disc.follower.roller_radius();
+    let kept = left > 0.0;
+    Some(Finding {
+        check: "undercut",
+        value: 1e3 * left,
+        limit: Some(0.0),
+        unit: "mm",
+        cam_deg: Some(cam_degrees(angle)),
+        verdict: verdict(kept),
+        note: if kept { None } else { passing_radius(subject.rotary) },
+    })
+}
+
+pub(super) fn min_convex_radius(subject: &Subject<'_>) -> Option<Finding> {
+    let (radius, angle) = sharpest(subject);
+    let limits = subject.rotary.machine.limits;
+    let limit = limits.min_convex_pitch_radius_over_roller * subject.rotary.disc.follower.roller_radius();
+    let kept = radius >= limit;
+    Some(Finding {
+        check: "min_convex_radius",
+        value: 1e3 * radius,
+        limit: Some(1e3 * limit),
+        unit: "mm",
+        cam_deg: Some(cam_degrees(angle)),
+        verdict: verdict(kept),
+        note: if kept { None } else { passing_radius(subject.rotary) },
+    })
+}

@@ -1,0 +1,170 @@
+//! What a cam must keep: a check takes the cam and says value, limit and place, also when it passes.
+//!
+//! A new check is one file and one line in [`CHECKS`].
+
+mod curvature;
+mod cutter_radius;
+mod pressure_angle;
+mod tangency;
+mod wall;
+
+use crate::cam::rotary::Rotary;
+use crate::contour::Contour;
+use serde::Serialize;
+
+/// What came of a check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// The limit is kept.
+    Pass,
+    /// The limit is broken.
+    Fail,
+    /// There is no limit.
+    Info,
+}
+
+/// The result of a check.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// Name of the check.
+    pub check: &'static str,
+    /// What was found; `None` when there is nothing to measure (no concave part, say).
+    #[serde(serialize_with = "finite")]
+    pub value: f64,
+    /// What it must keep, if anything.
+    pub limit: Option<f64>,
+    /// Unit of both.
+    pub unit: &'static str,
+    /// Cam angle of the worst place, degrees in [0, 360).
+    pub cam_deg: Option<f64>,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// What would help, or what the figure means.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+/// JSON has no infinity.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
+fn finite<S: serde::Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
+}
+
+/// What is checked.
+#[derive(Debug, Clone, Copy)]
+pub struct Subject<'a> {
+    /// The cam.
+    pub rotary: &'a Rotary,
+    /// Its outline, when it has one.
+    pub outline: Option<&'a Contour>,
+}
+
+type Check = fn(&Subject<'_>) -> Option<Finding>;
+
+/// Every check, in the order of the report. `None` is a check that the machine file does not ask for.
+pub const CHECKS: &[Check] = &[
+    pressure_angle::check,
+    curvature::undercut,
+    curvature::min_convex_radius,
+    cutter_radius::check,
+    wall::check,
+    tangency::check,
+];
+
+/// Runs every check.
+#[must_use]
+pub fn run(subject: &Subject<'_>) -> Vec<Finding> {
+    CHECKS.iter().filter_map(|check| check(subject)).collect()
+}
+
+/// Whether nothing failed.
+#[must_use]
+pub fn passed(findings: &[Finding]) -> bool {
+    findings.iter().all(|finding| finding.verdict != Verdict::Fail)
+}
+
+fn verdict(kept: bool) -> Verdict {
+    if kept { Verdict::Pass } else { Verdict::Fail }
+}
+
+/// A cam angle in rad as degrees in [0, 360).
+pub(crate) fn cam_degrees(angle: f64) -> f64 {
+    let degrees = angle.to_degrees() % 360.0;
+    let positive = if degrees < 0.0 { degrees + 360.0 } else { degrees };
+    // A hair below zero rounds up to a whole turn.
+    if positive >= 360.0 { 0.0 } else { positive + 0.0 }
+}
+
+/// "base radius 997 mm would pass", when there is one and the cam has another.
+fn passing_radius(rotary: &Rotary) -> Option<String> {
+    rotary.passing_base_radius().map(|base| format!("a base radius of {} mm would pass", 1e3 * base))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::outline;
+    use crate::machine::Machine;
+
+    fn findings(name: &str, overrides: &[&str]) -> Vec<Finding> {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let machine = Machine::load(name, &overrides).expect("valid").0;
+        let rotary = Rotary::solve(&machine, machine.design_rpm).expect("a cam");
+        let outline = outline::profile(&rotary.disc, 0.005).ok();
+        run(&Subject { rotary: &rotary, outline: outline.as_ref().map(|o| &o.contour) })
+    }
+
+    fn of<'f>(findings: &'f [Finding], check: &str) -> &'f Finding {
+        findings.iter().find(|f| f.check == check).unwrap_or_else(|| panic!("no {check} in {findings:?}"))
+    }
+
+    /// One good and one broken cam for each check.
+    #[test]
+    fn each_check_passes_a_good_cam_and_fails_a_broken_one() {
+        let good = findings("dpi", &[]);
+        assert!(passed(&good), "{good:?}");
+        for (check, overrides) in [
+            ("pressure_angle", vec!["cam.base_radius=60mm"]),
+            ("undercut", vec!["cam.base_radius=30mm", "follower.roller.radius=80mm"]),
+            ("min_convex_radius", vec!["cam.base_radius=30mm"]),
+            ("cutter_radius", vec!["buffer.column=return", "limits.cutter_radius=900mm"]),
+            ("wall", vec!["cam.base_radius=69mm", "cam.bore_radius=65mm"]),
+        ] {
+            assert_eq!(of(&good, check).verdict, Verdict::Pass, "{check}");
+            let broken = findings("dpi", &overrides);
+            assert_eq!(of(&broken, check).verdict, Verdict::Fail, "{check}: {broken:?}");
+            assert!(!passed(&broken));
+        }
+        assert_eq!(of(&good, "tangency").verdict, Verdict::Pass);
+    }
+
+    #[test]
+    fn a_refusal_names_what_would_pass() {
+        let refused = findings("dpi-paper", &["cam.base_radius=200mm"]);
+        let finding = of(&refused, "pressure_angle");
+        assert_eq!(finding.verdict, Verdict::Fail);
+        assert!(finding.value > 60.0 && finding.limit == Some(30.0), "{finding:?}");
+        let note = finding.note.as_deref().expect("a note");
+        let base = note.strip_prefix("a base radius of ").and_then(|n| n.strip_suffix(" would pass")).expect(note);
+        let passing = findings("dpi-paper", &[&format!("cam.base_radius={base}")]);
+        assert!(passed(&passing), "{base}: {passing:?}");
+    }
+
+    #[test]
+    fn a_concave_corner_limits_the_cutter_to_the_roller() {
+        let corner = findings("dpi", &["buffer.column=return", "transition.kind=none"]);
+        assert!((of(&corner, "cutter_radius").value - 30.0).abs() < 1e-9);
+        let convex = findings("dpi", &["buffer.column=200mm", "transition.kind=none"]);
+        assert_eq!(of(&convex, "undercut").verdict, Verdict::Fail);
+    }
+
+    #[test]
+    fn angles_are_told_within_one_turn() {
+        for (angle, degrees) in [(0.0, 0.0), (-std::f64::consts::FRAC_PI_2, 270.0), (7.0, 7.0_f64.to_degrees() - 360.0)]
+        {
+            assert!((cam_degrees(angle) - degrees).abs() < 1e-12);
+        }
+        assert_eq!(cam_degrees(-1e-18).to_bits(), 0.0_f64.to_bits());
+    }
+}

@@ -1,0 +1,145 @@
+//! What the user typed.
+
+use camgen::machine::valid_rpm;
+use camgen::output::dxf::Version;
+use camgen::output::formats::{DEFAULT_FORMATS, FORMATS};
+use camgen::units::{self, Dimension};
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Cam profiles a CNC shop can cut.
+///
+/// Solves the motion a cam must give, offsets it for the roller, checks the geometry and writes DXF, SVG and CSV.
+/// Exit code: 0 fine, 1 a check failed (nothing is written without --force), 2 bad input.
+#[derive(Debug, Parser)]
+#[command(name = "camgen", version, max_term_width = 110)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Disc cam for one speed: its bottom moves so that the air force equals the inertia force at every instant
+    Rotary(RotaryArgs),
+    /// The machine files carried in the program
+    Machines(MachinesArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RotaryArgs {
+    /// An embedded machine or the path of a machine file
+    #[arg(default_value = "dpi")]
+    pub(super) machine: String,
+
+    /// Main-shaft speed the cam is cut for, rpm [default: the design speed of the machine]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
+    pub(super) rpm: Vec<f64>,
+
+    /// Largest distance of the outline from the exact curve, along its normal
+    #[arg(long, value_name = "LENGTH", default_value = "5um", value_parser = tolerance, allow_hyphen_values = true)]
+    pub(super) tolerance: f64,
+
+    /// Overrides one key of the machine file, e.g. --set follower.roller.radius=25mm; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
+
+    /// What to write: dxf, svg, csv, json
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format, default_values = DEFAULT_FORMATS)]
+    pub(super) format: Vec<usize>,
+
+    /// Directory for the files, created when missing
+    #[arg(long, value_name = "DIR", default_value = "output")]
+    pub(super) out: PathBuf,
+
+    /// File stem [default: MACHINE-rotary-RPMrpm]
+    #[arg(long, value_name = "STEM", value_parser = stem)]
+    pub(super) name: Option<String>,
+
+    /// Version of the DXF file: r12, r2000, r2010 or r2013
+    #[arg(long, value_name = "VERSION", default_value = "r2000", value_parser = dxf_version)]
+    pub(super) dxf_version: Version,
+
+    /// Rows of the CSV table over one turn of the cam
+    #[arg(long, value_name = "N", default_value = "720", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub(super) samples: u32,
+
+    /// Sheet for the SVG preview instead of the built-in one, see templates/sheet.svg
+    #[arg(long, value_name = "FILE")]
+    pub(super) template: Option<PathBuf>,
+
+    /// Write the files although a check failed (the exit code stays 1)
+    #[arg(long)]
+    pub(super) force: bool,
+
+    /// Print the report as JSON and nothing else
+    #[arg(long)]
+    pub(super) json: bool,
+
+    /// Print no report
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+
+    /// No colours on the terminal (also: the environment variable `NO_COLOR`)
+    #[arg(long)]
+    pub(super) no_color: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct MachinesArgs {
+    #[command(subcommand)]
+    pub(super) what: Option<MachinesCommand>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum MachinesCommand {
+    /// Their names
+    List,
+    /// One of them, as a file to start from
+    Show {
+        /// Its name
+        name: String,
+    },
+}
+
+fn rpm(text: &str) -> Result<f64, String> {
+    let number =
+        units::parse_bare(text).map_err(|error| format!("{error}; a speed is a bare number, e.g. --rpm 35"))?;
+    valid_rpm(number)
+}
+
+/// Coarsest tolerance, m: a millimetre is no longer a cam.
+const COARSEST: f64 = 1e-3;
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Length)
+        .map_err(|error| format!("{error}; a tolerance is a length with one of {}", Dimension::Length.unit_list()))?;
+    if quantity.si > 0.0 && quantity.si <= COARSEST {
+        Ok(quantity.si)
+    } else {
+        Err(format!("must be above 0 and at most {}", quantity.in_same_unit(COARSEST)))
+    }
+}
+
+fn format(text: &str) -> Result<usize, String> {
+    FORMATS.iter().position(|(name, _)| *name == text).ok_or_else(|| {
+        let known: Vec<&str> = FORMATS.iter().map(|(name, _)| *name).collect();
+        format!("no such format; one of {}", known.join(", "))
+    })
+}
+
+fn dxf_version(text: &str) -> Result<Version, String> {
+    Version::ALL.iter().find(|(name, _)| *name == text).map(|(_, version)| *version).ok_or_else(|| {
+        let known: Vec<&str> = Version::ALL.iter().map(|(name, _)| *name).collect();
+        format!("no such version; one of {}", known.join(", "))
+    })
+}
+
+/// A stem names files in the output directory and must not lead out of it.
+fn stem(text: &str) -> Result<String, String> {
+    let bad = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
+    if text.is_empty() || text.starts_with('.') || text.contains(bad) {
+        return Err("a file stem has no path separators, no control characters and no leading dot; see --out".into());
+    }
+    Ok(text.to_owned())
+}

@@ -1,0 +1,62 @@
+//! Commands, their exit codes and what they print: data and reports on stdout, messages on stderr.
+
+mod args;
+mod machines;
+mod rotary;
+mod text;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::io::{self, ErrorKind, Write};
+use std::process::ExitCode;
+
+/// How a command ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Everything is fine.
+    Fine,
+    /// A check failed.
+    CheckFailed,
+}
+
+/// A message for the user: bad input, or something that cannot be done.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct Failure(String);
+
+impl Failure {
+    fn new(why: impl std::fmt::Display) -> Self {
+        Self(why.to_string())
+    }
+}
+
+pub(crate) fn main() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Rotary(args) => rotary::run(&args),
+        Command::Machines(args) => machines::run(&args),
+    };
+    match outcome {
+        Ok(Outcome::Fine) => ExitCode::SUCCESS,
+        Ok(Outcome::CheckFailed) => ExitCode::from(1),
+        Err(failure) => {
+            tell(&format!("error: {failure}"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Prints data on stdout. A reader that has left early is no fault of ours.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure(format!("cannot write to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints a message on stderr; when even that fails there is nobody left to tell.
+fn tell(message: &str) {
+    let _ = writeln!(io::stderr().lock(), "{message}");
+}

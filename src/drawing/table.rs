@@ -1,0 +1,79 @@
+//! The point table of a rotary cam.
+
+use super::outline::MILLIMETRES;
+use super::point_as_turned;
+use crate::cam::rotary::Rotary;
+use crate::follower::Follower;
+use crate::law::Law;
+
+/// Columns of the table, in order.
+pub const COLUMNS: [&str; 17] = [
+    "cam_deg",
+    "crank_deg",
+    "x_mm",
+    "dx_mm",
+    "lift_mm",
+    "velocity_mm_per_rad",
+    "acceleration_mm_per_rad2",
+    "jerk_mm_per_rad3",
+    "pitch_x_mm",
+    "pitch_y_mm",
+    "profile_x_mm",
+    "profile_y_mm",
+    "pressure_angle_deg",
+    "pitch_curvature_radius_mm",
+    "profile_curvature_radius_mm",
+    "roller_force_n",
+    "torque_nm",
+];
+
+/// A table of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Names of the columns, with their units.
+    pub columns: &'static [&'static str],
+    /// Rows, each as long as `columns`.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// `samples` rows over one cam turn, at 360 i/samples degrees. At a break of the law the row belongs to the later piece.
+#[must_use]
+pub fn table(rotary: &Rotary, samples: u32) -> Table {
+    let row = |i: u32| {
+        let cam_deg = 360.0 * f64::from(i) / f64::from(samples);
+        let (piece, angle) = rotary.disc.law.locate(cam_deg.to_radians());
+        let contact = rotary.disc.contact(piece, angle);
+        let state = rotary.disc.law.state(piece, angle);
+        let profile = contact.pitch.offset_inward(rotary.disc.follower.roller_radius());
+        let pitch_point = point_as_turned(rotary, contact.pitch.point * MILLIMETRES);
+        let profile_point = point_as_turned(rotary, profile.point * MILLIMETRES);
+        let force = rotary.roller_force(&state);
+        let row = [
+            cam_deg,
+            crank_degrees(cam_deg, rotary.machine.cam.turns_per_crank_turn),
+            MILLIMETRES * state.overrun,
+            MILLIMETRES * state.displacement,
+            MILLIMETRES * contact.lift.s.max(0.0),
+            MILLIMETRES * contact.lift.ds,
+            MILLIMETRES * contact.lift.dds,
+            MILLIMETRES * contact.lift.ddds,
+            pitch_point.x,
+            pitch_point.y,
+            profile_point.x,
+            profile_point.y,
+            contact.pressure_angle.to_degrees(),
+            MILLIMETRES / contact.pitch.curvature,
+            MILLIMETRES / profile.curvature,
+            force,
+            force * contact.lift.ds,
+        ];
+        // A negative zero is zero.
+        row.iter().map(|value| value + 0.0).collect()
+    };
+    Table { columns: &COLUMNS, rows: (0..samples).map(row).collect() }
+}
+
+/// Crank angle in [0, 360) from the cam angle, without a detour over radians that would lose the round numbers.
+fn crank_degrees(cam_deg: f64, ratio: f64) -> f64 {
+    (cam_deg / ratio) % 360.0
+}

@@ -1,0 +1,46 @@
+//! Numbers as text.
+
+/// The shortest text that reads back as the same `f64`; `inf`, `-inf`, `NaN` as such, no negative zero.
+#[must_use]
+pub fn shortest(value: f64) -> String {
+    let plain = format!("{}", value + 0.0);
+    let scientific = format!("{value:e}");
+    // Very large or small numbers would fill a line with zeros.
+    if scientific.len() + 4 < plain.len() { scientific } else { plain }
+}
+
+/// A plain decimal with at most `decimals` places and one at the least, as DXF and SVG readers want it: no exponent,
+/// no negative zero.
+#[must_use]
+pub fn plain(value: f64, decimals: usize) -> String {
+    let fixed = format!("{value:.decimals$}");
+    let trimmed = fixed.trim_end_matches('0');
+    let one = if trimmed.ends_with('.') { format!("{trimmed}0") } else { trimmed.to_owned() };
+    if one == "-0.0" { "0.0".into() } else { one }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shortest_reads_back() {
+        for value in [0.1, 1.0 / 3.0, 1e300, -2.5e-17, 123_456_789.125, 5e-324, 360.0] {
+            let text = shortest(value);
+            assert_eq!(text.parse::<f64>().expect("a number"), value, "{text}");
+            assert!(text.len() < 26, "{text}");
+        }
+        assert_eq!(shortest(-0.0), "0");
+        assert_eq!(shortest(f64::INFINITY), "inf");
+    }
+
+    #[test]
+    fn plain_has_no_exponent_and_no_negative_zero() {
+        assert_eq!(plain(1e-20, 12), "0.0");
+        assert_eq!(plain(-1e-20, 12), "0.0");
+        assert_eq!(plain(-0.0, 12), "0.0");
+        assert_eq!(plain(1.5, 12), "1.5");
+        assert_eq!(plain(120.0, 12), "120.0");
+        assert_eq!(plain(-69.123_456_789_012_34, 12), "-69.123456789012");
+    }
+}
