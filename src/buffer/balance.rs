@@ -110,8 +110,12 @@ impl Balance {
         let (column_length, start_slope) = match column {
             Column::Matched => (exponent / loading, 0.0),
             Column::Return => {
+                // c = 1/g(U). Near U = 0 c − 1 is small and has the digits of g − 1, far from it c is large and has L's.
+                let length = column_for(stroke, end, exponent);
                 let less = g_minus_one(end, 1.0 / exponent);
-                (column_for(stroke, end, exponent), -less / (1.0 + less))
+                let start_slope =
+                    if end < SERIES_LIMIT { -less / (1.0 + less) } else { length * loading / exponent - 1.0 };
+                (length, start_slope)
             }
             Column::Length(length) => {
                 let matched = exponent / loading;
@@ -124,7 +128,7 @@ impl Balance {
     /// Δx at overrun x in [0, r], m.
     ///
     /// Without lead: relative error of a few ulp for `Matched` and `Return`; for a given length absolute error within
-    /// 2 ulp of L.
+    /// 2 ulp of L beside the rounding of the result (which exceeds that where x is many times L).
     #[must_use]
     pub fn displacement(&self, x: f64) -> f64 {
         self.displacement_between(x, self.stroke - x)
@@ -163,8 +167,17 @@ impl Balance {
     pub fn bottom(&self, x: f64, y: f64) -> Bottom {
         let (p, a, u) = (1.0 / self.exponent, self.loading, self.loading * x);
         let c = 1.0 + self.start_slope;
-        let fall = libm::expm1(-(p + 1.0) * libm::log1p(u));
-        let second = -c * a * (p + 1.0) * (1.0 + fall) / (1.0 + u);
+        let log = -(p + 1.0) * libm::log1p(u);
+        // Both (1+u)^(−p−1) and its distance from 1 are wanted to full relative accuracy; one call gives both where the
+        // other's digits are not yet lost.
+        let (power, fall) = if u < 1.0 {
+            let fall = libm::expm1(log);
+            (1.0 + fall, fall)
+        } else {
+            let power = libm::exp(log);
+            (power, power - 1.0)
+        };
+        let second = -c * a * (p + 1.0) * power / (1.0 + u);
         Bottom {
             value: self.displacement_between(x, y),
             slope: self.start_slope + c * fall,

@@ -19,6 +19,8 @@ pub enum TextAnchor {
     Start,
     /// Its middle.
     Middle,
+    /// Its end.
+    End,
 }
 
 /// A thing on the sheet.
@@ -71,6 +73,8 @@ pub struct Sheet {
 
 /// The pitch curve is only looked at: a fifth of a thin pen.
 const PITCH_TOLERANCE: f64 = 0.05;
+/// How far the roller's path and the normal reach beyond the roller, in its radii.
+const PATH_OVER_RADIUS: f64 = 0.6;
 /// Text height and pen over the width of what is drawn.
 const TEXT_OVER_WIDTH: f64 = 1.0 / 75.0;
 const STROKE_OVER_TEXT: f64 = 0.06;
@@ -105,7 +109,7 @@ pub fn sheet(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, Out
     let pitch_curve = as_turned(rotary, pitch(&rotary.disc, PITCH_TOLERANCE)?.contour);
     let roller = MILLIMETRES * rotary.disc.follower.roller_radius();
     let inner = pitch_curve.extents();
-    let reach = Vector2::new(roller, roller);
+    let reach = Vector2::new(roller, roller) * (1.0 + PATH_OVER_RADIUS);
     let drawn = Extents { least: inner.least - reach, largest: inner.largest + reach };
     let pen = Pen { rotary, text: TEXT_OVER_WIDTH * drawn.size().x };
     let (base, prime) = (report.cam.base_radius_mm, report.cam.prime_radius_mm);
@@ -115,12 +119,12 @@ pub fn sheet(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, Out
     let bore = part.bore_radius.map(circle).into_iter().collect();
     let (facts, bottom) = facts(&pen, report, &drawn);
     let groups = vec![
+        group("profile", "profile", profile),
+        group("bore", "bore", bore),
         group("axis", "axes", axes(&pen, &drawn)),
         group("base-circle", "base circle", circle_with_name(&pen, base, "base circle")),
         group("prime-circle", "prime circle", circle_with_name(&pen, prime, "prime circle")),
         group("pitch-curve", "pitch curve", vec![Shape::Entity(Entity::Polyline(pitch_curve))]),
-        group("profile", "profile", profile),
-        group("bore", "bore", bore),
         group("roller", "roller at its worst pressure angle", worst_roller(&pen)),
         group("rotation", "rotation of the cam", rotation_arrow(&pen, part, base)),
         group("scale", "scale", scale_bar(&pen, &drawn)),
@@ -163,13 +167,19 @@ fn worst_roller(pen: &Pen<'_>) -> Vec<Shape> {
     let radius = disc.follower.roller_radius();
     let centre = contact.pitch.point;
     let outward = contact.pitch.outward();
-    let label = pen.point(centre + outward * (1.25 * radius) + drive * (1.35 * radius));
     let degrees = worst.value.to_degrees();
+    // Beside the roller, towards the near edge of the sheet.
+    let middle = pen.point(centre);
+    let side = if middle.x < 0.0 { -1.0 } else { 1.0 };
+    let label = middle + Vector2::new(side * (MILLIMETRES * radius + 0.8 * pen.text), -0.4 * pen.text);
+    let anchor = if middle.x < 0.0 { TextAnchor::End } else { TextAnchor::Start };
+    let text = format!("α = {degrees:.2}° at θ = {:.2}°", cam_degrees(worst.at));
+    let path = radius * (1.0 + PATH_OVER_RADIUS);
     vec![
         Shape::Entity(Entity::Circle(pen.point(centre), MILLIMETRES * radius)),
-        Shape::Line(pen.point(centre - drive * (2.0 * radius)), pen.point(centre + drive * (2.0 * radius))),
-        Shape::Line(pen.point(centre - outward * radius), pen.point(centre + outward * (2.0 * radius))),
-        pen.middle(label, format!("α = {degrees:.2}° at θ = {:.2}°", cam_degrees(worst.at))),
+        Shape::Line(pen.point(centre - drive * path), pen.point(centre + drive * path)),
+        Shape::Line(pen.point(centre - outward * radius), pen.point(centre + outward * path)),
+        Shape::Text { at: label, height: pen.text, anchor, text },
     ]
 }
 

@@ -126,6 +126,7 @@ fn group(group: &Group) -> String {
                 let anchor = match anchor {
                     TextAnchor::Start => "start",
                     TextAnchor::Middle => "middle",
+                    TextAnchor::End => "end",
                 };
                 node.add(
                     element::Text::new(printable(text))

@@ -1,0 +1,307 @@
+//! The program as a user meets it: exit codes, messages, files.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+struct Run {
+    code: i32,
+    out: String,
+    err: String,
+    directory: TempDir,
+}
+
+/// Runs camgen in an empty directory.
+fn camgen(args: &[&str]) -> Run {
+    camgen_in(tempfile::tempdir().expect("a directory"), args)
+}
+
+fn camgen_in(directory: TempDir, args: &[&str]) -> Run {
+    let output = Command::cargo_bin("camgen")
+        .expect("the program")
+        .current_dir(directory.path())
+        .args(args)
+        .output()
+        .expect("it runs");
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
+    Run { code: output.status.code().expect("a code"), out: text(&output.stdout), err: text(&output.stderr), directory }
+}
+
+/// Every file below a directory.
+fn files(directory: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(directory).expect("a directory") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else {
+            found.push(path.file_name().expect("a name").to_string_lossy().into_owned());
+        }
+    }
+    found.sort();
+    found
+}
+
+fn report(run: &Run) -> Value {
+    serde_json::from_str(&run.out).unwrap_or_else(|e| panic!("{e}: {}", run.out))
+}
+
+#[test]
+fn the_main_job() {
+    let run = camgen(&["rotary", "--rpm", "35"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(files(run.directory.path()), ["dpi-rotary-35rpm.csv", "dpi-rotary-35rpm.dxf", "dpi-rotary-35rpm.svg"]);
+    assert!(run.out.contains("pressure_angle") && run.err.is_empty(), "{} {}", run.out, run.err);
+    assert!(run.directory.path().join("output").is_dir());
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let all = ["rotary", "--format", "dxf,svg,csv,json"];
+    let (first, second) = (camgen(&all), camgen(&all));
+    assert_eq!(first.out, second.out);
+    for name in files(first.directory.path()) {
+        let read = |run: &Run| fs::read(run.directory.path().join("output").join(&name)).expect("a file");
+        assert_eq!(read(&first), read(&second), "{name}");
+    }
+}
+
+#[test]
+fn the_report_has_the_names_of_the_contract() {
+    let run = camgen(&["rotary", "--rpm", "35", "--json", "--format", "json"]);
+    let report = report(&run);
+    assert_eq!(report["schema"], 1);
+    assert_eq!(report["command"], "rotary");
+    assert_eq!(report["machine"], "DPI flat-bed press, 2 at");
+    for (table, keys) in [
+        ("cam", vec!["prime_radius_mm", "base_radius_mm", "roller_radius_mm", "max_lift_mm", "area_mm2", "mass_kg"]),
+        ("law", vec!["dx_max_mm", "dx_max_at_x_mm", "column_length_mm", "piston_area_mm2", "bore_mm"]),
+        ("outline", vec!["arcs", "lines", "deviation_max_mm", "tangent_break_max_deg"]),
+        ("force", vec!["inertia_max_n", "residual_max_n", "residual_fixed_bottom_max_n"]),
+    ] {
+        for key in keys {
+            assert!(report[table][key].is_number(), "{table}.{key}: {}", report[table]);
+        }
+    }
+    for finding in report["checks"].as_array().expect("checks") {
+        assert!(finding["check"].is_string() && finding["unit"].is_string(), "{finding}");
+        assert!(["pass", "fail", "info"].contains(&finding["verdict"].as_str().expect("a verdict")));
+    }
+    assert!((report["law"]["column_length_mm"].as_f64().expect("a number") - 243.0).abs() < 1e-12);
+    assert!((report["law"]["dx_max_mm"].as_f64().expect("a number") + 82.42).abs() < 5e-3);
+    let file = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm.json")).expect("the file");
+    assert_eq!(file, run.out);
+}
+
+#[test]
+fn the_table_has_the_columns_and_the_golden_rows() {
+    let run = camgen(&["rotary", "--format", "csv", "--quiet", "--samples", "360"]);
+    assert!(run.out.is_empty());
+    let text = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm.csv")).expect("the file");
+    let mut lines = text.lines();
+    assert_eq!(
+        lines.next().expect("a header"),
+        "cam_deg,crank_deg,x_mm,dx_mm,lift_mm,velocity_mm_per_rad,acceleration_mm_per_rad2,jerk_mm_per_rad3,\
+         pitch_x_mm,pitch_y_mm,profile_x_mm,profile_y_mm,pressure_angle_deg,pitch_curvature_radius_mm,\
+         profile_curvature_radius_mm,roller_force_n,torque_nm"
+    );
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    assert_eq!(rows.len(), 360);
+    for (degrees, dx) in [(10, -4.079_160_952_276_448_7), (30, -26.956_817_407_290_616), (60, -65.967_446_120_940_684)]
+    {
+        assert_eq!(rows[degrees][0], f64::from(u32::try_from(degrees).expect("small")));
+        assert!((rows[degrees][3] / dx - 1.0).abs() < 1e-13, "{degrees}: {}", rows[degrees][3]);
+    }
+    assert_eq!((rows[0][2], rows[0][3], rows[90][4]), (0.0, 0.0, 0.0));
+    assert_eq!(rows[200][2], 0.0, "no overrun outside the reversal");
+    // Force along the path is the inertia force while the law balances: 21288 N at x = r.
+    assert!((rows[90][15] - 21_288.1).abs() < 0.1, "{}", rows[90][15]);
+    assert!((rows[90][16]).abs() < 1e-9 && rows[45][16] < 0.0, "torque falls with the lift");
+}
+
+#[test]
+fn a_counter_clockwise_cam_is_the_mirror_image() {
+    let csv = |rotation: &str| {
+        let run = camgen(&["rotary", "--set", rotation, "--set", "follower.roller.offset=10mm", "--format", "csv,dxf"]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm.csv")).expect("the file")
+    };
+    let (cw, ccw) = (csv("cam.rotation=cw"), csv("cam.rotation=ccw"));
+    for (a, b) in cw.lines().zip(ccw.lines()).skip(1) {
+        let cells = |line: &str| line.split(',').map(|c| c.parse().expect("a number")).collect::<Vec<f64>>();
+        let (a, b) = (cells(a), cells(b));
+        assert_eq!((a[8], a[9], a[10], a[11]), (b[8], -b[9] + 0.0, b[10], -b[11] + 0.0));
+        assert_eq!(a[..8], b[..8]);
+    }
+}
+
+#[test]
+fn a_cam_that_breaks_a_limit_is_refused_with_the_radius_that_would_pass() {
+    let refused = ["rotary", "dpi-paper", "--set", "cam.base_radius=200mm"];
+    let run = camgen(&refused);
+    assert_eq!(run.code, 1);
+    assert!(run.out.contains("FAIL  pressure_angle") && run.err.contains("nothing was written"), "{}", run.out);
+    assert!(files(run.directory.path()).is_empty());
+    let base = run.out.split("a base radius of ").nth(1).and_then(|t| t.split(" mm").next()).expect("a radius");
+    let passing = camgen(&["rotary", "dpi-paper", "--set", &format!("cam.base_radius={base}mm")]);
+    assert_eq!(passing.code, 0, "{}", passing.out);
+
+    let forced = camgen(&[&refused[..], &["--force"]].concat());
+    assert_eq!(forced.code, 1);
+    assert_eq!(files(forced.directory.path()).len(), 3);
+    assert_eq!(camgen(&["rotary", "dpi-paper"]).code, 0, "with an automatic radius it is huge, and passes");
+}
+
+#[test]
+fn an_undercut_cam_is_not_written_even_by_force() {
+    let run = camgen(&["rotary", "--set", "cam.base_radius=30mm", "--set", "follower.roller.radius=80mm", "--force"]);
+    assert_eq!(run.code, 1);
+    assert!(run.err.contains("undercut at") && run.out.contains("FAIL  undercut"), "{} {}", run.err, run.out);
+    assert!(files(run.directory.path()).is_empty());
+}
+
+/// Exit 2, a message with the place and the remedy, no file, no panic.
+#[test]
+fn bad_input_is_told_and_writes_nothing() {
+    let cases: &[(&[&str], &[&str])] = &[
+        (&["--set", "bed.mass=978.2"], &["bed.mass", "has no unit", "kg, lb"]),
+        (&["--set", "bed.mass=978.2 mm"], &["unit of length, not of mass", "kg, lb"]),
+        (&["--set", "bed.mass=-1kg"], &["must be above 0 kg"]),
+        (&["--set", "bed.mass=0kg"], &["must be above 0 kg"]),
+        (&["--set", "bed.mass=NaN kg"], &["not a finite number"]),
+        (&["--set", "bed.mass=1e300kg"], &["at most"]),
+        (&["--set", "bed.mass=1e999kg"], &["not a finite number"]),
+        (&["--set", "bed.mas=1kg"], &["unknown key `bed.mas`", "did you mean `bed.mass`?"]),
+        (&["--set", "bed.mass"], &["no `=`"]),
+        (&["--set", "buffer.end_pressure=0.9at"], &["end_pressure must be above ambient_pressure: 0.9at ≤ 1 at"]),
+        (
+            &["--set", "cam.bore_radius=80mm", "--set", "cam.base_radius=75mm"],
+            &["bore_radius must be below base_radius"],
+        ),
+        (&["--set", "transition.width=120deg"], &["more than one turn"]),
+        (&["--set", "cam.cam_turns_per_crank_turn=2"], &["more than one turn"]),
+        (&["--set", "cam.base_radius=1000m"], &["more than a drawing holds"]),
+        (&["--rpm", "0"], &["above 0"]),
+        (&["--rpm", "-35"], &["above 0"]),
+        (&["--rpm", "nan"], &["not a finite number"]),
+        (&["--rpm", "fast"], &["does not start with a number"]),
+        (&["--rpm", "1e9"], &["at most 100000"]),
+        (&["--rpm", "30,35"], &["one speed"]),
+        (&["--tolerance", "5"], &["has no unit", "um, mm"]),
+        (&["--tolerance", "0um"], &["above 0"]),
+        (&["--tolerance", "-1um"], &["above 0"]),
+        (&["--tolerance", "1m"], &["at most 0.001 m"]),
+        (&["--tolerance", "1e-15mm"], &["cannot be kept"]),
+        (&["--format", "dwg"], &["one of dxf, svg, csv, json"]),
+        (&["--dxf-version", "r14"], &["one of r12, r2000, r2010, r2013"]),
+        (&["--samples", "0"], &["--samples"]),
+        (&["--name", "../x"], &["no path separators"]),
+        (&["--template", "no.svg"], &["cannot read the template"]),
+        (&["--no-such-flag"], &["--no-such-flag"]),
+        (&["no-such.toml"], &["cannot read the machine file `no-such.toml`", "dpi-paper"]),
+        (&["."], &["directory"]),
+    ];
+    for (args, parts) in cases {
+        let run = camgen(&[&["rotary"], *args].concat());
+        assert_eq!(run.code, 2, "{args:?}: {}{}", run.out, run.err);
+        for part in *parts {
+            assert!(run.err.contains(part), "{args:?}: no {part:?} in\n{}", run.err);
+        }
+        assert!(!run.err.contains("panicked"), "{args:?}: {}", run.err);
+        assert!(files(run.directory.path()).is_empty(), "{args:?}");
+    }
+}
+
+#[test]
+fn a_faulty_file_is_told_by_line_column_and_caret() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let shown = camgen(&["machines", "show", "dpi"]);
+    assert_eq!(shown.code, 0);
+    let faulty = shown.out.replace("thickness = \"30 mm\"", "thicknes = \"30\"").replace("\"978.2 kg\"", "978.2");
+    fs::write(directory.path().join("press.toml"), &faulty).expect("written");
+    let run = camgen_in(directory, &["rotary", "press.toml"]);
+    assert_eq!(run.code, 2);
+    for part in ["press.toml:7:8", "| ^^^^^", "kg, lb", "unknown key `cam.thicknes`", "did you mean `cam.thickness`?"] {
+        assert!(run.err.contains(part), "no {part:?} in\n{}", run.err);
+    }
+}
+
+#[test]
+fn a_shown_machine_is_a_file_to_start_from() {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("press.toml"), camgen(&["machines", "show", "dpi"]).out).expect("written");
+    let run = camgen_in(directory, &["rotary", "press.toml", "--format", "dxf", "--out", "a/b"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let own = fs::read(run.directory.path().join("a/b/press-rotary-35rpm.dxf")).expect("the file");
+    let embedded = camgen(&["rotary", "--format", "dxf"]);
+    let embedded = fs::read(embedded.directory.path().join("output/dpi-rotary-35rpm.dxf")).expect("the file");
+    assert_eq!(own, embedded);
+    assert!(camgen(&["machines"]).out.contains("dpi-paper"));
+    assert_eq!(camgen(&["machines", "show", "x"]).code, 2);
+}
+
+#[test]
+fn an_output_directory_that_cannot_be_is_told_and_old_files_stay() {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("taken"), "mine").expect("written");
+    let run = camgen_in(directory, &["rotary", "--out", "taken"]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("cannot make the directory `taken`") && run.err.contains("--out"), "{}", run.err);
+    assert_eq!(fs::read_to_string(run.directory.path().join("taken")).expect("mine"), "mine");
+
+    let directory = tempfile::tempdir().expect("a directory");
+    let out = directory.path().join("output");
+    fs::create_dir_all(out.join("dpi-rotary-35rpm.svg")).expect("in the way");
+    fs::write(out.join("dpi-rotary-35rpm.dxf"), "old").expect("written");
+    let run = camgen_in(directory, &["rotary"]);
+    assert_eq!(run.code, 2);
+    assert_eq!(files(run.directory.path()), ["dpi-rotary-35rpm.dxf"]);
+    let kept = run.directory.path().join("output/dpi-rotary-35rpm.dxf");
+    assert_eq!(fs::read_to_string(kept).expect("old"), "old");
+}
+
+#[test]
+fn a_template_of_one_s_own_is_filled_in() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let template =
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{{left}} {{top}} {{width}} {{height}}\">{{drawing}}</svg>";
+    fs::write(directory.path().join("mine.svg"), template).expect("written");
+    let run = camgen_in(directory, &["rotary", "--template", "mine.svg", "--format", "svg"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let text = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm.svg")).expect("the file");
+    assert!(text.contains("id=\"profile\"") && !text.contains("{{"));
+}
+
+/// The picture in the README is the picture the program makes.
+#[test]
+fn the_picture_in_the_readme_is_current() {
+    let run = camgen(&["rotary", "--format", "svg"]);
+    let made = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm.svg")).expect("the file");
+    let kept =
+        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/dpi-rotary-35rpm.svg")).expect("kept");
+    assert!(made == kept, "the picture has changed: look at it, and if it is right copy it to tests/golden");
+}
+
+#[test]
+fn help_and_version_are_there() {
+    assert!(camgen(&["--version"]).out.starts_with("camgen "));
+    let help = camgen(&["rotary", "--help"]).out;
+    for flag in [
+        "--rpm",
+        "--tolerance",
+        "--set",
+        "--format",
+        "--out",
+        "--name",
+        "--dxf-version",
+        "--samples",
+        "--force",
+        "--json",
+    ] {
+        assert!(help.contains(flag), "{flag}");
+    }
+    assert_eq!(camgen(&[]).code, 2);
+}
