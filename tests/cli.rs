@@ -1,5 +1,7 @@
 //! The program as a user meets it: exit codes, messages, files.
 
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
 use assert_cmd::Command;
 use serde_json::Value;
 use std::fs;

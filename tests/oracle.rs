@@ -3,6 +3,8 @@
 //! The oracle takes q, k, r, x and L as the `f64` values they are and evaluates equation (10) as printed; with 200 bits
 //! its own cancellation (1e-15 of the size at x = 1e-12 mm) leaves 45 digits.
 
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
 use camgen::buffer::balance::{Balance, Column};
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;

@@ -241,10 +241,8 @@ mod tests {
         assert_eq!(x, 0.18);
         assert!((least + 0.082_42).abs() < 5e-6, "{least}");
 
-        for (q, x_of_top, top) in [(5.0, 0.0584, 0.0605)] {
-            let (x, value) = reference(q, Column::Return).largest_displacement();
-            assert!((x - x_of_top).abs() < 5e-5 && (value - top).abs() < 5e-5, "{x} {value}");
-        }
+        let (x, value) = reference(5.0, Column::Return).largest_displacement();
+        assert!((x - 0.0584).abs() < 5e-5 && (value - 0.0605).abs() < 5e-5, "{x} {value}");
         // The reference gives the place of the largest Δx at 2 at for the returning column too.
         assert!((reference(2.0, Column::Return).largest_displacement().1 - 0.026_94).abs() < 5e-6);
         assert_eq!(reference(5.0, Column::Return).displacement(0.18), 0.0);

@@ -7,12 +7,11 @@ use crate::follower::Follower;
 /// Smallest convex radius of the pitch curve, m, and its cam angle; 0 at a convex corner.
 fn sharpest(subject: &Subject<'_>) -> (f64, f64) {
     let disc = &subject.rotary.disc;
-    match extremes::corners(disc).iter().find(|corner| corner.turn > 0.0) {
-        Some(corner) => (0.0, corner.angle),
-        None => {
-            let smooth = extremes::convex_pitch_curvature(disc);
-            (1.0 / smooth.value, smooth.at)
-        }
+    if let Some(corner) = extremes::corners(disc).iter().find(|corner| corner.turn > 0.0) {
+        (0.0, corner.angle)
+    } else {
+        let smooth = extremes::convex_pitch_curvature(disc);
+        (1.0 / smooth.value, smooth.at)
     }
 }
 

@@ -102,11 +102,11 @@ fn parallel<L: Law, F: Follower>(disc: &Disc<L, F>, distance: f64, tolerance: f6
             outline.best_possible += chain.best_possible;
         }
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
-        if let Some(corner) = corners.iter().find(|corner| corner.angle == piece.end) {
-            if distance > 0.0 {
-                let bulge = libm::tan(0.25 * corner.turn);
-                outline.contour.vertices.push(Vertex { point: frame(index, piece.end).point, bulge });
-            }
+        if let Some(corner) = corners.iter().find(|corner| corner.angle == piece.end)
+            && distance > 0.0
+        {
+            let bulge = libm::tan(0.25 * corner.turn);
+            outline.contour.vertices.push(Vertex { point: frame(index, piece.end).point, bulge });
         }
     }
     Ok(outline)

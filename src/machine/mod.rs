@@ -197,7 +197,7 @@ pub struct Machine {
     pub limits: Limits,
 }
 
-/// A speed of the main shaft a machine can be asked for, rpm: above 0, at most [`LARGEST_NUMBER`].
+/// A speed of the main shaft a machine can be asked for, rpm: above 0, at most 100000.
 ///
 /// # Errors
 /// A message with the range.

@@ -346,7 +346,8 @@ impl<'a> Reader<'a> {
         bounds: Bounds,
         from: fn(f64) -> T,
     ) -> Option<T> {
-        let or_words = words.iter().map(|(word, _)| format!(" or \"{word}\"")).collect::<String>();
+        let or_words: Vec<String> = words.iter().map(|(word, _)| format!(" or \"{word}\"")).collect();
+        let or_words = or_words.concat();
         match self.declare(key) {
             None => words.first().map(|(_, value)| *value),
             Some(Scalar::Text(text)) => match words.iter().find(|(word, _)| *word == text) {

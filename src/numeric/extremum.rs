@@ -34,10 +34,11 @@ pub fn largest(
         let right = if cell == cells { high } else { low + (high - low) * (f64::from(cell) / f64::from(cells)) };
         let right_slope = slope(right);
         consider(right, value(right));
-        if left_slope > 0.0 && right_slope < 0.0 {
-            if let Ok(at) = root::bracketed(&mut slope, left, right, 0.0) {
-                consider(at, value(at));
-            }
+        if left_slope > 0.0
+            && right_slope < 0.0
+            && let Ok(at) = root::bracketed(&mut slope, left, right, 0.0)
+        {
+            consider(at, value(at));
         }
         (left, left_slope) = (right, right_slope);
     }

@@ -9,8 +9,12 @@ pub fn write(table: &Table) -> Vec<u8> {
     let mut text = table.columns.join(",");
     text.push('\n');
     for row in &table.rows {
-        let cells: Vec<String> = row.iter().map(|value| shortest(*value)).collect();
-        text.push_str(&cells.join(","));
+        for (index, value) in row.iter().enumerate() {
+            if index > 0 {
+                text.push(',');
+            }
+            text.push_str(&shortest(*value));
+        }
         text.push('\n');
     }
     text.into_bytes()

@@ -1,12 +1,19 @@
 //! Numbers as text.
 
+/// Sizes written without an exponent: where neither form is much longer than the other.
+const LEAST_PLAIN: f64 = 1e-6;
+const LARGEST_PLAIN: f64 = 1e17;
+
 /// The shortest text that reads back as the same `f64`; `inf`, `-inf`, `NaN` as such, no negative zero.
 #[must_use]
 pub fn shortest(value: f64) -> String {
-    let plain = format!("{}", value + 0.0);
-    let scientific = format!("{value:e}");
+    let size = value.abs();
     // Very large or small numbers would fill a line with zeros.
-    if scientific.len() + 4 < plain.len() { scientific } else { plain }
+    if size != 0.0 && size.is_finite() && !(LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
+        format!("{value:e}")
+    } else {
+        format!("{}", value + 0.0)
+    }
 }
 
 /// A plain decimal with at most `decimals` places and one at the least, as DXF and SVG readers want it: no exponent,

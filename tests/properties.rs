@@ -1,0 +1,70 @@
+//! Any machine in range gives a cam that keeps its promises, or an error that names the wall; never a NaN, never a panic.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+use camgen::cam::rotary::Rotary;
+use camgen::drawing;
+use camgen::law::Law;
+use camgen::machine::Machine;
+use proptest::prelude::*;
+
+/// Log-uniform between two powers of ten.
+fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> {
+    (low..high).prop_map(|power| 10_f64.powf(power))
+}
+
+fn overrides() -> impl Strategy<Value = Vec<String>> {
+    let column = prop_oneof![
+        Just("matched".to_owned()),
+        Just("return".to_owned()),
+        (50.0..2000.0_f64).prop_map(|length| format!("{length}mm")),
+    ];
+    let transition = prop_oneof![Just("none"), Just("run-up"), Just("blend")];
+    (
+        (decades(-4.0, 2.0), 1.0..2.0_f64, column, decades(-1.0, 3.0), decades(0.0, 3.0)),
+        (transition, 0.01..89.0_f64, -0.9..0.9_f64, decades(-1.5, 1.0), 0.05..1.0_f64),
+    )
+        .prop_map(|((excess, k, column, roller, radius), (kind, width, offset, lever, ratio))| {
+            vec![
+                format!("buffer.end_pressure={} at", 1.0 + excess),
+                format!("buffer.polytropic_exponent={k}"),
+                format!("buffer.column={column}"),
+                format!("follower.roller.radius={roller}mm"),
+                format!("follower.roller.offset={}mm", offset * roller),
+                format!("bed.crank_radius={radius}mm"),
+                format!("transition.kind={kind}"),
+                format!("transition.width={width}deg"),
+                format!("cam.lever={lever}"),
+                format!("cam.cam_turns_per_crank_turn={ratio}"),
+            ]
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_machine_gives_a_true_cam_or_a_named_wall(overrides in overrides(), rpm in 5.0..100.0_f64) {
+        let machine = Machine::load("dpi", &overrides).expect("in range").0;
+        let Ok(cam) = Rotary::solve(&machine, rpm) else { return Ok(()) };
+        for (index, piece) in cam.disc.law.pieces().iter().enumerate() {
+            for step in 0..=20 {
+                let angle = piece.start + (piece.end - piece.start) * f64::from(step) / 20.0;
+                let contact = cam.disc.contact(index, angle);
+                prop_assert!(contact.lift.s.is_finite() && contact.pressure_angle.is_finite(), "{contact:?}");
+                prop_assert!(contact.lift.s >= -1e-12 * cam.max_lift(), "{contact:?}");
+            }
+        }
+        let tolerance = 1e-5;
+        match drawing::part(&cam, tolerance) {
+            Ok(part) => {
+                let contour = &part.outline.contour;
+                prop_assert!(part.outline.deviation <= 1e3 * tolerance);
+                prop_assert!(contour.tangent_breaks().iter().all(|turn| turn.abs() < 1e-6), "{:?}", contour.tangent_breaks());
+                prop_assert!(contour.area_and_centroid().0 > 0.0);
+                prop_assert!(contour.vertices.iter().all(|v| v.point.iter().all(|c| c.is_finite()) && v.bulge.is_finite()));
+            }
+            Err(error) => prop_assert!(!error.to_string().contains("NaN"), "{error}"),
+        }
+    }
+}
