@@ -78,6 +78,8 @@ const PATH_OVER_RADIUS: f64 = 0.6;
 /// Text height and pen over the width of what is drawn.
 const TEXT_OVER_WIDTH: f64 = 1.0 / 75.0;
 const STROKE_OVER_TEXT: f64 = 0.06;
+/// Width of a letter over the text height, on the safe side.
+const LETTER_OVER_TEXT: f64 = 0.65;
 /// Lines of text per text height.
 const LINE_SPACING: f64 = 1.6;
 
@@ -122,10 +124,10 @@ pub fn sheet(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, Out
         group("profile", "profile", profile),
         group("bore", "bore", bore),
         group("axis", "axes", axes(&pen, &drawn)),
-        group("base-circle", "base circle", circle_with_name(&pen, base, "base circle")),
-        group("prime-circle", "prime circle", circle_with_name(&pen, prime, "prime circle")),
+        group("base-circle", "base circle", circle_with_name(&pen, base, 0.4, "base circle")),
+        group("prime-circle", "prime circle", circle_with_name(&pen, prime, -1.1, "prime circle")),
         group("pitch-curve", "pitch curve", vec![Shape::Entity(Entity::Polyline(pitch_curve))]),
-        group("roller", "roller at its worst pressure angle", worst_roller(&pen)),
+        group("roller", "roller at its worst pressure angle", worst_roller(&pen, &drawn)),
         group("rotation", "rotation of the cam", rotation_arrow(&pen, part, base)),
         group("scale", "scale", scale_bar(&pen, &drawn)),
         group("facts", "facts", facts),
@@ -151,14 +153,14 @@ fn axes(pen: &Pen<'_>, drawn: &Extents) -> Vec<Shape> {
     ]
 }
 
-fn circle_with_name(pen: &Pen<'_>, radius: f64, name: &str) -> Vec<Shape> {
-    // Below the shaft, where a dwell leaves room.
-    let at = Vector2::new(0.0, -radius + 0.5 * pen.text);
+/// A circle with its name below the shaft, `above` text heights over the line: one inside, one outside never meet.
+fn circle_with_name(pen: &Pen<'_>, radius: f64, above: f64, name: &str) -> Vec<Shape> {
+    let at = Vector2::new(0.0, -radius + above * pen.text);
     vec![Shape::Entity(Entity::Circle(Vector2::zeros(), radius)), pen.middle(at, format!("{name} R {}", shown(radius)))]
 }
 
 /// The roller where the pressure angle is worst, with its path and the normal of the cam.
-fn worst_roller(pen: &Pen<'_>) -> Vec<Shape> {
+fn worst_roller(pen: &Pen<'_>, drawn: &Extents) -> Vec<Shape> {
     let disc = &pen.rotary.disc;
     let worst = extremes::pressure_angle(disc);
     let (piece, angle) = disc.law.locate(worst.at);
@@ -168,12 +170,18 @@ fn worst_roller(pen: &Pen<'_>) -> Vec<Shape> {
     let centre = contact.pitch.point;
     let outward = contact.pitch.outward();
     let degrees = worst.value.to_degrees();
-    // Beside the roller, towards the near edge of the sheet.
-    let middle = pen.point(centre);
-    let side = if middle.x < 0.0 { -1.0 } else { 1.0 };
-    let label = middle + Vector2::new(side * (MILLIMETRES * radius + 0.8 * pen.text), -0.4 * pen.text);
-    let anchor = if middle.x < 0.0 { TextAnchor::End } else { TextAnchor::Start };
     let text = format!("α = {degrees:.2}° at θ = {:.2}°", cam_degrees(worst.at));
+    // Beside the roller, towards the near edge of the sheet, or inwards beyond its path where that is too near.
+    let middle = pen.point(centre);
+    let away = MILLIMETRES * radius + 0.8 * pen.text;
+    #[expect(clippy::cast_precision_loss, reason = "a few words")]
+    let length = away + LETTER_OVER_TEXT * pen.text * text.chars().count() as f64;
+    let outwards = if middle.x < 0.0 { -1.0 } else { 1.0 };
+    let room = if middle.x < 0.0 { middle.x - drawn.least.x } else { drawn.largest.x - middle.x };
+    let side = if length <= room { outwards } else { -outwards };
+    let beyond = if length <= room { away } else { away + MILLIMETRES * radius * PATH_OVER_RADIUS };
+    let label = middle + Vector2::new(side * beyond, -0.4 * pen.text);
+    let anchor = if side < 0.0 { TextAnchor::End } else { TextAnchor::Start };
     let path = radius * (1.0 + PATH_OVER_RADIUS);
     vec![
         Shape::Entity(Entity::Circle(pen.point(centre), MILLIMETRES * radius)),
