@@ -56,6 +56,21 @@ impl Segment {
         (self.start + self.end) * 0.5 + Vector2::new(chord.y, -chord.x) * (0.5 * self.bulge)
     }
 
+    /// Point and unit tangent at a share of the sweep, 0 the start, 1 the end.
+    #[must_use]
+    pub fn at(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
+        // The part of an arc up to there is an arc whose chord leaves the start turned by half its own sweep.
+        let chord = self.end - self.start;
+        if self.bulge == 0.0 {
+            return (self.start + chord * share, self.start_tangent());
+        }
+        let (radius, half) = (self.radius(), 0.5 * self.sweep() * share);
+        let (sin, cos) = (libm::sin(half), libm::cos(half));
+        let turned = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+        let along = turned(self.start_tangent());
+        (self.start + along * (2.0 * radius * sin), turned(along))
+    }
+
     /// Length, mm.
     #[must_use]
     pub fn length(&self) -> f64 {
@@ -81,6 +96,61 @@ impl Segment {
         Vector2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y)
     }
 
+    /// Exact extents, the bulging of an arc included.
+    #[must_use]
+    pub fn extents(&self) -> Extents {
+        let mut extents = Extents { least: self.start.inf(&self.end), largest: self.start.sup(&self.end) };
+        if self.bulge == 0.0 {
+            return extents;
+        }
+        let (centre, radius) = (self.centre(), self.radius().abs());
+        for direction in [Vector2::x(), Vector2::y(), -Vector2::x(), -Vector2::y()] {
+            let point = centre + direction * radius;
+            // The arc lies to the right of its chord when it turns left, and the other way round.
+            if (self.end - self.start).perp(&(point - self.start)) * self.bulge < 0.0 {
+                extents = extents.with(&Extents { least: point, largest: point });
+            }
+        }
+        extents
+    }
+
+    /// The nearest point of the segment, seen from a point.
+    #[must_use]
+    pub fn nearest(&self, point: Vector2<f64>) -> Nearest {
+        let chord = self.end - self.start;
+        let heading = self.start_tangent();
+        let d = point - self.start;
+        if self.bulge == 0.0 {
+            let along = d.dot(&heading);
+            if (0.0..=chord.norm()).contains(&along) {
+                let left = heading.perp(&d);
+                return Nearest { left, foot: self.start + heading * along, tangent: heading };
+            }
+        } else {
+            let curvature = 1.0 / self.radius();
+            // Signed distance without cancellation of a large radius, see `drawing::arcs`.
+            let g = 2.0 * heading.perp(&d) - curvature * d.norm_squared();
+            let left = g / (1.0 + (1.0 - curvature * g).max(0.0).sqrt());
+            // From the centre to the point, over the radius: the normal at the foot, to the left.
+            let normal = Vector2::new(-heading.y, heading.x) - d * curvature;
+            if normal.norm_squared() > 0.0 {
+                let normal = normal.normalize();
+                let foot = point - normal * left;
+                // The arc lies to the right of its chord when it turns left, and the other way round.
+                if chord.perp(&(foot - self.start)) * self.bulge <= 0.0 {
+                    return Nearest { left, foot, tangent: Vector2::new(normal.y, -normal.x) };
+                }
+            }
+        }
+        let (foot, tangent) = if d.norm_squared() <= (point - self.end).norm_squared() {
+            (self.start, heading)
+        } else {
+            (self.end, self.end_tangent())
+        };
+        let away = point - foot;
+        Nearest { left: away.norm().copysign(tangent.perp(&away)), foot, tangent }
+    }
+
     /// Area between the segment and the origin, mm², and its first moments ∫x dA, ∫y dA, mm³, signed.
     ///
     /// The triangle (origin, start, end) plus the circular segment over the chord, which has area
@@ -100,6 +170,17 @@ impl Segment {
         let cap_moment = self.centre() * cap + right * (2.0 / 3.0 * radius * radius * radius * half_sine.powi(3));
         (triangle + cap, moment + cap_moment)
     }
+}
+
+/// The point of a segment nearest to a given one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Distance, mm, positive when the given point lies to the left of the segment: inside a counter-clockwise chain.
+    pub left: f64,
+    /// The nearest point.
+    pub foot: Vector2<f64>,
+    /// Unit tangent there.
+    pub tangent: Vector2<f64>,
 }
 
 /// x − sin x without cancellation at small x (series to x¹¹, exact to rounding below 0.5).
@@ -191,26 +272,8 @@ impl Contour {
     #[must_use]
     pub fn extents(&self) -> Extents {
         let first = self.vertices.first().map_or_else(Vector2::zeros, |v| v.point);
-        let mut extents = Extents { least: first, largest: first };
-        for segment in self.segments() {
-            let mut hold = |point: Vector2<f64>| {
-                extents = extents.with(&Extents { least: point, largest: point });
-            };
-            hold(segment.end);
-            if segment.bulge == 0.0 {
-                continue;
-            }
-            let (centre, radius) = (segment.centre(), segment.radius().abs());
-            for direction in [Vector2::x(), Vector2::y(), -Vector2::x(), -Vector2::y()] {
-                let point = centre + direction * radius;
-                // The arc lies to the right of its chord when it turns left, and the other way round.
-                let side = (segment.end - segment.start).perp(&(point - segment.start));
-                if side * segment.bulge < 0.0 {
-                    hold(point);
-                }
-            }
-        }
-        extents
+        let start = Extents { least: first, largest: first };
+        self.segments().fold(start, |extents, segment| extents.with(&segment.extents()))
     }
 
     /// Mirrored about the X axis and turned round, so that it still runs the same way; starts with the mirror of the
@@ -267,6 +330,28 @@ mod tests {
         assert!((moment - Vector2::new(1.0, 1.0) / 3.0).norm() < 1e-15, "{moment}");
         assert!((quarter.middle().norm() - 1.0).abs() < 1e-15);
         assert!((quarter.centre()).norm() < 1e-15 && (quarter.radius() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_nearest_point_is_the_nearest_of_many() {
+        let at = |x: f64, y: f64| Vector2::new(x, y);
+        for bulge in [0.0, 1e-7, 0.2, -0.2, 0.9, -1.7] {
+            let segment = Segment { start: at(1.0, 2.0), end: at(5.0, 3.0), bulge };
+            assert!((segment.at(1.0).0 - segment.end).norm() < 1e-13);
+            assert!((segment.at(1.0).1 - segment.end_tangent()).norm() < 1e-13);
+            assert!((segment.at(0.5).0 - segment.middle()).norm() < 1e-13);
+            for (x, y) in [(3.0, 0.0), (0.0, 0.0), (9.0, 9.0), (3.0, 2.4), (2.0, 7.0), (4.0, -3.0)] {
+                let nearest = segment.nearest(at(x, y));
+                let scan = (0..=20_000)
+                    .map(|i| (segment.at(f64::from(i) / 2e4).0 - at(x, y)).norm())
+                    .fold(f64::INFINITY, f64::min);
+                assert!((nearest.left.abs() - scan).abs() < 1e-6, "{bulge} ({x}, {y}): {nearest:?} {scan}");
+                assert!(((nearest.foot - at(x, y)).norm() - nearest.left.abs()).abs() < 1e-8, "{bulge}: {nearest:?}");
+            }
+        }
+        let left = Segment { start: at(0.0, 0.0), end: at(2.0, 0.0), bulge: 0.0 };
+        assert_eq!(left.nearest(at(1.0, 3.0)).left, 3.0);
+        assert_eq!(left.nearest(at(1.0, -3.0)).left, -3.0);
     }
 
     #[test]

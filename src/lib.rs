@@ -3,7 +3,7 @@
 //! The library is a pipeline, and the modules below are its rooms in order: a room knows only those before it.
 //!
 //! ```text
-//! units → numeric → buffer → law → follower → machine → cam → contour → checks → drawing → output
+//! units → numeric → buffer → law → follower → machine → cam → contour → reading → checks → drawing → output
 //! ```
 //!
 //! Two doors: [`machine::Machine`] in, [`drawing`] out. Numbers are SI and radians until `drawing`, millimetres from
@@ -37,6 +37,8 @@ pub mod machine;
 pub mod cam;
 
 pub mod contour;
+
+pub mod reading;
 
 pub mod checks;
 

@@ -5,8 +5,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const ROOMS: [&str; 11] =
-    ["units", "numeric", "buffer", "law", "follower", "machine", "cam", "contour", "checks", "drawing", "output"];
+const ROOMS: [&str; 12] = [
+    "units", "numeric", "buffer", "law", "follower", "machine", "cam", "contour", "reading", "checks", "drawing",
+    "output",
+];
 
 fn sources(path: &Path) -> Vec<PathBuf> {
     if path.is_file() {

@@ -2,6 +2,7 @@
 //!
 //! Curves here are functions of the cam angle with exact derivatives; nothing is sampled. SI units and radians.
 
+pub mod envelope;
 pub mod extremes;
 pub mod rotary;
 pub mod size;

@@ -5,7 +5,7 @@ use super::{Disc, extremes};
 use crate::buffer::balance::Balance;
 use crate::buffer::{Cylinder, PlainBuffer};
 use crate::follower::{Follower, TranslatingRoller};
-use crate::law::{Law, LawError, Reversal, ReversalLaw, State};
+use crate::law::{Law, LawError, Reversal, ReversalLaw};
 use crate::machine::Machine;
 use crate::numeric::extremum;
 
@@ -108,10 +108,16 @@ impl Rotary {
         lifts.fold(0.0, f64::max)
     }
 
-    /// Force the air puts on the roller along its path, N: 2 (p − p0) F / lever.
+    /// Force between roller and cam along the roller's path, N: the air's, 2 (p − p0) F / lever, and, where they are
+    /// given, preload and the inertia of what moves with the roller.
     #[must_use]
-    pub fn roller_force(&self, state: &State) -> f64 {
-        self.cylinder.force(state.pressure_ratio) / self.machine.cam.lever
+    pub fn roller_force(&self, piece: usize, angle: f64) -> f64 {
+        let state = self.disc.law.state(piece, angle);
+        let air = self.cylinder.force(state.pressure_ratio) / self.machine.cam.lever;
+        let preload = self.machine.roller.preload.unwrap_or(0.0);
+        let Some(mass) = self.machine.roller.mass else { return air + preload };
+        let speed = self.machine.bed.crank_speed(self.rpm) * self.machine.cam.turns_per_crank_turn;
+        air + preload + mass * speed * speed * self.disc.law.jet(piece, angle).dds
     }
 
     /// Inertia force of the bed at its largest, N.

@@ -1,7 +1,7 @@
 //! The sharpest convex place: of the profile (undercut) and of the pitch curve (contact stress).
 
 use super::{Finding, Subject, cam_degrees, passing_radius, verdict};
-use crate::cam::extremes;
+use crate::cam::{envelope, extremes};
 use crate::follower::Follower;
 
 /// Smallest convex radius of the pitch curve, m, and its cam angle; 0 at a convex corner.
@@ -27,8 +27,25 @@ pub(super) fn undercut(subject: &Subject<'_>) -> Option<Finding> {
         unit: "mm",
         cam_deg: Some(cam_degrees(angle)),
         verdict: verdict(kept),
-        note: if kept { None } else { passing_radius(subject.rotary) },
+        note: if kept { None } else { Some(what_is_lost(subject)) },
     })
+}
+
+/// Over which angles motion is lost, how much, and what would help.
+fn what_is_lost(subject: &Subject<'_>) -> String {
+    let mut words: Vec<String> = match envelope::losses(&subject.rotary.disc) {
+        Err(error) => vec![error.to_string()],
+        Ok(losses) => losses
+            .iter()
+            .map(|loss| {
+                let (from, to) = (cam_degrees(loss.from), cam_degrees(loss.to));
+                let (lost, at) = (1e3 * loss.lost, cam_degrees(loss.lost_at));
+                format!("motion is lost from {from:.3}° to {to:.3}°, {lost:.4} mm at {at:.3}°")
+            })
+            .collect(),
+    };
+    words.extend(passing_radius(subject.rotary));
+    words.join("; ")
 }
 
 pub(super) fn min_convex_radius(subject: &Subject<'_>) -> Option<Finding> {

@@ -2,14 +2,22 @@
 //!
 //! A new check is one file and one line in [`CHECKS`].
 
+pub mod balance;
+mod contact_stress;
 mod curvature;
 mod cutter_radius;
+pub mod file;
+mod force_closure;
 mod pressure_angle;
+pub mod rolling;
+pub mod surface;
 mod tangency;
 mod wall;
 
 use crate::cam::rotary::Rotary;
 use crate::contour::Contour;
+use balance::Balancing;
+use rolling::Rolled;
 use serde::Serialize;
 
 /// What came of a check.
@@ -58,6 +66,12 @@ pub struct Subject<'a> {
     pub rotary: &'a Rotary,
     /// Its outline, when it has one.
     pub outline: Option<&'a Contour>,
+    /// What rolling on the outline has shown, when it was rolled on.
+    pub rolled: Option<&'a Rolled>,
+    /// What balancing came to, when it was asked for.
+    pub balancing: Option<&'a Balancing>,
+    /// Tolerance of the outline, mm.
+    pub tolerance_mm: f64,
 }
 
 type Check = fn(&Subject<'_>) -> Option<Finding>;
@@ -70,6 +84,10 @@ pub const CHECKS: &[Check] = &[
     cutter_radius::check,
     wall::check,
     tangency::check,
+    rolling::check,
+    force_closure::check,
+    contact_stress::check,
+    balance::check,
 ];
 
 /// Runs every check.
@@ -111,8 +129,15 @@ mod tests {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let machine = Machine::load(name, &overrides).expect("valid").0;
         let rotary = Rotary::solve(&machine, machine.design_rpm).expect("a cam");
-        let outline = outline::profile(&rotary.disc, 0.005).ok();
-        run(&Subject { rotary: &rotary, outline: outline.as_ref().map(|o| &o.contour) })
+        let outline = outline::profile(&rotary.disc, 0.005).ok().map(|outline| outline.contour);
+        let rolled = outline.as_ref().map(|outline| rolling::roll(&rotary, outline, 0.005));
+        run(&Subject {
+            rotary: &rotary,
+            outline: outline.as_ref(),
+            rolled: rolled.as_ref(),
+            balancing: None,
+            tolerance_mm: 0.005,
+        })
     }
 
     fn of<'f>(findings: &'f [Finding], check: &str) -> &'f Finding {
@@ -136,7 +161,9 @@ mod tests {
             assert_eq!(of(&broken, check).verdict, Verdict::Fail, "{check}: {broken:?}");
             assert!(!passed(&broken));
         }
-        assert_eq!(of(&good, "tangency").verdict, Verdict::Pass);
+        for check in ["tangency", "rolling"] {
+            assert_eq!(of(&good, check).verdict, Verdict::Pass, "{check}: {good:?}");
+        }
     }
 
     #[test]

@@ -1,10 +1,12 @@
 //! What the user typed.
 
-use camgen::machine::valid_rpm;
+use super::Failure;
+use camgen::machine::{Machine, valid_rpm};
 use camgen::output::dxf::Version;
 use camgen::output::formats::{DEFAULT_FORMATS, FORMATS};
 use camgen::units::{self, Dimension};
 use clap::{Args, Parser, Subcommand};
+use std::io::IsTerminal;
 use std::path::PathBuf;
 
 /// Cam profiles a CNC shop can cut.
@@ -22,12 +24,15 @@ pub(super) struct Cli {
 pub(super) enum Command {
     /// Disc cam for one speed: its bottom moves so that the air force equals the inertia force at every instant
     Rotary(RotaryArgs),
+    /// Prove a DXF file, also one edited or written by another program: one closed tangent outline that gives the law?
+    Check(CheckArgs),
     /// The machine files carried in the program
     Machines(MachinesArgs),
 }
 
+/// Flags that every command about a cam has.
 #[derive(Debug, Args)]
-pub(super) struct RotaryArgs {
+pub(super) struct CommonArgs {
     /// An embedded machine or the path of a machine file
     #[arg(default_value = "dpi")]
     pub(super) machine: String,
@@ -43,6 +48,54 @@ pub(super) struct RotaryArgs {
     /// Overrides one key of the machine file, e.g. --set follower.roller.radius=25mm; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
+
+    /// Print the report as JSON and nothing else
+    #[arg(long)]
+    pub(super) json: bool,
+
+    /// Print no report
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+
+    /// No colours on the terminal (also: the environment variable `NO_COLOR`)
+    #[arg(long)]
+    pub(super) no_color: bool,
+}
+
+impl CommonArgs {
+    /// The machine with its overrides, and the word that names its files.
+    pub(super) fn machine(&self) -> Result<(Machine, String), Failure> {
+        Machine::load(&self.machine, &self.set).map_err(Failure::new)
+    }
+
+    /// The one speed of a rotary cam.
+    pub(super) fn one_speed(&self, machine: &Machine) -> Result<f64, Failure> {
+        match self.rpm.as_slice() {
+            [] => Ok(machine.design_rpm),
+            [rpm] => Ok(*rpm),
+            more => Err(Failure(format!("a rotary cam is cut for one speed, not {}", more.len()))),
+        }
+    }
+
+    /// Whether the report may be coloured.
+    pub(super) fn colour(&self) -> bool {
+        !self.no_color && std::env::var_os("NO_COLOR").is_none() && std::io::stdout().is_terminal()
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArgs {
+    /// The DXF file
+    pub(super) file: PathBuf,
+
+    #[command(flatten)]
+    pub(super) common: CommonArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RotaryArgs {
+    #[command(flatten)]
+    pub(super) common: CommonArgs,
 
     /// What to write: dxf, svg, csv, json
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format, default_values = DEFAULT_FORMATS)]
@@ -68,21 +121,13 @@ pub(super) struct RotaryArgs {
     #[arg(long, value_name = "FILE")]
     pub(super) template: Option<PathBuf>,
 
+    /// Also writes the path of the centre of a cutter of this radius, as STEM-cutter.dxf
+    #[arg(long, value_name = "RADIUS", value_parser = cutter)]
+    pub(super) cutter: Option<f64>,
+
     /// Write the files although a check failed (the exit code stays 1)
     #[arg(long)]
     pub(super) force: bool,
-
-    /// Print the report as JSON and nothing else
-    #[arg(long)]
-    pub(super) json: bool,
-
-    /// Print no report
-    #[arg(long, short)]
-    pub(super) quiet: bool,
-
-    /// No colours on the terminal (also: the environment variable `NO_COLOR`)
-    #[arg(long)]
-    pub(super) no_color: bool,
 }
 
 #[derive(Debug, Args)]
@@ -118,6 +163,16 @@ fn tolerance(text: &str) -> Result<f64, String> {
         Ok(quantity.si)
     } else {
         Err(format!("must be above 0 and at most {}", quantity.in_same_unit(COARSEST)))
+    }
+}
+
+fn cutter(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Length)
+        .map_err(|error| format!("{error}; a radius is a length with one of {}", Dimension::Length.unit_list()))?;
+    if quantity.si > 0.0 && quantity.si <= 1.0 {
+        Ok(quantity.si)
+    } else {
+        Err(format!("must be above 0 and at most {}", quantity.in_same_unit(1.0)))
     }
 }
 

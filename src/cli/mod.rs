@@ -1,6 +1,7 @@
 //! Commands, their exit codes and what they print: data and reports on stdout, messages on stderr.
 
 mod args;
+mod check;
 mod machines;
 mod rotary;
 mod text;
@@ -33,6 +34,7 @@ impl Failure {
 pub(crate) fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Rotary(args) => rotary::run(&args),
+        Command::Check(args) => check::run(&args),
         Command::Machines(args) => machines::run(&args),
     };
     match outcome {

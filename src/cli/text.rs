@@ -1,5 +1,6 @@
 //! The report for a person at a terminal.
 
+use super::check::CheckReport;
 use camgen::checks::{Finding, Verdict};
 use camgen::drawing::Report;
 use std::fmt::Write;
@@ -35,7 +36,9 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
     ));
     if let Some(area) = cam.area_mm2 {
         let mass = cam.mass_kg.map_or_else(|| "no thickness given".into(), |mass| format!("mass {mass:.3} kg"));
-        lines.push(format!("           area {area:.1} mm², {mass}"));
+        let unbalance =
+            cam.unbalance_g_mm.map_or(String::new(), |unbalance| format!(", unbalance {unbalance:.0} g·mm"));
+        lines.push(format!("           area {area:.1} mm², {mass}{unbalance}"));
     }
     if let Some(outline) = &report.outline {
         let ratio = outline.arcs_over_best_possible.map_or(String::new(), |ratio| format!(" × {ratio:.2}"));
@@ -49,9 +52,10 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
         ));
     }
     lines.push(format!(
-        "  force    inertia {:.1} N; inertia less air {} N with this cam, {:.1} N with a fixed bottom",
+        "  force    inertia {:.1} N; inertia less air {} N ({} %) with this cam, {:.1} N with a fixed bottom",
         force.inertia_max_n,
         shown(force.residual_max_n),
+        format!("{:.4}", 100.0 * force.residual_share),
         force.residual_fixed_bottom_max_n
     ));
     lines.push("  checks".into());
@@ -64,6 +68,18 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
     lines.join("\n")
 }
 
+/// The report of a checked file: one plain sentence, then the checks.
+pub(super) fn check_report(report: &CheckReport, passed: bool, colour: bool) -> String {
+    let verdict = if passed { "is this cam" } else { "is NOT this cam" };
+    let mut lines = vec![
+        format!("{} {verdict}: {} · rotary cam for {} rpm", report.file, report.machine, report.rpm),
+        "  checks".into(),
+    ];
+    lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
+    lines.push(String::new());
+    lines.join("\n")
+}
+
 fn check(finding: &Finding, colour: bool) -> String {
     let (verdict, paint) = match finding.verdict {
         Verdict::Pass => ("pass", GREEN),
@@ -71,10 +87,11 @@ fn check(finding: &Finding, colour: bool) -> String {
         Verdict::Info => ("info", PLAIN),
     };
     let verdict = if colour { format!("{paint}{verdict}{PLAIN}") } else { verdict.into() };
-    let value = if finding.value.is_finite() { shown(finding.value) } else { "none".into() };
-    let mut line = format!("    {verdict}  {:<18} {value} {}", finding.check, finding.unit);
+    let value = if finding.value.is_finite() { shown(finding.value) } else { "–".into() };
+    let with_unit = |value: String| if finding.unit.is_empty() { value } else { format!("{value} {}", finding.unit) };
+    let mut line = format!("    {verdict}  {:<18} {}", finding.check, with_unit(value));
     if let Some(limit) = finding.limit {
-        let _ = write!(line, ", limit {} {}", shown(limit), finding.unit);
+        let _ = write!(line, ", limit {}", with_unit(shown(limit)));
     }
     if let Some(cam_deg) = finding.cam_deg {
         let _ = write!(line, ", at {cam_deg:.3}°");
@@ -85,8 +102,15 @@ fn check(finding: &Finding, colour: bool) -> String {
     line
 }
 
-/// Four decimals at the most, without trailing zeros; what is smaller keeps two digits.
+/// Four decimals at the most, without trailing zeros; what is small keeps four digits, what is tiny two.
 fn shown(value: f64) -> String {
-    let rounded = (value * 1e4).round() / 1e4;
-    if rounded == 0.0 && value != 0.0 { format!("{value:.1e}") } else { format!("{rounded}") }
+    let size = value.abs();
+    let decimals = if size < 1e-6 && size > 0.0 {
+        return format!("{value:.1e}");
+    } else if size < 0.1 {
+        1e6
+    } else {
+        1e4
+    };
+    format!("{}", (value * decimals).round() / decimals)
 }

@@ -13,18 +13,22 @@ pub use sheet::{Group, Shape, Sheet, TextAnchor, sheet};
 pub use table::{COLUMNS, Table, table};
 
 use crate::cam::rotary::Rotary;
+use crate::checks::balance::{self, Balancing};
 use crate::contour::{Contour, Extents};
 use crate::machine::Rotation;
 use nalgebra::Vector2;
 use outline::{MILLIMETRES, Outline, OutlineError};
+use std::f64::consts::PI;
 
 /// Layer of a cut file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
     /// The outline of the cam.
     CamProfile,
-    /// The bore.
+    /// Bore and holes.
     Bore,
+    /// The path of a cutter's centre, in a file of its own.
+    CutterPath,
 }
 
 impl Layer {
@@ -34,6 +38,7 @@ impl Layer {
         match self {
             Layer::CamProfile => "CAM_PROFILE",
             Layer::Bore => "BORE",
+            Layer::CutterPath => "CUTTER_PATH",
         }
     }
 }
@@ -68,6 +73,8 @@ pub struct Part {
     pub outline: Outline,
     /// Radius of the bore, mm.
     pub bore_radius: Option<f64>,
+    /// Holes that balance the disc, when they were asked for.
+    pub balancing: Option<Balancing>,
 }
 
 impl Part {
@@ -76,14 +83,25 @@ impl Part {
     pub fn entities(&self) -> Vec<(Layer, Entity)> {
         let profile = (Layer::CamProfile, Entity::Polyline(self.outline.contour.clone()));
         let bore = self.bore_radius.map(|radius| (Layer::Bore, Entity::Circle(Vector2::zeros(), radius)));
-        std::iter::once(profile).chain(bore).collect()
+        let holes = self.holes().iter().map(|(centre, radius)| (Layer::Bore, Entity::Circle(*centre, *radius)));
+        std::iter::once(profile).chain(bore).chain(holes).collect()
     }
 
-    /// Area of the metal, mm².
+    /// Holes beside the bore: centre and radius, mm.
     #[must_use]
-    pub fn area(&self) -> f64 {
-        let bore = self.bore_radius.map_or(0.0, |radius| std::f64::consts::PI * radius * radius);
-        self.outline.contour.area_and_centroid().0 - bore
+    pub fn holes(&self) -> &[(Vector2<f64>, f64)] {
+        self.balancing.as_ref().map_or(&[], |balancing| &balancing.holes)
+    }
+
+    /// Area of the metal, mm², and its first moment about the shaft, mm³.
+    #[must_use]
+    pub fn area_and_moment(&self) -> (f64, Vector2<f64>) {
+        let round = |radius: f64| PI * radius * radius;
+        let (outline, centroid) = self.outline.contour.area_and_centroid();
+        let bore = self.bore_radius.map_or(0.0, round);
+        self.holes().iter().fold((outline - bore, centroid * outline), |(area, moment), (centre, radius)| {
+            (area - round(*radius), moment - centre * round(*radius))
+        })
     }
 }
 
@@ -93,10 +111,11 @@ impl Part {
 /// [`OutlineError`] when the profile cannot be drawn.
 pub fn part(rotary: &Rotary, tolerance: f64) -> Result<Part, OutlineError> {
     let outline = outline::profile(&rotary.disc, MILLIMETRES * tolerance)?;
-    Ok(Part {
-        outline: Outline { contour: as_turned(rotary, outline.contour), ..outline },
-        bore_radius: rotary.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius),
-    })
+    let outline = Outline { contour: as_turned(rotary, outline.contour), ..outline };
+    let (bands, wall) = (rotary.machine.cam.balance, MILLIMETRES * rotary.machine.limits.wall);
+    let balancing = bands
+        .map(|(inner, outer)| balance::balance(&outline.contour, (MILLIMETRES * inner, MILLIMETRES * outer), wall));
+    Ok(Part { outline, balancing, bore_radius: rotary.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius) })
 }
 
 /// A contour of a clockwise cam as it lies in the drawing of this one.
@@ -113,4 +132,13 @@ fn point_as_turned(rotary: &Rotary, point: Vector2<f64>) -> Vector2<f64> {
         Rotation::Clockwise => point,
         Rotation::CounterClockwise => Vector2::new(point.x, -point.y),
     }
+}
+
+/// The path of the centre of a cutter (radius in m) that cuts the outline from outside, within a tolerance (m).
+///
+/// # Errors
+/// [`OutlineError`] when the profile is undercut (an edge has no path of its own) or the tolerance cannot be kept.
+pub fn cutter_path(rotary: &Rotary, cutter_radius: f64, tolerance: f64) -> Result<Outline, OutlineError> {
+    let outline = outline::cutter_path(&rotary.disc, cutter_radius, MILLIMETRES * tolerance)?;
+    Ok(Outline { contour: as_turned(rotary, outline.contour), ..outline })
 }

@@ -1,11 +1,12 @@
 //! The outline of a disc cam: the profile, piece by piece, as one closed chain of tangent arcs in millimetres.
 
 use super::arcs::{self, FitError};
+use crate::cam::envelope::{self, Loss, NoEnvelope};
 use crate::cam::{Disc, Frame, extremes};
 use crate::contour::{Contour, Vertex};
 use crate::follower::Follower;
 use crate::law::{Law, Piece};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Millimetres in a metre: geometry leaves SI here.
 pub const MILLIMETRES: f64 = 1e3;
@@ -33,9 +34,12 @@ pub struct Outline {
 /// Why there is no outline.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum OutlineError {
-    /// The profile crosses itself.
-    #[error("the profile is undercut at {cam_deg:.3} deg: its outline would cross itself")]
-    Undercut {
+    /// The profile folds over itself beyond repair.
+    #[error(transparent)]
+    Undercut(#[from] NoEnvelope),
+    /// A cutter has no smooth path along the profile.
+    #[error("the cutter cannot follow the profile at {cam_deg:.3} deg: an edge, or a concave part sharper than it")]
+    CutterPath {
         /// Cam angle, degrees.
         cam_deg: f64,
     },
@@ -50,20 +54,38 @@ pub enum OutlineError {
     Fit(#[from] FitError),
 }
 
-/// The profile of a disc as an outline within `tolerance` (mm).
+/// The profile of a disc as an outline within `tolerance` (mm). Where it is undercut the loops are left out: what can
+/// be cut is drawn, with a sharp edge where the loop was.
 ///
 /// # Errors
-/// [`OutlineError`] when the profile is undercut, too large, or the tolerance cannot be kept.
+/// [`OutlineError`] when the loops leave no outline, it is too large, or the tolerance cannot be kept.
 pub fn profile<L: Law, F: Follower>(disc: &Disc<L, F>, tolerance: f64) -> Result<Outline, OutlineError> {
     let roller = disc.follower.roller_radius();
-    let sharpest = extremes::convex_pitch_curvature(disc);
-    if !(sharpest.value * roller < 1.0) {
-        return Err(OutlineError::Undercut { cam_deg: sharpest.at.to_degrees() });
+    parallel(disc, roller, tolerance, &envelope::losses(disc)?)
+}
+
+/// The path of the centre of a cutter (radius in m) along the profile, within `tolerance` (mm): parallel to the pitch
+/// curve at the difference of the radii.
+///
+/// # Errors
+/// [`OutlineError`] as for [`profile`]; also when the profile is undercut or the cutter does not get into a corner.
+pub fn cutter_path<L: Law, F: Follower>(
+    disc: &Disc<L, F>,
+    cutter_radius: f64,
+    tolerance: f64,
+) -> Result<Outline, OutlineError> {
+    if let Some(loss) = envelope::losses(disc)?.first() {
+        return Err(OutlineError::CutterPath { cam_deg: loss.from.to_degrees() });
     }
-    if let Some(corner) = extremes::corners(disc).iter().find(|corner| corner.turn > 0.0) {
-        return Err(OutlineError::Undercut { cam_deg: corner.angle.to_degrees() });
+    let distance = disc.follower.roller_radius() - cutter_radius;
+    let concave = extremes::concave_profile_curvature(disc);
+    if concave.value * cutter_radius >= 1.0 {
+        return Err(OutlineError::CutterPath { cam_deg: concave.at.to_degrees() });
     }
-    parallel(disc, roller, tolerance)
+    match extremes::corners(disc).first() {
+        Some(corner) if distance <= 0.0 => Err(OutlineError::CutterPath { cam_deg: corner.angle.to_degrees() }),
+        _ => parallel(disc, distance, tolerance, &[]),
+    }
 }
 
 /// The path of the roller's centre as an outline within `tolerance` (mm).
@@ -71,10 +93,15 @@ pub fn profile<L: Law, F: Follower>(disc: &Disc<L, F>, tolerance: f64) -> Result
 /// # Errors
 /// As [`profile`], but a pitch curve cannot be undercut.
 pub fn pitch<L: Law, F: Follower>(disc: &Disc<L, F>, tolerance: f64) -> Result<Outline, OutlineError> {
-    parallel(disc, 0.0, tolerance)
+    parallel(disc, 0.0, tolerance, &[])
 }
 
-fn parallel<L: Law, F: Follower>(disc: &Disc<L, F>, distance: f64, tolerance: f64) -> Result<Outline, OutlineError> {
+fn parallel<L: Law, F: Follower>(
+    disc: &Disc<L, F>,
+    distance: f64,
+    tolerance: f64,
+    losses: &[Loss],
+) -> Result<Outline, OutlineError> {
     let pieces = disc.law.pieces();
     let frame = |piece: usize, angle: f64| -> Frame {
         disc.contact(piece, angle).pitch.offset_inward(distance).scaled(MILLIMETRES)
@@ -88,7 +115,7 @@ fn parallel<L: Law, F: Follower>(disc: &Disc<L, F>, distance: f64, tolerance: f6
     let mut outline = Outline { contour: Contour { vertices: Vec::new() }, deviation: 0.0, best_possible: 0.0 };
     let in_turn = pieces.iter().enumerate().cycle().skip(first).take(pieces.len());
     for (index, piece) in in_turn {
-        for range in parts(piece) {
+        for range in parts(piece, losses) {
             if piece.dwell {
                 // A circle about the shaft, also for an offset follower: one true arc.
                 let bulge = libm::tan(0.25 * (range.1 - range.0));
@@ -102,7 +129,7 @@ fn parallel<L: Law, F: Follower>(disc: &Disc<L, F>, distance: f64, tolerance: f6
             outline.best_possible += chain.best_possible;
         }
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
-        if let Some(corner) = corners.iter().find(|corner| corner.angle == piece.end)
+        if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.angle == piece.end)
             && distance > 0.0
         {
             let bulge = libm::tan(0.25 * corner.turn);
@@ -112,21 +139,33 @@ fn parallel<L: Law, F: Follower>(disc: &Disc<L, F>, distance: f64, tolerance: f6
     Ok(outline)
 }
 
-/// The whole piece, or its halves when it is longer than one arc or one fit may be.
-fn parts(piece: &Piece) -> Vec<(f64, f64)> {
-    let longest = if piece.dwell { LONGEST_DWELL } else { LONGEST_PIECE };
-    if piece.end - piece.start > longest {
-        let middle = 0.5 * (piece.start + piece.end);
-        vec![(piece.start, middle), (middle, piece.end)]
-    } else {
-        vec![(piece.start, piece.end)]
+/// What is left of a piece without the losses, halved where it is longer than one arc or one fit may be.
+fn parts(piece: &Piece, losses: &[Loss]) -> Vec<(f64, f64)> {
+    let mut left = vec![(piece.start, piece.end)];
+    for loss in losses {
+        for turn in [-TAU, 0.0, TAU] {
+            let (from, to) = (loss.from + turn, loss.to + turn);
+            left = left
+                .into_iter()
+                .flat_map(|(start, end)| [(start, end.min(from)), (start.max(to), end)])
+                .filter(|(start, end)| start < end)
+                .collect();
+        }
     }
+    let longest = if piece.dwell { LONGEST_DWELL } else { LONGEST_PIECE };
+    left.into_iter()
+        .flat_map(|(start, end)| {
+            let middle = 0.5 * (start + end);
+            if end - start > longest { vec![(start, middle), (middle, end)] } else { vec![(start, end)] }
+        })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::cam::rotary::Rotary;
+    use crate::checks::rolling;
     use crate::follower::TranslatingRoller;
     use crate::law::EccentricCircle;
     use crate::machine::Machine;
@@ -180,14 +219,31 @@ mod tests {
         let of_roller = outline.contour.segments().filter(|s| (s.radius() + 30.0).abs() < 1e-9).count();
         assert_eq!(of_roller, 2);
         assert!(outline.contour.tangent_breaks().iter().all(|turn| turn.abs() < 1e-9));
-        let cam = rotary(&["buffer.column=200mm", "transition.kind=none"]);
-        assert!(matches!(profile(&cam.disc, 0.005), Err(OutlineError::Undercut { .. })));
+        // The loop is left out: one edge a side, and the roller dropped onto it nowhere meets more metal than the law.
+        for overrides in [
+            vec!["buffer.column=200mm", "transition.kind=none"],
+            vec!["cam.base_radius=30mm", "follower.roller.radius=80mm"],
+        ] {
+            let cam = rotary(&overrides);
+            let outline = profile(&cam.disc, 0.005).expect("an outline");
+            let edges: Vec<f64> =
+                outline.contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-9).collect();
+            assert_eq!(edges.len(), 2, "{overrides:?}: {edges:?}");
+            assert!(edges.iter().all(|turn| *turn > 0.0), "{edges:?}");
+            let losses = envelope::losses(&cam.disc).expect("loops");
+            let rolled = rolling::roll(&cam, &outline.contour, 0.005);
+            assert!((rolled.gap_mm - 1e3 * losses[0].lost).abs() < 0.3 * rolled.gap_mm, "{rolled:?} {losses:?}");
+            let lift = rolled.lift_error_max_mm.expect("it touches");
+            let lost = losses.iter().map(|l| 1e3 * l.lost).fold(0.0, f64::max);
+            assert!((lift - lost).abs() < 0.006, "{lift} {lost}");
+        }
     }
 
     #[test]
     fn what_cannot_be_drawn_is_told() {
-        let sharp = rotary(&["cam.base_radius=30mm", "follower.roller.radius=80mm"]);
-        assert!(matches!(profile(&sharp.disc, 0.005), Err(OutlineError::Undercut { .. })));
+        let swallowed =
+            rotary(&["cam.base_radius=1mm", "cam.lever=10", "follower.roller.radius=300mm", "cam.bore_radius=0.5mm"]);
+        assert!(matches!(profile(&swallowed.disc, 0.005), Err(OutlineError::Undercut(_))));
         let huge = rotary(&["cam.base_radius=1000m"]);
         assert!(matches!(profile(&huge.disc, 0.005), Err(OutlineError::TooLarge { .. })));
         let cam = rotary(&[]);

@@ -4,8 +4,12 @@ use super::Part;
 use super::outline::MILLIMETRES;
 use crate::cam::rotary::Rotary;
 use crate::checks::Finding;
+use crate::checks::rolling::Rolled;
 use crate::follower::Follower;
 use serde::Serialize;
+
+/// Grams in a kilogram.
+const GRAMS: f64 = 1e3;
 
 /// Version of the form of the report.
 const SCHEMA: u32 = 1;
@@ -29,6 +33,8 @@ pub struct Report {
     pub checks: Vec<Finding>,
     /// The outline; `None` when there is none to draw.
     pub outline: Option<OutlineReport>,
+    /// What rolling on the outline as written has shown.
+    pub rolling: Option<Rolled>,
     /// Forces.
     pub force: ForceReport,
     /// Files written.
@@ -48,6 +54,9 @@ pub struct CamReport {
     /// Of the metal: outline less bore.
     pub area_mm2: Option<f64>,
     pub mass_kg: Option<f64>,
+    pub centre_of_mass_mm: Option<[f64; 2]>,
+    /// Static unbalance about the shaft, with the holes that balance it, if any.
+    pub unbalance_g_mm: Option<f64>,
 }
 
 /// The law.
@@ -86,19 +95,30 @@ pub struct OutlineReport {
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct ForceReport {
     pub inertia_max_n: f64,
+    /// Largest |inertia − air| over the reversal with the lift as rolled on the written outline, or, where nothing was
+    /// rolled, of the law.
     pub residual_max_n: f64,
+    pub residual_share: f64,
     pub residual_fixed_bottom_max_n: f64,
 }
 
 /// The report of a cam; `files` are named by whoever writes them.
 #[must_use]
-pub fn report(rotary: &Rotary, part: Option<&Part>, tolerance: f64, checks: Vec<Finding>) -> Report {
+pub fn report(
+    rotary: &Rotary,
+    part: Option<&Part>,
+    rolling: Option<Rolled>,
+    tolerance: f64,
+    checks: Vec<Finding>,
+) -> Report {
     let balance = rotary.balance();
     let (dx_max_at_x, dx_max) = balance.largest_displacement();
     let square_millimetres = MILLIMETRES * MILLIMETRES;
-    let area = part.map(Part::area);
-    let mass =
-        |area: f64, thickness: f64| area / square_millimetres * thickness * rotary.machine.cam.material.density();
+    let face = part.map(Part::area_and_moment);
+    // kg per mm², where there is a thickness.
+    let weight =
+        rotary.machine.cam.thickness.map(|thickness| thickness * rotary.machine.cam.density() / square_millimetres);
+    let residual_max_n = rolling.as_ref().map_or_else(|| rotary.residual_max(), |rolled| rolled.residual_max_n);
     Report {
         schema: SCHEMA,
         command: "rotary",
@@ -110,8 +130,10 @@ pub fn report(rotary: &Rotary, part: Option<&Part>, tolerance: f64, checks: Vec<
             roller_radius_mm: MILLIMETRES * rotary.disc.follower.roller_radius(),
             max_lift_mm: MILLIMETRES * rotary.max_lift(),
             smallest_prime_radius_mm: rotary.smallest_prime_radius.map(|radius| MILLIMETRES * radius),
-            area_mm2: area,
-            mass_kg: area.zip(rotary.machine.cam.thickness).map(|(area, thickness)| mass(area, thickness)),
+            area_mm2: face.map(|(area, _)| area),
+            mass_kg: face.zip(weight).map(|((area, _), weight)| area * weight),
+            centre_of_mass_mm: face.map(|(area, moment)| (moment / area).into()),
+            unbalance_g_mm: face.zip(weight).map(|((_, moment), weight)| GRAMS * weight * moment.norm()),
         },
         law: LawReport {
             dx_max_mm: MILLIMETRES * dx_max,
@@ -126,9 +148,11 @@ pub fn report(rotary: &Rotary, part: Option<&Part>, tolerance: f64, checks: Vec<
         outline: part.map(|part| outline_report(part, tolerance)),
         force: ForceReport {
             inertia_max_n: rotary.inertia_max(),
-            residual_max_n: rotary.residual_max(),
+            residual_max_n,
+            residual_share: residual_max_n / rotary.inertia_max(),
             residual_fixed_bottom_max_n: rotary.residual_fixed_bottom(),
         },
+        rolling,
         files: Vec::new(),
     }
 }

@@ -118,7 +118,8 @@ pub fn sheet(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, Out
     let circle = |radius: f64| Shape::Entity(Entity::Circle(Vector2::zeros(), radius));
     let group = |id, label, shapes| Group { id, label, shapes };
     let profile = vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone()))];
-    let bore = part.bore_radius.map(circle).into_iter().collect();
+    let holes = part.holes().iter().map(|(centre, radius)| Shape::Entity(Entity::Circle(*centre, *radius)));
+    let bore = part.bore_radius.map(circle).into_iter().chain(holes).collect();
     let (facts, bottom) = facts(&pen, report, &drawn);
     let groups = vec![
         group("profile", "profile", profile),

@@ -7,7 +7,7 @@ use crate::follower::Follower;
 use crate::law::Law;
 
 /// Columns of the table, in order.
-pub const COLUMNS: [&str; 17] = [
+pub const COLUMNS: [&str; 18] = [
     "cam_deg",
     "crank_deg",
     "x_mm",
@@ -25,6 +25,7 @@ pub const COLUMNS: [&str; 17] = [
     "profile_curvature_radius_mm",
     "roller_force_n",
     "torque_nm",
+    "contact_force_n",
 ];
 
 /// A table of numbers.
@@ -47,7 +48,7 @@ pub fn table(rotary: &Rotary, samples: u32) -> Table {
         let profile = contact.pitch.offset_inward(rotary.disc.follower.roller_radius());
         let pitch_point = point_as_turned(rotary, contact.pitch.point * MILLIMETRES);
         let profile_point = point_as_turned(rotary, profile.point * MILLIMETRES);
-        let force = rotary.roller_force(&state);
+        let force = rotary.roller_force(piece, angle);
         let row = [
             cam_deg,
             crank_degrees(cam_deg, rotary.machine.cam.turns_per_crank_turn),
@@ -66,6 +67,7 @@ pub fn table(rotary: &Rotary, samples: u32) -> Table {
             MILLIMETRES / profile.curvature,
             force,
             force * contact.lift.ds,
+            force / libm::cos(contact.pressure_angle),
         ];
         // A negative zero is zero.
         row.iter().map(|value| value + 0.0).collect()

@@ -32,6 +32,10 @@ pub trait Follower: Send + Sync {
     /// The pitch curve at a cam angle (rad) for the lift there.
     fn pitch(&self, angle: f64, lift: &Jet) -> Pitch;
 
+    /// The cam angle at which the centre of the roller stands at a point seen from the cam, rad: the inverse of the
+    /// pitch curve, whatever the lift.
+    fn angle_of(&self, centre: Vector2<f64>) -> f64;
+
     /// Radius of the roller, m.
     fn roller_radius(&self) -> f64;
 
@@ -42,6 +46,7 @@ pub trait Follower: Send + Sync {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     /// Each derivative of the pitch curve against the central difference of the one before.
     #[test]
@@ -66,6 +71,8 @@ mod tests {
                 assert!((here.first - difference(|p| p.point)).norm() < 1e-11);
                 assert!((here.second - difference(|p| p.first)).norm() < 1e-11);
                 assert!((here.third - difference(|p| p.second)).norm() < 1e-11);
+                let back = follower.angle_of(here.point) - angle;
+                assert!((back - (back / TAU).round() * TAU).abs() < 1e-14, "{back}");
                 let turn = difference(|p| p.drive);
                 assert!((here.drive.perp(&turn) - here.drive_turn).abs() < 1e-11);
             }

@@ -43,6 +43,11 @@ impl Follower for TranslatingRoller {
         }
     }
 
+    fn angle_of(&self, centre: Vector2<f64>) -> f64 {
+        let height = ((centre.norm() - self.offset) * (centre.norm() + self.offset)).max(0.0).sqrt();
+        libm::atan2(centre.y, centre.x) - libm::atan2(self.offset, height)
+    }
+
     fn roller_radius(&self) -> f64 {
         self.roller_radius
     }

@@ -12,7 +12,7 @@ pub use reader::{Excerpt, Fault, MachineError};
 use crate::buffer::balance::Column;
 use crate::buffer::{Bed, Cylinder};
 use crate::law::Transition;
-use crate::units::Dimension::{Angle, Length, Mass, Pressure};
+use crate::units::Dimension::{Angle, Force, Length, Mass, Pressure};
 use reader::{Reader, above, within};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::io::Read;
@@ -24,6 +24,8 @@ const LONGEST: f64 = 1e3;
 const HEAVIEST: f64 = 1e7;
 /// Highest pressure, Pa.
 const HIGHEST_PRESSURE: f64 = 1e9;
+/// Largest force, N.
+const LARGEST_FORCE: f64 = 1e9;
 /// Highest speed, ratio or lever.
 const LARGEST_NUMBER: f64 = 1e5;
 /// Largest machine file, bytes.
@@ -52,6 +54,18 @@ pub enum Material {
 }
 
 impl Material {
+    /// E/(1 − ν²), Pa, customary values.
+    #[must_use]
+    pub fn contact_modulus(self) -> f64 {
+        let (modulus, poisson): (f64, f64) = match self {
+            Material::Steel => (210e9, 0.30),
+            Material::CastIron => (110e9, 0.26),
+            Material::Bronze => (110e9, 0.34),
+            Material::Aluminium => (70e9, 0.33),
+        };
+        modulus / (1.0 - poisson * poisson)
+    }
+
     /// Density, kg/m³, customary values.
     #[must_use]
     pub fn density(self) -> f64 {
@@ -77,10 +91,20 @@ pub struct CamData {
     pub thickness: Option<f64>,
     /// Radius of the bore, m.
     pub bore_radius: Option<f64>,
-    /// Material.
-    pub material: Material,
+    /// Material; steel where only the mass asks.
+    pub material: Option<Material>,
+    /// Band of radii in which holes may balance the disc, m.
+    pub balance: Option<(f64, f64)>,
     /// How it turns.
     pub rotation: Rotation,
+}
+
+impl CamData {
+    /// Density of the disc, kg/m³.
+    #[must_use]
+    pub fn density(&self) -> f64 {
+        self.material.unwrap_or(Material::Steel).density()
+    }
 }
 
 /// The translating roller.
@@ -90,6 +114,10 @@ pub struct RollerData {
     pub radius: f64,
     /// Offset of its path from the shaft, m.
     pub offset: f64,
+    /// Mass that moves with it along its path, kg.
+    pub mass: Option<f64>,
+    /// Force that presses it onto the cam beside the air, N.
+    pub preload: Option<f64>,
 }
 
 /// How the efficiency of a translating cam enters equation (18).
@@ -162,6 +190,8 @@ pub struct Limits {
     pub cutter_radius: Option<f64>,
     /// Least metal between bore and profile, m.
     pub wall: f64,
+    /// Largest pressure in the contact of roller and cam, Pa.
+    pub contact_stress: Option<f64>,
 }
 
 /// A machine in SI units, every value in range.
@@ -241,6 +271,8 @@ impl Machine {
         let design_rpm = read.number("design.rpm", Some(35.0), above(0.0, LARGEST_NUMBER));
         let radius = read.quantity("follower.roller.radius", Length, "30 mm", above(0.0, LONGEST));
         let offset = read.quantity_or("follower.roller.offset", Length, 0.0, within(-LONGEST, LONGEST));
+        let mass = read.optional("follower.roller.mass", Mass, above(0.0, HEAVIEST)).map(|q| q.si);
+        let preload = read.optional("follower.roller.preload", Force, within(0.0, LARGEST_FORCE)).map(|q| q.si);
         let cam = read_cam(&mut read, radius, offset);
         let transition = read_transition(&mut read);
         let translating = read.has("translating").then(|| read_translating(&mut read, radius)).flatten();
@@ -254,6 +286,7 @@ impl Machine {
             ),
             cutter_radius: read.optional("limits.cutter_radius", Length, above(0.0, LONGEST)).map(|q| q.si),
             wall: read.quantity_or("limits.wall", Length, 0.0, within(0.0, LONGEST)),
+            contact_stress: read.optional("limits.contact_stress", Pressure, above(0.0, 1e12)).map(|q| q.si),
         };
         read.finish()?;
         // Every `None` above has left a fault, so `finish` has returned before.
@@ -269,7 +302,7 @@ impl Machine {
             column,
             lead,
             design_rpm,
-            roller: RollerData { radius, offset },
+            roller: RollerData { radius, offset, mass, preload },
             cam,
             transition,
             translating,
@@ -339,15 +372,14 @@ fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<Ca
     let base_radius = read.word_or_quantity("cam.base_radius", &[("auto", None)], Length, above(0.0, LONGEST), Some);
     let thickness = read.optional("cam.thickness", Length, above(0.0, LONGEST)).map(|q| q.si);
     let bore_radius = read.optional("cam.bore_radius", Length, above(0.0, LONGEST)).map(|q| q.si);
-    let material = read.word(
-        "cam.material",
-        &[
-            ("steel", Material::Steel),
-            ("cast-iron", Material::CastIron),
-            ("bronze", Material::Bronze),
-            ("aluminium", Material::Aluminium),
-        ],
-    );
+    let materials = [
+        ("steel", Some(Material::Steel)),
+        ("cast-iron", Some(Material::CastIron)),
+        ("bronze", Some(Material::Bronze)),
+        ("aluminium", Some(Material::Aluminium)),
+    ];
+    let material = if read.has("cam.material") { read.word("cam.material", &materials)? } else { None };
+    let balance = read.band("cam.balance", Length, above(0.0, LONGEST));
     let rotation = read.word("cam.rotation", &[("cw", Rotation::Clockwise), ("ccw", Rotation::CounterClockwise)]);
     if let Some(Some(base)) = base_radius {
         if offset.abs() >= base + roller_radius {
@@ -369,7 +401,8 @@ fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<Ca
         base_radius: base_radius?,
         thickness,
         bore_radius,
-        material: material?,
+        material,
+        balance,
         rotation: rotation?,
     })
 }

@@ -365,6 +365,26 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// A band of two quantities, `"35 mm .. 60 mm"`, the first below the second; may be absent.
+    pub(crate) fn band(&mut self, key: &'static str, dimension: Dimension, bounds: Bounds) -> Option<(f64, f64)> {
+        let text = match self.declare(key)? {
+            Scalar::Text(text) => text,
+            _ => String::new(),
+        };
+        let Some((low, high)) = text.split_once("..") else {
+            let help = format!("two quantities of {dimension}, e.g. \"35 mm .. 60 mm\"");
+            self.fail(key, format!("`{key}` must be a band"), Some(help));
+            return None;
+        };
+        let low = self.quantity_text(key, low, dimension, bounds, "")?.si;
+        let high = self.quantity_text(key, high, dimension, bounds, "")?.si;
+        if low >= high {
+            self.fail(key, format!("`{key}` must go from the smaller to the larger: {text}"), None);
+            return None;
+        }
+        Some((low, high))
+    }
+
     fn quantity_text(
         &mut self,
         key: &'static str,

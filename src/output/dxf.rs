@@ -258,6 +258,7 @@ fn tables(tags: &mut Tags, layers: &[Layer], extents: &Extents) {
             let colour = match layer {
                 Layer::CamProfile => 7,
                 Layer::Bore => 1,
+                Layer::CutterPath => 3,
             };
             layer_record(tags, own, layer.name(), colour);
         }

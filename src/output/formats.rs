@@ -1,7 +1,6 @@
 //! The table of formats: a new one is one file and one line here.
 
-use super::dxf::Version;
-use super::{csv, dxf, json, svg};
+use super::{csv, json, svg};
 use crate::cam::rotary::Rotary;
 use crate::drawing::{self, Part, Report};
 
@@ -14,8 +13,8 @@ pub struct Job<'a> {
     pub part: &'a Part,
     /// Its report.
     pub report: &'a Report,
-    /// Version of the DXF.
-    pub dxf_version: Version,
+    /// The cut file, written and proved.
+    pub dxf: &'a [u8],
     /// Rows of the table.
     pub samples: u32,
     /// The sheet the preview is put into.
@@ -41,7 +40,7 @@ pub type Format = (&'static str, fn(&Job<'_>) -> Result<Vec<u8>, FormatError>);
 
 /// Every format.
 pub const FORMATS: &[Format] = &[
-    ("dxf", |job| Ok(dxf::write(&job.part.entities(), job.dxf_version))),
+    ("dxf", |job| Ok(job.dxf.to_vec())),
     ("svg", |job| Ok(svg::write(&drawing::sheet(job.rotary, job.part, job.report)?, job.template)?)),
     ("csv", |job| Ok(csv::write(&drawing::table(job.rotary, job.samples)))),
     ("json", |job| Ok(json::write(job.report)?)),

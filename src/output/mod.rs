@@ -6,4 +6,5 @@ pub mod files;
 pub mod formats;
 pub mod json;
 pub mod number;
+pub mod proof;
 pub mod svg;

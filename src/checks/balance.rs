@@ -1,0 +1,142 @@
+//! The static unbalance of a disc and the holes that cancel it.
+
+use super::{Finding, Subject, verdict};
+use crate::contour::Contour;
+use nalgebra::Vector2;
+use std::f64::consts::PI;
+
+/// Most holes that are tried.
+const MOST_HOLES: u32 = 12;
+/// Metal between neighbouring holes, over their radius.
+const BETWEEN: f64 = 0.5;
+/// Halvings of the radius of a hole: to rounding.
+const HALVINGS: u32 = 60;
+/// What may be left, over what was there: holes are placed exactly, so only rounding.
+const LEFT_OVER: f64 = 1e-9;
+
+/// What balancing came to, in the drawing plane, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balancing {
+    /// Holes, centre and radius; none when it could not be done.
+    pub holes: Vec<(Vector2<f64>, f64)>,
+    /// Area moment about the shaft before, mm³.
+    pub before: f64,
+    /// Area moment about the shaft after, mm³.
+    pub after: f64,
+}
+
+/// First moment of the face about the shaft, mm³: outline less a centred bore, which has none.
+#[must_use]
+pub fn moment(outline: &Contour) -> Vector2<f64> {
+    let (area, centroid) = outline.area_and_centroid();
+    centroid * area
+}
+
+/// The fewest equal holes within a band of radii (mm) that cancel the moment of the face, symmetric about the heavy
+/// side, with `wall` (mm) of metal to the outline.
+///
+/// n holes of radius a at the distance ρ = outer − a, Δ apart, take away π a² ρ sin(nΔ/2)/sin(Δ/2).
+#[must_use]
+pub fn balance(outline: &Contour, band: (f64, f64), wall: f64) -> Balancing {
+    let moment = moment(outline);
+    let before = moment.norm();
+    let none = Balancing { holes: Vec::new(), before, after: before };
+    if before == 0.0 {
+        return none;
+    }
+    let (inner, outer) = band;
+    let heavy = moment / before;
+    for count in 1..=MOST_HOLES {
+        let spread = |a: f64| {
+            let distance = outer - a;
+            let half = libm::asin(((a * (1.0 + 0.5 * BETWEEN)) / distance).min(1.0));
+            (distance, 2.0 * half)
+        };
+        let taken = |a: f64| {
+            let (distance, apart) = spread(a);
+            let sum = if count == 1 { 1.0 } else { libm::sin(0.5 * f64::from(count) * apart) / libm::sin(0.5 * apart) };
+            PI * a * a * distance * sum
+        };
+        let mut high = 0.5 * (outer - inner);
+        // Holes on more than a half circle work against each other.
+        if f64::from(count) * spread(high).1 > PI {
+            high = outer / (1.0 + (1.0 + 0.5 * BETWEEN) / libm::sin(0.5 * PI / f64::from(count)));
+        }
+        if taken(high) < before {
+            continue;
+        }
+        let mut low = 0.0;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if taken(middle) < before { low = middle } else { high = middle }
+        }
+        let (distance, apart) = spread(high);
+        let holes: Vec<(Vector2<f64>, f64)> = (0..count)
+            .map(|i| {
+                let angle = (f64::from(i) - 0.5 * f64::from(count - 1)) * apart;
+                let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+                (Vector2::new(cos * heavy.x - sin * heavy.y, sin * heavy.x + cos * heavy.y) * distance, high)
+            })
+            .collect();
+        let fits = |(centre, radius): &(Vector2<f64>, f64)| {
+            let nearest =
+                outline.segments().map(|s| s.nearest(*centre).left).min_by(|a, b| a.abs().total_cmp(&b.abs()));
+            nearest.is_some_and(|left| left >= radius + wall)
+        };
+        if holes.iter().all(fits) {
+            let left = holes.iter().fold(moment, |m, (centre, radius)| m - centre * (PI * radius * radius));
+            return Balancing { holes, before, after: left.norm() };
+        }
+    }
+    none
+}
+
+pub(super) fn check(subject: &Subject<'_>) -> Option<Finding> {
+    let balancing = subject.balancing?;
+    let machine = &subject.rotary.machine;
+    // Grams times millimetres of a disc of this thickness, or of one as thick as a millimetre.
+    let thickness = machine.cam.thickness.unwrap_or(1e-3);
+    let weight = 1e-3 * machine.cam.density() * thickness;
+    let (before, after) = (weight * balancing.before, weight * balancing.after);
+    let limit = LEFT_OVER * before;
+    let kept = after <= limit;
+    let note = match balancing.holes.first() {
+        Some((_, radius)) => {
+            format!("{} holes of radius {radius:.4} mm cancel {before:.0} g·mm", balancing.holes.len())
+        }
+        None if kept => "nothing to balance".into(),
+        None => "no holes in the band of cam.balance cancel it; widen the band".into(),
+    };
+    Some(Finding {
+        check: "balance",
+        value: after,
+        limit: Some(limit),
+        unit: "g·mm",
+        cam_deg: None,
+        verdict: verdict(kept),
+        note: Some(note),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_eccentric_disc_is_balanced_within_its_band() {
+        let disc = Contour::circle(Vector2::new(3.0, 4.0), 100.0);
+        assert!((moment(&disc).norm() - 5.0 * PI * 1e4).abs() < 1e-8);
+        for (band, count) in [((20.0, 80.0), 1), ((60.0, 90.0), 3)] {
+            let balancing = balance(&disc, band, 2.0);
+            assert_eq!(balancing.holes.len(), count, "{balancing:?}");
+            assert!(balancing.after < 1e-9 * balancing.before);
+            for (centre, radius) in &balancing.holes {
+                assert!(centre.norm() + radius <= band.1 + 1e-9 && centre.norm() - radius >= band.0 - 1e-9);
+                assert!(centre.dot(&Vector2::new(3.0, 4.0)) > 0.0, "on the heavy side");
+            }
+        }
+        let narrow = balance(&disc, (60.0, 61.0), 2.0);
+        assert!(narrow.holes.is_empty() && narrow.after == narrow.before);
+        assert_eq!(balance(&Contour::circle(Vector2::zeros(), 100.0), (20.0, 80.0), 2.0).holes.len(), 0);
+    }
+}
