@@ -3,12 +3,16 @@
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
 use camgen::cam::rotary::Rotary;
-use camgen::checks::{self, Subject};
+use camgen::checks::{self, Subject, file, rolling};
+use camgen::contour::{Contour, Vertex};
 use camgen::drawing;
 use camgen::law::Law;
 use camgen::machine::Machine;
-use camgen::output::{csv, dxf, svg};
+use camgen::output::dxf::{self, Version};
+use camgen::output::{csv, proof, svg};
+use camgen::reading;
 use criterion::{Criterion, criterion_group, criterion_main};
+use nalgebra::Vector2;
 use std::hint::black_box;
 
 fn dpi() -> Rotary {
@@ -35,15 +39,33 @@ fn stages(criterion: &mut Criterion) {
         criterion.bench_function(&id, |b| b.iter(|| drawing::part(black_box(&cam), tolerance)));
     }
     let part = drawing::part(&cam, 5e-6).expect("an outline");
-    let subject = Subject { rotary: &cam, outline: Some(&part.outline.contour) };
+    criterion
+        .bench_function("output/write and read back", |b| b.iter(|| proof::write(black_box(&part), Version::R2000)));
+    let written = proof::write(&part, Version::R2000).expect("one outline");
+    let rolled = rolling::roll(&cam, &written.outline, 0.005);
+    criterion.bench_function("checks/rolling", |b| b.iter(|| rolling::roll(&cam, black_box(&written.outline), 0.005)));
+    let subject = Subject {
+        rotary: &cam,
+        outline: Some(&written.outline),
+        rolled: Some(&rolled),
+        balancing: None,
+        tolerance_mm: 0.005,
+    };
     criterion.bench_function("checks", |b| b.iter(|| checks::run(black_box(&subject))));
-    let report = drawing::report(&cam, Some(&part), 5e-6, checks::run(&subject));
+    let report = drawing::report(&cam, Some(&part), Some(rolled.clone()), 5e-6, checks::run(&subject));
     let sheet = drawing::sheet(&cam, &part, &report).expect("a sheet");
     let entities = part.entities();
     criterion.bench_function("output/dxf", |b| b.iter(|| dxf::write(black_box(&entities), dxf::Version::R2000)));
     criterion.bench_function("drawing/sheet", |b| b.iter(|| drawing::sheet(black_box(&cam), &part, &report)));
     criterion.bench_function("output/svg", |b| b.iter(|| svg::write(black_box(&sheet), svg::TEMPLATE)));
     criterion.bench_function("drawing/table", |b| b.iter(|| drawing::table(black_box(&cam), 720)));
+    let points = drawing::table(&cam, 10_000).rows;
+    let chords = points.iter().map(|row| Vertex { point: Vector2::new(row[10], row[11]), bulge: 0.0 }).collect();
+    let chords = [(drawing::Layer::CamProfile, drawing::Entity::Polyline(Contour { vertices: chords }))];
+    let chords = dxf::write(&chords, Version::R2000);
+    criterion.bench_function("check/10 000 segments", |b| {
+        b.iter(|| file::check(&cam, &reading::read(black_box(&chords), 5e-4).expect("read"), 0.005));
+    });
     let table = drawing::table(&cam, 720);
     criterion.bench_function("output/csv", |b| b.iter(|| csv::write(black_box(&table))));
 }

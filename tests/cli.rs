@@ -81,7 +81,8 @@ fn the_report_has_the_names_of_the_contract() {
         ("cam", vec!["prime_radius_mm", "base_radius_mm", "roller_radius_mm", "max_lift_mm", "area_mm2", "mass_kg"]),
         ("law", vec!["dx_max_mm", "dx_max_at_x_mm", "column_length_mm", "piston_area_mm2", "bore_mm"]),
         ("outline", vec!["arcs", "lines", "deviation_max_mm", "tangent_break_max_deg"]),
-        ("force", vec!["inertia_max_n", "residual_max_n", "residual_fixed_bottom_max_n"]),
+        ("force", vec!["inertia_max_n", "residual_max_n", "residual_fixed_bottom_max_n", "residual_share"]),
+        ("rolling", vec!["gap_mm", "gap_cam_deg", "lift_error_max_mm", "lift_error_q99_mm", "double_contacts"]),
     ] {
         for key in keys {
             assert!(report[table][key].is_number(), "{table}.{key}: {}", report[table]);
@@ -91,6 +92,8 @@ fn the_report_has_the_names_of_the_contract() {
         assert!(finding["check"].is_string() && finding["unit"].is_string(), "{finding}");
         assert!(["pass", "fail", "info"].contains(&finding["verdict"].as_str().expect("a verdict")));
     }
+    // The number the customer buys the cam for: what is left of the force with the cam as written.
+    assert!(report["force"]["residual_share"].as_f64().expect("a number") <= 1e-3);
     assert!((report["law"]["column_length_mm"].as_f64().expect("a number") - 243.0).abs() < 1e-12);
     assert!((report["law"]["dx_max_mm"].as_f64().expect("a number") + 82.42).abs() < 5e-3);
     let file = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm.json")).expect("the file");
@@ -157,12 +160,37 @@ fn a_cam_that_breaks_a_limit_is_refused_with_the_radius_that_would_pass() {
     assert_eq!(camgen(&["rotary", "dpi-paper"]).code, 0, "with an automatic radius it is huge, and passes");
 }
 
+/// What could be cut of an undercut cam is shown by force, with the motion that is lost; a cam that folds up is not.
 #[test]
-fn an_undercut_cam_is_not_written_even_by_force() {
-    let run = camgen(&["rotary", "--set", "cam.base_radius=30mm", "--set", "follower.roller.radius=80mm", "--force"]);
+fn an_undercut_cam_is_told_what_it_loses() {
+    let undercut = ["rotary", "--set", "cam.base_radius=30mm", "--set", "follower.roller.radius=80mm"];
+    let run = camgen(&undercut);
     assert_eq!(run.code, 1);
-    assert!(run.err.contains("undercut at") && run.out.contains("FAIL  undercut"), "{} {}", run.err, run.out);
+    assert!(run.out.contains("FAIL  undercut") && run.out.contains("motion is lost from 358."), "{}", run.out);
+    assert!(run.out.contains("FAIL  rolling") && run.out.contains("metal is missing"), "{}", run.out);
     assert!(files(run.directory.path()).is_empty());
+    assert_eq!(files(camgen(&[&undercut[..], &["--force"]].concat()).directory.path()).len(), 3);
+
+    let sets = ["cam.base_radius=1mm", "cam.lever=10", "follower.roller.radius=300mm", "cam.bore_radius=0.5mm"];
+    let folded: Vec<&str> =
+        ["rotary", "--force"].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
+    let run = camgen(&folded);
+    assert_eq!(run.code, 1);
+    assert!(run.err.contains("folds over itself") && run.err.contains("with --force neither"), "{}", run.err);
+    assert!(files(run.directory.path()).is_empty());
+}
+
+#[test]
+fn a_cutter_gets_its_own_file_or_is_told_where_it_does_not_get_in() {
+    let run = camgen(&["rotary", "--cutter", "8mm", "--format", "dxf"]);
+    assert_eq!(run.code, 0, "{}", run.out);
+    assert_eq!(files(run.directory.path()), ["dpi-rotary-35rpm-cutter.dxf", "dpi-rotary-35rpm.dxf"]);
+    let path = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm-cutter.dxf")).expect("the file");
+    assert!(path.contains("CUTTER_PATH") && !path.contains("CAM_PROFILE"));
+    let run = camgen(&["rotary", "--cutter", "400mm"]);
+    assert_eq!(run.code, 1);
+    assert!(run.out.contains("FAIL  cutter_radius") && files(run.directory.path()).is_empty(), "{}", run.out);
+    assert_eq!(camgen(&["rotary", "--cutter", "8"]).code, 2);
 }
 
 /// Exit 2, a message with the place and the remedy, no file, no panic.

@@ -2,10 +2,14 @@
 
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
+use camgen::cam::envelope;
 use camgen::cam::rotary::Rotary;
+use camgen::checks::rolling;
 use camgen::drawing;
 use camgen::law::Law;
 use camgen::machine::Machine;
+use camgen::output::dxf::Version;
+use camgen::output::proof;
 use proptest::prelude::*;
 
 /// Log-uniform between two powers of ten.
@@ -60,7 +64,21 @@ proptest! {
             Ok(part) => {
                 let contour = &part.outline.contour;
                 prop_assert!(part.outline.deviation <= 1e3 * tolerance);
-                prop_assert!(contour.tangent_breaks().iter().all(|turn| turn.abs() < 1e-6), "{:?}", contour.tangent_breaks());
+                let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-6).collect();
+                let losses = envelope::losses(&cam.disc).expect("drawn, so they were found");
+                // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
+                prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
+                let written = proof::write(&part, Version::R2000);
+                let outline = written.map_err(|error| TestCaseError::fail(error.to_string()))?.outline;
+                let rolled = rolling::roll(&cam, &outline, 1e3 * tolerance);
+                // Coordinates have twelve decimals and 52 bits.
+                let rounding = 2e-12 + 1e-14 * outline.extents().size().max();
+                if losses.is_empty() {
+                    prop_assert!(rolled.gap_mm.abs() <= 1e3 * tolerance + rounding, "{rolled:?}");
+                    prop_assert!(rolled.chord_difference_mm <= rolled.chord_sagitta_mm + rounding, "{rolled:?}");
+                } else {
+                    prop_assert!(rolled.gap_mm >= -1e3 * tolerance - rounding, "no metal is in the way: {rolled:?}");
+                }
                 prop_assert!(contour.area_and_centroid().0 > 0.0);
                 prop_assert!(contour.vertices.iter().all(|v| v.point.iter().all(|c| c.is_finite()) && v.bulge.is_finite()));
             }

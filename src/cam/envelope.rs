@@ -144,7 +144,7 @@ fn crossing<L: Law, F: Follower>(disc: &Disc<L, F>, fold: (f64, f64)) -> Option<
             let cross = u.perp(&v);
             let (s, t) = (w.perp(&v) / cross, w.perp(&u) / cross);
             ((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t))
-                .then(|| (a0.0 + s * (a1.0 - a0.0), b0.0 + t * (b1.0 - b0.0)))
+                .then_some((a0.0 + s * (a1.0 - a0.0), b0.0 + t * (b1.0 - b0.0)))
         }
         _ => None,
     };

@@ -153,6 +153,65 @@ mod tests {
         }
     }
 
+    /// A law with lift a θ: an Archimedean spiral as pitch curve of a centred follower.
+    struct Spiral(f64);
+
+    impl Law for Spiral {
+        fn pieces(&self) -> &[crate::law::Piece] {
+            const WHOLE: [crate::law::Piece; 1] =
+                [crate::law::Piece { start: 0.0, end: std::f64::consts::TAU, dwell: false }];
+            &WHOLE
+        }
+        fn jet(&self, _: usize, angle: f64) -> Jet {
+            Jet { s: self.0 * angle, ds: self.0, dds: 0.0, ddds: 0.0 }
+        }
+    }
+
+    /// R = R_p + a θ: tan α = a/R, κ = (R² + 2 a²)/(R² + a²)^(3/2), its slope by differentiating that by hand.
+    #[test]
+    fn archimedean_spiral_in_closed_form() {
+        let (prime, a, roller) = (0.08, 0.011, 0.02);
+        let disc = Disc { law: Spiral(a), follower: TranslatingRoller::new(prime, 0.0, roller) };
+        for i in 0..=360 {
+            let angle = f64::from(i).to_radians();
+            let contact = disc.contact(0, angle);
+            let r = prime + a * angle;
+            let square = r * r + a * a;
+            let curvature = (r * r + 2.0 * a * a) / libm::pow(square, 1.5);
+            let by_angle =
+                a * (2.0 * r / libm::pow(square, 1.5) - 3.0 * r * (r * r + 2.0 * a * a) / libm::pow(square, 2.5));
+            assert!((contact.pressure_angle - libm::atan2(a, r)).abs() < 1e-15);
+            assert!((contact.pitch.curvature / curvature - 1.0).abs() < 1e-14);
+            assert!((contact.pitch.curvature_slope / (by_angle / square.sqrt()) - 1.0).abs() < 1e-12);
+            let profile = disc.profile(0, angle);
+            assert!((1.0 / profile.curvature - (1.0 / curvature - roller)).abs() < 1e-15);
+        }
+    }
+
+    /// An offset roller at rest runs on a circle about the shaft with tan α = −ε/u; on the spiral tan α = (a − ε)/u and
+    /// κ = [(a−ε)(2a−ε) + u²]/[(a−ε)² + u²]^(3/2).
+    #[test]
+    fn offset_roller_in_closed_form() {
+        let (prime, offset, roller) = (0.08, 0.03, 0.02);
+        for a in [0.0, 0.011] {
+            let disc = Disc { law: Spiral(a), follower: TranslatingRoller::new(prime, offset, roller) };
+            for i in 0..=36 {
+                let angle = f64::from(10 * i).to_radians();
+                let contact = disc.contact(0, angle);
+                let u = (prime * prime - offset * offset).sqrt() + a * angle;
+                let b = a - offset;
+                let curvature = (b * (2.0 * a - offset) + u * u) / libm::pow(b * b + u * u, 1.5);
+                assert!((contact.pressure_angle - libm::atan2(b, u)).abs() < 1e-15);
+                assert!((contact.pitch.curvature / curvature - 1.0).abs() < 1e-14);
+                if a == 0.0 {
+                    assert!((contact.pitch.point.norm() - prime).abs() < 1e-16);
+                    assert!((disc.profile(0, angle).point.norm() - (prime - roller)).abs() < 1e-16);
+                    assert!((1.0 / contact.pitch.curvature - prime).abs() < 1e-15);
+                }
+            }
+        }
+    }
+
     /// Curvature slope of pitch curve and profile against central differences, offset follower included.
     #[test]
     fn frame_derivatives_belong_to_the_curve() {

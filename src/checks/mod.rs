@@ -122,22 +122,18 @@ fn passing_radius(rotary: &Rotary) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::outline;
+    use crate::drawing;
     use crate::machine::Machine;
 
     fn findings(name: &str, overrides: &[&str]) -> Vec<Finding> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let machine = Machine::load(name, &overrides).expect("valid").0;
         let rotary = Rotary::solve(&machine, machine.design_rpm).expect("a cam");
-        let outline = outline::profile(&rotary.disc, 0.005).ok().map(|outline| outline.contour);
-        let rolled = outline.as_ref().map(|outline| rolling::roll(&rotary, outline, 0.005));
-        run(&Subject {
-            rotary: &rotary,
-            outline: outline.as_ref(),
-            rolled: rolled.as_ref(),
-            balancing: None,
-            tolerance_mm: 0.005,
-        })
+        let part = drawing::part(&rotary, 5e-6).ok();
+        let outline = part.as_ref().map(|part| &part.outline.contour);
+        let balancing = part.as_ref().and_then(|part| part.balancing.as_ref());
+        let rolled = outline.map(|outline| rolling::roll(&rotary, outline, 0.005));
+        run(&Subject { rotary: &rotary, outline, rolled: rolled.as_ref(), balancing, tolerance_mm: 0.005 })
     }
 
     fn of<'f>(findings: &'f [Finding], check: &str) -> &'f Finding {
@@ -161,6 +157,20 @@ mod tests {
             assert_eq!(of(&broken, check).verdict, Verdict::Fail, "{check}: {broken:?}");
             assert!(!passed(&broken));
         }
+        // Checks that are run when their keys are given.
+        let pressed =
+            vec!["follower.roller.mass=40kg", "follower.roller.preload=1600N", "limits.contact_stress=2000MPa"];
+        let light = ["cam.lever=0.15", "cam.base_radius=90mm", "cam.balance=40mm .. 85mm"];
+        for (check, good, bad) in [
+            ("force_closure", pressed.clone(), "follower.roller.preload=1500N"),
+            ("contact_stress", pressed, "limits.contact_stress=900MPa"),
+            ("balance", light.to_vec(), "cam.balance=80mm .. 81mm"),
+        ] {
+            assert_eq!(of(&findings("dpi", &good), check).verdict, Verdict::Pass, "{check}");
+            let bad = [&good[..], &[bad]].concat();
+            assert_eq!(of(&findings("dpi", &bad), check).verdict, Verdict::Fail, "{check}");
+        }
+        assert_eq!(of(&good, "force_closure").verdict, Verdict::Info);
         for check in ["tangency", "rolling"] {
             assert_eq!(of(&good, check).verdict, Verdict::Pass, "{check}: {good:?}");
         }

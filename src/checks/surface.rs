@@ -96,6 +96,7 @@ impl Chords {
     pub fn new(contour: &Contour, sagitta: f64) -> Self {
         let mut points = Vec::new();
         let mut worst = 0.0_f64;
+        #[expect(clippy::cast_precision_loss, reason = "a few thousand segments")]
         let share = MOST_CHORDS / contour.vertices.len().max(1) as f64;
         for segment in contour.segments() {
             points.push(parry(segment.start));

@@ -52,10 +52,10 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
         ));
     }
     lines.push(format!(
-        "  force    inertia {:.1} N; inertia less air {} N ({} %) with this cam, {:.1} N with a fixed bottom",
+        "  force    inertia {:.1} N; inertia less air {} N ({:.4} %) with this cam, {:.1} N with a fixed bottom",
         force.inertia_max_n,
         shown(force.residual_max_n),
-        format!("{:.4}", 100.0 * force.residual_share),
+        100.0 * force.residual_share,
         force.residual_fixed_bottom_max_n
     ));
     lines.push("  checks".into());

@@ -381,6 +381,12 @@ fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<Ca
     let material = if read.has("cam.material") { read.word("cam.material", &materials)? } else { None };
     let balance = read.band("cam.balance", Length, above(0.0, LONGEST));
     let rotation = read.word("cam.rotation", &[("cw", Rotation::Clockwise), ("ccw", Rotation::CounterClockwise)]);
+    if let (Some((inner, _)), Some(bore)) = (balance, bore_radius)
+        && inner <= bore
+    {
+        let typed = read.typed("cam.bore_radius");
+        read.fail("cam.balance", format!("the band of cam.balance must begin outside the bore of {typed}"), None);
+    }
     if let Some(Some(base)) = base_radius {
         if offset.abs() >= base + roller_radius {
             let typed = read.typed("follower.roller.offset");
@@ -488,6 +494,12 @@ mod tests {
             ("design.rpm=0", vec!["must be above 0"]),
             ("design.rpm=35 rpm", vec!["not a bare number"]),
             ("name=", vec!["must be a text"]),
+            ("cam.balance=40mm", vec!["must be a band", "35 mm .. 60 mm"]),
+            ("cam.balance=60mm .. 40mm", vec!["from the smaller to the larger"]),
+            ("cam.balance=20mm .. 40mm", vec!["must begin outside the bore of 25 mm"]),
+            ("follower.roller.mass=0kg", vec!["must be above 0 kg"]),
+            ("follower.roller.preload=5kg", vec!["unit of mass, not of force"]),
+            ("limits.contact_stress=5", vec!["has no unit", "MPa"]),
         ] {
             let text = message(&[set]);
             for part in parts {
