@@ -3,11 +3,17 @@
 //! One of the two doors of the library: what comes out of here is a machine that can be computed. Whatever can be told
 //! by line and column is told here; rooms behind this one do not see a negative mass.
 
+mod data;
 mod embedded;
+mod fault;
 mod reader;
 
+pub use data::{
+    CamData, ConoidData, ConoidMode, EfficiencyModel, Limits, Machine, Material, RollerData, Rotation, Shift,
+    TranslatingData,
+};
 pub use embedded::{EMBEDDED, Embedded};
-pub use reader::{Excerpt, Fault, MachineError};
+pub use fault::{Excerpt, Fault, MachineError};
 
 use crate::buffer::balance::Column;
 use crate::buffer::{Bed, Cylinder};
@@ -30,202 +36,6 @@ const LARGEST_FORCE: f64 = 1e9;
 const LARGEST_NUMBER: f64 = 1e5;
 /// Largest machine file, bytes.
 const LARGEST_FILE: u64 = 1 << 20;
-
-/// How the cam turns, seen in the drawing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rotation {
-    /// Clockwise: the cam angle grows counter-clockwise in the drawing.
-    Clockwise,
-    /// Counter-clockwise: the drawing is mirrored about X.
-    CounterClockwise,
-}
-
-/// Material of a cam, for its mass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Material {
-    /// Carbon and low-alloy steel.
-    Steel,
-    /// Grey cast iron.
-    CastIron,
-    /// Tin bronze.
-    Bronze,
-    /// Wrought aluminium alloy.
-    Aluminium,
-}
-
-impl Material {
-    /// E/(1 − ν²), Pa, customary values.
-    #[must_use]
-    pub fn contact_modulus(self) -> f64 {
-        let (modulus, poisson): (f64, f64) = match self {
-            Material::Steel => (210e9, 0.30),
-            Material::CastIron => (110e9, 0.26),
-            Material::Bronze => (110e9, 0.34),
-            Material::Aluminium => (70e9, 0.33),
-        };
-        modulus / (1.0 - poisson * poisson)
-    }
-
-    /// Density, kg/m³, customary values.
-    #[must_use]
-    pub fn density(self) -> f64 {
-        match self {
-            Material::Steel => 7850.0,
-            Material::CastIron => 7200.0,
-            Material::Bronze => 8800.0,
-            Material::Aluminium => 2700.0,
-        }
-    }
-}
-
-/// The disc of a rotary cam.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CamData {
-    /// Turns of the cam for one turn of the crank.
-    pub turns_per_crank_turn: f64,
-    /// Roller travel per bottom travel.
-    pub lever: f64,
-    /// Base radius, m; `None` is `auto`.
-    pub base_radius: Option<f64>,
-    /// Thickness, m.
-    pub thickness: Option<f64>,
-    /// Radius of the bore, m.
-    pub bore_radius: Option<f64>,
-    /// Material; steel where only the mass asks.
-    pub material: Option<Material>,
-    /// Band of radii in which holes may balance the disc, m.
-    pub balance: Option<(f64, f64)>,
-    /// How it turns.
-    pub rotation: Rotation,
-}
-
-impl CamData {
-    /// Density of the disc, kg/m³.
-    #[must_use]
-    pub fn density(&self) -> f64 {
-        self.material.unwrap_or(Material::Steel).density()
-    }
-}
-
-/// The translating roller.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RollerData {
-    /// Radius, m.
-    pub radius: f64,
-    /// Offset of its path from the shaft, m.
-    pub offset: f64,
-    /// Mass that moves with it along its path, kg.
-    pub mass: Option<f64>,
-    /// Force that presses it onto the cam beside the air, N.
-    pub preload: Option<f64>,
-}
-
-/// How the efficiency of a translating cam enters equation (18).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EfficiencyModel {
-    /// The loss is always on the driven side.
-    Consistent,
-    /// As the paper prints it.
-    Printed,
-}
-
-/// The cam plate on the bed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TranslatingData {
-    /// Arm of the roller l1, m.
-    pub roller_arm: f64,
-    /// Arm of the bottom l2, m.
-    pub bottom_arm: f64,
-    /// Angle Δ between the roller's velocity and the line of the bed at ψ = 0, rad.
-    pub delta: f64,
-    /// Friction angle ρ, rad.
-    pub friction_angle: f64,
-    /// Efficiency η.
-    pub efficiency: f64,
-    /// Model of the efficiency.
-    pub efficiency_model: EfficiencyModel,
-    /// Radius of the roller, m.
-    pub roller_radius: f64,
-    /// Height of the plate, m.
-    pub plate_height: Option<f64>,
-}
-
-/// What the column does at each speed of a conoid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ConoidMode {
-    /// Reset by (14).
-    Adjusted,
-    /// Stays.
-    Fixed,
-}
-
-/// How the conoid shifts with the speed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shift {
-    /// z linear in n.
-    Linear,
-    /// z linear in n².
-    Square,
-}
-
-/// The cam for many speeds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ConoidData {
-    /// Axial travel between the extreme speeds, m.
-    pub axial_travel: f64,
-    /// What the column does.
-    pub mode: ConoidMode,
-    /// How the cam shifts.
-    pub shift: Shift,
-}
-
-/// What a cam must keep.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// Largest |pressure angle|, rad.
-    pub pressure_angle: f64,
-    /// Smallest convex radius of the pitch curve over the roller radius.
-    pub min_convex_pitch_radius_over_roller: f64,
-    /// Radius of the tool that must get into the concave parts, m.
-    pub cutter_radius: Option<f64>,
-    /// Least metal between bore and profile, m.
-    pub wall: f64,
-    /// Largest pressure in the contact of roller and cam, Pa.
-    pub contact_stress: Option<f64>,
-}
-
-/// A machine in SI units, every value in range.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Machine {
-    /// What the sheet and the report call it.
-    pub name: String,
-    /// Bed and crank.
-    pub bed: Bed,
-    /// Polytropic exponent k.
-    pub polytropic_exponent: f64,
-    /// Ambient pressure, Pa, absolute.
-    pub ambient_pressure: f64,
-    /// End pressure at the design speed, Pa, absolute.
-    pub end_pressure: f64,
-    /// Air column.
-    pub column: Column,
-    /// Lead e, m.
-    pub lead: f64,
-    /// Design speed of the main shaft, rpm.
-    pub design_rpm: f64,
-    /// Follower.
-    pub roller: RollerData,
-    /// Disc.
-    pub cam: CamData,
-    /// Transition.
-    pub transition: Transition,
-    /// Plate on the bed, when described.
-    pub translating: Option<TranslatingData>,
-    /// Conoid, when described.
-    pub conoid: Option<ConoidData>,
-    /// Limits.
-    pub limits: Limits,
-}
 
 /// A speed of the main shaft a machine can be asked for, rpm: above 0, at most 100000.
 ///

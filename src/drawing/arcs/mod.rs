@@ -1,0 +1,252 @@
+//! A smooth curve as a chain of tangent arcs, within a tolerance, with few arcs.
+//!
+//! # The limit
+//!
+//! Along an arc the deviation e(s) from the curve obeys e'' = κ_arc − κ(s), so a chain of tangent arcs is, to first
+//! order, a C¹ spline of second degree with free knots, and e''' = −κ' on each arc. Where κ' is constant the best such
+//! chain repeats itself: e = −κ'/6 · s (s − h/2)(s − h) on each arc of length h, two equal lobes of κ'h³/(72√3). The
+//! joints lie on the curve, the heading there is off the curve's tangent by η* = −κ'h²/12. With K = 72√3 an arc may be
+//! h = (K tol/|κ'|)^(1/3) long, so that the count is
+//!
+//! ```text
+//! N* = I₃/(K tol)^(1/3),   I₃ = ∫ |dκ/ds|^(1/3) ds,   η*(s) = −sign(κ') (K tol)^(2/3) |κ'|^(1/3)/12
+//! ```
+//!
+//! # The way
+//!
+//! The curve is sampled once, at nodes of equal share of I₃. Arcs are laid from the start of the piece, where position
+//! and tangent are given. An arc starts at a joint on the curve with a known heading and ends at a later node; its end
+//! heading is the reflection of the first one at the chord, so tangency is exact. Reflection also means that a wrong
+//! heading comes back with alternating sign for ever and costs up to 60 % more arcs: the furthest node within the
+//! tolerance is not the best one. Therefore several chains are laid side by side (a beam), every arc with every end that
+//! keeps the tolerance, and those go on that reach furthest, less a charge for the distance of their heading from η*.
+//! The first chain that the two arcs of a biarc can join to the given end of the piece wins; the one freedom of the
+//! biarc goes into its deviation.
+//!
+//! Nodes lie dense enough that the lobes are seen to a percent; the finished chain is checked anew between them, and
+//! laid again with less when it does not hold.
+
+mod beam;
+
+use crate::cam::Frame;
+use crate::contour::Segment;
+use beam::{Arc, lay, sample};
+use nalgebra::Vector2;
+
+/// Share of the tolerance that the lobes may take as seen at the nodes; the rest is what is not seen there.
+const SEEN: f64 = 0.985;
+/// Points per arc at which the finished chain is checked.
+const CHECKS_PER_ARC: u32 = 64;
+/// Times a chain is laid again when the check between the nodes finds more than the tolerance.
+const TRIES: u32 = 6;
+/// Newton steps to the foot of a joint: it starts within half a node and converges quadratically.
+const FOOT_STEPS: u32 = 4;
+/// Headings closer than this are one, rad: a circle is seen as a circle with rounding.
+const SAME_HEADING: f64 = 1e-10;
+
+/// One joint of a chain: the arc that leaves it turns by 4 atan(bulge).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Place.
+    pub point: Vector2<f64>,
+    /// Parameter of the curve there.
+    pub parameter: f64,
+    /// tan(sweep/4) of the arc to the next joint.
+    pub bulge: f64,
+}
+
+/// A fitted piece.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// Start of every arc; the last ends where the piece ends.
+    pub joints: Vec<Joint>,
+    /// Largest distance between chain and curve, checked between the nodes, with a bound for what lies between.
+    pub deviation: f64,
+    /// Best possible number of arcs N*.
+    pub best_possible: f64,
+}
+
+/// Why a piece cannot be fitted.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// The curve is not finite or turns back.
+    #[error("the curve is not smooth near parameter {parameter}")]
+    NotSmooth {
+        /// Where.
+        parameter: f64,
+    },
+    /// The tolerance asks for more arcs than a drawing can hold, or lies in the rounding of the coordinates.
+    #[error("a tolerance of {tolerance} cannot be kept")]
+    ToleranceTooFine {
+        /// The tolerance, in the unit of the curve.
+        tolerance: f64,
+    },
+}
+
+/// Fits the piece of `curve` over `range`, which need not be short but must not close on itself.
+///
+/// # Errors
+/// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
+pub fn fit(curve: impl Fn(f64) -> Frame, range: (f64, f64), tolerance: f64) -> Result<Chain, FitError> {
+    let (start, end) = (curve(range.0), curve(range.1));
+    let size = start.point.norm().max(end.point.norm());
+    if !(tolerance > 64.0 * f64::EPSILON * size) {
+        return Err(FitError::ToleranceTooFine { tolerance });
+    }
+    if let Some(chain) = one_arc(&curve, range, tolerance) {
+        return Ok(chain);
+    }
+    let mut seen = SEEN * tolerance;
+    for _ in 0..TRIES {
+        let (nodes, best_possible) = sample(&curve, range, tolerance, seen)?;
+        let Some(mut joints) = lay(&nodes, seen) else {
+            return Err(FitError::ToleranceTooFine { tolerance });
+        };
+        for joint in joints.iter_mut().skip(1) {
+            joint.parameter = foot(&curve, joint.point, joint.parameter);
+        }
+        let deviation = deviation(&curve, &joints, (range.1, end.point));
+        if deviation <= tolerance {
+            return Ok(Chain { joints, deviation, best_possible });
+        }
+        seen *= (tolerance / deviation).clamp(0.5, 0.995);
+    }
+    Err(FitError::ToleranceTooFine { tolerance })
+}
+
+/// The piece as one arc, when it is a circle to rounding.
+fn one_arc(curve: &impl Fn(f64) -> Frame, range: (f64, f64), tolerance: f64) -> Option<Chain> {
+    let (start, end) = (curve(range.0), curve(range.1));
+    let (arc, heading) = Arc::to(start.point, start.tangent, end.point)?;
+    if (heading - end.tangent).norm() > SAME_HEADING {
+        return None;
+    }
+    let joints = vec![Joint { point: start.point, parameter: range.0, bulge: arc.bulge }];
+    let deviation = deviation(curve, &joints, (range.1, end.point));
+    (deviation <= tolerance).then_some(Chain { joints, deviation, best_possible: 0.0 })
+}
+
+/// Parameter of the foot of a point near the curve, from a guess, by Newton's method.
+fn foot(curve: &impl Fn(f64) -> Frame, point: Vector2<f64>, guess: f64) -> f64 {
+    let mut parameter = guess;
+    for _ in 0..FOOT_STEPS {
+        let frame = curve(parameter);
+        let away = point - frame.point;
+        let shrink = 1.0 - frame.curvature * frame.tangent.perp(&away);
+        parameter += away.dot(&frame.tangent) / (frame.speed * shrink);
+    }
+    parameter
+}
+
+/// Largest distance between the chain and the curve.
+///
+/// Each arc, as its two points and its bulge give it, is compared with its stretch of the curve at
+/// [`CHECKS_PER_ARC`] + 1 points. Between two of them the distance cannot exceed the larger by more than
+/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation; its largest value is added.
+pub(crate) fn deviation(curve: &impl Fn(f64) -> Frame, joints: &[Joint], end: (f64, Vector2<f64>)) -> f64 {
+    let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
+    let of_arc = |(joint, (parameter, point)): (&Joint, (f64, Vector2<f64>))| {
+        let segment = Segment { start: joint.point, end: point, bulge: joint.bulge };
+        let curvature = if joint.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
+        let arc = Arc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge };
+        let step = (parameter - joint.parameter) / f64::from(CHECKS_PER_ARC);
+        let (mut worst, mut bend) = (0.0_f64, 0.0_f64);
+        for check in 0..=CHECKS_PER_ARC {
+            let frame = curve(joint.parameter + step * f64::from(check));
+            worst = worst.max(arc.distance(frame.point).abs());
+            let length = frame.speed * step;
+            bend = bend.max(length * length / 8.0 * (curvature - frame.curvature).abs());
+        }
+        worst + bend
+    };
+    joints.iter().zip(ends).map(of_arc).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    /// An ellipse by its parameter: κ' changes sign at the ends of the axes.
+    fn ellipse(a: f64, b: f64) -> impl Fn(f64) -> Frame {
+        move |t| {
+            let (sin, cos) = (libm::sin(t), libm::cos(t));
+            Frame::from_derivatives(
+                Vector2::new(a * cos, b * sin),
+                Vector2::new(-a * sin, b * cos),
+                Vector2::new(-a * cos, -b * sin),
+                Vector2::new(a * sin, -b * cos),
+            )
+        }
+    }
+
+    fn contour(chain: &Chain, end: Vector2<f64>) -> Vec<Segment> {
+        let ends = chain.joints.iter().skip(1).map(|joint| joint.point).chain([end]);
+        chain.joints.iter().zip(ends).map(|(j, end)| Segment { start: j.point, end, bulge: j.bulge }).collect()
+    }
+
+    /// N* of a quarter ellipse against its integral by an independent rule, and the count against N*, over six
+    /// decades of the tolerance. An exact tangent at either end costs a third of an arc each, rounding up one more.
+    #[test]
+    fn the_count_stays_near_the_limit() {
+        let curve = ellipse(60.0, 40.0);
+        for decade in -6..=-1 {
+            let tolerance = libm::pow(10.0, f64::from(decade));
+            for range in [(0.0, FRAC_PI_2), (0.3, 2.0), (0.0, PI)] {
+                let chain = fit(&curve, range, tolerance).expect("a chain");
+                let integral = crate::numeric::quadrature::integrate(
+                    |t| {
+                        let frame = curve(t);
+                        libm::cbrt(frame.curvature_slope.abs()) * frame.speed
+                    },
+                    range,
+                    2000,
+                );
+                let limit = integral / libm::cbrt(72.0 * 3.0_f64.sqrt() * tolerance);
+                assert!((chain.best_possible / limit - 1.0).abs() < 2e-3, "{} {limit}", chain.best_possible);
+                #[expect(clippy::cast_precision_loss, reason = "small")]
+                let count = chain.joints.len() as f64;
+                assert!(count <= 1.2 * limit + 3.0, "{tolerance:e} {range:?}: {count} arcs, N* {limit:.2}");
+                assert!(chain.deviation <= tolerance);
+            }
+        }
+    }
+
+    #[test]
+    fn the_chain_is_tangent_and_keeps_the_ends() {
+        let curve = ellipse(60.0, 40.0);
+        let range = (0.2, 2.9);
+        let chain = fit(&curve, range, 1e-4).expect("a chain");
+        let (start, end) = (curve(range.0), curve(range.1));
+        let segments = contour(&chain, end.point);
+        assert_eq!(segments[0].start, start.point);
+        for pair in segments.windows(2) {
+            assert!((pair[0].end_tangent() - pair[1].start_tangent()).norm() < 1e-12);
+        }
+        assert!((segments[0].start_tangent() - start.tangent).norm() < 1e-12);
+        assert!((segments[segments.len() - 1].end_tangent() - end.tangent).norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_circle_is_one_arc_and_a_line_one_line() {
+        let circle = fit(ellipse(50.0, 50.0), (0.0, PI), 1e-6).expect("a chain");
+        assert_eq!(circle.joints.len(), 1);
+        assert!((circle.joints[0].bulge - 1.0).abs() < 1e-14 && circle.deviation < 1e-13);
+        let line = |t: f64| {
+            let zero = Vector2::zeros();
+            Frame::from_derivatives(Vector2::new(t, 0.5 * t), Vector2::new(1.0, 0.5), zero, zero)
+        };
+        let line = fit(line, (0.0, 9.0), 1e-6).expect("a chain");
+        assert_eq!(line.joints.len(), 1);
+        assert!(line.joints[0].bulge.abs() < 1e-16);
+    }
+
+    #[test]
+    fn what_cannot_be_fitted_is_told() {
+        let curve = ellipse(60.0, 40.0);
+        assert!(matches!(fit(&curve, (0.0, 1.0), 1e-14), Err(FitError::ToleranceTooFine { .. })));
+        assert!(matches!(fit(&curve, (0.0, 1.0), f64::NAN), Err(FitError::ToleranceTooFine { .. })));
+        let folded = |t: f64| curve(t).offset_inward(35.0);
+        assert!(matches!(fit(folded, (-0.5, 1.5), 1e-3), Err(FitError::NotSmooth { .. })));
+    }
+}

@@ -1,0 +1,107 @@
+//! Faults of a machine file: what was wrong, where, and what would be right.
+
+use std::fmt;
+
+/// One fault: what was wrong, where, and what would be right.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// What was wrong.
+    pub message: String,
+    /// What would be right.
+    pub help: Option<String>,
+    /// Where, when there is a place.
+    pub place: Option<Excerpt>,
+}
+
+/// A place in a text, with the line it stands on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Excerpt {
+    /// Name of the file, or of the flag.
+    pub source: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// The whole line.
+    pub text: String,
+    /// Characters to mark.
+    pub width: usize,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.message)?;
+        if let Some(place) = &self.place {
+            let margin = " ".repeat(place.line.to_string().len());
+            write!(f, "\n{margin}--> {}:{}:{}", place.source, place.line, place.column)?;
+            write!(f, "\n{margin} |\n{} | {}", place.line, place.text)?;
+            write!(f, "\n{margin} | {}{}", " ".repeat(place.column - 1), "^".repeat(place.width.max(1)))?;
+        }
+        if let Some(help) = &self.help {
+            write!(f, "\n  help: {help}")?;
+        }
+        Ok(())
+    }
+}
+
+/// All faults of a machine file and its overrides.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct MachineError {
+    /// At least one.
+    pub faults: Vec<Fault>,
+}
+
+impl fmt::Display for MachineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let texts: Vec<String> = self.faults.iter().map(Fault::to_string).collect();
+        f.write_str(&texts.join("\n"))
+    }
+}
+
+/// The known key with the smallest edit distance; a key whose last part fits exactly is nearer than any other.
+pub(crate) fn nearest<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    known.iter().copied().min_by_key(|candidate| {
+        (edit_distance(&last(key), &last(candidate)) * 2).min(edit_distance(key, candidate) * 2 + 1)
+    })
+}
+
+/// Levenshtein's distance, one row at a time.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        for (cell, cb) in row.iter_mut().skip(1).zip(b.chars()) {
+            let replaced = diagonal + usize::from(ca != cb);
+            diagonal = *cell;
+            left = replaced.min(diagonal + 1).min(left + 1);
+            *cell = left;
+        }
+        if let Some(first) = row.first_mut() {
+            *first = i + 1;
+        }
+    }
+    row.last().copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edit_distances() {
+        for (a, b, distance) in [("", "", 0), ("abc", "", 3), ("kitten", "sitting", 3), ("thicknes", "thickness", 1)] {
+            assert_eq!(edit_distance(a, b), distance, "{a} {b}");
+            assert_eq!(edit_distance(b, a), distance, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn a_key_in_the_wrong_table_is_named() {
+        let known = ["bed.mass", "cam.thickness", "follower.roller.radius"];
+        assert_eq!(nearest("cam.thicknes", &known), Some("cam.thickness"));
+        assert_eq!(nearest("bed.thickness", &known), Some("cam.thickness"));
+        assert_eq!(nearest("roller.radius", &known), Some("follower.roller.radius"));
+    }
+}
