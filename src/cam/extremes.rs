@@ -23,6 +23,27 @@ fn largest<L: Law, F: Follower>(disc: &Disc<L, F>, quantity: impl Fn(usize, f64)
     )
 }
 
+/// Cells of a piece, and golden sections, in which a value without derivative is searched: forces are smooth with a
+/// hump or two.
+const FORCE_CELLS: u32 = 48;
+const FORCE_SECTIONS: u32 = 30;
+
+/// Largest value over the turn of something that depends on the cam angle of a piece, when no derivative is at hand.
+pub fn largest_without_slope<L: Law, F: Follower>(disc: &Disc<L, F>, value: impl Fn(usize, f64) -> f64) -> Extremum {
+    let of_piece = |(index, piece): (usize, &Piece)| {
+        let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
+        extremum::largest_without_slope(|angle| value(index, angle), (piece.start, piece.end), cells, sections)
+    };
+    disc.law
+        .pieces()
+        .iter()
+        .enumerate()
+        .map(of_piece)
+        .fold(NOTHING, |best, next| if next.value > best.value || best.value.is_nan() { next } else { best })
+}
+
+const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };
+
 /// Largest |pressure angle|, rad.
 pub fn pressure_angle<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
     let signed = |sign: f64| {

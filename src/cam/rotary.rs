@@ -39,8 +39,8 @@ pub enum RotaryError {
 const BASE_STEP: f64 = 1e-3;
 const BASE_STEP_NOISE: f64 = 1e-6;
 
-/// The law is sampled at this many cells when the residual of a blend is searched.
-const RESIDUAL_CELLS: u32 = 64;
+/// Cells of a piece in which the largest lift is searched: a piece has two extrema at the most.
+const LIFT_CELLS: u32 = 64;
 
 impl Rotary {
     /// Solves the law and sizes the cam.
@@ -103,7 +103,7 @@ impl Rotary {
         let law = &self.disc.law;
         let lifts = law.pieces().iter().enumerate().map(|(index, piece)| {
             let jet = |angle| law.jet(index, angle);
-            extremum::largest(|a| jet(a).s, |a| jet(a).ds, (piece.start, piece.end), RESIDUAL_CELLS).value
+            extremum::largest(|a| jet(a).s, |a| jet(a).ds, (piece.start, piece.end), LIFT_CELLS).value
         });
         lifts.fold(0.0, f64::max)
     }
@@ -128,8 +128,6 @@ impl Rotary {
 
     /// Largest |inertia − air| the law leaves over the reversal, N: rounding, or what a blend costs.
     ///
-    /// The residual of a blend has one hump on the blend, so a search on cells without derivatives, then golden
-    /// sections about the best, suffices.
     #[must_use]
     pub fn residual_max(&self) -> f64 {
         let law = &self.disc.law;
@@ -138,20 +136,25 @@ impl Rotary {
             let state = law.state(piece, angle);
             unit * (self.balance().loading * state.overrun - (state.pressure_ratio - 1.0)).abs()
         };
-        let worst = |(index, piece): (usize, &crate::law::Piece)| {
-            if piece.dwell {
-                0.0
-            } else {
-                extremum::largest_without_slope(
-                    |a| residual(index, a),
-                    (piece.start, piece.end),
-                    RESIDUAL_CELLS,
-                    extremum::TO_ROUNDING,
-                )
-                .value
-            }
-        };
-        law.pieces().iter().enumerate().map(worst).fold(0.0, f64::max)
+        extremes::largest_without_slope(&self.disc, residual).value
+    }
+
+    /// Largest force between roller and cam along the roller's path, N.
+    #[must_use]
+    pub fn roller_force_max(&self) -> f64 {
+        extremes::largest_without_slope(&self.disc, |piece, angle| self.roller_force(piece, angle)).value
+    }
+
+    /// Torque the camshaft gives at a cam angle of a piece, N·m: force times ds/dθ.
+    #[must_use]
+    pub fn torque(&self, piece: usize, angle: f64) -> f64 {
+        self.roller_force(piece, angle) * self.disc.law.jet(piece, angle).ds
+    }
+
+    /// Torque of largest size, N·m; symmetric over rise and fall where no mass is given.
+    #[must_use]
+    pub fn torque_max(&self) -> f64 {
+        extremes::largest_without_slope(&self.disc, |piece, angle| self.torque(piece, angle).abs()).value
     }
 
     /// What a plain buffer with fixed bottom and column by (7) would leave at this speed, N.

@@ -1,6 +1,7 @@
 //! Pressure in the line of contact between roller and cam, after Hertz.
 
-use super::{Finding, Subject, Verdict, cam_degrees, force_closure, verdict};
+use super::{Finding, Subject, Verdict, cam_degrees, verdict};
+use crate::cam::extremes;
 use crate::follower::Follower;
 use crate::machine::Material;
 use std::f64::consts::PI;
@@ -30,7 +31,7 @@ pub(super) fn check(subject: &Subject<'_>) -> Option<Finding> {
         let curvature = (1.0 / radius + profile.curvature).max(0.0);
         normal_force * modulus * curvature / (PI * width)
     };
-    let worst = force_closure::largest(rotary, square);
+    let worst = extremes::largest_without_slope(&rotary.disc, square);
     let stress = 1e-6 * worst.value.max(0.0).sqrt();
     let limit = rotary.machine.limits.contact_stress.map(|limit| 1e-6 * limit);
     Some(Finding {

@@ -58,6 +58,10 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
         100.0 * force.residual_share,
         force.residual_fixed_bottom_max_n
     ));
+    lines.push(format!(
+        "           roller {:.1} N along its path, camshaft {:.1} N·m at the most",
+        force.roller_force_max_n, force.torque_max_nm
+    ));
     lines.push("  checks".into());
     lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
     if !report.files.is_empty() {

@@ -100,6 +100,9 @@ pub struct ForceReport {
     pub residual_max_n: f64,
     pub residual_share: f64,
     pub residual_fixed_bottom_max_n: f64,
+    /// Along the roller's path; with preload and inertia of the follower where they are given.
+    pub roller_force_max_n: f64,
+    pub torque_max_nm: f64,
 }
 
 /// The report of a cam; `files` are named by whoever writes them.
@@ -151,6 +154,8 @@ pub fn report(
             residual_max_n,
             residual_share: residual_max_n / rotary.inertia_max(),
             residual_fixed_bottom_max_n: rotary.residual_fixed_bottom(),
+            roller_force_max_n: rotary.roller_force_max(),
+            torque_max_nm: rotary.torque_max(),
         },
         rolling,
         files: Vec::new(),

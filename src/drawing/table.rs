@@ -66,7 +66,7 @@ pub fn table(rotary: &Rotary, samples: u32) -> Table {
             MILLIMETRES / contact.pitch.curvature,
             MILLIMETRES / profile.curvature,
             force,
-            force * contact.lift.ds,
+            rotary.torque(piece, angle),
             force / libm::cos(contact.pressure_angle),
         ];
         // A negative zero is zero.
