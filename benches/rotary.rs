@@ -5,11 +5,12 @@
 use camgen::cam::rotary::Rotary;
 use camgen::checks::{self, Subject, file, rolling};
 use camgen::contour::{Contour, Vertex};
-use camgen::drawing;
+use camgen::drawing::solid::solid;
+use camgen::drawing::{self};
 use camgen::law::Law;
 use camgen::machine::Machine;
 use camgen::output::dxf::{self, Version};
-use camgen::output::{csv, proof, svg};
+use camgen::output::{csv, proof, step, svg};
 use camgen::reading;
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::Vector2;
@@ -66,6 +67,9 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("check/10 000 segments", |b| {
         b.iter(|| file::check(&cam, &reading::read(black_box(&chords), 5e-4).expect("read"), 0.005));
     });
+    criterion.bench_function("drawing/solid", |b| b.iter(|| solid(black_box(&part), 30.0)));
+    let body = solid(&part, 30.0).expect("a solid");
+    criterion.bench_function("output/step", |b| b.iter(|| step::write(black_box(&body), "cam")));
     let table = drawing::table(&cam, 720);
     criterion.bench_function("output/csv", |b| b.iter(|| csv::write(black_box(&table))));
 }

@@ -276,6 +276,13 @@ impl Contour {
         self.segments().fold(start, |extents, segment| extents.with(&segment.extents()))
     }
 
+    /// The same chain run the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let segments: Vec<Segment> = self.segments().collect();
+        Self { vertices: segments.iter().rev().map(|s| Vertex { point: s.end, bulge: -s.bulge }).collect() }
+    }
+
     /// Mirrored about the X axis and turned round, so that it still runs the same way; starts with the mirror of the
     /// same segment.
     #[must_use]

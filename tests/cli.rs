@@ -54,14 +54,16 @@ fn report(run: &Run) -> Value {
 fn the_main_job() {
     let run = camgen(&["rotary", "--rpm", "35"]);
     assert_eq!(run.code, 0, "{}", run.err);
-    assert_eq!(files(run.directory.path()), ["dpi-rotary-35rpm.csv", "dpi-rotary-35rpm.dxf", "dpi-rotary-35rpm.svg"]);
+    let stem = "dpi-rotary-35rpm";
+    let expected = ["csv", "dxf", "step", "svg"].map(|extension| format!("{stem}.{extension}"));
+    assert_eq!(files(run.directory.path()), expected);
     assert!(run.out.contains("pressure_angle") && run.err.is_empty(), "{} {}", run.out, run.err);
     assert!(run.directory.path().join("output").is_dir());
 }
 
 #[test]
 fn the_same_input_gives_the_same_bytes() {
-    let all = ["rotary", "--format", "dxf,svg,csv,json"];
+    let all = ["rotary", "--format", "dxf,svg,step,csv,json"];
     let (first, second) = (camgen(&all), camgen(&all));
     assert_eq!(first.out, second.out);
     for name in files(first.directory.path()) {
@@ -156,7 +158,7 @@ fn a_cam_that_breaks_a_limit_is_refused_with_the_radius_that_would_pass() {
 
     let forced = camgen(&[&refused[..], &["--force"]].concat());
     assert_eq!(forced.code, 1);
-    assert_eq!(files(forced.directory.path()).len(), 3);
+    assert_eq!(files(forced.directory.path()).len(), 4);
     assert_eq!(camgen(&["rotary", "dpi-paper"]).code, 0, "with an automatic radius it is huge, and passes");
 }
 
@@ -169,7 +171,7 @@ fn an_undercut_cam_is_told_what_it_loses() {
     assert!(run.out.contains("FAIL  undercut") && run.out.contains("motion is lost from 358."), "{}", run.out);
     assert!(run.out.contains("FAIL  rolling") && run.out.contains("metal is missing"), "{}", run.out);
     assert!(files(run.directory.path()).is_empty());
-    assert_eq!(files(camgen(&[&undercut[..], &["--force"]].concat()).directory.path()).len(), 3);
+    assert_eq!(files(camgen(&[&undercut[..], &["--force"]].concat()).directory.path()).len(), 4);
 
     let sets = ["cam.base_radius=1mm", "cam.lever=10", "follower.roller.radius=300mm", "cam.bore_radius=0.5mm"];
     let folded: Vec<&str> =
@@ -225,7 +227,7 @@ fn bad_input_is_told_and_writes_nothing() {
         (&["--tolerance", "-1um"], &["above 0"]),
         (&["--tolerance", "1m"], &["at most 0.001 m"]),
         (&["--tolerance", "1e-15mm"], &["cannot be kept"]),
-        (&["--format", "dwg"], &["one of dxf, svg, csv, json"]),
+        (&["--format", "dwg"], &["one of dxf, svg, step, csv, json"]),
         (&["--dxf-version", "r14"], &["one of r12, r2000, r2010, r2013"]),
         (&["--samples", "0"], &["--samples"]),
         (&["--name", "../x"], &["no path separators"]),
@@ -291,6 +293,19 @@ fn an_output_directory_that_cannot_be_is_told_and_old_files_stay() {
     assert_eq!(files(run.directory.path()), ["dpi-rotary-35rpm.dxf"]);
     let kept = run.directory.path().join("output/dpi-rotary-35rpm.dxf");
     assert_eq!(fs::read_to_string(kept).expect("old"), "old");
+}
+
+#[test]
+fn without_a_thickness_there_is_no_solid() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let flat = camgen(&["machines", "show", "dpi"]).out.replace("thickness = \"30 mm\"", "");
+    fs::write(directory.path().join("flat.toml"), flat).expect("written");
+    let run = camgen_in(directory, &["rotary", "flat.toml"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.err.contains("no STEP file: cam.thickness is not given"), "{}", run.err);
+    let run = camgen_in(run.directory, &["rotary", "flat.toml", "--format", "step", "--out", "solid"]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains("needs cam.thickness") && !run.directory.path().join("solid").exists(), "{}", run.err);
 }
 
 #[test]

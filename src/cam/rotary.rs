@@ -63,7 +63,7 @@ impl Rotary {
             transition: machine.transition,
         })?;
         let (roller, limits) = (machine.roller, machine.limits);
-        let least_base = machine.cam.bore_radius.map_or(BASE_STEP, |bore| bore + limits.wall);
+        let least_base = machine.cam.bore_reach().map_or(BASE_STEP, |reach| reach + limits.wall);
         let required = Required {
             pressure_angle: limits.pressure_angle,
             convex_pitch_radius: limits.min_convex_pitch_radius_over_roller.max(1.0) * roller.radius,

@@ -25,20 +25,20 @@ pub struct Balancing {
     pub after: f64,
 }
 
-/// First moment of the face about the shaft, mm³: outline less a centred bore, which has none.
+/// First moment of a face about the shaft, mm³.
 #[must_use]
-pub fn moment(outline: &Contour) -> Vector2<f64> {
-    let (area, centroid) = outline.area_and_centroid();
+pub fn moment(contour: &Contour) -> Vector2<f64> {
+    let (area, centroid) = contour.area_and_centroid();
     centroid * area
 }
 
 /// The fewest equal holes within a band of radii (mm) that cancel the moment of the face, symmetric about the heavy
-/// side, with `wall` (mm) of metal to the outline.
+/// side, with `wall` (mm) of metal to the outline. `bore` is the bore with its keyway, if any.
 ///
 /// n holes of radius a at the distance ρ = outer − a, Δ apart, take away π a² ρ sin(nΔ/2)/sin(Δ/2).
 #[must_use]
-pub fn balance(outline: &Contour, band: (f64, f64), wall: f64) -> Balancing {
-    let moment = moment(outline);
+pub fn balance(outline: &Contour, bore: Option<&Contour>, band: (f64, f64), wall: f64) -> Balancing {
+    let moment = moment(outline) - bore.map_or_else(Vector2::zeros, moment);
     let before = moment.norm();
     let none = Balancing { holes: Vec::new(), before, after: before };
     if before == 0.0 {
@@ -127,7 +127,7 @@ mod tests {
         let disc = Contour::circle(Vector2::new(3.0, 4.0), 100.0);
         assert!((moment(&disc).norm() - 5.0 * PI * 1e4).abs() < 1e-8);
         for (band, count) in [((10.0, 80.0), 1), ((20.0, 80.0), 2)] {
-            let balancing = balance(&disc, band, 2.0);
+            let balancing = balance(&disc, None, band, 2.0);
             assert_eq!(balancing.holes.len(), count, "{balancing:?}");
             assert!(balancing.after < 1e-9 * balancing.before);
             for (centre, radius) in &balancing.holes {
@@ -135,8 +135,8 @@ mod tests {
                 assert!(centre.dot(&Vector2::new(3.0, 4.0)) > 0.0, "on the heavy side");
             }
         }
-        let narrow = balance(&disc, (60.0, 61.0), 2.0);
+        let narrow = balance(&disc, None, (60.0, 61.0), 2.0);
         assert!(narrow.holes.is_empty() && narrow.after == narrow.before);
-        assert_eq!(balance(&Contour::circle(Vector2::zeros(), 100.0), (20.0, 80.0), 2.0).holes.len(), 0);
+        assert_eq!(balance(&Contour::circle(Vector2::zeros(), 100.0), None, (20.0, 80.0), 2.0).holes.len(), 0);
     }
 }

@@ -3,7 +3,7 @@
 use super::Failure;
 use camgen::machine::{Machine, valid_rpm};
 use camgen::output::dxf::Version;
-use camgen::output::formats::{DEFAULT_FORMATS, FORMATS};
+use camgen::output::formats::FORMATS;
 use camgen::units::{self, Dimension};
 use clap::{Args, Parser, Subcommand};
 use std::io::IsTerminal;
@@ -97,9 +97,9 @@ pub(super) struct RotaryArgs {
     #[command(flatten)]
     pub(super) common: CommonArgs,
 
-    /// What to write: dxf, svg, csv, json
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format, default_values = DEFAULT_FORMATS)]
-    pub(super) format: Vec<usize>,
+    /// What to write: dxf, svg, step, csv, json [default: dxf,svg,step,csv]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
+    pub(super) format: Option<Vec<usize>>,
 
     /// Directory for the files, created when missing
     #[arg(long, value_name = "DIR", default_value = "output")]

@@ -7,7 +7,7 @@ use camgen::checks::{self, Subject, rolling};
 use camgen::drawing::outline::OutlineError;
 use camgen::drawing::{self, Entity, Layer, Part, Report};
 use camgen::output::files::{Output, write_all};
-use camgen::output::formats::{FORMATS, Job};
+use camgen::output::formats::{DEFAULT_FORMATS, FORMATS, Job};
 use camgen::output::number::shortest;
 use camgen::output::proof::{self, Written};
 use camgen::output::{dxf, json, svg};
@@ -62,6 +62,18 @@ pub(super) fn run(args: &RotaryArgs) -> Result<Outcome, Failure> {
     Ok(if passed { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
+/// Whether a format is written: asked for, or usual and possible.
+fn wanted(args: &RotaryArgs, rotary: &Rotary, index: usize, name: &str) -> bool {
+    match &args.format {
+        Some(asked) => asked.contains(&index),
+        None if name == "step" && rotary.machine.cam.thickness.is_none() => {
+            tell("no STEP file: cam.thickness is not given");
+            false
+        }
+        None => DEFAULT_FORMATS.contains(&name),
+    }
+}
+
 fn write(
     args: &RotaryArgs,
     rotary: &Rotary,
@@ -71,7 +83,8 @@ fn write(
     stem: &str,
     template: &str,
 ) -> Result<(), Failure> {
-    let formats: Vec<_> = FORMATS.iter().enumerate().filter(|(index, _)| args.format.contains(index)).collect();
+    let formats: Vec<_> =
+        FORMATS.iter().enumerate().filter(|(index, (name, _))| wanted(args, rotary, *index, name)).collect();
     let mut names: Vec<String> = formats.iter().map(|(_, (extension, _))| format!("{stem}.{extension}")).collect();
     let cutter = match args.cutter {
         Some(radius) => {

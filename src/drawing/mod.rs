@@ -6,6 +6,7 @@ pub mod arcs;
 pub mod outline;
 mod report;
 mod sheet;
+pub mod solid;
 mod table;
 
 pub use report::{Report, report};
@@ -14,7 +15,7 @@ pub use table::{COLUMNS, Table, table};
 
 use crate::cam::rotary::Rotary;
 use crate::checks::balance::{self, Balancing};
-use crate::contour::{Contour, Extents};
+use crate::contour::{Contour, Extents, Vertex};
 use crate::machine::Rotation;
 use nalgebra::Vector2;
 use outline::{MILLIMETRES, Outline, OutlineError};
@@ -53,6 +54,15 @@ pub enum Entity {
 }
 
 impl Entity {
+    /// The entity as a contour, a circle counter-clockwise.
+    #[must_use]
+    pub fn contour(&self) -> Contour {
+        match self {
+            Entity::Polyline(contour) => contour.clone(),
+            Entity::Circle(centre, radius) => Contour::circle(*centre, *radius),
+        }
+    }
+
     /// Extents, mm.
     #[must_use]
     pub fn extents(&self) -> Extents {
@@ -71,38 +81,62 @@ impl Entity {
 pub struct Part {
     /// The outline with its proof, as it lies in the drawing.
     pub outline: Outline,
-    /// Radius of the bore, mm.
-    pub bore_radius: Option<f64>,
+    /// The bore, a circle or, with a keyway, a contour; counter-clockwise.
+    pub bore: Option<Entity>,
     /// Holes that balance the disc, when they were asked for.
     pub balancing: Option<Balancing>,
 }
 
 impl Part {
-    /// What is cut, layer by layer.
+    /// What is cut, layer by layer; holes clockwise.
     #[must_use]
     pub fn entities(&self) -> Vec<(Layer, Entity)> {
         let profile = (Layer::CamProfile, Entity::Polyline(self.outline.contour.clone()));
-        let bore = self.bore_radius.map(|radius| (Layer::Bore, Entity::Circle(Vector2::zeros(), radius)));
-        let holes = self.holes().iter().map(|(centre, radius)| (Layer::Bore, Entity::Circle(*centre, *radius)));
-        std::iter::once(profile).chain(bore).chain(holes).collect()
+        let holes = self.holes().into_iter().map(|hole| match hole {
+            Entity::Polyline(contour) => (Layer::Bore, Entity::Polyline(contour.reversed())),
+            circle @ Entity::Circle(..) => (Layer::Bore, circle),
+        });
+        std::iter::once(profile).chain(holes).collect()
     }
 
-    /// Holes beside the bore: centre and radius, mm.
+    /// Bore and balance holes, counter-clockwise.
     #[must_use]
-    pub fn holes(&self) -> &[(Vector2<f64>, f64)] {
-        self.balancing.as_ref().map_or(&[], |balancing| &balancing.holes)
+    pub fn holes(&self) -> Vec<Entity> {
+        let drilled = self.balancing.iter().flat_map(|balancing| &balancing.holes);
+        self.bore.iter().cloned().chain(drilled.map(|(centre, radius)| Entity::Circle(*centre, *radius))).collect()
     }
 
     /// Area of the metal, mm², and its first moment about the shaft, mm³.
     #[must_use]
     pub fn area_and_moment(&self) -> (f64, Vector2<f64>) {
-        let round = |radius: f64| PI * radius * radius;
         let (outline, centroid) = self.outline.contour.area_and_centroid();
-        let bore = self.bore_radius.map_or(0.0, round);
-        self.holes().iter().fold((outline - bore, centroid * outline), |(area, moment), (centre, radius)| {
-            (area - round(*radius), moment - centre * round(*radius))
+        self.holes().iter().fold((outline, centroid * outline), |(area, moment), hole| {
+            let (hole, centroid) = hole.contour().area_and_centroid();
+            (area - hole, moment - centroid * hole)
         })
     }
+}
+
+/// The bore of a clockwise cam, with its keyway merged into one contour.
+fn bore(rotary: &Rotary) -> Option<Entity> {
+    let radius = MILLIMETRES * rotary.machine.cam.bore_radius?;
+    let Some(keyway) = rotary.machine.cam.keyway else {
+        return Some(Entity::Circle(Vector2::zeros(), radius));
+    };
+    let (half, bottom) = (0.5 * MILLIMETRES * keyway.width, radius + MILLIMETRES * keyway.depth);
+    let edge = ((radius - half) * (radius + half)).sqrt();
+    // The round part from the upper edge of the slot to the lower one, in two arcs.
+    let round = libm::tan(0.25 * (PI - libm::asin(half / radius)));
+    let (sin, cos) = (libm::sin(keyway.angle), libm::cos(keyway.angle));
+    let at = |x: f64, y: f64, bulge: f64| Vertex { point: Vector2::new(cos * x - sin * y, sin * x + cos * y), bulge };
+    let vertices = vec![
+        at(edge, half, round),
+        at(-radius, 0.0, round),
+        at(edge, -half, 0.0),
+        at(bottom, -half, 0.0),
+        at(bottom, half, 0.0),
+    ];
+    Some(Entity::Polyline(as_turned(rotary, Contour { vertices })))
 }
 
 /// The cut drawing within a tolerance (m) along the normal of the profile.
@@ -112,10 +146,13 @@ impl Part {
 pub fn part(rotary: &Rotary, tolerance: f64) -> Result<Part, OutlineError> {
     let outline = outline::profile(&rotary.disc, MILLIMETRES * tolerance)?;
     let outline = Outline { contour: as_turned(rotary, outline.contour), ..outline };
+    let bore = bore(rotary);
     let (bands, wall) = (rotary.machine.cam.balance, MILLIMETRES * rotary.machine.limits.wall);
-    let balancing = bands
-        .map(|(inner, outer)| balance::balance(&outline.contour, (MILLIMETRES * inner, MILLIMETRES * outer), wall));
-    Ok(Part { outline, balancing, bore_radius: rotary.machine.cam.bore_radius.map(|radius| MILLIMETRES * radius) })
+    let round = bore.as_ref().map(Entity::contour);
+    let balancing = bands.map(|(inner, outer)| {
+        balance::balance(&outline.contour, round.as_ref(), (MILLIMETRES * inner, MILLIMETRES * outer), wall)
+    });
+    Ok(Part { outline, bore, balancing })
 }
 
 /// A contour of a clockwise cam as it lies in the drawing of this one.

@@ -115,11 +115,9 @@ pub fn sheet(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, Out
     let drawn = Extents { least: inner.least - reach, largest: inner.largest + reach };
     let pen = Pen { rotary, text: TEXT_OVER_WIDTH * drawn.size().x };
     let (base, prime) = (report.cam.base_radius_mm, report.cam.prime_radius_mm);
-    let circle = |radius: f64| Shape::Entity(Entity::Circle(Vector2::zeros(), radius));
     let group = |id, label, shapes| Group { id, label, shapes };
     let profile = vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone()))];
-    let holes = part.holes().iter().map(|(centre, radius)| Shape::Entity(Entity::Circle(*centre, *radius)));
-    let bore = part.bore_radius.map(circle).into_iter().chain(holes).collect();
+    let bore = part.holes().into_iter().map(Shape::Entity).collect();
     let (facts, bottom) = facts(&pen, report, &drawn);
     let groups = vec![
         group("profile", "profile", profile),
@@ -129,7 +127,7 @@ pub fn sheet(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, Out
         group("prime-circle", "prime circle", circle_with_name(&pen, prime, -1.1, "prime circle")),
         group("pitch-curve", "pitch curve", vec![Shape::Entity(Entity::Polyline(pitch_curve))]),
         group("roller", "roller at its worst pressure angle", worst_roller(&pen, &drawn)),
-        group("rotation", "rotation of the cam", rotation_arrow(&pen, part, base)),
+        group("rotation", "rotation of the cam", rotation_arrow(&pen, base)),
         group("scale", "scale", scale_bar(&pen, &drawn)),
         group("facts", "facts", facts),
     ];
@@ -193,8 +191,8 @@ fn worst_roller(pen: &Pen<'_>, drawn: &Extents) -> Vec<Shape> {
 }
 
 /// How the cam turns: an open arc about the shaft with a head.
-fn rotation_arrow(pen: &Pen<'_>, part: &Part, base: f64) -> Vec<Shape> {
-    let bore = part.bore_radius.unwrap_or(0.0);
+fn rotation_arrow(pen: &Pen<'_>, base: f64) -> Vec<Shape> {
+    let bore = MILLIMETRES * pen.rotary.machine.cam.bore_radius.unwrap_or(0.0);
     let radius = 0.5 * (bore + base);
     // Clockwise in the drawing of a clockwise cam, over 75° about the upper half of the vertical.
     let sense = match pen.rotary.machine.cam.rotation {

@@ -64,6 +64,8 @@ pub struct CamData {
     pub thickness: Option<f64>,
     /// Radius of the bore, m.
     pub bore_radius: Option<f64>,
+    /// Keyway in the bore.
+    pub keyway: Option<Keyway>,
     /// Material; steel where only the mass asks.
     pub material: Option<Material>,
     /// Band of radii in which holes may balance the disc, m.
@@ -72,7 +74,28 @@ pub struct CamData {
     pub rotation: Rotation,
 }
 
+/// A keyway in the bore.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Keyway {
+    /// Width, m.
+    pub width: f64,
+    /// Depth beyond the bore, m.
+    pub depth: f64,
+    /// Cam angle of its middle, rad.
+    pub angle: f64,
+}
+
 impl CamData {
+    /// How far bore and keyway reach from the shaft, m; `None` without a bore.
+    #[must_use]
+    pub fn bore_reach(&self) -> Option<f64> {
+        let bore = self.bore_radius?;
+        Some(self.keyway.map_or(bore, |keyway| {
+            let (out, half) = (bore + keyway.depth, 0.5 * keyway.width);
+            (out * out + half * half).sqrt()
+        }))
+    }
+
     /// Density of the disc, kg/m³.
     #[must_use]
     pub fn density(&self) -> f64 {

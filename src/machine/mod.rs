@@ -9,7 +9,7 @@ mod fault;
 mod reader;
 
 pub use data::{
-    CamData, ConoidData, ConoidMode, EfficiencyModel, Limits, Machine, Material, RollerData, Rotation, Shift,
+    CamData, ConoidData, ConoidMode, EfficiencyModel, Keyway, Limits, Machine, Material, RollerData, Rotation, Shift,
     TranslatingData,
 };
 pub use embedded::{EMBEDDED, Embedded};
@@ -189,6 +189,7 @@ fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<Ca
         ("aluminium", Some(Material::Aluminium)),
     ];
     let material = if read.has("cam.material") { read.word("cam.material", &materials)? } else { None };
+    let keyway = if read.has("cam.keyway") { Some(read_keyway(read, bore_radius)) } else { None };
     let balance = read.band("cam.balance", Length, above(0.0, LONGEST));
     let rotation = read.word("cam.rotation", &[("cw", Rotation::Clockwise), ("ccw", Rotation::CounterClockwise)]);
     if let (Some((inner, _)), Some(bore)) = (balance, bore_radius)
@@ -217,10 +218,29 @@ fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<Ca
         base_radius: base_radius?,
         thickness,
         bore_radius,
+        keyway,
         material,
         balance,
         rotation: rotation?,
     })
+}
+
+fn read_keyway(read: &mut Reader<'_>, bore_radius: Option<f64>) -> Keyway {
+    let length = above(0.0, LONGEST);
+    let keyway = Keyway {
+        width: read.quantity("cam.keyway.width", Length, "8 mm", length),
+        depth: read.quantity("cam.keyway.depth", Length, "3.3 mm", length),
+        angle: read.quantity_or("cam.keyway.angle", Angle, 0.0, within(-2.0 * PI, 2.0 * PI)),
+    };
+    match bore_radius {
+        None => read.fail("cam.keyway.width", "a keyway needs a bore".into(), Some("add cam.bore_radius".into())),
+        Some(bore) if keyway.width >= 2.0 * bore => {
+            let typed = read.typed("cam.bore_radius");
+            read.fail("cam.keyway.width", format!("the keyway is wider than the bore of radius {typed}"), None);
+        }
+        Some(_) => {}
+    }
+    keyway
 }
 
 fn read_transition(read: &mut Reader<'_>) -> Option<Transition> {
@@ -304,6 +324,8 @@ mod tests {
             ("design.rpm=0", vec!["must be above 0"]),
             ("design.rpm=35 rpm", vec!["not a bare number"]),
             ("name=", vec!["must be a text"]),
+            ("cam.keyway.width=8mm", vec!["missing key `cam.keyway.depth`"]),
+            ("cam.keyway.with=8mm", vec!["did you mean `cam.keyway.width`?"]),
             ("cam.balance=40mm", vec!["must be a band", "35 mm .. 60 mm"]),
             ("cam.balance=60mm .. 40mm", vec!["from the smaller to the larger"]),
             ("cam.balance=20mm .. 40mm", vec!["must begin outside the bore of 25 mm"]),

@@ -1,7 +1,9 @@
 //! The table of formats: a new one is one file and one line here.
 
-use super::{csv, json, svg};
+use super::{csv, json, step, svg};
 use crate::cam::rotary::Rotary;
+use crate::drawing::outline::MILLIMETRES;
+use crate::drawing::solid::{SolidError, solid};
 use crate::drawing::{self, Part, Report};
 
 /// A cam ready to be written, with what the formats want to know.
@@ -30,6 +32,12 @@ pub enum FormatError {
     /// The template is not one.
     #[error(transparent)]
     Template(#[from] svg::TemplateError),
+    /// A solid needs a thickness.
+    #[error("a STEP file needs cam.thickness; give it, or leave step out of --format")]
+    NoThickness,
+    /// The solid is not one.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
     /// The report could not be serialised.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
@@ -42,9 +50,14 @@ pub type Format = (&'static str, fn(&Job<'_>) -> Result<Vec<u8>, FormatError>);
 pub const FORMATS: &[Format] = &[
     ("dxf", |job| Ok(job.dxf.to_vec())),
     ("svg", |job| Ok(svg::write(&drawing::sheet(job.rotary, job.part, job.report)?, job.template)?)),
+    ("step", |job| {
+        let thickness = job.rotary.machine.cam.thickness.ok_or(FormatError::NoThickness)?;
+        let product = format!("{}, rotary cam for {} rpm", job.report.machine, job.report.rpm);
+        Ok(step::write(&solid(job.part, MILLIMETRES * thickness)?, &product))
+    }),
     ("csv", |job| Ok(csv::write(&drawing::table(job.rotary, job.samples)))),
     ("json", |job| Ok(json::write(job.report)?)),
 ];
 
 /// What is written when nothing is asked for.
-pub const DEFAULT_FORMATS: &[&str] = &["dxf", "svg", "csv"];
+pub const DEFAULT_FORMATS: &[&str] = &["dxf", "svg", "step", "csv"];

@@ -7,4 +7,5 @@ pub mod formats;
 pub mod json;
 pub mod number;
 pub mod proof;
+pub mod step;
 pub mod svg;

@@ -1,0 +1,305 @@
+//! The part as a solid: its face extruded, exact planes and cylinders, no booleans and no splines.
+//!
+//! Every contour runs with the metal on its left, the outline counter-clockwise, holes clockwise, so that one rule makes
+//! all side faces: the outward normal lies to the right. A line sweeps a plane; an arc sweeps a cylinder, whose own
+//! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
+//! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
+
+use super::Part;
+use crate::contour::{Contour, Segment};
+use nalgebra::Vector2;
+use truck_modeling::{InnerSpace, Point3, Vector3};
+use truck_topology::compress::{CompressedEdge, CompressedEdgeIndex, CompressedFace, CompressedShell, CompressedSolid};
+
+/// An edge's carrier, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Curve {
+    /// A straight line from a point along a unit vector.
+    Line {
+        /// A point of it.
+        origin: Point3,
+        /// Its direction.
+        direction: Vector3,
+    },
+    /// A circle in a plane of constant z.
+    Circle {
+        /// Its centre.
+        centre: Point3,
+        /// Its radius.
+        radius: f64,
+        /// The edge runs clockwise, seen from above.
+        clockwise: bool,
+    },
+}
+
+/// A face's carrier, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Surface {
+    /// A plane.
+    Plane {
+        /// A point of it.
+        origin: Point3,
+        /// Its unit normal.
+        normal: Vector3,
+        /// A unit vector in it.
+        along: Vector3,
+    },
+    /// A cylinder whose axis is parallel to z.
+    Cylinder {
+        /// A point of the axis.
+        origin: Point3,
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+/// The boundary of a solid: vertices, edges and faces by index, as truck exchanges them.
+pub type Boundary = CompressedSolid<Point3, Curve, Surface>;
+
+/// A solid that has been checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// Its boundary.
+    pub boundary: Boundary,
+    /// Its volume, mm³.
+    pub volume: f64,
+}
+
+/// Why a solid is not one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SolidError {
+    /// truck's check of the topology.
+    #[error("the solid is not closed: {0}; please report this")]
+    NotClosed(String),
+    /// Area times thickness is not what the boundary encloses.
+    #[error("the solid encloses {found} mm³ instead of {expected} mm³; please report this")]
+    WrongVolume {
+        /// By the edges of the solid.
+        found: f64,
+        /// By the drawing.
+        expected: f64,
+    },
+}
+
+/// Largest relative difference of the two volumes: rounding of a few hundred terms.
+const VOLUME_TOLERANCE: f64 = 1e-11;
+
+/// The part of the given thickness (mm), with its underside at z = 0, checked: closed by truck's rules, and with the
+/// volume that the drawing has.
+///
+/// # Errors
+/// [`SolidError`] when a check fails; both would be faults of camgen.
+pub fn solid(part: &Part, thickness: f64) -> Result<Solid, SolidError> {
+    let clockwise = |entity: &super::Entity| entity.contour().reversed();
+    let contours: Vec<Contour> =
+        std::iter::once(part.outline.contour.clone()).chain(part.holes().iter().map(clockwise)).collect();
+    let boundary = extruded(&contours, thickness);
+    truck_topology::Solid::extract(boundary.clone()).map_err(|error| SolidError::NotClosed(error.to_string()))?;
+    let volume = enclosed(&boundary);
+    let expected = part.area_and_moment().0 * thickness;
+    if !((volume / expected - 1.0).abs() <= VOLUME_TOLERANCE) {
+        return Err(SolidError::WrongVolume { found: volume, expected });
+    }
+    Ok(Solid { boundary, volume })
+}
+
+fn at(point: Vector2<f64>, z: f64) -> Point3 {
+    // A negative zero is zero.
+    Point3::new(point.x + 0.0, point.y + 0.0, z)
+}
+
+fn forward(index: usize) -> CompressedEdgeIndex {
+    CompressedEdgeIndex { index, orientation: true }
+}
+
+fn backward(index: usize) -> CompressedEdgeIndex {
+    CompressedEdgeIndex { index, orientation: false }
+}
+
+/// Contours with the metal on their left, the outer one first, extruded from z = 0.
+fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
+    let mut shell = CompressedShell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
+    let (mut under, mut above) = (Vec::new(), Vec::new());
+    for contour in contours {
+        let segments: Vec<Segment> = contour.segments().collect();
+        let n = segments.len();
+        let (first_vertex, first_edge) = (shell.vertices.len(), shell.edges.len());
+        // Vertices 2i below and 2i + 1 above; edges 3i below, 3i + 1 above, 3i + 2 upright at the start of segment i.
+        let vertex = |i: usize, top: usize| first_vertex + 2 * (i % n) + top;
+        let edge = |i: usize, kind: usize| first_edge + 3 * (i % n) + kind;
+        for (i, segment) in segments.iter().enumerate() {
+            for (top, z) in [(0, 0.0), (1, thickness)] {
+                shell.vertices.push(at(segment.start, z));
+                let curve = carrier(segment, z);
+                shell.edges.push(CompressedEdge { vertices: (vertex(i, top), vertex(i + 1, top)), curve });
+            }
+            let upright = Curve::Line { origin: at(segment.start, 0.0), direction: Vector3::unit_z() };
+            shell.edges.push(CompressedEdge { vertices: (vertex(i, 0), vertex(i, 1)), curve: upright });
+        }
+        for (i, segment) in segments.iter().enumerate() {
+            shell.faces.push(side(segment, [edge(i, 0), edge(i + 1, 2), edge(i, 1), edge(i, 2)]));
+        }
+        under.push((0..n).rev().map(|i| backward(edge(i, 0))).collect());
+        above.push((0..n).map(|i| forward(edge(i, 1))).collect());
+    }
+    for (boundaries, z, normal) in [(under, 0.0, -Vector3::unit_z()), (above, thickness, Vector3::unit_z())] {
+        let surface = Surface::Plane { origin: Point3::new(0.0, 0.0, z), normal, along: Vector3::unit_x() };
+        shell.faces.push(CompressedFace { boundaries, orientation: true, surface });
+    }
+    CompressedSolid { boundaries: vec![shell] }
+}
+
+fn carrier(segment: &Segment, z: f64) -> Curve {
+    if segment.bulge == 0.0 {
+        let direction = segment.start_tangent();
+        return Curve::Line {
+            origin: at(segment.start, z),
+            direction: Vector3::new(direction.x + 0.0, direction.y + 0.0, 0.0),
+        };
+    }
+    Curve::Circle { centre: at(segment.centre(), z), radius: segment.radius().abs(), clockwise: segment.bulge < 0.0 }
+}
+
+/// The side face over a segment; edges: below, upright at its end, above, upright at its start.
+fn side(segment: &Segment, [below, end, above, start]: [usize; 4]) -> CompressedFace<Surface> {
+    // Counter-clockwise about the normal to the right of the segment.
+    let outward = vec![forward(below), forward(end), backward(above), backward(start)];
+    if segment.bulge == 0.0 {
+        let tangent = segment.start_tangent();
+        let along = Vector3::new(tangent.x + 0.0, tangent.y + 0.0, 0.0);
+        let normal = Vector3::new(tangent.y + 0.0, -tangent.x + 0.0, 0.0);
+        let surface = Surface::Plane { origin: at(segment.start, 0.0), normal, along };
+        return CompressedFace { boundaries: vec![outward], orientation: true, surface };
+    }
+    let surface = Surface::Cylinder { origin: at(segment.centre(), 0.0), radius: segment.radius().abs() };
+    if segment.bulge > 0.0 {
+        CompressedFace { boundaries: vec![outward], orientation: true, surface }
+    } else {
+        // Loops run counter-clockwise about the normal of the surface, which here points into the metal.
+        let inward = vec![forward(start), forward(above), backward(end), backward(below)];
+        CompressedFace { boundaries: vec![inward], orientation: false, surface }
+    }
+}
+
+/// Volume within the boundary, mm³, by the divergence of (0, 0, z): the end faces only. Their area comes from the
+/// edges' own circles, ½∮(x dy − y dx) = ½[cx Δy − cy Δx + R² Δφ] on an arc.
+#[must_use]
+pub fn enclosed(boundary: &Boundary) -> f64 {
+    let mut volume = 0.0;
+    for shell in &boundary.boundaries {
+        for face in &shell.faces {
+            let Surface::Plane { origin, normal, .. } = face.surface else { continue };
+            if normal.z == 0.0 {
+                continue;
+            }
+            // Counter-clockwise about the normal; seen from above that is reversed under a downward one, and so is the
+            // normal: both signs cancel in z n_z × area about n.
+            let area: f64 = face.boundaries.iter().flatten().map(|used| swept(shell, *used)).sum();
+            volume += origin.z * area;
+        }
+    }
+    volume
+}
+
+fn swept(shell: &CompressedShell<Point3, Curve, Surface>, used: CompressedEdgeIndex) -> f64 {
+    let Some(edge) = shell.edges.get(used.index) else { return f64::NAN };
+    let (Some(a), Some(b)) = (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1)) else {
+        return f64::NAN;
+    };
+    let area = match edge.curve {
+        Curve::Line { .. } => 0.5 * (a.x * b.y - a.y * b.x),
+        Curve::Circle { centre, radius, clockwise } => {
+            let angle = |p: &Point3| libm::atan2(p.y - centre.y, p.x - centre.x);
+            let turn = angle(b) - angle(a);
+            let turn = if clockwise {
+                -(-turn).rem_euclid(std::f64::consts::TAU)
+            } else {
+                turn.rem_euclid(std::f64::consts::TAU)
+            };
+            0.5 * (centre.x * (b.y - a.y) - centre.y * (b.x - a.x) + radius * radius * turn)
+        }
+    };
+    if used.orientation { area } else { -area }
+}
+
+/// Largest distance of a vertex from the carriers of its edges, mm.
+#[must_use]
+pub fn largest_gap(boundary: &Boundary) -> f64 {
+    let mut worst = 0.0_f64;
+    for shell in &boundary.boundaries {
+        for edge in &shell.edges {
+            for vertex in [edge.vertices.0, edge.vertices.1] {
+                let Some(point) = shell.vertices.get(vertex) else { return f64::INFINITY };
+                worst = worst.max(match edge.curve {
+                    Curve::Line { origin, direction } => (point - origin).cross(direction).magnitude(),
+                    Curve::Circle { centre, radius, .. } => {
+                        let away = point - centre;
+                        (away.magnitude() - radius).abs().max(away.z.abs())
+                    }
+                });
+            }
+        }
+    }
+    worst
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cam::rotary::Rotary;
+    use crate::drawing;
+    use crate::machine::Machine;
+
+    fn boundary(overrides: &[&str]) -> Solid {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let machine = Machine::load("dpi", &overrides).expect("valid").0;
+        let rotary = Rotary::solve(&machine, 35.0).expect("a cam");
+        let part = drawing::part(&rotary, 5e-6).expect("an outline");
+        solid(&part, 30.0).expect("a solid")
+    }
+
+    #[test]
+    fn cams_with_every_kind_of_hole_are_closed_solids() {
+        let keyway = ["cam.keyway.width=8mm", "cam.keyway.depth=3.3mm", "cam.keyway.angle=90deg"];
+        let light = ["cam.lever=0.15", "cam.base_radius=90mm", "cam.balance=40mm .. 85mm"];
+        let concave = ["buffer.column=return", "transition.kind=none", "cam.rotation=ccw"];
+        for overrides in [&[][..], &keyway, &light, &concave, &[&light[..], &keyway].concat()] {
+            let solid = boundary(overrides);
+            assert!(largest_gap(&solid.boundary) < 1e-9, "{overrides:?}: {}", largest_gap(&solid.boundary));
+            let shell = &solid.boundary.boundaries[0];
+            // Euler's formula with h holes: V − E + F − (L − F) = 2 − 2h.
+            let loops: usize = shell.faces.iter().map(|face| face.boundaries.len()).sum();
+            let holes = (loops - shell.faces.len()) / 2;
+            let euler = shell.vertices.len() + 2 * shell.faces.len() + 2 * holes;
+            assert_eq!(euler, 2 + shell.edges.len() + loops, "{overrides:?}");
+        }
+    }
+
+    /// Faults planted in the boundary are caught before anything is written.
+    #[test]
+    fn a_broken_boundary_is_not_closed_or_not_the_volume() {
+        let good = boundary(&[]);
+        let closed = |boundary: &Boundary| truck_topology::Solid::extract(boundary.clone()).is_ok();
+        assert!(closed(&good.boundary));
+
+        let mut dropped = good.boundary.clone();
+        dropped.boundaries[0].faces.pop();
+        assert!(!closed(&dropped));
+
+        let mut flipped = good.boundary.clone();
+        flipped.boundaries[0].faces[3].orientation = !flipped.boundaries[0].faces[3].orientation;
+        assert!(!closed(&flipped));
+
+        let mut sense = good.boundary.clone();
+        for edge in &mut sense.boundaries[0].edges {
+            if let Curve::Circle { clockwise, .. } = &mut edge.curve {
+                *clockwise = true;
+            }
+        }
+        assert!((enclosed(&sense) / good.volume - 1.0).abs() > 0.1);
+
+        let mut moved = good.boundary.clone();
+        moved.boundaries[0].vertices[5].x += 1e-6;
+        assert!(largest_gap(&moved) > 1e-7);
+    }
+}

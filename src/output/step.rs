@@ -1,0 +1,202 @@
+//! The solid as a STEP file: AP214, millimetres, ASCII.
+//!
+//! truck-stepio numbers and writes topology and geometry; its frame is not used, because its product has no name, its
+//! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is ours.
+
+use super::number::shortest;
+use crate::drawing::solid::{Boundary, Curve, Solid, Surface};
+use std::fmt::{Formatter, Result};
+use truck_modeling::{Point3, Vector3};
+use truck_stepio::out::{DisplayByStep, StepCurve, StepLength, StepModel, StepSurface};
+
+/// First entity truck writes; the frame takes the numbers below.
+const FIRST: &str = "#16 = ";
+/// A fixed time: the same input gives the same bytes.
+const TIME: &str = "1970-01-01T00:00:00";
+
+/// A real of a STEP file: shortest, with its decimal point.
+fn real(value: f64) -> String {
+    let text = shortest(value);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if mantissa.contains('.') => format!("{mantissa}E{exponent}"),
+        Some((mantissa, exponent)) => format!("{mantissa}.E{exponent}"),
+        None if text.contains('.') => text,
+        None => format!("{text}."),
+    }
+}
+
+fn point(p: Point3) -> String {
+    format!("CARTESIAN_POINT('', ({}, {}, {}))", real(p.x), real(p.y), real(p.z))
+}
+
+fn direction(v: Vector3) -> String {
+    format!("DIRECTION('', ({}, {}, {}))", real(v.x), real(v.y), real(v.z))
+}
+
+/// AXIS2_PLACEMENT_3D with its point and directions, in the lines from `index` on.
+fn placement(f: &mut Formatter<'_>, index: usize, origin: Point3, axis: Vector3, along: Vector3) -> Result {
+    let (a, b, c) = (index + 1, index + 2, index + 3);
+    writeln!(f, "#{index} = AXIS2_PLACEMENT_3D('', #{a}, #{b}, #{c});")?;
+    writeln!(f, "#{a} = {};", point(origin))?;
+    writeln!(f, "#{b} = {};", direction(axis))?;
+    writeln!(f, "#{c} = {};", direction(along))
+}
+
+impl StepLength for Curve {
+    fn step_length(&self) -> usize {
+        match self {
+            Curve::Line { .. } => 4,
+            Curve::Circle { .. } => 5,
+        }
+    }
+}
+
+impl StepCurve for Curve {
+    fn same_sense(&self) -> bool {
+        match self {
+            Curve::Line { .. } => true,
+            Curve::Circle { clockwise, .. } => !clockwise,
+        }
+    }
+}
+
+impl DisplayByStep for Curve {
+    fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
+        let next = index + 1;
+        match *self {
+            Curve::Line { origin, direction: along } => {
+                let (vector, unit) = (index + 2, index + 3);
+                writeln!(f, "#{index} = LINE('', #{next}, #{vector});")?;
+                writeln!(f, "#{next} = {};", point(origin))?;
+                writeln!(f, "#{vector} = VECTOR('', #{unit}, 1.);")?;
+                writeln!(f, "#{unit} = {};", direction(along))
+            }
+            Curve::Circle { centre, radius, .. } => {
+                writeln!(f, "#{index} = CIRCLE('', #{next}, {});", real(radius))?;
+                placement(f, next, centre, Vector3::unit_z(), Vector3::unit_x())
+            }
+        }
+    }
+}
+
+impl StepLength for Surface {
+    fn step_length(&self) -> usize {
+        5
+    }
+}
+
+impl StepSurface for Surface {}
+
+impl DisplayByStep for Surface {
+    fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
+        let next = index + 1;
+        match *self {
+            Surface::Plane { origin, normal, along } => {
+                writeln!(f, "#{index} = PLANE('', #{next});")?;
+                placement(f, next, origin, normal, along)
+            }
+            Surface::Cylinder { origin, radius } => {
+                writeln!(f, "#{index} = CYLINDRICAL_SURFACE('', #{next}, {});", real(radius))?;
+                placement(f, next, origin, Vector3::unit_z(), Vector3::unit_x())
+            }
+        }
+    }
+}
+
+/// A vertex, written by ourselves so that its digits are those of the drawing.
+#[derive(Debug, Clone, Copy)]
+struct Place(Point3);
+
+impl StepLength for Place {
+    fn step_length(&self) -> usize {
+        1
+    }
+}
+
+impl DisplayByStep for Place {
+    fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
+        writeln!(f, "#{index} = {};", point(self.0))
+    }
+}
+
+/// Text in a STEP file: quotes doubled, what is not ASCII as `\X2\…\X0\` (ISO 10303-21), control characters left out.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars().filter(|c| !c.is_control()) {
+        match c {
+            '\'' => out.push_str("''"),
+            '\\' => out.push_str("\\\\"),
+            c if c.is_ascii() => out.push(c),
+            c if u32::from(c) <= 0xFFFF => out.push_str(&format!("\\X2\\{:04X}\\X0\\", u32::from(c))),
+            c => out.push_str(&format!("\\X4\\{:08X}\\X0\\", u32::from(c))),
+        }
+    }
+    out
+}
+
+/// The solid under a product name.
+#[must_use]
+pub fn write(solid: &Solid, product: &str) -> Vec<u8> {
+    let boundary = with_places(&solid.boundary);
+    let written = StepModel::from(&boundary).to_string();
+    let start = written.find(FIRST).unwrap_or(0);
+    let data = written.get(start..).unwrap_or_default().replace("= FACE_SURFACE(", "= ADVANCED_FACE(");
+    // The category comes behind the last of truck's lines.
+    let category = data.lines().filter_map(|line| line.strip_prefix('#')?.split(' ').next()?.parse::<u32>().ok()).max();
+    let category = category.unwrap_or(16) + 1;
+    let name = escaped(product);
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION(('{name}'), '2;1');
+FILE_NAME('{name}', '{TIME}', (''), (''), 'camgen {version}', 'camgen', '');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN {{ 1 0 10303 214 1 1 1 1 }}'));
+ENDSEC;
+DATA;
+#1 = APPLICATION_PROTOCOL_DEFINITION('international standard', 'automotive_design', 2000, #2);
+#2 = APPLICATION_CONTEXT('core data for automotive mechanical design processes');
+#3 = SHAPE_DEFINITION_REPRESENTATION(#4, #10);
+#4 = PRODUCT_DEFINITION_SHAPE('', '', #5);
+#5 = PRODUCT_DEFINITION('design', '', #6, #9);
+#6 = PRODUCT_DEFINITION_FORMATION('', '', #7);
+#7 = PRODUCT('{name}', '{name}', '', (#8));
+#8 = PRODUCT_CONTEXT('', #2, 'mechanical');
+#9 = PRODUCT_DEFINITION_CONTEXT('part definition', #2, 'design');
+#10 = ADVANCED_BREP_SHAPE_REPRESENTATION('{name}', (#16), #11);
+#11 = (GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#15)) GLOBAL_UNIT_ASSIGNED_CONTEXT((#12, #13, #14)) REPRESENTATION_CONTEXT('', '3D'));
+#12 = (LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI., .METRE.));
+#13 = (NAMED_UNIT(*) PLANE_ANGLE_UNIT() SI_UNIT($, .RADIAN.));
+#14 = (NAMED_UNIT(*) SI_UNIT($, .STERADIAN.) SOLID_ANGLE_UNIT());
+#15 = UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06), #12, 'distance_accuracy_value', 'confusion accuracy');
+{data}#{category} = PRODUCT_RELATED_PRODUCT_CATEGORY('part', '', (#7));
+ENDSEC;
+END-ISO-10303-21;
+"
+    )
+    .into_bytes()
+}
+
+fn with_places(boundary: &Boundary) -> truck_topology::compress::CompressedSolid<Place, Curve, Surface> {
+    let shell = |shell: &truck_topology::compress::CompressedShell<Point3, Curve, Surface>| {
+        truck_topology::compress::CompressedShell {
+            vertices: shell.vertices.iter().map(|point| Place(*point)).collect(),
+            edges: shell.edges.clone(),
+            faces: shell.faces.clone(),
+        }
+    };
+    truck_topology::compress::CompressedSolid { boundaries: boundary.boundaries.iter().map(shell).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reals_have_a_point_and_texts_are_escaped() {
+        for (value, text) in [(1.0, "1."), (-0.0, "0."), (0.1, "0.1"), (1.5e-17, "1.5E-17"), (2e-9, "2.E-9")] {
+            assert_eq!(real(value), text);
+        }
+        assert_eq!(escaped("It's ДПИ\\\u{1}\n"), "It''s \\X2\\0414\\X0\\\\X2\\041F\\X0\\\\X2\\0418\\X0\\\\\\");
+    }
+}
