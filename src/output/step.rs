@@ -119,17 +119,44 @@ impl DisplayByStep for Place {
     }
 }
 
-/// Text in a STEP file: quotes doubled, what is not ASCII as `\X2\…\X0\` (ISO 10303-21), control characters left out.
+/// Text in a STEP file: quotes doubled, runs of what is not ASCII as `\X2\…\X0\` or `\X4\…\X0\` (ISO 10303-21),
+/// control characters left out. An apostrophe before a comma or a parenthesis is written by its code: OpenCASCADE 7.8
+/// takes a doubled one there for the end of the text.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
-    for c in text.chars().filter(|c| !c.is_control()) {
-        match c {
-            '\'' => out.push_str("''"),
-            '\\' => out.push_str("\\\\"),
-            c if c.is_ascii() => out.push(c),
-            c if u32::from(c) <= 0xFFFF => out.push_str(&format!("\\X2\\{:04X}\\X0\\", u32::from(c))),
-            c => out.push_str(&format!("\\X4\\{:08X}\\X0\\", u32::from(c))),
+    // Hexadecimal digits of a character of the open run; 0 outside of one.
+    let mut open = 0;
+    let text: Vec<char> = text.chars().filter(|c| !c.is_control()).collect();
+    for (index, c) in text.iter().copied().enumerate() {
+        let code = u32::from(c);
+        let digits = if c.is_ascii() {
+            0
+        } else if code <= 0xFFFF {
+            4
+        } else {
+            8
+        };
+        if digits != open {
+            if open != 0 {
+                out.push_str("\\X0\\");
+            }
+            if digits != 0 {
+                out.push_str(if digits == 4 { "\\X2\\" } else { "\\X4\\" });
+            }
+            open = digits;
         }
+        match (digits, c) {
+            (0, '\'') => {
+                let next = text.iter().skip(index + 1).find(|c| **c != ' ');
+                out.push_str(if matches!(next, Some(',' | ')')) { "\\X\\27" } else { "''" });
+            }
+            (0, '\\') => out.push_str("\\\\"),
+            (0, c) => out.push(c),
+            (digits, _) => out.push_str(&format!("{code:0digits$X}")),
+        }
+    }
+    if open != 0 {
+        out.push_str("\\X0\\");
     }
     out
 }
@@ -197,6 +224,8 @@ mod tests {
         for (value, text) in [(1.0, "1."), (-0.0, "0."), (0.1, "0.1"), (1.5e-17, "1.5E-17"), (2e-9, "2.E-9")] {
             assert_eq!(real(value), text);
         }
-        assert_eq!(escaped("It's ДПИ\\\u{1}\n"), "It''s \\X2\\0414\\X0\\\\X2\\041F\\X0\\\\X2\\0418\\X0\\\\\\");
+        assert_eq!(escaped("It's ДПИ\\\u{1}\n"), "It''s \\X2\\0414041F0418\\X0\\\\\\");
+        assert_eq!(escaped("a', (b'), 'c'"), "a\\X\\27, (b\\X\\27), ''c''");
+        assert_eq!(escaped("𝜑é"), "\\X4\\0001D711\\X0\\\\X2\\00E9\\X0\\");
     }
 }
