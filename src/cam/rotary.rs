@@ -164,12 +164,6 @@ impl Rotary {
         let plain = PlainBuffer::new(balance.loading, balance.exponent, balance.stroke);
         plain.largest_residual().1 * self.cylinder.unit_force()
     }
-
-    /// The sharpest corner of the pitch curve, if any.
-    #[must_use]
-    pub fn sharpest_corner(&self) -> Option<extremes::Corner> {
-        extremes::corners(&self.disc).into_iter().max_by(|a, b| a.turn.abs().total_cmp(&b.turn.abs()))
-    }
 }
 
 fn round_up(base: f64) -> f64 {

@@ -6,7 +6,7 @@ use super::{Entity, Part, as_turned, point_as_turned};
 use crate::cam::extremes;
 use crate::cam::rotary::Rotary;
 use crate::checks::{Finding, Verdict, cam_degrees};
-use crate::contour::{Contour, Extents};
+use crate::contour::Extents;
 use crate::follower::Follower;
 use crate::law::Law;
 use crate::machine::Rotation;
@@ -287,15 +287,4 @@ fn shown(value: f64) -> String {
     }
     let rounded = (value * 1e3).round() / 1e3;
     if rounded == 0.0 && value != 0.0 { format!("{value:.1e}") } else { rounded.to_string() }
-}
-
-impl Sheet {
-    /// The contour of a group's only polyline, for tests and readers.
-    #[must_use]
-    pub fn polyline(&self, id: &str) -> Option<&Contour> {
-        self.groups.iter().find(|group| group.id == id)?.shapes.iter().find_map(|shape| match shape {
-            Shape::Entity(Entity::Polyline(contour)) => Some(contour),
-            _ => None,
-        })
-    }
 }

@@ -203,12 +203,6 @@ impl Reversal {
         &self.law
     }
 
-    /// Δx of the lowest point, where the lift is 0; m.
-    #[must_use]
-    pub fn lowest_displacement(&self) -> f64 {
-        self.lowest
-    }
-
     /// Jump of the bottom's velocity by the crank angle at the start of the reversal, m/rad: what `none` leaves.
     #[must_use]
     pub fn velocity_jump(&self) -> f64 {
