@@ -293,6 +293,16 @@ fn what_cannot_be_read_is_exit_2() {
     assert_eq!(bench.check(nan.as_bytes(), &[]).0, 2);
 }
 
+/// Segments shorter than the reach within which loose ends are joined are still segments.
+#[test]
+fn a_transition_of_a_fraction_of_a_micrometre() {
+    let bench = Bench::new();
+    let narrow = ["--set", "transition.width=0.0001deg"];
+    let (dxf, _) = bench.cam(&narrow);
+    let (code, report) = bench.check(dxf.as_bytes(), &narrow);
+    assert_eq!((code, failed(&report)), (0, vec![]), "{report}");
+}
+
 /// A chain of ten thousand segments is checked too; how long it takes is a benchmark.
 #[test]
 fn ten_thousand_segments() {

@@ -41,6 +41,9 @@ fn reversed(segment: Segment) -> Segment {
     Segment { start: segment.end, end: segment.start, bulge: -segment.bulge }
 }
 
+/// A segment no longer than this has no length, mm: readers drop it, whatever reach its ends are joined with.
+const NO_LENGTH: f64 = 1e-6;
+
 pub(super) struct Joined {
     pub(super) chains: Vec<Chain>,
     pub(super) duplicates: Vec<Vector2<f64>>,
@@ -87,7 +90,7 @@ pub(super) fn join(pieces: Vec<Vec<Segment>>, reach: f64) -> Joined {
     for piece in pieces {
         let mut segments: Vec<Segment> = Vec::new();
         for segment in piece {
-            if (segment.end - segment.start).norm() <= reach {
+            if (segment.end - segment.start).norm() <= reach.min(NO_LENGTH) {
                 points.push(segment.start);
                 continue;
             }
