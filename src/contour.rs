@@ -184,7 +184,7 @@ pub struct Nearest {
 }
 
 /// x − sin x without cancellation at small x (series to x¹¹, exact to rounding below 0.5).
-fn sweep_minus_sine(x: f64) -> f64 {
+pub(crate) fn sweep_minus_sine(x: f64) -> f64 {
     if x.abs() > 0.5 {
         return x - libm::sin(x);
     }
@@ -254,6 +254,14 @@ impl Contour {
         self.segments().map(|segment| segment.length()).sum()
     }
 
+    /// How often the chain runs round: 1 for a simple one run counter-clockwise, −1 clockwise.
+    #[must_use]
+    pub fn turns(&self) -> f64 {
+        let swept: f64 = self.segments().map(|segment| segment.sweep()).sum();
+        let kinks: f64 = self.tangent_breaks().iter().sum();
+        ((swept + kinks) / std::f64::consts::TAU).round()
+    }
+
     /// Turn of the tangent at the start of each segment, rad: 0 where the chain is smooth.
     #[must_use]
     pub fn tangent_breaks(&self) -> Vec<f64> {
@@ -312,6 +320,9 @@ mod tests {
         let (area, centroid) = circle.area_and_centroid();
         assert!((area - 25.0 * PI).abs() < 1e-13);
         assert!((centroid - centre).norm() < 1e-14);
+        assert_eq!((circle.turns(), circle.reversed().turns()), (1.0, -1.0));
+        let twice = Contour { vertices: [&circle.vertices[..], &circle.vertices[..]].concat() };
+        assert_eq!(twice.turns(), 2.0);
         assert!((circle.length() - 10.0 * PI).abs() < 1e-13);
         assert!(circle.tangent_breaks().iter().all(|turn| turn.abs() < 1e-15));
         let extents = circle.extents();

@@ -280,6 +280,43 @@ fn opened_doubled_and_misplaced() {
 }
 
 #[test]
+fn cut_twice() {
+    let bench = Bench::new();
+    let (dxf, _) = bench.cam(&[]);
+    let original = vertices(&dxf);
+    // Once round with the arcs of the file and once with their halves: no segment lies on another, but the tool goes twice.
+    let halves = Contour { vertices: original.clone() };
+    let halves = halves.segments().flat_map(|s| {
+        let bulge = (s.bulge.atan() / 2.0).tan();
+        [Vertex { point: s.start, bulge }, Vertex { point: s.middle(), bulge }]
+    });
+    let (code, report) = bench.check(&file(original.iter().copied().chain(halves).collect()), &[]);
+    assert_eq!((code, failed(&report)), (1, vec!["contours".to_owned()]), "{report}");
+
+    let again = |layer| {
+        let line = || Entity::Polyline(Contour { vertices: original.clone() });
+        dxf::write(&[(Layer::CamProfile, line()), (layer, line())], Version::R2000)
+    };
+    let (code, report) = bench.check(&again(Layer::Bore), &[]);
+    assert_eq!((code, failed(&report)), (1, vec!["duplicates".to_owned()]), "{report}");
+}
+
+#[test]
+fn what_lies_in_paper_space_or_across_the_plane_is_not_cut() {
+    let bench = Bench::new();
+    let (dxf, _) = bench.cam(&[]);
+    let paper = dxf.replacen("AcDbEntity\n  8\nCAM_PROFILE", "AcDbEntity\n 67\n1\n  8\nCAM_PROFILE", 1);
+    assert_ne!(paper, dxf);
+    let (code, report) = bench.check(paper.as_bytes(), &[]);
+    assert_eq!((code, failed(&report)), (1, vec!["layer".to_owned(), "contours".to_owned()]), "{report}");
+    let tilted = dxf.replacen("AcDbPolyline\n", "AcDbPolyline\n210\n0.0\n220\n0.6\n230\n0.8\n", 1);
+    let (code, report) = bench.check(tilted.as_bytes(), &[]);
+    assert_eq!((code, failed(&report)), (1, vec!["readable".to_owned(), "contours".to_owned()]), "{report}");
+    let lower = dxf.replace("CAM_PROFILE", "cam_profile");
+    assert_eq!(bench.check(lower.as_bytes(), &[]).0, 0, "names of layers are alike in either case");
+}
+
+#[test]
 fn what_cannot_be_read_is_exit_2() {
     let bench = Bench::new();
     let (dxf, _) = bench.cam(&[]);

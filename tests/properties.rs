@@ -5,7 +5,7 @@
 use camgen::cam::envelope;
 use camgen::cam::rotary::Rotary;
 use camgen::checks::rolling;
-use camgen::drawing;
+use camgen::drawing::{self, solid};
 use camgen::law::Law;
 use camgen::machine::Machine;
 use camgen::output::dxf::Version;
@@ -68,6 +68,8 @@ proptest! {
                 let losses = envelope::losses(&cam.disc).expect("drawn, so they were found");
                 // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
                 prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
+                let body = solid::solid(&part, 30.0).map_err(|error| TestCaseError::fail(error.to_string()))?;
+                prop_assert!(solid::largest_gap(&body.boundary) <= 1e-7, "{}", solid::largest_gap(&body.boundary));
                 let written = proof::write(&part, Version::R2000);
                 let outline = written.map_err(|error| TestCaseError::fail(error.to_string()))?.outline;
                 let rolled = rolling::roll(&cam, &outline, 1e3 * tolerance);

@@ -1,11 +1,9 @@
 //! The proof for any DXF file: is it one closed outline in millimetres, tangent, and does it give the law?
 
 use super::rolling::{self, Rolled};
-use super::{Finding, Subject, Verdict, cam_degrees, tangency, verdict};
+use super::{Finding, Subject, Verdict, place, tangency, verdict};
 use crate::cam::rotary::Rotary;
-use crate::machine::Rotation;
 use crate::reading::{OUTLINE_LAYER, Reading, Unit};
-use nalgebra::Vector2;
 
 /// Ends nearer than this share of the tolerance are one: programs round coordinates to four to six decimals.
 const JOIN_SHARE: f64 = 0.1;
@@ -14,15 +12,6 @@ const JOIN_SHARE: f64 = 0.1;
 #[must_use]
 pub fn join_reach(tolerance_mm: f64) -> f64 {
     JOIN_SHARE * tolerance_mm
-}
-
-/// The cam angle at which a place of the drawing lies, degrees.
-fn place(rotary: &Rotary, point: Vector2<f64>) -> f64 {
-    let angle = libm::atan2(point.y, point.x);
-    cam_degrees(match rotary.machine.cam.rotation {
-        Rotation::Clockwise => angle,
-        Rotation::CounterClockwise => -angle,
-    })
 }
 
 /// Checks what was read from a file against a cam; tolerance in mm. The rolling is `None` when there is no single closed
@@ -60,7 +49,7 @@ fn count(check: &'static str, found: usize, limit: usize, kept: bool, note: Opti
 }
 
 fn layer(reading: &Reading) -> Finding {
-    let there = reading.layers.iter().any(|layer| layer == OUTLINE_LAYER);
+    let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(OUTLINE_LAYER));
     let layers = reading.layers.join(", ");
     let note = (!there).then(|| format!("nothing lies on layer {OUTLINE_LAYER}; the file's layers are: {layers}"));
     count("layer", usize::from(there), 1, there, note)
@@ -99,8 +88,18 @@ fn duplicates(rotary: &Rotary, reading: &Reading) -> Finding {
 
 fn contours(reading: &Reading) -> Finding {
     let found = reading.chains.len();
-    let note = (found > 1).then(|| "the outline must be one contour; the rest belongs on other layers".to_owned());
-    count("contours", found, 1, found == 1, note)
+    let round = match reading.chains.as_slice() {
+        [chain] if chain.closed => chain.contour().turns().abs(),
+        _ => 1.0,
+    };
+    let note = if found > 1 {
+        Some("the outline must be one contour; the rest belongs on other layers".to_owned())
+    } else if round == 1.0 {
+        None
+    } else {
+        Some(format!("the outline crosses itself: it turns round {round} times"))
+    };
+    count("contours", found, 1, found == 1 && round == 1.0, note)
 }
 
 fn closed(rotary: &Rotary, reading: &Reading, tolerance_mm: f64) -> Option<Finding> {

@@ -16,7 +16,9 @@ mod wall;
 
 use crate::cam::rotary::Rotary;
 use crate::contour::Contour;
+use crate::machine::Rotation;
 use balance::Balancing;
+use nalgebra::Vector2;
 use rolling::Rolled;
 use serde::Serialize;
 
@@ -112,6 +114,15 @@ pub(crate) fn cam_degrees(angle: f64) -> f64 {
     let positive = if degrees < 0.0 { degrees + 360.0 } else { degrees };
     // A hair below zero rounds up to a whole turn.
     if positive >= 360.0 { 0.0 } else { positive + 0.0 }
+}
+
+/// The cam angle at which a place of the drawing lies, degrees.
+fn place(rotary: &Rotary, point: Vector2<f64>) -> f64 {
+    let angle = libm::atan2(point.y, point.x);
+    cam_degrees(match rotary.machine.cam.rotation {
+        Rotation::Clockwise => angle,
+        Rotation::CounterClockwise => -angle,
+    })
 }
 
 /// "base radius 997 mm would pass", when there is one and the cam has another.

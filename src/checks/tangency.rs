@@ -1,6 +1,6 @@
 //! Kinks between the segments of the outline.
 
-use super::{Finding, Subject, cam_degrees, verdict};
+use super::{Finding, Subject, place, verdict};
 
 /// Largest kink, degrees: what controllers and shops take for smooth.
 const LIMIT: f64 = 0.05;
@@ -15,7 +15,7 @@ pub(super) fn check(subject: &Subject<'_>) -> Option<Finding> {
         value,
         limit: Some(LIMIT),
         unit: "deg",
-        cam_deg: Some(cam_degrees(libm::atan2(vertex.point.y, vertex.point.x))),
+        cam_deg: Some(place(subject.rotary, vertex.point)),
         verdict: verdict(value <= LIMIT),
         note: None,
     })

@@ -6,7 +6,7 @@
 //! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
 
 use super::Part;
-use crate::contour::{Contour, Segment};
+use crate::contour::{Contour, Segment, sweep_minus_sine};
 use nalgebra::Vector2;
 use truck_modeling::{InnerSpace, Point3, Vector3};
 use truck_topology::compress::{CompressedEdge, CompressedEdgeIndex, CompressedFace, CompressedShell, CompressedSolid};
@@ -81,6 +81,9 @@ pub enum SolidError {
     },
 }
 
+/// Longest sweep of one cylinder face, rad.
+const LONGEST_SWEEP: f64 = std::f64::consts::PI * (1.0 + 1e-9);
+
 /// Largest relative difference of the two volumes: rounding of a few hundred terms.
 const VOLUME_TOLERANCE: f64 = 1e-11;
 
@@ -121,7 +124,7 @@ fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
     let mut shell = CompressedShell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
     let (mut under, mut above) = (Vec::new(), Vec::new());
     for contour in contours {
-        let segments: Vec<Segment> = contour.segments().collect();
+        let segments: Vec<Segment> = contour.segments().flat_map(|segment| halved(&segment)).collect();
         let n = segments.len();
         let (first_vertex, first_edge) = (shell.vertices.len(), shell.edges.len());
         // Vertices 2i below and 2i + 1 above; edges 3i below, 3i + 1 above, 3i + 2 upright at the start of segment i.
@@ -147,6 +150,15 @@ fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
         shell.faces.push(CompressedFace { boundaries, orientation: true, surface });
     }
     CompressedSolid { boundaries: vec![shell] }
+}
+
+/// A long arc as two: some readers cannot tell the inside of a cylinder face that is almost closed.
+fn halved(segment: &Segment) -> Vec<Segment> {
+    if segment.sweep().abs() <= LONGEST_SWEEP {
+        return vec![*segment];
+    }
+    let (middle, bulge) = (segment.middle(), libm::tan(0.125 * segment.sweep()));
+    vec![Segment { end: middle, bulge, ..*segment }, Segment { start: middle, bulge, ..*segment }]
 }
 
 fn carrier(segment: &Segment, z: f64) -> Curve {
@@ -182,7 +194,7 @@ fn side(segment: &Segment, [below, end, above, start]: [usize; 4]) -> Compressed
 }
 
 /// Volume within the boundary, mm³, by the divergence of (0, 0, z): the end faces only. Their area comes from the
-/// edges' own circles, ½∮(x dy − y dx) = ½[cx Δy − cy Δx + R² Δφ] on an arc.
+/// vertices and the edges' own circles.
 #[must_use]
 pub fn enclosed(boundary: &Boundary) -> f64 {
     let mut volume = 0.0;
@@ -209,14 +221,15 @@ fn swept(shell: &CompressedShell<Point3, Curve, Surface>, used: CompressedEdgeIn
     let area = match edge.curve {
         Curve::Line { .. } => 0.5 * (a.x * b.y - a.y * b.x),
         Curve::Circle { centre, radius, clockwise } => {
-            let angle = |p: &Point3| libm::atan2(p.y - centre.y, p.x - centre.x);
-            let turn = angle(b) - angle(a);
-            let turn = if clockwise {
-                -(-turn).rem_euclid(std::f64::consts::TAU)
-            } else {
-                turn.rem_euclid(std::f64::consts::TAU)
-            };
-            0.5 * (centre.x * (b.y - a.y) - centre.y * (b.x - a.x) + radius * radius * turn)
+            // Under the chord a triangle with the origin, over it R²/2 (θ − sin θ); θ from the circle's centre, seen
+            // from the chord, so that a nearly straight arc keeps its digits.
+            let side = if clockwise { -1.0 } else { 1.0 };
+            let (dx, dy) = (b.x - a.x, b.y - a.y);
+            let chord = (dx * dx + dy * dy).sqrt();
+            let (mx, my) = (0.5 * (a.x + b.x) - centre.x, 0.5 * (a.y + b.y) - centre.y);
+            let away = side * (mx * dy - my * dx) / chord;
+            let turn = 2.0 * libm::atan2(0.5 * chord, away);
+            0.5 * (a.x * b.y - a.y * b.x) + side * 0.5 * radius * radius * sweep_minus_sine(turn)
         }
     };
     if used.orientation { area } else { -area }

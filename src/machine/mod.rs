@@ -34,18 +34,22 @@ const HIGHEST_PRESSURE: f64 = 1e9;
 const LARGEST_FORCE: f64 = 1e9;
 /// Highest speed, ratio or lever.
 const LARGEST_NUMBER: f64 = 1e5;
+/// Slowest speed, rpm: slower, the air column is longer than anything on earth.
+const LEAST_RPM: f64 = 1e-3;
+/// Thinnest disc, m: CAD systems take less than a micrometre for nothing.
+const THINNEST: f64 = 1e-6;
 /// Largest machine file, bytes.
 const LARGEST_FILE: u64 = 1 << 20;
 
-/// A speed of the main shaft a machine can be asked for, rpm: above 0, at most 100000.
+/// A speed of the main shaft a machine can be asked for, rpm: at least 0.001, at most 100000.
 ///
 /// # Errors
 /// A message with the range.
 pub fn valid_rpm(rpm: f64) -> Result<f64, String> {
-    if rpm > 0.0 && rpm <= LARGEST_NUMBER {
+    if (LEAST_RPM..=LARGEST_NUMBER).contains(&rpm) {
         Ok(rpm)
     } else {
-        Err(format!("a speed must be above 0 and at most {LARGEST_NUMBER} rpm: {rpm}"))
+        Err(format!("a speed must be at least {LEAST_RPM} and at most {LARGEST_NUMBER} rpm: {rpm}"))
     }
 }
 
@@ -78,7 +82,7 @@ impl Machine {
             Column::Length,
         );
         let lead = read.quantity_or("buffer.lead", Length, 0.0, within(0.0, LONGEST));
-        let design_rpm = read.number("design.rpm", Some(35.0), above(0.0, LARGEST_NUMBER));
+        let design_rpm = read.number("design.rpm", Some(35.0), within(LEAST_RPM, LARGEST_NUMBER));
         let radius = read.quantity("follower.roller.radius", Length, "30 mm", above(0.0, LONGEST));
         let offset = read.quantity_or("follower.roller.offset", Length, 0.0, within(-LONGEST, LONGEST));
         let mass = read.optional("follower.roller.mass", Mass, above(0.0, HEAVIEST)).map(|q| q.si);
@@ -180,7 +184,7 @@ fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<Ca
     let turns_per_crank_turn = read.number("cam.cam_turns_per_crank_turn", Some(1.0), above(0.0, LARGEST_NUMBER));
     let lever = read.number("cam.lever", Some(1.0), above(0.0, LARGEST_NUMBER));
     let base_radius = read.word_or_quantity("cam.base_radius", &[("auto", None)], Length, above(0.0, LONGEST), Some);
-    let thickness = read.optional("cam.thickness", Length, above(0.0, LONGEST)).map(|q| q.si);
+    let thickness = read.optional("cam.thickness", Length, within(THINNEST, LONGEST)).map(|q| q.si);
     let bore_radius = read.optional("cam.bore_radius", Length, above(0.0, LONGEST)).map(|q| q.si);
     let materials = [
         ("steel", Some(Material::Steel)),
@@ -321,7 +325,8 @@ mod tests {
             ("transition.kind=smooth", vec!["one of \"run-up\", \"blend\", \"none\""]),
             ("cam.thicknes=3 mm", vec!["unknown key `cam.thicknes`", "did you mean `cam.thickness`?"]),
             ("cam.bore_radius", vec!["no `=`"]),
-            ("design.rpm=0", vec!["must be above 0"]),
+            ("design.rpm=0", vec!["must be at least 0.001"]),
+            ("cam.thickness=0.1um", vec!["must be at least 1 um"]),
             ("design.rpm=35 rpm", vec!["not a bare number"]),
             ("name=", vec!["must be a text"]),
             ("cam.keyway.width=8mm", vec!["missing key `cam.keyway.depth`"]),
@@ -360,6 +365,22 @@ mod tests {
         assert!(lines.is_sorted(), "{lines:?}");
         let broken = Machine::from_toml("bad.toml", "name = \n[bed\n", &[]).expect_err("not TOML").to_string();
         assert!(broken.contains("not TOML") && broken.contains("bad.toml:1:"), "{broken}");
+    }
+
+    #[test]
+    fn keys_in_disguise_and_empty_tables_are_unknown() {
+        let dpi = EMBEDDED[0].toml;
+        for (toml, part) in [
+            (format!("\"bed.mass\" = \"1 kg\"\n{dpi}"), "unknown key `\"bed.mass\"`"),
+            (format!("{dpi}\n[foo]\n"), "unknown table `foo`"),
+            (format!("{dpi}\n[limits.zzz]\n"), "unknown table `limits.zzz`"),
+            (format!("{dpi}\n[cam.keyway]\n"), "missing key `cam.keyway.width`"),
+        ] {
+            let text = Machine::from_toml("press.toml", &toml, &[]).expect_err(part).to_string();
+            assert!(text.contains(part), "no {part:?} in\n{text}");
+        }
+        let broken = Machine::from_toml("bad.toml", "name=\"a\"\n[bed\n", &[]).expect_err("not TOML");
+        assert_eq!(broken.faults.len(), 1, "only what is wrong with the text: {broken}");
     }
 
     #[test]

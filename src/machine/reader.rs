@@ -69,18 +69,31 @@ pub(crate) struct Reader<'a> {
     source: &'a str,
     text: &'a str,
     entries: BTreeMap<String, Entry>,
-    /// Tables that stand in the file, so that a table with nothing declared in it is an unknown key too.
+    /// Tables that stand in the file: one with nothing declared in it is an unknown key too.
+    tables: Vec<(String, Range<usize>)>,
+    /// Keys that were read.
     declared: Vec<&'static str>,
+    /// The text is no TOML; what follows from that is not worth telling.
+    broken: bool,
     faults: Vec<Fault>,
 }
 
 impl<'a> Reader<'a> {
     /// Reads a TOML text named `source`, then the overrides, each `key=value`.
     pub(crate) fn new(source: &'a str, text: &'a str, overrides: &[String]) -> Self {
-        let mut reader = Self { source, text, entries: BTreeMap::new(), declared: Vec::new(), faults: Vec::new() };
+        let mut reader = Self {
+            source,
+            text,
+            entries: BTreeMap::new(),
+            tables: Vec::new(),
+            declared: Vec::new(),
+            broken: false,
+            faults: Vec::new(),
+        };
         let (table, errors) = DeTable::parse_recoverable(text);
         for error in errors {
             let place = error.span().map(|span| reader.excerpt(&span));
+            reader.broken = true;
             reader.faults.push(Fault { message: format!("not TOML: {}", error.message()), help: None, place });
         }
         reader.flatten("", table.get_ref());
@@ -94,8 +107,16 @@ impl<'a> Reader<'a> {
         for (key, value) in table {
             let path =
                 if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
+            if key.get_ref().contains('.') {
+                // A quoted key with a dot in it is another key than the dotted path it looks like.
+                let place = Some(self.excerpt(&key.span()));
+                let message = format!("unknown key `\"{}\"`", key.get_ref());
+                self.faults.push(Fault { message, help: Some("write the dotted path without quotes".into()), place });
+                continue;
+            }
             let scalar = match value.get_ref() {
                 DeValue::Table(inner) => {
+                    self.tables.push((path.clone(), key.span()));
                     self.flatten(&path, inner);
                     continue;
                 }
@@ -120,7 +141,8 @@ impl<'a> Reader<'a> {
             });
             return;
         };
-        let value = value.trim().trim_matches('"').to_owned();
+        let value = value.trim();
+        let value = value.strip_prefix('"').and_then(|v| v.strip_suffix('"')).unwrap_or(value).to_owned();
         let entry = Entry { value: Scalar::Text(value), place: Place::Flag, known: false };
         self.entries.insert(key.trim().to_owned(), entry);
     }
@@ -172,7 +194,11 @@ impl<'a> Reader<'a> {
 
     /// Whether a table or key stands in the file or is set by a flag.
     pub(crate) fn has(&self, path: &str) -> bool {
-        self.entries.keys().any(|key| key == path || key.strip_prefix(path).is_some_and(|rest| rest.starts_with('.')))
+        self.tables.iter().any(|(table, _)| table == path)
+            || self
+                .entries
+                .keys()
+                .any(|key| key == path || key.strip_prefix(path).is_some_and(|rest| rest.starts_with('.')))
     }
 
     fn missing(&mut self, key: &'static str, example: &str) {
@@ -367,6 +393,17 @@ impl<'a> Reader<'a> {
 
     /// All faults found, unknown keys among them; `Ok` when there are none.
     pub(crate) fn finish(mut self) -> Result<(), MachineError> {
+        if self.broken {
+            self.faults.retain(|fault| fault.message.starts_with("not TOML"));
+            return Err(MachineError { faults: self.faults });
+        }
+        for (table, span) in std::mem::take(&mut self.tables) {
+            let inside = |key: &str| key.strip_prefix(&table).is_some_and(|rest| rest.starts_with('.'));
+            if !self.declared.iter().any(|key| inside(key)) && !self.entries.keys().any(|key| inside(key)) {
+                let place = Some(self.excerpt(&span));
+                self.faults.push(Fault { message: format!("unknown table `{table}`"), help: None, place });
+            }
+        }
         let unknown: Vec<String> =
             self.entries.iter().filter(|(_, entry)| !entry.known).map(|(key, _)| key.clone()).collect();
         for key in unknown {

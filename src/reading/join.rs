@@ -44,6 +44,9 @@ fn reversed(segment: Segment) -> Segment {
 /// A segment no longer than this has no length, mm: readers drop it, whatever reach its ends are joined with.
 const NO_LENGTH: f64 = 1e-6;
 
+/// Ends of two segments that are one lie nearer than this share of the segment.
+const SAME_SHARE: f64 = 0.1;
+
 pub(super) struct Joined {
     pub(super) chains: Vec<Chain>,
     pub(super) duplicates: Vec<Vector2<f64>>,
@@ -82,7 +85,7 @@ impl Grid {
 }
 
 /// Takes out segments without length and segments that lie on another, then joins the pieces end to end.
-pub(super) fn join(pieces: Vec<Vec<Segment>>, reach: f64) -> Joined {
+pub(super) fn join(pieces: Vec<Vec<Segment>>, others: &[Segment], reach: f64) -> Joined {
     let (mut duplicates, mut points) = (Vec::new(), Vec::new());
     let mut kept: Vec<Segment> = Vec::new();
     let mut by_middle = Grid::new(reach);
@@ -95,13 +98,7 @@ pub(super) fn join(pieces: Vec<Vec<Segment>>, reach: f64) -> Joined {
                 continue;
             }
             let middle = segment.middle();
-            let same = |other: &Segment| {
-                let close = |a: Vector2<f64>, b: Vector2<f64>| (a - b).norm() <= reach;
-                close(other.middle(), middle)
-                    && (close(other.start, segment.start) && close(other.end, segment.end)
-                        || close(other.start, segment.end) && close(other.end, segment.start))
-            };
-            if by_middle.near(middle).filter_map(|index| kept.get(index)).any(same) {
+            if by_middle.near(middle).filter_map(|index| kept.get(index)).any(|other| same(&segment, other, reach)) {
                 duplicates.push(middle);
                 // What follows is no longer joined to what was before.
                 chains.extend(started(std::mem::take(&mut segments)));
@@ -113,11 +110,25 @@ pub(super) fn join(pieces: Vec<Vec<Segment>>, reach: f64) -> Joined {
         }
         chains.extend(started(segments));
     }
+    // Elsewhere the outline must not lie a second time.
+    for other in others {
+        if by_middle.near(other.middle()).filter_map(|index| kept.get(index)).any(|s| same(s, other, reach)) {
+            duplicates.push(other.middle());
+        }
+    }
     let mut chains = joined(chains, reach);
     for chain in &mut chains {
         chain.closed = chain.gap() <= reach && (chain.segments.len() > 1);
     }
     Joined { chains, duplicates, points }
+}
+
+/// Whether two segments are one, within the reach but never beyond a tenth of their length.
+fn same(a: &Segment, b: &Segment, reach: f64) -> bool {
+    let reach = reach.min(SAME_SHARE * (a.end - a.start).norm());
+    let close = |a: Vector2<f64>, b: Vector2<f64>| (a - b).norm() <= reach;
+    close(a.middle(), b.middle())
+        && (close(a.start, b.start) && close(a.end, b.end) || close(a.start, b.end) && close(a.end, b.start))
 }
 
 fn started(segments: Vec<Segment>) -> Option<Chain> {

@@ -17,6 +17,9 @@ use nalgebra::Vector2;
 /// Layer of the outline.
 pub const OUTLINE_LAYER: &str = "CAM_PROFILE";
 
+/// Largest tilt of an entity's plane: rounding of a unit vector.
+const TILT: f64 = 1e-9;
+
 /// What a file says of its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
@@ -80,12 +83,20 @@ pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
         Units::Meters => Unit::Other("metres"),
         _ => Unit::Other("another unit than millimetres"),
     };
-    let mut layers: Vec<String> = drawing.entities().map(|entity| entity.common.layer.clone()).collect();
+    // What lies in paper space is not cut.
+    let model = || drawing.entities().filter(|entity| !entity.common.is_in_paper_space);
+    let on_outline = |entity: &&Entity| entity.common.layer.eq_ignore_ascii_case(OUTLINE_LAYER);
+    let mut layers: Vec<String> = model().map(|entity| entity.common.layer.clone()).collect();
     layers.sort();
     layers.dedup();
     let mut raw = Raw::default();
-    for entity in drawing.entities().filter(|entity| entity.common.layer == OUTLINE_LAYER) {
+    for entity in model().filter(on_outline) {
         raw.add(entity);
+    }
+    // What lies on other layers is cut as well, and must not be the outline a second time.
+    let mut others = Raw::default();
+    for entity in model().filter(|entity| !on_outline(entity)) {
+        others.add(entity);
     }
     if raw
         .pieces
@@ -95,7 +106,7 @@ pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
     {
         return Err(ReadError::NotFinite);
     }
-    let joined = join::join(raw.pieces, join);
+    let joined = join::join(raw.pieces, &others.pieces.concat(), join);
     Ok(Reading {
         unit,
         chains: joined.chains,
@@ -117,6 +128,17 @@ struct Raw {
 
 impl Raw {
     fn add(&mut self, entity: &Entity) {
+        let normal = match &entity.specific {
+            EntityType::LwPolyline(line) => line.extrusion_direction.clone(),
+            EntityType::Polyline(line) => line.normal.clone(),
+            EntityType::Arc(arc) => arc.normal.clone(),
+            EntityType::Circle(circle) => circle.normal.clone(),
+            _ => dxf::Vector::z_axis(),
+        };
+        if normal.x.abs() + normal.y.abs() > TILT * normal.z.abs() {
+            self.unreadable.push("an entity that does not lie in the plane of the drawing".into());
+            return;
+        }
         let mut segments = match &entity.specific {
             EntityType::LwPolyline(line) => {
                 let vertices = line.vertices.iter().map(|v| (v.x, v.y, v.bulge));

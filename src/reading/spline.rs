@@ -7,7 +7,9 @@ use nalgebra::Vector2;
 /// Turn of a chord against the next, degrees: well below the kink a shop tolerates.
 const TURN: f64 = 0.02;
 /// Chords of a knot span, at the least and at the most.
-const CHORDS: (f64, f64) = (4.0, 20_000.0);
+const CHORDS: (f64, f64) = (4.0, 5_000.0);
+/// Shortest chord that is made, mm: a spline that turns within less has a corner there.
+const SHORTEST_CHORD: f64 = 1e-3;
 /// Chords from which the turn of a span is guessed.
 const GUESS: u32 = 16;
 
@@ -43,7 +45,9 @@ pub(super) fn chords(spline: &Spline) -> Option<Vec<Segment>> {
             _ => 0.0,
         };
         let sharpest = sides.windows(2).map(turn).fold(0.0, f64::max);
-        let count = (f64::from(GUESS) * sharpest / TURN).ceil().clamp(CHORDS.0, CHORDS.1);
+        let length: f64 = sides.iter().map(nalgebra::Matrix::norm).sum();
+        let most = (length / SHORTEST_CHORD).clamp(CHORDS.0, CHORDS.1);
+        let count = (f64::from(GUESS) * sharpest / TURN).clamp(CHORDS.0, most).ceil();
         let mut step = if places.is_empty() { 0.0 } else { 1.0 };
         while step <= count {
             places.push(at(step / count)?);
