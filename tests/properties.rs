@@ -69,7 +69,9 @@ proptest! {
                 // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
                 prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
                 let body = solid::solid(&part, 30.0).map_err(|error| TestCaseError::fail(error.to_string()))?;
-                prop_assert!(solid::largest_gap(&body.boundary) <= 1e-7, "{}", solid::largest_gap(&body.boundary));
+                // An arc so flat that its radius is a thousand kilometres has a centre known to a nanometre: the
+                // uncertainty the STEP file states.
+                prop_assert!(solid::largest_gap(&body.boundary) <= 1e-6, "{}", solid::largest_gap(&body.boundary));
                 let written = proof::write(&part, Version::R2000);
                 let outline = written.map_err(|error| TestCaseError::fail(error.to_string()))?.outline;
                 let rolled = rolling::roll(&cam, &outline, 1e3 * tolerance);
