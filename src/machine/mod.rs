@@ -3,6 +3,7 @@
 //! One of the two doors of the library: what comes out of here is a machine that can be computed. Whatever can be told
 //! by line and column is told here; rooms behind this one do not see a negative mass.
 
+mod bounds;
 mod data;
 mod embedded;
 mod fault;
@@ -19,7 +20,8 @@ use crate::buffer::balance::Column;
 use crate::buffer::{Bed, Cylinder};
 use crate::law::Transition;
 use crate::units::Dimension::{Angle, Force, Length, Mass, Pressure};
-use reader::{Reader, above, within};
+use bounds::{above, within};
+use reader::Reader;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::io::Read;
 use std::path::Path;
