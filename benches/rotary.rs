@@ -25,9 +25,9 @@ fn law(criterion: &mut Criterion) {
     let cam = dpi();
     let balance = *cam.balance();
     criterion.bench_function("law/displacement", |b| b.iter(|| balance.displacement(black_box(0.07))));
-    let (piece, angle) = cam.disc.law.locate(1.0);
-    criterion.bench_function("law/jet", |b| b.iter(|| cam.disc.law.jet(piece, black_box(angle))));
-    criterion.bench_function("cam/profile point", |b| b.iter(|| cam.disc.profile(piece, black_box(angle))));
+    let (piece, angle) = cam.curves.law.locate(1.0);
+    criterion.bench_function("law/jet", |b| b.iter(|| cam.curves.law.jet(piece, black_box(angle))));
+    criterion.bench_function("cam/profile point", |b| b.iter(|| cam.curves.profile(piece, black_box(angle))));
 }
 
 fn stages(criterion: &mut Criterion) {
@@ -46,7 +46,7 @@ fn stages(criterion: &mut Criterion) {
     let rolled = rolling::roll(&cam, &written.outline, 0.005);
     criterion.bench_function("checks/rolling", |b| b.iter(|| rolling::roll(&cam, black_box(&written.outline), 0.005)));
     let subject = Subject {
-        rotary: &cam,
+        cam: &cam,
         outline: Some(&written.outline),
         rolled: Some(&rolled),
         balancing: None,
@@ -54,10 +54,10 @@ fn stages(criterion: &mut Criterion) {
     };
     criterion.bench_function("checks", |b| b.iter(|| checks::run(black_box(&subject))));
     let report = drawing::report(&cam, Some(&part), Some(rolled.clone()), 5e-6, checks::run(&subject));
-    let sheet = drawing::sheet(&cam, &part, &report).expect("a sheet");
+    let sheet = drawing::sheet::disc(&cam, &part, &report).expect("a sheet");
     let entities = part.entities();
     criterion.bench_function("output/dxf", |b| b.iter(|| dxf::write(black_box(&entities), dxf::Version::R2000)));
-    criterion.bench_function("drawing/sheet", |b| b.iter(|| drawing::sheet(black_box(&cam), &part, &report)));
+    criterion.bench_function("drawing/sheet", |b| b.iter(|| drawing::sheet::disc(black_box(&cam), &part, &report)));
     criterion.bench_function("output/svg", |b| b.iter(|| svg::write(black_box(&sheet), svg::TEMPLATE)));
     criterion.bench_function("drawing/table", |b| b.iter(|| drawing::table(black_box(&cam), 720)));
     let points = drawing::table(&cam, 10_000).rows;

@@ -51,10 +51,10 @@ proptest! {
     fn any_machine_gives_a_true_cam_or_a_named_wall(overrides in overrides(), rpm in 5.0..100.0_f64) {
         let machine = Machine::load("dpi", &overrides).expect("in range").0;
         let Ok(cam) = Rotary::solve(&machine, rpm) else { return Ok(()) };
-        for (index, piece) in cam.disc.law.pieces().iter().enumerate() {
+        for (index, piece) in cam.curves.law.pieces().iter().enumerate() {
             for step in 0..=20 {
                 let angle = piece.start + (piece.end - piece.start) * f64::from(step) / 20.0;
-                let contact = cam.disc.contact(index, angle);
+                let contact = cam.curves.contact(index, angle);
                 prop_assert!(contact.lift.s.is_finite() && contact.pressure_angle.is_finite(), "{contact:?}");
                 prop_assert!(contact.lift.s >= -1e-12 * cam.max_lift(), "{contact:?}");
             }
@@ -65,7 +65,7 @@ proptest! {
                 let contour = &part.outline.contour;
                 prop_assert!(part.outline.deviation <= 1e3 * tolerance);
                 let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-6).collect();
-                let losses = envelope::losses(&cam.disc).expect("drawn, so they were found");
+                let losses = envelope::losses(&cam.curves).expect("drawn, so they were found");
                 // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
                 prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
                 let body = solid::solid(&part, 30.0).map_err(|error| TestCaseError::fail(error.to_string()))?;

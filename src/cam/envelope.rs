@@ -4,18 +4,17 @@
 //! and crosses itself. The roller cannot be held on the law there: the metal ends in the crossing, a sharp edge, and the
 //! roller drops onto that edge. Between the two cam angles of the crossing motion is lost.
 
-use super::{Disc, Frame, extremes};
+use super::{Curves, Frame, extremes};
 use crate::follower::Follower;
 use crate::law::Law;
 use crate::numeric::extremum;
 use nalgebra::{Matrix2, Vector2};
-use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Points of a piece at which the parallel curve is asked whether it runs backwards.
 const SEEDS: u32 = 256;
-/// Points of each branch beside a fold, denser near it, and how far the branches are followed, rad.
+/// Points of each branch beside a fold, denser near it, and how far the branches are followed, as a share of the cam.
 const BRANCH_POINTS: u32 = 500;
-const BRANCH_REACH: f64 = FRAC_PI_2;
+const BRANCH_REACH: f64 = 0.25;
 /// Newton steps to the crossing.
 const CROSSING_STEPS: usize = 20;
 /// Cells in which the largest loss is searched.
@@ -24,22 +23,22 @@ const LOSS_CELLS: u32 = 64;
 /// A loop of the parallel curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loss {
-    /// Cam angle at which the roller comes onto the edge, rad; may lie before the first piece by a turn.
+    /// Parameter at which the roller comes onto the edge; may lie before the first piece by a turn.
     pub from: f64,
-    /// Cam angle at which it leaves it, rad; above `from`.
+    /// Parameter at which it leaves it; above `from`.
     pub to: f64,
     /// Largest loss of lift, m.
     pub lost: f64,
-    /// Cam angle of the largest loss, rad.
+    /// Parameter of the largest loss.
     pub lost_at: f64,
 }
 
 /// The loops have no simple envelope: they overlap, or take up the whole profile.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("the profile folds over itself at {cam_deg:.3} deg without a crossing that could be cut")]
+#[error("the profile folds over itself without a crossing that could be cut")]
 pub struct NoEnvelope {
-    /// Where, degrees.
-    pub cam_deg: f64,
+    /// Where, as the law's parameter.
+    pub parameter: f64,
 }
 
 /// From which side a break is looked at.
@@ -50,25 +49,25 @@ enum Side {
 }
 
 /// The profile at any cam angle, on the given side of a break.
-fn profile<L: Law, F: Follower>(disc: &Disc<L, F>, angle: f64, side: Side) -> Frame {
-    let (piece, inside) = disc.law.locate(angle);
-    let pieces = disc.law.pieces();
+fn profile<L: Law, F: Follower>(curves: &Curves<L, F>, angle: f64, side: Side) -> Frame {
+    let (piece, inside) = curves.law.locate(angle);
+    let pieces = curves.law.pieces();
     let at_start = pieces.get(piece).is_some_and(|p| p.start == inside);
-    if side == Side::Before && at_start {
+    if side == Side::Before && at_start && (piece > 0 || curves.law.period().is_some()) {
         let before = (piece + pieces.len() - 1) % pieces.len();
         let end = pieces.get(before).map_or(inside, |p| p.end);
-        return disc.profile(before, end);
+        return curves.profile(before, end);
     }
-    disc.profile(piece, inside)
+    curves.profile(piece, inside)
 }
 
 /// Stretches of cam angle in which the parallel curve runs backwards, convex corners as stretches without length.
-fn folds<L: Law, F: Follower>(disc: &Disc<L, F>) -> Vec<(f64, f64)> {
+fn folds<L: Law, F: Follower>(curves: &Curves<L, F>) -> Vec<(f64, f64)> {
     let mut folds: Vec<(f64, f64)> =
-        extremes::corners(disc).iter().filter(|c| c.turn > 0.0).map(|c| (c.angle, c.angle)).collect();
-    for (index, piece) in disc.law.pieces().iter().enumerate() {
+        extremes::corners(curves).iter().filter(|c| c.turn > 0.0).map(|c| (c.angle, c.angle)).collect();
+    for (index, piece) in curves.law.pieces().iter().enumerate() {
         let step = (piece.end - piece.start) / f64::from(SEEDS);
-        let backwards = |i: u32| !(disc.profile(index, piece.start + step * f64::from(i)).speed > 0.0);
+        let backwards = |i: u32| !(curves.profile(index, piece.start + step * f64::from(i)).speed > 0.0);
         let mut from = None;
         for i in 0..=SEEDS {
             let at = piece.start + step * f64::from(i);
@@ -86,8 +85,8 @@ fn folds<L: Law, F: Follower>(disc: &Disc<L, F>) -> Vec<(f64, f64)> {
         }
     }
     // A fold narrower than the steps shows at its sharpest place.
-    let sharpest = extremes::convex_pitch_curvature(disc);
-    if sharpest.value * disc.follower.roller_radius() >= 1.0 {
+    let sharpest = extremes::convex_pitch_curvature(curves);
+    if sharpest.value * curves.follower.roller_radius() >= 1.0 {
         folds.push((sharpest.at, sharpest.at));
     }
     folds.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -105,36 +104,40 @@ fn folds<L: Law, F: Follower>(disc: &Disc<L, F>) -> Vec<(f64, f64)> {
 ///
 /// # Errors
 /// [`NoEnvelope`] when a loop has no crossing or two loops overlap.
-pub fn losses<L: Law, F: Follower>(disc: &Disc<L, F>) -> Result<Vec<Loss>, NoEnvelope> {
+pub fn losses<L: Law, F: Follower>(curves: &Curves<L, F>) -> Result<Vec<Loss>, NoEnvelope> {
     let mut found: Vec<Loss> = Vec::new();
-    for fold in folds(disc) {
+    for fold in folds(curves) {
         if found.iter().any(|loss| loss.from <= fold.0 && fold.1 <= loss.to) {
             continue;
         }
-        let none = NoEnvelope { cam_deg: fold.0.to_degrees() };
-        let (from, to) = crossing(disc, fold).ok_or(none)?;
+        let none = NoEnvelope { parameter: fold.0 };
+        let (from, to) = crossing(curves, fold).ok_or(none)?;
         if found.iter().any(|loss| from < loss.to) {
             return Err(none);
         }
-        found.push(loss(disc, from, to));
+        found.push(loss(curves, from, to));
     }
     match (found.first(), found.last()) {
-        (Some(first), Some(last)) if last.to > first.from + TAU => Err(NoEnvelope { cam_deg: last.to.to_degrees() }),
+        (Some(first), Some(last)) if curves.law.period().is_some_and(|period| last.to > first.from + period) => {
+            Err(NoEnvelope { parameter: last.to })
+        }
         _ => Ok(found),
     }
 }
 
 /// The two cam angles at which the branches on either side of a fold meet first.
-fn crossing<L: Law, F: Follower>(disc: &Disc<L, F>, fold: (f64, f64)) -> Option<(f64, f64)> {
+fn crossing<L: Law, F: Follower>(curves: &Curves<L, F>, fold: (f64, f64)) -> Option<(f64, f64)> {
+    let (first, last) = curves.law.range();
+    let reach = BRANCH_REACH * (last - first);
     // Denser near the fold, where a small loop closes.
     let away = |i: u32| {
         let share = f64::from(i) / f64::from(BRANCH_POINTS);
-        BRANCH_REACH * share * share
+        reach * share * share
     };
     let branch = |start: f64, sign: f64, side: Side| -> Vec<(f64, Vector2<f64>)> {
         (0..=BRANCH_POINTS)
             .map(|i| start + sign * away(i))
-            .map(|angle| (angle, profile(disc, angle, side).point))
+            .map(|angle| (angle, profile(curves, angle, side).point))
             .collect()
     };
     let (left, right) = (branch(fold.0, -1.0, Side::Before), branch(fold.1, 1.0, Side::After));
@@ -151,11 +154,11 @@ fn crossing<L: Law, F: Follower>(disc: &Disc<L, F>, fold: (f64, f64)) -> Option<
     let start = left.windows(2).find_map(|a| right.windows(2).find_map(|b| meets(a, b)))?;
     let (mut from, mut to) = start;
     for _ in 0..CROSSING_STEPS {
-        let (a, b) = (profile(disc, from, Side::Before), profile(disc, to, Side::After));
+        let (a, b) = (profile(curves, from, Side::Before), profile(curves, to, Side::After));
         let apart = b.point - a.point;
         let slopes = Matrix2::from_columns(&[a.tangent * a.speed, -b.tangent * b.speed]);
         let step = slopes.try_inverse()? * apart;
-        if !(step.norm() < BRANCH_REACH) {
+        if !(step.norm() < reach) {
             return None;
         }
         (from, to) = (from + step.x, to + step.y);
@@ -167,12 +170,12 @@ fn crossing<L: Law, F: Follower>(disc: &Disc<L, F>, fold: (f64, f64)) -> Option<
 }
 
 /// How far the roller drops onto the edge between the two angles.
-fn loss<L: Law, F: Follower>(disc: &Disc<L, F>, from: f64, to: f64) -> Loss {
-    let edge = profile(disc, from, Side::Before).point;
-    let radius = disc.follower.roller_radius();
+fn loss<L: Law, F: Follower>(curves: &Curves<L, F>, from: f64, to: f64) -> Loss {
+    let edge = profile(curves, from, Side::Before).point;
+    let radius = curves.follower.roller_radius();
     let lost = |angle: f64| {
-        let (piece, inside) = disc.law.locate(angle);
-        let pitch = disc.follower.pitch(inside, &disc.law.jet(piece, inside));
+        let (piece, inside) = curves.law.locate(angle);
+        let pitch = curves.follower.pitch(inside, &curves.law.jet(piece, inside));
         let away = pitch.point - edge;
         let along = away.dot(&pitch.drive);
         along - (along * along - away.norm_squared() + radius * radius).max(0.0).sqrt()

@@ -1,6 +1,6 @@
 //! The worst places of a disc cam, solved from exact derivatives.
 
-use super::Disc;
+use super::Curves;
 use crate::follower::Follower;
 use crate::law::{Law, Piece};
 use crate::numeric::extremum::{self, Extremum};
@@ -9,13 +9,13 @@ use crate::numeric::extremum::{self, Extremum};
 const CELLS: u32 = 32;
 
 /// Largest value of a quantity over the turn; `quantity` gives value and derivative at a cam angle of a piece.
-fn largest<L: Law, F: Follower>(disc: &Disc<L, F>, quantity: impl Fn(usize, f64) -> (f64, f64)) -> Extremum {
+fn largest<L: Law, F: Follower>(curves: &Curves<L, F>, quantity: impl Fn(usize, f64) -> (f64, f64)) -> Extremum {
     let in_piece = |(index, piece): (usize, &Piece)| {
         let cells = if piece.dwell { 1 } else { CELLS };
         let range = (piece.start, piece.end);
         extremum::largest(|angle| quantity(index, angle).0, |angle| quantity(index, angle).1, range, cells)
     };
-    disc.law.pieces().iter().enumerate().map(in_piece).fold(
+    curves.law.pieces().iter().enumerate().map(in_piece).fold(
         Extremum { at: 0.0, value: f64::NEG_INFINITY },
         |best, next| {
             if next.value > best.value || best.value.is_nan() { next } else { best }
@@ -29,12 +29,16 @@ const FORCE_CELLS: u32 = 48;
 const FORCE_SECTIONS: u32 = 30;
 
 /// Largest value over the turn of something that depends on the cam angle of a piece, when no derivative is at hand.
-pub fn largest_without_slope<L: Law, F: Follower>(disc: &Disc<L, F>, value: impl Fn(usize, f64) -> f64) -> Extremum {
+pub fn largest_without_slope<L: Law, F: Follower>(
+    curves: &Curves<L, F>,
+    value: impl Fn(usize, f64) -> f64,
+) -> Extremum {
     let of_piece = |(index, piece): (usize, &Piece)| {
         let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
         extremum::largest_without_slope(|angle| value(index, angle), (piece.start, piece.end), cells, sections)
     };
-    disc.law
+    curves
+        .law
         .pieces()
         .iter()
         .enumerate()
@@ -45,10 +49,10 @@ pub fn largest_without_slope<L: Law, F: Follower>(disc: &Disc<L, F>, value: impl
 const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };
 
 /// Largest |pressure angle|, rad.
-pub fn pressure_angle<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
+pub fn pressure_angle<L: Law, F: Follower>(curves: &Curves<L, F>) -> Extremum {
     let signed = |sign: f64| {
-        largest(disc, |piece, angle| {
-            let contact = disc.contact(piece, angle);
+        largest(curves, |piece, angle| {
+            let contact = curves.contact(piece, angle);
             (sign * contact.pressure_angle, sign * contact.pressure_angle_slope)
         })
     };
@@ -57,9 +61,9 @@ pub fn pressure_angle<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
 }
 
 /// Largest curvature of the pitch curve, 1/m: the sharpest convex place.
-pub fn convex_pitch_curvature<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
-    largest(disc, |piece, angle| {
-        let pitch = disc.contact(piece, angle).pitch;
+pub fn convex_pitch_curvature<L: Law, F: Follower>(curves: &Curves<L, F>) -> Extremum {
+    largest(curves, |piece, angle| {
+        let pitch = curves.contact(piece, angle).pitch;
         (pitch.curvature, pitch.curvature_slope)
     })
 }
@@ -67,12 +71,12 @@ pub fn convex_pitch_curvature<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremu
 /// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.
 ///
 /// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
-pub fn concave_profile_curvature<L: Law, F: Follower>(disc: &Disc<L, F>) -> Extremum {
-    let pitch = largest(disc, |piece, angle| {
-        let pitch = disc.contact(piece, angle).pitch;
+pub fn concave_profile_curvature<L: Law, F: Follower>(curves: &Curves<L, F>) -> Extremum {
+    let pitch = largest(curves, |piece, angle| {
+        let pitch = curves.contact(piece, angle).pitch;
         (-pitch.curvature, -pitch.curvature_slope)
     });
-    Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * disc.follower.roller_radius()) }
+    Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * curves.follower.roller_radius()) }
 }
 
 /// A corner of the pitch curve between two pieces.
@@ -88,15 +92,16 @@ pub struct Corner {
 const LEAST_CORNER: f64 = 1e-9;
 
 /// The corners of the pitch curve, in the order of the pieces; each stands at the end of a piece.
-pub fn corners<L: Law, F: Follower>(disc: &Disc<L, F>) -> Vec<Corner> {
-    let pieces = disc.law.pieces();
+pub fn corners<L: Law, F: Follower>(curves: &Curves<L, F>) -> Vec<Corner> {
+    let pieces = curves.law.pieces();
+    let joints = if curves.law.period().is_some() { pieces.len() } else { pieces.len().saturating_sub(1) };
     let turn = |index: usize| {
         let next = (index + 1) % pieces.len();
         let (before, after) = (pieces.get(index)?, pieces.get(next)?);
-        let left = disc.contact(index, before.end).pitch.tangent;
-        let right = disc.contact(next, after.start).pitch.tangent;
+        let left = curves.contact(index, before.end).pitch.tangent;
+        let right = curves.contact(next, after.start).pitch.tangent;
         let turn = libm::atan2(left.perp(&right), left.dot(&right));
         (turn.abs() > LEAST_CORNER).then_some(Corner { angle: before.end, turn })
     };
-    (0..pieces.len()).filter_map(turn).collect()
+    (0..joints).filter_map(turn).collect()
 }

@@ -1,15 +1,19 @@
 //! The cam as exact curves: pitch curve, normal, curvature, pressure angle, profile.
 //!
-//! Curves here are functions of the cam angle with exact derivatives; nothing is sampled. SI units and radians.
+//! Curves here are functions of the law's parameter, the cam angle or the overrun of the bed, with exact derivatives;
+//! nothing is sampled. SI units and radians.
 
 pub mod envelope;
 pub mod extremes;
+pub mod plate;
 pub mod rotary;
 pub mod size;
 
 use crate::follower::Follower;
 use crate::law::{Jet, Law};
+use crate::machine::Machine;
 use nalgebra::Vector2;
+use serde::Serialize;
 
 /// A point of a plane curve with what belongs to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,9 +82,9 @@ impl Frame {
     }
 }
 
-/// Law and follower together: every curve of a disc cam.
+/// Law and follower together: every curve of a cam.
 #[derive(Debug, Clone)]
-pub struct Disc<L, F> {
+pub struct Curves<L, F> {
     /// The law.
     pub law: L,
     /// The follower.
@@ -100,7 +104,103 @@ pub struct Contact {
     pub pressure_angle_slope: f64,
 }
 
-impl<L: Law, F: Follower> Disc<L, F> {
+/// The curves of a cam of any kind.
+pub type AnyCurves<'a> = Curves<&'a dyn Law, &'a dyn Follower>;
+
+/// A place on a cam, as reports tell it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Place {
+    /// Cam angle, degrees in [0, 360).
+    pub cam_deg: Option<f64>,
+    /// Overrun of the bed, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub x_mm: Option<f64>,
+}
+
+impl Place {
+    /// At a cam angle in rad.
+    #[must_use]
+    pub fn at_angle(angle: f64) -> Self {
+        let degrees = angle.to_degrees() % 360.0;
+        let positive = if degrees < 0.0 { degrees + 360.0 } else { degrees };
+        // A hair below zero rounds up to a whole turn.
+        let cam_deg = if positive >= 360.0 { 0.0 } else { positive + 0.0 };
+        Self { cam_deg: Some(cam_deg), x_mm: None }
+    }
+
+    /// At an overrun in m.
+    #[must_use]
+    pub fn at_overrun(x: f64) -> Self {
+        Self { cam_deg: None, x_mm: Some(1e3 * x + 0.0) }
+    }
+}
+
+/// In degrees or millimetres, as a person reads it.
+impl std::fmt::Display for Place {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.cam_deg, self.x_mm) {
+            (Some(degrees), _) => write!(formatter, "{degrees:.3}°"),
+            (None, Some(x)) => write!(formatter, "x = {x:.3} mm"),
+            (None, None) => formatter.write_str("–"),
+        }
+    }
+}
+
+/// What checks and drawings want to know of a cam, whatever its kind.
+pub trait Cam: Sync {
+    /// The machine it is for.
+    fn machine(&self) -> &Machine;
+
+    /// Speed of the main shaft, rpm.
+    fn rpm(&self) -> f64;
+
+    /// What it is called: "rotary cam".
+    fn kind(&self) -> &'static str;
+
+    /// Law and follower.
+    fn curves(&self) -> AnyCurves<'_>;
+
+    /// Where a value of the parameter is.
+    fn place(&self, parameter: f64) -> Place;
+
+    /// The parameter at which a point of the drawing (m) lies.
+    fn parameter_at(&self, point: Vector2<f64>) -> f64;
+
+    /// Whether a point of the drawing (m) lies on an end of the cam, where its outline has corners.
+    fn ends_at(&self, _: Vector2<f64>) -> bool {
+        false
+    }
+
+    /// Ways in which the roller meets the drawing: as it is, or with the drawing mirrored about X.
+    fn mirrored(&self) -> &'static [bool];
+
+    /// Force between roller and cam along the normal, N.
+    fn contact_force(&self, piece: usize, parameter: f64) -> f64;
+
+    /// Force that presses the roller onto the cam along its path, N; `None` when the machine file does not tell what
+    /// beside the air does.
+    fn closing_force(&self, piece: usize, parameter: f64) -> Option<f64>;
+
+    /// |inertia − air and cam| with the roller `moved` (m) along its path from where the law wants it, and touching the
+    /// cam where its normal (a unit vector out of the metal) is, N; 0 outside the reversal.
+    fn unbalanced(&self, piece: usize, parameter: f64, moved: f64, normal: Vector2<f64>) -> f64;
+
+    /// Least metal behind the profile, m, when there is something behind it.
+    fn wall(&self) -> Option<f64>;
+
+    /// What would keep the limits of pressure angle and curvature.
+    fn remedy(&self) -> Option<String>;
+}
+
+impl<L: Law + ?Sized, F: Follower + ?Sized> Curves<&L, &F> {
+    /// Where the law has pieces, from its first to its last parameter.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        self.law.range()
+    }
+}
+
+impl<L: Law, F: Follower> Curves<L, F> {
     /// Pitch curve and pressure angle at a cam angle of a piece of the law.
     #[must_use]
     pub fn contact(&self, piece: usize, angle: f64) -> Contact {
@@ -135,11 +235,12 @@ mod tests {
     #[test]
     fn eccentric_circle_in_closed_form() {
         let (e, rho, roller) = (0.012, 0.06, 0.015);
-        let disc = Disc { law: EccentricCircle::new(e, rho), follower: TranslatingRoller::new(rho - e, 0.0, roller) };
+        let curves =
+            Curves { law: EccentricCircle::new(e, rho), follower: TranslatingRoller::new(rho - e, 0.0, roller) };
         for i in 0..360 {
             let angle = f64::from(i).to_radians();
-            let contact = disc.contact(0, angle);
-            let profile = disc.profile(0, angle);
+            let contact = curves.contact(0, angle);
+            let profile = curves.profile(0, angle);
             let centre = Vector2::new(e, 0.0);
             assert!(((contact.pitch.point - centre).norm() - rho).abs() < 1e-16);
             assert!(((profile.point - centre).norm() - (rho - roller)).abs() < 1e-16);
@@ -171,10 +272,10 @@ mod tests {
     #[test]
     fn archimedean_spiral_in_closed_form() {
         let (prime, a, roller) = (0.08, 0.011, 0.02);
-        let disc = Disc { law: Spiral(a), follower: TranslatingRoller::new(prime, 0.0, roller) };
+        let curves = Curves { law: Spiral(a), follower: TranslatingRoller::new(prime, 0.0, roller) };
         for i in 0..=360 {
             let angle = f64::from(i).to_radians();
-            let contact = disc.contact(0, angle);
+            let contact = curves.contact(0, angle);
             let r = prime + a * angle;
             let square = r * r + a * a;
             let curvature = (r * r + 2.0 * a * a) / libm::pow(square, 1.5);
@@ -183,7 +284,7 @@ mod tests {
             assert!((contact.pressure_angle - libm::atan2(a, r)).abs() < 1e-15);
             assert!((contact.pitch.curvature / curvature - 1.0).abs() < 1e-14);
             assert!((contact.pitch.curvature_slope / (by_angle / square.sqrt()) - 1.0).abs() < 1e-12);
-            let profile = disc.profile(0, angle);
+            let profile = curves.profile(0, angle);
             assert!((1.0 / profile.curvature - (1.0 / curvature - roller)).abs() < 1e-15);
         }
     }
@@ -194,10 +295,10 @@ mod tests {
     fn offset_roller_in_closed_form() {
         let (prime, offset, roller) = (0.08, 0.03, 0.02);
         for a in [0.0, 0.011] {
-            let disc = Disc { law: Spiral(a), follower: TranslatingRoller::new(prime, offset, roller) };
+            let curves = Curves { law: Spiral(a), follower: TranslatingRoller::new(prime, offset, roller) };
             for i in 0..=36 {
                 let angle = f64::from(10 * i).to_radians();
-                let contact = disc.contact(0, angle);
+                let contact = curves.contact(0, angle);
                 let u = (prime * prime - offset * offset).sqrt() + a * angle;
                 let b = a - offset;
                 let curvature = (b * (2.0 * a - offset) + u * u) / libm::pow(b * b + u * u, 1.5);
@@ -205,7 +306,7 @@ mod tests {
                 assert!((contact.pitch.curvature / curvature - 1.0).abs() < 1e-14);
                 if a == 0.0 {
                     assert!((contact.pitch.point.norm() - prime).abs() < 1e-16);
-                    assert!((disc.profile(0, angle).point.norm() - (prime - roller)).abs() < 1e-16);
+                    assert!((curves.profile(0, angle).point.norm() - (prime - roller)).abs() < 1e-16);
                     assert!((1.0 / contact.pitch.curvature - prime).abs() < 1e-15);
                 }
             }
@@ -227,12 +328,12 @@ mod tests {
                 Jet { s: 0.004 * (1.0 + sin), ds: 0.012 * cos, dds: -0.036 * sin, ddds: -0.108 * cos }
             }
         }
-        let disc = Disc { law: Wave, follower: TranslatingRoller::new(0.1, 0.02, 0.01) };
+        let curves = Curves { law: Wave, follower: TranslatingRoller::new(0.1, 0.02, 0.01) };
         let h = 1e-3;
         for i in 0..90 {
             let angle = 0.07 * f64::from(i);
-            let pitch = |n: f64| disc.contact(0, angle + n * h).pitch;
-            let profile = |n: f64| disc.profile(0, angle + n * h);
+            let pitch = |n: f64| curves.contact(0, angle + n * h).pitch;
+            let profile = |n: f64| curves.profile(0, angle + n * h);
             for frame in [&pitch as &dyn Fn(f64) -> Frame, &profile] {
                 let here = frame(0.0);
                 let point = |n| frame(n).point;
@@ -242,9 +343,18 @@ mod tests {
                 let slope = (8.0 * (k(1.0) - k(-1.0)) - (k(2.0) - k(-2.0))) / (12.0 * h * here.speed);
                 assert!((slope - here.curvature_slope).abs() < 1e-5 * (1.0 + slope.abs()), "{slope} {here:?}");
             }
-            let alpha = |n: f64| disc.contact(0, angle + n * h).pressure_angle;
+            let alpha = |n: f64| curves.contact(0, angle + n * h).pressure_angle;
             let slope = (8.0 * (alpha(1.0) - alpha(-1.0)) - (alpha(2.0) - alpha(-2.0))) / (12.0 * h);
-            assert!((slope - disc.contact(0, angle).pressure_angle_slope).abs() < 1e-9);
+            assert!((slope - curves.contact(0, angle).pressure_angle_slope).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn angles_are_told_within_one_turn() {
+        for (angle, degrees) in [(0.0, 0.0), (-std::f64::consts::FRAC_PI_2, 270.0), (7.0, 7.0_f64.to_degrees() - 360.0)]
+        {
+            assert!((Place::at_angle(angle).cam_deg.expect("an angle") - degrees).abs() < 1e-12);
+        }
+        assert_eq!(Place::at_angle(-1e-18).cam_deg.map(f64::to_bits), Some(0.0_f64.to_bits()));
     }
 }

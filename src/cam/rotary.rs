@@ -1,13 +1,14 @@
 //! The rotary cam of a machine at a speed.
 
 use super::size::{self, Required};
-use super::{Disc, extremes};
+use super::{AnyCurves, Cam, Curves, Place, extremes};
 use crate::buffer::balance::Balance;
 use crate::buffer::{Cylinder, PlainBuffer};
-use crate::follower::{Follower, TranslatingRoller};
+use crate::follower::TranslatingRoller;
 use crate::law::{Law, LawError, Reversal, ReversalLaw};
-use crate::machine::Machine;
+use crate::machine::{Machine, Rotation};
 use crate::numeric::extremum;
+use nalgebra::Vector2;
 
 /// A disc cam for one speed.
 #[derive(Debug, Clone)]
@@ -19,7 +20,7 @@ pub struct Rotary {
     /// The pair of cylinders.
     pub cylinder: Cylinder,
     /// Law and follower.
-    pub disc: Disc<Reversal, TranslatingRoller>,
+    pub curves: Curves<Reversal, TranslatingRoller>,
     /// Smallest prime radius that keeps every limit, m; `None` when none does.
     pub smallest_prime_radius: Option<f64>,
 }
@@ -75,14 +76,14 @@ impl Rotary {
             Some(base) => base,
             None => round_up(smallest? - roller.radius),
         };
-        let disc = Disc { law, follower: follower(base + roller.radius) };
-        Ok(Self { machine: machine.clone(), rpm, cylinder, disc, smallest_prime_radius: smallest.ok() })
+        let curves = Curves { law, follower: follower(base + roller.radius) };
+        Ok(Self { machine: machine.clone(), rpm, cylinder, curves, smallest_prime_radius: smallest.ok() })
     }
 
     /// Base radius R_b, m.
     #[must_use]
     pub fn base_radius(&self) -> f64 {
-        self.disc.follower.prime_radius() - self.machine.roller.radius
+        self.curves.follower.prime_radius() - self.machine.roller.radius
     }
 
     /// The base radius `auto` would take, m: the smallest that passes, in whole millimetres.
@@ -94,13 +95,13 @@ impl Rotary {
     /// The law of the bottom.
     #[must_use]
     pub fn balance(&self) -> &Balance {
-        &self.disc.law.law().balance
+        &self.curves.law.law().balance
     }
 
     /// Largest lift, m.
     #[must_use]
     pub fn max_lift(&self) -> f64 {
-        let law = &self.disc.law;
+        let law = &self.curves.law;
         let lifts = law.pieces().iter().enumerate().map(|(index, piece)| {
             let jet = |angle| law.jet(index, angle);
             extremum::largest(|a| jet(a).s, |a| jet(a).ds, (piece.start, piece.end), LIFT_CELLS).value
@@ -112,12 +113,12 @@ impl Rotary {
     /// given, preload and the inertia of what moves with the roller.
     #[must_use]
     pub fn roller_force(&self, piece: usize, angle: f64) -> f64 {
-        let state = self.disc.law.state(piece, angle);
+        let state = self.curves.law.state(piece, angle);
         let air = self.cylinder.force(state.pressure_ratio) / self.machine.cam.lever;
         let preload = self.machine.roller.preload.unwrap_or(0.0);
         let Some(mass) = self.machine.roller.mass else { return air + preload };
         let speed = self.machine.bed.crank_speed(self.rpm) * self.machine.cam.turns_per_crank_turn;
-        air + preload + mass * speed * speed * self.disc.law.jet(piece, angle).dds
+        air + preload + mass * speed * speed * self.curves.law.jet(piece, angle).dds
     }
 
     /// Inertia force of the bed at its largest, N.
@@ -130,31 +131,31 @@ impl Rotary {
     ///
     #[must_use]
     pub fn residual_max(&self) -> f64 {
-        let law = &self.disc.law;
+        let law = &self.curves.law;
         let unit = self.cylinder.unit_force();
         let residual = |piece: usize, angle: f64| {
             let state = law.state(piece, angle);
             unit * (self.balance().loading * state.overrun - (state.pressure_ratio - 1.0)).abs()
         };
-        extremes::largest_without_slope(&self.disc, residual).value
+        extremes::largest_without_slope(&self.curves, residual).value
     }
 
     /// Largest force between roller and cam along the roller's path, N.
     #[must_use]
     pub fn roller_force_max(&self) -> f64 {
-        extremes::largest_without_slope(&self.disc, |piece, angle| self.roller_force(piece, angle)).value
+        extremes::largest_without_slope(&self.curves, |piece, angle| self.roller_force(piece, angle)).value
     }
 
     /// Torque the camshaft gives at a cam angle of a piece, N·m: force times ds/dθ.
     #[must_use]
     pub fn torque(&self, piece: usize, angle: f64) -> f64 {
-        self.roller_force(piece, angle) * self.disc.law.jet(piece, angle).ds
+        self.roller_force(piece, angle) * self.curves.law.jet(piece, angle).ds
     }
 
     /// Torque of largest size, N·m; symmetric over rise and fall where no mass is given.
     #[must_use]
     pub fn torque_max(&self) -> f64 {
-        extremes::largest_without_slope(&self.disc, |piece, angle| self.torque(piece, angle).abs()).value
+        extremes::largest_without_slope(&self.curves, |piece, angle| self.torque(piece, angle).abs()).value
     }
 
     /// What a plain buffer with fixed bottom and column by (7) would leave at this speed, N.
@@ -163,6 +164,72 @@ impl Rotary {
         let balance = self.balance();
         let plain = PlainBuffer::new(balance.loading, balance.exponent, balance.stroke);
         plain.largest_residual().1 * self.cylinder.unit_force()
+    }
+}
+
+impl Cam for Rotary {
+    fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    fn rpm(&self) -> f64 {
+        self.rpm
+    }
+
+    fn kind(&self) -> &'static str {
+        "rotary cam"
+    }
+
+    fn curves(&self) -> AnyCurves<'_> {
+        Curves { law: &self.curves.law, follower: &self.curves.follower }
+    }
+
+    fn place(&self, parameter: f64) -> Place {
+        Place::at_angle(parameter)
+    }
+
+    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
+        let angle = libm::atan2(point.y, point.x);
+        match self.machine.cam.rotation {
+            Rotation::Clockwise => angle,
+            Rotation::CounterClockwise => -angle,
+        }
+    }
+
+    fn mirrored(&self) -> &'static [bool] {
+        match self.machine.cam.rotation {
+            Rotation::Clockwise => &[false],
+            Rotation::CounterClockwise => &[true],
+        }
+    }
+
+    fn contact_force(&self, piece: usize, angle: f64) -> f64 {
+        self.roller_force(piece, angle).max(0.0) / libm::cos(self.curves.contact(piece, angle).pressure_angle)
+    }
+
+    fn closing_force(&self, piece: usize, angle: f64) -> Option<f64> {
+        let roller = self.machine.roller;
+        (roller.mass.is_some() || roller.preload.is_some()).then(|| self.roller_force(piece, angle))
+    }
+
+    fn unbalanced(&self, piece: usize, angle: f64, moved: f64, _: Vector2<f64>) -> f64 {
+        let law = &self.curves.law;
+        let state = law.state(piece, angle);
+        if state.overrun == 0.0 {
+            return 0.0;
+        }
+        let balance = self.balance();
+        let bottom = state.displacement + moved / law.law().lever;
+        let air = balance.pressure_ratio(state.overrun, bottom) - 1.0;
+        self.cylinder.unit_force() * (balance.loading * state.overrun - air).abs()
+    }
+
+    fn wall(&self) -> Option<f64> {
+        self.machine.cam.bore_reach().map(|bore| self.base_radius() - bore)
+    }
+
+    fn remedy(&self) -> Option<String> {
+        self.passing_base_radius().map(|base| format!("a base radius of {} mm would pass", 1e3 * base))
     }
 }
 
@@ -194,7 +261,7 @@ mod tests {
 
         // At 5 at a pitch radius of 200 mm has 71.1° without transition; 30° needs 1015 mm.
         let paper = rotary("dpi-paper", &["transition.kind=none", "cam.base_radius=170mm"]);
-        let worst = extremes::pressure_angle(&paper.disc);
+        let worst = extremes::pressure_angle(&paper.curves);
         assert!((worst.value.to_degrees() - 71.1).abs() < 0.05, "{}", worst.value.to_degrees());
         let passing = paper.smallest_prime_radius.expect("a radius");
         assert!((passing - 1.015).abs() < 1e-3, "{passing}");
@@ -215,15 +282,17 @@ mod tests {
             let prime = cam.smallest_prime_radius.expect("a radius");
             let roller = cam.machine.roller;
             let passes = |prime: f64| {
-                let disc =
-                    Disc { law: &cam.disc.law, follower: TranslatingRoller::new(prime, roller.offset, roller.radius) };
+                let curves = Curves {
+                    law: &cam.curves.law,
+                    follower: TranslatingRoller::new(prime, roller.offset, roller.radius),
+                };
                 let convex = cam.machine.limits.min_convex_pitch_radius_over_roller * roller.radius;
-                extremes::pressure_angle(&disc).value <= cam.machine.limits.pressure_angle
-                    && extremes::convex_pitch_curvature(&disc).value * convex <= 1.0
+                extremes::pressure_angle(&curves).value <= cam.machine.limits.pressure_angle
+                    && extremes::convex_pitch_curvature(&curves).value * convex <= 1.0
             };
             assert!(passes(prime), "{overrides:?}");
             assert!(!passes(prime * (1.0 - 1e-9)), "{overrides:?}");
-            assert!(passes(cam.disc.follower.prime_radius()), "{overrides:?}");
+            assert!(passes(cam.curves.follower.prime_radius()), "{overrides:?}");
         }
     }
 

@@ -1,6 +1,6 @@
 //! The smallest prime radius that keeps every limit, solved.
 
-use super::{Disc, extremes};
+use super::{Curves, extremes};
 use crate::follower::Follower;
 use crate::law::Law;
 use crate::numeric::root;
@@ -39,10 +39,10 @@ pub fn smallest_prime_radius<L: Law, F: Follower>(
     follower: impl Fn(f64) -> F,
     required: &Required,
 ) -> Result<f64, NoRadius> {
-    let disc = |radius: f64| Disc { law, follower: follower(radius) };
-    let pressure = |radius: f64| extremes::pressure_angle(&disc(radius)).value - required.pressure_angle;
+    let curves = |radius: f64| Curves { law, follower: follower(radius) };
+    let pressure = |radius: f64| extremes::pressure_angle(&curves(radius)).value - required.pressure_angle;
     let curvature =
-        |radius: f64| extremes::convex_pitch_curvature(&disc(radius)).value * required.convex_pitch_radius - 1.0;
+        |radius: f64| extremes::convex_pitch_curvature(&curves(radius)).value * required.convex_pitch_radius - 1.0;
     let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
     let mut radius = required.least;
     for _ in 0..ROUNDS {

@@ -1,6 +1,7 @@
 //! The static unbalance of a disc and the holes that cancel it.
 
 use super::{Finding, Subject, verdict};
+use crate::cam::Place;
 use crate::contour::Contour;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
@@ -93,7 +94,7 @@ pub fn balance(outline: &Contour, bore: Option<&Contour>, band: (f64, f64), wall
 
 pub(super) fn check(subject: &Subject<'_>) -> Option<Finding> {
     let balancing = subject.balancing?;
-    let machine = &subject.rotary.machine;
+    let machine = subject.cam.machine();
     // Grams times millimetres of a disc of this thickness, or of one as thick as a millimetre.
     let thickness = machine.cam.thickness.unwrap_or(1e-3);
     let weight = 1e-3 * machine.cam.density() * thickness;
@@ -112,7 +113,7 @@ pub(super) fn check(subject: &Subject<'_>) -> Option<Finding> {
         value: after,
         limit: Some(limit),
         unit: "g·mm",
-        cam_deg: None,
+        place: Place::default(),
         verdict: verdict(kept),
         note: Some(note),
     })

@@ -2,7 +2,7 @@
 
 use super::rolling::{self, Rolled};
 use super::{Finding, Subject, Verdict, place, tangency, verdict};
-use crate::cam::rotary::Rotary;
+use crate::cam::{Cam, Place};
 use crate::reading::{OUTLINE_LAYER, Reading, Unit};
 
 /// Ends nearer than this share of the tolerance are one: programs round coordinates to four to six decimals.
@@ -17,10 +17,10 @@ pub fn join_reach(tolerance_mm: f64) -> f64 {
 /// Checks what was read from a file against a cam; tolerance in mm. The rolling is `None` when there is no single closed
 /// outline to roll on.
 #[must_use]
-pub fn check(rotary: &Rotary, reading: &Reading, tolerance_mm: f64) -> (Vec<Finding>, Option<Rolled>) {
-    let mut findings = vec![layer(reading), unit(reading), readable(reading), duplicates(rotary, reading)];
+pub fn check(cam: &dyn Cam, reading: &Reading, tolerance_mm: f64) -> (Vec<Finding>, Option<Rolled>) {
+    let mut findings = vec![layer(reading), unit(reading), readable(reading), duplicates(cam, reading)];
     findings.push(contours(reading));
-    findings.extend(closed(rotary, reading, tolerance_mm));
+    findings.extend(closed(cam, reading, tolerance_mm));
     let [chain] = reading.chains.as_slice() else { return (findings, None) };
     if !chain.closed {
         return (findings, None);
@@ -28,8 +28,8 @@ pub fn check(rotary: &Rotary, reading: &Reading, tolerance_mm: f64) -> (Vec<Find
     let found = chain.contour();
     // Which way round another program wrote it does not change the metal.
     let outline = if found.area_and_centroid().0 > 0.0 { found } else { chain.reversed().contour() };
-    let rolled = rolling::roll(rotary, &outline, tolerance_mm);
-    let subject = Subject { rotary, outline: Some(&outline), rolled: Some(&rolled), balancing: None, tolerance_mm };
+    let rolled = rolling::roll(cam, &outline, tolerance_mm);
+    let subject = Subject { cam, outline: Some(&outline), rolled: Some(&rolled), balancing: None, tolerance_mm };
     findings.extend(tangency::check(&subject));
     findings.extend(rolling::check(&subject));
     (findings, Some(rolled))
@@ -42,7 +42,7 @@ fn count(check: &'static str, found: usize, limit: usize, kept: bool, note: Opti
         value: found as f64,
         limit: Some(limit as f64),
         unit: "",
-        cam_deg: None,
+        place: Place::default(),
         verdict: verdict(kept),
         note,
     }
@@ -61,7 +61,7 @@ fn unit(reading: &Reading) -> Finding {
         Unit::Untold => (Verdict::Info, Some("the file tells no unit; read as millimetres".to_owned())),
         Unit::Other(name) => (Verdict::Fail, Some(format!("the file is in {name}, not in millimetres ($INSUNITS)"))),
     };
-    Finding { check: "units", value: 1.0, limit: None, unit: "mm", cam_deg: None, verdict, note }
+    Finding { check: "units", value: 1.0, limit: None, unit: "mm", place: Place::default(), verdict, note }
 }
 
 fn readable(reading: &Reading) -> Finding {
@@ -76,14 +76,14 @@ fn readable(reading: &Reading) -> Finding {
     count("readable", found.len(), 0, found.is_empty(), (!notes.is_empty()).then(|| notes.join("; ")))
 }
 
-fn duplicates(rotary: &Rotary, reading: &Reading) -> Finding {
+fn duplicates(cam: &dyn Cam, reading: &Reading) -> Finding {
     let found = reading.duplicates.len() + reading.points.len();
     let first = reading.duplicates.first().or(reading.points.first());
     let note = first.map(|_| {
         format!("{} segments lie on another one, {} have no length", reading.duplicates.len(), reading.points.len())
     });
     let finding = count("duplicates", found, 0, found == 0, note);
-    Finding { cam_deg: first.map(|point| place(rotary, *point)), ..finding }
+    Finding { place: first.map_or_else(Place::default, |point| place(cam, *point)), ..finding }
 }
 
 fn contours(reading: &Reading) -> Finding {
@@ -102,7 +102,7 @@ fn contours(reading: &Reading) -> Finding {
     count("contours", found, 1, found == 1 && round == 1.0, note)
 }
 
-fn closed(rotary: &Rotary, reading: &Reading, tolerance_mm: f64) -> Option<Finding> {
+fn closed(cam: &dyn Cam, reading: &Reading, tolerance_mm: f64) -> Option<Finding> {
     let open = reading.chains.iter().filter(|chain| !chain.closed).max_by(|a, b| a.gap().total_cmp(&b.gap()));
     let end = open.and_then(|chain| chain.segments.last()).map(|segment| segment.end);
     let gap = open.or(reading.chains.first())?.gap();
@@ -111,7 +111,7 @@ fn closed(rotary: &Rotary, reading: &Reading, tolerance_mm: f64) -> Option<Findi
         value: gap,
         limit: Some(join_reach(tolerance_mm)),
         unit: "mm",
-        cam_deg: end.map(|point| place(rotary, point)),
+        place: end.map_or_else(Place::default, |point| place(cam, point)),
         verdict: verdict(open.is_none()),
         note: open.map(|_| "the outline is open: its ends do not meet".to_owned()),
     })

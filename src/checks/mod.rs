@@ -14,9 +14,8 @@ pub mod surface;
 mod tangency;
 mod wall;
 
-use crate::cam::rotary::Rotary;
+use crate::cam::{Cam, Place};
 use crate::contour::Contour;
-use crate::machine::Rotation;
 use balance::Balancing;
 use nalgebra::Vector2;
 use rolling::Rolled;
@@ -46,8 +45,9 @@ pub struct Finding {
     pub limit: Option<f64>,
     /// Unit of both.
     pub unit: &'static str,
-    /// Cam angle of the worst place, degrees in [0, 360).
-    pub cam_deg: Option<f64>,
+    /// The worst place.
+    #[serde(flatten)]
+    pub place: Place,
     /// The verdict.
     pub verdict: Verdict,
     /// What would help, or what the figure means.
@@ -62,10 +62,10 @@ fn finite<S: serde::Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::
 }
 
 /// What is checked.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Subject<'a> {
     /// The cam.
-    pub rotary: &'a Rotary,
+    pub cam: &'a dyn Cam,
     /// Its outline, when it has one.
     pub outline: Option<&'a Contour>,
     /// What rolling on the outline has shown, when it was rolled on.
@@ -108,31 +108,15 @@ fn verdict(kept: bool) -> Verdict {
     if kept { Verdict::Pass } else { Verdict::Fail }
 }
 
-/// A cam angle in rad as degrees in [0, 360).
-pub(crate) fn cam_degrees(angle: f64) -> f64 {
-    let degrees = angle.to_degrees() % 360.0;
-    let positive = if degrees < 0.0 { degrees + 360.0 } else { degrees };
-    // A hair below zero rounds up to a whole turn.
-    if positive >= 360.0 { 0.0 } else { positive + 0.0 }
-}
-
-/// The cam angle at which a place of the drawing lies, degrees.
-fn place(rotary: &Rotary, point: Vector2<f64>) -> f64 {
-    let angle = libm::atan2(point.y, point.x);
-    cam_degrees(match rotary.machine.cam.rotation {
-        Rotation::Clockwise => angle,
-        Rotation::CounterClockwise => -angle,
-    })
-}
-
-/// "base radius 997 mm would pass", when there is one and the cam has another.
-fn passing_radius(rotary: &Rotary) -> Option<String> {
-    rotary.passing_base_radius().map(|base| format!("a base radius of {} mm would pass", 1e3 * base))
+/// Where a place of the drawing (mm) lies on the cam.
+fn place(cam: &dyn Cam, point: Vector2<f64>) -> Place {
+    cam.place(cam.parameter_at(point * 1e-3))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cam::rotary::Rotary;
     use crate::drawing;
     use crate::machine::Machine;
 
@@ -144,7 +128,7 @@ mod tests {
         let outline = part.as_ref().map(|part| &part.outline.contour);
         let balancing = part.as_ref().and_then(|part| part.balancing.as_ref());
         let rolled = outline.map(|outline| rolling::roll(&rotary, outline, 0.005));
-        run(&Subject { rotary: &rotary, outline, rolled: rolled.as_ref(), balancing, tolerance_mm: 0.005 })
+        run(&Subject { cam: &rotary, outline, rolled: rolled.as_ref(), balancing, tolerance_mm: 0.005 })
     }
 
     fn of<'f>(findings: &'f [Finding], check: &str) -> &'f Finding {
@@ -205,14 +189,5 @@ mod tests {
         assert!((of(&corner, "cutter_radius").value - 30.0).abs() < 1e-9);
         let convex = findings("dpi", &["buffer.column=200mm", "transition.kind=none"]);
         assert_eq!(of(&convex, "undercut").verdict, Verdict::Fail);
-    }
-
-    #[test]
-    fn angles_are_told_within_one_turn() {
-        for (angle, degrees) in [(0.0, 0.0), (-std::f64::consts::FRAC_PI_2, 270.0), (7.0, 7.0_f64.to_degrees() - 360.0)]
-        {
-            assert!((cam_degrees(angle) - degrees).abs() < 1e-12);
-        }
-        assert_eq!(cam_degrees(-1e-18).to_bits(), 0.0_f64.to_bits());
     }
 }

@@ -1,18 +1,18 @@
-//! The metal left between bore, keyway included, and profile.
+//! The metal left behind the profile: to the bore, keyway included, or to the other flank of a plate.
 
 use super::{Finding, Subject, verdict};
+use crate::cam::Place;
 
 pub(super) fn check(subject: &Subject<'_>) -> Option<Finding> {
-    let bore = subject.rotary.machine.cam.bore_reach()?;
-    let (wall, limit) = (subject.rotary.base_radius() - bore, subject.rotary.machine.limits.wall);
+    let (wall, limit) = (subject.cam.wall()?, subject.cam.machine().limits.wall);
     // Rounding of a base radius that was sized for this very wall is no breach.
-    let kept = wall >= limit * (1.0 - 1e-9);
+    let kept = wall > 0.0 && wall >= limit * (1.0 - 1e-9);
     Some(Finding {
         check: "wall",
         value: 1e3 * wall,
         limit: Some(1e3 * limit),
         unit: "mm",
-        cam_deg: None,
+        place: Place::default(),
         verdict: verdict(kept),
         note: None,
     })

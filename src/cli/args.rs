@@ -5,7 +5,7 @@ use camgen::machine::{Machine, valid_rpm};
 use camgen::output::dxf::Version;
 use camgen::output::formats::FORMATS;
 use camgen::units::{self, Dimension};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
@@ -24,6 +24,8 @@ pub(super) struct Cli {
 pub(super) enum Command {
     /// Disc cam for one speed: its bottom moves so that the air force equals the inertia force at every instant
     Rotary(RotaryArgs),
+    /// Cam plate that rides on the bed and moves the bottom through a bell crank, by equation (18)
+    Translating(TranslatingArgs),
     /// Prove a DXF file, also one edited or written by another program: one closed tangent outline that gives the law?
     Check(CheckArgs),
     /// The machine files carried in the program
@@ -68,12 +70,12 @@ impl CommonArgs {
         Machine::load(&self.machine, &self.set).map_err(Failure::new)
     }
 
-    /// The one speed of a rotary cam.
+    /// The one speed of a cam that is not a conoid.
     pub(super) fn one_speed(&self, machine: &Machine) -> Result<f64, Failure> {
         match self.rpm.as_slice() {
             [] => Ok(machine.design_rpm),
             [rpm] => Ok(*rpm),
-            more => Err(Failure(format!("a rotary cam is cut for one speed, not {}", more.len()))),
+            more => Err(Failure(format!("this cam is cut for one speed, not {}", more.len()))),
         }
     }
 
@@ -88,8 +90,19 @@ pub(super) struct CheckArgs {
     /// The DXF file
     pub(super) file: PathBuf,
 
+    /// Which cam of the machine it is to be: rotary or translating
+    #[arg(long, value_name = "KIND", default_value = "rotary")]
+    pub(super) cam: CamKind,
+
     #[command(flatten)]
     pub(super) common: CommonArgs,
+}
+
+/// A kind of cam that `check` knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum CamKind {
+    Rotary,
+    Translating,
 }
 
 #[derive(Debug, Args)]
@@ -97,6 +110,52 @@ pub(super) struct RotaryArgs {
     #[command(flatten)]
     pub(super) common: CommonArgs,
 
+    #[command(flatten)]
+    pub(super) files: FileArgs,
+
+    /// Also writes the path of the centre of a cutter of this radius, as STEM-cutter.dxf
+    #[arg(long, value_name = "RADIUS", value_parser = cutter)]
+    pub(super) cutter: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct TranslatingArgs {
+    #[command(flatten)]
+    pub(super) common: CommonArgs,
+
+    #[command(flatten)]
+    pub(super) files: FileArgs,
+
+    /// How (18) is solved: ode (a differential equation, to a thousandth of a nanometre) or paper (station by station with
+    /// the backward difference (25))
+    #[arg(long, value_name = "SOLVER", default_value = "ode")]
+    pub(super) solver: SolverKind,
+
+    /// Stations of the paper's solver over the stroke; its error is about 18 mm over their number [default: 1800]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub(super) stations: Option<u32>,
+
+    /// Way of the bed on which the forces balance, or the compromise that levels the two
+    #[arg(long, value_name = "WAY", default_value = "braking")]
+    pub(super) balance: Balanced,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SolverKind {
+    Ode,
+    Paper,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Balanced {
+    Braking,
+    Return,
+    Mean,
+}
+
+/// What is written, where, and how.
+#[derive(Debug, Args)]
+pub(super) struct FileArgs {
     /// What to write: dxf, svg, step, csv, json [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(super) format: Option<Vec<usize>>,
@@ -105,7 +164,7 @@ pub(super) struct RotaryArgs {
     #[arg(long, value_name = "DIR", default_value = "output")]
     pub(super) out: PathBuf,
 
-    /// File stem [default: MACHINE-rotary-RPMrpm]
+    /// File stem [default: MACHINE-COMMAND-RPMrpm]
     #[arg(long, value_name = "STEM", value_parser = stem)]
     pub(super) name: Option<String>,
 
@@ -113,17 +172,13 @@ pub(super) struct RotaryArgs {
     #[arg(long, value_name = "VERSION", default_value = "r2000", value_parser = dxf_version)]
     pub(super) dxf_version: Version,
 
-    /// Rows of the CSV table over one turn of the cam
+    /// Rows of the CSV table over one turn of the cam, or steps of x over the stroke of a plate
     #[arg(long, value_name = "N", default_value = "720", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(super) samples: u32,
 
     /// Sheet for the SVG preview instead of the built-in one, see templates/sheet.svg
     #[arg(long, value_name = "FILE")]
     pub(super) template: Option<PathBuf>,
-
-    /// Also writes the path of the centre of a cutter of this radius, as STEM-cutter.dxf
-    #[arg(long, value_name = "RADIUS", value_parser = cutter)]
-    pub(super) cutter: Option<f64>,
 
     /// Write the files although a check failed (the exit code stays 1)
     #[arg(long)]

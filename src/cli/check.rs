@@ -1,10 +1,13 @@
 //! `camgen check`: the proof for a DXF file that somebody else may have had in hand.
 
-use super::args::CheckArgs;
+use super::args::{CamKind, CheckArgs};
 use super::{Failure, Outcome, print, text};
+use camgen::cam::Cam;
+use camgen::cam::plate::{LAW_TOLERANCE, Plate};
 use camgen::cam::rotary::Rotary;
 use camgen::checks::rolling::Rolled;
 use camgen::checks::{self, Finding, file};
+use camgen::law::translating::{Exact, Solver};
 use camgen::reading;
 use serde::Serialize;
 use std::io::Read;
@@ -20,6 +23,7 @@ pub(super) struct CheckReport {
     command: &'static str,
     pub(super) file: String,
     pub(super) machine: String,
+    pub(super) cam: &'static str,
     pub(super) rpm: f64,
     pub(super) checks: Vec<Finding>,
     rolling: Option<Rolled>,
@@ -32,14 +36,21 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let tolerance_mm = 1e3 * args.common.tolerance;
     let reading = reading::read(&bytes, file::join_reach(tolerance_mm))
         .map_err(|error| Failure(format!("`{}` is {error}", args.file.display())))?;
-    let rotary = Rotary::solve(&machine, rpm).map_err(Failure::new)?;
-    let (checks, rolling) = file::check(&rotary, &reading, tolerance_mm);
+    let cam: Box<dyn Cam> = match args.cam {
+        CamKind::Rotary => Box::new(Rotary::solve(&machine, rpm).map_err(Failure::new)?),
+        CamKind::Translating => {
+            let solver = Solver::Ode { tolerance: LAW_TOLERANCE };
+            Box::new(Plate::solve(&machine, rpm, solver, Exact::Braking).map_err(Failure::new)?)
+        }
+    };
+    let (checks, rolling) = file::check(&*cam, &reading, tolerance_mm);
     let passed = checks::passed(&checks);
     let report = CheckReport {
         schema: 1,
         command: "check",
         file: args.file.display().to_string(),
         machine: machine.name,
+        cam: cam.kind(),
         rpm,
         checks,
         rolling,

@@ -2,9 +2,11 @@
 
 mod args;
 mod check;
+mod cut;
 mod machines;
 mod rotary;
 mod text;
+mod translating;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -34,6 +36,7 @@ impl Failure {
 pub(crate) fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Rotary(args) => rotary::run(&args),
+        Command::Translating(args) => translating::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Machines(args) => machines::run(&args),
     };

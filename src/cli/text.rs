@@ -1,8 +1,10 @@
 //! The report for a person at a terminal.
 
 use super::check::CheckReport;
+use camgen::cam::Place;
 use camgen::checks::{Finding, Verdict};
 use camgen::drawing::Report;
+use camgen::drawing::report::{BreakReport, CamReport, SolvedReport};
 use std::fmt::Write;
 
 const GREEN: &str = "\u{1b}[32m";
@@ -24,16 +26,15 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
             law.velocity_jump_mm_per_rad
         ));
     }
-    let smallest = cam
-        .smallest_prime_radius_mm
-        .map_or_else(|| "no radius keeps the limits".into(), |radius| format!("{radius:.3} would do"));
-    lines.push(format!(
-        "  cam      base radius {} mm, roller {} mm, prime radius {} mm ({smallest}), lift {:.3} mm",
-        shown(cam.base_radius_mm),
-        shown(cam.roller_radius_mm),
-        shown(cam.prime_radius_mm),
-        cam.max_lift_mm
-    ));
+    if let Some(solved) = &law.equation_18 {
+        lines.push(equation_18(solved, law.start_slope));
+        let then = |at: &BreakReport| format!("{} from x = {:.3} mm", at.then, at.x_mm);
+        if !solved.breaks.is_empty() {
+            let breaks: Vec<String> = solved.breaks.iter().map(then).collect();
+            lines.push(format!("           the bottom is {}", breaks.join(", ")));
+        }
+    }
+    lines.push(cam_line(cam));
     if let Some(area) = cam.area_mm2 {
         let mass = cam.mass_kg.map_or_else(|| "no thickness given".into(), |mass| format!("mass {mass:.3} kg"));
         let unbalance =
@@ -58,10 +59,24 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
         100.0 * force.residual_share,
         force.residual_fixed_bottom_max_n
     ));
-    lines.push(format!(
-        "           roller {:.1} N along its path, camshaft {:.1} N·m at the most",
-        force.roller_force_max_n, force.torque_max_nm
-    ));
+    lines.push(match force.torque_max_nm {
+        Some(torque) => format!(
+            "           roller {:.1} N along its path, camshaft {torque:.1} N·m at the most",
+            force.roller_force_max_n
+        ),
+        None => format!("           each roller {:.1} N along the normal at the most", force.roller_force_max_n),
+    });
+    if let (Some(braking), Some(back), Some(at)) =
+        (force.residual_braking_max_n, force.residual_return_max_n, force.residual_return_at_x_mm)
+    {
+        let share = |newtons: f64| 100.0 * newtons / force.inertia_max_n;
+        lines.push(format!(
+            "           the law leaves {} N ({:.2e} %) braking, {back:.1} N ({:.2} %) on the way back at x = {at:.2} mm",
+            shown(braking),
+            share(braking),
+            share(back)
+        ));
+    }
     lines.push("  checks".into());
     lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
     if !report.files.is_empty() {
@@ -72,11 +87,48 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
     lines.join("\n")
 }
 
+/// Size and lift of a cam.
+fn cam_line(cam: &CamReport) -> String {
+    let roller = shown(cam.roller_radius_mm);
+    if let Some(plate) = &cam.plate {
+        return format!(
+            "  cam      plate {:.2} × {} mm, {:.3} mm where it is thinnest (x = {:.2} mm), roller {roller} mm, lift {:.3} mm",
+            plate.length_mm,
+            shown(plate.height_mm),
+            plate.thinnest_mm,
+            plate.thinnest_at_x_mm,
+            cam.max_lift_mm
+        );
+    }
+    let smallest = cam
+        .smallest_prime_radius_mm
+        .map_or_else(|| "no radius keeps the limits".into(), |radius| format!("{radius:.3} would do"));
+    format!(
+        "  cam      base radius {} mm, roller {roller} mm, prime radius {} mm ({smallest}), lift {:.3} mm",
+        shown(cam.base_radius_mm.unwrap_or(f64::NAN)),
+        shown(cam.prime_radius_mm.unwrap_or(f64::NAN)),
+        cam.max_lift_mm
+    )
+}
+
+fn equation_18(solved: &SolvedReport, start_slope: f64) -> String {
+    let how = match (solved.stations, solved.tolerance_mm) {
+        (Some(stations), _) => format!("{stations} stations"),
+        (None, tolerance) => {
+            format!("{} steps to {:e} mm", solved.steps.unwrap_or(0), tolerance.unwrap_or(f64::NAN))
+        }
+    };
+    format!(
+        "           (18) by {} in {how}, efficiency {}, balanced: {}, slope at the start {start_slope:.8}",
+        solved.solver, solved.efficiency_model, solved.balance
+    )
+}
+
 /// The report of a checked file: one plain sentence, then the checks.
 pub(super) fn check_report(report: &CheckReport, passed: bool, colour: bool) -> String {
     let verdict = if passed { "is this cam" } else { "is NOT this cam" };
     let mut lines = vec![
-        format!("{} {verdict}: {} · rotary cam for {} rpm", report.file, report.machine, report.rpm),
+        format!("{} {verdict}: {} · {} for {} rpm", report.file, report.machine, report.cam, report.rpm),
         "  checks".into(),
     ];
     lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
@@ -97,8 +149,8 @@ fn check(finding: &Finding, colour: bool) -> String {
     if let Some(limit) = finding.limit {
         let _ = write!(line, ", limit {}", with_unit(shown(limit)));
     }
-    if let Some(cam_deg) = finding.cam_deg {
-        let _ = write!(line, ", at {cam_deg:.3}°");
+    if finding.place != Place::default() {
+        let _ = write!(line, ", at {}", finding.place);
     }
     if let Some(note) = &finding.note {
         let _ = write!(line, "; {note}");

@@ -4,15 +4,16 @@
 
 pub mod arcs;
 pub mod outline;
-mod report;
-mod sheet;
+pub mod report;
+pub mod sheet;
 pub mod solid;
 mod table;
 
-pub use report::{Report, report};
-pub use sheet::{Group, Shape, Sheet, TextAnchor, sheet};
-pub use table::{COLUMNS, Table, table};
+pub use report::{Report, plate_report, report};
+pub use sheet::{Group, Shape, Sheet, TextAnchor};
+pub use table::{COLUMNS, PLATE_COLUMNS, Table, plate_table, table};
 
+use crate::cam::plate::Plate;
 use crate::cam::rotary::Rotary;
 use crate::checks::balance::{self, Balancing};
 use crate::contour::{Contour, Extents, Vertex};
@@ -76,7 +77,7 @@ impl Entity {
     }
 }
 
-/// The cut drawing of a disc cam.
+/// The cut drawing of a cam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// The outline with its proof, as it lies in the drawing.
@@ -144,7 +145,7 @@ fn bore(rotary: &Rotary) -> Option<Entity> {
 /// # Errors
 /// [`OutlineError`] when the profile cannot be drawn.
 pub fn part(rotary: &Rotary, tolerance: f64) -> Result<Part, OutlineError> {
-    let outline = outline::profile(&rotary.disc, MILLIMETRES * tolerance)?;
+    let outline = outline::profile(&rotary.curves, MILLIMETRES * tolerance)?;
     let outline = Outline { contour: as_turned(rotary, outline.contour), ..outline };
     let bore = bore(rotary);
     let (bands, wall) = (rotary.machine.cam.balance, MILLIMETRES * rotary.machine.limits.wall);
@@ -153,6 +154,14 @@ pub fn part(rotary: &Rotary, tolerance: f64) -> Result<Part, OutlineError> {
         balance::balance(&outline.contour, round.as_ref(), (MILLIMETRES * inner, MILLIMETRES * outer), wall)
     });
     Ok(Part { outline, bore, balancing })
+}
+
+/// The cut drawing of a plate within a tolerance (m) along the normal of its flanks.
+///
+/// # Errors
+/// [`OutlineError`] when the outline cannot be drawn.
+pub fn plate_part(plate: &Plate, tolerance: f64) -> Result<Part, OutlineError> {
+    Ok(Part { outline: outline::plate(plate, MILLIMETRES * tolerance)?, bore: None, balancing: None })
 }
 
 /// A contour of a clockwise cam as it lies in the drawing of this one.
@@ -176,6 +185,6 @@ fn point_as_turned(rotary: &Rotary, point: Vector2<f64>) -> Vector2<f64> {
 /// # Errors
 /// [`OutlineError`] when the profile is undercut (an edge has no path of its own) or the tolerance cannot be kept.
 pub fn cutter_path(rotary: &Rotary, cutter_radius: f64, tolerance: f64) -> Result<Outline, OutlineError> {
-    let outline = outline::cutter_path(&rotary.disc, cutter_radius, MILLIMETRES * tolerance)?;
+    let outline = outline::cutter_path(&rotary.curves, cutter_radius, MILLIMETRES * tolerance)?;
     Ok(Outline { contour: as_turned(rotary, outline.contour), ..outline })
 }

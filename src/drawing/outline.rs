@@ -1,12 +1,15 @@
-//! The outline of a disc cam: the profile, piece by piece, as one closed chain of tangent arcs in millimetres.
+//! The outline of a cam: the profile, piece by piece, as one closed chain of tangent arcs in millimetres. A disc closes
+//! on itself; a plate has two mirrored flanks and flat ends.
 
 use super::arcs::{self, FitError};
 use crate::cam::envelope::{self, Loss, NoEnvelope};
-use crate::cam::{Disc, Frame, extremes};
-use crate::contour::{Contour, Vertex};
+use crate::cam::plate::Plate;
+use crate::cam::{Curves, Frame, extremes};
+use crate::contour::{Contour, Segment, Vertex};
 use crate::follower::Follower;
 use crate::law::{Law, Piece};
-use std::f64::consts::{PI, TAU};
+use nalgebra::Vector2;
+use std::f64::consts::PI;
 
 /// Millimetres in a metre: geometry leaves SI here.
 pub const MILLIMETRES: f64 = 1e3;
@@ -19,6 +22,9 @@ const LONGEST_DWELL: f64 = 1.9 * PI;
 
 /// Largest coordinate a drawing may have, mm: readers take anything beyond for a mistake.
 const LARGEST_COORDINATE: f64 = 1e6;
+
+/// The pitch curve on a sheet is only looked at: a fifth of a thin pen, mm.
+const PITCH_TOLERANCE: f64 = 0.05;
 
 /// A closed outline with its proof.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +55,19 @@ pub enum OutlineError {
         /// Largest radius, mm.
         radius_mm: f64,
     },
+    /// The flanks of a plate cross.
+    #[error(
+        "the plate would be {thinnest_mm:.3} mm high at x = {x_mm:.3} mm; translating.plate_height must exceed \
+         {least_mm:.3} mm"
+    )]
+    Thin {
+        /// Height where it is thinnest, mm.
+        thinnest_mm: f64,
+        /// Where, mm of overrun.
+        x_mm: f64,
+        /// Least height of the plate, mm.
+        least_mm: f64,
+    },
     /// The tolerance cannot be kept.
     #[error("{0}: between 64 roundings of the coordinates and a millimetre it can")]
     Fit(#[from] FitError),
@@ -59,9 +78,9 @@ pub enum OutlineError {
 ///
 /// # Errors
 /// [`OutlineError`] when the loops leave no outline, it is too large, or the tolerance cannot be kept.
-pub fn profile<L: Law, F: Follower>(disc: &Disc<L, F>, tolerance: f64) -> Result<Outline, OutlineError> {
-    let roller = disc.follower.roller_radius();
-    parallel(disc, roller, tolerance, &envelope::losses(disc)?)
+pub fn profile<L: Law, F: Follower>(curves: &Curves<L, F>, tolerance: f64) -> Result<Outline, OutlineError> {
+    let roller = curves.follower.roller_radius();
+    parallel(curves, roller, tolerance, &envelope::losses(curves)?)
 }
 
 /// The path of the centre of a cutter (radius in m) along the profile, within `tolerance` (mm): parallel to the pitch
@@ -70,55 +89,104 @@ pub fn profile<L: Law, F: Follower>(disc: &Disc<L, F>, tolerance: f64) -> Result
 /// # Errors
 /// [`OutlineError`] as for [`profile`]; also when the profile is undercut or the cutter does not get into a corner.
 pub fn cutter_path<L: Law, F: Follower>(
-    disc: &Disc<L, F>,
+    curves: &Curves<L, F>,
     cutter_radius: f64,
     tolerance: f64,
 ) -> Result<Outline, OutlineError> {
-    if let Some(loss) = envelope::losses(disc)?.first() {
+    if let Some(loss) = envelope::losses(curves)?.first() {
         return Err(OutlineError::CutterPath { cam_deg: loss.from.to_degrees() });
     }
-    let distance = disc.follower.roller_radius() - cutter_radius;
-    let concave = extremes::concave_profile_curvature(disc);
+    let distance = curves.follower.roller_radius() - cutter_radius;
+    let concave = extremes::concave_profile_curvature(curves);
     if concave.value * cutter_radius >= 1.0 {
         return Err(OutlineError::CutterPath { cam_deg: concave.at.to_degrees() });
     }
-    match extremes::corners(disc).first() {
+    match extremes::corners(curves).first() {
         Some(corner) if distance <= 0.0 => Err(OutlineError::CutterPath { cam_deg: corner.angle.to_degrees() }),
-        _ => parallel(disc, distance, tolerance, &[]),
+        _ => parallel(curves, distance, tolerance, &[]),
     }
 }
 
-/// The path of the roller's centre as an outline within `tolerance` (mm).
+/// The path of the roller's centre as an outline, for the eye.
 ///
 /// # Errors
 /// As [`profile`], but a pitch curve cannot be undercut.
-pub fn pitch<L: Law, F: Follower>(disc: &Disc<L, F>, tolerance: f64) -> Result<Outline, OutlineError> {
-    parallel(disc, 0.0, tolerance, &[])
+pub fn pitch<L: Law, F: Follower>(curves: &Curves<L, F>) -> Result<Outline, OutlineError> {
+    parallel(curves, 0.0, PITCH_TOLERANCE, &[])
+}
+
+/// The pitch curve of a plate's lower flank, for the eye.
+///
+/// # Errors
+/// As for [`pitch`].
+pub fn pitch_of_plate(plate: &Plate) -> Result<Vec<Segment>, OutlineError> {
+    let curves = &plate.curves;
+    let mut vertices = parallel(curves, 0.0, PITCH_TOLERANCE, &[])?.contour.vertices;
+    let last = curves.law.pieces().len().saturating_sub(1);
+    let end = curves.contact(last, plate.stroke()).pitch.point * MILLIMETRES;
+    vertices.push(Vertex { point: end, bulge: 0.0 });
+    let pairs = vertices.iter().zip(vertices.iter().skip(1));
+    Ok(pairs.map(|(a, b)| Segment { start: a.point, end: b.point, bulge: a.bulge }).collect())
+}
+
+/// The plate as an outline within `tolerance` (mm): lower flank, straight run-out, end, the upper flank as its mirror
+/// image, other end.
+///
+/// # Errors
+/// [`OutlineError`] as for [`profile`], and when the flanks cross.
+pub fn plate(plate: &Plate, tolerance: f64) -> Result<Outline, OutlineError> {
+    if !(plate.thinnest > 0.0) {
+        return Err(OutlineError::Thin {
+            thinnest_mm: MILLIMETRES * plate.thinnest,
+            x_mm: MILLIMETRES * plate.thinnest_at,
+            least_mm: MILLIMETRES * (plate.height - plate.thinnest),
+        });
+    }
+    let curves = &plate.curves;
+    let flank = parallel(curves, curves.follower.roller_radius(), tolerance, &envelope::losses(curves)?)?;
+    let mut lower = flank.contour.vertices;
+    let last = curves.law.pieces().len().saturating_sub(1);
+    let end = curves.profile(last, plate.stroke()).point * MILLIMETRES;
+    lower.extend([end, plate.run_out() * MILLIMETRES].map(|point| Vertex { point, bulge: 0.0 }));
+    // Mirrored and run the other way a segment keeps its bulge, which then belongs to its other end.
+    let bulges = lower.iter().map(|vertex| vertex.bulge);
+    let bulges: Vec<f64> = std::iter::once(0.0).chain(bulges).collect();
+    let mirror =
+        |(vertex, bulge): (&Vertex, f64)| Vertex { point: Vector2::new(vertex.point.x, -vertex.point.y), bulge };
+    let upper: Vec<Vertex> = lower.iter().zip(bulges).rev().map(mirror).collect();
+    lower.extend(upper);
+    Ok(Outline {
+        contour: Contour { vertices: lower },
+        deviation: flank.deviation,
+        best_possible: 2.0 * flank.best_possible,
+    })
 }
 
 fn parallel<L: Law, F: Follower>(
-    disc: &Disc<L, F>,
+    curves: &Curves<L, F>,
     distance: f64,
     tolerance: f64,
     losses: &[Loss],
 ) -> Result<Outline, OutlineError> {
-    let pieces = disc.law.pieces();
+    let period = curves.law.period();
+    let pieces = curves.law.pieces();
     let frame = |piece: usize, angle: f64| -> Frame {
-        disc.contact(piece, angle).pitch.offset_inward(distance).scaled(MILLIMETRES)
+        curves.contact(piece, angle).pitch.offset_inward(distance).scaled(MILLIMETRES)
     };
     let radius_mm = pieces.iter().enumerate().map(|(i, p)| frame(i, p.start).point.norm()).fold(0.0, f64::max);
     if !(radius_mm <= LARGEST_COORDINATE) {
         return Err(OutlineError::TooLarge { radius_mm });
     }
-    let corners = extremes::corners(disc);
-    let first = pieces.iter().position(|piece| piece.dwell).unwrap_or(0);
+    let corners = extremes::corners(curves);
+    // A closed outline starts on a dwell.
+    let first = period.and_then(|_| pieces.iter().position(|piece| piece.dwell)).unwrap_or(0);
     let mut outline = Outline { contour: Contour { vertices: Vec::new() }, deviation: 0.0, best_possible: 0.0 };
     let in_turn = pieces.iter().enumerate().cycle().skip(first).take(pieces.len());
     for (index, piece) in in_turn {
-        for range in parts(piece, losses) {
+        for range in parts(piece, losses, period) {
             if piece.dwell {
-                // A circle about the shaft, also for an offset follower: one true arc.
-                let bulge = libm::tan(0.25 * (range.1 - range.0));
+                // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
+                let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
                 outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
                 continue;
             }
@@ -140,10 +208,11 @@ fn parallel<L: Law, F: Follower>(
 }
 
 /// What is left of a piece without the losses, halved where it is longer than one arc or one fit may be.
-fn parts(piece: &Piece, losses: &[Loss]) -> Vec<(f64, f64)> {
+fn parts(piece: &Piece, losses: &[Loss], period: Option<f64>) -> Vec<(f64, f64)> {
     let mut left = vec![(piece.start, piece.end)];
     for loss in losses {
-        for turn in [-TAU, 0.0, TAU] {
+        for turns in [-1.0, 0.0, 1.0] {
+            let turn = turns * period.unwrap_or(0.0);
             let (from, to) = (loss.from + turn, loss.to + turn);
             left = left
                 .into_iter()
@@ -179,8 +248,9 @@ mod tests {
     #[test]
     fn an_eccentric_circle_is_two_half_circles() {
         let (e, rho, roller) = (0.012, 0.06, 0.015);
-        let disc = Disc { law: EccentricCircle::new(e, rho), follower: TranslatingRoller::new(rho - e, 0.0, roller) };
-        let outline = profile(&disc, 0.005).expect("an outline");
+        let curves =
+            Curves { law: EccentricCircle::new(e, rho), follower: TranslatingRoller::new(rho - e, 0.0, roller) };
+        let outline = profile(&curves, 0.005).expect("an outline");
         assert_eq!(outline.contour.vertices.len(), 2);
         assert!(outline.deviation < 1e-12, "{}", outline.deviation);
         for segment in outline.contour.segments() {
@@ -195,7 +265,7 @@ mod tests {
         for overrides in [vec![], vec!["buffer.column=return"], vec!["follower.roller.offset=20mm"]] {
             let cam = rotary(&overrides);
             for tolerance in [0.1, 0.01, 0.005, 1e-3, 1e-4, 5e-5] {
-                let outline = profile(&cam.disc, tolerance).expect("an outline");
+                let outline = profile(&cam.curves, tolerance).expect("an outline");
                 let breaks = outline.contour.tangent_breaks();
                 assert!(outline.deviation <= tolerance);
                 assert!(breaks.iter().all(|turn| turn.abs() < 1e-9), "{breaks:?}");
@@ -215,7 +285,7 @@ mod tests {
     #[test]
     fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
         let cam = rotary(&["buffer.column=return", "transition.kind=none"]);
-        let outline = profile(&cam.disc, 0.005).expect("an outline");
+        let outline = profile(&cam.curves, 0.005).expect("an outline");
         let of_roller = outline.contour.segments().filter(|s| (s.radius() + 30.0).abs() < 1e-9).count();
         assert_eq!(of_roller, 2);
         assert!(outline.contour.tangent_breaks().iter().all(|turn| turn.abs() < 1e-9));
@@ -225,12 +295,12 @@ mod tests {
             vec!["cam.base_radius=30mm", "follower.roller.radius=80mm"],
         ] {
             let cam = rotary(&overrides);
-            let outline = profile(&cam.disc, 0.005).expect("an outline");
+            let outline = profile(&cam.curves, 0.005).expect("an outline");
             let edges: Vec<f64> =
                 outline.contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-9).collect();
             assert_eq!(edges.len(), 2, "{overrides:?}: {edges:?}");
             assert!(edges.iter().all(|turn| *turn > 0.0), "{edges:?}");
-            let losses = envelope::losses(&cam.disc).expect("loops");
+            let losses = envelope::losses(&cam.curves).expect("loops");
             let rolled = rolling::roll(&cam, &outline.contour, 0.005);
             assert!((rolled.gap_mm - 1e3 * losses[0].lost).abs() < 0.3 * rolled.gap_mm, "{rolled:?} {losses:?}");
             let lift = rolled.lift_error_max_mm.expect("it touches");
@@ -243,10 +313,10 @@ mod tests {
     fn what_cannot_be_drawn_is_told() {
         let swallowed =
             rotary(&["cam.base_radius=1mm", "cam.lever=10", "follower.roller.radius=300mm", "cam.bore_radius=0.5mm"]);
-        assert!(matches!(profile(&swallowed.disc, 0.005), Err(OutlineError::Undercut(_))));
+        assert!(matches!(profile(&swallowed.curves, 0.005), Err(OutlineError::Undercut(_))));
         let huge = rotary(&["cam.base_radius=1000m"]);
-        assert!(matches!(profile(&huge.disc, 0.005), Err(OutlineError::TooLarge { .. })));
+        assert!(matches!(profile(&huge.curves, 0.005), Err(OutlineError::TooLarge { .. })));
         let cam = rotary(&[]);
-        assert!(matches!(profile(&cam.disc, 1e-13), Err(OutlineError::Fit(_))));
+        assert!(matches!(profile(&cam.curves, 1e-13), Err(OutlineError::Fit(_))));
     }
 }

@@ -2,10 +2,12 @@
 
 use super::Part;
 use super::outline::MILLIMETRES;
+use crate::cam::plate::Plate;
 use crate::cam::rotary::Rotary;
 use crate::checks::Finding;
 use crate::checks::rolling::Rolled;
-use crate::follower::Follower;
+use crate::law::translating::{EfficiencyModel, Exact, Motion, Side, Solver, Way};
+use crate::machine::Machine;
 use serde::Serialize;
 
 /// Grams in a kilogram.
@@ -14,7 +16,7 @@ const GRAMS: f64 = 1e3;
 /// Version of the form of the report.
 const SCHEMA: u32 = 1;
 
-/// The report of a rotary cam.
+/// The report of a cam. What a kind of cam does not have is left out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Report {
     /// Version of this form.
@@ -45,18 +47,63 @@ pub struct Report {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct CamReport {
-    pub prime_radius_mm: f64,
-    pub base_radius_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prime_radius_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base_radius_mm: Option<f64>,
     pub roller_radius_mm: f64,
     pub max_lift_mm: f64,
     /// The smallest prime radius that keeps every limit, before rounding.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_prime_radius_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate: Option<PlateReport>,
     /// Of the metal: outline less bore.
     pub area_mm2: Option<f64>,
     pub mass_kg: Option<f64>,
     pub centre_of_mass_mm: Option<[f64; 2]>,
     /// Static unbalance about the shaft, with the holes that balance it, if any.
     pub unbalance_g_mm: Option<f64>,
+}
+
+/// Measures of a plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct PlateReport {
+    pub length_mm: f64,
+    pub height_mm: f64,
+    pub thinnest_mm: f64,
+    pub thinnest_at_x_mm: f64,
+    /// Of the roller's centre from the bed's axis where Δx = 0: what the pitch curve of (21) starts from.
+    pub axis_distance_mm: f64,
+}
+
+/// How equation (18) was solved.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct SolvedReport {
+    pub solver: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stations: Option<u32>,
+    /// Steps of the integrator.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<usize>,
+    pub efficiency_model: &'static str,
+    /// The way of the bed on which the forces balance.
+    pub balance: &'static str,
+    /// Where the law of the slope changes.
+    pub breaks: Vec<BreakReport>,
+}
+
+/// A place where the law of the slope changes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct BreakReport {
+    pub x_mm: f64,
+    /// What the bottom does from there on while x grows: "rising", "falling", or "stuck" where the lever sticks.
+    pub then: &'static str,
 }
 
 /// The law.
@@ -69,10 +116,12 @@ pub struct LawReport {
     pub column_length_mm: f64,
     pub piston_area_mm2: f64,
     pub bore_mm: f64,
-    /// c − 1: the slope dΔx/dx at the start of the reversal.
+    /// The slope dΔx/dx at the start of the reversal; c − 1 for a rotary cam.
     pub start_slope: f64,
     /// Jump of the bottom's velocity at the start of the reversal.
     pub velocity_jump_mm_per_rad: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equation_18: Option<SolvedReport>,
 }
 
 /// The outline.
@@ -100,12 +149,44 @@ pub struct ForceReport {
     pub residual_max_n: f64,
     pub residual_share: f64,
     pub residual_fixed_bottom_max_n: f64,
+    /// Of the law of a plate, while the bed is braked and while it is sent back, with shares of the largest inertia.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_braking_max_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_braking_share: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_return_max_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_return_share: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub residual_return_at_x_mm: Option<f64>,
     /// Along the roller's path; with preload and inertia of the follower where they are given.
     pub roller_force_max_n: f64,
-    pub torque_max_nm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub torque_max_nm: Option<f64>,
 }
 
-/// The report of a cam; `files` are named by whoever writes them.
+/// Area, mass and centre of mass of a part.
+struct Weighed {
+    area_mm2: Option<f64>,
+    mass_kg: Option<f64>,
+    centre_of_mass_mm: Option<[f64; 2]>,
+    unbalance_g_mm: Option<f64>,
+}
+
+fn weighed(machine: &Machine, part: Option<&Part>) -> Weighed {
+    let face = part.map(Part::area_and_moment);
+    // kg per mm², where there is a thickness.
+    let weight = machine.cam.thickness.map(|thickness| thickness * machine.cam.density() / (MILLIMETRES * MILLIMETRES));
+    Weighed {
+        area_mm2: face.map(|(area, _)| area),
+        mass_kg: face.zip(weight).map(|((area, _), weight)| area * weight),
+        centre_of_mass_mm: face.map(|(area, moment)| (moment / area).into()),
+        unbalance_g_mm: face.zip(weight).map(|((_, moment), weight)| GRAMS * weight * moment.norm()),
+    }
+}
+
+/// The report of a rotary cam; `files` are named by whoever writes them.
 #[must_use]
 pub fn report(
     rotary: &Rotary,
@@ -116,11 +197,7 @@ pub fn report(
 ) -> Report {
     let balance = rotary.balance();
     let (dx_max_at_x, dx_max) = balance.largest_displacement();
-    let square_millimetres = MILLIMETRES * MILLIMETRES;
-    let face = part.map(Part::area_and_moment);
-    // kg per mm², where there is a thickness.
-    let weight =
-        rotary.machine.cam.thickness.map(|thickness| thickness * rotary.machine.cam.density() / square_millimetres);
+    let weighed = weighed(&rotary.machine, part);
     let residual_max_n = rolling.as_ref().map_or_else(|| rotary.residual_max(), |rolled| rolled.residual_max_n);
     Report {
         schema: SCHEMA,
@@ -128,24 +205,26 @@ pub fn report(
         machine: rotary.machine.name.clone(),
         rpm: rotary.rpm,
         cam: CamReport {
-            prime_radius_mm: MILLIMETRES * rotary.disc.follower.prime_radius(),
-            base_radius_mm: MILLIMETRES * rotary.base_radius(),
-            roller_radius_mm: MILLIMETRES * rotary.disc.follower.roller_radius(),
+            prime_radius_mm: Some(MILLIMETRES * rotary.curves.follower.prime_radius()),
+            base_radius_mm: Some(MILLIMETRES * rotary.base_radius()),
+            roller_radius_mm: MILLIMETRES * rotary.machine.roller.radius,
             max_lift_mm: MILLIMETRES * rotary.max_lift(),
             smallest_prime_radius_mm: rotary.smallest_prime_radius.map(|radius| MILLIMETRES * radius),
-            area_mm2: face.map(|(area, _)| area),
-            mass_kg: face.zip(weight).map(|((area, _), weight)| area * weight),
-            centre_of_mass_mm: face.map(|(area, moment)| (moment / area).into()),
-            unbalance_g_mm: face.zip(weight).map(|((_, moment), weight)| GRAMS * weight * moment.norm()),
+            plate: None,
+            area_mm2: weighed.area_mm2,
+            mass_kg: weighed.mass_kg,
+            centre_of_mass_mm: weighed.centre_of_mass_mm,
+            unbalance_g_mm: weighed.unbalance_g_mm,
         },
         law: LawReport {
             dx_max_mm: MILLIMETRES * dx_max,
             dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
             column_length_mm: MILLIMETRES * balance.column,
-            piston_area_mm2: square_millimetres * rotary.cylinder.piston_area,
+            piston_area_mm2: MILLIMETRES * MILLIMETRES * rotary.cylinder.piston_area,
             bore_mm: MILLIMETRES * rotary.cylinder.bore(),
             start_slope: balance.start_slope,
-            velocity_jump_mm_per_rad: MILLIMETRES * rotary.disc.law.velocity_jump(),
+            velocity_jump_mm_per_rad: MILLIMETRES * rotary.curves.law.velocity_jump(),
+            equation_18: None,
         },
         checks,
         outline: part.map(|part| outline_report(part, tolerance)),
@@ -154,8 +233,115 @@ pub fn report(
             residual_max_n,
             residual_share: residual_max_n / rotary.inertia_max(),
             residual_fixed_bottom_max_n: rotary.residual_fixed_bottom(),
+            residual_braking_max_n: None,
+            residual_braking_share: None,
+            residual_return_max_n: None,
+            residual_return_share: None,
+            residual_return_at_x_mm: None,
             roller_force_max_n: rotary.roller_force_max(),
-            torque_max_nm: rotary.torque_max(),
+            torque_max_nm: Some(rotary.torque_max()),
+        },
+        rolling,
+        files: Vec::new(),
+    }
+}
+
+fn solved(plate: &Plate) -> SolvedReport {
+    let mechanism = plate.mechanism();
+    let motion = plate.curves.law.motion();
+    let (solver, tolerance_mm, stations) = match plate.solver {
+        Solver::Ode { tolerance } => ("ode", Some(MILLIMETRES * tolerance), None),
+        Solver::Paper { stations } => ("paper", None, Some(stations)),
+    };
+    let then = |side: Side| match side {
+        Side::Rising => "rising",
+        Side::Falling => "falling",
+        Side::Stuck => "stuck",
+    };
+    SolvedReport {
+        solver,
+        tolerance_mm,
+        stations,
+        steps: match motion {
+            Motion::Ode(solution) => Some(solution.steps()),
+            Motion::Paper(_) => None,
+        },
+        efficiency_model: match mechanism.model {
+            EfficiencyModel::Consistent => "consistent",
+            EfficiencyModel::Printed => "printed",
+        },
+        balance: match mechanism.exact {
+            Exact::Braking => "braking",
+            Exact::Return => "return",
+            Exact::Mean => "mean",
+        },
+        breaks: motion.breaks().iter().map(|b| BreakReport { x_mm: MILLIMETRES * b.x, then: then(b.then) }).collect(),
+    }
+}
+
+/// The report of a plate; `files` are named by whoever writes them.
+#[must_use]
+pub fn plate_report(
+    plate: &Plate,
+    part: Option<&Part>,
+    rolling: Option<Rolled>,
+    tolerance: f64,
+    checks: Vec<Finding>,
+) -> Report {
+    let balance = &plate.mechanism().balance;
+    let (dx_max_at_x, dx_max) = plate.largest_displacement();
+    let weighed = weighed(&plate.machine, part);
+    let ((braking, _), (back, back_at)) = (plate.residual_max(Way::Braking), plate.residual_max(Way::Return));
+    let inertia = plate.inertia_max();
+    let of_law = if plate.balanced_ways() == [Way::Return] { back } else { braking };
+    let residual_max_n = rolling.as_ref().map_or(of_law, |rolled| rolled.residual_max_n);
+    Report {
+        schema: SCHEMA,
+        command: "translating",
+        machine: plate.machine.name.clone(),
+        rpm: plate.rpm,
+        cam: CamReport {
+            prime_radius_mm: None,
+            base_radius_mm: None,
+            roller_radius_mm: MILLIMETRES * plate.data.roller_radius,
+            max_lift_mm: MILLIMETRES * plate.max_lift(),
+            smallest_prime_radius_mm: None,
+            plate: Some(PlateReport {
+                length_mm: MILLIMETRES * (plate.run_out().x - plate.start().x),
+                height_mm: MILLIMETRES * plate.height,
+                thinnest_mm: MILLIMETRES * plate.thinnest,
+                thinnest_at_x_mm: MILLIMETRES * plate.thinnest_at,
+                axis_distance_mm: MILLIMETRES * plate.curves.follower.axis_distance,
+            }),
+            area_mm2: weighed.area_mm2,
+            mass_kg: weighed.mass_kg,
+            centre_of_mass_mm: weighed.centre_of_mass_mm,
+            unbalance_g_mm: None,
+        },
+        law: LawReport {
+            dx_max_mm: MILLIMETRES * dx_max,
+            dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
+            column_length_mm: MILLIMETRES * balance.column,
+            piston_area_mm2: MILLIMETRES * MILLIMETRES * plate.cylinder.piston_area,
+            bore_mm: MILLIMETRES * plate.cylinder.bore(),
+            start_slope: plate.curves.law.motion().at(0.0, false)[1],
+            velocity_jump_mm_per_rad: MILLIMETRES * plate.stroke() * plate.curves.law.slope_jump(),
+            equation_18: Some(solved(plate)),
+        },
+        checks,
+        outline: part.map(|part| outline_report(part, tolerance)),
+        force: ForceReport {
+            inertia_max_n: inertia,
+            residual_max_n,
+            residual_share: residual_max_n / inertia,
+            residual_fixed_bottom_max_n: plate.residual_fixed_bottom(),
+            residual_braking_max_n: Some(braking),
+            residual_braking_share: Some(braking / inertia),
+            residual_return_max_n: Some(back),
+            residual_return_share: Some(back / inertia),
+            residual_return_at_x_mm: Some(MILLIMETRES * back_at),
+            roller_force_max_n: plate.roller_force_max(),
+            torque_max_nm: None,
         },
         rolling,
         files: Vec::new(),

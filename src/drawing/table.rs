@@ -1,12 +1,14 @@
-//! The point table of a rotary cam.
+//! Point tables.
 
 use super::outline::MILLIMETRES;
 use super::point_as_turned;
+use crate::cam::plate::Plate;
 use crate::cam::rotary::Rotary;
 use crate::follower::Follower;
 use crate::law::Law;
+use crate::law::translating::Way;
 
-/// Columns of the table, in order.
+/// Columns of the table of a disc cam, in order.
 pub const COLUMNS: [&str; 18] = [
     "cam_deg",
     "crank_deg",
@@ -28,6 +30,25 @@ pub const COLUMNS: [&str; 18] = [
     "contact_force_n",
 ];
 
+/// Columns of the table of a plate, in order.
+pub const PLATE_COLUMNS: [&str; 15] = [
+    "x_mm",
+    "dx_mm",
+    "psi_deg",
+    "alpha_deg",
+    "pitch_x_mm",
+    "pitch_y_mm",
+    "profile_x_mm",
+    "profile_y_mm",
+    "roller_force_n",
+    "residual_return_n",
+    "residual_braking_n",
+    "slope",
+    "pressure_angle_deg",
+    "pitch_curvature_radius_mm",
+    "profile_curvature_radius_mm",
+];
+
 /// A table of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
@@ -42,10 +63,10 @@ pub struct Table {
 pub fn table(rotary: &Rotary, samples: u32) -> Table {
     let row = |i: u32| {
         let cam_deg = 360.0 * f64::from(i) / f64::from(samples);
-        let (piece, angle) = rotary.disc.law.locate(cam_deg.to_radians());
-        let contact = rotary.disc.contact(piece, angle);
-        let state = rotary.disc.law.state(piece, angle);
-        let profile = contact.pitch.offset_inward(rotary.disc.follower.roller_radius());
+        let (piece, angle) = rotary.curves.law.locate(cam_deg.to_radians());
+        let contact = rotary.curves.contact(piece, angle);
+        let state = rotary.curves.law.state(piece, angle);
+        let profile = contact.pitch.offset_inward(rotary.curves.follower.roller_radius());
         let pitch_point = point_as_turned(rotary, contact.pitch.point * MILLIMETRES);
         let profile_point = point_as_turned(rotary, profile.point * MILLIMETRES);
         let force = rotary.roller_force(piece, angle);
@@ -73,6 +94,38 @@ pub fn table(rotary: &Rotary, samples: u32) -> Table {
         row.iter().map(|value| value + 0.0).collect()
     };
     Table { columns: &COLUMNS, rows: (0..samples).map(row).collect() }
+}
+
+/// `samples` + 1 rows over the overrun, at x = r i/samples with both ends; points of the upper flank.
+#[must_use]
+pub fn plate_table(plate: &Plate, samples: u32) -> Table {
+    let row = |i: u32| {
+        let x_mm = MILLIMETRES * plate.stroke() * (f64::from(i) / f64::from(samples));
+        let (piece, x) = plate.curves.law.locate(x_mm / MILLIMETRES);
+        let bottom = plate.curves.law.bottom(piece, x);
+        let contact = plate.curves.contact(piece, x);
+        let profile = contact.pitch.offset_inward(plate.data.roller_radius);
+        let row = [
+            x_mm,
+            MILLIMETRES * bottom.s,
+            plate.mechanism().psi(bottom.s).to_degrees(),
+            plate.mechanism().slope_angle(bottom.s, bottom.ds).to_degrees(),
+            MILLIMETRES * contact.pitch.point.x,
+            -MILLIMETRES * contact.pitch.point.y,
+            MILLIMETRES * profile.point.x,
+            -MILLIMETRES * profile.point.y,
+            plate.roller_force(piece, x),
+            plate.residual(piece, x, Way::Return),
+            plate.residual(piece, x, Way::Braking),
+            bottom.ds,
+            contact.pressure_angle.to_degrees(),
+            MILLIMETRES / contact.pitch.curvature,
+            MILLIMETRES / profile.curvature,
+        ];
+        // A negative zero is zero.
+        row.iter().map(|value| value + 0.0).collect()
+    };
+    Table { columns: &PLATE_COLUMNS, rows: (0..=samples).map(row).collect() }
 }
 
 /// Crank angle in [0, 360) from the cam angle, without a detour over radians that would lose the round numbers.

@@ -24,6 +24,12 @@ impl TranslatingRoller {
         let height = ((prime_radius - offset) * (prime_radius + offset)).sqrt();
         Self { prime_radius, offset, roller_radius, height }
     }
+
+    /// Radius of the pitch curve at lift 0, m.
+    #[must_use]
+    pub fn prime_radius(&self) -> f64 {
+        self.prime_radius
+    }
 }
 
 impl Follower for TranslatingRoller {
@@ -43,16 +49,12 @@ impl Follower for TranslatingRoller {
         }
     }
 
-    fn angle_of(&self, centre: Vector2<f64>) -> f64 {
+    fn parameter_of(&self, centre: Vector2<f64>) -> f64 {
         let height = ((centre.norm() - self.offset) * (centre.norm() + self.offset)).max(0.0).sqrt();
         libm::atan2(centre.y, centre.x) - libm::atan2(self.offset, height)
     }
 
     fn roller_radius(&self) -> f64 {
         self.roller_radius
-    }
-
-    fn prime_radius(&self) -> f64 {
-        self.prime_radius
     }
 }

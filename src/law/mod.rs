@@ -6,10 +6,12 @@
 mod eccentric;
 mod reversal;
 mod transition;
+pub mod translating;
 
 pub use eccentric::EccentricCircle;
 pub use reversal::{LawError, Reversal, ReversalLaw, State};
 pub use transition::Transition;
+pub use translating::Translating;
 
 use std::f64::consts::TAU;
 
@@ -60,23 +62,38 @@ pub struct Piece {
 
 /// A follower motion over one turn of the cam.
 pub trait Law: Send + Sync {
-    /// The pieces in order; together they cover exactly one turn, starting anywhere in (−2π, 2π).
+    /// The pieces in order; together they cover exactly one period, a turn starting anywhere in (−2π, 2π).
     fn pieces(&self) -> &[Piece];
 
     /// The jet at a cam angle within a piece, its ends included.
     fn jet(&self, piece: usize, angle: f64) -> Jet;
 
-    /// The piece that holds a cam angle, and the angle shifted by whole turns into it. At a break the later piece.
+    /// After how much the motion repeats itself: a turn, or `None` for a cam that is run over once and back.
+    fn period(&self) -> Option<f64> {
+        Some(TAU)
+    }
+
+    /// First and last value of the parameter.
+    fn range(&self) -> (f64, f64) {
+        let pieces = self.pieces();
+        (pieces.first().map_or(0.0, |p| p.start), pieces.last().map_or(TAU, |p| p.end))
+    }
+
+    /// The piece that holds a cam angle, and the angle shifted by whole turns into it, or, where nothing repeats, to the
+    /// nearer end. At a break the later piece.
     fn locate(&self, angle: f64) -> (usize, f64) {
         let pieces = self.pieces();
-        let start = pieces.first().map_or(0.0, |p| p.start);
-        let end = pieces.last().map_or(TAU, |p| p.end);
+        let (start, end) = self.range();
         let mut inside = angle;
-        while inside < start {
-            inside += TAU;
-        }
-        while inside >= end {
-            inside -= TAU;
+        if let Some(period) = self.period() {
+            while inside < start {
+                inside += period;
+            }
+            while inside >= end {
+                inside -= period;
+            }
+        } else {
+            inside = inside.min(end);
         }
         // Adding a turn may round onto the end of the last piece; it then is the start of the first.
         inside = inside.max(start);
@@ -85,13 +102,17 @@ pub trait Law: Send + Sync {
     }
 }
 
-impl<L: Law> Law for &L {
+impl<L: Law + ?Sized> Law for &L {
     fn pieces(&self) -> &[Piece] {
         (**self).pieces()
     }
 
     fn jet(&self, piece: usize, angle: f64) -> Jet {
         (**self).jet(piece, angle)
+    }
+
+    fn period(&self) -> Option<f64> {
+        (**self).period()
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::buffer::Bed;
 use crate::buffer::balance::Column;
 use crate::law::Transition;
+use crate::law::translating::EfficiencyModel;
 
 /// How the cam turns, seen in the drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,15 +117,6 @@ pub struct RollerData {
     pub preload: Option<f64>,
 }
 
-/// How the efficiency of a translating cam enters equation (18).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EfficiencyModel {
-    /// The loss is always on the driven side.
-    Consistent,
-    /// As the paper prints it.
-    Printed,
-}
-
 /// The cam plate on the bed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TranslatingData {
@@ -142,7 +134,7 @@ pub struct TranslatingData {
     pub efficiency_model: EfficiencyModel,
     /// Radius of the roller, m.
     pub roller_radius: f64,
-    /// Height of the plate, m.
+    /// Height of the plate over both flanks where it is highest, m; by itself when not given.
     pub plate_height: Option<f64>,
 }
 

@@ -10,8 +10,7 @@ mod fault;
 mod reader;
 
 pub use data::{
-    CamData, ConoidData, ConoidMode, EfficiencyModel, Keyway, Limits, Machine, Material, RollerData, Rotation, Shift,
-    TranslatingData,
+    CamData, ConoidData, ConoidMode, Keyway, Limits, Machine, Material, RollerData, Rotation, Shift, TranslatingData,
 };
 pub use embedded::{EMBEDDED, Embedded};
 pub use fault::{Excerpt, Fault, MachineError};
@@ -19,6 +18,7 @@ pub use fault::{Excerpt, Fault, MachineError};
 use crate::buffer::balance::Column;
 use crate::buffer::{Bed, Cylinder};
 use crate::law::Transition;
+use crate::law::translating::EfficiencyModel;
 use crate::units::Dimension::{Angle, Force, Length, Mass, Pressure};
 use bounds::{above, within};
 use reader::Reader;

@@ -1,5 +1,7 @@
-//! Root finding, extrema and quadrature. Knows numbers only; every method cites its source.
+//! Root finding, extrema, quadrature and differential equations. Knows numbers only; every method cites its source.
 
 pub mod extremum;
 pub mod quadrature;
 pub mod root;
+pub mod spline;
+pub mod taylor;

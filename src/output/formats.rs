@@ -1,24 +1,25 @@
 //! The table of formats: a new one is one file and one line here.
 
 use super::{csv, json, step, svg};
-use crate::cam::rotary::Rotary;
-use crate::drawing::outline::MILLIMETRES;
+use crate::drawing::outline::{MILLIMETRES, OutlineError};
 use crate::drawing::solid::{SolidError, solid};
-use crate::drawing::{self, Part, Report};
+use crate::drawing::{Part, Report, Sheet, Table, sheet};
 
-/// A cam ready to be written, with what the formats want to know.
-#[derive(Debug, Clone, Copy)]
+/// A cam ready to be written, with what the formats want to know. What only one of them shows is made when it asks.
+#[derive(Clone, Copy)]
 pub struct Job<'a> {
-    /// The cam.
-    pub rotary: &'a Rotary,
     /// Its cut drawing.
     pub part: &'a Part,
     /// Its report.
     pub report: &'a Report,
     /// The cut file, written and proved.
     pub dxf: &'a [u8],
-    /// Rows of the table.
-    pub samples: u32,
+    /// Thickness of the part, m, when it has one.
+    pub thickness: Option<f64>,
+    /// Makes the review sheet.
+    pub sheet: &'a dyn Fn() -> Result<Sheet, OutlineError>,
+    /// Makes the point table.
+    pub table: &'a dyn Fn() -> Table,
     /// The sheet the preview is put into.
     pub template: &'a str,
 }
@@ -28,7 +29,7 @@ pub struct Job<'a> {
 pub enum FormatError {
     /// The preview has a curve that cannot be drawn.
     #[error(transparent)]
-    Outline(#[from] drawing::outline::OutlineError),
+    Outline(#[from] OutlineError),
     /// The template is not one.
     #[error(transparent)]
     Template(#[from] svg::TemplateError),
@@ -49,13 +50,12 @@ pub type Format = (&'static str, fn(&Job<'_>) -> Result<Vec<u8>, FormatError>);
 /// Every format.
 pub const FORMATS: &[Format] = &[
     ("dxf", |job| Ok(job.dxf.to_vec())),
-    ("svg", |job| Ok(svg::write(&drawing::sheet(job.rotary, job.part, job.report)?, job.template)?)),
+    ("svg", |job| Ok(svg::write(&(job.sheet)()?, job.template)?)),
     ("step", |job| {
-        let thickness = job.rotary.machine.cam.thickness.ok_or(FormatError::NoThickness)?;
-        let product = format!("{}, rotary cam for {} rpm", job.report.machine, job.report.rpm);
-        Ok(step::write(&solid(job.part, MILLIMETRES * thickness)?, &product))
+        let thickness = job.thickness.ok_or(FormatError::NoThickness)?;
+        Ok(step::write(&solid(job.part, MILLIMETRES * thickness)?, &sheet::title(job.report)))
     }),
-    ("csv", |job| Ok(csv::write(&drawing::table(job.rotary, job.samples)))),
+    ("csv", |job| Ok(csv::write(&(job.table)()))),
     ("json", |job| Ok(json::write(job.report)?)),
 ];
 

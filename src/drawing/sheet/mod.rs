@@ -1,0 +1,233 @@
+//! The review sheet: what a person looks at before the metal is cut. Millimetres, y upwards, true size.
+
+mod disc;
+mod plate;
+
+pub use disc::disc;
+pub use plate::plate;
+
+use super::Entity;
+use super::report::Report;
+use crate::checks::{Finding, Verdict};
+use crate::contour::Extents;
+use nalgebra::Vector2;
+
+/// Where a text hangs on its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TextAnchor {
+    /// Its start.
+    Start,
+    /// Its middle.
+    Middle,
+    /// Its end.
+    End,
+}
+
+/// A thing on the sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// Something closed.
+    Entity(Entity),
+    /// A straight line.
+    Line(Vector2<f64>, Vector2<f64>),
+    /// An open arc: start, end and bulge.
+    Arc(Vector2<f64>, Vector2<f64>, f64),
+    /// A filled triangle.
+    Triangle([Vector2<f64>; 3]),
+    /// A text of a height, mm.
+    Text {
+        /// Its place, on the base line.
+        at: Vector2<f64>,
+        /// Height, mm.
+        height: f64,
+        /// How it hangs there.
+        anchor: TextAnchor,
+        /// The words.
+        text: String,
+    },
+}
+
+/// Shapes that belong together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// Name for programs, ASCII without spaces; also the class its style goes by.
+    pub id: &'static str,
+    /// Name for people.
+    pub label: &'static str,
+    /// What is in it.
+    pub shapes: Vec<Shape>,
+}
+
+/// The whole sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// Title.
+    pub title: String,
+    /// What the sheet covers, mm.
+    pub extents: Extents,
+    /// Thickness of a thin line, mm.
+    pub stroke: f64,
+    /// The groups, from the back to the front.
+    pub groups: Vec<Group>,
+}
+
+/// How far the roller's path and the normal reach beyond the roller, in its radii.
+const PATH_OVER_RADIUS: f64 = 0.6;
+/// Text height and pen over the width of what is drawn.
+const TEXT_OVER_WIDTH: f64 = 1.0 / 75.0;
+const STROKE_OVER_TEXT: f64 = 0.06;
+/// Width of a letter over the text height, on the safe side.
+const LETTER_OVER_TEXT: f64 = 0.65;
+/// Lines of text per text height.
+const LINE_SPACING: f64 = 1.6;
+
+struct Pen {
+    /// Height of the small text, mm.
+    text: f64,
+}
+
+impl Pen {
+    fn words(&self, x: f64, y: f64, text: impl Into<String>) -> Shape {
+        Shape::Text { at: Vector2::new(x, y), height: self.text, anchor: TextAnchor::Start, text: text.into() }
+    }
+
+    fn middle(&self, at: Vector2<f64>, text: impl Into<String>) -> Shape {
+        Shape::Text { at, height: self.text, anchor: TextAnchor::Middle, text: text.into() }
+    }
+
+    /// A text beside a circle of a radius about a place, on the side where there is more room.
+    fn beside(&self, middle: Vector2<f64>, radius: f64, beyond: f64, drawn: &Extents, text: String) -> Shape {
+        let away = radius + 0.8 * self.text;
+        #[expect(clippy::cast_precision_loss, reason = "a few words")]
+        let length = away + LETTER_OVER_TEXT * self.text * text.chars().count() as f64;
+        let outwards = if middle.x < 0.0 { -1.0 } else { 1.0 };
+        let room = if middle.x < 0.0 { middle.x - drawn.least.x } else { drawn.largest.x - middle.x };
+        let fits = length <= room;
+        let (side, reach) = if fits { (outwards, away) } else { (-outwards, away + beyond) };
+        let at = middle + Vector2::new(side * reach, -0.4 * self.text);
+        let anchor = if side < 0.0 { TextAnchor::End } else { TextAnchor::Start };
+        Shape::Text { at, height: self.text, anchor, text }
+    }
+}
+
+/// The roller with its path and the normal of the cam, mm.
+fn roller(centre: Vector2<f64>, drive: Vector2<f64>, outward: Vector2<f64>, radius: f64) -> Vec<Shape> {
+    let path = radius * (1.0 + PATH_OVER_RADIUS);
+    vec![
+        Shape::Entity(Entity::Circle(centre, radius)),
+        Shape::Line(centre - drive * path, centre + drive * path),
+        Shape::Line(centre - outward * radius, centre + outward * path),
+    ]
+}
+
+/// Title, figures and checks below a drawing, and what the sheet then covers.
+fn with_facts(pen: &Pen, report: &Report, drawn: &Extents, mut groups: Vec<Group>) -> Sheet {
+    let (facts, bottom) = facts(pen, report, drawn);
+    groups.push(Group { id: "scale", label: "scale", shapes: scale_bar(pen, drawn) });
+    groups.push(Group { id: "facts", label: "facts", shapes: facts });
+    let margin = 2.0 * pen.text;
+    Sheet {
+        title: title(report),
+        extents: Extents {
+            least: Vector2::new(drawn.least.x - margin, bottom - margin),
+            largest: drawn.largest + Vector2::new(margin, margin),
+        },
+        stroke: STROKE_OVER_TEXT * pen.text,
+        groups,
+    }
+}
+
+/// "DPI flat-bed press, 2 at, rotary cam for 35 rpm".
+#[must_use]
+pub fn title(report: &Report) -> String {
+    format!("{}, {} cam for {} rpm", report.machine, report.command, report.rpm)
+}
+
+/// A bar of a round length, a fifth of the width at the most.
+fn scale_bar(pen: &Pen, drawn: &Extents) -> Vec<Shape> {
+    let room = 0.2 * drawn.size().x;
+    let decade = libm::pow(10.0, libm::log10(room).floor());
+    let length = [5.0, 2.0, 1.0].into_iter().map(|n| n * decade).find(|length| *length <= room).unwrap_or(decade);
+    let (left, y) = (drawn.least.x, drawn.least.y);
+    let tick = 0.5 * pen.text;
+    let mut shapes = vec![Shape::Line(Vector2::new(left, y), Vector2::new(left + length, y))];
+    for fifth in 0..=5 {
+        let x = left + length * f64::from(fifth) / 5.0;
+        shapes.push(Shape::Line(Vector2::new(x, y), Vector2::new(x, y + tick)));
+    }
+    shapes.push(pen.words(left, y + 1.6 * tick, format!("{} mm", shown(length))));
+    shapes
+}
+
+/// Title, figures and checks below the drawing, and how far down they reach.
+fn facts(pen: &Pen, report: &Report, drawn: &Extents) -> (Vec<Shape>, f64) {
+    let (left, top) = (drawn.least.x, drawn.least.y - 3.0 * pen.text);
+    let width = drawn.size().x;
+    let line = LINE_SPACING * pen.text;
+    let mut shapes = vec![Shape::Text {
+        at: Vector2::new(left, top),
+        height: 1.5 * pen.text,
+        anchor: TextAnchor::Start,
+        text: title(report),
+    }];
+    let (cam, law, force) = (&report.cam, &report.law, &report.force);
+    let mut figures = vec![
+        match (&cam.plate, cam.base_radius_mm) {
+            (Some(plate), _) => format!(
+                "plate {} × {} mm, {:.2} mm where thinnest, roller {} mm",
+                shown(plate.length_mm),
+                shown(plate.height_mm),
+                plate.thinnest_mm,
+                shown(cam.roller_radius_mm)
+            ),
+            (None, base) => {
+                format!("base radius {} mm, roller {} mm", shown(base.unwrap_or(f64::NAN)), shown(cam.roller_radius_mm))
+            }
+        },
+        format!("lift {:.3} mm, column {:.3} mm", cam.max_lift_mm, law.column_length_mm),
+        format!("Δx {:.3} mm at x = {:.2} mm", law.dx_max_mm, law.dx_max_at_x_mm),
+        format!("inertia {:.0} N, residual {:.2} N", force.inertia_max_n, force.residual_max_n),
+        format!("fixed bottom would leave {:.0} N", force.residual_fixed_bottom_max_n),
+    ];
+    if let Some(outline) = &report.outline {
+        let micrometres = 1e3 * outline.deviation_max_mm;
+        figures.push(format!("{} arcs, {micrometres:.3} µm from the exact curve", outline.arcs));
+    }
+    if let (Some(braking), Some(back)) = (force.residual_braking_max_n, force.residual_return_max_n) {
+        figures.push(format!("residual {braking:.0} N braking, {back:.0} N on the way back"));
+    }
+    if let Some(mass) = cam.mass_kg {
+        figures.push(format!("mass {mass:.2} kg"));
+    }
+    let rows = figures.len().max(report.checks.len());
+    let row = |index: usize, x: f64, text: String| {
+        #[expect(clippy::cast_precision_loss, reason = "a few rows")]
+        let y = top - line * (index + 1) as f64 - 0.4 * pen.text;
+        pen.words(x, y, text)
+    };
+    shapes.extend(figures.into_iter().enumerate().map(|(index, text)| row(index, left, text)));
+    let checks = report.checks.iter().map(check_words).enumerate();
+    shapes.extend(checks.map(|(index, text)| row(index, left + 0.46 * width, text)));
+    #[expect(clippy::cast_precision_loss, reason = "a few rows")]
+    let bottom = top - line * rows as f64;
+    (shapes, bottom)
+}
+
+fn check_words(finding: &Finding) -> String {
+    let verdict = match finding.verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "FAIL",
+        Verdict::Info => "info",
+    };
+    let limit = finding.limit.map_or(String::new(), |limit| format!(", limit {}", shown(limit)));
+    format!("{verdict}  {}  {} {}{limit}", finding.check, shown(finding.value), finding.unit)
+}
+
+/// A number for a person: three decimals at the most, no trailing zeros.
+fn shown(value: f64) -> String {
+    if !value.is_finite() {
+        return "none".into();
+    }
+    let rounded = (value * 1e3).round() / 1e3;
+    if rounded == 0.0 && value != 0.0 { format!("{value:.1e}") } else { rounded.to_string() }
+}

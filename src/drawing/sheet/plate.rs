@@ -1,0 +1,71 @@
+//! The review sheet of a cam plate.
+
+use super::super::outline::{MILLIMETRES, OutlineError, pitch_of_plate};
+use super::super::report::Report;
+use super::super::{Entity, Part};
+use super::{Group, PATH_OVER_RADIUS, Pen, Shape, Sheet, TEXT_OVER_WIDTH, roller, with_facts};
+use crate::cam::extremes;
+use crate::cam::plate::Plate;
+use crate::contour::{Extents, Segment};
+use crate::follower::Follower;
+use crate::law::Law;
+use nalgebra::Vector2;
+
+/// The review sheet of a plate: both flanks with their pitch curves, the rollers where the pressure angle is worst, the
+/// bed's axis and the overrun.
+///
+/// # Errors
+/// [`OutlineError`] when the pitch curve cannot be drawn.
+pub fn plate(plate: &Plate, part: &Part, report: &Report) -> Result<Sheet, OutlineError> {
+    let radius = MILLIMETRES * plate.data.roller_radius;
+    let lower = pitch_of_plate(plate)?;
+    let mirrored = |segment: &Segment| {
+        let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
+        Segment { start: flip(segment.start), end: flip(segment.end), bulge: -segment.bulge }
+    };
+    let both: Vec<Segment> = lower.iter().copied().chain(lower.iter().map(mirrored)).collect();
+    let reach = Vector2::new(radius, radius) * (1.0 + PATH_OVER_RADIUS);
+    let outline = part.outline.contour.extents();
+    let inner = both.iter().fold(outline, |extents, segment| extents.with(&segment.extents()));
+    let drawn = Extents { least: inner.least - reach, largest: inner.largest + reach };
+    let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
+    let pitch_curve = both.iter().map(|s| Shape::Arc(s.start, s.end, s.bulge)).collect();
+    let group = |id, label, shapes| Group { id, label, shapes };
+    let groups = vec![
+        group("profile", "profile", vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone()))]),
+        group("axis", "bed's axis", axes(&pen, plate, &drawn)),
+        group("pitch-curve", "pitch curves", pitch_curve),
+        group("roller", "rollers at their worst pressure angle", rollers(&pen, plate, &drawn)),
+    ];
+    Ok(with_facts(&pen, report, &drawn, groups))
+}
+
+/// The bed's axis, and a mark where the overrun starts and where it ends.
+fn axes(pen: &Pen, plate: &Plate, drawn: &Extents) -> Vec<Shape> {
+    let mut shapes = vec![Shape::Line(Vector2::new(drawn.least.x, 0.0), Vector2::new(drawn.largest.x, 0.0))];
+    let stroke = MILLIMETRES * plate.stroke();
+    for (x, words) in [(0.0, "x = 0".to_owned()), (stroke, format!("x = r = {stroke} mm"))] {
+        let (piece, at) = plate.curves.law.locate(x / MILLIMETRES);
+        let centre = plate.curves.contact(piece, at).pitch.point * MILLIMETRES;
+        shapes.push(Shape::Line(centre, Vector2::new(centre.x, -centre.y)));
+        shapes.push(pen.words(centre.x + 0.6 * pen.text, 0.6 * pen.text, words));
+    }
+    shapes
+}
+
+/// The rollers of both flanks where the pressure angle is worst, with path and normal.
+fn rollers(pen: &Pen, plate: &Plate, drawn: &Extents) -> Vec<Shape> {
+    let curves = &plate.curves;
+    let worst = extremes::pressure_angle(curves);
+    let (piece, x) = curves.law.locate(worst.at);
+    let contact = curves.contact(piece, x);
+    let drive = curves.follower.pitch(x, &contact.lift).drive;
+    let radius = MILLIMETRES * plate.data.roller_radius;
+    let flip = |v: Vector2<f64>| Vector2::new(v.x, -v.y);
+    let centre = contact.pitch.point * MILLIMETRES;
+    let mut shapes = roller(centre, drive, contact.pitch.outward(), radius);
+    shapes.extend(roller(flip(centre), flip(drive), flip(contact.pitch.outward()), radius));
+    let text = format!("{:.2}° at x = {:.2} mm", worst.value.to_degrees(), MILLIMETRES * worst.at);
+    shapes.push(pen.beside(flip(centre), radius, radius * PATH_OVER_RADIUS, drawn, text));
+    shapes
+}

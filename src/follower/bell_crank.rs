@@ -1,0 +1,75 @@
+//! The bell crank whose roller runs under a plate on the bed.
+
+use super::{Follower, Pitch};
+use crate::law::Jet;
+use nalgebra::Vector2;
+
+/// A roller on the arm l1 of a lever whose other arm l2 moves the bottom by Δx, sin ψ = Δx/l2.
+///
+/// In the frame of the bed the roller of the upper flank is at X = x + l1 (sin(Δ+ψ) − sin Δ), a + l1 (cos Δ − cos(Δ+ψ)),
+/// a above the bed's axis at x = ψ = 0. This is the roller of the lower flank, its mirror image, so that the outline
+/// runs counter-clockwise with growing x and the metal lies to the left as in a disc cam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BellCrank {
+    /// Roller arm l1, m.
+    pub roller_arm: f64,
+    /// Bottom arm l2, m.
+    pub bottom_arm: f64,
+    /// Δ, rad.
+    pub delta: f64,
+    /// Δx of the bottom at lift 0, m.
+    pub lowest: f64,
+    /// Distance a of the roller from the bed's axis at Δx = 0, m.
+    pub axis_distance: f64,
+    /// Radius of the roller, m.
+    pub roller_radius: f64,
+}
+
+impl BellCrank {
+    /// ψ and its first three derivatives by x.
+    fn lever(&self, lift: &Jet) -> [f64; 4] {
+        let s = (self.lowest + lift.s) / self.bottom_arm;
+        let [d1, d2, d3] = [lift.ds, lift.dds, lift.ddds].map(|d| d / self.bottom_arm);
+        // From cos ψ ψ' = s', differentiated twice more.
+        let cos = ((1.0 - s) * (1.0 + s)).sqrt();
+        let first = d1 / cos;
+        let second = (d2 + s * first * first) / cos;
+        let third = (d3 + 3.0 * s * first * second + cos * first * first * first) / cos;
+        [libm::asin(s), first, second, third]
+    }
+}
+
+impl Follower for BellCrank {
+    fn pitch(&self, x: f64, lift: &Jet) -> Pitch {
+        let [psi, first, second, third] = self.lever(lift);
+        let theta = self.delta + psi;
+        let (sin, cos) = (libm::sin(theta), libm::cos(theta));
+        let l = self.roller_arm;
+        // Differences of sine and cosine by products, exact for a small ψ: sin θ − sin Δ = 2 cos(Δ + ψ/2) sin(ψ/2).
+        let (half, middle) = (libm::sin(0.5 * psi), self.delta + 0.5 * psi);
+        let along = x + 2.0 * l * libm::cos(middle) * half;
+        let up = self.axis_distance + 2.0 * l * libm::sin(middle) * half;
+        // d(l sin θ) = l cos θ ψ', d(−l cos θ) = l sin θ ψ'.
+        let square = first * first;
+        let (second_cos, second_sin) = (second, square);
+        let (third_cos, third_sin) = (third - square * first, 3.0 * first * second);
+        Pitch {
+            point: Vector2::new(along, -up),
+            first: Vector2::new(1.0 + l * cos * first, -l * sin * first),
+            second: Vector2::new(l * (cos * second_cos - sin * second_sin), -l * (sin * second_cos + cos * second_sin)),
+            third: Vector2::new(l * (cos * third_cos - sin * third_sin), -l * (sin * third_cos + cos * third_sin)),
+            drive: Vector2::new(cos, -sin),
+            drive_turn: -first,
+        }
+    }
+
+    fn parameter_of(&self, centre: Vector2<f64>) -> f64 {
+        let up = -centre.y - self.axis_distance;
+        let theta = libm::acos(libm::cos(self.delta) - up / self.roller_arm);
+        centre.x - self.roller_arm * (libm::sin(theta) - libm::sin(self.delta))
+    }
+
+    fn roller_radius(&self) -> f64 {
+        self.roller_radius
+    }
+}

@@ -1,0 +1,153 @@
+//! The cubic spline with "not-a-knot" ends (C. de Boor, A Practical Guide to Splines, 1978, ch. IV): third derivatives
+//! agree across the second and the last but one knot, so that a cubic is reproduced and no end slope is invented. Two
+//! knots give a straight line, three a parabola.
+
+/// A spline through values at increasing knots.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spline {
+    knots: Vec<f64>,
+    /// Per interval: value, slope, half the second and a sixth of the third derivative at its left knot.
+    cubics: Vec<[f64; 4]>,
+}
+
+impl Spline {
+    /// Through `values` at `knots`, both of one length, knots increasing.
+    #[must_use]
+    pub fn not_a_knot(knots: &[f64], values: &[f64]) -> Self {
+        let second = second_derivatives(knots, values);
+        let intervals = knots.windows(2).zip(values.windows(2)).zip(second.windows(2));
+        let cubics = intervals
+            .map(|((x, y), m)| match (x, y, m) {
+                ([x0, x1], [y0, y1], [m0, m1]) => {
+                    let h = x1 - x0;
+                    [*y0, (y1 - y0) / h - h * (2.0 * m0 + m1) / 6.0, 0.5 * m0, (m1 - m0) / (6.0 * h)]
+                }
+                _ => [f64::NAN; 4],
+            })
+            .collect();
+        Self { knots: knots.to_vec(), cubics }
+    }
+
+    /// Value and first three derivatives; beyond the ends the outer cubics go on. At a knot the later one counts.
+    #[must_use]
+    pub fn at(&self, x: f64) -> [f64; 4] {
+        let last = self.cubics.len().saturating_sub(1);
+        let index = self.knots.partition_point(|knot| *knot <= x).saturating_sub(1).min(last);
+        let (Some(knot), Some([a, b, c, d])) = (self.knots.get(index), self.cubics.get(index)) else {
+            return [f64::NAN; 4];
+        };
+        let t = x - knot;
+        [((d * t + c) * t + b) * t + a, (3.0 * d * t + 2.0 * c) * t + b, 6.0 * d * t + 2.0 * c, 6.0 * d]
+    }
+}
+
+/// The second derivatives at the knots, by Thomas' algorithm; the end conditions are folded into the first and the last
+/// row.
+fn second_derivatives(knots: &[f64], values: &[f64]) -> Vec<f64> {
+    let n = knots.len();
+    let widths: Vec<f64> =
+        knots.windows(2).map(|pair| pair.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(1.0)).collect();
+    let slopes: Vec<f64> = values
+        .windows(2)
+        .zip(&widths)
+        .map(|(pair, h)| pair.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0) / h)
+        .collect();
+    let inner = n.saturating_sub(2);
+    let mut rows: Vec<(f64, f64)> = Vec::with_capacity(inner);
+    let pairs = widths.windows(2).zip(slopes.windows(2)).enumerate();
+    for (row, (h, d)) in pairs {
+        let ([a, b], [d0, d1]) = (h, d) else { continue };
+        let (mut below, mut diagonal, mut above) = (*a, 2.0 * (a + b), *b);
+        if row == 0 {
+            diagonal += a * (a + b) / b;
+            above -= a * a / b;
+            below = 0.0;
+        }
+        if row + 1 == inner {
+            diagonal += b * (a + b) / a;
+            if row > 0 {
+                below -= b * b / a;
+            }
+            above = 0.0;
+        }
+        if inner == 1 {
+            (below, diagonal, above) = (0.0, 3.0 * (a + b), 0.0);
+        }
+        let (factor, right) = rows.last().copied().unwrap_or((0.0, 0.0));
+        let pivot = diagonal - below * factor;
+        rows.push((above / pivot, (6.0 * (d1 - d0) - below * right) / pivot));
+    }
+    let mut second = vec![0.0; n];
+    let mut next = 0.0;
+    for (slot, (factor, right)) in second.iter_mut().skip(1).zip(&rows).rev() {
+        next = right - factor * next;
+        *slot = next;
+    }
+    let ends = |second: &[f64], h: &[f64]| match (second, h) {
+        ([m1, m2], [a, b]) => ((a + b) * m1 - a * m2) / b,
+        _ => 0.0,
+    };
+    let at = |index: usize| second.get(index).copied().unwrap_or(0.0);
+    let width = |index: usize| widths.get(index).copied().unwrap_or(1.0);
+    let (first, last) = match n {
+        0..=2 => (0.0, 0.0),
+        3 => (at(1), at(1)),
+        _ => {
+            (ends(&[at(1), at(2)], &[width(0), width(1)]), ends(&[at(n - 2), at(n - 3)], &[width(n - 2), width(n - 3)]))
+        }
+    };
+    if let Some(slot) = second.first_mut() {
+        *slot = first;
+    }
+    if let Some(slot) = second.last_mut() {
+        *slot = last;
+    }
+    second
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_come_back() {
+        let knots = [0.0, 0.7, 1.1, 2.5, 3.0];
+        for (count, degree) in [(2, 1), (3, 2), (4, 3), (5, 3)] {
+            let f = |x: f64| {
+                2.0 - x + if degree > 1 { 0.5 * x * x } else { 0.0 } - if degree > 2 { x * x * x } else { 0.0 }
+            };
+            let knots = &knots[..count];
+            let values: Vec<f64> = knots.iter().map(|x| f(*x)).collect();
+            let spline = Spline::not_a_knot(knots, &values);
+            for i in 0..=20 {
+                let x = -0.5 + 0.2 * f64::from(i);
+                assert!((spline.at(x)[0] - f(x)).abs() < 1e-13 * (1.0 + f(x).abs()) * 10.0, "{count} knots at {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn joints_are_smooth_and_the_error_falls_with_the_fourth_power() {
+        let spline = |n: u32| {
+            let knots: Vec<f64> = (0..=n).map(|i| 2.0 * f64::from(i) / f64::from(n)).collect();
+            let values: Vec<f64> = knots.iter().map(|x| libm::sin(3.0 * x)).collect();
+            (Spline::not_a_knot(&knots, &values), knots)
+        };
+        let error = |n: u32| {
+            let (spline, _) = spline(n);
+            (0..=999)
+                .map(|i| 0.002 * f64::from(i))
+                .map(|x| (spline.at(x)[0] - libm::sin(3.0 * x)).abs())
+                .fold(0.0, f64::max)
+        };
+        let ratio = error(20) / error(40);
+        assert!((12.0..24.0).contains(&ratio), "{ratio}");
+        let (spline, knots) = spline(12);
+        for knot in &knots[1..12] {
+            let (left, right) = (spline.at(knot - 1e-12), spline.at(*knot));
+            for order in 0..3 {
+                assert!((left[order] - right[order]).abs() < 1e-9, "order {order} at {knot}");
+            }
+        }
+    }
+}
