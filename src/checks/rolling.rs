@@ -80,7 +80,6 @@ fn named<S: Serializer>(place: Place, [angle, overrun]: [&str; 2], serializer: S
     map.end()
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
 fn gap_place<S: Serializer>(place: &Place, serializer: S) -> Result<S::Ok, S::Error> {
     named(*place, ["gap_cam_deg", "gap_x_mm"], serializer)
 }
@@ -90,7 +89,6 @@ fn double_contact_place<S: Serializer>(place: &Option<Place>, serializer: S) -> 
     named(place.unwrap_or_default(), ["double_contact_cam_deg", "double_contact_x_mm"], serializer)
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
 fn residual_place<S: Serializer>(place: &Place, serializer: S) -> Result<S::Ok, S::Error> {
     named(*place, ["residual_cam_deg", "residual_x_mm"], serializer)
 }

@@ -58,7 +58,7 @@ def contours(path):
 
 
 def gate(binary, directory, name, args):
-    command = [binary, "rotary", *args, "--json", "--format", "dxf,step", "--name", name, "--out", directory]
+    command = [binary, *(args if args[:1] == ["translating"] else ["rotary", *args]), "--json", "--format", "dxf,step", "--name", name, "--out", directory]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     report = json.loads(run.stdout)
@@ -118,6 +118,8 @@ def main():
         "holes": [*holes, *keyway],
         "corner": ["--set", "buffer.column=return", "--set", "transition.kind=none", "--set", "cam.rotation=ccw"],
         "huge": ["dpi-paper"],
+        "plate": ["translating"],
+        "return plate": ["translating", "--set", "buffer.column=return"],
         "cyrillic": ["--set", "name=Станок 'ДПИ'"],
     }
     print(f"{'solid':10} {'faces':>5} {'tolerance':>10} {'volume':>9} {'section/mm':>11} {'bytes':>7}")
