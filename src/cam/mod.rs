@@ -3,6 +3,8 @@
 //! Curves here are functions of the law's parameter, the cam angle or the overrun of the bed, with exact derivatives;
 //! nothing is sampled. SI units and radians.
 
+pub mod between;
+pub mod conoid;
 pub mod envelope;
 pub mod extremes;
 pub mod plate;

@@ -233,7 +233,7 @@ impl Cam for Rotary {
     }
 }
 
-fn round_up(base: f64) -> f64 {
+pub(super) fn round_up(base: f64) -> f64 {
     let steps = (base / BASE_STEP - BASE_STEP_NOISE).ceil();
     // A quotient keeps "69 mm" the number nearest to 0.069.
     steps / (1.0 / BASE_STEP)

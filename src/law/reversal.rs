@@ -197,6 +197,12 @@ impl Reversal {
         State { crank, overrun, displacement, pressure_ratio }
     }
 
+    /// The lowest Δx of the turn, m: where the lift is counted from.
+    #[must_use]
+    pub fn lowest(&self) -> f64 {
+        self.lowest
+    }
+
     /// What the motion was made of.
     #[must_use]
     pub fn law(&self) -> &ReversalLaw {

@@ -104,6 +104,15 @@ impl CamData {
     }
 }
 
+/// Shape of a roller's rim along its axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Crown {
+    /// A sphere of the roller's radius.
+    Sphere,
+    /// Straight.
+    Cylinder,
+}
+
 /// The translating roller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollerData {
@@ -115,6 +124,10 @@ pub struct RollerData {
     pub mass: Option<f64>,
     /// Force that presses it onto the cam beside the air, N.
     pub preload: Option<f64>,
+    /// Shape of its rim on a conoid.
+    pub crown: Crown,
+    /// Width of a cylindrical rim, m.
+    pub width: Option<f64>,
 }
 
 /// The cam plate on the bed.
@@ -165,6 +178,8 @@ pub struct ConoidData {
     pub mode: ConoidMode,
     /// How the cam shifts.
     pub shift: Shift,
+    /// What the cam is longer at either end, m.
+    pub overhang: f64,
 }
 
 /// What a cam must keep.

@@ -10,7 +10,8 @@ mod fault;
 mod reader;
 
 pub use data::{
-    CamData, ConoidData, ConoidMode, Keyway, Limits, Machine, Material, RollerData, Rotation, Shift, TranslatingData,
+    CamData, ConoidData, ConoidMode, Crown, Keyway, Limits, Machine, Material, RollerData, Rotation, Shift,
+    TranslatingData,
 };
 pub use embedded::{EMBEDDED, Embedded};
 pub use fault::{Excerpt, Fault, MachineError};
@@ -89,6 +90,7 @@ impl Machine {
         let offset = read.quantity_or("follower.roller.offset", Length, 0.0, within(-LONGEST, LONGEST));
         let mass = read.optional("follower.roller.mass", Mass, above(0.0, HEAVIEST)).map(|q| q.si);
         let preload = read.optional("follower.roller.preload", Force, within(0.0, LARGEST_FORCE)).map(|q| q.si);
+        let (crown, width) = read_crown(&mut read);
         let cam = read_cam(&mut read, radius, offset);
         let transition = read_transition(&mut read);
         let translating = read.has("translating").then(|| read_translating(&mut read, radius)).flatten();
@@ -118,7 +120,7 @@ impl Machine {
             column,
             lead,
             design_rpm,
-            roller: RollerData { radius, offset, mass, preload },
+            roller: RollerData { radius, offset, mass, preload, crown, width },
             cam,
             transition,
             translating,
@@ -249,6 +251,17 @@ fn read_keyway(read: &mut Reader<'_>, bore_radius: Option<f64>) -> Keyway {
     keyway
 }
 
+fn read_crown(read: &mut Reader<'_>) -> (Crown, Option<f64>) {
+    let shapes = [("sphere", Crown::Sphere), ("cylinder", Crown::Cylinder)];
+    let crown = read.word("follower.roller.crown", &shapes).unwrap_or(Crown::Sphere);
+    let width = read.optional("follower.roller.width", Length, above(0.0, LONGEST)).map(|q| q.si);
+    if crown == Crown::Cylinder && width.is_none() {
+        let remedy = Some("add follower.roller.width".into());
+        read.fail("follower.roller.crown", "a cylindrical roller needs a width".into(), remedy);
+    }
+    (crown, width)
+}
+
 fn read_transition(read: &mut Reader<'_>) -> Option<Transition> {
     let width = read.quantity_or("transition.width", Angle, PI / 9.0, above(0.0, PI));
     let from: fn(f64) -> [Transition; 3] =
@@ -277,6 +290,7 @@ fn read_conoid(read: &mut Reader<'_>) -> Option<ConoidData> {
         axial_travel: read.quantity("conoid.axial_travel", Length, "120 mm", above(0.0, LONGEST)),
         mode: read.word("conoid.mode", &[("adjusted", ConoidMode::Adjusted), ("fixed", ConoidMode::Fixed)])?,
         shift: read.word("conoid.shift", &[("linear", Shift::Linear), ("square", Shift::Square)])?,
+        overhang: read.quantity_or("conoid.overhang", Length, 0.0, within(0.0, LONGEST)),
     })
 }
 

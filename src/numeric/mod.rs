@@ -3,5 +3,6 @@
 pub mod extremum;
 pub mod quadrature;
 pub mod root;
+pub mod series;
 pub mod spline;
 pub mod taylor;

@@ -14,7 +14,42 @@ impl Spline {
     /// Through `values` at `knots`, both of one length, knots increasing.
     #[must_use]
     pub fn not_a_knot(knots: &[f64], values: &[f64]) -> Self {
-        let second = second_derivatives(knots, values);
+        Self::with_second(knots, values, &second_derivatives(knots, values))
+    }
+
+    /// Through `values` at `knots` with the given slopes at either end; two knots or more.
+    #[must_use]
+    pub fn clamped(knots: &[f64], values: &[f64], ends: (f64, f64)) -> Self {
+        // Tridiagonal in the second derivatives; the first and the last row hold the slopes at the ends.
+        let n = knots.len();
+        let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(f64::NAN);
+        let width = |index: usize| at(knots, index + 1) - at(knots, index);
+        let slope = |index: usize| (at(values, index + 1) - at(values, index)) / width(index);
+        let mut rows: Vec<(f64, f64)> = Vec::with_capacity(n);
+        for row in 0..n {
+            let (below, diagonal, above, right) = if row == 0 {
+                (0.0, 2.0 * width(0), width(0), 6.0 * (slope(0) - ends.0))
+            } else if row + 1 == n {
+                (width(row - 1), 2.0 * width(row - 1), 0.0, 6.0 * (ends.1 - slope(row - 1)))
+            } else {
+                let (a, b) = (width(row - 1), width(row));
+                (a, 2.0 * (a + b), b, 6.0 * (slope(row) - slope(row - 1)))
+            };
+            let (factor, before) = rows.last().copied().unwrap_or((0.0, 0.0));
+            let pivot = diagonal - below * factor;
+            rows.push((above / pivot, (right - below * before) / pivot));
+        }
+        let mut second = vec![0.0; n];
+        let mut next = 0.0;
+        for (slot, (factor, right)) in second.iter_mut().zip(&rows).rev() {
+            next = right - factor * next;
+            *slot = next;
+        }
+        Self::with_second(knots, values, &second)
+    }
+
+    /// From the second derivatives at the knots.
+    fn with_second(knots: &[f64], values: &[f64], second: &[f64]) -> Self {
         let intervals = knots.windows(2).zip(values.windows(2)).zip(second.windows(2));
         let cubics = intervals
             .map(|((x, y), m)| match (x, y, m) {
@@ -28,6 +63,27 @@ impl Spline {
         Self { knots: knots.to_vec(), cubics }
     }
 
+    /// The control values of the same function as a cubic B-spline on [`bspline_knots`]: the blossom of the cubic of an
+    /// interval at three consecutive knots (L. Ramshaw, 1987).
+    #[must_use]
+    pub fn controls(&self) -> Vec<f64> {
+        let full = bspline_knots(&self.knots);
+        let count = self.cubics.len() + 3;
+        (0..count)
+            .map(|control| {
+                // Any interval within the support will do; this one holds the middle of the three knots or touches it.
+                let interval = control.saturating_sub(1).min(self.cubics.len() - 1);
+                let (Some(start), Some([c0, c1, c2, c3])) = (self.knots.get(interval), self.cubics.get(interval))
+                else {
+                    return f64::NAN;
+                };
+                let knot = |n: usize| full.get(control + n).copied().unwrap_or(f64::NAN) - start;
+                let (a, b, c) = (knot(1), knot(2), knot(3));
+                c0 + c1 * (a + b + c) / 3.0 + c2 * (a * b + b * c + c * a) / 3.0 + c3 * a * b * c
+            })
+            .collect()
+    }
+
     /// Value and first three derivatives; beyond the ends the outer cubics go on. At a knot the later one counts.
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; 4] {
@@ -39,6 +95,55 @@ impl Spline {
         let t = x - knot;
         [((d * t + c) * t + b) * t + a, (3.0 * d * t + 2.0 * c) * t + b, 6.0 * d * t + 2.0 * c, 6.0 * d]
     }
+}
+
+/// The knots of a cubic B-spline with joints at `knots`: either end four times.
+#[must_use]
+pub fn bspline_knots(knots: &[f64]) -> Vec<f64> {
+    let (first, last) = (knots.first().copied().unwrap_or(0.0), knots.last().copied().unwrap_or(0.0));
+    let mut full = vec![first; 3];
+    full.extend_from_slice(knots);
+    full.extend([last; 3]);
+    full
+}
+
+/// The four cubic B-splines that do not vanish at `x`, their slopes, and the index of the first (The NURBS Book, A2.2,
+/// A2.3); `knots` are those of [`bspline_knots`].
+#[must_use]
+pub fn bspline_basis(knots: &[f64], x: f64) -> (usize, [f64; 4], [f64; 4]) {
+    let at = |index: usize| knots.get(index).copied().unwrap_or(f64::NAN);
+    let last = knots.len().saturating_sub(5);
+    let span = knots.partition_point(|knot| *knot <= x).saturating_sub(1).clamp(3, last);
+    let left = |j: usize| x - at(span + 1 - j);
+    let right = |j: usize| at(span + j) - x;
+    let mut basis = [1.0, 0.0, 0.0, 0.0];
+    let mut slopes = [0.0; 4];
+    for degree in 1..=3_usize {
+        let mut saved = 0.0;
+        let mut lower = 0.0;
+        for r in 0..degree {
+            let width = right(r + 1) + left(degree - r);
+            let [value] = [basis.get(r).copied().unwrap_or(0.0) / width];
+            if degree == 3 {
+                // Slope 3 (Nᵢ/(tᵢ₊₃ − tᵢ) − Nᵢ₊₁/(tᵢ₊₄ − tᵢ₊₁)).
+                if let Some(slot) = slopes.get_mut(r) {
+                    *slot = 3.0 * (lower - value);
+                }
+                lower = value;
+            }
+            if let Some(slot) = basis.get_mut(r) {
+                *slot = saved + right(r + 1) * value;
+            }
+            saved = left(degree - r) * value;
+        }
+        if let Some(slot) = basis.get_mut(degree) {
+            *slot = saved;
+        }
+        if degree == 3 {
+            slopes[3] = 3.0 * lower;
+        }
+    }
+    (span - 3, basis, slopes)
 }
 
 /// The second derivatives at the knots, by Thomas' algorithm; the end conditions are folded into the first and the last
@@ -122,6 +227,34 @@ mod tests {
             for i in 0..=20 {
                 let x = -0.5 + 0.2 * f64::from(i);
                 assert!((spline.at(x)[0] - f(x)).abs() < 1e-13 * (1.0 + f(x).abs()) * 10.0, "{count} knots at {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_clamped_spline_keeps_its_ends_and_its_controls_are_the_same_function() {
+        let knots = [0.0, 0.4, 1.0, 1.3, 2.0];
+        let values: Vec<f64> = knots.iter().map(|x| libm::sin(*x)).collect();
+        for (spline, ends) in [
+            (Spline::clamped(&knots, &values, (1.0, libm::cos(2.0))), true),
+            (Spline::not_a_knot(&knots, &values), false),
+            (Spline::not_a_knot(&knots[..2], &values[..2]), false),
+            (Spline::clamped(&knots[..2], &values[..2], (1.0, libm::cos(0.4))), false),
+        ] {
+            if ends {
+                assert!((spline.at(0.0)[1] - 1.0).abs() < 1e-14 && (spline.at(2.0)[1] - libm::cos(2.0)).abs() < 1e-14);
+            }
+            let (controls, full) = (spline.controls(), bspline_knots(&spline.knots));
+            assert_eq!(controls.len() + 4, full.len());
+            let last = spline.knots[spline.knots.len() - 1];
+            for i in 0..=40 {
+                let x = last * f64::from(i) / 40.0;
+                let (first, basis, slopes) = bspline_basis(&full, x);
+                let sum =
+                    |weights: [f64; 4]| -> f64 { weights.iter().zip(&controls[first..]).map(|(w, c)| w * c).sum() };
+                assert!((sum(basis) - spline.at(x)[0]).abs() < 1e-14, "{x}");
+                let slope = if i == 40 { spline.at(x - 1e-12)[1] } else { spline.at(x)[1] };
+                assert!((sum(slopes) - slope).abs() < 1e-11, "{x}: {} {slope}", sum(slopes));
             }
         }
     }
