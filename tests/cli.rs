@@ -120,6 +120,12 @@ fn walls_of_a_plate_and_flags_that_do_not_go_together_are_told() {
 /// The paper's solver with 18 stations misses by a millimetre: `check` sees that the plate is not the law's.
 #[test]
 fn a_plate_is_checked_against_the_law() {
+    for balance in ["return", "mean"] {
+        let made = camgen(&["translating", "--name", "plate", "--out", ".", "--balance", balance]);
+        assert_eq!(made.code, 0, "{}", made.err);
+        let checked = camgen_in(made.directory, &["check", "plate.dxf", "--cam", "translating", "--balance", balance]);
+        assert_eq!(checked.code, 0, "{}", checked.out);
+    }
     for (stations, code) in [(None, 0), (Some("18"), 1)] {
         let solver = stations.map_or(vec![], |stations| vec!["--solver", "paper", "--stations", stations]);
         let made = camgen(&[&["translating", "--name", "plate", "--out", "."], &solver[..]].concat());
@@ -378,14 +384,17 @@ fn a_template_of_one_s_own_is_filled_in() {
     assert!(text.contains("id=\"profile\"") && !text.contains("{{"));
 }
 
-/// The picture in the README is the picture the program makes.
+/// The pictures in the README are the pictures the program makes.
 #[test]
-fn the_picture_in_the_readme_is_current() {
-    let run = camgen(&["rotary", "--format", "svg"]);
-    let made = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm.svg")).expect("the file");
-    let kept =
-        fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/dpi-rotary-35rpm.svg")).expect("kept");
-    assert!(made == kept, "the picture has changed: look at it, and if it is right copy it to tests/golden");
+fn the_pictures_in_the_readme_are_current() {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    for command in ["rotary", "translating"] {
+        let run = camgen(&[command, "--format", "svg"]);
+        let name = format!("dpi-{command}-35rpm.svg");
+        let made = fs::read_to_string(run.directory.path().join("output").join(&name)).expect("the file");
+        let kept = fs::read_to_string(golden.join(&name)).expect("kept");
+        assert!(made == kept, "{name} has changed: look at it, and if it is right copy it to tests/golden");
+    }
 }
 
 #[test]

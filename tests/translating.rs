@@ -338,6 +338,19 @@ fn walls_are_named() {
         ..base
     };
     assert!(matches!(Solution::new(&used, 1e-12), Err(Wall::Column { .. })), "{:?}", Solution::new(&used, 1e-12).err());
+    // What jams or ends for the differential equation does so for the stations, and without friction nothing jams.
+    for (delta, column) in [(95.0_f64, Column::Return), (135.0, Column::Return), (135.0, Column::Matched)] {
+        let free = Mechanism {
+            friction_angle: 0.0,
+            delta: delta.to_radians(),
+            ..mechanism(column, EfficiencyModel::Consistent)
+        };
+        let (truth, stations) = (ode(&free, 1e-12), Stations::new(&free, 2000).expect("nothing jams"));
+        let error = truth.value(0.18) - stations.bottoms[2000];
+        assert!(error.abs() < 2e-5, "{delta} {column:?}: {error}");
+    }
+    assert!(matches!(Stations::new(&short, 2000), Err(Wall::Arm { .. })));
+    assert!(matches!(Stations::new(&flat, 2000), Err(Wall::Line { .. })));
     for wall in [Stations::new(&short, 100), Stations::new(&none, 100)] {
         let wall = wall.expect_err("a wall");
         assert!(wall.to_string().contains("would avoid it"), "{wall}");

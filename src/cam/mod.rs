@@ -190,6 +190,16 @@ pub trait Cam: Sync {
     /// Least metal behind the profile, m, when there is something behind it.
     fn wall(&self) -> Option<f64>;
 
+    /// Room between two rollers that face each other, m, and where it is least; `None` where there is only one.
+    fn roller_clearance(&self) -> Option<(f64, Place)> {
+        None
+    }
+
+    /// Straight edges of the drawing (m) that no roller touches.
+    fn edges(&self) -> Vec<[Vector2<f64>; 2]> {
+        Vec::new()
+    }
+
     /// What would keep the limits of pressure angle and curvature.
     fn remedy(&self) -> Option<String>;
 }

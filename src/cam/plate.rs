@@ -201,21 +201,21 @@ impl Plate {
         plain.largest_residual().1 * self.cylinder.unit_force()
     }
 
-    /// Normal force of one roller on its flank while the bed is braked, N, equation (17); 0 before the reversal.
+    /// Normal force of one roller on its flank on a way of the bed, N, equation (17); 0 before the reversal.
     #[must_use]
-    pub fn roller_force(&self, piece: usize, x: f64) -> f64 {
+    pub fn roller_force(&self, piece: usize, x: f64, way: Way) -> f64 {
         if x <= 0.0 {
             return 0.0;
         }
         let bottom = self.curves.law.bottom(piece, x);
         0.5 * self.cylinder.unit_force()
-            * self.mechanism().normal_force(self.curves.law.side(piece, x), x, bottom.s, bottom.ds)
+            * self.mechanism().normal_force(self.curves.law.side(piece, x), way, x, bottom.s, bottom.ds)
     }
 
-    /// Largest of these, N.
+    /// Largest of these on either way, N.
     #[must_use]
     pub fn roller_force_max(&self) -> f64 {
-        extremes::largest_without_slope(&self.curves, |piece, x| self.roller_force(piece, x)).value
+        extremes::largest_without_slope(&self.curves, |piece, x| self.contact_force(piece, x)).value
     }
 
     /// The way on which the forces were to balance, or both.
@@ -263,7 +263,8 @@ impl Cam for Plate {
     }
 
     fn contact_force(&self, piece: usize, x: f64) -> f64 {
-        self.roller_force(piece, x).max(0.0)
+        let [braking, back] = [Way::Braking, Way::Return].map(|way| self.roller_force(piece, x, way));
+        braking.max(back).max(0.0)
     }
 
     /// Along the roller's path: the air's share by the lever, preload, and the inertia of what moves with the roller,
@@ -310,6 +311,19 @@ impl Cam for Plate {
 
     fn wall(&self) -> Option<f64> {
         Some(self.thinnest)
+    }
+
+    fn roller_clearance(&self) -> Option<(f64, Place)> {
+        let away = |piece: usize, x: f64| self.curves.contact(piece, x).pitch.point.y;
+        let nearest = extremes::largest_without_slope(&self.curves, away);
+        Some((2.0 * (-nearest.value - self.data.roller_radius), Place::at_overrun(nearest.at)))
+    }
+
+    fn edges(&self) -> Vec<[Vector2<f64>; 2]> {
+        let (start, run_out) = (self.start(), self.run_out());
+        let end = self.curves.profile(self.curves.law.pieces().len().saturating_sub(1), self.stroke()).point;
+        let mirror = |p: Vector2<f64>| Vector2::new(p.x, -p.y);
+        vec![[start, mirror(start)], [run_out, mirror(run_out)], [end, run_out], [mirror(end), mirror(run_out)]]
     }
 
     fn remedy(&self) -> Option<String> {
@@ -379,7 +393,7 @@ mod tests {
             let alpha = plate.mechanism().slope_angle(bottom, slope);
             let rho = plate.data.friction_angle;
             let unit = plate.cylinder.unit_force();
-            let wedge = 2.0 * plate.roller_force(piece, x) * libm::sin(alpha + rho) / libm::cos(rho);
+            let wedge = 2.0 * plate.roller_force(piece, x, Way::Braking) * libm::sin(alpha + rho) / libm::cos(rho);
             let sides =
                 plate.mechanism().balance.loading * x * unit - (plate.mechanism().air(x, bottom) * unit + wedge);
             if slope != 0.0 {

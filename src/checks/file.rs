@@ -1,7 +1,7 @@
 //! The proof for any DXF file: is it one closed outline in millimetres, tangent, and does it give the law?
 
 use super::rolling::{self, Rolled};
-use super::{Finding, Subject, Verdict, place, tangency, verdict};
+use super::{Finding, Subject, Verdict, place, plate, tangency, verdict};
 use crate::cam::{Cam, Place};
 use crate::reading::{OUTLINE_LAYER, Reading, Unit};
 
@@ -30,6 +30,7 @@ pub fn check(cam: &dyn Cam, reading: &Reading, tolerance_mm: f64) -> (Vec<Findin
     let outline = if found.area_and_centroid().0 > 0.0 { found } else { chain.reversed().contour() };
     let rolled = rolling::roll(cam, &outline, tolerance_mm);
     let subject = Subject { cam, outline: Some(&outline), rolled: Some(&rolled), balancing: None, tolerance_mm };
+    findings.extend(plate::ends(&subject));
     findings.extend(tangency::check(&subject));
     findings.extend(rolling::check(&subject));
     (findings, Some(rolled))

@@ -8,6 +8,7 @@ mod curvature;
 mod cutter_radius;
 pub mod file;
 mod force_closure;
+mod plate;
 mod pressure_angle;
 pub mod rolling;
 pub mod surface;
@@ -85,6 +86,8 @@ pub const CHECKS: &[Check] = &[
     curvature::min_convex_radius,
     cutter_radius::check,
     wall::check,
+    plate::roller_clearance,
+    plate::ends,
     tangency::check,
     rolling::check,
     force_closure::check,

@@ -53,9 +53,30 @@ impl Surface {
         let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
         let distance = |leaf: u32, _: f64| {
             let nearest = self.segments.get(leaf as usize)?.nearest(point);
-            Some((nearest.left.abs(), nearest))
+            Some((nearest.left.abs(), (leaf as usize, nearest)))
         };
-        self.tree.find_best(f64::MAX, distance_to_box, distance).map(|(_, (_, nearest))| nearest)
+        let (_, (_, (leaf, nearest))) = self.tree.find_best(f64::MAX, distance_to_box, distance)?;
+        Some(self.at_vertex(point, leaf, nearest))
+    }
+
+    /// The nearest point seen from both segments where it is their common vertex: on which side the point lies is told by
+    /// the two together, and the tangent is that of the segment it stands squarer to.
+    fn at_vertex(&self, point: Vector2<f64>, leaf: usize, nearest: Nearest) -> Nearest {
+        let n = self.segments.len();
+        let Some(own) = self.segments.get(leaf) else { return nearest };
+        let (before, after) = if nearest.foot == own.start {
+            (self.segments.get((leaf + n - 1) % n), Some(own))
+        } else if nearest.foot == own.end {
+            (Some(own), self.segments.get((leaf + 1) % n))
+        } else {
+            return nearest;
+        };
+        let (Some(before), Some(after)) = (before, after) else { return nearest };
+        let (first, second) = (before.end_tangent(), after.start_tangent());
+        let away = point - nearest.foot;
+        let left = nearest.left.abs().copysign((first + second).perp(&away));
+        let tangent = if first.dot(&away).abs() <= second.dot(&away).abs() { first } else { second };
+        Nearest { left, foot: nearest.foot, tangent }
     }
 
     /// In how many separate places the outline comes within `reach` of a point. Neighbouring segments are one place.
@@ -108,12 +129,10 @@ impl Chords {
             let wanted = (sweep.abs() * (radius / (8.0 * sagitta)).sqrt()).ceil();
             let count = wanted.clamp(1.0, share.max(1.0));
             worst = worst.max(radius * (sweep / count) * (sweep / count) / 8.0);
-            let (centre, spoke) = (segment.centre(), segment.start - segment.centre());
             let mut step = 1.0;
             while step < count {
-                let angle = sweep * step / count;
-                let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-                points.push(parry(centre + Vector2::new(cos * spoke.x - sin * spoke.y, sin * spoke.x + cos * spoke.y)));
+                // From the chord, so that a nearly straight arc keeps its digits.
+                points.push(parry(segment.at(step / count).0));
                 step += 1.0;
             }
         }

@@ -1,6 +1,7 @@
 //! What the user typed.
 
 use super::Failure;
+use camgen::law::translating::Exact;
 use camgen::machine::{Machine, valid_rpm};
 use camgen::output::dxf::Version;
 use camgen::output::formats::FORMATS;
@@ -94,6 +95,10 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "KIND", default_value = "rotary")]
     pub(super) cam: CamKind,
 
+    /// Way of the bed on which the forces of a plate balance
+    #[arg(long, value_name = "WAY", default_value = "braking")]
+    pub(super) balance: Balanced,
+
     #[command(flatten)]
     pub(super) common: CommonArgs,
 }
@@ -151,6 +156,16 @@ pub(super) enum Balanced {
     Braking,
     Return,
     Mean,
+}
+
+impl Balanced {
+    pub(super) fn exact(self) -> Exact {
+        match self {
+            Balanced::Braking => Exact::Braking,
+            Balanced::Return => Exact::Return,
+            Balanced::Mean => Exact::Mean,
+        }
+    }
 }
 
 /// What is written, where, and how.

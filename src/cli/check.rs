@@ -7,7 +7,7 @@ use camgen::cam::plate::{LAW_TOLERANCE, Plate};
 use camgen::cam::rotary::Rotary;
 use camgen::checks::rolling::Rolled;
 use camgen::checks::{self, Finding, file};
-use camgen::law::translating::{Exact, Solver};
+use camgen::law::translating::Solver;
 use camgen::reading;
 use serde::Serialize;
 use std::io::Read;
@@ -40,7 +40,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         CamKind::Rotary => Box::new(Rotary::solve(&machine, rpm).map_err(Failure::new)?),
         CamKind::Translating => {
             let solver = Solver::Ode { tolerance: LAW_TOLERANCE };
-            Box::new(Plate::solve(&machine, rpm, solver, Exact::Braking).map_err(Failure::new)?)
+            Box::new(Plate::solve(&machine, rpm, solver, args.balance.exact()).map_err(Failure::new)?)
         }
     };
     let (checks, rolling) = file::check(&*cam, &reading, tolerance_mm);

@@ -1,11 +1,11 @@
 //! `camgen translating`: solve, check, write, report.
 
-use super::args::{Balanced, SolverKind, TranslatingArgs};
+use super::args::{SolverKind, TranslatingArgs};
 use super::cut::{self, Cut};
 use super::{Failure, Outcome};
 use camgen::cam::plate::{LAW_TOLERANCE, Plate};
 use camgen::drawing::{self, sheet};
-use camgen::law::translating::{Exact, Solver};
+use camgen::law::translating::Solver;
 
 /// Stations of the paper's solver when none are asked for: its error is then a hundredth of a millimetre.
 const STATIONS: u32 = 1800;
@@ -22,12 +22,7 @@ pub(super) fn run(args: &TranslatingArgs) -> Result<Outcome, Failure> {
             return Err(Failure("--stations belongs to --solver paper; the solver ode chooses its own steps".into()));
         }
     };
-    let exact = match args.balance {
-        Balanced::Braking => Exact::Braking,
-        Balanced::Return => Exact::Return,
-        Balanced::Mean => Exact::Mean,
-    };
-    let plate = Plate::solve(&machine, rpm, solver, exact).map_err(Failure::new)?;
+    let plate = Plate::solve(&machine, rpm, solver, args.balance.exact()).map_err(Failure::new)?;
     cut::cut(&Cut {
         cam: &plate,
         common: &args.common,

@@ -3,6 +3,8 @@
 //! Curves are sampled here, once, to a stated tolerance; writers behind this room only format.
 
 pub mod arcs;
+pub mod conoid;
+pub mod flank;
 pub mod outline;
 pub mod report;
 pub mod sheet;
@@ -17,7 +19,7 @@ use crate::cam::plate::Plate;
 use crate::cam::rotary::Rotary;
 use crate::checks::balance::{self, Balancing};
 use crate::contour::{Contour, Extents, Vertex};
-use crate::machine::Rotation;
+use crate::machine::{Machine, Rotation};
 use nalgebra::Vector2;
 use outline::{MILLIMETRES, Outline, OutlineError};
 use std::f64::consts::PI;
@@ -119,9 +121,9 @@ impl Part {
 }
 
 /// The bore of a clockwise cam, with its keyway merged into one contour.
-fn bore(rotary: &Rotary) -> Option<Entity> {
-    let radius = MILLIMETRES * rotary.machine.cam.bore_radius?;
-    let Some(keyway) = rotary.machine.cam.keyway else {
+fn bore(machine: &Machine) -> Option<Entity> {
+    let radius = MILLIMETRES * machine.cam.bore_radius?;
+    let Some(keyway) = machine.cam.keyway else {
         return Some(Entity::Circle(Vector2::zeros(), radius));
     };
     let (half, bottom) = (0.5 * MILLIMETRES * keyway.width, radius + MILLIMETRES * keyway.depth);
@@ -137,7 +139,7 @@ fn bore(rotary: &Rotary) -> Option<Entity> {
         at(bottom, -half, 0.0),
         at(bottom, half, 0.0),
     ];
-    Some(Entity::Polyline(as_turned(rotary, Contour { vertices })))
+    Some(Entity::Polyline(as_turned(machine, Contour { vertices })))
 }
 
 /// The cut drawing within a tolerance (m) along the normal of the profile.
@@ -146,8 +148,8 @@ fn bore(rotary: &Rotary) -> Option<Entity> {
 /// [`OutlineError`] when the profile cannot be drawn.
 pub fn part(rotary: &Rotary, tolerance: f64) -> Result<Part, OutlineError> {
     let outline = outline::profile(&rotary.curves, MILLIMETRES * tolerance)?;
-    let outline = Outline { contour: as_turned(rotary, outline.contour), ..outline };
-    let bore = bore(rotary);
+    let outline = Outline { contour: as_turned(&rotary.machine, outline.contour), ..outline };
+    let bore = bore(&rotary.machine);
     let (bands, wall) = (rotary.machine.cam.balance, MILLIMETRES * rotary.machine.limits.wall);
     let round = bore.as_ref().map(Entity::contour);
     let balancing = bands.map(|(inner, outer)| {
@@ -165,16 +167,16 @@ pub fn plate_part(plate: &Plate, tolerance: f64) -> Result<Part, OutlineError> {
 }
 
 /// A contour of a clockwise cam as it lies in the drawing of this one.
-fn as_turned(rotary: &Rotary, contour: Contour) -> Contour {
-    match rotary.machine.cam.rotation {
+fn as_turned(machine: &Machine, contour: Contour) -> Contour {
+    match machine.cam.rotation {
         Rotation::Clockwise => contour,
         Rotation::CounterClockwise => contour.mirrored_about_x(),
     }
 }
 
 /// A point or direction of a clockwise cam as it lies in the drawing of this one.
-fn point_as_turned(rotary: &Rotary, point: Vector2<f64>) -> Vector2<f64> {
-    match rotary.machine.cam.rotation {
+fn point_as_turned(machine: &Machine, point: Vector2<f64>) -> Vector2<f64> {
+    match machine.cam.rotation {
         Rotation::Clockwise => point,
         Rotation::CounterClockwise => Vector2::new(point.x, -point.y),
     }
@@ -186,5 +188,5 @@ fn point_as_turned(rotary: &Rotary, point: Vector2<f64>) -> Vector2<f64> {
 /// [`OutlineError`] when the profile is undercut (an edge has no path of its own) or the tolerance cannot be kept.
 pub fn cutter_path(rotary: &Rotary, cutter_radius: f64, tolerance: f64) -> Result<Outline, OutlineError> {
     let outline = outline::cutter_path(&rotary.curves, cutter_radius, MILLIMETRES * tolerance)?;
-    Ok(Outline { contour: as_turned(rotary, outline.contour), ..outline })
+    Ok(Outline { contour: as_turned(&rotary.machine, outline.contour), ..outline })
 }

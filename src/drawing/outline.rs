@@ -2,6 +2,7 @@
 //! on itself; a plate has two mirrored flanks and flat ends.
 
 use super::arcs::{self, FitError};
+use crate::cam::conoid::Conoid;
 use crate::cam::envelope::{self, Loss, NoEnvelope};
 use crate::cam::plate::Plate;
 use crate::cam::{Curves, Frame, extremes};
@@ -9,7 +10,7 @@ use crate::contour::{Contour, Segment, Vertex};
 use crate::follower::Follower;
 use crate::law::{Law, Piece};
 use nalgebra::Vector2;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// Millimetres in a metre: geometry leaves SI here.
 pub const MILLIMETRES: f64 = 1e3;
@@ -68,6 +69,15 @@ pub enum OutlineError {
         /// Least height of the plate, mm.
         least_mm: f64,
     },
+    /// A section of a conoid has a corner.
+    #[error(
+        "the sections of a conoid have a corner at {cam_deg:.3} deg: a crowned roller needs a smooth surface; use \
+         transition.kind = \"run-up\" or \"blend\""
+    )]
+    Corner {
+        /// Cam angle, degrees.
+        cam_deg: f64,
+    },
     /// The tolerance cannot be kept.
     #[error("{0}: between 64 roundings of the coordinates and a millimetre it can")]
     Fit(#[from] FitError),
@@ -113,6 +123,44 @@ pub fn cutter_path<L: Law, F: Follower>(
 /// As [`profile`], but a pitch curve cannot be undercut.
 pub fn pitch<L: Law, F: Follower>(curves: &Curves<L, F>) -> Result<Outline, OutlineError> {
     parallel(curves, 0.0, PITCH_TOLERANCE, &[])
+}
+
+/// The cut of a conoid at z (m) as an outline within `tolerance` (mm), of a clockwise cam.
+///
+/// # Errors
+/// [`OutlineError`] when the surface is undercut or has corners, or the tolerance cannot be kept.
+pub fn section(conoid: &Conoid, z: f64, tolerance: f64) -> Result<Outline, OutlineError> {
+    let nowhere = Vector2::new(f64::NAN, f64::NAN);
+    let broken =
+        Frame { point: nowhere, tangent: nowhere, speed: f64::NAN, curvature: f64::NAN, curvature_slope: f64::NAN };
+    let frame =
+        |piece: usize, angle: f64| conoid.cut(piece, angle, z).map_or(broken, |(frame, _)| frame.scaled(MILLIMETRES));
+    let pieces = conoid.pieces();
+    if let Some(corner) = extremes::corners(&conoid.plane(z)).first() {
+        return Err(OutlineError::Corner { cam_deg: corner.angle.to_degrees() });
+    }
+    let radius_mm = pieces.iter().enumerate().map(|(i, p)| frame(i, p.start).point.norm()).fold(0.0, f64::max);
+    if radius_mm > LARGEST_COORDINATE {
+        return Err(OutlineError::TooLarge { radius_mm });
+    }
+    let first = pieces.iter().position(|piece| piece.dwell).unwrap_or(0);
+    let mut outline = Outline { contour: Contour { vertices: Vec::new() }, deviation: 0.0, best_possible: 0.0 };
+    for (index, piece) in pieces.iter().enumerate().cycle().skip(first).take(pieces.len()) {
+        // A dwell that does not lean along the axis is a circle; one that does is nearly one.
+        let round = piece.dwell && conoid.lift(index, piece.start, z)[0][1] == 0.0;
+        for range in parts(&Piece { dwell: round, ..*piece }, &[], Some(TAU)) {
+            if round {
+                let bulge = libm::tan(0.25 * (range.1 - range.0));
+                outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
+                continue;
+            }
+            let chain = arcs::fit(|angle| frame(index, angle), range, tolerance)?;
+            outline.contour.vertices.extend(chain.joints.iter().map(|j| Vertex { point: j.point, bulge: j.bulge }));
+            outline.deviation = outline.deviation.max(chain.deviation);
+            outline.best_possible += chain.best_possible;
+        }
+    }
+    Ok(outline)
 }
 
 /// The pitch curve of a plate's lower flank, for the eye.

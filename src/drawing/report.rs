@@ -2,6 +2,7 @@
 
 use super::Part;
 use super::outline::MILLIMETRES;
+use crate::cam::Cam;
 use crate::cam::plate::Plate;
 use crate::cam::rotary::Rotary;
 use crate::checks::Finding;
@@ -227,7 +228,7 @@ pub fn report(
             equation_18: None,
         },
         checks,
-        outline: part.map(|part| outline_report(part, tolerance)),
+        outline: part.map(|part| outline_report(rotary, part, tolerance)),
         force: ForceReport {
             inertia_max_n: rotary.inertia_max(),
             residual_max_n,
@@ -329,7 +330,7 @@ pub fn plate_report(
             equation_18: Some(solved(plate)),
         },
         checks,
-        outline: part.map(|part| outline_report(part, tolerance)),
+        outline: part.map(|part| outline_report(plate, part, tolerance)),
         force: ForceReport {
             inertia_max_n: inertia,
             residual_max_n,
@@ -348,11 +349,14 @@ pub fn plate_report(
     }
 }
 
-fn outline_report(part: &Part, tolerance: f64) -> OutlineReport {
+fn outline_report(cam: &dyn Cam, part: &Part, tolerance: f64) -> OutlineReport {
     let outline = &part.outline;
     let lines = outline.contour.vertices.iter().filter(|vertex| vertex.bulge == 0.0).count();
     let arcs = outline.contour.vertices.len() - lines;
-    let worst_break = outline.contour.tangent_breaks().into_iter().map(f64::abs).fold(0.0, f64::max);
+    // The corners of a plate's ends are meant.
+    let breaks = outline.contour.tangent_breaks().into_iter().zip(&outline.contour.vertices);
+    let smooth = breaks.filter(|(_, vertex)| !cam.ends_at(vertex.point / MILLIMETRES));
+    let worst_break = smooth.map(|(turn, _)| turn.abs()).fold(0.0, f64::max);
     #[expect(clippy::cast_precision_loss, reason = "a few thousand arcs")]
     let ratio = (outline.best_possible > 0.0).then(|| arcs as f64 / outline.best_possible);
     OutlineReport {

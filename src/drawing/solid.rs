@@ -11,8 +11,28 @@ use nalgebra::Vector2;
 use truck_modeling::{InnerSpace, Point3, Vector3};
 use truck_topology::compress::{CompressedEdge, CompressedEdgeIndex, CompressedFace, CompressedShell, CompressedSolid};
 
+/// A cubic B-spline curve: either end knot four times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SplineCurve {
+    /// Its knots.
+    pub knots: Vec<f64>,
+    /// Its control points.
+    pub controls: Vec<Point3>,
+}
+
+/// A bicubic B-spline surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SplineSurface {
+    /// Knots of its first parameter.
+    pub u: Vec<f64>,
+    /// Knots of its second parameter.
+    pub v: Vec<f64>,
+    /// Control points, a row for each of the first parameter.
+    pub controls: Vec<Vec<Point3>>,
+}
+
 /// An edge's carrier, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Curve {
     /// A straight line from a point along a unit vector.
     Line {
@@ -30,10 +50,12 @@ pub enum Curve {
         /// The edge runs clockwise, seen from above.
         clockwise: bool,
     },
+    /// A spline from its first to its last control point.
+    Spline(SplineCurve),
 }
 
 /// A face's carrier, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Surface {
     /// A plane.
     Plane {
@@ -51,6 +73,8 @@ pub enum Surface {
         /// Its radius.
         radius: f64,
     },
+    /// A spline surface whose normal, first by second parameter, points out of the metal.
+    Spline(SplineSurface),
 }
 
 /// The boundary of a solid: vertices, edges and faces by index, as truck exchanges them.
@@ -119,37 +143,135 @@ fn backward(index: usize) -> CompressedEdgeIndex {
     CompressedEdgeIndex { index, orientation: false }
 }
 
-/// Contours with the metal on their left, the outer one first, extruded from z = 0.
-fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
-    let mut shell = CompressedShell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
-    let (mut under, mut above) = (Vec::new(), Vec::new());
-    for contour in contours {
+/// A shell under construction between two planes.
+struct Shell {
+    shell: CompressedShell<Point3, Curve, Surface>,
+    /// Heights of the planes.
+    ends: (f64, f64),
+    under: Vec<Vec<CompressedEdgeIndex>>,
+    above: Vec<Vec<CompressedEdgeIndex>>,
+}
+
+impl Shell {
+    fn new(ends: (f64, f64)) -> Self {
+        let shell = CompressedShell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
+        Self { shell, ends, under: Vec::new(), above: Vec::new() }
+    }
+
+    /// Vertices 2i below and 2i + 1 above, edges 3i below, 3i + 1 above, 3i + 2 upright at the start of side i of a ring
+    /// of n sides.
+    fn vertex(&self, n: usize, i: usize, top: usize) -> usize {
+        self.shell.vertices.len() + 2 * (i % n) + top
+    }
+
+    fn edge(&self, n: usize, i: usize, kind: usize) -> usize {
+        self.shell.edges.len() + 3 * (i % n) + kind
+    }
+
+    /// The walls over a contour with the metal on its left.
+    fn walls(&mut self, contour: &Contour) {
         let segments: Vec<Segment> = contour.segments().flat_map(|segment| halved(&segment)).collect();
         let n = segments.len();
-        let (first_vertex, first_edge) = (shell.vertices.len(), shell.edges.len());
-        // Vertices 2i below and 2i + 1 above; edges 3i below, 3i + 1 above, 3i + 2 upright at the start of segment i.
-        let vertex = |i: usize, top: usize| first_vertex + 2 * (i % n) + top;
-        let edge = |i: usize, kind: usize| first_edge + 3 * (i % n) + kind;
+        let (low, high) = self.ends;
+        let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
         for (i, segment) in segments.iter().enumerate() {
-            for (top, z) in [(0, 0.0), (1, thickness)] {
-                shell.vertices.push(at(segment.start, z));
-                let curve = carrier(segment, z);
-                shell.edges.push(CompressedEdge { vertices: (vertex(i, top), vertex(i + 1, top)), curve });
+            for (top, z) in [(0, low), (1, high)] {
+                vertices.push(at(segment.start, z));
+                let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
+                edges.push(CompressedEdge { vertices: ends, curve: carrier(segment, z) });
             }
-            let upright = Curve::Line { origin: at(segment.start, 0.0), direction: Vector3::unit_z() };
-            shell.edges.push(CompressedEdge { vertices: (vertex(i, 0), vertex(i, 1)), curve: upright });
+            let upright = Curve::Line { origin: at(segment.start, low), direction: Vector3::unit_z() };
+            edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
+            let around = [self.edge(n, i, 0), self.edge(n, i + 1, 2), self.edge(n, i, 1), self.edge(n, i, 2)];
+            faces.push(side(segment, low, around));
         }
-        for (i, segment) in segments.iter().enumerate() {
-            shell.faces.push(side(segment, [edge(i, 0), edge(i + 1, 2), edge(i, 1), edge(i, 2)]));
+        self.close(n, vertices, edges, faces);
+    }
+
+    /// The patches of a flank that closes on itself, counter-clockwise, u along it and v up it.
+    fn flank(&mut self, patches: &[SplineSurface]) {
+        let n = patches.len();
+        let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, patch) in patches.iter().enumerate() {
+            let first = patch.controls.first().cloned().unwrap_or_default();
+            let row = |end: fn(&[Point3]) -> Option<&Point3>| -> Vec<Point3> {
+                patch.controls.iter().filter_map(|row| end(row).copied()).collect()
+            };
+            for (top, controls) in [(0, row(|r| r.first())), (1, row(|r| r.last()))] {
+                vertices.extend(controls.first().copied());
+                let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
+                let curve = Curve::Spline(SplineCurve { knots: patch.u.clone(), controls });
+                edges.push(CompressedEdge { vertices: ends, curve });
+            }
+            let upright = Curve::Spline(SplineCurve { knots: patch.v.clone(), controls: first });
+            edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
+            let outward = vec![
+                forward(self.edge(n, i, 0)),
+                forward(self.edge(n, i + 1, 2)),
+                backward(self.edge(n, i, 1)),
+                backward(self.edge(n, i, 2)),
+            ];
+            let surface = Surface::Spline(patch.clone());
+            faces.push(CompressedFace { boundaries: vec![outward], orientation: true, surface });
         }
-        under.push((0..n).rev().map(|i| backward(edge(i, 0))).collect());
-        above.push((0..n).map(|i| forward(edge(i, 1))).collect());
+        self.close(n, vertices, edges, faces);
     }
-    for (boundaries, z, normal) in [(under, 0.0, -Vector3::unit_z()), (above, thickness, Vector3::unit_z())] {
-        let surface = Surface::Plane { origin: Point3::new(0.0, 0.0, z), normal, along: Vector3::unit_x() };
-        shell.faces.push(CompressedFace { boundaries, orientation: true, surface });
+
+    fn close(
+        &mut self,
+        n: usize,
+        vertices: Vec<Point3>,
+        edges: Vec<CompressedEdge<Curve>>,
+        faces: Vec<CompressedFace<Surface>>,
+    ) {
+        self.under.push((0..n).rev().map(|i| backward(self.edge(n, i, 0))).collect());
+        self.above.push((0..n).map(|i| forward(self.edge(n, i, 1))).collect());
+        self.shell.vertices.extend(vertices);
+        self.shell.edges.extend(edges);
+        self.shell.faces.extend(faces);
     }
-    CompressedSolid { boundaries: vec![shell] }
+
+    /// Adds the end faces.
+    fn capped(mut self) -> Boundary {
+        let (low, high) = self.ends;
+        for (boundaries, z, normal) in [(self.under, low, -Vector3::unit_z()), (self.above, high, Vector3::unit_z())] {
+            let surface = Surface::Plane { origin: Point3::new(0.0, 0.0, z), normal, along: Vector3::unit_x() };
+            self.shell.faces.push(CompressedFace { boundaries, orientation: true, surface });
+        }
+        CompressedSolid { boundaries: vec![self.shell] }
+    }
+}
+
+/// Contours with the metal on their left, the outer one first, extruded from z = 0.
+fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
+    let mut shell = Shell::new((0.0, thickness));
+    for contour in contours {
+        shell.walls(contour);
+    }
+    shell.capped()
+}
+
+/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`solid`] is; `area` is
+/// the area of the holes and `volume` what the flank encloses.
+///
+/// # Errors
+/// [`SolidError`] when the boundary is not closed.
+pub fn conical(
+    patches: &[SplineSurface],
+    holes: &[Contour],
+    ends: (f64, f64),
+    volume: f64,
+) -> Result<Solid, SolidError> {
+    let mut shell = Shell::new(ends);
+    shell.flank(patches);
+    for hole in holes {
+        shell.walls(hole);
+    }
+    let boundary = shell.capped();
+    truck_topology::Solid::extract(boundary.clone()).map_err(|error| SolidError::NotClosed(error.to_string()))?;
+    // Clockwise: their area is negative.
+    let drilled: f64 = holes.iter().map(|hole| hole.area_and_centroid().0).sum();
+    Ok(Solid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
 }
 
 /// A long arc as two: some readers cannot tell the inside of a cylinder face that is almost closed.
@@ -173,17 +295,17 @@ fn carrier(segment: &Segment, z: f64) -> Curve {
 }
 
 /// The side face over a segment; edges: below, upright at its end, above, upright at its start.
-fn side(segment: &Segment, [below, end, above, start]: [usize; 4]) -> CompressedFace<Surface> {
+fn side(segment: &Segment, low: f64, [below, end, above, start]: [usize; 4]) -> CompressedFace<Surface> {
     // Counter-clockwise about the normal to the right of the segment.
     let outward = vec![forward(below), forward(end), backward(above), backward(start)];
     if segment.bulge == 0.0 {
         let tangent = segment.start_tangent();
         let along = Vector3::new(tangent.x + 0.0, tangent.y + 0.0, 0.0);
         let normal = Vector3::new(tangent.y + 0.0, -tangent.x + 0.0, 0.0);
-        let surface = Surface::Plane { origin: at(segment.start, 0.0), normal, along };
+        let surface = Surface::Plane { origin: at(segment.start, low), normal, along };
         return CompressedFace { boundaries: vec![outward], orientation: true, surface };
     }
-    let surface = Surface::Cylinder { origin: at(segment.centre(), 0.0), radius: segment.radius().abs() };
+    let surface = Surface::Cylinder { origin: at(segment.centre(), low), radius: segment.radius().abs() };
     if segment.bulge > 0.0 {
         CompressedFace { boundaries: vec![outward], orientation: true, surface }
     } else {
@@ -200,7 +322,7 @@ pub fn enclosed(boundary: &Boundary) -> f64 {
     let mut volume = 0.0;
     for shell in &boundary.boundaries {
         for face in &shell.faces {
-            let Surface::Plane { origin, normal, .. } = face.surface else { continue };
+            let Surface::Plane { origin, normal, .. } = &face.surface else { continue };
             if normal.z == 0.0 {
                 continue;
             }
@@ -218,12 +340,14 @@ fn swept(shell: &CompressedShell<Point3, Curve, Surface>, used: CompressedEdgeIn
     let (Some(a), Some(b)) = (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1)) else {
         return f64::NAN;
     };
-    let area = match edge.curve {
+    let area = match &edge.curve {
+        // Flanks of splines have a volume of their own.
+        Curve::Spline(_) => return f64::NAN,
         Curve::Line { .. } => 0.5 * (a.x * b.y - a.y * b.x),
         Curve::Circle { centre, radius, clockwise } => {
             // Under the chord a triangle with the origin, over it R²/2 (θ − sin θ); θ from the circle's centre, seen
             // from the chord, so that a nearly straight arc keeps its digits.
-            let side = if clockwise { -1.0 } else { 1.0 };
+            let (radius, side) = (*radius, if *clockwise { -1.0 } else { 1.0 });
             let (dx, dy) = (b.x - a.x, b.y - a.y);
             let chord = (dx * dx + dy * dy).sqrt();
             let (mx, my) = (0.5 * (a.x + b.x) - centre.x, 0.5 * (a.y + b.y) - centre.y);
@@ -243,8 +367,12 @@ pub fn largest_gap(boundary: &Boundary) -> f64 {
         for edge in &shell.edges {
             for vertex in [edge.vertices.0, edge.vertices.1] {
                 let Some(point) = shell.vertices.get(vertex) else { return f64::INFINITY };
-                worst = worst.max(match edge.curve {
-                    Curve::Line { origin, direction } => (point - origin).cross(direction).magnitude(),
+                worst = worst.max(match &edge.curve {
+                    Curve::Line { origin, direction } => (point - origin).cross(*direction).magnitude(),
+                    Curve::Spline(spline) => {
+                        let ends = [spline.controls.first(), spline.controls.last()];
+                        ends.iter().flatten().map(|end| (point - **end).magnitude()).fold(f64::INFINITY, f64::min)
+                    }
                     Curve::Circle { centre, radius, .. } => {
                         let away = point - centre;
                         (away.magnitude() - radius).abs().max(away.z.abs())

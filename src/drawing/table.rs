@@ -67,8 +67,8 @@ pub fn table(rotary: &Rotary, samples: u32) -> Table {
         let contact = rotary.curves.contact(piece, angle);
         let state = rotary.curves.law.state(piece, angle);
         let profile = contact.pitch.offset_inward(rotary.curves.follower.roller_radius());
-        let pitch_point = point_as_turned(rotary, contact.pitch.point * MILLIMETRES);
-        let profile_point = point_as_turned(rotary, profile.point * MILLIMETRES);
+        let pitch_point = point_as_turned(&rotary.machine, contact.pitch.point * MILLIMETRES);
+        let profile_point = point_as_turned(&rotary.machine, profile.point * MILLIMETRES);
         let force = rotary.roller_force(piece, angle);
         let row = [
             cam_deg,
@@ -114,7 +114,7 @@ pub fn plate_table(plate: &Plate, samples: u32) -> Table {
             -MILLIMETRES * contact.pitch.point.y,
             MILLIMETRES * profile.point.x,
             -MILLIMETRES * profile.point.y,
-            plate.roller_force(piece, x),
+            plate.roller_force(piece, x, Way::Braking),
             plate.residual(piece, x, Way::Return),
             plate.residual(piece, x, Way::Braking),
             bottom.ds,

@@ -58,11 +58,13 @@ impl fmt::Display for MachineError {
     }
 }
 
-/// The known key with the smallest edit distance; a key whose last part fits exactly is nearer than any other.
+/// The known key with the smallest edit distance; a key whose last part fits exactly is nearer than any other, and of two
+/// as near the one whose table fits.
 pub(crate) fn nearest<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
     let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
     known.iter().copied().min_by_key(|candidate| {
-        (edit_distance(&last(key), &last(candidate)) * 2).min(edit_distance(key, candidate) * 2 + 1)
+        let whole = edit_distance(key, candidate);
+        ((edit_distance(&last(key), &last(candidate)) * 2).min(whole * 2 + 1), whole)
     })
 }
 

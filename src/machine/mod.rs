@@ -346,7 +346,7 @@ mod tests {
             ("design.rpm=35 rpm", vec!["not a bare number"]),
             ("name=", vec!["must be a text"]),
             ("cam.keyway.width=8mm", vec!["missing key `cam.keyway.depth`"]),
-            ("cam.keyway.with=8mm", vec!["did you mean `cam.keyway.width`?"]),
+            ("cam.keyway.widht=8mm", vec!["did you mean `cam.keyway.width`?"]),
             ("cam.balance=40mm", vec!["must be a band", "35 mm .. 60 mm"]),
             ("cam.balance=60mm .. 40mm", vec!["from the smaller to the larger"]),
             ("cam.balance=20mm .. 40mm", vec!["must begin outside the bore of 25 mm"]),

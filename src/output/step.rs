@@ -4,7 +4,7 @@
 //! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is ours.
 
 use super::number::shortest;
-use crate::drawing::solid::{Boundary, Curve, Solid, Surface};
+use crate::drawing::solid::{Boundary, Curve, Solid, SplineCurve, SplineSurface, Surface};
 use std::fmt::{Formatter, Result};
 use truck_modeling::{Point3, Vector3};
 use truck_stepio::out::{DisplayByStep, StepCurve, StepLength, StepModel, StepSurface};
@@ -47,6 +47,7 @@ impl StepLength for Curve {
         match self {
             Curve::Line { .. } => 4,
             Curve::Circle { .. } => 5,
+            Curve::Spline(spline) => 1 + spline.controls.len(),
         }
     }
 }
@@ -54,7 +55,7 @@ impl StepLength for Curve {
 impl StepCurve for Curve {
     fn same_sense(&self) -> bool {
         match self {
-            Curve::Line { .. } => true,
+            Curve::Line { .. } | Curve::Spline(_) => true,
             Curve::Circle { clockwise, .. } => !clockwise,
         }
     }
@@ -63,25 +64,50 @@ impl StepCurve for Curve {
 impl DisplayByStep for Curve {
     fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
         let next = index + 1;
-        match *self {
+        match self {
             Curve::Line { origin, direction: along } => {
                 let (vector, unit) = (index + 2, index + 3);
                 writeln!(f, "#{index} = LINE('', #{next}, #{vector});")?;
-                writeln!(f, "#{next} = {};", point(origin))?;
+                writeln!(f, "#{next} = {};", point(*origin))?;
                 writeln!(f, "#{vector} = VECTOR('', #{unit}, 1.);")?;
-                writeln!(f, "#{unit} = {};", direction(along))
+                writeln!(f, "#{unit} = {};", direction(*along))
             }
             Curve::Circle { centre, radius, .. } => {
-                writeln!(f, "#{index} = CIRCLE('', #{next}, {});", real(radius))?;
-                placement(f, next, centre, Vector3::unit_z(), Vector3::unit_x())
+                writeln!(f, "#{index} = CIRCLE('', #{next}, {});", real(*radius))?;
+                placement(f, next, *centre, Vector3::unit_z(), Vector3::unit_x())
+            }
+            Curve::Spline(SplineCurve { knots, controls }) => {
+                let (places, (counts, knots)) = (numbered(next, controls.len()), multiplicities(knots));
+                writeln!(
+                    f,
+                    "#{index} = B_SPLINE_CURVE_WITH_KNOTS('', 3, ({places}), .UNSPECIFIED., .F., .F., ({counts}), \
+                     ({knots}), .UNSPECIFIED.);"
+                )?;
+                controls.iter().zip(next..).try_for_each(|(p, at)| writeln!(f, "#{at} = {};", point(*p)))
             }
         }
     }
 }
 
+/// `#7, #8, #9`.
+fn numbered(from: usize, count: usize) -> String {
+    (from..from + count).map(|at| format!("#{at}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Multiplicities and values of a knot vector.
+fn multiplicities(knots: &[f64]) -> (String, String) {
+    let runs: Vec<&[f64]> = knots.chunk_by(|a, b| a == b).collect();
+    let counts: Vec<String> = runs.iter().map(|run| run.len().to_string()).collect();
+    let values: Vec<String> = runs.iter().filter_map(|run| run.first()).map(|value| real(*value)).collect();
+    (counts.join(", "), values.join(", "))
+}
+
 impl StepLength for Surface {
     fn step_length(&self) -> usize {
-        5
+        match self {
+            Surface::Plane { .. } | Surface::Cylinder { .. } => 5,
+            Surface::Spline(spline) => 1 + spline.controls.iter().map(Vec::len).sum::<usize>(),
+        }
     }
 }
 
@@ -90,14 +116,31 @@ impl StepSurface for Surface {}
 impl DisplayByStep for Surface {
     fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
         let next = index + 1;
-        match *self {
+        match self {
             Surface::Plane { origin, normal, along } => {
                 writeln!(f, "#{index} = PLANE('', #{next});")?;
-                placement(f, next, origin, normal, along)
+                placement(f, next, *origin, *normal, *along)
             }
             Surface::Cylinder { origin, radius } => {
-                writeln!(f, "#{index} = CYLINDRICAL_SURFACE('', #{next}, {});", real(radius))?;
-                placement(f, next, origin, Vector3::unit_z(), Vector3::unit_x())
+                writeln!(f, "#{index} = CYLINDRICAL_SURFACE('', #{next}, {});", real(*radius))?;
+                placement(f, next, *origin, Vector3::unit_z(), Vector3::unit_x())
+            }
+            Surface::Spline(SplineSurface { u, v, controls }) => {
+                let mut from = next;
+                let mut rows = Vec::with_capacity(controls.len());
+                for row in controls {
+                    rows.push(format!("({})", numbered(from, row.len())));
+                    from += row.len();
+                }
+                let ((u_counts, u), (v_counts, v)) = (multiplicities(u), multiplicities(v));
+                writeln!(
+                    f,
+                    "#{index} = B_SPLINE_SURFACE_WITH_KNOTS('', 3, 3, ({}), .UNSPECIFIED., .F., .F., .F., ({u_counts}), \
+                     ({v_counts}), ({u}), ({v}), .UNSPECIFIED.);",
+                    rows.join(", ")
+                )?;
+                let places = controls.iter().flatten();
+                places.zip(next..).try_for_each(|(p, at)| writeln!(f, "#{at} = {};", point(*p)))
             }
         }
     }

@@ -17,7 +17,7 @@ use nalgebra::Vector2;
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.
 pub fn disc(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, OutlineError> {
-    let pitch_curve = as_turned(rotary, pitch(&rotary.curves)?.contour);
+    let pitch_curve = as_turned(&rotary.machine, pitch(&rotary.curves)?.contour);
     let roller = MILLIMETRES * rotary.curves.follower.roller_radius();
     let inner = pitch_curve.extents();
     let reach = Vector2::new(roller, roller) * (1.0 + PATH_OVER_RADIUS);
@@ -62,7 +62,7 @@ fn worst_roller(pen: &Pen, rotary: &Rotary, drawn: &Extents) -> Vec<Shape> {
     let worst = extremes::pressure_angle(curves);
     let (piece, angle) = curves.law.locate(worst.at);
     let contact = curves.contact(piece, angle);
-    let turned = |vector| point_as_turned(rotary, vector);
+    let turned = |vector| point_as_turned(&rotary.machine, vector);
     let (centre, radius) = (turned(contact.pitch.point * MILLIMETRES), MILLIMETRES * curves.follower.roller_radius());
     let drive = curves.follower.pitch(angle, &contact.lift).drive;
     let text =

@@ -219,6 +219,9 @@ fn check_words(finding: &Finding) -> String {
         Verdict::Fail => "FAIL",
         Verdict::Info => "info",
     };
+    if !finding.value.is_finite() {
+        return format!("{verdict}  {}  –", finding.check);
+    }
     let limit = finding.limit.map_or(String::new(), |limit| format!(", limit {}", shown(limit)));
     format!("{verdict}  {}  {} {}{limit}", finding.check, shown(finding.value), finding.unit)
 }

@@ -3,7 +3,7 @@
 use super::super::outline::{MILLIMETRES, OutlineError, pitch_of_plate};
 use super::super::report::Report;
 use super::super::{Entity, Part};
-use super::{Group, PATH_OVER_RADIUS, Pen, Shape, Sheet, TEXT_OVER_WIDTH, roller, with_facts};
+use super::{Group, PATH_OVER_RADIUS, Pen, Shape, Sheet, TEXT_OVER_WIDTH, TextAnchor, roller, with_facts};
 use crate::cam::extremes;
 use crate::cam::plate::Plate;
 use crate::contour::{Extents, Segment};
@@ -48,7 +48,7 @@ fn axes(pen: &Pen, plate: &Plate, drawn: &Extents) -> Vec<Shape> {
         let (piece, at) = plate.curves.law.locate(x / MILLIMETRES);
         let centre = plate.curves.contact(piece, at).pitch.point * MILLIMETRES;
         shapes.push(Shape::Line(centre, Vector2::new(centre.x, -centre.y)));
-        shapes.push(pen.words(centre.x + 0.6 * pen.text, 0.6 * pen.text, words));
+        shapes.push(pen.middle(Vector2::new(centre.x, drawn.least.y + 0.3 * pen.text), words));
     }
     shapes
 }
@@ -65,7 +65,8 @@ fn rollers(pen: &Pen, plate: &Plate, drawn: &Extents) -> Vec<Shape> {
     let centre = contact.pitch.point * MILLIMETRES;
     let mut shapes = roller(centre, drive, contact.pitch.outward(), radius);
     shapes.extend(roller(flip(centre), flip(drive), flip(contact.pitch.outward()), radius));
-    let text = format!("{:.2}° at x = {:.2} mm", worst.value.to_degrees(), MILLIMETRES * worst.at);
-    shapes.push(pen.beside(flip(centre), radius, radius * PATH_OVER_RADIUS, drawn, text));
+    let text = format!("pressure angle {:.2}° at x = {:.2} mm", worst.value.to_degrees(), MILLIMETRES * worst.at);
+    let corner = Vector2::new(drawn.largest.x, drawn.largest.y - pen.text);
+    shapes.push(Shape::Text { at: corner, height: pen.text, anchor: TextAnchor::End, text });
     shapes
 }

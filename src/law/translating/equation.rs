@@ -16,6 +16,10 @@
 
 use crate::buffer::balance::Balance;
 use crate::numeric::taylor::{Tape, Term};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Share of the bottom's arm that may be used: beyond, ψ is over 87° and roundings of Δx are multiplied in the force.
+pub(super) const ARM_SHARE: f64 = 0.999;
 
 /// How the efficiency enters equation (18).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,6 +118,13 @@ impl Mechanism {
             && !(self.exact == Exact::Mean && self.friction_angle == 0.0)
     }
 
+    /// Size of the Δx at which the roller moves along the bed's line, sin θ = 0, on a side: ψ = −Δ or π − Δ. Infinite where
+    /// the arm ends before.
+    pub(super) fn furthest_before_line(&self, side: Side) -> f64 {
+        let left = if side == Side::Falling { self.delta } else { PI - self.delta };
+        if left < FRAC_PI_2 { self.bottom_arm * libm::sin(left) } else { f64::INFINITY }
+    }
+
     pub(super) fn lever(&self, bottom: f64) -> Lever {
         let sin_psi = bottom / self.bottom_arm;
         let cos_psi = ((1.0 - sin_psi) * (1.0 + sin_psi)).sqrt();
@@ -201,18 +212,23 @@ impl Mechanism {
         }
     }
 
-    /// Normal force of one roller on its flank over p0 F, equation (17), while the bed is braked.
+    /// Normal force of one roller on its flank over p0 F, equation (17), on a way of the bed; sent back, ρ has the other
+    /// sign and η changes sides.
     #[must_use]
-    pub fn normal_force(&self, side: Side, x: f64, bottom: f64, slope: f64) -> f64 {
+    pub fn normal_force(&self, side: Side, way: Way, x: f64, bottom: f64, slope: f64) -> f64 {
         let lever = self.lever(bottom);
         let sigma = slope / lever.ratio;
-        let (braking, _) = self.efficiencies(side);
+        let (braking, returning) = self.efficiencies(side);
+        let (left, q) = (lever.minus, libm::sin(self.friction_angle));
+        let (left, efficiency) = match way {
+            Way::Braking => (left - sigma * q, braking),
+            Way::Return => (lever.plus + sigma * q, returning),
+        };
         // sin(θ−α−ρ) over sin(θ−α) is (s₋ − σ q)/sin θ, and 1/sin(θ−α) is √(1 + 2 σ cos θ + σ²)/sin θ.
         let cosine = (1.0 - lever.sine * lever.sine).max(0.0).sqrt() * self.sign_of_cosine(bottom);
         let stretch = (1.0 + 2.0 * sigma * cosine + sigma * sigma).sqrt();
         let friction = self.friction_angle;
-        let arm = (lever.minus - sigma * libm::sin(friction)) / stretch;
-        self.air(x, bottom) * lever.ratio * libm::cos(friction) / (arm * braking)
+        self.air(x, bottom) * lever.ratio * libm::cos(friction) * stretch / (left * efficiency)
     }
 
     fn sign_of_cosine(&self, bottom: f64) -> f64 {

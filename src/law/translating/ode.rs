@@ -5,7 +5,7 @@
 //! three laws: rising, falling, and between them a lever that sticks. The changes are found on the series and kept as
 //! breaks, so that every stretch is smooth.
 
-use super::equation::{Exact, Mechanism, Side};
+use super::equation::{ARM_SHARE, Exact, Mechanism, Side};
 use super::wall::Wall;
 use crate::numeric::root;
 use crate::numeric::taylor::{self, Expansion, Tape};
@@ -13,15 +13,13 @@ use crate::numeric::taylor::{self, Expansion, Tape};
 /// Share of the tolerance one step may take. The solution attracts its neighbours, so that errors of steps die out
 /// rather than add up; near x = 0 the attraction is weak and a few of them may add.
 const STEP_SHARE: f64 = 0.125;
-/// Shortest step, in strokes: shorter ones mean a wall.
+/// Shortest step over the overrun reached: shorter ones mean a wall.
 const SHORTEST_STEP: f64 = 1e-10;
 /// Largest number of steps: even q = 1e5 takes a hundred.
 const MOST_STEPS: usize = 5000;
 /// Cells of a step in which a change of sign is looked for, and cells in which a stuck lever may come free.
 const STEP_CELLS: u32 = 8;
 const STUCK_CELLS: u32 = 128;
-/// Share of the bottom's arm that may be used: beyond, ψ is over 87° and roundings of Δx are multiplied in the force.
-const ARM_SHARE: f64 = 0.999;
 /// What is left of an arm, a sine or the column, as a share, where the solution ends for want of it.
 const NEAR: f64 = 0.02;
 /// A slope beyond this where the solution ends is the reason why: the roller's path lies within 1° of the flank.
@@ -175,6 +173,7 @@ impl Run<'_> {
             (if goes(&series, 1.0) { Side::Rising } else { Side::Falling }, series)
         };
         if side == Side::Stuck {
+            self.turn(0.0, Side::Stuck);
             self.wait(0.0, 0.0, Side::Stuck);
             return Ok(());
         }
@@ -190,7 +189,7 @@ impl Run<'_> {
     /// Keeps a series as far as it holds, up to a change of side.
     fn accept(&mut self, x: f64, y: f64, side: Side, mut series: Expansion) -> Result<(), Wall> {
         let reach = series.reach(self.share);
-        if !(reach > SHORTEST_STEP) || !self.passable(x, y) {
+        if !(reach > SHORTEST_STEP * x) || !self.passable(x, y) {
             return Err(self.wall(x, y));
         }
         series.end = if reach < 1.0 - x { x + reach } else { 1.0 };
@@ -278,7 +277,13 @@ impl Run<'_> {
         } else if 1.0 - (r * x + bottom) / m.balance.column <= near {
             Wall::Column { x_mm }
         } else {
-            let slope = |side| self.tape(side).value(x.max(LEAST_OVERRUN), y).abs();
+            let slope = |side| {
+                if x > 0.0 {
+                    self.tape(side).value(x, y).abs()
+                } else {
+                    starting_slope(m, side).map_or(f64::NAN, f64::abs)
+                }
+            };
             let steep = slope(Side::Rising).max(slope(Side::Falling));
             // A hundredth of the overrun is left as stroke of the air.
             if x + y < 0.01 * x {

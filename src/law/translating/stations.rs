@@ -3,26 +3,29 @@
 //!
 //! # The bracket
 //!
-//! With the slope (y − y₀)/h, right less left side of (18) grows with y as long as the flank does not jam: the air force
-//! grows, and so does T. Written without the fraction, so that the jam is no pole,
+//! With the slope (y − y₀)/h the right side of (18) grows with y as long as the flank does not jam: the air force grows,
+//! and so does T. Written without the fraction, so that the jam is no pole,
 //!
 //! ```text
 //! G(y) = (A x − P) (s₋ − σ q) − P C (σ s₊ + q)/η
 //! ```
 //!
-//! At y = −x there is no air force and G = A x (s₋ − σ q) > 0. Where the flank jams, s₋ = σ q, G = −P C (σ s₊ + q)/η < 0;
-//! that place is bracketed first, between y₀, where σ = 0, and the end of arm or column; where the flank cannot jam the
-//! column ends the bracket, P → ∞. Between the two the sign changes once, and Chandrupatla's method
-//! ([`crate::numeric::root`]) closes in on it, superlinearly and never leaving the bracket. With unequal efficiencies G
-//! jumps down at σ = 0; a change of sign in the jump is a lever that sticks, y = y₀.
+//! falls through zero once. At y₀, where σ = 0, the two laws of unequal efficiencies tell the side: G > 0 as the rising
+//! law has it means a root above, G < 0 as the falling law has it one below, and neither a lever that sticks, y = y₀. From
+//! there the bracket is widened, doubling, until G has changed its sign, but never past the place where the flank jams, the
+//! roller moves along the bed or arm or column are used up: those are walls, and they have names. Chandrupatla's method
+//! ([`crate::numeric::root`]) then closes in, superlinearly and never leaving the bracket.
 
-use super::equation::{Exact, Mechanism, Side};
+use super::equation::{ARM_SHARE, Exact, Mechanism, Side};
 use super::wall::Wall;
 use crate::numeric::root;
 use crate::numeric::spline::Spline;
 
-/// Share of arm and column that is kept free at the ends of a bracket.
+/// Share of the column, and of the way to a jam, that is kept free.
 const MARGIN: f64 = 1e-12;
+/// First width of the bracket over the step in x, and doublings from there: far past any wall.
+const FIRST_WIDTH: f64 = 0.05;
+const DOUBLINGS: u32 = 80;
 
 /// Stations with the bottom's Δx.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,40 +64,35 @@ impl Stations {
     }
 }
 
-/// Δx at the overrun x, a step h after a station with the bottom at `before`.
-fn solve(mechanism: &Mechanism, x: f64, step: f64, before: f64) -> Result<f64, Wall> {
-    let x_mm = 1e3 * x;
-    let q = libm::sin(mechanism.friction_angle);
-    let (arm, column) = (mechanism.bottom_arm * (1.0 - MARGIN), mechanism.balance.column * (1.0 - MARGIN));
-    let low = (-x).max(-arm);
-    let high = (column - x).min(arm);
-    if !(high > before.max(low)) {
-        return Err(Wall::Column { x_mm });
-    }
-    let sigma = |y: f64, ratio: f64| (y - before) / (step * ratio);
-    // What is left until the flank jams, for either direction of the friction.
-    let free = |y: f64| {
-        let lever = mechanism.lever(y);
-        let sigma = sigma(y, lever.ratio);
-        match mechanism.exact {
-            Exact::Braking => lever.minus - sigma * q,
-            Exact::Return => lever.plus + sigma * q,
-            Exact::Mean => (lever.minus - sigma * q).min(lever.plus + sigma * q),
+/// A station: (18) with the slope by the backward difference.
+struct Station<'a> {
+    mechanism: &'a Mechanism,
+    x: f64,
+    step: f64,
+    before: f64,
+    q: f64,
+}
+
+impl Station<'_> {
+    /// What is left until the flank jams, and the roller until it moves along the bed's line, for the ways that balance.
+    fn free(&self, y: f64) -> f64 {
+        let lever = self.mechanism.lever(y);
+        let sigma = (y - self.before) / (self.step * lever.ratio);
+        let (braking, returning) = (lever.minus - sigma * self.q, lever.plus + sigma * self.q);
+        match self.mechanism.exact {
+            Exact::Braking => braking,
+            Exact::Return => returning,
+            Exact::Mean => braking.min(returning),
         }
-    };
-    if !(free(before) > 0.0) {
-        return Err(Wall::Jam { x_mm });
     }
-    let jam = |from: f64, to: f64| {
-        if free(to) > 0.0 { to } else { root::bracketed(free, from, to, 0.0).unwrap_or(from) }
-    };
-    let (low, high) = (jam(before.max(low), low), jam(before, high));
-    let remainder = |y: f64| {
+
+    /// G with the efficiencies of a side.
+    fn remainder(&self, y: f64, side: Side) -> f64 {
+        let (mechanism, q) = (self.mechanism, self.q);
         let lever = mechanism.lever(y);
-        let sigma = sigma(y, lever.ratio);
-        let side = if y > before { Side::Rising } else { Side::Falling };
+        let sigma = (y - self.before) / (self.step * lever.ratio);
         let (braking, returning) = mechanism.efficiencies(side);
-        let (air, load, c) = (mechanism.air(x, y), mechanism.balance.loading * x, lever.ratio);
+        let (air, load, c) = (mechanism.air(self.x, y), mechanism.balance.loading * self.x, lever.ratio);
         let in_way = |plus: f64, minus: f64, q: f64, eta: f64| {
             (load - air) * (minus - sigma * q) - air * c * (sigma * plus + q) / eta
         };
@@ -107,6 +105,70 @@ fn solve(mechanism: &Mechanism, x: f64, step: f64, before: f64) -> Result<f64, W
                     + in_way(lever.minus, lever.plus, -q, returning) * first
             }
         }
-    };
-    root::bracketed(remainder, low, high, 0.0).map_err(|_| Wall::Jam { x_mm })
+    }
+
+    /// The furthest Δx on a side before a wall, and the wall.
+    fn furthest(&self, side: Side) -> (f64, Wall) {
+        let (m, x_mm) = (self.mechanism, 1e3 * self.x);
+        let (line, arm) = (m.furthest_before_line(side), ARM_SHARE * m.bottom_arm);
+        let arm_wall = Wall::Arm { x_mm, arm_mm: 1e3 * m.bottom_arm };
+        let sign = if side == Side::Falling { -1.0 } else { 1.0 };
+        let mut least = (arm, arm_wall);
+        if line < arm {
+            least = (line, Wall::Line { x_mm });
+        }
+        let column = m.balance.column * (1.0 - MARGIN) - self.x;
+        if side == Side::Rising && column < least.0 {
+            least = (column, Wall::Column { x_mm });
+        }
+        (sign * least.0, least.1)
+    }
+
+    fn solve(&self) -> Result<f64, Wall> {
+        let x_mm = 1e3 * self.x;
+        if !(self.free(self.before) > 0.0) {
+            return Err(Wall::Jam { x_mm });
+        }
+        let (side, sign) = if self.remainder(self.before, Side::Rising) > 0.0 {
+            (Side::Rising, 1.0)
+        } else if self.remainder(self.before, Side::Falling) < 0.0 {
+            (Side::Falling, -1.0)
+        } else {
+            return Ok(self.before);
+        };
+        let (furthest, wall) = self.furthest(side);
+        let mut near = self.before;
+        let mut width = FIRST_WIDTH * self.step;
+        for _ in 0..DOUBLINGS {
+            let mut far = self.before + sign * width;
+            let at_wall = sign * (far - furthest) >= 0.0;
+            if at_wall {
+                far = furthest;
+            }
+            let mut jams = false;
+            if !(self.free(far) > 0.0) {
+                let jam = root::bracketed(|y| self.free(y), near, far, 0.0).unwrap_or(near);
+                far = jam + (near - jam) * MARGIN.sqrt();
+                jams = true;
+            }
+            if sign * self.remainder(far, side) <= 0.0 {
+                let root = root::bracketed(|y| self.remainder(y, side), near, far, 0.0);
+                return root.map_err(|_| Wall::Unnamed { x_mm });
+            }
+            if jams {
+                return Err(Wall::Jam { x_mm });
+            }
+            if at_wall {
+                return Err(wall);
+            }
+            near = far;
+            width *= 2.0;
+        }
+        Err(Wall::Unnamed { x_mm })
+    }
+}
+
+/// Δx at the overrun x, a step after a station with the bottom at `before`.
+fn solve(mechanism: &Mechanism, x: f64, step: f64, before: f64) -> Result<f64, Wall> {
+    Station { mechanism, x, step, before, q: libm::sin(mechanism.friction_angle) }.solve()
 }

@@ -16,7 +16,7 @@ pub enum Wall {
     },
     /// sin(θ−α) → 0.
     #[error(
-        "the slope of the bottom grows without bound near x = {x_mm:.3} mm (sin(θ−α) → 0: the roller's path lies along \
+        "the slope of the bottom grows without bound near x = {x_mm:.6} mm (sin(θ−α) → 0: the roller's path lies along \
          the flank); a smaller translating.friction_angle, a better efficiency or a longer buffer.column would avoid it"
     )]
     Slope {
@@ -25,7 +25,7 @@ pub enum Wall {
     },
     /// sin θ → 0.
     #[error(
-        "the roller moves along the bed's line at x = {x_mm:.3} mm (sin θ → 0), where no flank moves it; a \
+        "the roller moves along the bed's line at x = {x_mm:.6} mm (sin θ → 0), where no flank moves it; a \
          translating.delta nearer 90 deg or a longer translating.bottom_arm would avoid it"
     )]
     Line {
@@ -34,7 +34,7 @@ pub enum Wall {
     },
     /// |Δx| → l2.
     #[error(
-        "the bottom's arm is used up at x = {x_mm:.3} mm (|Δx| → {arm_mm:.3} mm); a longer translating.bottom_arm would \
+        "the bottom's arm is used up at x = {x_mm:.6} mm (|Δx| → {arm_mm:.3} mm); a longer translating.bottom_arm would \
          avoid it"
     )]
     Arm {
@@ -44,14 +44,14 @@ pub enum Wall {
         arm_mm: f64,
     },
     /// L − x − Δx → 0.
-    #[error("the air column is used up at x = {x_mm:.3} mm (x + Δx → L); a longer buffer.column would avoid it")]
+    #[error("the air column is used up at x = {x_mm:.6} mm (x + Δx → L); a longer buffer.column would avoid it")]
     Column {
         /// Overrun, mm.
         x_mm: f64,
     },
     /// sin[θ−(α+ρ)] → 0.
     #[error(
-        "the flank jams at x = {x_mm:.3} mm (sin[θ−(α+ρ)] → 0 in (18)); a smaller translating.friction_angle, a \
+        "the flank jams at x = {x_mm:.6} mm (sin[θ−(α+ρ)] → 0 in (18)); a smaller translating.friction_angle, a \
          smaller arm of the bottom against the roller's, or `--solver ode` would avoid it"
     )]
     Jam {
@@ -60,7 +60,7 @@ pub enum Wall {
     },
     /// x + Δx → 0.
     #[error(
-        "the bottom gives way as fast as the bed comes near x = {x_mm:.3} mm (x + Δx → 0), and equation (18) is too stiff \
+        "the bottom gives way as fast as the bed comes near x = {x_mm:.6} mm (x + Δx → 0), and equation (18) is too stiff \
          to be followed; a longer buffer.column would avoid it"
     )]
     Stiff {
@@ -68,7 +68,7 @@ pub enum Wall {
         x_mm: f64,
     },
     /// Too many steps, near nothing that has a name.
-    #[error("equation (18) could not be continued past x = {x_mm:.3} mm; please report this machine")]
+    #[error("equation (18) could not be continued past x = {x_mm:.6} mm; please report this machine")]
     Unnamed {
         /// Overrun, mm.
         x_mm: f64,

@@ -1,0 +1,1 @@
+//! The drawings of a conoid: a cut for each section, and the flank.
