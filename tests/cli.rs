@@ -21,8 +21,14 @@ fn camgen(args: &[&str]) -> Run {
 }
 
 fn camgen_in(directory: TempDir, args: &[&str]) -> Run {
+    camgen_on(None, directory, args)
+}
+
+/// On a number of threads.
+fn camgen_on(threads: Option<&str>, directory: TempDir, args: &[&str]) -> Run {
     let output = Command::cargo_bin("camgen")
         .expect("the program")
+        .envs(threads.map(|threads| ("RAYON_NUM_THREADS", threads)))
         .current_dir(directory.path())
         .args(args)
         .output()
@@ -384,15 +390,104 @@ fn a_template_of_one_s_own_is_filled_in() {
     assert!(text.contains("id=\"profile\"") && !text.contains("{{"));
 }
 
+/// Files of a conoid, the same on one thread and on four.
+#[test]
+fn a_conoid_has_a_cut_for_each_speed_and_the_same_bytes_on_any_number_of_threads() {
+    let args =
+        ["conoid", "--rpm", "20,25,30,35", "--name", "c", "--samples", "36", "--format", "dxf,svg,step,csv,json,stl"];
+    let on = |threads| camgen_on(Some(threads), tempfile::tempdir().expect("a directory"), &args);
+    let (one, four) = (on("1"), on("4"));
+    assert_eq!(one.code, 0, "{}", one.err);
+    assert_eq!(one.out, four.out);
+    let expected =
+        ["c-20rpm.dxf", "c-25rpm.dxf", "c-30rpm.dxf", "c-35rpm.dxf", "c.csv", "c.json", "c.step", "c.stl", "c.svg"];
+    assert_eq!(files(one.directory.path()), expected);
+    for name in expected {
+        let read = |run: &Run| fs::read(run.directory.path().join("output").join(name)).expect("a file");
+        assert!(read(&one) == read(&four), "{name}");
+    }
+    let csv = fs::read_to_string(one.directory.path().join("output/c.csv")).expect("a table");
+    assert!(csv.starts_with("z_mm,rpm,cam_deg,crank_deg,x_mm,dx_mm,lift_mm,"), "{csv}");
+    assert!(!csv.contains("NaN") && csv.lines().count() == 1 + 4 * 36);
+    let stl = fs::read(one.directory.path().join("output/c.stl")).expect("a mesh");
+    let count = u32::from_le_bytes([stl[80], stl[81], stl[82], stl[83]]);
+    assert_eq!(stl.len(), 84 + 50 * usize::try_from(count).expect("small"));
+}
+
+/// Every edge of the mesh is used once in either direction: it is closed and turned one way.
+#[test]
+fn the_mesh_of_a_conoid_is_closed() {
+    for bore in [&[][..], &["--set", "cam.rotation=ccw"]] {
+        let run = camgen(&[&["conoid", "--rpm", "20,35", "--name", "c", "--format", "stl"], bore].concat());
+        assert_eq!(run.code, 0, "{}", run.err);
+        let stl = fs::read(run.directory.path().join("output/c.stl")).expect("a mesh");
+        let mut edges = std::collections::HashMap::new();
+        let mut volume = 0.0;
+        for triangle in stl[84..].chunks(50) {
+            let corner = |i: usize| -> [f32; 3] {
+                std::array::from_fn(|k| {
+                    let at = 12 + 12 * i + 4 * k;
+                    f32::from_le_bytes([triangle[at], triangle[at + 1], triangle[at + 2], triangle[at + 3]])
+                })
+            };
+            let corners = [corner(0), corner(1), corner(2)];
+            let [a, b, c] = corners.map(|p| p.map(f64::from));
+            volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+                + a[2] * (b[0] * c[1] - b[1] * c[0]))
+                / 6.0;
+            for i in 0..3 {
+                let key = |p: [f32; 3]| p.map(f32::to_bits);
+                *edges.entry((key(corners[i]), key(corners[(i + 1) % 3]))).or_insert(0) += 1;
+            }
+        }
+        assert!(edges.iter().all(|((a, b), n)| *n == 1 && edges.get(&(*b, *a)) == Some(&1)));
+        assert!((volume / 6.3e6 - 1.0).abs() < 0.01, "{volume}");
+    }
+}
+
+#[test]
+fn what_makes_no_conoid_is_told() {
+    for (args, code, part) in [
+        (vec!["--rpm", "20..35"], 2, "needs --residual"),
+        (vec!["--rpm", "35..20", "--residual", "2N"], 2, "from the slower to the faster"),
+        (vec!["--rpm", "20,20,35"], 2, "asked for twice"),
+        (vec!["--rpm", "20,35", "--residual", "2mm"], 2, "a force has one of"),
+        (vec!["--rpm", "20,35", "--set", "transition.kind=none"], 2, "have a corner"),
+        (vec!["--rpm", "20,25,30,35", "--set", "conoid.axial_travel=5mm"], 2, "no base radius keeps the limits"),
+        (vec!["--rpm", "20,35", "--residual", "2N"], 1, "a check failed"),
+        (vec!["--rpm", "20,35", "--set", "cam.base_radius=50mm"], 1, "a check failed"),
+        (
+            vec!["--rpm", "20,35", "--set", "follower.roller.crown=cylinder", "--set", "follower.roller.width=20mm"],
+            1,
+            "a check failed",
+        ),
+        (vec!["--rpm", "20,35", "--set", "conoid.overhang=1mm"], 1, "a check failed"),
+    ] {
+        let run = camgen(&[&["conoid"], &args[..]].concat());
+        assert_eq!(run.code, code, "{args:?}: {} {}", run.err, run.out);
+        assert!(run.err.contains(part), "{args:?}: {}", run.err);
+        assert!(files(run.directory.path()).is_empty(), "{args:?}");
+    }
+    let rotary = camgen(&["rotary", "--format", "stl"]);
+    assert!(rotary.code == 2 && rotary.err.contains("for a conoid"), "{}", rotary.err);
+    let found = camgen(&["conoid", "--rpm", "20..35", "--residual", "2N", "--json", "--format", "csv"]);
+    let report = report(&found);
+    assert_eq!(report["rpm"], serde_json::json!([20.0, 25.0, 30.0, 35.0]));
+    assert!(report["between"]["residual_max_n"].as_f64().is_some_and(|force| force < 2.0), "{report}");
+}
+
 /// The pictures in the README are the pictures the program makes.
 #[test]
 fn the_pictures_in_the_readme_are_current() {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
-    for command in ["rotary", "translating"] {
-        let run = camgen(&[command, "--format", "svg"]);
-        let name = format!("dpi-{command}-35rpm.svg");
-        let made = fs::read_to_string(run.directory.path().join("output").join(&name)).expect("the file");
-        let kept = fs::read_to_string(golden.join(&name)).expect("kept");
+    for (command, rpm, name) in [
+        ("rotary", "35", "dpi-rotary-35rpm.svg"),
+        ("translating", "35", "dpi-translating-35rpm.svg"),
+        ("conoid", "20,25,30,35", "dpi-conoid-20-25-30-35rpm.svg"),
+    ] {
+        let run = camgen(&[command, "--rpm", rpm, "--format", "svg"]);
+        let made = fs::read_to_string(run.directory.path().join("output").join(name)).expect("the file");
+        let kept = fs::read_to_string(golden.join(name)).expect("kept");
         assert!(made == kept, "{name} has changed: look at it, and if it is right copy it to tests/golden");
     }
 }

@@ -225,7 +225,7 @@ impl Conoid {
     /// Ends of the cam along its axis, m.
     #[must_use]
     pub fn ends(&self) -> (f64, f64) {
-        (-self.data.overhang, self.data.axial_travel + self.data.overhang)
+        (0.0 - self.data.overhang, self.data.axial_travel + self.data.overhang)
     }
 
     /// Base radius R_b, m.
@@ -424,6 +424,68 @@ impl Conoid {
             curvature_slope: (2.0 * turn2 * speed - turn * speed1) / (speed * speed * speed),
         };
         Some((frame, zeta))
+    }
+
+    /// Force between roller and cam along the roller's path at the speed of a section, N: the air's, and preload and
+    /// inertia where they are given.
+    #[must_use]
+    pub fn roller_force(&self, section: &Reversal, rpm: f64, piece: usize, angle: f64) -> f64 {
+        let air = self.cylinder.force(section.state(piece, angle).pressure_ratio) / self.machine.cam.lever;
+        let inertia = self.machine.roller.mass.map_or(0.0, |mass| {
+            let speed = self.machine.bed.crank_speed(rpm) * self.machine.cam.turns_per_crank_turn;
+            mass * speed * speed * self.machine.cam.lever * section.bottom(piece, angle).dds
+        });
+        air + inertia + self.machine.roller.preload.unwrap_or(0.0)
+    }
+
+    /// The largest and the smallest of something over the turns of the sections, each at its own speed.
+    #[must_use]
+    pub fn worst_of_sections(&self, value: impl Fn(&Reversal, f64, f64, usize, f64) -> f64 + Sync) -> Worst {
+        let of_section = |((section, rpm), z): ((&Reversal, &f64), &f64)| {
+            let plane = self.plane(*z);
+            let found = extremes::largest_without_slope(&plane, |piece, angle| value(section, *rpm, *z, piece, angle));
+            Worst { value: found.value, angle: found.at, z: *z }
+        };
+        let all = self.sections.iter().zip(&self.speeds).zip(&self.positions).map(of_section);
+        let none = Worst { value: f64::NEG_INFINITY, angle: 0.0, z: 0.0 };
+        all.fold(none, |best, next| if next.value > best.value { next } else { best })
+    }
+
+    /// The axial component of the contact force that the drive of the shift must hold, N: the force along the path times
+    /// the slope of the lift along the axis.
+    #[must_use]
+    pub fn axial_force(&self) -> Worst {
+        self.worst_of_sections(|section, rpm, z, piece, angle| {
+            (self.roller_force(section, rpm, piece, angle) * self.lift(piece, angle, z)[0][1]).abs()
+        })
+    }
+
+    /// Largest lift over all sections, m.
+    #[must_use]
+    pub fn max_lift(&self) -> f64 {
+        let highest = self.worst_of_sections(|section, _, _, piece, angle| section.bottom(piece, angle).s).value;
+        (highest - self.lowest) * self.machine.cam.lever
+    }
+
+    /// By how much the plane offset of the pitch curve at z misses the cut there, m: from a point of the one along the
+    /// normal of the other, its foot found by Newton's method.
+    #[must_use]
+    pub fn plane_offset_error(&self, z: f64) -> f64 {
+        let plane = self.plane(z);
+        let miss = |piece: usize, angle: f64| {
+            let naive = plane.profile(piece, angle).point;
+            let Some(span) = self.pieces().get(piece) else { return f64::NAN };
+            let mut foot = angle;
+            let mut left = f64::NAN;
+            for _ in 0..4 {
+                let Some((cut, _)) = self.cut(piece, foot, z) else { return f64::NAN };
+                let away = naive - cut.point;
+                left = away.dot(&cut.outward());
+                foot = (foot + away.dot(&cut.tangent) / cut.speed).clamp(span.start, span.end);
+            }
+            left.abs()
+        };
+        extremes::largest_without_slope(&plane, miss).value
     }
 
     /// What follows from the lift along θ ↦ (θ, ζ(θ)), as series in θ.

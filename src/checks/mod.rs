@@ -3,6 +3,7 @@
 //! A new check is one file and one line in [`CHECKS`].
 
 pub mod balance;
+pub mod conoid;
 mod contact_stress;
 mod curvature;
 mod cutter_radius;

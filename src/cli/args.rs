@@ -27,6 +27,8 @@ pub(super) enum Command {
     Rotary(RotaryArgs),
     /// Cam plate that rides on the bed and moves the bottom through a bell crank, by equation (18)
     Translating(TranslatingArgs),
+    /// One cam for many speeds, shifted along its axis as the speed changes: sections and a solid
+    Conoid(ConoidArgs),
     /// Prove a DXF file, also one edited or written by another program: one closed tangent outline that gives the law?
     Check(CheckArgs),
     /// The machine files carried in the program
@@ -41,8 +43,8 @@ pub(super) struct CommonArgs {
     pub(super) machine: String,
 
     /// Main-shaft speed the cam is cut for, rpm [default: the design speed of the machine]
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
-    pub(super) rpm: Vec<f64>,
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
+    pub(super) rpm: Vec<Speed>,
 
     /// Largest distance of the outline from the exact curve, along its normal
     #[arg(long, value_name = "LENGTH", default_value = "5um", value_parser = tolerance, allow_hyphen_values = true)]
@@ -75,7 +77,8 @@ impl CommonArgs {
     pub(super) fn one_speed(&self, machine: &Machine) -> Result<f64, Failure> {
         match self.rpm.as_slice() {
             [] => Ok(machine.design_rpm),
-            [rpm] => Ok(*rpm),
+            [Speed::One(rpm)] => Ok(*rpm),
+            [Speed::Range(..)] => Err(Failure("this cam is cut for one speed, not for a range".into())),
             more => Err(Failure(format!("this cam is cut for one speed, not {}", more.len()))),
         }
     }
@@ -145,6 +148,19 @@ pub(super) struct TranslatingArgs {
     pub(super) balance: Balanced,
 }
 
+#[derive(Debug, Args)]
+pub(super) struct ConoidArgs {
+    #[command(flatten)]
+    pub(super) common: CommonArgs,
+
+    #[command(flatten)]
+    pub(super) files: FileArgs,
+
+    /// Largest force that may be left at the speeds between the sections; with --rpm A..B as few sections as keep it
+    #[arg(long, value_name = "FORCE", value_parser = force)]
+    pub(super) residual: Option<f64>,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum SolverKind {
     Ode,
@@ -171,9 +187,9 @@ impl Balanced {
 /// What is written, where, and how.
 #[derive(Debug, Args)]
 pub(super) struct FileArgs {
-    /// What to write: dxf, svg, step, csv, json [default: dxf,svg,step,csv]
+    /// What to write: dxf, svg, step, csv, json, and stl of a conoid [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
-    pub(super) format: Option<Vec<usize>>,
+    pub(super) format: Option<Vec<&'static str>>,
 
     /// Directory for the files, created when missing
     #[arg(long, value_name = "DIR", default_value = "output")]
@@ -217,6 +233,36 @@ pub(super) enum MachinesCommand {
     },
 }
 
+/// The format only a conoid has.
+pub(super) const STL: &str = "stl";
+
+/// A speed, or `A..B` from one to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Speed {
+    One(f64),
+    Range(f64, f64),
+}
+
+fn speed(text: &str) -> Result<Speed, String> {
+    match text.split_once("..") {
+        None => rpm(text).map(Speed::One),
+        Some((from, to)) => {
+            let (from, to) = (rpm(from)?, rpm(to)?);
+            if from < to {
+                Ok(Speed::Range(from, to))
+            } else {
+                Err("a range goes from the slower to the faster speed".into())
+            }
+        }
+    }
+}
+
+fn force(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Force)
+        .map_err(|error| format!("{error}; a force has one of {}", Dimension::Force.unit_list()))?;
+    if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
+}
+
 fn rpm(text: &str) -> Result<f64, String> {
     let number =
         units::parse_bare(text).map_err(|error| format!("{error}; a speed is a bare number, e.g. --rpm 35"))?;
@@ -246,9 +292,10 @@ fn cutter(text: &str) -> Result<f64, String> {
     }
 }
 
-fn format(text: &str) -> Result<usize, String> {
-    FORMATS.iter().position(|(name, _)| *name == text).ok_or_else(|| {
-        let known: Vec<&str> = FORMATS.iter().map(|(name, _)| *name).collect();
+fn format(text: &str) -> Result<&'static str, String> {
+    let known = || FORMATS.iter().map(|(name, _)| *name).chain([STL]);
+    known().find(|name| *name == text).ok_or_else(|| {
+        let known: Vec<&str> = known().collect();
         format!("no such format; one of {}", known.join(", "))
     })
 }

@@ -1,6 +1,6 @@
 //! What every command that cuts a plane cam does: draw, prove, check, write, report.
 
-use super::args::{CommonArgs, FileArgs};
+use super::args::{CommonArgs, FileArgs, STL};
 use super::{Failure, Outcome, print, tell, text};
 use camgen::cam::Cam;
 use camgen::checks::rolling::Rolled;
@@ -47,6 +47,9 @@ pub(super) fn template(files: &FileArgs) -> Result<String, Failure> {
 
 pub(super) fn cut(job: &Cut<'_>) -> Result<Outcome, Failure> {
     let (common, files) = (job.common, job.files);
+    if files.format.iter().flatten().any(|name| *name == STL) {
+        return Err(Failure("the format stl is for a conoid; a plane cam has step".into()));
+    }
     let (part, no_outline) = match (job.part)() {
         Ok(part) => (Some(part), None),
         Err(refusal @ (OutlineError::Undercut(_) | OutlineError::Thin { .. })) => (None, Some(refusal)),
@@ -80,9 +83,9 @@ pub(super) fn cut(job: &Cut<'_>) -> Result<Outcome, Failure> {
 }
 
 /// Whether a format is written: asked for, or usual and possible.
-fn wanted(job: &Cut<'_>, index: usize, name: &str) -> bool {
+fn wanted(job: &Cut<'_>, name: &str) -> bool {
     match &job.files.format {
-        Some(asked) => asked.contains(&index),
+        Some(asked) => asked.contains(&name),
         None if name == "step" && job.cam.machine().cam.thickness.is_none() => {
             tell("no STEP file: cam.thickness is not given");
             false
@@ -93,9 +96,9 @@ fn wanted(job: &Cut<'_>, index: usize, name: &str) -> bool {
 
 fn write(job: &Cut<'_>, part: &Part, written: &Written, report: &mut Report) -> Result<(), Failure> {
     let files = job.files;
-    let formats: Vec<_> = FORMATS.iter().enumerate().filter(|(index, (name, _))| wanted(job, *index, name)).collect();
+    let formats: Vec<_> = FORMATS.iter().filter(|(name, _)| wanted(job, name)).collect();
     let more = (job.more)()?;
-    let own = formats.iter().map(|(_, (extension, _))| format!("{}.{extension}", job.stem));
+    let own = formats.iter().map(|(extension, _)| format!("{}.{extension}", job.stem));
     let names: Vec<String> = own.chain(more.iter().map(|output| output.name.clone())).collect();
     report.files = names.iter().map(|name| files.out.join(name).display().to_string()).collect();
     let report: &Report = report;
@@ -109,7 +112,7 @@ fn write(job: &Cut<'_>, part: &Part, written: &Written, report: &mut Report) -> 
         template: job.template,
     };
     let rendered: Result<Vec<Vec<u8>>, Failure> =
-        formats.iter().map(|(_, (_, render))| render(&rendering).map_err(Failure::new)).collect();
+        formats.iter().map(|(_, render)| render(&rendering).map_err(Failure::new)).collect();
     let outputs: Vec<Output> = names
         .into_iter()
         .zip(rendered?.into_iter().chain(more.into_iter().map(|output| output.bytes)))

@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod conoid;
 mod cut;
 mod machines;
 mod rotary;
@@ -37,6 +38,7 @@ pub(crate) fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Rotary(args) => rotary::run(&args),
         Command::Translating(args) => translating::run(&args),
+        Command::Conoid(args) => conoid::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Machines(args) => machines::run(&args),
     };

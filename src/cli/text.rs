@@ -4,6 +4,7 @@ use super::check::CheckReport;
 use camgen::cam::Place;
 use camgen::checks::{Finding, Verdict};
 use camgen::drawing::Report;
+use camgen::drawing::conoid::ConoidReport;
 use camgen::drawing::report::{BreakReport, CamReport, SolvedReport};
 use std::fmt::Write;
 
@@ -122,6 +123,62 @@ fn equation_18(solved: &SolvedReport, start_slope: f64) -> String {
         "           (18) by {} in {how}, efficiency {}, balanced: {}, slope at the start {start_slope:.8}",
         solved.solver, solved.efficiency_model, solved.balance
     )
+}
+
+/// The report of a conoid.
+pub(super) fn conoid_report(report: &ConoidReport, colour: bool) -> String {
+    let (cam, surface, between) = (&report.cam, &report.surface, &report.between);
+    let speeds: Vec<String> = report.rpm.iter().map(|rpm| shown(*rpm)).collect();
+    let mut lines = vec![format!("{} · conoid for {} rpm", report.machine, speeds.join(", "))];
+    for section in &report.sections {
+        let arcs = section.arcs.map_or(String::new(), |arcs| format!(", {arcs} arcs"));
+        lines.push(format!(
+            "  {:>6} rpm  z {:.3} mm, column {:.3} mm, slope at the start {:.4}, Δx {:.3} mm at x = {:.2} mm{arcs}",
+            shown(section.rpm),
+            section.z_mm,
+            section.column_length_mm,
+            section.start_slope,
+            section.dx_max_mm,
+            section.dx_max_at_x_mm
+        ));
+    }
+    let smallest = cam
+        .smallest_prime_radius_mm
+        .map_or_else(|| "no radius keeps the limits".into(), |radius| format!("{radius:.3} would do"));
+    lines.push(format!(
+        "  cam      base radius {} mm, roller {} mm, prime radius {} mm ({smallest}), lift {:.3} mm, z {} to {} mm",
+        shown(cam.base_radius_mm),
+        shown(cam.roller_radius_mm),
+        shown(cam.prime_radius_mm),
+        cam.max_lift_mm,
+        shown(cam.z_min_mm),
+        shown(cam.z_max_mm)
+    ));
+    if let (Some(volume), Some(mass)) = (cam.volume_mm3, cam.mass_kg) {
+        lines.push(format!("           volume {volume:.1} mm³, mass {mass:.3} kg"));
+    }
+    lines.push(format!(
+        "  surface  the contact wanders {:.4} mm along the axis; plane offsets would miss by {:.4} mm; axial force {:.1} N",
+        surface.axial_wander_mm, surface.plane_offset_error_max_mm, surface.axial_force_max_n
+    ));
+    if let (Some(patches), Some(deviation)) = (surface.patches, surface.deviation_max_mm) {
+        lines.push(format!("           {patches} spline patches, {:.4} µm from the exact surface", 1e3 * deviation));
+    }
+    lines.push(format!(
+        "  between  {} N left at {:.3} rpm, {:.2}°; straight strips would leave {} N",
+        shown(between.residual_max_n),
+        between.rpm,
+        between.cam_deg,
+        shown(between.residual_straight_strips_max_n)
+    ));
+    lines.push("  checks".into());
+    lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
+    if !report.files.is_empty() {
+        lines.push("  files".into());
+        lines.extend(report.files.iter().map(|file| format!("    {file}")));
+    }
+    lines.push(String::new());
+    lines.join("\n")
 }
 
 /// The report of a checked file: one plain sentence, then the checks.

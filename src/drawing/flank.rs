@@ -7,12 +7,16 @@
 
 use super::outline::MILLIMETRES;
 use super::solid::SplineSurface;
-use crate::cam::conoid::Conoid;
+use crate::cam::conoid::{Conoid, Worst};
+use crate::law::Law;
 use crate::machine::Rotation;
 use crate::numeric::spline::{Spline, bspline_basis, bspline_knots};
 use nalgebra::{Vector2, Vector3};
 use rayon::prelude::*;
 use truck_modeling::Point3;
+
+/// Points and slopes of one cam angle at the stations.
+type Column = (Vec<Vector2<f64>>, Vec<Vector2<f64>>);
 
 /// Longest patch, rad.
 const LONGEST: f64 = std::f64::consts::PI / 6.0;
@@ -23,6 +27,8 @@ const DOUBLINGS: u32 = 6;
 /// Share of the tolerance the splines may take at the points where they are compared, the middles of the spans: between
 /// those the error of a cubic interpolant is no more than a quarter larger.
 const SHARE: f64 = 0.6;
+/// Cam angles of a slice at which the sphere is put on the flank.
+const ROLL_ANGLES: u32 = 180;
 /// Steps to the nearest point of a patch.
 const FOOT_STEPS: usize = 12;
 
@@ -159,7 +165,7 @@ fn patch(exact: &Exact<'_>, stretch: Stretch, spans: u32, places: &[f64]) -> Spl
     let angles: Vec<f64> = (0..=spans).map(angle).collect();
     // Control values along the axis of a quantity known at the stations.
     let along_axis = |values: &[f64]| Spline::not_a_knot(places, values).controls();
-    let columns: Vec<(Vec<Vector2<f64>>, Vec<Vector2<f64>>)> = angles
+    let columns: Vec<Column> = angles
         .iter()
         .map(|u| places.iter().map(|z| exact.at(stretch.piece, *u, *z)).map(|(p, d, _)| (p, d)).unzip())
         .collect();
@@ -170,9 +176,7 @@ fn patch(exact: &Exact<'_>, stretch: Stretch, spans: u32, places: &[f64]) -> Spl
     let mut controls = vec![vec![Point3::new(0.0, 0.0, 0.0); heights.len()]; angles.len() + 2];
     for axis in 0..2 {
         let values: Vec<Vec<f64>> = columns.iter().map(|(points, _)| component(points, axis)).collect();
-        let slope = |column: Option<&(Vec<Vector2<f64>>, Vec<Vector2<f64>>)>| {
-            column.map(|(_, slopes)| component(slopes, axis)).unwrap_or_default()
-        };
+        let slope = |column: Option<&Column>| column.map(|(_, slopes)| component(slopes, axis)).unwrap_or_default();
         let (first, last) = (slope(columns.first()), slope(columns.last()));
         for (v, z) in heights.iter().enumerate() {
             let at = |list: &Vec<f64>| list.get(v).copied().unwrap_or(f64::NAN);
@@ -180,11 +184,7 @@ fn patch(exact: &Exact<'_>, stretch: Stretch, spans: u32, places: &[f64]) -> Spl
             let around = Spline::clamped(&angles, &row, (at(&first), at(&last))).controls();
             for (u, value) in around.into_iter().enumerate() {
                 if let Some(point) = controls.get_mut(u).and_then(|row| row.get_mut(v)) {
-                    if axis == 0 {
-                        point.x = value
-                    } else {
-                        point.y = value
-                    }
+                    *if axis == 0 { &mut point.x } else { &mut point.y } = value;
                     point.z = *z;
                 }
             }
@@ -219,23 +219,72 @@ impl SplineSurface {
             .map(|knots| (knots.first().copied().unwrap_or(f64::NAN), knots.last().copied().unwrap_or(f64::NAN)))
     }
 
-    /// Distance of a point from the patch near the parameters (u, v), with the parameters of the foot kept within it.
+    /// Distance of a point from the patch near the parameters (u, v), the foot kept within the patch.
+    ///
+    /// Gauss and Newton's step, halved until the distance falls: beside a sharp place the whole step overshoots.
     #[must_use]
     pub fn distance(&self, from: &Vector3<f64>, (mut u, mut v): (f64, f64)) -> f64 {
         let [(u0, u1), (v0, v1)] = self.range();
+        let away = |u: f64, v: f64| (from - self.at(u, v)[0]).norm();
+        let mut nearest = away(u, v);
         for _ in 0..FOOT_STEPS {
             let [point, by_u, by_v] = self.at(u, v);
-            let away = from - point;
-            // Gauss and Newton: the curvature is left out of the matrix and costs steps only.
+            let gap = from - point;
             let (e, f, g) = (by_u.dot(&by_u), by_u.dot(&by_v), by_v.dot(&by_v));
-            let (a, b) = (away.dot(&by_u), away.dot(&by_v));
+            let (a, b) = (gap.dot(&by_u), gap.dot(&by_v));
             let determinant = e * g - f * f;
-            let (du, dv) = ((g * a - f * b) / determinant, (e * b - f * a) / determinant);
-            (u, v) = ((u + du).clamp(u0, u1), (v + dv).clamp(v0, v1));
+            let mut step = ((g * a - f * b) / determinant, (e * b - f * a) / determinant);
+            for _ in 0..FOOT_STEPS {
+                let next = ((u + step.0).clamp(u0, u1), (v + step.1).clamp(v0, v1));
+                let found = away(next.0, next.1);
+                if found < nearest {
+                    (nearest, u, v) = (found, next.0, next.1);
+                    break;
+                }
+                step = (0.5 * step.0, 0.5 * step.1);
+            }
         }
-        let [point, ..] = self.at(u, v);
-        (from - point).norm()
+        nearest
     }
+}
+
+/// The roller's sphere put on the flank where the law wants it, over the sections and between them: the gap of largest
+/// size, mm, signed as metal missing, and where it is.
+#[must_use]
+pub fn roll(conoid: &Conoid, flank: &Flank) -> (f64, Worst) {
+    let turned = conoid.machine.cam.rotation == Rotation::CounterClockwise;
+    let (low, high) = conoid.ends();
+    let radius = MILLIMETRES * conoid.machine.roller.radius;
+    let at_slice = |z: &f64| {
+        let law = conoid.slice(*z);
+        let (first, last) = law.range();
+        let mut worst = Worst { value: 0.0, angle: first, z: *z };
+        for i in 0..ROLL_ANGLES {
+            let angle = first + (last - first) * (f64::from(i) + 0.5) / f64::from(ROLL_ANGLES);
+            let (piece, inside) = law.locate(angle);
+            let contact = conoid.contact(piece, inside, *z);
+            // Beyond the ends of the cam there is nothing to touch.
+            if !(low..=high).contains(&contact.point.z) {
+                continue;
+            }
+            let u = if turned { -inside } else { inside };
+            let near = |patch: &&SplineSurface| (patch.range()[0].0..=patch.range()[0].1).contains(&u);
+            let sense = if turned { -1.0 } else { 1.0 };
+            let centre = Vector3::new(contact.centre.x, sense * contact.centre.y, contact.centre.z) * MILLIMETRES;
+            let gap =
+                flank.patches.iter().find(near).map_or(f64::INFINITY, |patch| {
+                    patch.distance(&centre, (u, MILLIMETRES * contact.point.z)) - radius
+                });
+            if gap.abs() > worst.value.abs() {
+                worst = Worst { value: gap, angle, z: *z };
+            }
+        }
+        worst
+    };
+    let all: Vec<Worst> = conoid.slices().par_iter().map(at_slice).collect();
+    let none = Worst { value: 0.0, angle: 0.0, z: 0.0 };
+    let worst = all.into_iter().fold(none, |a, b| if b.value.abs() > a.value.abs() { b } else { a });
+    (worst.value, worst)
 }
 
 /// Largest distance of a patch from the exact surface at the middles of its spans, along the normal in the plane of the
@@ -285,4 +334,70 @@ fn volume(patch: &SplineSurface) -> f64 {
         }
     }
     volume
+}
+
+/// Triangles of a conoid, counter-clockwise seen from outside, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// Corners.
+    pub triangles: Vec<[Vector3<f64>; 3]>,
+}
+
+/// Rings of a mesh along the axis, and points of a patch along a ring.
+const RINGS: u32 = 48;
+const RING_POINTS: u32 = 24;
+
+impl Mesh {
+    /// A grid on the flank, caps, and the wall of a round bore (radius in mm) or, without one, caps to the axis.
+    #[must_use]
+    pub fn new(flank: &Flank, bore_radius: Option<f64>) -> Self {
+        let ring = |ring: u32| -> Vec<Vector3<f64>> {
+            let share = f64::from(ring) / f64::from(RINGS);
+            let points = flank.patches.iter().flat_map(|patch| {
+                let [(u0, u1), (v0, v1)] = patch.range();
+                (0..RING_POINTS).map(move |i| {
+                    let [point, ..] =
+                        patch.at(u0 + (u1 - u0) * f64::from(i) / f64::from(RING_POINTS), v0 + (v1 - v0) * share);
+                    point
+                })
+            });
+            points.collect()
+        };
+        let rings: Vec<Vec<Vector3<f64>>> = (0..=RINGS).map(ring).collect();
+        let mut triangles = Vec::new();
+        let mut band = |a: &[Vector3<f64>], b: &[Vector3<f64>]| {
+            let next = |list: &[Vector3<f64>], i: usize| list.get((i + 1) % list.len()).copied();
+            for (i, (p, q)) in a.iter().zip(b).enumerate() {
+                let (Some(p1), Some(q1)) = (next(a, i), next(b, i)) else { continue };
+                for corners in [[*p, p1, q1], [*p, q1, *q]] {
+                    // At the axis a band is a fan: half of its triangles have no area.
+                    let [a, b, c] = corners;
+                    if (b - a).cross(&(c - a)).norm_squared() > 0.0 {
+                        triangles.push(corners);
+                    }
+                }
+            }
+        };
+        for (a, b) in rings.iter().zip(rings.iter().skip(1)) {
+            band(a, b);
+        }
+        let hole = |ring: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
+            let radius = bore_radius.unwrap_or(0.0);
+            ring.iter()
+                .map(|p| {
+                    let out = p.xy().normalize() * radius;
+                    Vector3::new(out.x, out.y, p.z)
+                })
+                .collect()
+        };
+        if let (Some(first), Some(last)) = (rings.first(), rings.last()) {
+            let (under, above) = (hole(first), hole(last));
+            band(&under, first);
+            band(last, &above);
+            if bore_radius.is_some() {
+                band(&above, &under);
+            }
+        }
+        Self { triangles }
+    }
 }

@@ -197,7 +197,7 @@ impl Shell {
             let row = |end: fn(&[Point3]) -> Option<&Point3>| -> Vec<Point3> {
                 patch.controls.iter().filter_map(|row| end(row).copied()).collect()
             };
-            for (top, controls) in [(0, row(|r| r.first())), (1, row(|r| r.last()))] {
+            for (top, controls) in [(0, row(<[Point3]>::first)), (1, row(<[Point3]>::last))] {
                 vertices.extend(controls.first().copied());
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
                 let curve = Curve::Spline(SplineCurve { knots: patch.u.clone(), controls });

@@ -8,4 +8,5 @@ pub mod json;
 pub mod number;
 pub mod proof;
 pub mod step;
+pub mod stl;
 pub mod svg;

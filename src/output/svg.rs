@@ -94,10 +94,13 @@ fn printable(text: &str) -> String {
 
 fn group(group: &Group) -> String {
     let mut node = element::Group::new()
-        .set("id", group.id)
-        .set("class", group.id)
+        .set("id", group.id.as_str())
+        .set("class", group.class)
         .set("inkscape:groupmode", "layer")
-        .set("inkscape:label", group.label);
+        .set("inkscape:label", printable(&group.label));
+    if let Some(colour) = &group.colour {
+        node = node.set("stroke", colour.as_str());
+    }
     for shape in &group.shapes {
         node = match shape {
             Shape::Entity(Entity::Polyline(contour)) => node.add(element::Path::new().set("d", path(contour))),
@@ -114,6 +117,10 @@ fn group(group: &Group) -> String {
                     .set("x2", number(b.x))
                     .set("y2", number(-b.y)),
             ),
+            Shape::Path(points) => {
+                let points: Vec<String> = points.iter().map(|point| place(*point)).collect();
+                node.add(element::Polyline::new().set("points", points.join(" ")))
+            }
             Shape::Arc(start, end, bulge) => {
                 let segment = Segment { start: *start, end: *end, bulge: *bulge };
                 node.add(element::Path::new().set("d", format!("M{} {}", place(*start), arc(&segment))))
@@ -182,7 +189,7 @@ mod tests {
             title: title.into(),
             extents: Extents { least: Vector2::new(-10.0, -20.0), largest: Vector2::new(30.0, 40.0) },
             stroke: 0.1,
-            groups: vec![Group { id: "profile", label: "profile", shapes }],
+            groups: vec![Group::new("profile", "profile", shapes)],
         }
     }
 

@@ -25,7 +25,7 @@ pub fn disc(rotary: &Rotary, part: &Part, report: &Report) -> Result<Sheet, Outl
     let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
     let prime = MILLIMETRES * rotary.curves.follower.prime_radius();
     let base = MILLIMETRES * rotary.base_radius();
-    let group = |id, label, shapes| Group { id, label, shapes };
+    let group = Group::new;
     let profile = vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone()))];
     let bore = part.holes().into_iter().map(Shape::Entity).collect();
     let groups = vec![

@@ -1,8 +1,10 @@
 //! The review sheet: what a person looks at before the metal is cut. Millimetres, y upwards, true size.
 
+mod conoid;
 mod disc;
 mod plate;
 
+pub use conoid::{conoid, title as conoid_title};
 pub use disc::disc;
 pub use plate::plate;
 
@@ -30,6 +32,8 @@ pub enum Shape {
     Entity(Entity),
     /// A straight line.
     Line(Vector2<f64>, Vector2<f64>),
+    /// An open chain of straight lines.
+    Path(Vec<Vector2<f64>>),
     /// An open arc: start, end and bulge.
     Arc(Vector2<f64>, Vector2<f64>, f64),
     /// A filled triangle.
@@ -50,12 +54,24 @@ pub enum Shape {
 /// Shapes that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// Name for programs, ASCII without spaces; also the class its style goes by.
-    pub id: &'static str,
+    /// Name for programs, ASCII without spaces.
+    pub id: String,
+    /// The class its style goes by.
+    pub class: &'static str,
     /// Name for people.
-    pub label: &'static str,
+    pub label: String,
+    /// Colour of its lines, where that is not a matter of style but tells something.
+    pub colour: Option<String>,
     /// What is in it.
     pub shapes: Vec<Shape>,
+}
+
+impl Group {
+    /// A group whose style goes by its name.
+    #[must_use]
+    pub fn new(id: &'static str, label: &str, shapes: Vec<Shape>) -> Self {
+        Self { id: id.into(), class: id, label: label.into(), colour: None, shapes }
+    }
 }
 
 /// The whole sheet.
@@ -121,13 +137,24 @@ fn roller(centre: Vector2<f64>, drive: Vector2<f64>, outward: Vector2<f64>, radi
 }
 
 /// Title, figures and checks below a drawing, and what the sheet then covers.
-fn with_facts(pen: &Pen, report: &Report, drawn: &Extents, mut groups: Vec<Group>) -> Sheet {
-    let (facts, bottom) = facts(pen, report, drawn);
-    groups.push(Group { id: "scale", label: "scale", shapes: scale_bar(pen, drawn) });
-    groups.push(Group { id: "facts", label: "facts", shapes: facts });
+fn with_facts(pen: &Pen, report: &Report, drawn: &Extents, groups: Vec<Group>) -> Sheet {
+    with_words(pen, title(report), &figures(report), &report.checks, drawn, groups)
+}
+
+fn with_words(
+    pen: &Pen,
+    title: String,
+    figures: &[String],
+    checks: &[Finding],
+    drawn: &Extents,
+    mut groups: Vec<Group>,
+) -> Sheet {
+    let (facts, bottom) = facts(pen, &title, figures, checks, drawn);
+    groups.push(Group::new("scale", "scale", scale_bar(pen, drawn)));
+    groups.push(Group::new("facts", "facts", facts));
     let margin = 2.0 * pen.text;
     Sheet {
-        title: title(report),
+        title,
         extents: Extents {
             least: Vector2::new(drawn.least.x - margin, bottom - margin),
             largest: drawn.largest + Vector2::new(margin, margin),
@@ -159,17 +186,8 @@ fn scale_bar(pen: &Pen, drawn: &Extents) -> Vec<Shape> {
     shapes
 }
 
-/// Title, figures and checks below the drawing, and how far down they reach.
-fn facts(pen: &Pen, report: &Report, drawn: &Extents) -> (Vec<Shape>, f64) {
-    let (left, top) = (drawn.least.x, drawn.least.y - 3.0 * pen.text);
-    let width = drawn.size().x;
-    let line = LINE_SPACING * pen.text;
-    let mut shapes = vec![Shape::Text {
-        at: Vector2::new(left, top),
-        height: 1.5 * pen.text,
-        anchor: TextAnchor::Start,
-        text: title(report),
-    }];
+/// The figures of a plane cam.
+fn figures(report: &Report) -> Vec<String> {
     let (cam, law, force) = (&report.cam, &report.law, &report.force);
     let mut figures = vec![
         match (&cam.plate, cam.base_radius_mm) {
@@ -199,14 +217,28 @@ fn facts(pen: &Pen, report: &Report, drawn: &Extents) -> (Vec<Shape>, f64) {
     if let Some(mass) = cam.mass_kg {
         figures.push(format!("mass {mass:.2} kg"));
     }
-    let rows = figures.len().max(report.checks.len());
+    figures
+}
+
+/// Title, figures and checks below the drawing, and how far down they reach.
+fn facts(pen: &Pen, title: &str, figures: &[String], checks: &[Finding], drawn: &Extents) -> (Vec<Shape>, f64) {
+    let (left, top) = (drawn.least.x, drawn.least.y - 3.0 * pen.text);
+    let width = drawn.size().x;
+    let line = LINE_SPACING * pen.text;
+    let mut shapes = vec![Shape::Text {
+        at: Vector2::new(left, top),
+        height: 1.5 * pen.text,
+        anchor: TextAnchor::Start,
+        text: title.into(),
+    }];
+    let rows = figures.len().max(checks.len());
     let row = |index: usize, x: f64, text: String| {
         #[expect(clippy::cast_precision_loss, reason = "a few rows")]
         let y = top - line * (index + 1) as f64 - 0.4 * pen.text;
         pen.words(x, y, text)
     };
-    shapes.extend(figures.into_iter().enumerate().map(|(index, text)| row(index, left, text)));
-    let checks = report.checks.iter().map(check_words).enumerate();
+    shapes.extend(figures.iter().enumerate().map(|(index, text)| row(index, left, text.clone())));
+    let checks = checks.iter().map(check_words).enumerate();
     shapes.extend(checks.map(|(index, text)| row(index, left + 0.46 * width, text)));
     #[expect(clippy::cast_precision_loss, reason = "a few rows")]
     let bottom = top - line * rows as f64;

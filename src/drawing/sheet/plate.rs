@@ -30,7 +30,7 @@ pub fn plate(plate: &Plate, part: &Part, report: &Report) -> Result<Sheet, Outli
     let drawn = Extents { least: inner.least - reach, largest: inner.largest + reach };
     let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
     let pitch_curve = both.iter().map(|s| Shape::Arc(s.start, s.end, s.bulge)).collect();
-    let group = |id, label, shapes| Group { id, label, shapes };
+    let group = Group::new;
     let groups = vec![
         group("profile", "profile", vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone()))]),
         group("axis", "bed's axis", axes(&pen, plate, &drawn)),

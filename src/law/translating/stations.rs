@@ -23,6 +23,8 @@ use crate::numeric::spline::Spline;
 
 /// Share of the column, and of the way to a jam, that is kept free.
 const MARGIN: f64 = 1e-12;
+/// sin θ below which it is the bed's line, not friction, that stops the flank.
+const IN_LINE: f64 = 1e-3;
 /// First width of the bracket over the step in x, and doublings from there: far past any wall.
 const FIRST_WIDTH: f64 = 0.05;
 const DOUBLINGS: u32 = 80;
@@ -156,7 +158,8 @@ impl Station<'_> {
                 return root.map_err(|_| Wall::Unnamed { x_mm });
             }
             if jams {
-                return Err(Wall::Jam { x_mm });
+                let in_line = self.mechanism.lever(far).sine < IN_LINE;
+                return Err(if in_line { Wall::Line { x_mm } } else { Wall::Jam { x_mm } });
             }
             if at_wall {
                 return Err(wall);

@@ -1,0 +1,146 @@
+//! The review sheet of a conoid: the sections over each other, coloured by speed, and the cam seen isometrically.
+
+use super::super::conoid::{ConoidReport, cuts};
+use super::super::outline::MILLIMETRES;
+use super::super::{Entity, Part};
+use super::{Group, LINE_SPACING, Pen, Shape, Sheet, TEXT_OVER_WIDTH, shown, with_words};
+use crate::cam::conoid::Conoid;
+use crate::contour::Extents;
+use crate::law::Law;
+use crate::machine::Rotation;
+use nalgebra::Vector2;
+
+/// Points of a turn and lines along the axis in the isometric view, and points of each such line.
+const TURN: u32 = 180;
+const RULERS: u32 = 24;
+const RULER: u32 = 24;
+
+/// Colour for a share in [0, 1]: from blue for the slowest to red for the fastest.
+fn colour(share: f64) -> String {
+    let mix = |from: f64, to: f64| (from + (to - from) * share).round();
+    format!("rgb({},{},{})", mix(30.0, 200.0), mix(90.0, 40.0), mix(180.0, 30.0))
+}
+
+/// The review sheet.
+#[must_use]
+pub fn conoid(conoid: &Conoid, parts: &[Part], report: &ConoidReport) -> Sheet {
+    let plan = parts.iter().map(|part| part.outline.contour.extents()).reduce(|a, b| a.with(&b));
+    let plan = plan.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
+    let gap = 0.12 * plan.size().x;
+    let view = View { conoid, turned: conoid.machine.cam.rotation == Rotation::CounterClockwise };
+    let cuts = cuts(conoid);
+    let (low, high) = conoid.ends();
+    let rings: Vec<Vec<Vector2<f64>>> = cuts.iter().map(|(_, z)| view.ring(*z)).collect();
+    let ends: Vec<Vec<Vector2<f64>>> = [low, high].iter().map(|z| view.ring(*z)).collect();
+    let rulers: Vec<Vec<Vector2<f64>>> = (0..RULERS).map(|i| view.ruler(i, (low, high))).collect();
+    let seen = rings.iter().chain(&ends).chain(&rulers).flatten();
+    let start = Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) };
+    let seen = seen.fold(start, |extents, p| extents.with(&Extents { least: *p, largest: *p }));
+    // The view stands to the right of the plan, its middle as high as the plan's.
+    let shift = Vector2::new(
+        plan.largest.x + gap - seen.least.x,
+        0.5 * (plan.least.y + plan.largest.y - seen.least.y - seen.largest.y),
+    );
+    let moved = |points: &Vec<Vector2<f64>>| Shape::Path(points.iter().map(|p| p + shift).collect());
+    let seen = Extents { least: seen.least + shift, largest: seen.largest + shift };
+    let margin = Vector2::repeat(0.3 * gap);
+    let both = plan.with(&seen);
+    let mut drawn = Extents { least: both.least - margin, largest: both.largest + margin };
+    let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
+    // The key of the colours stands above the plan.
+    #[expect(clippy::cast_precision_loss, reason = "a few sections")]
+    let key = LINE_SPACING * pen.text * (cuts.len() as f64 + 1.0);
+    drawn.largest.y += (key - (drawn.largest.y - plan.largest.y)).max(0.0);
+
+    let (first, last) = (conoid.speeds.first().copied().unwrap_or(0.0), conoid.speeds.last().copied().unwrap_or(0.0));
+    let mut groups = vec![
+        Group::new("axis", "axes", axes(&plan)),
+        Group::new(
+            "bore",
+            "bore",
+            parts.first().map_or_else(Vec::new, |part| part.holes().into_iter().map(Shape::Entity).collect()),
+        ),
+        Group::new("isometric", "isometric view", ends.iter().chain(&rulers).map(moved).collect()),
+    ];
+    #[expect(clippy::cast_precision_loss, reason = "a few sections")]
+    let sections = cuts.iter().zip(parts).zip(&rings).enumerate().map(|(index, (((rpm, z), part), ring))| {
+        let share = if last > first { (rpm - first) / (last - first) } else { 1.0 };
+        let y = drawn.largest.y - LINE_SPACING * pen.text * (index as f64 + 1.0);
+        let swatch = Vector2::new(drawn.least.x, y + 0.35 * pen.text);
+        let words = format!("{} rpm, z = {} mm", shown(*rpm), shown(MILLIMETRES * z));
+        let shapes = vec![
+            Shape::Entity(Entity::Polyline(part.outline.contour.clone())),
+            moved(ring),
+            Shape::Line(swatch, swatch + Vector2::new(2.0 * pen.text, 0.0)),
+            pen.words(drawn.least.x + 2.6 * pen.text, y, words),
+        ];
+        let label = format!("section for {} rpm", shown(*rpm));
+        Group { id: format!("section-{index}"), class: "section", label, colour: Some(colour(share)), shapes }
+    });
+    groups.extend(sections);
+    let title = title(report);
+    with_words(&pen, title, &figures(report), &report.checks, &drawn, groups)
+}
+
+/// "DPI flat-bed press, 2 at, conoid for 20, 25, 30, 35 rpm".
+#[must_use]
+pub fn title(report: &ConoidReport) -> String {
+    let speeds: Vec<String> = report.rpm.iter().map(|rpm| shown(*rpm)).collect();
+    format!("{}, conoid for {} rpm", report.machine, speeds.join(", "))
+}
+
+fn axes(plan: &Extents) -> Vec<Shape> {
+    vec![
+        Shape::Line(Vector2::new(plan.least.x, 0.0), Vector2::new(plan.largest.x, 0.0)),
+        Shape::Line(Vector2::new(0.0, plan.least.y), Vector2::new(0.0, plan.largest.y)),
+    ]
+}
+
+fn figures(report: &ConoidReport) -> Vec<String> {
+    let (cam, surface, between) = (&report.cam, &report.surface, &report.between);
+    let mut figures = vec![
+        format!("base radius {} mm, roller {} mm, crowned", shown(cam.base_radius_mm), shown(cam.roller_radius_mm)),
+        format!("lift {:.3} mm, z from {} to {} mm", cam.max_lift_mm, shown(cam.z_min_mm), shown(cam.z_max_mm)),
+        format!("contact wanders {:.3} mm along the axis", surface.axial_wander_mm),
+        format!("plane offsets would miss by {:.4} mm", surface.plane_offset_error_max_mm),
+        format!("axial force {:.0} N at the most", surface.axial_force_max_n),
+        format!("between sections {:.2} N at {:.2} rpm", between.residual_max_n, between.rpm),
+    ];
+    if let Some(mass) = cam.mass_kg {
+        figures.push(format!("mass {mass:.2} kg"));
+    }
+    figures
+}
+
+/// The isometric view, mm.
+struct View<'a> {
+    conoid: &'a Conoid,
+    turned: bool,
+}
+
+impl View<'_> {
+    fn seen(&self, point: Vector2<f64>, z: f64) -> Vector2<f64> {
+        let y = if self.turned { -point.y } else { point.y };
+        // Isometric: x and y at 30° to either side, z upwards.
+        let half = 0.5;
+        let root = 0.5 * 3.0_f64.sqrt();
+        Vector2::new((point.x - y) * root, z - (point.x + y) * half) * MILLIMETRES
+    }
+
+    fn at(&self, share: f64, z: f64) -> Vector2<f64> {
+        let law = self.conoid.slice(z);
+        let (first, last) = law.range();
+        let (piece, angle) = law.locate(first + (last - first) * share);
+        let point = self.conoid.cut(piece, angle, z).map_or_else(Vector2::zeros, |(frame, _)| frame.point);
+        self.seen(point, z)
+    }
+
+    fn ring(&self, z: f64) -> Vec<Vector2<f64>> {
+        (0..=TURN).map(|i| self.at(f64::from(i % TURN) / f64::from(TURN), z)).collect()
+    }
+
+    fn ruler(&self, index: u32, (low, high): (f64, f64)) -> Vec<Vector2<f64>> {
+        let share = f64::from(index) / f64::from(RULERS);
+        (0..=RULER).map(|i| self.at(share, low + (high - low) * f64::from(i) / f64::from(RULER))).collect()
+    }
+}

@@ -1,0 +1,27 @@
+//! The conoid as a binary STL file in millimetres, for a first print: triangles on the exact surface.
+
+use crate::drawing::flank::{Flank, Mesh};
+
+/// Triangles as binary STL: 80 bytes of header, a count, 50 bytes a triangle.
+#[must_use]
+pub fn write(flank: &Flank, bore_radius: Option<f64>) -> Vec<u8> {
+    let mesh = Mesh::new(flank, bore_radius);
+    let mut bytes = vec![b' '; 80];
+    let title = b"camgen, millimetres";
+    if let Some(start) = bytes.get_mut(..title.len()) {
+        start.copy_from_slice(title);
+    }
+    bytes.extend(u32::try_from(mesh.triangles.len()).unwrap_or(u32::MAX).to_le_bytes());
+    for corners in &mesh.triangles {
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(&(c - a)).normalize();
+        for vector in [&normal, a, b, c] {
+            for value in vector.iter() {
+                #[expect(clippy::cast_possible_truncation, reason = "STL holds single precision")]
+                bytes.extend((*value as f32).to_le_bytes());
+            }
+        }
+        bytes.extend([0, 0]);
+    }
+    bytes
+}
