@@ -407,7 +407,7 @@ fn a_conoid_has_a_cut_for_each_speed_and_the_same_bytes_on_any_number_of_threads
         assert!(read(&one) == read(&four), "{name}");
     }
     let csv = fs::read_to_string(one.directory.path().join("output/c.csv")).expect("a table");
-    assert!(csv.starts_with("z_mm,rpm,cam_deg,crank_deg,x_mm,dx_mm,lift_mm,"), "{csv}");
+    assert!(csv.starts_with("z_mm,cam_deg,crank_deg,x_mm,dx_mm,lift_mm,"), "{csv}");
     assert!(!csv.contains("NaN") && csv.lines().count() == 1 + 4 * 36);
     let stl = fs::read(one.directory.path().join("output/c.stl")).expect("a mesh");
     let count = u32::from_le_bytes([stl[80], stl[81], stl[82], stl[83]]);
@@ -474,6 +474,48 @@ fn what_makes_no_conoid_is_told() {
     let report = report(&found);
     assert_eq!(report["rpm"], serde_json::json!([20.0, 25.0, 30.0, 35.0]));
     assert!(report["between"]["residual_max_n"].as_f64().is_some_and(|force| force < 2.0), "{report}");
+}
+
+/// The ladder gets finer from row to row: less is left, more arcs are laid; the advice keeps the limit.
+#[test]
+fn trade_measures_a_ladder_and_advises() {
+    for (kind, rows) in [("rotary", 9), ("translating", 17)] {
+        let run = camgen(&["trade", kind, "--json", "--residual", "5N"]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        let report = report(&run);
+        let found = report["rows"].as_array().expect("rows");
+        assert_eq!(found.len(), rows, "{report}");
+        let of = |row: &Value, key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
+        assert!(of(&found[8], "residual_n") < 0.05 * of(&found[0], "residual_n"));
+        assert!(found[..9].windows(2).all(|pair| of(&pair[0], "arcs") <= of(&pair[1], "arcs")));
+        assert!(found.iter().all(|row| of(row, "total_us") > 0.0 && of(row, "bytes") > 1e4));
+        assert!(report["advice"].as_str().is_some_and(|advice| advice.contains("cheapest")), "{report}");
+        let stem = format!("dpi-trade-{kind}-35rpm");
+        assert_eq!(files(run.directory.path()), [format!("{stem}.csv"), format!("{stem}.svg")]);
+    }
+    assert_eq!(camgen(&["trade", "conoid"]).code, 2);
+}
+
+#[test]
+fn sides_and_named_accuracies() {
+    let arcs = |args: &[&str]| {
+        let run = camgen(&[&["rotary", "--json", "--format", "dxf"], args].concat());
+        assert_eq!(run.code, 0, "{args:?}: {}", run.err);
+        let report = report(&run);
+        let gap = report["rolling"]["gap_mm"].as_f64().expect("a gap");
+        (report["outline"]["arcs"].as_u64().expect("a count"), gap)
+    };
+    let (draft, standard, fine) =
+        (arcs(&["--accuracy", "draft"]), arcs(&["--accuracy", "standard"]), arcs(&["--accuracy", "fine"]));
+    assert!(draft.0 < standard.0 && standard.0 < fine.0);
+    assert_eq!(standard, arcs(&[]));
+    // Metal in the way is a negative gap, metal missing a positive one.
+    assert!(arcs(&["--side", "outside"]).1 < 0.0 && arcs(&["--side", "inside"]).1 > 0.0);
+    for side in ["outside", "inside"] {
+        assert_eq!(camgen(&["translating", "--side", side]).code, 0);
+        assert_eq!(camgen(&["conoid", "--rpm", "20,35", "--side", side]).code, 0);
+    }
+    assert_eq!(camgen(&["rotary", "--accuracy", "fine", "--tolerance", "5um"]).code, 2);
 }
 
 /// The pictures in the README are the pictures the program makes.

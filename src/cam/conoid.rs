@@ -29,6 +29,10 @@ use rayon::prelude::*;
 const SLICES: u32 = 6;
 /// Newton steps to the roller that touches a cut.
 const CUT_STEPS: usize = 20;
+/// Least distance of two sections over the axial travel: nearer, the splines along the axis multiply their roundings.
+const LEAST_DISTANCE: f64 = 1e-3;
+/// Halvings of the last growth: to a micrometre of a metre.
+const BISECTIONS: u32 = 14;
 /// Growth of the prime radius while the surface is too sharp along its axis, and how often it is tried.
 const GROWTH: f64 = 1.01;
 const GROWTHS: usize = 700;
@@ -81,6 +85,18 @@ pub enum ConoidError {
         /// The speed, rpm.
         rpm: f64,
     },
+    /// Two sections would lie nearly in one plane.
+    #[error(
+        "the speeds {first} and {second} are too near to each other: their sections would lie {apart_mm:e} mm apart"
+    )]
+    TooNear {
+        /// The slower, rpm.
+        first: f64,
+        /// The faster, rpm.
+        second: f64,
+        /// Their distance along the axis, mm.
+        apart_mm: f64,
+    },
     /// No speed at all.
     #[error("a conoid needs a speed")]
     NoSpeed,
@@ -88,7 +104,10 @@ pub enum ConoidError {
     #[error("{0}; see transition.width, buffer.lead and cam.cam_turns_per_crank_turn")]
     Law(#[from] LawError),
     /// `auto` found nothing.
-    #[error("{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, or give cam.base_radius")]
+    #[error(
+        "{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, make conoid.axial_travel longer \
+         (the surface may be too sharp along the axis), or give cam.base_radius"
+    )]
     Size(#[from] size::NoRadius),
 }
 
@@ -171,6 +190,12 @@ impl Conoid {
             let place = |index: usize| data.axial_travel * index as f64 / (speeds.len() - 1) as f64;
             (0..speeds.len()).map(place).collect::<Vec<f64>>()
         };
+        let pairs = positions.iter().zip(positions.iter().skip(1)).zip(speeds.iter().zip(speeds.iter().skip(1)));
+        for ((a, b), (first, second)) in pairs {
+            if b - a < LEAST_DISTANCE * data.axial_travel {
+                return Err(ConoidError::TooNear { first: *first, second: *second, apart_mm: 1e3 * (b - a) });
+            }
+        }
         let unit = |index: usize| {
             let values: Vec<f64> = (0..speeds.len()).map(|other| f64::from(u8::from(other == index))).collect();
             Spline::not_a_knot(&positions, &values)
@@ -204,22 +229,59 @@ impl Conoid {
         };
         let radii: Result<Vec<f64>, _> = self.slices().par_iter().map(of_slice).collect();
         let mut radius = radii?.into_iter().fold(required.least, f64::max);
-        for _ in 0..GROWTHS {
-            self.follower = self.follower_at(radius);
-            if self.sharpest().value * required.convex_pitch_radius <= 1.0 + 1e-9 {
-                return Ok(radius);
+        let keeps = |conoid: &mut Self, radius: f64| {
+            conoid.follower = conoid.follower_at(radius);
+            conoid.sharpest().value * required.convex_pitch_radius <= 1.0 + 1e-9
+        };
+        if !keeps(self, radius) {
+            let mut failing = radius;
+            let grown = (0..GROWTHS).find_map(|_| {
+                (failing, radius) = (radius, radius * GROWTH);
+                keeps(self, radius).then_some(radius)
+            });
+            let mut passing = grown.ok_or(size::NoRadius)?;
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (failing + passing);
+                if keeps(self, middle) { passing = middle } else { failing = middle }
             }
-            radius *= GROWTH;
+            radius = passing;
         }
-        Err(size::NoRadius)
+        // A flank that leans can reach nearer to the axis than the base radius.
+        self.follower = self.follower_at(radius);
+        let wall = required.least - self.machine.roller.radius - self.smallest_radius().value;
+        Ok(if wall > 0.0 { radius + wall } else { radius })
     }
 
-    /// Places along the axis at which the surface is looked at: the sections and some between them, m.
+    /// Places along the axis at which the roller may stand and the surface is looked at, m: the sections and some between
+    /// them.
     #[must_use]
     pub fn slices(&self) -> Vec<f64> {
         let pairs = self.positions.iter().zip(self.positions.iter().skip(1));
         let between = pairs.flat_map(|(a, b)| (0..SLICES).map(move |i| a + (b - a) * f64::from(i) / f64::from(SLICES)));
         between.chain(self.positions.last().copied()).collect()
+    }
+
+    /// The same with the ends of the cam.
+    fn slices_and_ends(&self) -> Vec<f64> {
+        let (low, high) = self.ends();
+        let mut all = self.slices();
+        all.extend([low, high]);
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+
+    /// The same with places as far beyond the ends as the contact wanders: spheres there make the metal at the ends, though
+    /// no roller ever stands there.
+    fn slices_of_metal(&self) -> Vec<f64> {
+        let mut all = self.slices_and_ends();
+        let wander =
+            self.worst_of(&all, |conoid, piece, angle, z| conoid.wander(&conoid.lift(piece, angle, z)).0.abs());
+        let ((low, high), reach) = (self.ends(), wander.value);
+        if reach > 0.0 {
+            all.extend([low - reach, low - 0.5 * reach, high + 0.5 * reach, high + reach]);
+        }
+        all
     }
 
     /// Ends of the cam along its axis, m.
@@ -364,21 +426,31 @@ impl Conoid {
         (mean + apart, mean - apart)
     }
 
-    /// The sharpest convex place of the pitch surface over all slices: the curvature, 1/m.
+    /// The sharpest convex place of the pitch surface: the curvature, 1/m.
     #[must_use]
     pub fn sharpest(&self) -> Worst {
-        self.worst(|conoid, piece, angle, z| conoid.principal_curvatures(piece, angle, z).0)
+        self.worst_of_metal(|conoid, piece, angle, z| conoid.principal_curvatures(piece, angle, z).0)
+    }
+
+    /// The largest value of something over all spheres that make the metal.
+    #[must_use]
+    pub fn worst_of_metal(&self, value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
+        self.worst_of(&self.slices_of_metal(), value)
     }
 
     /// The largest value of something over the surface: over every turn of the slices.
     #[must_use]
     pub fn worst(&self, value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
+        self.worst_of(&self.slices(), value)
+    }
+
+    fn worst_of(&self, slices: &[f64], value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
         let in_slice = |z: &f64| {
             let plane = self.plane(*z);
             let found = extremes::largest_without_slope(&plane, |piece, angle| value(self, piece, angle, *z));
             Worst { value: found.value, angle: found.at, z: *z }
         };
-        let all: Vec<Worst> = self.slices().par_iter().map(in_slice).collect();
+        let all: Vec<Worst> = slices.par_iter().map(in_slice).collect();
         let none = Worst { value: f64::NEG_INFINITY, angle: 0.0, z: 0.0 };
         all.into_iter().fold(none, |best, next| if next.value > best.value { next } else { best })
     }
@@ -531,7 +603,18 @@ impl Conoid {
     /// Largest distance of the contact from the roller's plane along the axis, m.
     #[must_use]
     pub fn largest_wander(&self) -> Worst {
-        self.worst(|conoid, piece, angle, z| conoid.wander(&conoid.lift(piece, angle, z)).0.abs())
+        let within = self.slices();
+        self.worst_of(&within, |conoid, piece, angle, z| conoid.wander(&conoid.lift(piece, angle, z)).0.abs())
+    }
+
+    /// The smallest radius of the cam about its axis, m, and where it is.
+    #[must_use]
+    pub fn smallest_radius(&self) -> Worst {
+        let within = self.slices_and_ends();
+        let worst = self.worst_of(&within, |conoid, piece, angle, z| {
+            conoid.cut(piece, angle, z).map_or(0.0, |(frame, _)| -frame.point.norm())
+        });
+        Worst { value: -worst.value, ..worst }
     }
 }
 

@@ -20,7 +20,7 @@ const FLAT_OVER_ROLLER: f64 = 1.0;
 const RUN_OUT_OVER_ROLLER: f64 = 0.1;
 
 /// What is nearer to an end of the plate than this is the end, m.
-const END_WIDTH: f64 = 1e-6;
+const END_WIDTH: f64 = 1e-4;
 
 /// Whole millimetres a height that was not given is rounded up to, m.
 const HEIGHT_STEP: f64 = 1e-3;

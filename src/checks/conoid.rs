@@ -135,7 +135,7 @@ fn curvature(conoid: &Conoid) -> [Finding; 2] {
 
 /// The largest ball that gets into the hollows of the cam's surface.
 fn cutter_radius(conoid: &Conoid) -> Finding {
-    let hollow = conoid.worst(|conoid, piece, angle, z| -conoid.principal_curvatures(piece, angle, z).1);
+    let hollow = conoid.worst_of_metal(|conoid, piece, angle, z| -conoid.principal_curvatures(piece, angle, z).1);
     let limit = conoid.machine.limits.cutter_radius;
     let radius = if hollow.value > 0.0 { 1.0 / hollow.value + conoid.machine.roller.radius } else { f64::INFINITY };
     let kept = limit.map_or(Verdict::Info, |limit| verdict(limit <= radius));
@@ -147,11 +147,13 @@ fn cutter_radius(conoid: &Conoid) -> Finding {
     }
 }
 
+/// Metal between the bore and the nearest place of the surface.
 fn wall(conoid: &Conoid) -> Option<Finding> {
-    let left = conoid.base_radius() - conoid.machine.cam.bore_reach()?;
-    let limit = conoid.machine.limits.wall;
+    let bore = conoid.machine.cam.bore_reach()?;
+    let nearest = conoid.smallest_radius();
+    let (left, limit) = (nearest.value - bore, conoid.machine.limits.wall);
     let kept = left > 0.0 && left >= limit * (1.0 - 1e-9);
-    Some(finding("wall", 1e3 * left, Some(1e3 * limit), "mm", verdict(kept)))
+    Some(placed(conoid, &nearest, &finding("wall", 1e3 * left, Some(1e3 * limit), "mm", verdict(kept)), None))
 }
 
 fn tangency(subject: &Subject<'_>) -> Option<Finding> {

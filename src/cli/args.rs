@@ -29,6 +29,8 @@ pub(super) enum Command {
     Translating(TranslatingArgs),
     /// One cam for many speeds, shifted along its axis as the speed changes: sections and a solid
     Conoid(ConoidArgs),
+    /// Speed against accuracy, measured here and now: time by stage, arcs, bytes, true error and the force that is left
+    Trade(TradeArgs),
     /// Prove a DXF file, also one edited or written by another program: one closed tangent outline that gives the law?
     Check(CheckArgs),
     /// The machine files carried in the program
@@ -46,9 +48,13 @@ pub(super) struct CommonArgs {
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
     pub(super) rpm: Vec<Speed>,
 
-    /// Largest distance of the outline from the exact curve, along its normal
-    #[arg(long, value_name = "LENGTH", default_value = "5um", value_parser = tolerance, allow_hyphen_values = true)]
-    pub(super) tolerance: f64,
+    /// Largest distance of the outline from the exact curve, along its normal [default: 5um]
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true, conflicts_with = "accuracy")]
+    pub(super) tolerance: Option<f64>,
+
+    /// A named tolerance: draft (50 µm), standard (5 µm) or fine (0.5 µm); `camgen trade` tells what each costs
+    #[arg(long, value_name = "NAME")]
+    pub(super) accuracy: Option<Accuracy>,
 
     /// Overrides one key of the machine file, e.g. --set follower.roller.radius=25mm; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
@@ -80,6 +86,16 @@ impl CommonArgs {
             [Speed::One(rpm)] => Ok(*rpm),
             [Speed::Range(..)] => Err(Failure("this cam is cut for one speed, not for a range".into())),
             more => Err(Failure(format!("this cam is cut for one speed, not {}", more.len()))),
+        }
+    }
+
+    /// Tolerance of the outline, m.
+    pub(super) fn tolerance(&self) -> f64 {
+        match (self.tolerance, self.accuracy) {
+            (Some(tolerance), _) => tolerance,
+            (None, Some(Accuracy::Draft)) => 50e-6,
+            (None, None | Some(Accuracy::Standard)) => 5e-6,
+            (None, Some(Accuracy::Fine)) => 0.5e-6,
         }
     }
 
@@ -149,6 +165,28 @@ pub(super) struct TranslatingArgs {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct TradeArgs {
+    /// Which cam of the machine: rotary or translating
+    #[arg(default_value = "rotary", value_name = "KIND")]
+    pub(super) kind: CamKind,
+
+    #[command(flatten)]
+    pub(super) common: CommonArgs,
+
+    /// Force that may be left: the advice is the cheapest setting that keeps it [default: 0.01 % of the largest inertia]
+    #[arg(long, value_name = "FORCE", value_parser = force)]
+    pub(super) residual: Option<f64>,
+
+    /// Directory for the table and the picture, created when missing
+    #[arg(long, value_name = "DIR", default_value = "output")]
+    pub(super) out: PathBuf,
+
+    /// File stem [default: MACHINE-trade-KIND-RPMrpm]
+    #[arg(long, value_name = "STEM", value_parser = stem)]
+    pub(super) name: Option<String>,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct ConoidArgs {
     #[command(flatten)]
     pub(super) common: CommonArgs,
@@ -159,6 +197,24 @@ pub(super) struct ConoidArgs {
     /// Largest force that may be left at the speeds between the sections; with --rpm A..B as few sections as keep it
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum SideOf {
+    Both,
+    Inside,
+    Outside,
+}
+
+/// Named points of the ladder that `trade` measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Accuracy {
+    /// 50 µm: a first look.
+    Draft,
+    /// 5 µm: what a shop cuts.
+    Standard,
+    /// 0.5 µm: a ground cam.
+    Fine,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -210,6 +266,10 @@ pub(super) struct FileArgs {
     /// Sheet for the SVG preview instead of the built-in one, see templates/sheet.svg
     #[arg(long, value_name = "FILE")]
     pub(super) template: Option<PathBuf>,
+
+    /// Side of the exact curve the outline keeps to: both, inside (never metal in the way) or outside (never cut too deep)
+    #[arg(long, value_name = "SIDE", default_value = "both")]
+    pub(super) side: SideOf,
 
     /// Write the files although a check failed (the exit code stays 1)
     #[arg(long)]

@@ -33,7 +33,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let (machine, _) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
     let bytes = read(&args.file)?;
-    let tolerance_mm = 1e3 * args.common.tolerance;
+    let tolerance_mm = 1e3 * args.common.tolerance();
     let reading = reading::read(&bytes, file::join_reach(tolerance_mm))
         .map_err(|error| Failure(format!("`{}` is {error}", args.file.display())))?;
     let cam: Box<dyn Cam> = match args.cam {

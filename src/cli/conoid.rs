@@ -18,6 +18,9 @@ use camgen::output::number::shortest;
 use camgen::output::proof::{self, Written};
 use camgen::output::{csv, json, step, stl, svg};
 
+/// More speeds than these are named by the first and the last.
+const MOST_NAMED: usize = 6;
+
 pub(super) fn run(args: &ConoidArgs) -> Result<Outcome, Failure> {
     let (machine, machine_name) = args.common.machine()?;
     let files = &args.files;
@@ -27,11 +30,11 @@ pub(super) fn run(args: &ConoidArgs) -> Result<Outcome, Failure> {
         Some(asked) => asked.contains(&name),
         None => DEFAULT_FORMATS.contains(&name),
     };
-    let tolerance = args.common.tolerance;
-    let (parts, refusal) = match sections(&conoid, tolerance) {
+    let tolerance = args.common.tolerance();
+    let (parts, refusal) = match sections(&conoid, files.fit(tolerance)) {
         Ok(parts) => (Some(parts), None),
-        Err(error @ (OutlineError::Fit(_) | OutlineError::Undercut(_))) if undercut(&conoid) => {
-            (None, Some(error.to_string()))
+        Err(OutlineError::Fit(_) | OutlineError::Undercut(_)) if undercut(&conoid) => {
+            (None, Some("the surface folds over itself where the roller is larger than it".to_owned()))
         }
         Err(error) => return Err(Failure::new(error)),
     };
@@ -111,7 +114,11 @@ fn solve(args: &ConoidArgs, machine: &Machine) -> Result<(Conoid, Residual, Stri
     let conoid = Conoid::solve(machine, &speeds).map_err(Failure::new)?;
     let left = between::residual(&conoid, Interpolation::Smooth);
     let names: Vec<String> = cuts(&conoid).iter().map(|(rpm, _)| shortest(*rpm)).collect();
-    Ok((conoid, left, names.join("-")))
+    let name = match names.as_slice() {
+        [first, .., last] if names.len() > MOST_NAMED => format!("{first}-{last}"),
+        _ => names.join("-"),
+    };
+    Ok((conoid, left, name))
 }
 
 /// Whether the roller is larger than the surface allows.

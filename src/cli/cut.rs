@@ -1,11 +1,11 @@
 //! What every command that cuts a plane cam does: draw, prove, check, write, report.
 
-use super::args::{CommonArgs, FileArgs, STL};
+use super::args::{CommonArgs, FileArgs, STL, SideOf};
 use super::{Failure, Outcome, print, tell, text};
 use camgen::cam::Cam;
 use camgen::checks::rolling::Rolled;
 use camgen::checks::{self, Finding, Subject, rolling};
-use camgen::drawing::outline::OutlineError;
+use camgen::drawing::outline::{Fit, OutlineError, Side};
 use camgen::drawing::{Part, Report, Sheet, Table};
 use camgen::output::files::{Output, write_all};
 use camgen::output::formats::{DEFAULT_FORMATS, FORMATS, Job};
@@ -31,6 +31,15 @@ pub(super) struct Cut<'a> {
 }
 
 impl FileArgs {
+    pub(super) fn fit(&self, tolerance: f64) -> Fit {
+        let side = match self.side {
+            SideOf::Both => Side::Both,
+            SideOf::Inside => Side::Inside,
+            SideOf::Outside => Side::Outside,
+        };
+        Fit { tolerance, side }
+    }
+
     pub(super) fn stem(&self, machine: &str, command: &str, rpm: f64) -> String {
         self.name.clone().unwrap_or_else(|| format!("{machine}-{command}-{}rpm", shortest(rpm)))
     }
@@ -57,7 +66,7 @@ pub(super) fn cut(job: &Cut<'_>) -> Result<Outcome, Failure> {
     };
     // The proof is of the bytes that would be cut from, not of what they were made of.
     let written = part.as_ref().map(|part| proof::write(part, files.dxf_version)).transpose().map_err(Failure::new)?;
-    let tolerance_mm = 1e3 * common.tolerance;
+    let tolerance_mm = 1e3 * common.tolerance();
     let outline = written.as_ref().map(|written| &written.outline);
     let rolled = outline.map(|outline| rolling::roll(job.cam, outline, tolerance_mm));
     let balancing = part.as_ref().and_then(|part| part.balancing.as_ref());

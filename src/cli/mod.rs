@@ -7,6 +7,7 @@ mod cut;
 mod machines;
 mod rotary;
 mod text;
+mod trade;
 mod translating;
 
 use args::{Cli, Command};
@@ -39,6 +40,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Rotary(args) => rotary::run(&args),
         Command::Translating(args) => translating::run(&args),
         Command::Conoid(args) => conoid::run(&args),
+        Command::Trade(args) => trade::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Machines(args) => machines::run(&args),
     };

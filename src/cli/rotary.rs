@@ -11,7 +11,7 @@ use camgen::output::files::Output;
 pub(super) fn run(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let (mut machine, machine_name) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
-    let (tolerance, files) = (args.common.tolerance, &args.files);
+    let (tolerance, files) = (args.common.tolerance(), &args.files);
     let template = cut::template(files)?;
     if let Some(radius) = args.cutter {
         // The cutter that is asked for is the one that has to get in.
@@ -32,7 +32,7 @@ pub(super) fn run(args: &RotaryArgs) -> Result<Outcome, Failure> {
         files,
         template: &template,
         stem: &stem,
-        part: &|| drawing::part(&rotary, tolerance),
+        part: &|| drawing::part(&rotary, files.fit(tolerance)),
         report: &|part, rolled, findings| drawing::report(&rotary, part, rolled, tolerance, findings),
         sheet: &|part, report| sheet::disc(&rotary, part, report),
         table: &|| drawing::table(&rotary, files.samples),

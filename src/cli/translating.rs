@@ -13,7 +13,7 @@ const STATIONS: u32 = 1800;
 pub(super) fn run(args: &TranslatingArgs) -> Result<Outcome, Failure> {
     let (machine, machine_name) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
-    let (tolerance, files) = (args.common.tolerance, &args.files);
+    let (tolerance, files) = (args.common.tolerance(), &args.files);
     let template = cut::template(files)?;
     let solver = match (args.solver, args.stations) {
         (SolverKind::Paper, stations) => Solver::Paper { stations: stations.unwrap_or(STATIONS) },
@@ -29,7 +29,7 @@ pub(super) fn run(args: &TranslatingArgs) -> Result<Outcome, Failure> {
         files,
         template: &template,
         stem: &files.stem(&machine_name, "translating", rpm),
-        part: &|| drawing::plate_part(&plate, tolerance),
+        part: &|| drawing::plate_part(&plate, files.fit(tolerance)),
         report: &|part, rolled, findings| drawing::plate_report(&plate, part, rolled, tolerance, findings),
         sheet: &|part, report| sheet::plate(&plate, part, report),
         table: &|| drawing::plate_table(&plate, files.samples),

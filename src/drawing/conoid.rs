@@ -1,7 +1,7 @@
 //! The drawings of a conoid: a cut for each section, the flank, the point table and the report.
 
 use super::flank::Flank;
-use super::outline::{self, MILLIMETRES, OutlineError};
+use super::outline::{self, Fit, MILLIMETRES, OutlineError};
 use super::{Part, Table, as_turned, bore, point_as_turned};
 use crate::cam::between::Residual;
 use crate::cam::conoid::{Conoid, Worst};
@@ -11,9 +11,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 /// Columns of the table, in order.
-pub const COLUMNS: [&str; 24] = [
+pub const COLUMNS: [&str; 26] = [
     "z_mm",
-    "rpm",
     "cam_deg",
     "crank_deg",
     "x_mm",
@@ -22,19 +21,22 @@ pub const COLUMNS: [&str; 24] = [
     "velocity_mm_per_rad",
     "acceleration_mm_per_rad2",
     "jerk_mm_per_rad3",
-    "lift_per_z",
     "pitch_x_mm",
     "pitch_y_mm",
     "profile_x_mm",
     "profile_y_mm",
+    "pressure_angle_deg",
+    "pitch_curvature_radius_mm",
+    "profile_curvature_radius_mm",
+    "roller_force_n",
+    "torque_nm",
+    "rpm",
+    "lift_per_z",
     "contact_x_mm",
     "contact_y_mm",
     "contact_z_mm",
-    "pressure_angle_deg",
     "axial_angle_deg",
-    "profile_curvature_radius_mm",
     "principal_curvature_radius_mm",
-    "roller_force_n",
     "axial_force_n",
 ];
 
@@ -50,10 +52,11 @@ pub fn cuts(conoid: &Conoid) -> Vec<(f64, f64)> {
 ///
 /// # Errors
 /// [`OutlineError`] when a section cannot be drawn.
-pub fn sections(conoid: &Conoid, tolerance: f64) -> Result<Vec<Part>, OutlineError> {
+pub fn sections(conoid: &Conoid, fit: impl Into<Fit>) -> Result<Vec<Part>, OutlineError> {
+    let fit = fit.into();
     let machine = &conoid.machine;
     let section = |&(_, z): &(f64, f64)| {
-        let outline = outline::section(conoid, z, MILLIMETRES * tolerance)?;
+        let outline = outline::section(conoid, z, fit)?;
         let contour = as_turned(machine, outline.contour);
         Ok(Part { outline: outline::Outline { contour, ..outline }, bore: bore(machine), balancing: None })
     };
@@ -82,7 +85,6 @@ pub fn table(conoid: &Conoid, samples: u32) -> Table {
             let force = conoid.roller_force(section, rpm, piece, angle);
             let row = [
                 MILLIMETRES * z,
-                rpm,
                 cam_deg,
                 (cam_deg / machine.cam.turns_per_crank_turn) % 360.0,
                 MILLIMETRES * state.overrun,
@@ -91,19 +93,22 @@ pub fn table(conoid: &Conoid, samples: u32) -> Table {
                 MILLIMETRES * lift[1][0],
                 MILLIMETRES * lift[2][0],
                 MILLIMETRES * lift[3][0],
-                lift[0][1],
                 pitch.x,
                 pitch.y,
                 profile.map_or(f64::NAN, |p| p.x),
                 profile.map_or(f64::NAN, |p| p.y),
+                plane.pressure_angle.to_degrees(),
+                MILLIMETRES / plane.pitch.curvature,
+                cut.map_or(f64::NAN, |frame| MILLIMETRES / frame.curvature),
+                force,
+                force * lift[1][0],
+                rpm,
+                lift[0][1],
                 touch.x,
                 touch.y,
                 MILLIMETRES * contact.point.z,
-                plane.pressure_angle.to_degrees(),
                 libm::asin(-contact.normal.z).to_degrees(),
-                cut.map_or(f64::NAN, |frame| MILLIMETRES / frame.curvature),
                 MILLIMETRES / conoid.principal_curvatures(piece, angle, z).0,
-                force,
                 -force * lift[0][1],
             ];
             // A negative zero is zero.
@@ -129,7 +134,29 @@ pub struct ConoidReport {
     /// What is left at the speeds between the sections.
     pub between: BetweenReport,
     pub checks: Vec<Finding>,
+    /// The outlines of all sections together.
+    pub outline: Option<OutlinesReport>,
+    pub force: ConoidForce,
     pub files: Vec<String>,
+}
+
+/// The outlines of all sections together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct OutlinesReport {
+    pub arcs: usize,
+    pub lines: usize,
+    pub deviation_max_mm: f64,
+    pub tangent_break_max_deg: f64,
+}
+
+/// Forces at the speeds of the sections, and what is left between them.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct ConoidForce {
+    pub inertia_max_n: f64,
+    pub residual_max_n: f64,
+    pub axial_force_max_n: f64,
 }
 
 /// Measures of a conoid.
@@ -272,6 +299,25 @@ pub fn report(conoid: &Conoid, found: &Found<'_>, checks: Vec<Finding>) -> Conoi
             residual_straight_strips_max_n: straight.force,
         },
         checks,
+        outline: found.parts.map(outlines),
+        force: ConoidForce {
+            inertia_max_n: conoid.machine.bed.largest_inertia(conoid.speeds.last().copied().unwrap_or(0.0)),
+            residual_max_n: left.force,
+            axial_force_max_n: found.axial_force,
+        },
         files: Vec::new(),
+    }
+}
+
+fn outlines(parts: &[Part]) -> OutlinesReport {
+    let vertices = parts.iter().flat_map(|part| &part.outline.contour.vertices);
+    let (lines, arcs): (Vec<&crate::contour::Vertex>, Vec<&crate::contour::Vertex>) =
+        vertices.partition(|vertex| vertex.bulge == 0.0);
+    let breaks = parts.iter().flat_map(|part| part.outline.contour.tangent_breaks());
+    OutlinesReport {
+        arcs: arcs.len(),
+        lines: lines.len(),
+        deviation_max_mm: parts.iter().map(|part| part.outline.deviation).fold(0.0, f64::max),
+        tangent_break_max_deg: breaks.map(f64::abs).fold(0.0, f64::max).to_degrees(),
     }
 }

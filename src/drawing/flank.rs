@@ -45,9 +45,9 @@ pub struct Flank {
 
 /// The splines would need more control points than is sensible.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("the flank cannot be drawn as splines within {tolerance} mm: {found} mm were reached")]
+#[error("the flank cannot be drawn as splines to {tolerance} mm, {SHARE} of the tolerance: {found:.6} mm were reached")]
 pub struct FlankError {
-    /// The tolerance, mm.
+    /// What they may be off, mm.
     pub tolerance: f64,
     /// What was reached, mm.
     pub found: f64,
@@ -110,13 +110,12 @@ impl Exact<'_> {
 /// Places along the axis (mm) at which the surface is cut: the sections, `parts` to each interval, and the ends.
 fn stations(conoid: &Conoid, parts: u32) -> Vec<f64> {
     let (low, high) = conoid.ends();
-    let pairs = conoid.positions.iter().zip(conoid.positions.iter().skip(1));
+    let mut joints: Vec<f64> = conoid.positions.iter().copied().chain([low, high]).collect();
+    joints.sort_by(f64::total_cmp);
+    joints.dedup();
+    let pairs = joints.iter().zip(joints.iter().skip(1));
     let inner = pairs.flat_map(|(a, b)| (0..parts).map(move |i| a + (b - a) * f64::from(i) / f64::from(parts)));
-    let mut all: Vec<f64> =
-        inner.chain(conoid.positions.last().copied()).chain([low, high]).map(|z| MILLIMETRES * z).collect();
-    all.sort_by(f64::total_cmp);
-    all.dedup();
-    all
+    inner.chain(joints.last().copied()).map(|z| MILLIMETRES * z).collect()
 }
 
 /// The flank of a conoid within `tolerance` (mm).
@@ -146,7 +145,7 @@ pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, FlankError> {
             parts *= 2;
         }
     }
-    Err(FlankError { tolerance, found })
+    Err(FlankError { tolerance: SHARE * tolerance, found })
 }
 
 fn nan_max(a: f64, b: f64) -> f64 {

@@ -21,7 +21,7 @@ use crate::checks::balance::{self, Balancing};
 use crate::contour::{Contour, Extents, Vertex};
 use crate::machine::{Machine, Rotation};
 use nalgebra::Vector2;
-use outline::{MILLIMETRES, Outline, OutlineError};
+use outline::{Fit, MILLIMETRES, Outline, OutlineError};
 use std::f64::consts::PI;
 
 /// Layer of a cut file.
@@ -146,8 +146,8 @@ fn bore(machine: &Machine) -> Option<Entity> {
 ///
 /// # Errors
 /// [`OutlineError`] when the profile cannot be drawn.
-pub fn part(rotary: &Rotary, tolerance: f64) -> Result<Part, OutlineError> {
-    let outline = outline::profile(&rotary.curves, MILLIMETRES * tolerance)?;
+pub fn part(rotary: &Rotary, fit: impl Into<Fit>) -> Result<Part, OutlineError> {
+    let outline = outline::profile(&rotary.curves, fit)?;
     let outline = Outline { contour: as_turned(&rotary.machine, outline.contour), ..outline };
     let bore = bore(&rotary.machine);
     let (bands, wall) = (rotary.machine.cam.balance, MILLIMETRES * rotary.machine.limits.wall);
@@ -162,8 +162,8 @@ pub fn part(rotary: &Rotary, tolerance: f64) -> Result<Part, OutlineError> {
 ///
 /// # Errors
 /// [`OutlineError`] when the outline cannot be drawn.
-pub fn plate_part(plate: &Plate, tolerance: f64) -> Result<Part, OutlineError> {
-    Ok(Part { outline: outline::plate(plate, MILLIMETRES * tolerance)?, bore: None, balancing: None })
+pub fn plate_part(plate: &Plate, fit: impl Into<Fit>) -> Result<Part, OutlineError> {
+    Ok(Part { outline: outline::plate(plate, fit)?, bore: None, balancing: None })
 }
 
 /// A contour of a clockwise cam as it lies in the drawing of this one.

@@ -27,6 +27,51 @@ const LARGEST_COORDINATE: f64 = 1e6;
 /// The pitch curve on a sheet is only looked at: a fifth of a thin pen, mm.
 const PITCH_TOLERANCE: f64 = 0.05;
 
+/// On which side of the exact curve an outline may lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Side {
+    /// On either.
+    #[default]
+    Both,
+    /// Within the metal of the exact cam: never metal in the way.
+    Inside,
+    /// Outside of it: never cut too deep.
+    Outside,
+}
+
+/// How near an outline keeps to the exact curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// Largest distance, m.
+    pub tolerance: f64,
+    /// On which side.
+    pub side: Side,
+}
+
+impl From<f64> for Fit {
+    fn from(tolerance: f64) -> Self {
+        Self { tolerance, side: Side::Both }
+    }
+}
+
+impl Fit {
+    /// How far inwards the middle of the band lies, m, and half its width, mm. A band on one side is as wide as the
+    /// tolerance, one on both sides twice that.
+    fn band(&self) -> (f64, f64) {
+        match self.side {
+            Side::Both => (0.0, MILLIMETRES * self.tolerance),
+            Side::Inside => (0.5 * self.tolerance, 0.5 * MILLIMETRES * self.tolerance),
+            Side::Outside => (-0.5 * self.tolerance, 0.5 * MILLIMETRES * self.tolerance),
+        }
+    }
+}
+
+/// The deviation from the exact curve of an outline that was fitted to the middle of a band.
+fn from_exact(outline: Outline, shift: f64) -> Outline {
+    let deviation = outline.deviation + MILLIMETRES * shift.abs();
+    Outline { deviation, ..outline }
+}
+
 /// A closed outline with its proof.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
@@ -72,7 +117,7 @@ pub enum OutlineError {
     /// A section of a conoid has a corner.
     #[error(
         "the sections of a conoid have a corner at {cam_deg:.3} deg: a crowned roller needs a smooth surface; use \
-         transition.kind = \"run-up\" or \"blend\""
+         transition.kind = \"run-up\" or \"blend\", and no buffer.lead"
     )]
     Corner {
         /// Cam angle, degrees.
@@ -83,14 +128,15 @@ pub enum OutlineError {
     Fit(#[from] FitError),
 }
 
-/// The profile of a disc as an outline within `tolerance` (mm). Where it is undercut the loops are left out: what can
+/// The profile of a disc as an outline. Where it is undercut the loops are left out: what can
 /// be cut is drawn, with a sharp edge where the loop was.
 ///
 /// # Errors
 /// [`OutlineError`] when the loops leave no outline, it is too large, or the tolerance cannot be kept.
-pub fn profile<L: Law, F: Follower>(curves: &Curves<L, F>, tolerance: f64) -> Result<Outline, OutlineError> {
-    let roller = curves.follower.roller_radius();
-    parallel(curves, roller, tolerance, &envelope::losses(curves)?)
+pub fn profile<L: Law, F: Follower>(curves: &Curves<L, F>, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
+    let (shift, half) = fit.into().band();
+    let distance = curves.follower.roller_radius() + shift;
+    Ok(from_exact(parallel(curves, distance, half, &envelope::losses(curves)?)?, shift))
 }
 
 /// The path of the centre of a cutter (radius in m) along the profile, within `tolerance` (mm): parallel to the pitch
@@ -125,16 +171,18 @@ pub fn pitch<L: Law, F: Follower>(curves: &Curves<L, F>) -> Result<Outline, Outl
     parallel(curves, 0.0, PITCH_TOLERANCE, &[])
 }
 
-/// The cut of a conoid at z (m) as an outline within `tolerance` (mm), of a clockwise cam.
+/// The cut of a conoid at z (m) as an outline, of a clockwise cam.
 ///
 /// # Errors
 /// [`OutlineError`] when the surface is undercut or has corners, or the tolerance cannot be kept.
-pub fn section(conoid: &Conoid, z: f64, tolerance: f64) -> Result<Outline, OutlineError> {
+pub fn section(conoid: &Conoid, z: f64, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
+    let (shift, tolerance) = fit.into().band();
     let nowhere = Vector2::new(f64::NAN, f64::NAN);
     let broken =
         Frame { point: nowhere, tangent: nowhere, speed: f64::NAN, curvature: f64::NAN, curvature_slope: f64::NAN };
-    let frame =
-        |piece: usize, angle: f64| conoid.cut(piece, angle, z).map_or(broken, |(frame, _)| frame.scaled(MILLIMETRES));
+    let frame = |piece: usize, angle: f64| {
+        conoid.cut(piece, angle, z).map_or(broken, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
+    };
     let pieces = conoid.pieces();
     if let Some(corner) = extremes::corners(&conoid.plane(z)).first() {
         return Err(OutlineError::Corner { cam_deg: corner.angle.to_degrees() });
@@ -160,7 +208,7 @@ pub fn section(conoid: &Conoid, z: f64, tolerance: f64) -> Result<Outline, Outli
             outline.best_possible += chain.best_possible;
         }
     }
-    Ok(outline)
+    Ok(from_exact(outline, shift))
 }
 
 /// The pitch curve of a plate's lower flank, for the eye.
@@ -177,12 +225,13 @@ pub fn pitch_of_plate(plate: &Plate) -> Result<Vec<Segment>, OutlineError> {
     Ok(pairs.map(|(a, b)| Segment { start: a.point, end: b.point, bulge: a.bulge }).collect())
 }
 
-/// The plate as an outline within `tolerance` (mm): lower flank, straight run-out, end, the upper flank as its mirror
+/// The plate as an outline: lower flank, straight run-out, end, the upper flank as its mirror
 /// image, other end.
 ///
 /// # Errors
 /// [`OutlineError`] as for [`profile`], and when the flanks cross.
-pub fn plate(plate: &Plate, tolerance: f64) -> Result<Outline, OutlineError> {
+pub fn plate(plate: &Plate, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
+    let (shift, half) = fit.into().band();
     if !(plate.thinnest > 0.0) {
         return Err(OutlineError::Thin {
             thinnest_mm: MILLIMETRES * plate.thinnest,
@@ -191,11 +240,14 @@ pub fn plate(plate: &Plate, tolerance: f64) -> Result<Outline, OutlineError> {
         });
     }
     let curves = &plate.curves;
-    let flank = parallel(curves, curves.follower.roller_radius(), tolerance, &envelope::losses(curves)?)?;
+    let distance = curves.follower.roller_radius() + shift;
+    let flank = from_exact(parallel(curves, distance, half, &envelope::losses(curves)?)?, shift);
     let mut lower = flank.contour.vertices;
     let last = curves.law.pieces().len().saturating_sub(1);
-    let end = curves.profile(last, plate.stroke()).point * MILLIMETRES;
-    lower.extend([end, plate.run_out() * MILLIMETRES].map(|point| Vertex { point, bulge: 0.0 }));
+    let contact = curves.contact(last, plate.stroke()).pitch;
+    let end = contact.offset_inward(distance).point * MILLIMETRES;
+    let run_out = plate.run_out() * MILLIMETRES - contact.outward() * (MILLIMETRES * shift);
+    lower.extend([end, run_out].map(|point| Vertex { point, bulge: 0.0 }));
     // Mirrored and run the other way a segment keeps its bulge, which then belongs to its other end.
     let bulges = lower.iter().map(|vertex| vertex.bulge);
     let bulges: Vec<f64> = std::iter::once(0.0).chain(bulges).collect();
@@ -298,7 +350,7 @@ mod tests {
         let (e, rho, roller) = (0.012, 0.06, 0.015);
         let curves =
             Curves { law: EccentricCircle::new(e, rho), follower: TranslatingRoller::new(rho - e, 0.0, roller) };
-        let outline = profile(&curves, 0.005).expect("an outline");
+        let outline = profile(&curves, 5e-6).expect("an outline");
         assert_eq!(outline.contour.vertices.len(), 2);
         assert!(outline.deviation < 1e-12, "{}", outline.deviation);
         for segment in outline.contour.segments() {
@@ -313,7 +365,7 @@ mod tests {
         for overrides in [vec![], vec!["buffer.column=return"], vec!["follower.roller.offset=20mm"]] {
             let cam = rotary(&overrides);
             for tolerance in [0.1, 0.01, 0.005, 1e-3, 1e-4, 5e-5] {
-                let outline = profile(&cam.curves, tolerance).expect("an outline");
+                let outline = profile(&cam.curves, 1e-3 * tolerance).expect("an outline");
                 let breaks = outline.contour.tangent_breaks();
                 assert!(outline.deviation <= tolerance);
                 assert!(breaks.iter().all(|turn| turn.abs() < 1e-9), "{breaks:?}");
@@ -333,7 +385,7 @@ mod tests {
     #[test]
     fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
         let cam = rotary(&["buffer.column=return", "transition.kind=none"]);
-        let outline = profile(&cam.curves, 0.005).expect("an outline");
+        let outline = profile(&cam.curves, 5e-6).expect("an outline");
         let of_roller = outline.contour.segments().filter(|s| (s.radius() + 30.0).abs() < 1e-9).count();
         assert_eq!(of_roller, 2);
         assert!(outline.contour.tangent_breaks().iter().all(|turn| turn.abs() < 1e-9));
@@ -343,7 +395,7 @@ mod tests {
             vec!["cam.base_radius=30mm", "follower.roller.radius=80mm"],
         ] {
             let cam = rotary(&overrides);
-            let outline = profile(&cam.curves, 0.005).expect("an outline");
+            let outline = profile(&cam.curves, 5e-6).expect("an outline");
             let edges: Vec<f64> =
                 outline.contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-9).collect();
             assert_eq!(edges.len(), 2, "{overrides:?}: {edges:?}");
@@ -365,6 +417,6 @@ mod tests {
         let huge = rotary(&["cam.base_radius=1000m"]);
         assert!(matches!(profile(&huge.curves, 0.005), Err(OutlineError::TooLarge { .. })));
         let cam = rotary(&[]);
-        assert!(matches!(profile(&cam.curves, 1e-13), Err(OutlineError::Fit(_))));
+        assert!(matches!(profile(&cam.curves, 1e-16), Err(OutlineError::Fit(_))));
     }
 }

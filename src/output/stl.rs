@@ -1,6 +1,7 @@
 //! The conoid as a binary STL file in millimetres, for a first print: triangles on the exact surface.
 
 use crate::drawing::flank::{Flank, Mesh};
+use nalgebra::Vector3;
 
 /// Triangles as binary STL: 80 bytes of header, a count, 50 bytes a triangle.
 #[must_use]
@@ -11,8 +12,16 @@ pub fn write(flank: &Flank, bore_radius: Option<f64>) -> Vec<u8> {
     if let Some(start) = bytes.get_mut(..title.len()) {
         start.copy_from_slice(title);
     }
-    bytes.extend(u32::try_from(mesh.triangles.len()).unwrap_or(u32::MAX).to_le_bytes());
-    for corners in &mesh.triangles {
+    // Corners that are one in single precision make no triangle.
+    #[expect(clippy::cast_possible_truncation, reason = "STL holds single precision")]
+    let single = |p: &Vector3<f64>| p.map(|value| value as f32);
+    let whole = |[a, b, c]: &&[Vector3<f64>; 3]| {
+        let (a, b, c) = (single(a), single(b), single(c));
+        a != b && b != c && c != a
+    };
+    let triangles: Vec<&[Vector3<f64>; 3]> = mesh.triangles.iter().filter(whole).collect();
+    bytes.extend(u32::try_from(triangles.len()).unwrap_or(u32::MAX).to_le_bytes());
+    for corners in triangles {
         let [a, b, c] = corners;
         let normal = (b - a).cross(&(c - a)).normalize();
         for vector in [&normal, a, b, c] {

@@ -5,10 +5,13 @@ use crate::cam::Frame;
 use crate::numeric::extremum;
 use nalgebra::Vector2;
 
-/// Nodes per best possible arc. Fewer see the lobes less sharply (24: 0.8 %) and place the joints more coarsely.
-const NODES_PER_ARC: f64 = 24.0;
+/// Nodes per best possible arc: joints lie on nodes, and an arc that must stop at a node is shorter by half their
+/// distance on the average.
+const NODES_PER_ARC: f64 = 96.0;
+/// Every how many nodes an arc is compared with the curve, and its ends are tried: 24 an arc see the lobes to 0.8 %.
+const STRIDE: usize = 4;
 /// Nodes a piece has at the least, so that a short piece or a nearly circular one is seen at all.
-const LEAST_NODES: f64 = 48.0;
+const LEAST_NODES: f64 = 192.0;
 /// Cells in which I₃ is summed up; the integrand has cusps where κ' changes sign, seen to 1e-4 of I₃ with 512.
 const SHARE_CELLS: u32 = 512;
 /// Share of the nodes that is spread evenly over the piece, so that stretches of constant curvature are not empty.
@@ -108,26 +111,46 @@ impl Nodes {
     fn followers(&self, chains: &[Laid], index: usize, furthest: usize, tolerance: f64, next: &mut Vec<Laid>) {
         let Some(chain) = chains.get(index) else { return };
         let Some(start) = self.0.get(chain.node) else { return };
-        let mut misses = 0;
-        for (end, node) in self.0.iter().enumerate().take(furthest + 1).skip(chain.node + 1) {
-            if node.share - start.share > FURTHEST {
-                break;
-            }
-            let Some((arc, heading)) = Arc::to(start.point, chain.heading, node.point) else { break };
+        let holds = |end: usize, node: &Node| {
+            let (arc, heading) = Arc::to(start.point, chain.heading, node.point)?;
             let inside = self.0.get(chain.node + 1..end).unwrap_or_default();
-            if !inside.iter().all(|n| arc.distance(n.point).abs() <= tolerance) {
-                misses += 1;
-                if misses > MOST_MISSES {
-                    break;
-                }
-                continue;
-            }
-            misses = 0;
+            let keeps = inside.iter().step_by(STRIDE).all(|n| arc.distance(n.point).abs() <= tolerance);
+            keeps.then_some((arc, heading))
+        };
+        let mut add = |end: usize, node: &Node, (arc, heading): (Arc, Vector2<f64>)| {
             let off = node.tangent.perp(&heading) - node.best_heading;
             // Where κ' vanishes so does η*; the size at the start keeps the charge finite there.
             let size = node.best_heading.abs().max(start.best_heading.abs()).max(SAME_HEADING);
             let score = node.share - CHARGE * off.abs() / size;
             next.push(Laid { node: end, heading, score, last: Some((index, arc)) });
+        };
+        let mut misses = 0;
+        let mut kept = false;
+        let ends = self.0.iter().enumerate().take(furthest + 1).skip(chain.node + STRIDE).step_by(STRIDE);
+        for (end, node) in ends {
+            if node.share - start.share > FURTHEST {
+                break;
+            }
+            if let Some(arc) = holds(end, node) {
+                add(end, node, arc);
+                (misses, kept) = (0, true);
+                continue;
+            }
+            if kept {
+                // The longest arc ends between this node and the one before it.
+                let between = (end + 1 - STRIDE..end).rev();
+                let longest = between
+                    .filter_map(|at| Some((at, self.0.get(at)?)))
+                    .find_map(|(at, n)| Some((at, n, holds(at, n)?)));
+                if let Some((at, n, arc)) = longest {
+                    add(at, n, arc);
+                }
+            }
+            kept = false;
+            misses += 1;
+            if misses > MOST_MISSES {
+                break;
+            }
         }
     }
 
@@ -142,7 +165,7 @@ impl Nodes {
                 let behind = (node.point - second.start).dot(&second.heading) < 0.0;
                 if behind { first } else { second }.distance(node.point).abs()
             };
-            Some(Biarc { arcs, deviation: inside.iter().map(distance).fold(0.0, f64::max) })
+            Some(Biarc { arcs, deviation: inside.iter().step_by(STRIDE).map(distance).fold(0.0, f64::max) })
         };
         let less = |share: f64| with(share).map_or(f64::NEG_INFINITY, |biarc| -biarc.deviation);
         with(extremum::largest_without_slope(less, BIARC_RANGE, BIARC_CELLS, BIARC_SECTIONS).at)
@@ -246,8 +269,8 @@ pub(super) fn lay(nodes: &Nodes, tolerance: f64) -> Option<Vec<Joint>> {
         }
         let mut next = Vec::new();
         for index in layer.clone() {
-            // Two nodes are left free for the joint of the biarc.
-            nodes.followers(&chains, index, last.saturating_sub(3), tolerance, &mut next);
+            // A stretch is left free for the joint of the biarc.
+            nodes.followers(&chains, index, last.saturating_sub(3 * STRIDE), tolerance, &mut next);
         }
         // Of the chains that end at one node the one with the best heading goes on; then the best of all.
         next.sort_by(|a, b| b.node.cmp(&a.node).then(b.score.total_cmp(&a.score)));

@@ -34,7 +34,7 @@ use beam::{Arc, lay, sample};
 use nalgebra::Vector2;
 
 /// Share of the tolerance that the lobes may take as seen at the nodes; the rest is what is not seen there.
-const SEEN: f64 = 0.985;
+const SEEN: f64 = 0.992;
 /// Points per arc at which the finished chain is checked.
 const CHECKS_PER_ARC: u32 = 64;
 /// Times a chain is laid again when the check between the nodes finds more than the tolerance.

@@ -10,6 +10,8 @@ use crate::law::Law;
 use crate::machine::Rotation;
 use nalgebra::Vector2;
 
+/// Most speeds that are named one by one.
+const MOST_NAMED: usize = 8;
 /// Points of a turn and lines along the axis in the isometric view, and points of each such line.
 const TURN: u32 = 180;
 const RULERS: u32 = 24;
@@ -47,9 +49,10 @@ pub fn conoid(conoid: &Conoid, parts: &[Part], report: &ConoidReport) -> Sheet {
     let both = plan.with(&seen);
     let mut drawn = Extents { least: both.least - margin, largest: both.largest + margin };
     let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
-    // The key of the colours stands above the plan.
+    // The key of the colours stands above the plan; of many sections every few are named.
+    let every = cuts.len().div_ceil(MOST_NAMED);
     #[expect(clippy::cast_precision_loss, reason = "a few sections")]
-    let key = LINE_SPACING * pen.text * (cuts.len() as f64 + 1.0);
+    let key = LINE_SPACING * pen.text * (cuts.len().div_ceil(every) as f64 + 1.0);
     drawn.largest.y += (key - (drawn.largest.y - plan.largest.y)).max(0.0);
 
     let (first, last) = (conoid.speeds.first().copied().unwrap_or(0.0), conoid.speeds.last().copied().unwrap_or(0.0));
@@ -65,15 +68,14 @@ pub fn conoid(conoid: &Conoid, parts: &[Part], report: &ConoidReport) -> Sheet {
     #[expect(clippy::cast_precision_loss, reason = "a few sections")]
     let sections = cuts.iter().zip(parts).zip(&rings).enumerate().map(|(index, (((rpm, z), part), ring))| {
         let share = if last > first { (rpm - first) / (last - first) } else { 1.0 };
-        let y = drawn.largest.y - LINE_SPACING * pen.text * (index as f64 + 1.0);
+        let y = drawn.largest.y - LINE_SPACING * pen.text * ((index / every) as f64 + 1.0);
         let swatch = Vector2::new(drawn.least.x, y + 0.35 * pen.text);
         let words = format!("{} rpm, z = {} mm", shown(*rpm), shown(MILLIMETRES * z));
-        let shapes = vec![
-            Shape::Entity(Entity::Polyline(part.outline.contour.clone())),
-            moved(ring),
-            Shape::Line(swatch, swatch + Vector2::new(2.0 * pen.text, 0.0)),
-            pen.words(drawn.least.x + 2.6 * pen.text, y, words),
-        ];
+        let mut shapes = vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone())), moved(ring)];
+        if index % every == 0 {
+            shapes.push(Shape::Line(swatch, swatch + Vector2::new(2.0 * pen.text, 0.0)));
+            shapes.push(pen.words(drawn.least.x + 2.6 * pen.text, y, words));
+        }
         let label = format!("section for {} rpm", shown(*rpm));
         Group { id: format!("section-{index}"), class: "section", label, colour: Some(colour(share)), shapes }
     });
@@ -86,7 +88,11 @@ pub fn conoid(conoid: &Conoid, parts: &[Part], report: &ConoidReport) -> Sheet {
 #[must_use]
 pub fn title(report: &ConoidReport) -> String {
     let speeds: Vec<String> = report.rpm.iter().map(|rpm| shown(*rpm)).collect();
-    format!("{}, conoid for {} rpm", report.machine, speeds.join(", "))
+    let speeds = match speeds.as_slice() {
+        [first, .., last] if speeds.len() > MOST_NAMED => format!("{first} to {last} rpm, {} sections", speeds.len()),
+        _ => format!("{} rpm", speeds.join(", ")),
+    };
+    format!("{}, conoid for {speeds}", report.machine)
 }
 
 fn axes(plan: &Extents) -> Vec<Shape> {
@@ -99,7 +105,7 @@ fn axes(plan: &Extents) -> Vec<Shape> {
 fn figures(report: &ConoidReport) -> Vec<String> {
     let (cam, surface, between) = (&report.cam, &report.surface, &report.between);
     let mut figures = vec![
-        format!("base radius {} mm, roller {} mm, crowned", shown(cam.base_radius_mm), shown(cam.roller_radius_mm)),
+        format!("base radius {} mm, roller {} mm", shown(cam.base_radius_mm), shown(cam.roller_radius_mm)),
         format!("lift {:.3} mm, z from {} to {} mm", cam.max_lift_mm, shown(cam.z_min_mm), shown(cam.z_max_mm)),
         format!("contact wanders {:.3} mm along the axis", surface.axial_wander_mm),
         format!("plane offsets would miss by {:.4} mm", surface.plane_offset_error_max_mm),

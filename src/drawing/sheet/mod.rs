@@ -1,9 +1,11 @@
 //! The review sheet: what a person looks at before the metal is cut. Millimetres, y upwards, true size.
 
+mod chart;
 mod conoid;
 mod disc;
 mod plate;
 
+pub use chart::{Point, chart, mark_front};
 pub use conoid::{conoid, title as conoid_title};
 pub use disc::disc;
 pub use plate::plate;
