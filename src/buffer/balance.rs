@@ -32,6 +32,9 @@ pub enum Column {
 /// (about −0.2) has lost less than three bits, and the series needs 27 terms (each factor is below 1 for k ≥ 1).
 const SERIES_LIMIT: f64 = 0.25;
 
+/// Beyond this u the two terms of the law as printed no longer cancel, and it has fewer roundings than x (g − 1).
+const PRINTED_LIMIT: f64 = 4.0;
+
 /// Column by (7) or (14), m, for a net shortening `h_a` (m) and U = A r: `h_a`/(1 − (1+U)^(−1/k)).
 #[must_use]
 pub fn column_for(shortening: f64, end_loading: f64, exponent: f64) -> f64 {
@@ -140,7 +143,7 @@ impl Balance {
         let (p, u) = (1.0 / self.exponent, self.loading * x);
         let without_lead = if self.returns {
             self.returning(x, y, u, p)
-        } else if self.start_slope == 0.0 {
+        } else if self.start_slope == 0.0 && u < PRINTED_LIMIT {
             x * g_minus_one(u, p)
         } else if u < SERIES_LIMIT {
             x * (self.start_slope + (1.0 + self.start_slope) * g_minus_one(u, p))
@@ -154,6 +157,8 @@ impl Balance {
         let end = self.loading * self.stroke;
         if end < SERIES_LIMIT {
             x * self.loading * y * g_divided_difference(u, end, p) * (1.0 + self.start_slope)
+        } else if x < y && u > PRINTED_LIMIT {
+            -self.column * libm::expm1(-p * libm::log1p(u)) - x
         } else if x < y {
             x * (g_minus_one(u, p) - g_minus_one(end, p)) * (1.0 + self.start_slope)
         } else {

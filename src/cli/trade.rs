@@ -17,8 +17,18 @@ use camgen::output::{csv, dxf, json, proof, step, svg};
 use serde::Serialize;
 use std::time::Instant;
 
-/// Surface tolerances of the ladder, m, from coarse to fine.
-const TOLERANCES: [f64; 9] = [100e-6, 30e-6, 10e-6, 3e-6, 1e-6, 0.3e-6, 0.1e-6, 0.03e-6, 0.01e-6];
+/// Surface tolerances of the ladder, m, from coarse to fine; those of `--accuracy` by their names.
+const TOLERANCES: [(&str, f64); 9] = [
+    ("100 µm", 100e-6),
+    ("50 µm (draft)", 50e-6),
+    ("10 µm", 10e-6),
+    ("5 µm (standard)", 5e-6),
+    ("1 µm", 1e-6),
+    ("0.5 µm (fine)", 0.5e-6),
+    ("0.1 µm", 0.1e-6),
+    ("0.05 µm", 0.05e-6),
+    ("0.01 µm", 0.01e-6),
+];
 /// Tolerances of the differential equation, by name in mm and in m, and stations of the paper's method.
 const ODE: [(&str, f64); 4] = [("1e-3", 1e-6), ("1e-6", 1e-9), ("1e-9", 1e-12), ("1e-12", 1e-15)];
 const STATIONS: [u32; 4] = [18, 180, 1800, 18_000];
@@ -181,7 +191,7 @@ fn rotary(machine: &Machine, rpm: f64) -> Result<Vec<Row>, Failure> {
         sheet: &|part, report| sheet::disc(&rotary, part, report).map_err(Failure::new),
         table: &|| drawing::table(&rotary, 720),
     };
-    let row = |tolerance: &f64| stages.measure(micrometres(*tolerance), (law_us, 0.0), *tolerance);
+    let row = |(name, tolerance): &(&str, f64)| stages.measure((*name).into(), (law_us, 0.0), *tolerance);
     TOLERANCES.iter().map(row).collect()
 }
 
@@ -206,8 +216,8 @@ fn translating(machine: &Machine, rpm: f64) -> Result<Vec<Row>, Failure> {
         Ok(Row { residual_n: row.residual_n.max(law_residual), ..row })
     };
     let mut rows: Vec<Row> = Vec::new();
-    for tolerance in TOLERANCES {
-        rows.push(measure(micrometres(tolerance), Solver::Ode { tolerance: finest }, tolerance)?);
+    for (name, tolerance) in TOLERANCES {
+        rows.push(measure(name.into(), Solver::Ode { tolerance: finest }, tolerance)?);
     }
     for (name, tolerance) in ODE {
         rows.push(measure(format!("ode {name} mm, 1 µm"), Solver::Ode { tolerance }, 1e-6)?);
@@ -216,10 +226,6 @@ fn translating(machine: &Machine, rpm: f64) -> Result<Vec<Row>, Failure> {
         rows.push(measure(format!("paper {stations}, 1 µm"), Solver::Paper { stations }, 1e-6)?);
     }
     Ok(rows)
-}
-
-fn micrometres(tolerance: f64) -> String {
-    format!("{} µm", shortest((1e6 * tolerance * 1e6).round() / 1e6))
 }
 
 /// Largest distance of two motions over the stroke, m.

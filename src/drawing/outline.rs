@@ -211,6 +211,14 @@ pub fn section(conoid: &Conoid, z: f64, fit: impl Into<Fit>) -> Result<Outline, 
     Ok(from_exact(outline, shift))
 }
 
+/// The path of the roller's centre as an outline within a tolerance (m).
+///
+/// # Errors
+/// As [`profile`], but a pitch curve cannot be undercut.
+pub fn pitch_within<L: Law, F: Follower>(curves: &Curves<L, F>, tolerance: f64) -> Result<Outline, OutlineError> {
+    parallel(curves, 0.0, MILLIMETRES * tolerance, &[])
+}
+
 /// The pitch curve of a plate's lower flank, for the eye.
 ///
 /// # Errors

@@ -9,6 +9,8 @@ use nalgebra::Vector2;
 const FIELD: Vector2<f64> = Vector2::new(180.0, 110.0);
 /// Height of the text, mm.
 const TEXT: f64 = 3.0;
+/// Width of a label, mm.
+const LABEL: f64 = 25.0;
 /// Radius of a point, mm.
 const POINT: f64 = 1.2;
 
@@ -74,12 +76,20 @@ pub fn chart(title: &str, x_name: &str, y_name: &str, points: &[Point]) -> Sheet
     let mut front: Vec<Shape> = best.iter().map(|p| dot(p)).collect();
     front.push(Shape::Path(best.iter().map(|p| at(p)).collect()));
     let others = shown.iter().filter(|p| !p.best).map(|p| dot(p)).collect();
-    let label = |p: &&Point| {
+    // Of points that lie on each other the first is named.
+    let mut named: Vec<Vector2<f64>> = Vec::new();
+    let mut labels = Vec::new();
+    for p in &shown {
+        let near = |other: &Vector2<f64>| (other.y - at(p).y).abs() < TEXT && (other.x - at(p).x).abs() < LABEL;
+        if named.iter().any(near) {
+            continue;
+        }
+        named.push(at(p));
         let right = at(p).x < 0.7 * FIELD.x;
         let (step, anchor) = if right { (1.0, TextAnchor::Start) } else { (-1.0, TextAnchor::End) };
-        let place = at(p) + Vector2::new(step * 1.8 * POINT, 0.5 * TEXT);
-        Shape::Text { at: place, height: 0.8 * TEXT, anchor, text: p.label.clone() }
-    };
+        let place = at(p) + Vector2::new(step * 1.8 * POINT, 0.3 * TEXT);
+        labels.push(Shape::Text { at: place, height: 0.8 * TEXT, anchor, text: p.label.clone() });
+    }
     let words = vec![
         pen.words(0.0, FIELD.y + 2.0 * TEXT, title),
         pen.middle(Vector2::new(0.5 * FIELD.x, -3.5 * TEXT), x_name),
@@ -96,7 +106,7 @@ pub fn chart(title: &str, x_name: &str, y_name: &str, points: &[Point]) -> Sheet
             Group::new("axis", "grid", grid),
             Group::new("pitch-curve", "other settings", others),
             Group::new("roller", "Pareto front", front),
-            Group::new("labels", "labels", shown.iter().map(label).collect()),
+            Group::new("labels", "labels", labels),
             Group::new("facts", "names", words),
         ],
     }

@@ -1,0 +1,143 @@
+//! camgen's offset and arcs beside those of `cavalier_contours` and kurbo, on the same pitch curve at the same true error:
+//! `cargo bench --bench peers`. The table of true errors and counts is printed first. `benches/peers/` has the Python peers.
+
+#![allow(clippy::expect_used, clippy::print_stdout, missing_docs, reason = "a benchmark fails loudly and prints")]
+
+use camgen::cam::rotary::Rotary;
+use camgen::checks::surface::Surface;
+use camgen::contour::{Contour, Vertex};
+use camgen::drawing::outline::{self, pitch_within};
+use camgen::law::Law;
+use camgen::machine::Machine;
+use cavalier_contours::polyline::{PlineSource, PlineSourceMut, PlineVertex, Polyline};
+use criterion::{Criterion, criterion_group, criterion_main};
+use kurbo::offset::offset_cubic;
+use kurbo::{BezPath, CubicBez, ParamCurve, Point};
+use nalgebra::Vector2;
+use std::hint::black_box;
+
+const TOLERANCES: [f64; 3] = [10e-6, 5e-6, 1e-6];
+/// Points of the exact profile at which a peer's offset is measured.
+const PLACES: u32 = 4000;
+
+fn dpi() -> Rotary {
+    let machine = Machine::load("dpi", &[]).expect("embedded").0;
+    Rotary::solve(&machine, 35.0).expect("a cam")
+}
+
+/// The pitch curve as arcs within a tolerance (m), for `cavalier_contours`.
+fn pitch_arcs(cam: &Rotary, tolerance: f64) -> Polyline<f64> {
+    let mut line = Polyline::new_closed();
+    for vertex in pitch_within(&cam.curves, tolerance).expect("arcs").contour.vertices {
+        line.add_vertex(PlineVertex::new(vertex.point.x, vertex.point.y, vertex.bulge));
+    }
+    line
+}
+
+fn as_contour(line: &Polyline<f64>) -> Contour {
+    let vertex = |v: PlineVertex<f64>| Vertex { point: Vector2::new(v.x, v.y), bulge: v.bulge };
+    Contour { vertices: line.iter_vertexes().map(vertex).collect() }
+}
+
+/// The pitch curve as cubics through its points and tangents, `spans` to a piece, mm, for kurbo.
+fn pitch_cubics(cam: &Rotary, spans: u32) -> Vec<CubicBez> {
+    let point = |v: Vector2<f64>| Point::new(v.x, v.y);
+    let of_piece = |(index, piece): (usize, &camgen::law::Piece)| {
+        let step = (piece.end - piece.start) / f64::from(spans);
+        let frame = |i: u32| cam.curves.contact(index, piece.start + step * f64::from(i)).pitch.scaled(1e3);
+        let cubic = |i: u32| {
+            let (a, b) = (frame(i), frame(i + 1));
+            let third = step / 3.0;
+            let (first, second) = (a.point + a.tangent * (a.speed * third), b.point - b.tangent * (b.speed * third));
+            CubicBez::new(point(a.point), point(first), point(second), point(b.point))
+        };
+        (0..spans).map(cubic).collect::<Vec<_>>()
+    };
+    cam.curves.law.pieces().iter().enumerate().flat_map(of_piece).collect()
+}
+
+fn kurbo_offset(cubics: &[CubicBez], distance: f64, tolerance: f64) -> Vec<BezPath> {
+    let offset = |cubic: &CubicBez| {
+        let mut path = BezPath::new();
+        offset_cubic(*cubic, distance, tolerance, &mut path);
+        path
+    };
+    cubics.iter().map(offset).collect()
+}
+
+/// Largest distance of the exact profile from an outline, mm.
+fn true_error(cam: &Rotary, outline: &Contour) -> f64 {
+    let surface = Surface::new(outline);
+    let place = |i: u32| {
+        let (piece, angle) = cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(PLACES));
+        let exact = cam.curves.profile(piece, angle).point * 1e3;
+        surface.nearest(exact).map_or(f64::INFINITY, |nearest| nearest.left.abs())
+    };
+    (0..PLACES).map(place).fold(0.0, f64::max)
+}
+
+/// A path as chords so fine that they do not matter, 1e-4 of a segment.
+fn flattened(paths: &[BezPath]) -> Contour {
+    let mut vertices = Vec::new();
+    for segment in paths.iter().flat_map(BezPath::segments) {
+        for i in 0..100 {
+            let p = segment.eval(f64::from(i) / 100.0);
+            vertices.push(Vertex { point: Vector2::new(p.x, p.y), bulge: 0.0 });
+        }
+    }
+    Contour { vertices }
+}
+
+fn offsets(criterion: &mut Criterion) {
+    let cam = dpi();
+    println!("{:>8} {:>28} {:>12} {:>14}", "tol/µm", "offset by", "segments", "true error/µm");
+    for tolerance in TOLERANCES {
+        let name = format!("{:.0} µm", 1e6 * tolerance);
+        let own = outline::profile(&cam.curves, tolerance).expect("an outline");
+        let tell = |what: &str, count: usize, error: f64| {
+            println!("{:>8} {what:>28} {count:>12} {:>14.4}", 1e6 * tolerance, 1e3 * error);
+        };
+        tell("camgen, arcs", own.contour.vertices.len(), true_error(&cam, &own.contour));
+        let arcs = pitch_arcs(&cam, tolerance);
+        let moved = arcs.parallel_offset(30.0);
+        let first = moved.first().expect("an offset");
+        tell("cavalier_contours, arcs", first.vertex_count(), true_error(&cam, &as_contour(first)));
+        // As few spans as reach the tolerance; finding them is not timed.
+        let with = |spans: u32| kurbo_offset(&pitch_cubics(&cam, spans), 30.0, 0.5e3 * tolerance);
+        let reaches = |spans: &u32| true_error(&cam, &flattened(&with(*spans))) <= 1e3 * tolerance;
+        let spans = (6..100).find(reaches).expect("enough spans");
+        let moved = with(spans);
+        tell(
+            "kurbo, cubics (no arcs)",
+            moved.iter().map(|path| path.segments().count()).sum(),
+            true_error(&cam, &flattened(&moved)),
+        );
+
+        criterion.bench_function(&format!("peers/{name}/camgen: exact offset and its arcs"), |b| {
+            b.iter(|| outline::profile(black_box(&cam.curves), tolerance));
+        });
+        criterion.bench_function(&format!("peers/{name}/cavalier_contours: offset of given arcs"), |b| {
+            b.iter(|| black_box(&arcs).parallel_offset(30.0));
+        });
+        criterion.bench_function(&format!("peers/{name}/cavalier_contours: arcs of the pitch curve and offset"), |b| {
+            b.iter(|| pitch_arcs(black_box(&cam), tolerance).parallel_offset(30.0));
+        });
+        criterion.bench_function(&format!("peers/{name}/kurbo: cubics and offset"), |b| {
+            b.iter(|| kurbo_offset(&pitch_cubics(black_box(&cam), spans), 30.0, 0.5e3 * tolerance));
+        });
+    }
+    let many = 36_000;
+    criterion.bench_function("peers/exact offset at 36 000 points", |b| {
+        b.iter(|| {
+            (0..many)
+                .map(|i| {
+                    let (piece, angle) = cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(many));
+                    cam.curves.profile(piece, angle).point
+                })
+                .fold(Vector2::zeros(), |sum, point| sum + point)
+        });
+    });
+}
+
+criterion_group!(benches, offsets);
+criterion_main!(benches);
