@@ -24,8 +24,10 @@ const MOST_MISSES: u32 = 12;
 const WIDEST_GAP: f64 = 2.6;
 /// Charge for a heading off by the size of η*, in best possible arcs. Less forgets the alternation, more goes short.
 const CHARGE: f64 = 0.35;
-/// Chains laid side by side.
-const BEAM: usize = 16;
+/// Chains laid side by side, those that may fall behind, and how many of these to an arc.
+const BEAM: usize = 8;
+const BEHIND: usize = 10;
+const BINS_PER_ARC: f64 = 10.0;
 /// Largest number of nodes: a curve whose κ' does not belong to it asks for millions of arcs.
 const MOST_NODES: f64 = 4e6;
 /// Cells in which the freedom of a biarc is searched, before golden sections.
@@ -276,7 +278,7 @@ pub(super) fn lay(nodes: &Nodes, tolerance: f64) -> Option<Vec<Joint>> {
         next.sort_by(|a, b| b.node.cmp(&a.node).then(b.score.total_cmp(&a.score)));
         next.dedup_by_key(|chain| chain.node);
         next.sort_by(|a, b| b.score.total_cmp(&a.score));
-        next.truncate(BEAM);
+        nodes.keep(&mut next);
         layer = chains.len()..chains.len() + next.len();
         chains.extend(next);
     }
@@ -284,6 +286,32 @@ pub(super) fn lay(nodes: &Nodes, tolerance: f64) -> Option<Vec<Joint>> {
 }
 
 impl Nodes {
+    /// Keeps the best chains, and of those that fall behind the best in every tenth of an arc: where the curvature has an
+    /// extremum an arc of three lobes reaches half an arc further, but only from the right place before it.
+    fn keep(&self, chains: &mut Vec<Laid>) {
+        let share = |chain: &Laid| self.0.get(chain.node).map_or(0.0, |node| node.share);
+        let furthest = chains.first().map_or(0.0, &share);
+        let mut kept = Vec::with_capacity(BEAM + BEHIND);
+        let mut bins = [false; BEHIND];
+        for (rank, chain) in chains.iter().enumerate() {
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a small whole number or nothing"
+            )]
+            let bin = ((furthest - share(chain)).max(0.0) * BINS_PER_ARC) as usize;
+            match bins.get_mut(bin) {
+                _ if rank < BEAM => kept.push(*chain),
+                Some(taken) if !*taken => {
+                    *taken = true;
+                    kept.push(*chain);
+                }
+                _ => {}
+            }
+        }
+        *chains = kept;
+    }
+
     /// A chain and the biarc that closes it as joints; the parameter of the biarc's own joint is the nearest node's.
     fn joints(&self, chains: &[Laid], index: usize, biarc: &Biarc) -> Option<Vec<Joint>> {
         let at =
