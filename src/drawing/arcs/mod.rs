@@ -19,7 +19,9 @@
 //! heading is the reflection of the first one at the chord, so tangency is exact. Reflection also means that a wrong
 //! heading comes back with alternating sign for ever and costs up to 60 % more arcs: the furthest node within the
 //! tolerance is not the best one. Therefore several chains are laid side by side (a beam), every arc with every end that
-//! keeps the tolerance, and those go on that reach furthest, less a charge for the distance of their heading from η*.
+//! keeps the tolerance, and those go on that reach furthest, less a charge for the distance of their heading from η*,
+//! with some that fall behind: where the curvature has an extremum an arc of three lobes reaches half an arc further, but
+//! only from the right place before it.
 //! The first chain that the two arcs of a biarc can join to the given end of the piece wins; the one freedom of the
 //! biarc goes into its deviation.
 //!
