@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 /// Cam profiles a CNC shop can cut.
 ///
-/// Solves the motion a cam must give, offsets it for the roller, checks the geometry and writes DXF, SVG and CSV.
+/// Solves the motion a cam must give, offsets it for the roller, checks the geometry and writes DXF, SVG, STEP and CSV.
 /// Exit code: 0 fine, 1 a check failed (nothing is written without --force), 2 bad input.
 #[derive(Debug, Parser)]
 #[command(name = "camgen", version, max_term_width = 110)]
