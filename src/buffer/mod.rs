@@ -8,6 +8,7 @@ pub mod energy;
 pub mod regime;
 pub mod spring;
 
+use balance::Balance;
 use std::f64::consts::PI;
 
 /// The bed and the crank that reverses it.
@@ -77,6 +78,19 @@ impl Cylinder {
     #[must_use]
     pub fn force(&self, pressure_ratio: f64) -> f64 {
         self.unit_force() * (pressure_ratio - 1.0)
+    }
+
+    /// Inertia force of the bed at the end of the stroke, N, by the loading of a law.
+    #[must_use]
+    pub fn largest_load(&self, balance: &Balance) -> f64 {
+        balance.loading * balance.stroke * self.unit_force()
+    }
+
+    /// What a plain buffer with fixed bottom and column by (7) would leave at the speed of a law, N.
+    #[must_use]
+    pub fn residual_fixed_bottom(&self, balance: &Balance) -> f64 {
+        let plain = PlainBuffer::new(balance.loading, balance.exponent, balance.stroke);
+        plain.largest_residual().1 * self.unit_force()
     }
 
     /// 2 p0 F, N: what every dimensionless force is multiplied by.

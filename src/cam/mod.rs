@@ -204,14 +204,6 @@ pub trait Cam: Sync {
     fn remedy(&self) -> Option<String>;
 }
 
-impl<L: Law + ?Sized, F: Follower + ?Sized> Curves<&L, &F> {
-    /// Where the law has pieces, from its first to its last parameter.
-    #[must_use]
-    pub fn range(&self) -> (f64, f64) {
-        self.law.range()
-    }
-}
-
 impl<L: Law, F: Follower> Curves<L, F> {
     /// Pitch curve and pressure angle at a cam angle of a piece of the law.
     #[must_use]

@@ -2,8 +2,8 @@
 
 use super::size::{self, Required};
 use super::{AnyCurves, Cam, Curves, Place, extremes};
+use crate::buffer::Cylinder;
 use crate::buffer::balance::Balance;
-use crate::buffer::{Cylinder, PlainBuffer};
 use crate::follower::TranslatingRoller;
 use crate::law::{Law, LawError, Reversal, ReversalLaw};
 use crate::machine::{Machine, Rotation};
@@ -124,7 +124,7 @@ impl Rotary {
     /// Inertia force of the bed at its largest, N.
     #[must_use]
     pub fn inertia_max(&self) -> f64 {
-        self.balance().loading * self.balance().stroke * self.cylinder.unit_force()
+        self.cylinder.largest_load(self.balance())
     }
 
     /// Largest |inertia − air| the law leaves over the reversal, N: rounding, or what a blend costs.
@@ -161,9 +161,7 @@ impl Rotary {
     /// What a plain buffer with fixed bottom and column by (7) would leave at this speed, N.
     #[must_use]
     pub fn residual_fixed_bottom(&self) -> f64 {
-        let balance = self.balance();
-        let plain = PlainBuffer::new(balance.loading, balance.exponent, balance.stroke);
-        plain.largest_residual().1 * self.cylinder.unit_force()
+        self.cylinder.residual_fixed_bottom(self.balance())
     }
 }
 

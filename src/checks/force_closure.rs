@@ -6,7 +6,7 @@ use crate::cam::{Place, extremes};
 pub(super) fn check(subject: &Subject<'_>) -> Option<Finding> {
     let (cam, curves) = (subject.cam, subject.cam.curves());
     let force = |piece: usize, parameter: f64| cam.closing_force(piece, parameter);
-    if force(0, curves.range().0).is_none() {
+    if force(0, curves.law.range().0).is_none() {
         return Some(Finding {
             check: "force_closure",
             value: f64::NAN,

@@ -161,7 +161,7 @@ impl Roll<'_> {
 
     /// Even places, both sides of every break, and those at which the roller touches the segments.
     fn places(&self) -> Vec<f64> {
-        let (first, last) = self.curves.range();
+        let (first, last) = self.curves.law.range();
         let period = self.curves.law.period();
         let even = (0..=EVEN_PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(EVEN_PLACES));
         let beside = BESIDE_BREAK * (last - first);
@@ -189,7 +189,7 @@ impl Roll<'_> {
     /// The samples about the worst gaps, looked at closer.
     fn closer(&self, samples: &[Sample]) -> Vec<Sample> {
         let n = samples.len();
-        let (first, last) = self.curves.range();
+        let (first, last) = self.curves.law.range();
         let turn = self.curves.law.period();
         let size = |index: usize| samples.get(index % n).map_or(0.0, |s| s.gap.abs());
         let mut peaks: Vec<usize> = (0..n).filter(|&i| size(i) >= size(i + n - 1) && size(i) >= size(i + 1)).collect();

@@ -78,14 +78,7 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
             share(back)
         ));
     }
-    lines.push("  checks".into());
-    lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
-    if !report.files.is_empty() {
-        lines.push("  files".into());
-        lines.extend(report.files.iter().map(|file| format!("    {file}")));
-    }
-    lines.push(String::new());
-    lines.join("\n")
+    ended(lines, &report.checks, &report.files, colour)
 }
 
 /// Size and lift of a cam.
@@ -171,24 +164,24 @@ pub(super) fn conoid_report(report: &ConoidReport, colour: bool) -> String {
         between.cam_deg,
         shown(between.residual_straight_strips_max_n)
     ));
-    lines.push("  checks".into());
-    lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
-    if !report.files.is_empty() {
-        lines.push("  files".into());
-        lines.extend(report.files.iter().map(|file| format!("    {file}")));
-    }
-    lines.push(String::new());
-    lines.join("\n")
+    ended(lines, &report.checks, &report.files, colour)
 }
 
 /// The report of a checked file: one plain sentence, then the checks.
 pub(super) fn check_report(report: &CheckReport, passed: bool, colour: bool) -> String {
     let verdict = if passed { "is this cam" } else { "is NOT this cam" };
-    let mut lines = vec![
-        format!("{} {verdict}: {} · {} for {} rpm", report.file, report.machine, report.cam, report.rpm),
-        "  checks".into(),
-    ];
-    lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
+    let lines = vec![format!("{} {verdict}: {} · {} for {} rpm", report.file, report.machine, report.cam, report.rpm)];
+    ended(lines, &report.checks, &[], colour)
+}
+
+/// Checks and files below what a report begins with.
+fn ended(mut lines: Vec<String>, checks: &[Finding], files: &[String], colour: bool) -> String {
+    lines.push("  checks".into());
+    lines.extend(checks.iter().map(|finding| check(finding, colour)));
+    if !files.is_empty() {
+        lines.push("  files".into());
+        lines.extend(files.iter().map(|file| format!("    {file}")));
+    }
     lines.push(String::new());
     lines.join("\n")
 }

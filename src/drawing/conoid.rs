@@ -10,26 +10,8 @@ use crate::law::Law;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Columns of the table, in order.
-pub const COLUMNS: [&str; 26] = [
-    "z_mm",
-    "cam_deg",
-    "crank_deg",
-    "x_mm",
-    "dx_mm",
-    "lift_mm",
-    "velocity_mm_per_rad",
-    "acceleration_mm_per_rad2",
-    "jerk_mm_per_rad3",
-    "pitch_x_mm",
-    "pitch_y_mm",
-    "profile_x_mm",
-    "profile_y_mm",
-    "pressure_angle_deg",
-    "pitch_curvature_radius_mm",
-    "profile_curvature_radius_mm",
-    "roller_force_n",
-    "torque_nm",
+/// Columns behind the place along the axis and those a conoid shares with a disc cam.
+const MORE_COLUMNS: [&str; 8] = [
     "rpm",
     "lift_per_z",
     "contact_x_mm",
@@ -39,6 +21,15 @@ pub const COLUMNS: [&str; 26] = [
     "principal_curvature_radius_mm",
     "axial_force_n",
 ];
+/// How many columns of a disc cam a conoid shares: all but the force along the normal.
+const SHARED: usize = 17;
+
+/// Columns of the table, in order.
+#[must_use]
+pub fn columns() -> Vec<&'static str> {
+    let shared = super::table::COLUMNS.into_iter().take(SHARED);
+    std::iter::once("z_mm").chain(shared).chain(MORE_COLUMNS).collect()
+}
 
 /// The speeds that have a cut of their own, with their places along the axis (m); equal speeds have one.
 #[must_use]
@@ -71,12 +62,13 @@ pub fn table(conoid: &Conoid, samples: u32) -> Table {
         else {
             return Vec::new();
         };
+        let plane = conoid.plane(z);
         let row = |i: u32| {
             let cam_deg = 360.0 * f64::from(i) / f64::from(samples);
             let (piece, angle) = section.locate(cam_deg.to_radians());
             let (state, lift) = (section.state(piece, angle), conoid.lift(piece, angle, z));
             let contact = conoid.contact(piece, angle, z);
-            let plane = conoid.plane(z).contact(piece, angle);
+            let plane = plane.contact(piece, angle);
             let cut = conoid.cut(piece, angle, z).map(|(frame, _)| frame);
             let machine = &conoid.machine;
             let pitch = point_as_turned(machine, contact.centre.xy() * MILLIMETRES);
@@ -116,7 +108,7 @@ pub fn table(conoid: &Conoid, samples: u32) -> Table {
         };
         (0..samples).map(row).collect()
     };
-    Table { columns: &COLUMNS, rows: cuts(conoid).par_iter().flat_map(rows).collect() }
+    Table { columns: columns(), rows: cuts(conoid).par_iter().flat_map(rows).collect() }
 }
 
 /// The report of a conoid.
@@ -252,7 +244,7 @@ pub fn report(conoid: &Conoid, found: &Found<'_>, checks: Vec<Finding>) -> Conoi
             start_slope: balance.start_slope,
             dx_max_mm: MILLIMETRES * dx_max,
             dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
-            inertia_max_n: balance.loading * balance.stroke * conoid.cylinder.unit_force(),
+            inertia_max_n: conoid.cylinder.largest_load(&balance),
             arcs: part.map(|part| part.outline.contour.vertices.len()),
             area_mm2: part.map(|part| part.area_and_moment().0),
             deviation_max_mm: part.map(|part| part.outline.deviation),

@@ -5,6 +5,7 @@
 pub mod arcs;
 pub mod conoid;
 pub mod flank;
+pub mod mesh;
 pub mod outline;
 pub mod report;
 pub mod sheet;

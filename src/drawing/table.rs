@@ -53,7 +53,7 @@ pub const PLATE_COLUMNS: [&str; 15] = [
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Names of the columns, with their units.
-    pub columns: &'static [&'static str],
+    pub columns: Vec<&'static str>,
     /// Rows, each as long as `columns`.
     pub rows: Vec<Vec<f64>>,
 }
@@ -93,7 +93,7 @@ pub fn table(rotary: &Rotary, samples: u32) -> Table {
         // A negative zero is zero.
         row.iter().map(|value| value + 0.0).collect()
     };
-    Table { columns: &COLUMNS, rows: (0..samples).map(row).collect() }
+    Table { columns: COLUMNS.to_vec(), rows: (0..samples).map(row).collect() }
 }
 
 /// `samples` + 1 rows over the overrun, at x = r i/samples with both ends; points of the upper flank.
@@ -125,7 +125,7 @@ pub fn plate_table(plate: &Plate, samples: u32) -> Table {
         // A negative zero is zero.
         row.iter().map(|value| value + 0.0).collect()
     };
-    Table { columns: &PLATE_COLUMNS, rows: (0..=samples).map(row).collect() }
+    Table { columns: PLATE_COLUMNS.to_vec(), rows: (0..=samples).map(row).collect() }
 }
 
 /// Crank angle in [0, 360) from the cam angle, without a detour over radians that would lose the round numbers.

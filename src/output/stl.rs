@@ -1,6 +1,7 @@
 //! The conoid as a binary STL file in millimetres, for a first print: triangles on the exact surface.
 
-use crate::drawing::flank::{Flank, Mesh};
+use crate::drawing::flank::Flank;
+use crate::drawing::mesh::Mesh;
 use nalgebra::Vector3;
 
 /// Triangles as binary STL: 80 bytes of header, a count, 50 bytes a triangle.
