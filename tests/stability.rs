@@ -3,6 +3,9 @@
 
 #![allow(clippy::expect_used, clippy::panic, clippy::print_stdout, missing_docs, reason = "a test fails loudly")]
 
+#[path = "common/random.rs"]
+mod random;
+
 use camgen::buffer::balance::{Balance, Column, column_for};
 use camgen::buffer::{Bed, Cylinder, regime};
 use camgen::cam::rotary::Rotary;
@@ -15,6 +18,7 @@ use camgen::machine::Machine;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use nalgebra::Vector2;
+use random::Random;
 
 type Big = FBig<HalfEven, 2>;
 
@@ -28,22 +32,6 @@ fn number(value: &Big) -> f64 {
 
 fn ulp(value: f64) -> f64 {
     f64::from_bits(value.abs().to_bits() + 1) - value.abs()
-}
-
-/// Deterministic pseudo-random numbers in [0, 1): Knuth's MMIX generator.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let bits = (self.0 >> 11) as f64;
-        bits / 9_007_199_254_740_992.0
-    }
-
-    fn log_between(&mut self, low: f64, high: f64) -> f64 {
-        libm::exp(libm::log(low) + (libm::log(high) - libm::log(low)) * self.next())
-    }
 }
 
 /// The worst of a quantity so far, and where.

@@ -7,11 +7,15 @@
     reason = "a test says what broke"
 )]
 
+#[path = "common/random.rs"]
+mod random;
+
 use camgen::buffer::balance::{Balance, Column};
 use camgen::law::translating::{
     EfficiencyModel, Exact, Mechanism, Side, Solution, Solver, Stations, Translating, Wall, Way,
 };
 use camgen::law::{Law, Transition};
+use random::Random;
 use std::f64::consts::FRAC_PI_2;
 
 fn mechanism(column: Column, model: EfficiencyModel) -> Mechanism {
@@ -47,26 +51,6 @@ fn the_reference_plate_has_the_reference_motion() {
             let got = 1e3 * solution.value(x);
             assert!((got - bottom).abs() < 6e-8, "{column:?} {model:?} at {x}: {got} is not {bottom}");
         }
-    }
-}
-
-/// Deterministic pseudo-random numbers in [0, 1): a linear congruential generator (Knuth's MMIX).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-        let bits = (self.0 >> 11) as f64;
-        bits / 9_007_199_254_740_992.0
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn log_between(&mut self, low: f64, high: f64) -> f64 {
-        libm::exp(self.between(libm::log(low), libm::log(high)))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::surface::Surface;
 use super::{Finding, Verdict, verdict};
 use crate::cam::between::Residual;
-use crate::cam::conoid::{Conoid, Worst};
+use crate::cam::conoid::{Conoid, Measures, Worst};
 use crate::cam::{Place, extremes};
 use crate::contour::Contour;
 use crate::law::Law;
@@ -29,6 +29,8 @@ pub struct WrittenSection<'a> {
 pub struct Subject<'a> {
     /// The cam.
     pub conoid: &'a Conoid,
+    /// What was found of its surface.
+    pub measures: &'a Measures,
     /// The sections as written, when they were.
     pub sections: &'a [WrittenSection<'a>],
     /// Largest gap of a sphere on the written flank, mm, and where; `None` when no flank was drawn.
@@ -43,8 +45,8 @@ pub struct Subject<'a> {
 #[must_use]
 pub fn run(subject: &Subject<'_>) -> Vec<Finding> {
     let conoid = subject.conoid;
-    let mut findings = vec![pressure_angle(conoid), axial_force(conoid)];
-    findings.extend(curvature(conoid));
+    let mut findings = vec![pressure_angle(conoid), axial_force(conoid, &subject.measures.axial_force)];
+    findings.extend(curvature(conoid, subject.measures.sharpest));
     findings.push(cutter_radius(conoid));
     findings.extend(wall(conoid));
     findings.extend(tangency(subject));
@@ -97,20 +99,19 @@ fn pressure_angle(conoid: &Conoid) -> Finding {
 }
 
 /// What the drive of the shift must hold, and how far the normal leans along the axis.
-fn axial_force(conoid: &Conoid) -> Finding {
-    let force = conoid.axial_force();
+fn axial_force(conoid: &Conoid, force: &Worst) -> Finding {
     let lean = conoid.worst(|conoid, piece, angle, z| conoid.contact(piece, angle, z).normal.z.abs());
     let note = format!("the normal leans {:.3}° along the axis at the most", libm::asin(lean.value).to_degrees());
-    placed(conoid, &force, &finding("axial_force", force.value, None, "N", Verdict::Info), Some(note))
+    placed(conoid, force, &finding("axial_force", force.value, None, "N", Verdict::Info), Some(note))
 }
 
 /// Undercut and sharpness by the principal curvatures of the pitch surface.
-fn curvature(conoid: &Conoid) -> [Finding; 2] {
+fn curvature(conoid: &Conoid, sharpest: Worst) -> [Finding; 2] {
     let corner = conoid.positions.iter().find_map(|z| {
         let corners = extremes::corners(&conoid.plane(*z));
         corners.iter().find(|c| c.turn > 0.0).map(|c| Worst { value: f64::INFINITY, angle: c.angle, z: *z })
     });
-    let worst = corner.unwrap_or_else(|| conoid.sharpest());
+    let worst = corner.unwrap_or(sharpest);
     let radius = if worst.value > 0.0 { 1.0 / worst.value } else { f64::INFINITY };
     let roller = conoid.machine.roller.radius;
     let limit = conoid.machine.limits.min_convex_pitch_radius_over_roller * roller;
@@ -151,18 +152,19 @@ fn cutter_radius(conoid: &Conoid) -> Finding {
 fn wall(conoid: &Conoid) -> Option<Finding> {
     let bore = conoid.machine.cam.bore_reach()?;
     let nearest = conoid.smallest_radius();
-    let (left, limit) = (nearest.value - bore, conoid.machine.limits.wall);
-    let kept = left > 0.0 && left >= limit * (1.0 - 1e-9);
-    Some(placed(conoid, &nearest, &finding("wall", 1e3 * left, Some(1e3 * limit), "mm", verdict(kept)), None))
+    let found = super::wall::finding(nearest.value - bore, conoid.machine.limits.wall);
+    Some(placed(conoid, &nearest, &found, None))
 }
 
 fn tangency(subject: &Subject<'_>) -> Option<Finding> {
-    let breaks = subject.sections.iter().flat_map(|section| {
-        section.outline.tangent_breaks().into_iter().map(move |turn| (turn.abs().to_degrees(), section.z))
-    });
-    let (value, z) = breaks.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let of = |section: &WrittenSection<'_>| {
+        let z = section.z;
+        section.outline.tangent_breaks().into_iter().map(move |turn| (turn, z)).collect::<Vec<_>>()
+    };
+    let breaks = subject.sections.iter().flat_map(of);
+    let (turn, z) = breaks.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
     let note = Some(format!("at z = {:.3} mm", 1e3 * z));
-    Some(Finding { note, ..finding("tangency", value, Some(0.05), "deg", verdict(value <= 0.05)) })
+    Some(Finding { note, ..super::tangency::finding(turn, Place::default()) })
 }
 
 /// The sphere of the roller on the sections as read back from their files: the sphere that touches the cut at z stands at
@@ -244,17 +246,12 @@ fn cylinder_contact(conoid: &Conoid, tolerance_mm: f64) -> Option<Finding> {
 
 fn force_closure(conoid: &Conoid) -> Finding {
     let roller = conoid.machine.roller;
-    if roller.mass.is_none() && roller.preload.is_none() {
-        let note = "not run: neither follower.roller.mass nor follower.roller.preload is given";
-        return Finding { note: Some(note.into()), ..finding("force_closure", f64::NAN, None, "N", Verdict::Info) };
+    if !super::force_closure::told(&roller) {
+        return super::force_closure::not_run();
     }
     let least =
         conoid.worst_of_sections(|section, rpm, _, piece, angle| -conoid.roller_force(section, rpm, piece, angle));
-    let kept = -least.value > 0.0;
-    let needed = (roller.preload.unwrap_or(0.0) + least.value).ceil() + 1.0;
-    let note =
-        (!kept).then(|| format!("the roller leaves the cam; follower.roller.preload = \"{needed} N\" would hold it"));
-    placed(conoid, &least, &finding("force_closure", -least.value, Some(0.0), "N", verdict(kept)), note)
+    placed(conoid, &least, &super::force_closure::finding(-least.value, &roller, Place::default()), None)
 }
 
 fn between(subject: &Subject<'_>) -> Finding {

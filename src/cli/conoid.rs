@@ -3,7 +3,7 @@
 use super::args::{ConoidArgs, STL, Speed};
 use super::{Failure, Outcome, cut, print, tell, text};
 use camgen::cam::between::{self, Residual};
-use camgen::cam::conoid::{Conoid, Interpolation};
+use camgen::cam::conoid::{Conoid, Interpolation, Measures};
 use camgen::checks;
 use camgen::checks::conoid::{Subject, WrittenSection};
 use camgen::drawing::conoid::{ConoidReport, Found, cuts, report, sections, table};
@@ -31,9 +31,10 @@ pub(super) fn run(args: &ConoidArgs) -> Result<Outcome, Failure> {
         None => DEFAULT_FORMATS.contains(&name),
     };
     let tolerance = args.common.tolerance();
+    let measures = Measures::new(&conoid);
     let (parts, refusal) = match sections(&conoid, files.fit(tolerance)) {
         Ok(parts) => (Some(parts), None),
-        Err(OutlineError::Fit(_) | OutlineError::Undercut(_)) if undercut(&conoid) => {
+        Err(OutlineError::Fit(_) | OutlineError::Undercut(_)) if measures.undercut(machine.roller.radius) => {
             (None, Some("the surface folds over itself where the roller is larger than it".to_owned()))
         }
         Err(error) => return Err(Failure::new(error)),
@@ -58,6 +59,7 @@ pub(super) fn run(args: &ConoidArgs) -> Result<Outcome, Failure> {
         .collect();
     let findings = checks::conoid::run(&Subject {
         conoid: &conoid,
+        measures: &measures,
         sections: &outlines,
         flank_gap: flank.as_ref().map(|flank| flank::roll(&conoid, flank)),
         between: (left, args.residual),
@@ -68,8 +70,7 @@ pub(super) fn run(args: &ConoidArgs) -> Result<Outcome, Failure> {
         parts: parts.as_deref(),
         flank: flank.as_ref(),
         between: (left, between::residual(&conoid, Interpolation::Straight)),
-        axial_force: conoid.axial_force().value,
-        wander: conoid.largest_wander(),
+        measures: &measures,
     };
     let mut report = report(&conoid, &found, findings);
     match (&parts, &written) {
@@ -119,11 +120,6 @@ fn solve(args: &ConoidArgs, machine: &Machine) -> Result<(Conoid, Residual, Stri
         _ => names.join("-"),
     };
     Ok((conoid, left, name))
-}
-
-/// Whether the roller is larger than the surface allows.
-fn undercut(conoid: &Conoid) -> bool {
-    conoid.sharpest().value * conoid.machine.roller.radius >= 1.0
 }
 
 /// A conoid ready to be written.

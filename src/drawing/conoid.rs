@@ -4,7 +4,7 @@ use super::flank::Flank;
 use super::outline::{self, Fit, MILLIMETRES, OutlineError};
 use super::{Part, Table, as_turned, bore, point_as_turned};
 use crate::cam::between::Residual;
-use crate::cam::conoid::{Conoid, Worst};
+use crate::cam::conoid::{Conoid, Measures};
 use crate::checks::Finding;
 use crate::law::Law;
 use rayon::prelude::*;
@@ -221,10 +221,8 @@ pub struct Found<'a> {
     pub flank: Option<&'a Flank>,
     /// Between the sections, by splines and by straight strips.
     pub between: (Residual, Residual),
-    /// Largest axial force, N.
-    pub axial_force: f64,
-    /// Wander of the contact.
-    pub wander: Worst,
+    /// What was found of the surface.
+    pub measures: &'a Measures,
 }
 
 /// The report; `files` are named by whoever writes them.
@@ -276,10 +274,10 @@ pub fn report(conoid: &Conoid, found: &Found<'_>, checks: Vec<Finding>) -> Conoi
         },
         sections: cuts.iter().enumerate().filter_map(section).collect(),
         surface: SurfaceReport {
-            axial_wander_mm: MILLIMETRES * found.wander.value,
-            axial_wander_cam_deg: degrees(found.wander.angle),
-            axial_wander_z_mm: MILLIMETRES * found.wander.z,
-            axial_force_max_n: found.axial_force,
+            axial_wander_mm: MILLIMETRES * found.measures.wander.value,
+            axial_wander_cam_deg: degrees(found.measures.wander.angle),
+            axial_wander_z_mm: MILLIMETRES * found.measures.wander.z,
+            axial_force_max_n: found.measures.axial_force.value,
             plane_offset_error_max_mm: MILLIMETRES * errors.iter().copied().fold(0.0, f64::max),
             patches: found.flank.map(|flank| flank.patches.len()),
             deviation_max_mm: found.flank.map(|flank| flank.deviation),
@@ -295,7 +293,7 @@ pub fn report(conoid: &Conoid, found: &Found<'_>, checks: Vec<Finding>) -> Conoi
         force: ConoidForce {
             inertia_max_n: conoid.machine.bed.largest_inertia(conoid.speeds.last().copied().unwrap_or(0.0)),
             residual_max_n: left.force,
-            axial_force_max_n: found.axial_force,
+            axial_force_max_n: found.measures.axial_force.value,
         },
         files: Vec::new(),
     }

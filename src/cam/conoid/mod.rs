@@ -16,7 +16,7 @@ mod surface;
 mod worst;
 
 pub use surface::SpatialContact;
-pub use worst::Worst;
+pub use worst::{Measures, Worst};
 
 use super::Curves;
 use super::rotary::round_up;

@@ -145,3 +145,28 @@ pub struct Worst {
     /// Place along the axis, m.
     pub z: f64,
 }
+
+/// What checks and report both want of the surface, found once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measures {
+    /// The sharpest convex place of the pitch surface, 1/m.
+    pub sharpest: Worst,
+    /// Largest distance of the contact from the roller's plane along the axis, m.
+    pub wander: Worst,
+    /// Largest force the drive of the shift must hold, N.
+    pub axial_force: Worst,
+}
+
+impl Measures {
+    /// Searches the surface of a conoid.
+    #[must_use]
+    pub fn new(conoid: &Conoid) -> Self {
+        Self { sharpest: conoid.sharpest(), wander: conoid.largest_wander(), axial_force: conoid.axial_force() }
+    }
+
+    /// Whether a roller of a radius (m) is larger than the surface allows.
+    #[must_use]
+    pub fn undercut(&self, roller_radius: f64) -> bool {
+        self.sharpest.value * roller_radius >= 1.0
+    }
+}

@@ -1,0 +1,199 @@
+//! Plates, conoids and the ladder of accuracies as a user meets them.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::{Run, camgen, camgen_in, camgen_on, files, report};
+use serde_json::Value;
+use std::fs;
+
+#[test]
+fn a_plate_is_written_with_the_names_of_the_contract() {
+    let run = camgen(&["translating", "--rpm", "35", "--samples", "9"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let expected = ["csv", "dxf", "step", "svg"].map(|extension| format!("dpi-translating-35rpm.{extension}"));
+    assert_eq!(files(run.directory.path()), expected);
+    let csv = fs::read_to_string(run.directory.path().join("output/dpi-translating-35rpm.csv")).expect("a table");
+    let header =
+        "x_mm,dx_mm,psi_deg,alpha_deg,pitch_x_mm,pitch_y_mm,profile_x_mm,profile_y_mm,roller_force_n,residual_return_n";
+    assert!(csv.starts_with(header), "{csv}");
+    let rows: Vec<Vec<f64>> =
+        csv.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    assert_eq!(rows.len(), 10);
+    for (x, dx) in [(20.0, -1.151_334_7), (60.0, -7.199_936_8), (120.0, -24.872_067_8), (180.0, -51.537_927_9)] {
+        assert!(rows.iter().any(|row| row[0] == x && (row[1] - dx).abs() < 6e-8), "{x}: {rows:?}");
+    }
+    let run = camgen(&["translating", "--json", "--balance", "mean", "--set", "buffer.column=return"]);
+    let report = report(&run);
+    let force = &report["force"];
+    let (braking, back) = (force["residual_braking_max_n"].as_f64(), force["residual_return_max_n"].as_f64());
+    let (braking, back) = (braking.expect("a force"), back.expect("a force"));
+    assert!((braking - back).abs() < 1e-6 * braking && report["command"] == "translating", "{report}");
+    assert!(report["law"]["equation_18"]["breaks"].as_array().is_some_and(|breaks| !breaks.is_empty()), "{report}");
+}
+
+#[test]
+fn walls_of_a_plate_and_flags_that_do_not_go_together_are_told() {
+    for (args, code, part) in [
+        (vec!["--set", "translating.bottom_arm=40mm"], 2, "grows without bound near x = 14"),
+        (vec!["--set", "buffer.lead=5mm"], 2, "knows no lead"),
+        (vec!["--stations", "18"], 2, "belongs to --solver paper"),
+        (vec!["--solver", "paper", "--stations", "1"], 2, "2..=1000000"),
+        (vec!["--rpm", "20,35"], 2, "one speed, not 2"),
+        (vec!["--set", "translating.plate_height=90mm"], 1, "translating.plate_height must exceed 98.595"),
+        (vec!["--set", "translating.delta=30deg"], 1, "a check failed"),
+    ] {
+        let run = camgen(&[&["translating"], &args[..]].concat());
+        assert_eq!(run.code, code, "{args:?}: {}", run.err);
+        assert!(run.err.contains(part), "{args:?}: {}", run.err);
+        assert!(files(run.directory.path()).is_empty(), "{args:?}");
+    }
+}
+
+/// The paper's solver with 18 stations misses by a millimetre: `check` sees that the plate is not the law's.
+#[test]
+fn a_plate_is_checked_against_the_law() {
+    for balance in ["return", "mean"] {
+        let made = camgen(&["translating", "--name", "plate", "--out", ".", "--balance", balance]);
+        assert_eq!(made.code, 0, "{}", made.err);
+        let checked = camgen_in(made.directory, &["check", "plate.dxf", "--cam", "translating", "--balance", balance]);
+        assert_eq!(checked.code, 0, "{}", checked.out);
+    }
+    for (stations, code) in [(None, 0), (Some("18"), 1)] {
+        let solver = stations.map_or(vec![], |stations| vec!["--solver", "paper", "--stations", stations]);
+        let made = camgen(&[&["translating", "--name", "plate", "--out", "."], &solver[..]].concat());
+        assert_eq!(made.code, 0, "{}", made.err);
+        let checked = camgen_in(made.directory, &["check", "plate.dxf", "--cam", "translating"]);
+        assert_eq!(checked.code, code, "{}", checked.out);
+    }
+}
+
+/// Files of a conoid, the same on one thread and on four.
+#[test]
+fn a_conoid_has_a_cut_for_each_speed_and_the_same_bytes_on_any_number_of_threads() {
+    let args =
+        ["conoid", "--rpm", "20,25,30,35", "--name", "c", "--samples", "36", "--format", "dxf,svg,step,csv,json,stl"];
+    let on = |threads| camgen_on(Some(threads), tempfile::tempdir().expect("a directory"), &args);
+    let (one, four) = (on("1"), on("4"));
+    assert_eq!(one.code, 0, "{}", one.err);
+    assert_eq!(one.out, four.out);
+    let expected =
+        ["c-20rpm.dxf", "c-25rpm.dxf", "c-30rpm.dxf", "c-35rpm.dxf", "c.csv", "c.json", "c.step", "c.stl", "c.svg"];
+    assert_eq!(files(one.directory.path()), expected);
+    for name in expected {
+        let read = |run: &Run| fs::read(run.directory.path().join("output").join(name)).expect("a file");
+        assert!(read(&one) == read(&four), "{name}");
+    }
+    let csv = fs::read_to_string(one.directory.path().join("output/c.csv")).expect("a table");
+    assert!(csv.starts_with("z_mm,cam_deg,crank_deg,x_mm,dx_mm,lift_mm,"), "{csv}");
+    assert!(!csv.contains("NaN") && csv.lines().count() == 1 + 4 * 36);
+    let stl = fs::read(one.directory.path().join("output/c.stl")).expect("a mesh");
+    let count = u32::from_le_bytes([stl[80], stl[81], stl[82], stl[83]]);
+    assert_eq!(stl.len(), 84 + 50 * usize::try_from(count).expect("small"));
+}
+
+/// Every edge of the mesh is used once in either direction: it is closed and turned one way.
+#[test]
+fn the_mesh_of_a_conoid_is_closed() {
+    for bore in [&[][..], &["--set", "cam.rotation=ccw"]] {
+        let run = camgen(&[&["conoid", "--rpm", "20,35", "--name", "c", "--format", "stl"], bore].concat());
+        assert_eq!(run.code, 0, "{}", run.err);
+        let stl = fs::read(run.directory.path().join("output/c.stl")).expect("a mesh");
+        let mut edges = std::collections::HashMap::new();
+        let mut volume = 0.0;
+        for triangle in stl[84..].chunks(50) {
+            let corner = |i: usize| -> [f32; 3] {
+                std::array::from_fn(|k| {
+                    let at = 12 + 12 * i + 4 * k;
+                    f32::from_le_bytes([triangle[at], triangle[at + 1], triangle[at + 2], triangle[at + 3]])
+                })
+            };
+            let corners = [corner(0), corner(1), corner(2)];
+            let [a, b, c] = corners.map(|p| p.map(f64::from));
+            volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+                + a[2] * (b[0] * c[1] - b[1] * c[0]))
+                / 6.0;
+            for i in 0..3 {
+                let key = |p: [f32; 3]| p.map(f32::to_bits);
+                *edges.entry((key(corners[i]), key(corners[(i + 1) % 3]))).or_insert(0) += 1;
+            }
+        }
+        assert!(edges.iter().all(|((a, b), n)| *n == 1 && edges.get(&(*b, *a)) == Some(&1)));
+        assert!((volume / 6.3e6 - 1.0).abs() < 0.01, "{volume}");
+    }
+}
+
+#[test]
+fn what_makes_no_conoid_is_told() {
+    for (args, code, part) in [
+        (vec!["--rpm", "20..35"], 2, "needs --residual"),
+        (vec!["--rpm", "35..20", "--residual", "2N"], 2, "from the slower to the faster"),
+        (vec!["--rpm", "20,20,35"], 2, "asked for twice"),
+        (vec!["--rpm", "20,35", "--residual", "2mm"], 2, "a force has one of"),
+        (vec!["--rpm", "20,35", "--set", "transition.kind=none"], 2, "have a corner"),
+        (vec!["--rpm", "20,25,30,35", "--set", "conoid.axial_travel=5mm"], 2, "no base radius keeps the limits"),
+        (vec!["--rpm", "20,35", "--residual", "2N"], 1, "a check failed"),
+        (vec!["--rpm", "20,35", "--set", "cam.base_radius=50mm"], 1, "a check failed"),
+        (
+            vec!["--rpm", "20,35", "--set", "follower.roller.crown=cylinder", "--set", "follower.roller.width=20mm"],
+            1,
+            "a check failed",
+        ),
+        (vec!["--rpm", "20,35", "--set", "conoid.overhang=1mm"], 1, "a check failed"),
+    ] {
+        let run = camgen(&[&["conoid"], &args[..]].concat());
+        assert_eq!(run.code, code, "{args:?}: {} {}", run.err, run.out);
+        assert!(run.err.contains(part), "{args:?}: {}", run.err);
+        assert!(files(run.directory.path()).is_empty(), "{args:?}");
+    }
+    let rotary = camgen(&["rotary", "--format", "stl"]);
+    assert!(rotary.code == 2 && rotary.err.contains("for a conoid"), "{}", rotary.err);
+    let found = camgen(&["conoid", "--rpm", "20..35", "--residual", "2N", "--json", "--format", "csv"]);
+    let report = report(&found);
+    assert_eq!(report["rpm"], serde_json::json!([20.0, 25.0, 30.0, 35.0]));
+    assert!(report["between"]["residual_max_n"].as_f64().is_some_and(|force| force < 2.0), "{report}");
+}
+
+/// The ladder gets finer from row to row: less is left, more arcs are laid; the advice keeps the limit.
+#[test]
+fn trade_measures_a_ladder_and_advises() {
+    for (kind, rows) in [("rotary", 9), ("translating", 17)] {
+        let run = camgen(&["trade", kind, "--json", "--residual", "5N"]);
+        assert_eq!(run.code, 0, "{}", run.err);
+        let report = report(&run);
+        let found = report["rows"].as_array().expect("rows");
+        assert_eq!(found.len(), rows, "{report}");
+        let of = |row: &Value, key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
+        assert!(of(&found[8], "residual_n") < 0.05 * of(&found[0], "residual_n"));
+        assert!(found[..9].windows(2).all(|pair| of(&pair[0], "arcs") <= of(&pair[1], "arcs")));
+        assert!(found.iter().all(|row| of(row, "total_us") > 0.0 && of(row, "bytes") > 1e4));
+        assert!(report["advice"].as_str().is_some_and(|advice| advice.contains("cheapest")), "{report}");
+        let stem = format!("dpi-trade-{kind}-35rpm");
+        assert_eq!(files(run.directory.path()), [format!("{stem}.csv"), format!("{stem}.svg")]);
+    }
+    assert_eq!(camgen(&["trade", "conoid"]).code, 2);
+}
+
+#[test]
+fn sides_and_named_accuracies() {
+    let arcs = |args: &[&str]| {
+        let run = camgen(&[&["rotary", "--json", "--format", "dxf"], args].concat());
+        assert_eq!(run.code, 0, "{args:?}: {}", run.err);
+        let report = report(&run);
+        let gap = report["rolling"]["gap_mm"].as_f64().expect("a gap");
+        (report["outline"]["arcs"].as_u64().expect("a count"), gap)
+    };
+    let (draft, standard, fine) =
+        (arcs(&["--accuracy", "draft"]), arcs(&["--accuracy", "standard"]), arcs(&["--accuracy", "fine"]));
+    assert!(draft.0 < standard.0 && standard.0 < fine.0);
+    assert_eq!(standard, arcs(&[]));
+    // Metal in the way is a negative gap, metal missing a positive one.
+    assert!(arcs(&["--side", "outside"]).1 < 0.0 && arcs(&["--side", "inside"]).1 > 0.0);
+    for side in ["outside", "inside"] {
+        assert_eq!(camgen(&["translating", "--side", side]).code, 0);
+        assert_eq!(camgen(&["conoid", "--rpm", "20,35", "--side", side]).code, 0);
+    }
+    assert_eq!(camgen(&["rotary", "--accuracy", "fine", "--tolerance", "5um"]).code, 2);
+}

@@ -1,0 +1,56 @@
+//! The program, run in an empty directory.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// How a run of the program ended.
+pub(crate) struct Run {
+    pub(crate) code: i32,
+    pub(crate) out: String,
+    pub(crate) err: String,
+    pub(crate) directory: TempDir,
+}
+
+/// Runs camgen in an empty directory.
+pub(crate) fn camgen(args: &[&str]) -> Run {
+    camgen_in(tempfile::tempdir().expect("a directory"), args)
+}
+
+pub(crate) fn camgen_in(directory: TempDir, args: &[&str]) -> Run {
+    camgen_on(None, directory, args)
+}
+
+/// On a number of threads.
+pub(crate) fn camgen_on(threads: Option<&str>, directory: TempDir, args: &[&str]) -> Run {
+    let output = Command::cargo_bin("camgen")
+        .expect("the program")
+        .envs(threads.map(|threads| ("RAYON_NUM_THREADS", threads)))
+        .current_dir(directory.path())
+        .args(args)
+        .output()
+        .expect("it runs");
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
+    Run { code: output.status.code().expect("a code"), out: text(&output.stdout), err: text(&output.stderr), directory }
+}
+
+/// Every file below a directory.
+pub(crate) fn files(directory: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(directory).expect("a directory") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else {
+            found.push(path.file_name().expect("a name").to_string_lossy().into_owned());
+        }
+    }
+    found.sort();
+    found
+}
+
+pub(crate) fn report(run: &Run) -> Value {
+    serde_json::from_str(&run.out).unwrap_or_else(|e| panic!("{e}: {}", run.out))
+}
