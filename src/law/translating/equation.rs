@@ -89,12 +89,12 @@ pub(super) struct Lever {
     pub(super) ratio: f64,
     /// sin θ.
     pub(super) sine: f64,
+    /// cos θ.
+    pub(super) cosine: f64,
     /// sin(θ+ρ).
     pub(super) plus: f64,
     /// sin(θ−ρ).
     pub(super) minus: f64,
-    /// cos ψ.
-    pub(super) cos_psi: f64,
 }
 
 impl Mechanism {
@@ -102,9 +102,8 @@ impl Mechanism {
     pub(super) fn efficiencies(&self, side: Side) -> (f64, f64) {
         let eta = self.efficiency;
         match (self.model, side) {
-            (EfficiencyModel::Printed, _) | (_, Side::Rising) => {
-                (eta, if self.model == EfficiencyModel::Printed { eta } else { 1.0 / eta })
-            }
+            (EfficiencyModel::Printed, _) => (eta, eta),
+            (EfficiencyModel::Consistent, Side::Rising) => (eta, 1.0 / eta),
             (EfficiencyModel::Consistent, Side::Falling) => (1.0 / eta, eta),
             (EfficiencyModel::Consistent, Side::Stuck) => (1.0, 1.0),
         }
@@ -132,9 +131,9 @@ impl Mechanism {
         Lever {
             ratio: self.arm_ratio * cos_psi,
             sine: turned(self.delta),
+            cosine: turned(self.delta + FRAC_PI_2),
             plus: turned(self.delta + self.friction_angle),
             minus: turned(self.delta - self.friction_angle),
-            cos_psi,
         }
     }
 
@@ -155,9 +154,7 @@ impl Mechanism {
     pub fn slope_angle(&self, bottom: f64, slope: f64) -> f64 {
         let lever = self.lever(bottom);
         let sigma = slope / lever.ratio;
-        let sin_psi = bottom / self.bottom_arm;
-        let cosine = libm::cos(self.delta) * lever.cos_psi - libm::sin(self.delta) * sin_psi;
-        libm::atan2(sigma * lever.sine, 1.0 + sigma * cosine)
+        libm::atan2(sigma * lever.sine, 1.0 + sigma * lever.cosine)
     }
 
     /// The side of a slope; a slope of exactly 0 is a lever that sticks.
@@ -217,24 +214,15 @@ impl Mechanism {
     #[must_use]
     pub fn normal_force(&self, side: Side, way: Way, x: f64, bottom: f64, slope: f64) -> f64 {
         let lever = self.lever(bottom);
-        let sigma = slope / lever.ratio;
+        let (sigma, q) = (slope / lever.ratio, libm::sin(self.friction_angle));
         let (braking, returning) = self.efficiencies(side);
-        let (left, q) = (lever.minus, libm::sin(self.friction_angle));
         let (left, efficiency) = match way {
-            Way::Braking => (left - sigma * q, braking),
+            Way::Braking => (lever.minus - sigma * q, braking),
             Way::Return => (lever.plus + sigma * q, returning),
         };
         // sin(θ−α−ρ) over sin(θ−α) is (s₋ − σ q)/sin θ, and 1/sin(θ−α) is √(1 + 2 σ cos θ + σ²)/sin θ.
-        let cosine = (1.0 - lever.sine * lever.sine).max(0.0).sqrt() * self.sign_of_cosine(bottom);
-        let stretch = (1.0 + 2.0 * sigma * cosine + sigma * sigma).sqrt();
-        let friction = self.friction_angle;
-        self.air(x, bottom) * lever.ratio * libm::cos(friction) * stretch / (left * efficiency)
-    }
-
-    fn sign_of_cosine(&self, bottom: f64) -> f64 {
-        let sin_psi = bottom / self.bottom_arm;
-        let cos_psi = ((1.0 - sin_psi) * (1.0 + sin_psi)).max(0.0).sqrt();
-        (libm::cos(self.delta) * cos_psi - libm::sin(self.delta) * sin_psi).signum()
+        let stretch = (1.0 + 2.0 * sigma * lever.cosine + sigma * sigma).sqrt();
+        self.air(x, bottom) * lever.ratio * libm::cos(self.friction_angle) * stretch / (left * efficiency)
     }
 
     /// The right-hand side for x > 0, in units of the stroke.

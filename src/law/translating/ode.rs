@@ -22,6 +22,8 @@ const STEP_CELLS: u32 = 8;
 const STUCK_CELLS: u32 = 128;
 /// What is left of an arm, a sine or the column, as a share, where the solution ends for want of it.
 const NEAR: f64 = 0.02;
+/// Share of the overrun that the air has as its stroke, below which the equation is too stiff to be followed.
+const STIFF: f64 = 0.01;
 /// A slope beyond this where the solution ends is the reason why: the roller's path lies within 1° of the flank.
 const STEEP: f64 = 50.0;
 /// Slopes of series and equation that differ by more belong to different branches; the error of a step is far smaller
@@ -69,22 +71,23 @@ impl Solution {
             falling: mechanism.tape(Side::Falling),
             share,
             order: taylor::order(share),
+            x: 0.0,
+            y: 0.0,
+            side: Side::Stuck,
             solution: Self { stroke, stretches: Vec::new(), breaks: Vec::new() },
         };
         run.start()?;
         for _ in 0..MOST_STEPS {
-            let (x, y, side) = run.reached();
-            if x >= 1.0 {
+            if run.x >= 1.0 {
                 return Ok(run.solution);
             }
             // A lever that still sticks has not come free before the column ended.
-            if side == Side::Stuck {
-                return Err(Wall::Column { x_mm: 1e3 * stroke * x });
+            if run.side == Side::Stuck {
+                return Err(Wall::Column { x_mm: 1e3 * stroke * run.x });
             }
-            run.step(x, y, side)?;
+            run.step()?;
         }
-        let (x, y, _) = run.reached();
-        Err(run.wall(x, y))
+        Err(run.wall())
     }
 
     /// Number of steps taken.
@@ -122,25 +125,34 @@ impl Solution {
     }
 }
 
+/// The solution under way: reached so far, in strokes, and what the bottom does from there.
 struct Run<'a> {
     mechanism: &'a Mechanism,
     rising: Tape,
     falling: Tape,
     share: f64,
     order: usize,
+    x: f64,
+    y: f64,
+    side: Side,
     solution: Solution,
 }
 
 impl Run<'_> {
-    fn reached(&self) -> (f64, f64, Side) {
-        self.solution
-            .stretches
-            .last()
-            .map_or((0.0, 0.0, Side::Stuck), |s| (s.series.end, s.series.value(s.series.end), s.side))
-    }
-
     fn tape(&self, side: Side) -> &Tape {
         if side == Side::Falling { &self.falling } else { &self.rising }
+    }
+
+    /// Goes to the end of a series.
+    fn go(&mut self, series: Expansion) {
+        (self.x, self.y) = (series.end, series.value(series.end));
+        self.solution.stretches.push(Stretch { side: self.side, series });
+    }
+
+    /// From here on the bottom does something else.
+    fn turn(&mut self, then: Side) {
+        self.side = then;
+        self.solution.breaks.push(Break { x: self.x * self.solution.stroke, then });
     }
 
     /// The series from x = 0.
@@ -159,70 +171,60 @@ impl Run<'_> {
             let first = series.coefficients.iter().skip(1).find(|coefficient| **coefficient != 0.0);
             first.is_some_and(|coefficient| sign * coefficient > 0.0)
         };
-        let (side, series) = if mechanism.two_sided() {
-            let (rising, falling) = (from(Side::Rising)?, from(Side::Falling)?);
-            if goes(&rising, 1.0) {
-                (Side::Rising, rising)
-            } else if goes(&falling, -1.0) {
-                (Side::Falling, falling)
-            } else {
-                (Side::Stuck, Expansion { centre: 0.0, end: 0.0, coefficients: vec![0.0] })
-            }
+        let rising = from(Side::Rising)?;
+        let (side, series) = if goes(&rising, 1.0) {
+            (Side::Rising, rising)
+        } else if !mechanism.two_sided() {
+            (Side::Falling, rising)
         } else {
-            let series = from(Side::Rising)?;
-            (if goes(&series, 1.0) { Side::Rising } else { Side::Falling }, series)
+            let falling = from(Side::Falling)?;
+            if !goes(&falling, -1.0) {
+                self.turn(Side::Stuck);
+                self.wait(Side::Stuck);
+                return Ok(());
+            }
+            (Side::Falling, falling)
         };
-        if side == Side::Stuck {
-            self.turn(0.0, Side::Stuck);
-            self.wait(0.0, 0.0, Side::Stuck);
-            return Ok(());
-        }
-        self.accept(0.0, 0.0, side, series)
+        self.side = side;
+        self.accept(series)
     }
 
     /// One step of a moving bottom.
-    fn step(&mut self, x: f64, y: f64, side: Side) -> Result<(), Wall> {
-        let series = self.tape(side).expand(x, y, self.order);
-        self.accept(x, y, side, series)
+    fn step(&mut self) -> Result<(), Wall> {
+        let series = self.tape(self.side).expand(self.x, self.y, self.order);
+        self.accept(series)
     }
 
     /// Keeps a series as far as it holds, up to a change of side.
-    fn accept(&mut self, x: f64, y: f64, side: Side, mut series: Expansion) -> Result<(), Wall> {
+    fn accept(&mut self, mut series: Expansion) -> Result<(), Wall> {
+        let (x, side) = (self.x, self.side);
         let reach = series.reach(self.share);
-        if !(reach > SHORTEST_STEP * x) || !self.passable(x, y) {
-            return Err(self.wall(x, y));
+        if !(reach > SHORTEST_STEP * x) || !self.passable() {
+            return Err(self.wall());
         }
         series.end = if reach < 1.0 - x { x + reach } else { 1.0 };
-        let mut then = None;
-        if self.mechanism.two_sided() {
-            let sign = if side == Side::Rising { 1.0 } else { -1.0 };
-            if let Some(turn) = first_fall(|at| sign * series.at(at)[1], x, series.end, STEP_CELLS) {
-                series.end = turn;
-                then = Some(Side::Stuck);
-            }
-        }
-        let end = series.end;
-        let [bottom, slope, ..] = series.at(end);
+        let sign = if side == Side::Rising { 1.0 } else { -1.0 };
+        let turning = self.mechanism.two_sided();
+        let turn = turning.then(|| first_fall(|at| sign * series.at(at)[1], x, series.end, STEP_CELLS)).flatten();
+        series.end = turn.unwrap_or(series.end);
+        let slope = series.at(series.end)[1];
+        self.go(series);
         // The series runs on smoothly past the end of the arm, where cos ψ changes sign; the equation does not.
-        let same = (self.tape(side).value(end, bottom) - slope).abs() <= SAME_SLOPE * (1.0 + slope * slope);
-        self.solution.stretches.push(Stretch { side, series });
-        if !same || !self.passable(end, bottom) {
-            return Err(self.wall(end, bottom));
+        let apart = (self.tape(side).value(self.x, self.y) - slope).abs();
+        if !(apart <= SAME_SLOPE * (1.0 + slope * slope)) || !self.passable() {
+            return Err(self.wall());
         }
-        if let (Some(then), true) = (then, end < 1.0) {
-            self.turn(end, then);
-            self.wait(end, bottom, side);
+        if turn.is_some() && self.x < 1.0 {
+            self.turn(Side::Stuck);
+            self.wait(side);
         }
         Ok(())
     }
 
-    fn turn(&mut self, x: f64, then: Side) {
-        self.solution.breaks.push(Break { x: x * self.solution.stroke, then });
-    }
-
-    /// A lever that sticks from x on, until either law of the slope moves it the way it is for. The law of the side it
-    /// came from is 0 at x, give or take a rounding, and frees it only later.
-    fn wait(&mut self, x: f64, y: f64, came: Side) {
+    /// A lever that sticks from here on, until either law of the slope moves it the way it is for. The law of the side it
+    /// came from is 0 here, give or take a rounding, and frees it only later.
+    fn wait(&mut self, came: Side) {
+        let (x, y) = (self.x, self.y);
         let from = x.max(LEAST_OVERRUN);
         // A bottom that rests lets the column be used up at L − Δx.
         let limit = (self.mechanism.balance.column / self.solution.stroke - y).min(1.0);
@@ -231,71 +233,68 @@ impl Run<'_> {
         let free = |law: &dyn Fn(f64) -> f64, side: Side| {
             if side != came && law(from) < 0.0 { Some(from) } else { first_fall(law, from, limit, STUCK_CELLS) }
         };
-        let (up, down) = (free(&up, Side::Rising), free(&down, Side::Falling));
-        let (end, then) = match (up, down) {
+        let (end, then) = match (free(&up, Side::Rising), free(&down, Side::Falling)) {
             (Some(up), Some(down)) if up < down => (up, Side::Rising),
             (_, Some(down)) => (down, Side::Falling),
             (Some(up), None) => (up, Side::Rising),
             (None, None) => (limit, Side::Stuck),
         };
         if end > x {
-            let series = Expansion { centre: x, end, coefficients: vec![y] };
-            self.solution.stretches.push(Stretch { side: Side::Stuck, series });
+            self.go(Expansion { centre: x, end, coefficients: vec![y] });
         } else {
             // It only passes through: the break is a change of law without a stay.
             self.solution.breaks.pop();
         }
         if then != Side::Stuck && end < 1.0 {
-            self.turn(end, then);
-            // The next step starts with the other law; a series of its own carries the side on.
-            let series = Expansion { centre: end, end, coefficients: vec![y] };
-            self.solution.stretches.push(Stretch { side: then, series });
+            self.turn(then);
         }
     }
 
-    /// Whether the mechanism can stand at (x, y), in strokes.
-    fn passable(&self, x: f64, y: f64) -> bool {
-        let (r, m) = (self.solution.stroke, self.mechanism);
-        let lever = m.lever(r * y);
-        bottom_share(m, r * y) < ARM_SHARE && lever.sine > 0.0 && m.balance.column > r * (x + y)
+    /// Share of the bottom's arm that is in use.
+    fn arm_share(&self) -> f64 {
+        self.y.abs() * self.solution.stroke / self.mechanism.bottom_arm
     }
 
-    /// The name of the wall at (x, y): the quantity that is nearest to nothing.
-    fn wall(&self, x: f64, y: f64) -> Wall {
-        let (r, m) = (self.solution.stroke, self.mechanism);
-        let (x_mm, bottom) = (1e3 * r * x, r * y);
-        let near = NEAR;
-        let past = bottom_share(m, bottom) >= 1.0 - near;
-        if past && m.delta.to_degrees() == 90.0 || bottom.abs() >= m.bottom_arm {
+    /// Share of the column that is left.
+    fn column_left(&self) -> f64 {
+        1.0 - (self.x + self.y) * self.solution.stroke / self.mechanism.balance.column
+    }
+
+    fn sine(&self) -> f64 {
+        self.mechanism.lever(self.y * self.solution.stroke).sine
+    }
+
+    /// Whether the mechanism can stand here.
+    fn passable(&self) -> bool {
+        self.arm_share() < ARM_SHARE && self.sine() > 0.0 && self.column_left() > 0.0
+    }
+
+    /// The name of the wall ahead: the quantity that is nearest to nothing.
+    fn wall(&self) -> Wall {
+        let m = self.mechanism;
+        let x_mm = 1e3 * self.solution.stroke * self.x;
+        let side = if self.y < 0.0 { Side::Falling } else { Side::Rising };
+        // Where the arm ends before the roller moves along the bed, sin θ is small for want of arm.
+        if !(self.sine() > NEAR) && m.furthest_before_line(side).is_finite() {
+            return Wall::Line { x_mm };
+        }
+        if self.arm_share() >= 1.0 - NEAR {
             return Wall::Arm { x_mm, arm_mm: 1e3 * m.bottom_arm };
         }
-        let lever = m.lever(bottom);
-        if lever.sine <= near {
-            Wall::Line { x_mm }
-        } else if past {
-            Wall::Arm { x_mm, arm_mm: 1e3 * m.bottom_arm }
-        } else if 1.0 - (r * x + bottom) / m.balance.column <= near {
-            Wall::Column { x_mm }
-        } else {
-            let slope = |side| {
-                if x > 0.0 {
-                    self.tape(side).value(x, y).abs()
-                } else {
-                    starting_slope(m, side).map_or(f64::NAN, f64::abs)
-                }
-            };
-            let steep = slope(Side::Rising).max(slope(Side::Falling));
-            // A hundredth of the overrun is left as stroke of the air.
-            if x + y < 0.01 * x {
-                return Wall::Stiff { x_mm };
-            }
-            if steep.is_nan() || steep > STEEP { Wall::Slope { x_mm } } else { Wall::Unnamed { x_mm } }
+        if self.column_left() <= NEAR {
+            return Wall::Column { x_mm };
         }
+        if self.x + self.y < STIFF * self.x {
+            return Wall::Stiff { x_mm };
+        }
+        let slope = |side: Side| {
+            let slope =
+                if self.x > 0.0 { Some(self.tape(side).value(self.x, self.y)) } else { starting_slope(m, side) };
+            slope.map_or(f64::NAN, f64::abs)
+        };
+        let steep = slope(Side::Rising).max(slope(Side::Falling));
+        if steep.is_nan() || steep > STEEP { Wall::Slope { x_mm } } else { Wall::Unnamed { x_mm } }
     }
-}
-
-fn bottom_share(mechanism: &Mechanism, bottom: f64) -> f64 {
-    bottom.abs() / mechanism.bottom_arm
 }
 
 /// Where a function that starts at 0 or above first falls below 0 in (low, high], by cells.
