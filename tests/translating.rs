@@ -94,6 +94,13 @@ fn extremes_balance_or_name_their_wall() {
     let (mut solved, mut walls, mut worst) = (0, std::collections::BTreeMap::new(), 0.0_f64);
     for case in 0..4000 {
         let mechanism = extreme(&mut random);
+        if case % 10 == 0 {
+            // The paper's own method too: numbers, or a wall with a name.
+            match Stations::new(&mechanism, 60) {
+                Ok(stations) => assert!(stations.bottoms.iter().all(|bottom| bottom.is_finite()), "{case}"),
+                Err(wall) => assert!(!matches!(wall, Wall::Unnamed { .. }), "{case}: {wall} {mechanism:?}"),
+            }
+        }
         match Solution::new(&mechanism, 1e-15) {
             Err(wall) => {
                 assert!(!matches!(wall, Wall::Unnamed { .. }), "{case}: {wall} {mechanism:?}");

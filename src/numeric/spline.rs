@@ -20,44 +20,26 @@ impl Spline {
     /// Through `values` at `knots` with the given slopes at either end; two knots or more.
     #[must_use]
     pub fn clamped(knots: &[f64], values: &[f64], ends: (f64, f64)) -> Self {
-        // Tridiagonal in the second derivatives; the first and the last row hold the slopes at the ends.
-        let n = knots.len();
-        let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(f64::NAN);
-        let width = |index: usize| at(knots, index + 1) - at(knots, index);
-        let slope = |index: usize| (at(values, index + 1) - at(values, index)) / width(index);
-        let mut rows: Vec<(f64, f64)> = Vec::with_capacity(n);
-        for row in 0..n {
-            let (below, diagonal, above, right) = if row == 0 {
-                (0.0, 2.0 * width(0), width(0), 6.0 * (slope(0) - ends.0))
-            } else if row + 1 == n {
-                (width(row - 1), 2.0 * width(row - 1), 0.0, 6.0 * (ends.1 - slope(row - 1)))
-            } else {
-                let (a, b) = (width(row - 1), width(row));
-                (a, 2.0 * (a + b), b, 6.0 * (slope(row) - slope(row - 1)))
-            };
-            let (factor, before) = rows.last().copied().unwrap_or((0.0, 0.0));
-            let pivot = diagonal - below * factor;
-            rows.push((above / pivot, (right - below * before) / pivot));
-        }
-        let mut second = vec![0.0; n];
-        let mut next = 0.0;
-        for (slot, (factor, right)) in second.iter_mut().zip(&rows).rev() {
-            next = right - factor * next;
-            *slot = next;
-        }
-        Self::with_second(knots, values, &second)
+        let (h, d) = (widths(knots), slopes(knots, values));
+        let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
+        let last = h.len();
+        // The first and the last row hold the slopes at the ends.
+        let row = |i: usize| match i {
+            0 => [0.0, 2.0 * at(&h, 0), at(&h, 0), 6.0 * (at(&d, 0) - ends.0)],
+            i if i == last => [at(&h, i - 1), 2.0 * at(&h, i - 1), 0.0, 6.0 * (ends.1 - at(&d, i - 1))],
+            i => inner_row(at(&h, i - 1), at(&h, i), at(&d, i) - at(&d, i - 1)),
+        };
+        Self::with_second(knots, values, &tridiagonal((0..=last).map(row)))
     }
 
     /// From the second derivatives at the knots.
     fn with_second(knots: &[f64], values: &[f64], second: &[f64]) -> Self {
-        let intervals = knots.windows(2).zip(values.windows(2)).zip(second.windows(2));
+        let intervals = knots.iter().zip(knots.iter().skip(1)).zip(values.iter().zip(values.iter().skip(1)));
         let cubics = intervals
-            .map(|((x, y), m)| match (x, y, m) {
-                ([x0, x1], [y0, y1], [m0, m1]) => {
-                    let h = x1 - x0;
-                    [*y0, (y1 - y0) / h - h * (2.0 * m0 + m1) / 6.0, 0.5 * m0, (m1 - m0) / (6.0 * h)]
-                }
-                _ => [f64::NAN; 4],
+            .zip(second.iter().zip(second.iter().skip(1)))
+            .map(|(((x0, x1), (y0, y1)), (m0, m1))| {
+                let h = x1 - x0;
+                [*y0, (y1 - y0) / h - h * (2.0 * m0 + m1) / 6.0, 0.5 * m0, (m1 - m0) / (6.0 * h)]
             })
             .collect();
         Self { knots: knots.to_vec(), cubics }
@@ -123,7 +105,7 @@ pub fn bspline_basis(knots: &[f64], x: f64) -> (usize, [f64; 4], [f64; 4]) {
         let mut lower = 0.0;
         for r in 0..degree {
             let width = right(r + 1) + left(degree - r);
-            let [value] = [basis.get(r).copied().unwrap_or(0.0) / width];
+            let value = basis.get(r).copied().unwrap_or(0.0) / width;
             if degree == 3 {
                 // Slope 3 (Nᵢ/(tᵢ₊₃ − tᵢ) − Nᵢ₊₁/(tᵢ₊₄ − tᵢ₊₁)).
                 if let Some(slot) = slopes.get_mut(r) {
@@ -146,68 +128,75 @@ pub fn bspline_basis(knots: &[f64], x: f64) -> (usize, [f64; 4], [f64; 4]) {
     (span - 3, basis, slopes)
 }
 
-/// The second derivatives at the knots, by Thomas' algorithm; the end conditions are folded into the first and the last
-/// row.
-fn second_derivatives(knots: &[f64], values: &[f64]) -> Vec<f64> {
-    let n = knots.len();
-    let widths: Vec<f64> =
-        knots.windows(2).map(|pair| pair.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(1.0)).collect();
-    let slopes: Vec<f64> = values
-        .windows(2)
-        .zip(&widths)
-        .map(|(pair, h)| pair.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0) / h)
+fn widths(knots: &[f64]) -> Vec<f64> {
+    knots.iter().zip(knots.iter().skip(1)).map(|(a, b)| b - a).collect()
+}
+
+/// Slopes of the chords.
+fn slopes(knots: &[f64], values: &[f64]) -> Vec<f64> {
+    let rises = values.iter().zip(values.iter().skip(1)).map(|(a, b)| b - a);
+    rises.zip(widths(knots)).map(|(rise, h)| rise / h).collect()
+}
+
+/// Coefficients below, on and above the diagonal and the right side, for the second derivative at a knot between
+/// intervals of widths a and b whose chords turn by `bend`.
+fn inner_row(a: f64, b: f64, bend: f64) -> [f64; 4] {
+    [a, 2.0 * (a + b), b, 6.0 * bend]
+}
+
+/// Solves rows of below, diagonal, above and right side, by Thomas' algorithm.
+fn tridiagonal(rows: impl Iterator<Item = [f64; 4]>) -> Vec<f64> {
+    let mut eliminated: Vec<(f64, f64)> = Vec::new();
+    for [below, diagonal, above, right] in rows {
+        let (factor, before) = eliminated.last().copied().unwrap_or((0.0, 0.0));
+        let pivot = diagonal - below * factor;
+        eliminated.push((above / pivot, (right - below * before) / pivot));
+    }
+    let mut next = 0.0;
+    let mut solution: Vec<f64> = eliminated
+        .iter()
+        .rev()
+        .map(|(factor, right)| {
+            next = right - factor * next;
+            next
+        })
         .collect();
-    let inner = n.saturating_sub(2);
-    let mut rows: Vec<(f64, f64)> = Vec::with_capacity(inner);
-    let pairs = widths.windows(2).zip(slopes.windows(2)).enumerate();
-    for (row, (h, d)) in pairs {
-        let ([a, b], [d0, d1]) = (h, d) else { continue };
-        let (mut below, mut diagonal, mut above) = (*a, 2.0 * (a + b), *b);
-        if row == 0 {
+    solution.reverse();
+    solution
+}
+
+/// The second derivatives at the knots. With the end conditions M₀ = ((a+b) M₁ − a M₂)/b the outer unknowns are folded
+/// into the first and the last row.
+fn second_derivatives(knots: &[f64], values: &[f64]) -> Vec<f64> {
+    let (h, d) = (widths(knots), slopes(knots, values));
+    let inner = knots.len().saturating_sub(2);
+    let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
+    let row = |i: usize| {
+        let (a, b) = (at(&h, i), at(&h, i + 1));
+        let [mut below, mut diagonal, mut above, right] = inner_row(a, b, at(&d, i + 1) - at(&d, i));
+        if inner == 1 {
+            // Three knots: a parabola, one second derivative.
+            return [0.0, 3.0 * (a + b), 0.0, right];
+        }
+        if i == 0 {
             diagonal += a * (a + b) / b;
             above -= a * a / b;
-            below = 0.0;
         }
-        if row + 1 == inner {
+        if i + 1 == inner {
             diagonal += b * (a + b) / a;
-            if row > 0 {
-                below -= b * b / a;
-            }
-            above = 0.0;
+            below -= b * b / a;
         }
-        if inner == 1 {
-            (below, diagonal, above) = (0.0, 3.0 * (a + b), 0.0);
-        }
-        let (factor, right) = rows.last().copied().unwrap_or((0.0, 0.0));
-        let pivot = diagonal - below * factor;
-        rows.push((above / pivot, (6.0 * (d1 - d0) - below * right) / pivot));
-    }
-    let mut second = vec![0.0; n];
-    let mut next = 0.0;
-    for (slot, (factor, right)) in second.iter_mut().skip(1).zip(&rows).rev() {
-        next = right - factor * next;
-        *slot = next;
-    }
-    let ends = |second: &[f64], h: &[f64]| match (second, h) {
-        ([m1, m2], [a, b]) => ((a + b) * m1 - a * m2) / b,
+        [below, diagonal, above, right]
+    };
+    let second = tridiagonal((0..inner).map(row));
+    let end = |m1: Option<&f64>, m2: Option<&f64>, a: Option<&f64>, b: Option<&f64>| match (m1, m2, a, b) {
+        (Some(m1), Some(m2), Some(a), Some(b)) => ((a + b) * m1 - a * m2) / b,
+        (Some(m1), None, ..) => *m1,
         _ => 0.0,
     };
-    let at = |index: usize| second.get(index).copied().unwrap_or(0.0);
-    let width = |index: usize| widths.get(index).copied().unwrap_or(1.0);
-    let (first, last) = match n {
-        0..=2 => (0.0, 0.0),
-        3 => (at(1), at(1)),
-        _ => {
-            (ends(&[at(1), at(2)], &[width(0), width(1)]), ends(&[at(n - 2), at(n - 3)], &[width(n - 2), width(n - 3)]))
-        }
-    };
-    if let Some(slot) = second.first_mut() {
-        *slot = first;
-    }
-    if let Some(slot) = second.last_mut() {
-        *slot = last;
-    }
-    second
+    let first = end(second.first(), second.get(1), h.first(), h.get(1));
+    let last = end(second.last(), second.iter().nth_back(1), h.last(), h.iter().nth_back(1));
+    std::iter::once(first).chain(second).chain([last]).collect()
 }
 
 #[cfg(test)]
