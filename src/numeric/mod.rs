@@ -1,5 +1,6 @@
 //! Root finding, extrema, quadrature and differential equations. Knows numbers only; every method cites its source.
 
+pub mod banded;
 pub mod extremum;
 pub mod quadrature;
 pub mod root;

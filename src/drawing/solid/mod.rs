@@ -108,6 +108,11 @@ pub enum SolidError {
 /// Longest sweep of one cylinder face, rad.
 const LONGEST_SWEEP: f64 = std::f64::consts::PI * (1.0 + 1e-9);
 
+/// An arc with a larger radius, mm, and a smaller sagitta, mm, is written as a line: from 1e9 mm on the digits of the
+/// centre put the arc's ends off by as much as the sagitta is, and a file is true to 1e-6 mm.
+const LARGEST_RADIUS: f64 = 1e9;
+const STRAIGHT: f64 = 1e-6;
+
 /// Largest relative difference of the two volumes: rounding of a few hundred terms.
 const VOLUME_TOLERANCE: f64 = 1e-11;
 
@@ -170,7 +175,7 @@ impl Shell {
 
     /// The walls over a contour with the metal on its left.
     fn walls(&mut self, contour: &Contour) {
-        let segments: Vec<Segment> = contour.segments().flat_map(|segment| halved(&segment)).collect();
+        let segments: Vec<Segment> = contour.segments().flat_map(|segment| edges(&segment)).collect();
         let n = segments.len();
         let (low, high) = self.ends;
         let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
@@ -274,8 +279,13 @@ pub fn conical(
     Ok(Solid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
 }
 
-/// A long arc as two: some readers cannot tell the inside of a cylinder face that is almost closed.
-fn halved(segment: &Segment) -> Vec<Segment> {
+/// An arc as its edges: two where it is long, as some readers cannot tell the inside of a cylinder face that is almost
+/// closed, and a line where its centre is so far away that the last digit of it exceeds the sagitta.
+fn edges(segment: &Segment) -> Vec<Segment> {
+    let sagitta = 0.5 * (segment.end - segment.start).norm() * segment.bulge.abs();
+    if segment.radius().abs() > LARGEST_RADIUS && sagitta < STRAIGHT {
+        return vec![Segment { bulge: 0.0, ..*segment }];
+    }
     if segment.sweep().abs() <= LONGEST_SWEEP {
         return vec![*segment];
     }

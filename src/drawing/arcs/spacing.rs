@@ -1,0 +1,124 @@
+//! Where the joints of the best chain lie to first order, counted in best possible arcs.
+//!
+//! Within a stretch of growing or falling curvature the arcs of the best chain are one share long. An exact tangent at
+//! an end of the piece leaves the arc there one lobe, e = κ'/6 s²(s − h), which reaches the tolerance after
+//! (40.5/124.7)^(1/3) = 0.69 of a share, whether κ' vanishes there or not. An extremum of the curvature lies in the middle
+//! of an arc of three lobes, e = −κ''/24 (s⁴ − a²s² + b), which is 1.56 shares long. Between two such places the number
+//! of arcs is whole, so that each stretch has a scale of its own.
+
+use super::nodes::Node;
+use super::trial::Place;
+
+/// What the arc at an exact tangent is shorter by.
+const CLAMPED: f64 = 0.31;
+/// What an arc over an extremum of the curvature reaches to either side.
+const HALF_OVER: f64 = 0.78;
+/// Shares between two extrema, or an extremum and an end, at the least; nearer ones are passed over. An end that is
+/// nearer to an extremum than a whole arc has the arc over the extremum.
+const LEAST_BETWEEN: f64 = 1.0;
+const LEAST_AT_END: f64 = 0.2;
+
+/// A stretch between the ends of the piece and the extrema of its curvature.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    from: f64,
+    to: f64,
+    /// Whether it begins and ends at an end of the piece, not at an extremum.
+    clamped: (bool, bool),
+    /// Arcs that lie in it whole.
+    arcs: u32,
+}
+
+impl Stretch {
+    /// What its ends take of it beside its whole arcs, in arcs.
+    fn taken(&self) -> f64 {
+        let end = |clamped| if clamped { -CLAMPED } else { HALF_OVER };
+        end(self.clamped.0) + end(self.clamped.1)
+    }
+
+    /// Shares to the arc.
+    fn scale(&self) -> f64 {
+        (self.to - self.from) / (f64::from(self.arcs) + self.taken())
+    }
+}
+
+/// The stretches of a piece.
+#[derive(Debug, Clone)]
+pub(super) struct Spacing(Vec<Stretch>);
+
+impl Spacing {
+    /// The least number of arcs that may do.
+    pub(super) fn new(nodes: &[Node]) -> Self {
+        let total = nodes.last().map_or(0.0, |node| node.share);
+        let mut bounds: Vec<f64> = Vec::new();
+        let signs = nodes.iter().filter(|node| node.best_heading != 0.0);
+        for (before, node) in signs.clone().zip(signs.skip(1)) {
+            if before.best_heading.signum() == node.best_heading.signum() {
+                continue;
+            }
+            let share = 0.5 * (before.share + node.share);
+            match bounds.last() {
+                // Two extrema close together are none.
+                Some(last) if share - last < LEAST_BETWEEN => _ = bounds.pop(),
+                None if share < LEAST_AT_END => {}
+                _ => bounds.push(share),
+            }
+        }
+        while bounds.last().is_some_and(|last| total - last < LEAST_AT_END) {
+            bounds.pop();
+        }
+        let starts = std::iter::once(0.0).chain(bounds.iter().copied());
+        let ends = bounds.iter().copied().chain([total]);
+        let last = bounds.len();
+        let stretches = starts.zip(ends).enumerate().map(|(index, (from, to))| {
+            let clamped = (index == 0, index == last);
+            Stretch { from, to, clamped, arcs: u32::from(clamped.0 && clamped.1) }
+        });
+        let mut spacing = Self(stretches.collect());
+        #[expect(clippy::cast_precision_loss, reason = "few extrema")]
+        let ideal = spacing.0.iter().map(|s| s.to - s.from - s.taken()).sum::<f64>() + last as f64;
+        while f64::from(spacing.arcs()) < ideal.max(2.0) {
+            spacing.add_arc();
+        }
+        spacing
+    }
+
+    /// Number of arcs.
+    pub(super) fn arcs(&self) -> u32 {
+        let whole: u32 = self.0.iter().map(|stretch| stretch.arcs).sum();
+        whole + u32::try_from(self.0.len()).unwrap_or(u32::MAX) - 1
+    }
+
+    /// One arc more, where they are longest.
+    pub(super) fn add_arc(&mut self) {
+        if let Some(widest) = self.0.iter_mut().max_by(|a, b| a.scale().total_cmp(&b.scale())) {
+            widest.arcs += 1;
+        }
+    }
+
+    /// Every joint, on the curve with the heading of the best chain; at the ends with that of the curve.
+    pub(super) fn places(&self, nodes: &[Node]) -> Vec<Place> {
+        let mut pairs = nodes.iter().zip(nodes.iter().skip(1)).peekable();
+        let mut place = |(share, scale): (f64, f64)| {
+            while pairs.next_if(|(_, after)| after.share < share).is_some() {}
+            let (before, after) = pairs.peek()?;
+            let part = ((share - before.share) / (after.share - before.share)).clamp(0.0, 1.0);
+            let between = |a: f64, b: f64| a + part * (b - a);
+            Some(Place {
+                parameter: between(before.parameter, after.parameter),
+                offset: 0.0,
+                slope: between(before.best_heading, after.best_heading) * scale * scale,
+            })
+        };
+        let mut places: Vec<Place> = nodes.iter().take(1).map(Place::at).collect();
+        for stretch in &self.0 {
+            let scale = stretch.scale();
+            let first = if stretch.clamped.0 { -CLAMPED } else { HALF_OVER };
+            let (skip, most) = (u32::from(stretch.clamped.0), stretch.arcs + u32::from(!stretch.clamped.1));
+            let joints = (skip..most).map(|arc| (stretch.from + (first + f64::from(arc)) * scale, scale));
+            places.extend(joints.filter_map(&mut place));
+        }
+        places.extend(nodes.last().map(Place::at));
+        places
+    }
+}

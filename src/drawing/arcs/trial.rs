@@ -1,0 +1,243 @@
+//! A chain of arcs by the places of its joints, with derivatives.
+//!
+//! A joint is free in three ways: along the curve, across it, and in its heading. An arc is given by both of its points and
+//! the heading at its start; the chain is tangent when its other heading has the same angle with the chord.
+
+use super::Joint;
+use super::nodes::{Arc, Node};
+use crate::cam::Frame;
+use crate::numeric::banded::Banded;
+use nalgebra::{Vector2, Vector4};
+
+/// Newton steps that close a chain to rounding: each squares what is open.
+const CLOSING_STEPS: u32 = 4;
+/// A chain is closed when no heading is off by more, rad: half of what the joints are promised.
+const CLOSED: f64 = 5e-10;
+
+/// A joint by its place along the curve, its offset to the left and the tangent of its heading against the curve's.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) parameter: f64,
+    pub(super) offset: f64,
+    pub(super) slope: f64,
+}
+
+impl Place {
+    /// On the curve, with its heading.
+    pub(super) fn at(node: &Node) -> Self {
+        Self { parameter: node.parameter, offset: 0.0, slope: 0.0 }
+    }
+}
+
+/// A joint in the plane.
+#[derive(Debug)]
+struct Stand {
+    place: Place,
+    frame: Frame,
+    point: Vector2<f64>,
+    heading: Vector2<f64>,
+    /// Half the chords beside it, the length its freedoms are measured by.
+    length: f64,
+}
+
+impl Stand {
+    fn new(curve: &impl Fn(f64) -> Frame, place: Place) -> Self {
+        let frame = curve(place.parameter);
+        let left = -frame.outward();
+        let heading = (frame.tangent + left * place.slope).normalize();
+        Self { place, frame, point: frame.point + left * place.offset, heading, length: 0.0 }
+    }
+
+    /// Change of the point and of the angle of the heading with the three freedoms: along the curve by the length, across
+    /// it by the tolerance, in heading by the tolerance over the length.
+    fn freedoms(&self, tolerance: f64) -> [(Vector2<f64>, f64); 3] {
+        let shrunk = 1.0 - self.frame.curvature * self.place.offset;
+        let turn = tolerance / self.length / (1.0 + self.place.slope * self.place.slope);
+        [
+            (self.frame.tangent * (self.length * shrunk), self.frame.curvature * self.length),
+            (-self.frame.outward() * tolerance, 0.0),
+            (Vector2::zeros(), turn),
+        ]
+    }
+
+    /// The place after a step of the freedoms.
+    fn moved(&self, step: &[f64], share: f64, tolerance: f64) -> Place {
+        let Place { parameter, offset, slope } = self.place;
+        match step {
+            [along, across, turn, ..] => Place {
+                parameter: parameter + share * along * self.length / self.frame.speed,
+                offset: offset + share * across * tolerance,
+                slope: slope + share * turn * tolerance / self.length,
+            },
+            _ => self.place,
+        }
+    }
+}
+
+/// An arc of the chain with its derivatives by the six freedoms of its two joints.
+#[derive(Debug)]
+pub(super) struct Link {
+    pub(super) arc: Arc,
+    chord: f64,
+    /// Half the difference of the angles of headings and chord, in tolerances over the chord, and its derivatives.
+    pub(super) open: f64,
+    pub(super) open_by: [f64; 6],
+    /// Derivatives of the deviation, in tolerances, as factors of 1, a, b, a² + b², see [`Arc::distance`].
+    pub(super) off_by: [Vector4<f64>; 6],
+}
+
+impl Link {
+    fn new(start: &Stand, end: &Stand, tolerance: f64) -> Option<Self> {
+        let v = end.point - start.point;
+        let (square, chord) = (v.norm_squared(), v.norm());
+        let (arc, _) = Arc::to(start.point, start.heading, end.point)?;
+        let Arc { heading, curvature, bulge, .. } = arc;
+        let unit = chord / tolerance;
+        let arrival = v.perp(&end.heading) / (chord + v.dot(&end.heading));
+        let open = unit * (arrival - bulge) / (1.0 + arrival * bulge);
+        // Of κ = 2 h × v/v².
+        let bend = |dv: Vector2<f64>, turn: f64| {
+            2.0 * (heading.perp(&dv) - heading.dot(&v) * turn - curvature * v.dot(&dv)) / square
+        };
+        let mut link = Self { arc, chord, open, open_by: [0.0; 6], off_by: [Vector4::zeros(); 6] };
+        let mut targets = link.open_by.iter_mut().zip(&mut link.off_by);
+        for ((step, turn), (open_by, off_by)) in start.freedoms(tolerance).into_iter().zip(&mut targets) {
+            let (along, across) = (heading.dot(&step), heading.perp(&step));
+            *open_by = unit * (0.5 * turn + v.perp(&step) / square);
+            *off_by = Vector4::new(-across, curvature * along - turn, curvature * across, -0.5 * bend(-step, turn))
+                / tolerance;
+        }
+        for ((step, turn), (open_by, off_by)) in end.freedoms(tolerance).into_iter().zip(targets) {
+            *open_by = unit * (0.5 * turn - v.perp(&step) / square);
+            *off_by = Vector4::new(0.0, 0.0, 0.0, -0.5 * bend(step, 0.0)) / tolerance;
+        }
+        Some(link)
+    }
+
+    /// What a step of the chain's freedoms does to the deviation, as factors of the basis.
+    pub(super) fn change(&self, step: &Step, index: usize) -> Vector4<f64> {
+        step.of(index).into_iter().zip(&self.off_by).fold(Vector4::zeros(), |sum, (by, off)| sum + off * by)
+    }
+}
+
+/// A step of every freedom of a chain: four numbers a joint, the fourth is the multiplier of the arc that ends there.
+#[derive(Debug, Clone)]
+pub(super) struct Step(pub(super) Vec<f64>);
+
+impl Step {
+    /// The freedoms of both joints of an arc; those of the ends of the piece do not move.
+    fn of(&self, index: usize) -> [f64; 6] {
+        let end = 4 * index;
+        let at = |place: Option<usize>| place.and_then(|place| self.0.get(place)).copied().unwrap_or(0.0);
+        let [a, b, c] = [0, 1, 2].map(|offset| at(end.checked_sub(4 - offset)));
+        let [d, e, f] = [0, 1, 2].map(|offset| at(Some(end + offset)));
+        [a, b, c, d, e, f]
+    }
+}
+
+/// A chain with its arcs.
+#[derive(Debug)]
+pub(super) struct Trial {
+    stands: Vec<Stand>,
+    pub(super) links: Vec<Link>,
+}
+
+impl Trial {
+    /// `None` when the joints are out of order or an arc is longer than a half circle.
+    pub(super) fn new(curve: &impl Fn(f64) -> Frame, places: &[Place], tolerance: f64) -> Option<Self> {
+        if !places.is_sorted_by(|a, b| a.parameter < b.parameter) {
+            return None;
+        }
+        let mut stands: Vec<Stand> = places.iter().map(|place| Stand::new(curve, *place)).collect();
+        let pairs = stands.iter().zip(stands.iter().skip(1));
+        let chords: Vec<f64> = pairs.map(|(a, b)| (b.point - a.point).norm()).collect();
+        let before = chords.iter().take(1).chain(&chords);
+        let after = chords.iter().chain(chords.last());
+        for ((stand, before), after) in stands.iter_mut().zip(before).zip(after) {
+            stand.length = 0.5 * (before + after);
+        }
+        let pairs = stands.iter().zip(stands.iter().skip(1));
+        let links = pairs.map(|(start, end)| Link::new(start, end, tolerance)).collect::<Option<Vec<Link>>>()?;
+        Some(Self { stands, links })
+    }
+
+    /// Widest opening, in tolerances over the chord.
+    pub(super) fn open(&self) -> f64 {
+        self.links.iter().map(|link| link.open.abs()).fold(0.0, f64::max)
+    }
+
+    /// Share of a step that moves no joint along the curve by more than `most` of the shorter chord beside it.
+    pub(super) fn careful(&self, step: &Step, most: f64) -> f64 {
+        let beside = self.links.iter().zip(self.links.iter().skip(1));
+        let of_joint = |(step, (before, after)): (&[f64], (&Link, &Link))| {
+            let along = step.first().copied().unwrap_or(0.0).abs();
+            most * before.chord.min(after.chord) / (along * 0.5 * (before.chord + after.chord))
+        };
+        step.0.chunks_exact(4).zip(beside).map(of_joint).fold(1.0, f64::min)
+    }
+
+    /// The joints after a share of a step.
+    pub(super) fn moved(&self, step: &Step, share: f64, tolerance: f64) -> Vec<Place> {
+        let last = self.links.len();
+        let ends = [0.0; 4];
+        let steps =
+            std::iter::once(ends.as_slice()).chain(step.0.chunks_exact(4).take(last - 1)).chain([ends.as_slice()]);
+        self.stands.iter().zip(steps).map(|(stand, step)| stand.moved(step, share, tolerance)).collect()
+    }
+
+    /// The joints with the bulges of their arcs.
+    pub(super) fn joints(&self) -> Vec<Joint> {
+        let joint = |(stand, link): (&Stand, &Link)| Joint {
+            point: stand.point,
+            parameter: stand.place.parameter,
+            bulge: link.arc.bulge,
+        };
+        self.stands.iter().zip(&self.links).map(joint).collect()
+    }
+
+    /// The chain made tangent by the least change of its freedoms; `None` when it cannot be.
+    pub(super) fn closed(&self, curve: &impl Fn(f64) -> Frame, tolerance: f64) -> Option<Self> {
+        let close = |trial: &Self| Self::new(curve, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
+        let mut closed = close(self)?;
+        for _ in 1..CLOSING_STEPS {
+            closed = close(&closed)?;
+        }
+        let off = |link: &Link| (link.open * tolerance / link.chord).abs();
+        // Written so that a NaN is refused too.
+        closed.links.iter().all(|link| off(link) <= CLOSED).then_some(closed)
+    }
+
+    /// The shortest step x with c + A x = 0: x = Aᵀ y, A Aᵀ y = −c, a tridiagonal system.
+    fn closing_step(&self) -> Step {
+        let arcs = self.links.len();
+        let mut matrix = Banded::<2>::zero(arcs);
+        let mut forces: Vec<f64> = self.links.iter().map(|link| -link.open).collect();
+        let mut before = [0.0; 3];
+        for (index, link) in self.links.iter().enumerate() {
+            let (start, end) = link.free(index, arcs);
+            let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            matrix.add(index, index, dot(start, start) + dot(end, end));
+            if let Some(last) = index.checked_sub(1) {
+                matrix.add(last, index, dot(before, start));
+            }
+            before = end;
+        }
+        matrix.factored().solve(&mut forces);
+        let pulls = self.links.iter().zip(&forces);
+        let joints = pulls.clone().zip(pulls.skip(1)).flat_map(|((before, pull), (after, push))| {
+            let [a, b, c, ..] = after.open_by.map(|by| by * push);
+            let [.., d, e, f] = before.open_by.map(|by| by * pull);
+            [a + d, b + e, c + f, 0.0]
+        });
+        Step(joints.collect())
+    }
+}
+
+impl Link {
+    /// Derivatives of the opening by the freedoms of either joint; the ends of the piece have none.
+    fn free(&self, index: usize, arcs: usize) -> ([f64; 3], [f64; 3]) {
+        let [a, b, c, d, e, f] = self.open_by;
+        let none = [0.0; 3];
+        (if index == 0 { none } else { [a, b, c] }, if index + 1 == arcs { none } else { [d, e, f] })
+    }
+}

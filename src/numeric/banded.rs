@@ -1,0 +1,100 @@
+//! Symmetric banded systems of linear equations.
+
+/// A symmetric matrix of half-bandwidth W − 1: row k holds the entries (k, k), (k, k + 1) … (k, k + W − 1).
+#[derive(Debug, Clone)]
+pub struct Banded<const W: usize> {
+    rows: Vec<[f64; W]>,
+}
+
+impl<const W: usize> Banded<W> {
+    /// The zero matrix of this many rows.
+    #[must_use]
+    pub fn zero(size: usize) -> Self {
+        Self { rows: vec![[0.0; W]; size] }
+    }
+
+    /// Adds to the entries (row, column) and (column, row). What lies outside of the band or the matrix is not kept.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        let (first, last) = (row.min(column), row.max(column));
+        if let Some(entry) = self.rows.get_mut(first).and_then(|entries| entries.get_mut(last - first)) {
+            *entry += value;
+        }
+    }
+
+    /// The factors L D Lᵀ, without pivoting: for positive definite matrices, and for quasi-definite ones in an order in
+    /// which every pivot has its sign when it is reached. Golub, Van Loan, Matrix Computations, §4.3.
+    #[must_use]
+    pub fn factored(mut self) -> Factored<W> {
+        let mut rest = self.rows.as_mut_slice();
+        while let Some((row, below)) = rest.split_first_mut() {
+            let pivot = row.first().copied().unwrap_or(1.0);
+            for (ahead, target) in (1..W).zip(below.iter_mut()) {
+                let factor = row.get(ahead).copied().unwrap_or(0.0) / pivot;
+                for (entry, above) in target.iter_mut().zip(row.iter().skip(ahead)) {
+                    *entry -= factor * above;
+                }
+            }
+            for above in row.iter_mut().skip(1) {
+                *above /= pivot;
+            }
+            rest = below;
+        }
+        Factored { rows: self.rows }
+    }
+}
+
+/// The factors of a [`Banded`] matrix.
+#[derive(Debug, Clone)]
+pub struct Factored<const W: usize> {
+    /// D, then the column of L below it.
+    rows: Vec<[f64; W]>,
+}
+
+impl<const W: usize> Factored<W> {
+    /// Solves for one right-hand side, in place.
+    pub fn solve(&self, right: &mut [f64]) {
+        let mut rest = &mut *right;
+        for row in &self.rows {
+            let Some((value, below)) = rest.split_first_mut() else { break };
+            for (factor, target) in row.iter().skip(1).zip(below.iter_mut()) {
+                *target -= factor * *value;
+            }
+            rest = below;
+        }
+        let size = right.len();
+        for (index, row) in self.rows.iter().enumerate().take(size).rev() {
+            let Some((value, below)) = right.get_mut(index..).and_then(<[f64]>::split_first_mut) else { break };
+            let known: f64 = row.iter().skip(1).zip(below.iter()).map(|(factor, value)| factor * value).sum();
+            *value = *value / row.first().copied().unwrap_or(1.0) - known;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A quasi-definite saddle: two unknowns with one constraint between them, twice, coupled.
+    #[test]
+    fn a_banded_system_is_solved() {
+        let mut matrix = Banded::<3>::zero(5);
+        let entries = [(0, 0, 4.0), (0, 1, 1.0), (1, 1, -2.0), (1, 2, 0.5), (2, 2, 3.0), (1, 3, 1.5), (3, 3, 5.0)];
+        let more = [(2, 4, -1.0), (3, 4, 0.25), (4, 4, -1.0), (2, 3, 0.75)];
+        let all: Vec<_> = entries.into_iter().chain(more).collect();
+        for &(row, column, value) in &all {
+            matrix.add(column, row, value);
+        }
+        let wanted = [1.0, -2.0, 3.0, 0.5, -1.5];
+        let mut right = [0.0; 5];
+        for &(row, column, value) in &all {
+            right[row] += value * wanted[column];
+            if row != column {
+                right[column] += value * wanted[row];
+            }
+        }
+        matrix.factored().solve(&mut right);
+        for (got, wanted) in right.iter().zip(wanted) {
+            assert!((got - wanted).abs() < 1e-14, "{right:?}");
+        }
+    }
+}
