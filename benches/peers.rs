@@ -3,6 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::print_stdout, missing_docs, reason = "a benchmark fails loudly and prints")]
 
+use camgen::cam::Frame;
 use camgen::cam::rotary::Rotary;
 use camgen::checks::surface::Surface;
 use camgen::contour::{Contour, Vertex};
@@ -126,18 +127,31 @@ fn offsets(criterion: &mut Criterion) {
             b.iter(|| kurbo_offset(&pitch_cubics(black_box(&cam), spans), 30.0, 0.5e3 * tolerance));
         });
     }
-    let many = 36_000;
-    criterion.bench_function("peers/exact offset at 36 000 points", |b| {
-        b.iter(|| {
-            (0..many)
-                .map(|i| {
-                    let (piece, angle) = cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(many));
-                    cam.curves.profile(piece, angle).point
-                })
-                .fold(Vector2::zeros(), |sum, point| sum + point)
-        });
-    });
 }
 
-criterion_group!(benches, offsets);
+/// The offset alone, of points of the pitch curve that are given, at the numbers of points of a fine table.
+fn points(criterion: &mut Criterion) {
+    let cam = dpi();
+    for many in [3600_u32, 36_000] {
+        let place = |i: u32| cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(many));
+        let pitch: Vec<Frame> =
+            (0..many).map(place).map(|(piece, angle)| cam.curves.contact(piece, angle).pitch).collect();
+        let mut line = Polyline::new_closed();
+        for frame in &pitch {
+            line.add_vertex(PlineVertex::new(1e3 * frame.point.x, 1e3 * frame.point.y, 0.0));
+        }
+        criterion.bench_function(&format!("peers/{many} points/camgen: offset of given pitch points"), |b| {
+            b.iter(|| black_box(&pitch).iter().map(|frame| frame.offset_inward(0.03).point).collect::<Vec<_>>());
+        });
+        criterion.bench_function(&format!("peers/{many} points/cavalier_contours: offset of given chords"), |b| {
+            b.iter(|| black_box(&line).parallel_offset(30.0));
+        });
+        criterion.bench_function(&format!("peers/{many} points/camgen: law, pitch curve and offset"), |b| {
+            let exact = |(piece, angle)| cam.curves.profile(piece, angle).point;
+            b.iter(|| (0..many).map(place).map(exact).collect::<Vec<_>>());
+        });
+    }
+}
+
+criterion_group!(benches, offsets, points);
 criterion_main!(benches);

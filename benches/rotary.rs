@@ -35,7 +35,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("machine/load", |b| b.iter(|| Machine::load(black_box("dpi"), &[])));
     criterion.bench_function("cam/solve", |b| b.iter(|| Rotary::solve(black_box(&machine), 35.0)));
     let cam = dpi();
-    for tolerance in [1e-4, 5e-6, 1e-6, 5e-8] {
+    for tolerance in [1e-4, 1e-5, 5e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12] {
         let id = format!("drawing/outline {tolerance:e} m");
         criterion.bench_function(&id, |b| b.iter(|| drawing::part(black_box(&cam), tolerance)));
     }

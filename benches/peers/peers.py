@@ -42,7 +42,7 @@ def require():
 
 require()
 import numpy as np  # noqa: E402
-from pipeline import A, BORE, CRANK, K, L, ROLLER, law, pitch, write_table  # noqa: E402
+from pipeline import A, BORE, CRANK, K, L, ROLLER, WIDTH, curvature, law, pitch, write_table  # noqa: E402
 
 
 # --- true errors, times, memory ------------------------------------------------------------------------------------
@@ -220,6 +220,99 @@ def plate_rows(camgen, directory, criterion):
     return rows
 
 
+def occ_arcs(tolerance):
+    """OpenCASCADE's arc converter on each smooth piece of the exact profile: time in µs, the arcs' points, largest kink.
+
+    It takes a spline, here one through 400 points a piece (4e-8 mm off). Of its angle tolerances 0.1 rad gives the fewest
+    arcs.
+    """
+    from OCP.Geom2dAdaptor import Geom2dAdaptor_Curve
+    from OCP.Geom2dAPI import Geom2dAPI_Interpolate
+    from OCP.Geom2dConvert import Geom2dConvert_ApproxArcsSegments
+    from OCP.gp import gp_Pnt2d, gp_Vec2d
+    from OCP.TColgp import TColgp_HArray1OfPnt2d
+    from OCP.TColStd import TColStd_HArray1OfReal
+
+    took, arcs, worst_kink = 0.0, [], 0.0
+    for start, end in ((-WIDTH, 0), (0, math.pi), (math.pi, math.pi + WIDTH)):
+        theta = np.linspace(start, end, 400)
+        centre, first, second = pitch(theta)
+        array, places = TColgp_HArray1OfPnt2d(1, 400), TColStd_HArray1OfReal(1, 400)
+        for index, point in enumerate(centre + 1j * ROLLER * first / np.abs(first)):
+            array.SetValue(index + 1, gp_Pnt2d(point.real, point.imag))
+            places.SetValue(index + 1, theta[index])
+        velocity = first * (1 - ROLLER * curvature(first, second))
+        spline = Geom2dAPI_Interpolate(array, places, False, 1e-9)
+        spline.Load(*(gp_Vec2d(v.real, v.imag) for v in velocity[[0, -1]]), False)
+        spline.Perform()
+        adaptor = Geom2dAdaptor_Curve(spline.Curve())
+        time_of_piece, found = median_call(lambda: Geom2dConvert_ApproxArcsSegments(adaptor, tolerance, 0.1).GetResult())
+        took += time_of_piece
+        heading, last = None, None
+        for index in range(1, found.Length() + 1):
+            arc = Geom2dAdaptor_Curve(found.Value(index))
+            places = np.linspace(arc.FirstParameter(), arc.LastParameter(), 40)
+            points = np.array([complex(p.X(), p.Y()) for p in map(arc.Value, places)])
+            tangents = []
+            for place in (places[0], places[-1]):
+                point, tangent = gp_Pnt2d(), gp_Vec2d()
+                arc.D1(place, point, tangent)
+                tangents.append(complex(tangent.X(), tangent.Y()))
+            if last is not None and abs(points[0] - last) > abs(points[-1] - last):
+                points, tangents = points[::-1], [-tangents[1], -tangents[0]]
+            if heading is not None:
+                worst_kink = max(worst_kink, abs(np.angle(tangents[0] / heading, deg=True)))
+            heading, last = tangents[1], points[-1]
+            arcs.append(points)
+    # The dwell is an arc of its own.
+    return took, len(arcs) + 1, true_error(np.concatenate(arcs)), worst_kink
+
+
+def outline_rows(camgen, directory, criterion):
+    """The outline as arcs: OpenCASCADE's converter, and the Rust peers as `cargo bench --bench peers` left them."""
+    ours, theirs, kinks = [], [], []
+    for micrometres in (5, 1):
+        command = [camgen, "rotary", "--rpm", "35", "--tolerance", f"{micrometres}um", "--quiet", "--format", "dxf,json"]
+        subprocess.run([*command, "--out", directory], check=True)
+        count, error = dxf_facts(directory / "dpi-rotary-35rpm.dxf")
+        checks = json.loads((directory / "dpi-rotary-35rpm.json").read_text())["checks"]
+        kinks.append(next(check["value"] for check in checks if check["check"] == "tangency"))
+        time_of = lambda what: criterion_us(criterion, f"peers_{micrometres} µm_{what}")
+        ours.append((time_of("camgen_ exact offset and its arcs"), count, error))
+        given = time_of("cavalier_contours_ offset of given arcs")
+        theirs.append((occ_arcs(micrometres / 1000), given, time_of("kurbo_ cubics and offset")))
+    peer, blank = "OpenCASCADE ApproxArcsSegments", None
+    rows = [
+        ("outline: arcs", peer, *[(t[0][1], o[1]) for t, o in zip(theirs, ours)], blank),
+        ("outline: true error, µm", peer, *[(t[0][2] * 1e3, o[2] * 1e3) for t, o in zip(theirs, ours)], blank),
+        ("outline: largest kink, deg", peer, *[(t[0][3], kink) for t, kink in zip(theirs, kinks)], blank),
+        ("outline: time, µs; camgen's with the offset", peer, *[(t[0][0], o[0]) for t, o in zip(theirs, ours)], blank),
+        ("offset of given arcs, µs; camgen: offset and arcs", "cavalier_contours", *[(t[1], o[0]) for t, o in zip(theirs, ours)], blank),
+        ("offset as cubics, µs; camgen: as arcs", "kurbo", *[(t[2], o[0]) for t, o in zip(theirs, ours)], blank),
+    ]
+    bench = lambda many, what: criterion_us(criterion, f"peers_{many} points_{what}")
+    for many in (3600, 36_000):
+        exact = bench(many, "camgen_ offset of given pitch points")
+        centre = pitch(np.linspace(0, 2 * math.pi, many, endpoint=False))[0]
+        plain = median_call(lambda: plain_normals(centre))[0]
+        buffered = median_call(lambda: buffer(centre))[0]
+        chords = bench(many, "cavalier_contours_ offset of given chords")
+        for who, took in (("numpy, normals by differences", plain), ("shapely buffer", buffered), ("cavalier_contours, chords", chords)):
+            rows.append((f"offset of {many} given pitch points, µs", who, blank, blank, (took, exact)))
+    return rows
+
+
+def plain_normals(points):
+    along = np.roll(points, -1) - np.roll(points, 1)
+    return points + 1j * ROLLER * along / np.abs(along)
+
+
+def buffer(points):
+    from shapely.geometry import Polygon
+
+    return Polygon(np.c_[points.real, points.imag]).buffer(-ROLLER, quad_segs=64)
+
+
 def measure(command, runs, directory, stem):
     wall, peak, printed = run(command, runs)
     (segments, dxf), step = dxf_facts(directory / f"{stem}.dxf"), step_error(directory / f"{stem}.step")
@@ -279,7 +372,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         directory = Path(name)
         rows = [*law_rows(camgen, directory, criterion), *plate_rows(camgen, directory, criterion)]
-        rows += part_rows(camgen, directory)
+        rows += outline_rows(camgen, directory, criterion) + part_rows(camgen, directory)
     show(rows)
     version = subprocess.run([camgen, "--version"], capture_output=True, text=True, check=True).stdout.strip()
     source = f"medians of an earlier `cargo bench`, {criterion}" if criterion else "no criterion directory, so dashes"

@@ -42,6 +42,8 @@ const TRIES: u32 = 6;
 /// Arcs that are tried at the most, against the first number.
 const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
+/// One arc in so many does not matter.
+const FEW: u32 = 500;
 /// Headings closer than this are one, rad: a circle is seen as a circle with rounding.
 const SAME_HEADING: f64 = 1e-10;
 
@@ -120,8 +122,9 @@ fn fewest(curve: &impl Fn(f64) -> Frame, nodes: &[Node], tolerance: f64) -> Opti
         if let Some(joints) = minimax::relax(curve, nodes, tolerance, spacing.places(nodes)) {
             return Some(joints);
         }
-        // One by one where a chain must be near, faster where the curve is not what the spacing expects.
-        for _ in 0..=(spacing.arcs() - first) / 4 {
+        // One by one where a chain must be near, faster where one among thousands does not matter or the curve is not what
+        // the spacing expects.
+        for _ in 0..=spacing.arcs() / FEW + (spacing.arcs() - first) / 4 {
             spacing.add_arc();
         }
     }
