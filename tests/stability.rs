@@ -13,7 +13,7 @@ use camgen::cam::{Curves, Frame, extremes};
 use camgen::checks::rolling;
 use camgen::drawing::{self, arcs, outline};
 use camgen::follower::{Follower, TranslatingRoller};
-use camgen::law::{EccentricCircle, Law};
+use camgen::law::{EccentricCircle, Law, Reversal, ReversalLaw, Transition};
 use camgen::machine::Machine;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
@@ -198,6 +198,121 @@ fn geometry_over_nine_decades() {
     }
     point.told(1e-14);
     curvature.told(1e-12);
+    angle.told(1e-14);
+}
+
+/// A plane vector of 60 digits.
+type Plane = [Big; 2];
+
+fn plus(a: &Plane, b: &Plane, share: &Big) -> Plane {
+    [&a[0] + &b[0] * share, &a[1] + &b[1] * share]
+}
+
+fn cross(a: &Plane, b: &Plane) -> Big {
+    &a[0] * &b[1] - &a[1] * &b[0]
+}
+
+fn dot(a: &Plane, b: &Plane) -> Big {
+    &a[0] * &b[0] + &a[1] * &b[1]
+}
+
+/// Lift of a balance law and its three derivatives by the cam angle, from (10) or the paper's column, differentiated by
+/// hand: nothing of the code's own forms.
+fn exact_lift(motion: &Reversal, buffer: &Sample, column: Column, angle: f64) -> [Big; 4] {
+    let law = motion.law();
+    let (lever, ratio, r) = (big(law.lever), big(law.ratio), big(buffer.r));
+    let (sin, cos) = (big(angle) / &ratio).sin_cos();
+    let (x, x1) = (&r * &sin, &r * &cos);
+    let (a, p) = (big(buffer.loading), big(1.0) / big(buffer.k));
+    let power = |u: &Big| (-(&p * (big(1.0) + u).ln())).exp();
+    let length = match column {
+        Column::Return => &r / (big(1.0) - power(&(&a * &r))),
+        _ => big(buffer.k) / &a,
+    };
+    let base = big(1.0) + &a * &x;
+    let shrunk = power(&(&a * &x));
+    let value = &length * (big(1.0) - &shrunk) - &x;
+    let steep = &length * &a * &p * &shrunk / &base;
+    let slope = &steep - big(1.0);
+    let second = -(&steep * &a * (&p + big(1.0))) / &base;
+    let third = -(&second * &a * (&p + big(2.0))) / &base;
+    let ds = &slope * &x1;
+    let dds = &second * &x1 * &x1 - &slope * &x;
+    let ddds = &third * &x1 * &x1 * &x1 - big(3.0) * &second * &x1 * &x - &slope * &x1;
+    let by = &lever / &ratio;
+    [(value - big(motion.lowest())) * &lever, ds * &by, dds * &by / &ratio, ddds * &by / &ratio / &ratio]
+}
+
+/// Pitch curve, its curvature and their change, the profile and the pressure angle of 600 random cams with a roller in
+/// line or offset, against 60 digits from the law on.
+#[test]
+fn geometry_of_random_cams() {
+    let mut random = Random(11);
+    let mut point = Worst::new("pitch and profile point", "of the radius");
+    let mut bend = Worst::new("curvature of the pitch curve", "of κ + 1/R");
+    let mut change = Worst::new("its derivative by the arc length", "of its terms");
+    let mut angle = Worst::new("pressure angle of random cams", "rad");
+    for _ in 0..600 {
+        let buffer = sample(&mut random);
+        let column = if random.next() < 0.5 { Column::Matched } else { Column::Return };
+        let balance = Balance::new(buffer.loading, buffer.k, buffer.r, column, 0.0);
+        let (lever, ratio) = (random.log_between(0.05, 20.0), random.log_between(0.2, 1.9));
+        let motion = Reversal::new(ReversalLaw { balance, lever, ratio, transition: Transition::None }).expect("fits");
+        let prime = random.log_between(1e-3, 1e3);
+        let offset = if random.next() < 0.5 { 0.0 } else { prime * (1.8 * random.next() - 0.9) };
+        let roller = prime * random.log_between(1e-3, 0.9);
+        let share = if random.next() < 0.5 { random.log_between(1e-12, 1.0) } else { random.next() };
+        let theta = ratio * std::f64::consts::FRAC_PI_2 * share;
+        let place = || {
+            format!("{column:?}, q − 1 = {:.1e}, r {:.1e}, R_p {prime:.1e}, θ {theta:.3e}", buffer.q - 1.0, buffer.r)
+        };
+        let exact = exact_lift(&motion, &buffer, column, theta);
+        let curves = Curves { law: motion, follower: TranslatingRoller::new(prime, offset, roller) };
+        let (piece, theta) = curves.law.locate(theta);
+        let (contact, profile) = (curves.contact(piece, theta), curves.profile(piece, theta));
+
+        let [s, ds, dds, ddds] = &exact;
+        let (sin, cos) = big(theta).sin_cos();
+        let (along, across) = ([cos.clone(), sin.clone()], [-sin, cos]);
+        let e = big(offset);
+        let u = (big(prime) * big(prime) - &e * &e).sqrt() + s;
+        let zero = [big(0.0), big(0.0)];
+        let vector = |a: &Big, b: &Big| plus(&plus(&zero, &along, a), &across, b);
+        let centre = vector(&u, &e);
+        let first = vector(&(ds - &e), &u);
+        let second = vector(&(dds - &u), &(big(2.0) * ds - &e));
+        let third = vector(&(ddds - big(3.0) * ds + &e), &(big(3.0) * dds - &u));
+        let speed = dot(&first, &first).sqrt();
+        let normal = [&first[1] / &speed, -&first[0] / &speed];
+        let cube = &speed * &speed * &speed;
+        let kappa = cross(&first, &second) / &cube;
+        let parts = [cross(&first, &third) / &cube, big(3.0) * &kappa * dot(&first, &second) / (&speed * &speed)];
+        let slope = (&parts[0] - &parts[1]) / &speed;
+
+        let size = number(&dot(&centre, &centre).sqrt());
+        let off = |got: Vector2<f64>, wanted: &Plane| {
+            [number(&(big(got.x) - &wanted[0])), number(&(big(got.y) - &wanted[1]))]
+                .map(f64::abs)
+                .into_iter()
+                .fold(0.0, f64::max)
+        };
+        let on_profile = plus(&centre, &normal, &-big(roller));
+        point.see(off(contact.pitch.point, &centre).max(off(profile.point, &on_profile)) / size, place);
+        let curvature = number(&kappa);
+        let error = number(&(big(contact.pitch.curvature) - &kappa)).abs();
+        bend.see(error / (curvature.abs() + 1.0 / size), place);
+        let error = number(&(big(contact.pitch.curvature_slope) - &slope)).abs();
+        let terms = (number(&parts[0]).abs() + number(&parts[1]).abs()) / number(&speed);
+        change.see(error / (terms + 1.0 / (size * size)), place);
+        let (sine, cosine) = big(contact.pressure_angle).sin_cos();
+        // û from the normal by the pressure angle, whichever way it is counted.
+        let [x, y] = [dot(&along, &normal), cross(&along, &normal)].map(|value| number(&value));
+        let turned = (number(&sine) - y).abs().min((number(&sine) + y).abs());
+        angle.see(turned.max((number(&cosine) - x).abs()), place);
+    }
+    point.told(1e-14);
+    bend.told(1e-13);
+    change.told(1e-12);
     angle.told(1e-14);
 }
 
