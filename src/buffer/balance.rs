@@ -17,6 +17,8 @@
 //! number of its own: exactly 0 for the matched column, 1/g(U) − 1 for the column of (7). For the latter the law is
 //! x (g(u) − g(U))/g(U), and the difference is taken with the factor U − u = A (r − x) in front.
 
+use crate::numeric::double::Double;
+
 /// How long the air column is at the start of compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Column {
@@ -34,6 +36,12 @@ const SERIES_LIMIT: f64 = 0.25;
 
 /// Beyond this u the two terms of the law as printed no longer cancel, and it has fewer roundings than x (g − 1).
 const PRINTED_LIMIT: f64 = 4.0;
+
+/// Up to this overrun, m, the law of a matched or returning column is wanted to its last digit, whatever its size.
+const START: f64 = 1e-3;
+
+/// Share of the stroke from its end that a returning law starts from the end instead: nearer, twice the digits do not do.
+const NEAR_END: f64 = 1e-9;
 
 /// Column by (7) or (14), m, for a net shortening `h_a` (m) and U = A r: `h_a`/(1 − (1+U)^(−1/k)).
 #[must_use]
@@ -55,6 +63,30 @@ fn g_minus_one(u: f64, p: f64) -> f64 {
         }
     }
     -libm::expm1(-p * libm::log1p(u)) / (p * u) - 1.0
+}
+
+/// g(u) − 1 with twice the digits.
+///
+/// With w = √(1+u) − 1 the law of squares, (1+u)^−p = ((1+w)^−p)², makes g(u) = g(w) (2 − p w g(w))/(2 + w), whose
+/// terms less 1 have one sign: nothing cancels on the way down to where the series is short.
+fn g_minus_one_to_the_end(u: Double, p: Double) -> Double {
+    let (one, two) = (Double::from(1.0), Double::from(2.0));
+    if u.high >= SERIES_LIMIT {
+        let w = u / (one + (one + u).sqrt());
+        let less = g_minus_one_to_the_end(w, p);
+        let g = one + less;
+        return (two * less - w - p * w * g * g) / (two + w);
+    }
+    let (mut term, mut sum, mut n) = (one, Double::from(0.0), 1.0);
+    loop {
+        term = -term * u * (p + Double::from(n)) / Double::from(n + 1.0);
+        sum = sum + term;
+        // A term that adds nothing to 80 bits, 0 where u is 0; written so that a NaN ends it too.
+        if !(term.high.abs() > 1e-24 * sum.high.abs()) {
+            return sum;
+        }
+        n += 1.0;
+    }
 }
 
 /// (g(u) − g(U))/(U − u) for 0 ≤ u ≤ U below [`SERIES_LIMIT`], by the series with the factor taken out term by term.
@@ -130,8 +162,9 @@ impl Balance {
 
     /// Δx at overrun x in [0, r], m.
     ///
-    /// Without lead: relative error of a few ulp for `Matched` and `Return`; for a given length absolute error within
-    /// 2 ulp of L beside the rounding of the result (which exceeds that where x is many times L).
+    /// Without lead: for `Matched` and `Return` rounded correctly up to 1 mm (but for ties), beyond it relative error of a few
+    /// ulp; for a given length absolute error within 2 ulp of L beside the rounding of the result (which exceeds that where
+    /// x is many times L).
     #[must_use]
     pub fn displacement(&self, x: f64) -> f64 {
         self.displacement_between(x, self.stroke - x)
@@ -140,6 +173,9 @@ impl Balance {
     /// The same with y = r − x given by the caller, who may know it better than the difference does.
     #[must_use]
     pub fn displacement_between(&self, x: f64, y: f64) -> f64 {
+        if x <= START && self.lead == 0.0 && (self.start_slope == 0.0 || self.returns && y > NEAR_END * self.stroke) {
+            return self.start(x, y);
+        }
         let (p, u) = (1.0 / self.exponent, self.loading * x);
         let without_lead = if self.returns {
             self.returning(x, y, u, p)
@@ -151,6 +187,20 @@ impl Balance {
             -self.column * libm::expm1(-p * libm::log1p(u)) - x
         };
         without_lead - self.lead
+    }
+
+    /// The law of a matched or returning column with twice the digits: x (g(u) − 1), or x (g(u) − g(U))/g(U). In the later
+    /// half of the stroke x is what y leaves of it.
+    fn start(&self, x: f64, y: f64) -> f64 {
+        let p = Double::from(1.0) / Double::from(self.exponent);
+        let loading = Double::from(self.loading);
+        let x = if self.returns && y < x { Double::sum(self.stroke, -y) } else { Double::from(x) };
+        let less = g_minus_one_to_the_end(loading * x, p);
+        if !self.returns {
+            return (x * less).high;
+        }
+        let end = g_minus_one_to_the_end(loading * Double::from(self.stroke), p);
+        (x * (less - end) / (Double::from(1.0) + end)).high
     }
 
     fn returning(&self, x: f64, y: f64, u: f64, p: f64) -> f64 {

@@ -1,6 +1,7 @@
 //! Root finding, extrema, quadrature and differential equations. Knows numbers only; every method cites its source.
 
 pub mod banded;
+pub mod double;
 pub mod extremum;
 pub mod quadrature;
 pub mod root;

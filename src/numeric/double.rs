@@ -1,0 +1,118 @@
+//! Numbers of twice the length of an `f64`, as the unevaluated sum of two: 106 bits, for the few places where a result of
+//! full accuracy is what two large terms leave.
+//!
+//! T. J. Dekker, A floating-point technique for extending the available precision, Numer. Math. 18 (1971) 224–242.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// high + low, |low| at most half an ulp of high.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Double {
+    /// The number to the nearest `f64`.
+    pub high: f64,
+    /// What is left of it.
+    pub low: f64,
+}
+
+impl Double {
+    /// The sum of two numbers, exact.
+    #[must_use]
+    pub fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let back = high - a;
+        Self { high, low: (a - (high - back)) + (b - back) }
+    }
+
+    /// The product of two numbers, exact while it neither overflows nor underflows.
+    #[must_use]
+    pub fn product(a: f64, b: f64) -> Self {
+        let high = a * b;
+        let ((a1, a2), (b1, b2)) = (split(a), split(b));
+        Self { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
+    }
+
+    /// Square root of a positive number: Newton's step from the one of the high part.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        let root = self.high.sqrt();
+        Self::sum(root, (self - Self::product(root, root)).high / (2.0 * root))
+    }
+}
+
+/// A number as two of 26 bits each.
+fn split(a: f64) -> (f64, f64) {
+    let scaled = 134_217_729.0 * a;
+    let high = scaled - (scaled - a);
+    (high, a - high)
+}
+
+impl From<f64> for Double {
+    fn from(high: f64) -> Self {
+        Self { high, low: 0.0 }
+    }
+}
+
+impl Neg for Double {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { high: -self.high, low: -self.low }
+    }
+}
+
+impl Add for Double {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let (high, low) = (Self::sum(self.high, other.high), Self::sum(self.low, other.low));
+        let high = Self::sum(high.high, high.low + low.high);
+        Self::sum(high.high, high.low + low.low)
+    }
+}
+
+impl Sub for Double {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Double {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let high = Self::product(self.high, other.high);
+        Self::sum(high.high, high.low + (self.high * other.low + self.low * other.high))
+    }
+}
+
+impl Div for Double {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        let first = self.high / other.high;
+        let rest = self - Self::from(first) * other;
+        let second = rest.high / other.high;
+        let last = (rest - Self::from(second) * other).high / other.high;
+        Self::sum(first, second) + Self::from(last)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_third_and_a_root_come_back() {
+        let three = Double::from(3.0);
+        let third = Double::from(1.0) / three;
+        let off = third * three - Double::from(1.0);
+        assert!((off.high + off.low).abs() < 1e-31, "{off:?}");
+        let root = Double::from(2.0).sqrt();
+        let off = root * root - Double::from(2.0);
+        assert!((off.high + off.low).abs() < 1e-31, "{off:?}");
+        let lost = Double::sum(1.0, 1e-25) - Double::from(1.0);
+        assert!((lost.high - 1e-25).abs() < 1e-40);
+    }
+}
