@@ -72,7 +72,7 @@ struct Sample {
 fn sample(random: &mut Random) -> Sample {
     let q = 1.0 + random.log_between(1e-8, 200.0);
     let k = if random.next() < 0.2 { 1.0 } else { 1.0 + random.log_between(1e-12, 4.0) };
-    let r = random.log_between(1e-3, 2.0);
+    let r = random.log_between(1e-4, 2.0);
     let share = random.log_between(1e-14, 1.0);
     let x = if random.next() < 0.5 { r * share } else { r - r * share };
     Sample { q, k, r, x: x.clamp(0.0, r), loading: (q - 1.0) / r }
@@ -219,8 +219,7 @@ fn dot(a: &Plane, b: &Plane) -> Big {
 
 /// Lift of a balance law and its three derivatives by the cam angle, from (10) or the paper's column, differentiated by
 /// hand: nothing of the code's own forms.
-fn exact_lift(motion: &Reversal, buffer: &Sample, column: Column, angle: f64) -> [Big; 4] {
-    let law = motion.law();
+fn exact_lift(law: &ReversalLaw, buffer: &Sample, column: Column, angle: f64) -> [Big; 4] {
     let (lever, ratio, r) = (big(law.lever), big(law.ratio), big(buffer.r));
     let (sin, cos) = (big(angle) / &ratio).sin_cos();
     let (x, x1) = (&r * &sin, &r * &cos);
@@ -233,6 +232,11 @@ fn exact_lift(motion: &Reversal, buffer: &Sample, column: Column, angle: f64) ->
     let base = big(1.0) + &a * &x;
     let shrunk = power(&(&a * &x));
     let value = &length * (big(1.0) - &shrunk) - &x;
+    // A matched bottom goes down all the way, a returning one starts and ends lowest.
+    let lowest = match column {
+        Column::Return => big(0.0),
+        _ => &length * (big(1.0) - power(&(&a * &r))) - &r,
+    };
     let steep = &length * &a * &p * &shrunk / &base;
     let slope = &steep - big(1.0);
     let second = -(&steep * &a * (&p + big(1.0))) / &base;
@@ -241,7 +245,7 @@ fn exact_lift(motion: &Reversal, buffer: &Sample, column: Column, angle: f64) ->
     let dds = &second * &x1 * &x1 - &slope * &x;
     let ddds = &third * &x1 * &x1 * &x1 - big(3.0) * &second * &x1 * &x - &slope * &x1;
     let by = &lever / &ratio;
-    [(value - big(motion.lowest())) * &lever, ds * &by, dds * &by / &ratio, ddds * &by / &ratio / &ratio]
+    [(value - lowest) * &lever, ds * &by, dds * &by / &ratio, ddds * &by / &ratio / &ratio]
 }
 
 /// Pitch curve, its curvature and their change, the profile and the pressure angle of 600 random cams with a roller in
@@ -249,7 +253,7 @@ fn exact_lift(motion: &Reversal, buffer: &Sample, column: Column, angle: f64) ->
 #[test]
 fn geometry_of_random_cams() {
     let mut random = Random(11);
-    let mut point = Worst::new("pitch and profile point", "of the radius");
+    let mut point = Worst::new("pitch and profile point", "of radius and path");
     let mut bend = Worst::new("curvature of the pitch curve", "of κ + 1/R");
     let mut change = Worst::new("its derivative by the arc length", "of its terms");
     let mut angle = Worst::new("pressure angle of random cams", "rad");
@@ -267,7 +271,7 @@ fn geometry_of_random_cams() {
         let place = || {
             format!("{column:?}, q − 1 = {:.1e}, r {:.1e}, R_p {prime:.1e}, θ {theta:.3e}", buffer.q - 1.0, buffer.r)
         };
-        let exact = exact_lift(&motion, &buffer, column, theta);
+        let exact = exact_lift(motion.law(), &buffer, column, theta);
         let curves = Curves { law: motion, follower: TranslatingRoller::new(prime, offset, roller) };
         let (piece, theta) = curves.law.locate(theta);
         let (contact, profile) = (curves.contact(piece, theta), curves.profile(piece, theta));
@@ -298,7 +302,9 @@ fn geometry_of_random_cams() {
                 .fold(0.0, f64::max)
         };
         let on_profile = plus(&centre, &normal, &-big(roller));
-        point.see(off(contact.pitch.point, &centre).max(off(profile.point, &on_profile)) / size, place);
+        // The angle is rounded, and with it x: a roller path of many radii is off by its own rounding.
+        let path = size + lever * buffer.r * (1.0 + balance.start_slope);
+        point.see(off(contact.pitch.point, &centre).max(off(profile.point, &on_profile)) / path, place);
         let curvature = number(&kappa);
         let error = number(&(big(contact.pitch.curvature) - &kappa)).abs();
         bend.see(error / (curvature.abs() + 1.0 / size), place);
@@ -306,10 +312,9 @@ fn geometry_of_random_cams() {
         let terms = (number(&parts[0]).abs() + number(&parts[1]).abs()) / number(&speed);
         change.see(error / (terms + 1.0 / (size * size)), place);
         let (sine, cosine) = big(contact.pressure_angle).sin_cos();
-        // û from the normal by the pressure angle, whichever way it is counted.
+        // From the normal to û, counted with the turn.
         let [x, y] = [dot(&along, &normal), cross(&along, &normal)].map(|value| number(&value));
-        let turned = (number(&sine) - y).abs().min((number(&sine) + y).abs());
-        angle.see(turned.max((number(&cosine) - x).abs()), place);
+        angle.see((number(&sine) + y).abs().max((number(&cosine) - x).abs()), place);
     }
     point.told(1e-14);
     bend.told(1e-13);
@@ -357,6 +362,10 @@ fn tolerances_over_nine_decades() {
             drawn.deviation / tolerance
         );
         assert!(drawn.deviation <= tolerance);
+        if tolerance < 1e-6 {
+            // SEEN alone costs 0.4 %.
+            assert!(f64::from(u32::try_from(count).expect("few")) < 1.01 * drawn.best_possible, "{tolerance}: {count}");
+        }
         let breaks = drawn.contour.tangent_breaks();
         assert!(breaks.iter().all(|turn| turn.abs() < 1e-9), "{tolerance}");
     }

@@ -1,9 +1,13 @@
 //! Numbers of twice the length of an `f64`, as the unevaluated sum of two: 106 bits, for the few places where a result of
 //! full accuracy is what two large terms leave.
 //!
-//! T. J. Dekker, A floating-point technique for extending the available precision, Numer. Math. 18 (1971) 224–242.
+//! T. J. Dekker, A floating-point technique for extending the available precision, Numer. Math. 18 (1971) 224–242; the
+//! sum without a condition is D. E. Knuth's, The Art of Computer Programming 2, §4.2.2.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// 2²⁷ + 1, which splits 53 bits in two halves.
+const HALVES: f64 = 134_217_729.0;
 
 /// high + low, |low| at most half an ulp of high.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +45,7 @@ impl Double {
 
 /// A number as two of 26 bits each.
 fn split(a: f64) -> (f64, f64) {
-    let scaled = 134_217_729.0 * a;
+    let scaled = HALVES * a;
     let high = scaled - (scaled - a);
     (high, a - high)
 }

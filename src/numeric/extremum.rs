@@ -84,6 +84,12 @@ pub fn largest_without_slope(
     [inner, outer].into_iter().fold(best, |best, next| if next.value > best.value { next } else { best })
 }
 
+/// The larger of two numbers; NaN where one of them is, so that nothing unknown is lost on the way to a largest value.
+#[must_use]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

