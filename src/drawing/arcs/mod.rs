@@ -19,8 +19,8 @@
 //! From there joints and headings are moved together until no node is off by more than the tolerance (`trial`, `minimax`);
 //! where that cannot be, one more arc is tried. Tangency is a condition of the same system, and is met to rounding in the end.
 //!
-//! Nodes lie dense enough that the lobes are seen to a percent; the finished chain is checked anew between them, and
-//! laid again with less when it does not hold.
+//! Nodes lie dense enough that the lobes are seen to a percent. The finished chain is checked anew between them, and laid
+//! again with the places where it does not hold as further nodes.
 
 mod minimax;
 mod nodes;
@@ -38,8 +38,14 @@ use spacing::Spacing;
 const SEEN: f64 = 0.992;
 /// Points per arc at which the finished chain is checked.
 const CHECKS_PER_ARC: u32 = 64;
+/// Further nodes beyond which less is taken as well.
+const MANY: usize = 200;
+/// Share of the tolerance that may lie unseen between two of them, twice what a lobe leaves, and how often a stretch is
+/// halved for it at the most.
+const UNSEEN: f64 = 0.004;
+const HALVINGS: u32 = 12;
 /// Times a chain is laid again when the check between the nodes finds more than the tolerance.
-const TRIES: u32 = 6;
+const TRIES: u32 = 12;
 /// Arcs that are tried at the most, against the first number: far beyond any that was ever needed.
 const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
@@ -102,16 +108,21 @@ pub fn fit(curve: impl Fn(f64) -> Frame, range: (f64, f64), tolerance: f64) -> R
         return Ok(chain);
     }
     let mut seen = SEEN * tolerance;
+    let mut missed = Vec::new();
     for _ in 0..TRIES {
-        let (nodes, best_possible) = sample(&curve, range, tolerance, seen)?;
+        let (mut nodes, best_possible) = sample(&curve, range, tolerance, seen)?;
+        nodes::insert(&mut nodes, &curve, &missed, seen);
         let Some(joints) = fewest(&curve, &nodes, seen) else {
             return Err(FitError::ToleranceTooFine { tolerance });
         };
-        let deviation = deviation(&curve, &joints, (range.1, end.point));
+        let (deviation, mut beyond) = check(&curve, &joints, (range.1, end.point), tolerance);
         if deviation <= tolerance {
             return Ok(Chain { joints, deviation, best_possible });
         }
-        seen *= (tolerance / deviation).clamp(0.5, 0.995);
+        if beyond.is_empty() || missed.len() > MANY {
+            seen *= (tolerance / deviation).clamp(0.5, 0.995);
+        }
+        missed.append(&mut beyond);
     }
     Err(FitError::ToleranceTooFine { tolerance })
 }
@@ -141,33 +152,60 @@ fn one_arc(curve: &impl Fn(f64) -> Frame, range: (f64, f64), tolerance: f64) -> 
         return None;
     }
     let joints = vec![Joint { point: start.point, parameter: range.0, bulge: arc.bulge }];
-    let deviation = deviation(curve, &joints, (range.1, end.point));
+    let (deviation, _) = check(curve, &joints, (range.1, end.point), tolerance);
     (deviation <= tolerance).then_some(Chain { joints, deviation, best_possible: 0.0 })
 }
 
-/// Largest distance between the chain and the curve.
+/// Largest distance between the chain and the curve, and the parameters where it exceeds the tolerance.
 ///
 /// Each arc, as its two points and its bulge give it, is compared with its stretch of the curve at
 /// [`CHECKS_PER_ARC`] + 1 points. Between two of them the distance cannot exceed the larger by more than
-/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points; its largest value is added. A NaN
-/// anywhere is the result.
-pub(crate) fn deviation(curve: &impl Fn(f64) -> Frame, joints: &[Joint], end: (f64, Vector2<f64>)) -> f64 {
+/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points. Where that is not small against the
+/// tolerance the stretch is halved. A NaN anywhere is the result.
+fn check(curve: &impl Fn(f64) -> Frame, joints: &[Joint], end: (f64, Vector2<f64>), tolerance: f64) -> (f64, Vec<f64>) {
     let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
-    let of_arc = |(joint, (parameter, point)): (&Joint, (f64, Vector2<f64>))| {
+    let (mut worst, mut beyond) = (0.0, Vec::new());
+    for (joint, (parameter, point)) in joints.iter().zip(ends) {
         let segment = Segment { start: joint.point, end: point, bulge: joint.bulge };
         let curvature = if joint.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
         let arc = Arc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge };
+        let mut at = |place: f64| {
+            let frame = curve(place);
+            let distance = arc.distance(frame.point).abs();
+            if distance > tolerance {
+                beyond.push(place);
+            }
+            Checked { place, distance, bend: frame.speed * frame.speed / 8.0 * (curvature - frame.curvature).abs() }
+        };
         let step = (parameter - joint.parameter) / f64::from(CHECKS_PER_ARC);
-        let (mut worst, mut bend) = (0.0_f64, 0.0_f64);
-        for check in 0..=CHECKS_PER_ARC {
-            let frame = curve(joint.parameter + step * f64::from(check));
-            worst = larger(worst, arc.distance(frame.point).abs());
-            let length = frame.speed * step;
-            bend = larger(bend, length * length / 8.0 * (curvature - frame.curvature).abs());
+        let mut before = at(joint.parameter);
+        for check in 1..=CHECKS_PER_ARC {
+            let after = at(joint.parameter + step * f64::from(check));
+            worst = larger(worst, between(&mut at, before, after, tolerance, HALVINGS));
+            before = after;
         }
-        worst + bend
-    };
-    joints.iter().zip(ends).map(of_arc).fold(0.0, larger)
+    }
+    (worst, beyond)
+}
+
+/// A point of the curve that was compared with an arc.
+#[derive(Clone, Copy)]
+struct Checked {
+    place: f64,
+    distance: f64,
+    /// |κ_arc − κ| ℓ²/8: times the square of a step of the parameter it bounds what is not seen.
+    bend: f64,
+}
+
+/// Largest distance between two points, with the bound for what lies between.
+fn between(at: &mut impl FnMut(f64) -> Checked, a: Checked, b: Checked, tolerance: f64, halvings: u32) -> f64 {
+    let step = b.place - a.place;
+    let unseen = step * step * larger(a.bend, b.bend);
+    if unseen <= UNSEEN * tolerance || halvings == 0 {
+        return larger(a.distance, b.distance) + unseen;
+    }
+    let middle = at(a.place + 0.5 * step);
+    larger(between(at, a, middle, tolerance, halvings - 1), between(at, middle, b, tolerance, halvings - 1))
 }
 
 #[cfg(test)]

@@ -24,11 +24,20 @@ const CHAIN: f64 = 124.707_658_144_958_9;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node {
     pub(super) point: Vector2<f64>,
+    pub(super) tangent: Vector2<f64>,
     pub(super) parameter: f64,
     /// I₃ up to here over (K tol)^(1/3): position in best possible arcs.
     pub(super) share: f64,
     /// The heading of the best chain against the tangent, rad.
     pub(super) best_heading: f64,
+}
+
+impl Node {
+    fn new(frame: &Frame, parameter: f64, share: f64, seen: f64) -> Self {
+        let size = libm::cbrt(CHAIN * seen);
+        let best_heading = -libm::cbrt(frame.curvature_slope) * size * size / 12.0;
+        Self { point: frame.point, tangent: frame.tangent, parameter, share, best_heading }
+    }
 }
 
 /// An arc that leaves a point with a heading.
@@ -102,6 +111,23 @@ pub(super) fn sample(
     }
 }
 
+/// Adds nodes at more places, with their shares in between.
+pub(super) fn insert(nodes: &mut Vec<Node>, curve: &impl Fn(f64) -> Frame, parameters: &[f64], seen: f64) {
+    for &parameter in parameters {
+        let next = nodes.partition_point(|node| node.parameter < parameter);
+        let (Some(before), Some(after)) = (next.checked_sub(1).and_then(|at| nodes.get(at)), nodes.get(next)) else {
+            continue;
+        };
+        if after.parameter == parameter {
+            continue;
+        }
+        let part = (parameter - before.parameter) / (after.parameter - before.parameter);
+        let share = before.share + part * (after.share - before.share);
+        let node = Node::new(&curve(parameter), parameter, share, seen);
+        nodes.insert(next, node);
+    }
+}
+
 /// I₃ along the piece.
 struct Mesh {
     /// Ends of the cells: parameter and I₃ up to there.
@@ -155,13 +181,9 @@ impl Mesh {
             let between = |a: f64, b: f64| a + within * (b - a);
             let parameter = if index == count { *last } else { between(low.0, high.0) };
             let frame = curve(parameter);
-            nodes.push(Node {
-                point: frame.point,
-                parameter,
-                // A circle has no I₃; its nodes count as one arc.
-                share: if self.total > 0.0 { between(low.1, high.1) / size } else { wanted },
-                best_heading: -libm::cbrt(frame.curvature_slope) * size * size / 12.0,
-            });
+            // A circle has no I₃; its nodes count as one arc.
+            let share = if self.total > 0.0 { between(low.1, high.1) / size } else { wanted };
+            nodes.push(Node::new(&frame, parameter, share, seen));
             index += 1.0;
         }
         Some(nodes)

@@ -18,6 +18,12 @@ const HALF_OVER: f64 = 0.78;
 const LEAST_BETWEEN: f64 = 1.0;
 const LEAST_AT_END: f64 = 0.2;
 
+/// Steepest heading against the curve to start from: where κ' changes within an arc, that of a node may be none of a chain.
+const STEEPEST: f64 = 0.3;
+
+/// Cosine of the turn between two joints from where on more are put between them.
+const SHARPEST: f64 = -0.9;
+
 /// A stretch between the ends of the piece and the extrema of its curvature.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
@@ -107,7 +113,7 @@ impl Spacing {
             Some(Place {
                 parameter: between(before.parameter, after.parameter),
                 offset: 0.0,
-                slope: between(before.best_heading, after.best_heading) * scale * scale,
+                slope: (between(before.best_heading, after.best_heading) * scale * scale).clamp(-STEEPEST, STEEPEST),
             })
         };
         let mut places: Vec<Place> = nodes.iter().take(1).map(Place::at).collect();
@@ -119,6 +125,24 @@ impl Spacing {
             places.extend(joints.filter_map(&mut place));
         }
         places.extend(nodes.last().map(Place::at));
-        places
+        within_half_circles(places, nodes)
     }
+}
+
+/// Puts further joints where the curve turns by almost a half circle from one to the next: a sharp tip of constant curvature
+/// has hardly a share.
+fn within_half_circles(places: Vec<Place>, nodes: &[Node]) -> Vec<Place> {
+    let node_at = |place: &Place| nodes.get(nodes.partition_point(|node| node.parameter < place.parameter));
+    let mut result: Vec<Place> = Vec::with_capacity(places.len());
+    for place in places {
+        if let (Some(from), Some(to)) = (result.last().and_then(node_at), node_at(&place))
+            && from.tangent.dot(&to.tangent) < SHARPEST
+        {
+            let middle = |part: f64| from.parameter + part * (to.parameter - from.parameter);
+            let further = [0.25, 0.5, 0.75].map(|part| Place { parameter: middle(part), offset: 0.0, slope: 0.0 });
+            result.extend(further);
+        }
+        result.push(place);
+    }
+    result
 }
