@@ -201,8 +201,10 @@ struct Checked {
 fn between(at: &mut impl FnMut(f64) -> Checked, a: Checked, b: Checked, tolerance: f64, halvings: u32) -> f64 {
     let step = b.place - a.place;
     let unseen = step * step * larger(a.bend, b.bend);
-    if unseen <= UNSEEN * tolerance || halvings == 0 {
-        return larger(a.distance, b.distance) + unseen;
+    let seen = larger(a.distance, b.distance);
+    // What is beyond the tolerance already need not be known closer.
+    if unseen <= UNSEEN * tolerance || seen > tolerance || halvings == 0 {
+        return seen + unseen;
     }
     let middle = at(a.place + 0.5 * step);
     larger(between(at, a, middle, tolerance, halvings - 1), between(at, middle, b, tolerance, halvings - 1))
