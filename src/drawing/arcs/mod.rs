@@ -51,6 +51,8 @@ const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
 /// One arc in so many does not matter: a fifth of a percent.
 const FEW: u32 = 500;
+/// A piece of a smaller share may be a circle, told by its headings; one with a feature between them has more.
+const CIRCLE: f64 = 0.1;
 /// Headings closer than this are one, rad: a circle is seen as a circle with rounding.
 const SAME_HEADING: f64 = 1e-10;
 
@@ -104,13 +106,15 @@ pub fn fit(curve: impl Fn(f64) -> Frame, range: (f64, f64), tolerance: f64) -> R
     if !(tolerance > 64.0 * f64::EPSILON * size) {
         return Err(FitError::ToleranceTooFine { tolerance });
     }
-    if let Some(chain) = one_arc(&curve, range, tolerance) {
-        return Ok(chain);
-    }
     let mut seen = SEEN * tolerance;
     let mut missed = Vec::new();
     for _ in 0..TRIES {
         let (mut nodes, best_possible) = sample(&curve, range, tolerance, seen)?;
+        if best_possible < CIRCLE
+            && let Some(chain) = one_arc(&curve, range, tolerance)
+        {
+            return Ok(chain);
+        }
         nodes::insert(&mut nodes, &curve, &missed, seen);
         let Some(joints) = fewest(&curve, &nodes, seen) else {
             return Err(FitError::ToleranceTooFine { tolerance });
@@ -287,6 +291,61 @@ mod tests {
         let line = fit(line, (0.0, 9.0), 1e-6).expect("a chain");
         assert_eq!(line.joints.len(), 1);
         assert!(line.joints[0].bulge.abs() < 1e-16);
+    }
+
+    /// A long circle has no share at all, a sharp tip hardly one; a chain must not turn by a half circle in one arc.
+    #[test]
+    fn long_circles_and_sharp_tips_are_fitted() {
+        let circle = fit(ellipse(50.0, 50.0), (0.0, 4.0), 1e-6).expect("a chain");
+        assert!(circle.joints.len() <= 6 && circle.deviation < 1e-12, "{circle:?}");
+        let thin = fit(ellipse(60.0, 2.0), (-1.4, 1.4), 1e-4).expect("a chain");
+        #[expect(clippy::cast_precision_loss, reason = "small")]
+        let count = thin.joints.len() as f64;
+        assert!(count <= thin.best_possible.ceil() + 2.0, "{count} arcs, N* {}", thin.best_possible);
+    }
+
+    /// A bump of ten tolerances on a circle, no wider than a hundredth of it, which a chain must not step over.
+    #[test]
+    fn a_narrow_feature_is_seen() {
+        for place in [0.4, 1.0, 1.237] {
+            let bumped = |t: f64| {
+                let (width, height) = (1e-2, 1e-6);
+                let u = (t - place) / width;
+                let g = height * libm::exp(-u * u);
+                let (g1, g2) = (-2.0 * u * g / width, (4.0 * u * u - 2.0) * g / (width * width));
+                let g3 = (12.0 * u - 8.0 * u * u * u) * g / (width * width * width);
+                let (sin, cos) = (libm::sin(t), libm::cos(t));
+                let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
+                let r = 50.0 + g;
+                Frame::from_derivatives(
+                    along * r,
+                    along * g1 + across * r,
+                    along * (g2 - r) + across * (2.0 * g1),
+                    along * (g3 - 3.0 * g1) + across * (3.0 * g2 - r),
+                )
+            };
+            let chain = fit(bumped, (0.0, 2.0), 1e-7).expect("a chain");
+            let ends = chain.joints.iter().skip(1).map(|joint| (joint.parameter, joint.point));
+            let ends: Vec<_> = ends.chain([(2.0, bumped(2.0).point)]).collect();
+            for (joint, (end, point)) in chain.joints.iter().zip(ends) {
+                let segment = Segment { start: joint.point, end: point, bulge: joint.bulge };
+                for part in 0..=400 {
+                    let exact = bumped(joint.parameter + (end - joint.parameter) * f64::from(part) / 400.0).point;
+                    let off = ((exact - segment.centre()).norm() - segment.radius().abs()).abs();
+                    assert!(off <= 1.01e-7, "{place}: {off:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_unknown_is_a_chain() {
+        let broken = |t: f64| {
+            let frame = ellipse(50.0, 50.0)(t);
+            let point = if (1.0..1.1).contains(&t) { Vector2::new(f64::NAN, 0.0) } else { frame.point };
+            Frame { point, ..frame }
+        };
+        assert!(fit(broken, (0.0, 3.0), 1e-3).is_err());
     }
 
     #[test]

@@ -259,3 +259,44 @@ impl Link {
         (if index == 0 { none } else { [a, b, c] }, if index + 1 == arcs { none } else { [d, e, f] })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A parabola, so that nothing is constant.
+    fn curve(t: f64) -> Frame {
+        let zero = Vector2::zeros();
+        Frame::from_derivatives(
+            Vector2::new(t, 0.02 * t * t),
+            Vector2::new(1.0, 0.04 * t),
+            Vector2::new(0.0, 0.04),
+            zero,
+        )
+    }
+
+    /// Opening and deviation by every freedom of both joints, against differences of the trial itself.
+    #[test]
+    fn the_derivatives_are_those_of_the_chain() {
+        let tolerance = 1e-3;
+        let place = |parameter, offset, slope| Place { parameter, offset, slope };
+        let places = [place(1.0, 0.0, 0.0), place(3.0, 4e-4, -1e-4), place(4.5, -3e-4, 2e-4), place(7.0, 0.0, 0.0)];
+        let open = Trial::new(&curve, &places, tolerance).expect("in order");
+        let trial = open.closed(&curve, tolerance).expect("a chain");
+        let point = curve(3.9).point;
+        let of = |trial: &Trial| (trial.links[1].open, trial.links[1].arc.seen_from(point).1 / tolerance);
+        for freedom in 0..6 {
+            let small = 1e-6;
+            let mut step = Step(vec![0.0; 12]);
+            step.0[freedom + freedom / 3] = small;
+            let there = Trial::new(&curve, &trial.moved(&step, 1.0, tolerance), tolerance).expect("in order");
+            let back = Trial::new(&curve, &trial.moved(&step, -1.0, tolerance), tolerance).expect("in order");
+            let ((open, off), (open_back, off_back)) = (of(&there), of(&back));
+            let basis = trial.links[1].arc.seen_from(point).0;
+            let (by, wanted) = (trial.links[1].open_by[freedom], (open - open_back) / (2.0 * small));
+            assert!((by - wanted).abs() < 1e-2 * (1.0 + wanted.abs()), "opening by {freedom}: {by} {wanted}");
+            let (by, wanted) = (trial.links[1].change(&step, 1).dot(&basis) / small, (off - off_back) / (2.0 * small));
+            assert!((by - wanted).abs() < 1e-2 * (1.0 + wanted.abs()), "deviation by {freedom}: {by} {wanted}");
+        }
+    }
+}
