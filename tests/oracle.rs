@@ -5,29 +5,16 @@
 
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
+#[path = "common/big.rs"]
+mod big;
+
+use big::{Big, big, number, ulp};
 use camgen::buffer::balance::{Balance, Column};
-use dashu_float::FBig;
-use dashu_float::round::mode::HalfEven;
 
-type Big = FBig<HalfEven, 2>;
-
-const BITS: usize = 200;
 /// Crank radius of the reference machine, m.
 const R: f64 = 0.18;
 const RATIOS: [f64; 8] = [1.000_001, 1.000_1, 1.01, 1.25, 2.0, 5.0, 20.0, 100.0];
 const EXPONENTS: [f64; 5] = [1.0001, 1.2, 1.35, 1.4, 2.0];
-
-fn big(value: f64) -> Big {
-    Big::try_from(value).expect("finite").with_precision(BITS).value()
-}
-
-fn number(value: &Big) -> f64 {
-    value.to_f64().value()
-}
-
-fn ulp(value: f64) -> f64 {
-    f64::from_bits(value.to_bits() + 1) - value
-}
 
 /// A, and (1+A x)^(−1/k).
 fn parts(q: f64, k: f64, x: f64) -> (Big, Big) {

@@ -187,28 +187,26 @@ impl Program {
                 corner += stiff + stiff_back;
                 excess += force + back;
             }
-            let end = 4 * index;
-            let (skip, take) = (if index == 0 { 3 } else { 0 }, if index + 1 == arcs { 3 } else { 6 });
-            let free = || [0, 1, 2, 4, 5, 6].into_iter().zip(&link.off_by).take(take).skip(skip);
-            for ((offset, off_by), open_by) in free().zip(link.open_by.iter().skip(skip)) {
-                let row = end + offset - 4;
+            let multiplier = 4 * index + 3;
+            let freedoms = link.freedoms(index, arcs);
+            for (row, open_by, off_by) in freedoms.clone() {
                 let weighted = moments * off_by;
-                for (other, by) in free().filter(|(other, _)| *other >= offset) {
-                    matrix.add(row, end + other - 4, weighted.dot(by));
+                for (column, _, other) in freedoms.clone().filter(|(column, ..)| *column >= row) {
+                    matrix.add(row, column, weighted.dot(other));
                 }
-                matrix.add(row, end + 3, *open_by);
+                matrix.add(row, multiplier, open_by);
                 for (value, amount) in [(&mut right, push.dot(off_by)), (&mut border, pull.dot(off_by))] {
                     if let Some(value) = value.get_mut(row) {
                         *value -= amount;
                     }
                 }
             }
-            for (offset, stay) in STAY.iter().enumerate() {
+            for (row, stay) in (4 * index..).zip(STAY) {
                 // The last joint is fixed; its rows hold nothing else.
-                matrix.add(end + offset, end + offset, if index + 1 == arcs { 1.0 } else { *stay });
+                matrix.add(row, row, if index + 1 == arcs { 1.0 } else { stay });
             }
-            matrix.add(end + 3, end + 3, -GIVE);
-            if let Some(value) = right.get_mut(end + 3) {
+            matrix.add(multiplier, multiplier, -GIVE);
+            if let Some(value) = right.get_mut(multiplier) {
                 *value = -link.open;
             }
         }
@@ -224,8 +222,8 @@ impl Program {
     /// Shares of a step that slacks and multipliers allow; the changes of the multipliers are kept with the samples.
     fn shares(&mut self, trial: &Trial, step: &Step, rise: f64, aim: f64) -> (f64, f64) {
         let (mut primal, mut dual) = (1.0_f64, 1.0_f64);
-        for (index, (link, samples)) in self.by_arc(trial).enumerate() {
-            let change = link.change(step, index);
+        for (index, (_, samples)) in self.by_arc(trial).enumerate() {
+            let change = trial.change(index, step);
             for sample in samples {
                 let off = sample.basis.dot(&change);
                 for (side, moved) in sample.sides.iter_mut().zip([rise - off, rise + off]) {

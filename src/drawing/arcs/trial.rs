@@ -120,26 +120,26 @@ impl Link {
         Some(link)
     }
 
-    /// What a step of the chain's freedoms does to the deviation, as factors of the basis.
-    pub(super) fn change(&self, step: &Step, index: usize) -> Vector4<f64> {
-        step.of(index).into_iter().zip(&self.off_by).fold(Vector4::zeros(), |sum, (by, off)| sum + off * by)
+    /// Where the freedoms of both joints of the arc number `index` of `arcs` stand in a [`Step`], with the derivatives of
+    /// opening and deviation; the ends of the piece have none.
+    pub(super) fn freedoms(
+        &self,
+        index: usize,
+        arcs: usize,
+    ) -> impl Iterator<Item = (usize, f64, &Vector4<f64>)> + Clone {
+        let place = move |freedom: usize| {
+            let at_end = freedom > 2;
+            let free = if at_end { index + 1 < arcs } else { index > 0 };
+            free.then(|| if at_end { 4 * index + freedom - 3 } else { 4 * index + freedom - 4 })
+        };
+        let derivatives = self.open_by.iter().zip(&self.off_by).enumerate();
+        derivatives.filter_map(move |(freedom, (open_by, off_by))| Some((place(freedom)?, *open_by, off_by)))
     }
 }
 
-/// A step of every freedom of a chain: four numbers a joint, the fourth is the multiplier of the arc that ends there.
+/// A step of every freedom of a chain: four numbers an arc, three for the joint at its end and the multiplier of its opening.
 #[derive(Debug, Clone)]
 pub(super) struct Step(pub(super) Vec<f64>);
-
-impl Step {
-    /// The freedoms of both joints of an arc; those of the ends of the piece do not move.
-    fn of(&self, index: usize) -> [f64; 6] {
-        let end = 4 * index;
-        let at = |place: Option<usize>| place.and_then(|place| self.0.get(place)).copied().unwrap_or(0.0);
-        let [a, b, c] = [0, 1, 2].map(|offset| at(end.checked_sub(4 - offset)));
-        let [d, e, f] = [0, 1, 2].map(|offset| at(Some(end + offset)));
-        [a, b, c, d, e, f]
-    }
-}
 
 /// A chain with its arcs.
 #[derive(Debug)]
@@ -175,6 +175,13 @@ impl Trial {
     /// Parameters of the joints, from the start of the piece to its end.
     pub(super) fn parameters(&self) -> impl Iterator<Item = f64> {
         self.stands.iter().map(|stand| stand.place.parameter)
+    }
+
+    /// What a step does to the deviation from an arc, as factors of the basis.
+    pub(super) fn change(&self, index: usize, step: &Step) -> Vector4<f64> {
+        let freedoms = self.links.get(index).into_iter().flat_map(|link| link.freedoms(index, self.links.len()));
+        freedoms
+            .fold(Vector4::zeros(), |sum, (place, _, off_by)| sum + off_by * step.0.get(place).copied().unwrap_or(0.0))
     }
 
     /// Share of a step that moves no joint along the curve by more than `most` of the shorter chord beside it.
@@ -230,33 +237,27 @@ impl Trial {
         let arcs = self.links.len();
         let mut matrix = Banded::<2>::zero(arcs);
         let mut forces: Vec<f64> = self.links.iter().map(|link| -link.open).collect();
-        let mut before = [0.0; 3];
+        let mut before: Option<&Link> = None;
         for (index, link) in self.links.iter().enumerate() {
-            let (start, end) = link.free(index, arcs);
-            let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            matrix.add(index, index, dot(start, start) + dot(end, end));
-            if let Some(last) = index.checked_sub(1) {
-                matrix.add(last, index, dot(before, start));
+            for (_, open_by, _) in link.freedoms(index, arcs) {
+                matrix.add(index, index, open_by * open_by);
             }
-            before = end;
+            if let (Some(above), Some(before)) = (index.checked_sub(1), before) {
+                let shared = before.open_by.iter().skip(3).zip(&link.open_by);
+                matrix.add(above, index, shared.map(|(end, start)| end * start).sum());
+            }
+            before = Some(link);
         }
         matrix.factored().solve(&mut forces);
-        let pulls = self.links.iter().zip(&forces);
-        let joints = pulls.clone().zip(pulls.skip(1)).flat_map(|((before, pull), (after, push))| {
-            let [a, b, c, ..] = after.open_by.map(|by| by * push);
-            let [.., d, e, f] = before.open_by.map(|by| by * pull);
-            [a + d, b + e, c + f, 0.0]
-        });
-        Step(joints.collect())
-    }
-}
-
-impl Link {
-    /// Derivatives of the opening by the freedoms of either joint; the ends of the piece have none.
-    fn free(&self, index: usize, arcs: usize) -> ([f64; 3], [f64; 3]) {
-        let [a, b, c, d, e, f] = self.open_by;
-        let none = [0.0; 3];
-        (if index == 0 { none } else { [a, b, c] }, if index + 1 == arcs { none } else { [d, e, f] })
+        let mut step = vec![0.0; 4 * arcs];
+        for (index, (link, force)) in self.links.iter().zip(&forces).enumerate() {
+            for (place, open_by, _) in link.freedoms(index, arcs) {
+                if let Some(value) = step.get_mut(place) {
+                    *value += open_by * force;
+                }
+            }
+        }
+        Step(step)
     }
 }
 
@@ -295,7 +296,7 @@ mod tests {
             let basis = trial.links[1].arc.seen_from(point).0;
             let (by, wanted) = (trial.links[1].open_by[freedom], (open - open_back) / (2.0 * small));
             assert!((by - wanted).abs() < 1e-2 * (1.0 + wanted.abs()), "opening by {freedom}: {by} {wanted}");
-            let (by, wanted) = (trial.links[1].change(&step, 1).dot(&basis) / small, (off - off_back) / (2.0 * small));
+            let (by, wanted) = (trial.change(1, &step).dot(&basis) / small, (off - off_back) / (2.0 * small));
             assert!((by - wanted).abs() < 1e-2 * (1.0 + wanted.abs()), "deviation by {freedom}: {by} {wanted}");
         }
     }
