@@ -2,13 +2,13 @@
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
-use camgen::cam::between::{self, residual};
-use camgen::cam::conoid::{Conoid, Interpolation};
+use camgen::body::conoid::between::{self, residual};
+use camgen::body::conoid::{Conoid, Interpolation};
 use camgen::drawing::conoid::{sections, table};
 use camgen::drawing::flank;
-use camgen::drawing::solid::conical;
+use camgen::geometry::solid::conical;
 use camgen::machine::Machine;
-use camgen::output::{step, stl};
+use camgen::write::{step, stl};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 

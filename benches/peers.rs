@@ -3,13 +3,13 @@
 
 #![allow(clippy::expect_used, clippy::print_stdout, missing_docs, reason = "a benchmark fails loudly and prints")]
 
-use camgen::cam::Frame;
-use camgen::cam::rotary::Rotary;
-use camgen::checks::surface::Surface;
-use camgen::contour::{Contour, Vertex};
-use camgen::drawing::outline::{self, pitch_within};
-use camgen::law::Law;
+use camgen::body::disc::Disc;
+use camgen::cam::CurvePoint;
+use camgen::geometry::contour::{Contour, Vertex};
+use camgen::geometry::outline::{self, pitch_within};
+use camgen::geometry::track::Track;
 use camgen::machine::Machine;
+use camgen::motion::Motion;
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, PlineVertex, Polyline};
 use criterion::{Criterion, criterion_group, criterion_main};
 use kurbo::offset::offset_cubic;
@@ -21,13 +21,13 @@ const TOLERANCES: [f64; 3] = [10e-6, 5e-6, 1e-6];
 /// Points of the exact profile at which a peer's offset is measured.
 const PLACES: u32 = 4000;
 
-fn dpi() -> Rotary {
+fn dpi() -> Disc {
     let machine = Machine::load("dpi", &[]).expect("embedded").0;
-    Rotary::solve(&machine, 35.0).expect("a cam")
+    Disc::solve(&machine, 35.0).expect("a cam")
 }
 
 /// The pitch curve as arcs within a tolerance (m), for `cavalier_contours`.
-fn pitch_arcs(cam: &Rotary, tolerance: f64) -> Polyline<f64> {
+fn pitch_arcs(cam: &Disc, tolerance: f64) -> Polyline<f64> {
     let mut line = Polyline::new_closed();
     for vertex in pitch_within(&cam.curves, tolerance).expect("arcs").contour.vertices {
         line.add_vertex(PlineVertex::new(vertex.point.x, vertex.point.y, vertex.bulge));
@@ -41,9 +41,9 @@ fn as_contour(line: &Polyline<f64>) -> Contour {
 }
 
 /// The pitch curve as cubics through its points and tangents, `spans` to a piece, mm, for kurbo.
-fn pitch_cubics(cam: &Rotary, spans: u32) -> Vec<CubicBez> {
+fn pitch_cubics(cam: &Disc, spans: u32) -> Vec<CubicBez> {
     let point = |v: Vector2<f64>| Point::new(v.x, v.y);
-    let of_piece = |(index, piece): (usize, &camgen::law::Piece)| {
+    let of_piece = |(index, piece): (usize, &camgen::motion::Piece)| {
         let step = (piece.end - piece.start) / f64::from(spans);
         let frame = |i: u32| cam.curves.contact(index, piece.start + step * f64::from(i)).pitch.scaled(1e3);
         let cubic = |i: u32| {
@@ -67,7 +67,7 @@ fn kurbo_offset(cubics: &[CubicBez], distance: f64, tolerance: f64) -> Vec<BezPa
 }
 
 /// Largest distance of the exact profile from an outline, mm.
-fn true_error(cam: &Rotary, outline: &Contour) -> f64 {
+fn true_error(cam: &Disc, outline: &Contour) -> f64 {
     let surface = Surface::new(outline);
     let place = |i: u32| {
         let (piece, angle) = cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(PLACES));
@@ -134,7 +134,7 @@ fn points(criterion: &mut Criterion) {
     let cam = dpi();
     for many in [3600_u32, 36_000] {
         let place = |i: u32| cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(many));
-        let pitch: Vec<Frame> =
+        let pitch: Vec<CurvePoint> =
             (0..many).map(place).map(|(piece, angle)| cam.curves.contact(piece, angle).pitch).collect();
         let mut line = Polyline::new_closed();
         for frame in &pitch {

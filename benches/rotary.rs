@@ -2,23 +2,23 @@
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
-use camgen::cam::rotary::Rotary;
-use camgen::checks::{self, Subject, file, rolling};
-use camgen::contour::{Contour, Vertex};
-use camgen::drawing::solid::solid;
+use camgen::body::disc::Disc;
 use camgen::drawing::{self};
-use camgen::law::Law;
+use camgen::geometry::contour::{Contour, Vertex};
+use camgen::geometry::solid::solid;
 use camgen::machine::Machine;
-use camgen::output::dxf::{self, Version};
-use camgen::output::{csv, proof, step, svg};
+use camgen::motion::Motion;
 use camgen::reading;
+use camgen::verify::{self, Subject, file, rolling};
+use camgen::write::dxf::{self, Version};
+use camgen::write::{csv, proof, step, svg};
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::Vector2;
 use std::hint::black_box;
 
-fn dpi() -> Rotary {
+fn dpi() -> Disc {
     let machine = Machine::load("dpi", &[]).expect("embedded").0;
-    Rotary::solve(&machine, 35.0).expect("a cam")
+    Disc::solve(&machine, 35.0).expect("a cam")
 }
 
 fn law(criterion: &mut Criterion) {
@@ -33,7 +33,7 @@ fn law(criterion: &mut Criterion) {
 fn stages(criterion: &mut Criterion) {
     let machine = Machine::load("dpi", &[]).expect("embedded").0;
     criterion.bench_function("machine/load", |b| b.iter(|| Machine::load(black_box("dpi"), &[])));
-    criterion.bench_function("cam/solve", |b| b.iter(|| Rotary::solve(black_box(&machine), 35.0)));
+    criterion.bench_function("cam/solve", |b| b.iter(|| Disc::solve(black_box(&machine), 35.0)));
     let cam = dpi();
     for tolerance in [1e-4, 1e-5, 5e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12] {
         let id = format!("drawing/outline {tolerance:e} m");

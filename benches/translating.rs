@@ -2,17 +2,17 @@
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
-use camgen::cam::plate::{LAW_TOLERANCE, Plate};
-use camgen::checks::rolling;
+use camgen::body::wedge::{LAW_TOLERANCE, Plate};
 use camgen::drawing;
-use camgen::law::translating::{Exact, Mechanism, Solution, Solver, Stations};
 use camgen::machine::Machine;
+use camgen::motion::equation_18::{ExactOn, Mechanism, Solution, Solver, Stations};
+use camgen::verify::rolling;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 fn plate(column: &str) -> Plate {
     let machine = Machine::load("dpi", &[format!("buffer.column={column}")]).expect("embedded").0;
-    Plate::solve(&machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, Exact::Braking).expect("a plate")
+    Plate::solve(&machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking).expect("a plate")
 }
 
 fn equation(criterion: &mut Criterion) {

@@ -6,13 +6,13 @@
 #[path = "common/worst.rs"]
 mod worst;
 
-use camgen::cam::rotary::Rotary;
-use camgen::cam::{Curves, Frame, extremes};
-use camgen::checks::rolling;
+use camgen::body::disc::Disc;
+use camgen::cam::{CurvePoint, Curves, extremes};
 use camgen::drawing::{self, arcs, outline};
 use camgen::follower::{Follower, TranslatingRoller};
-use camgen::law::Law;
 use camgen::machine::Machine;
+use camgen::motion::Motion;
+use camgen::verify::rolling;
 use nalgebra::Vector2;
 use worst::Worst;
 
@@ -23,7 +23,7 @@ fn arcs_of_every_radius() {
     for decade in -3..=7 {
         let radius = libm::pow(10.0, f64::from(decade));
         for sweep in [1e-4, 1e-3, 1.0, std::f64::consts::PI] {
-            let circle = |t: f64| Frame {
+            let circle = |t: f64| CurvePoint {
                 point: Vector2::new(radius * libm::cos(t), radius * libm::sin(t)),
                 tangent: Vector2::new(-libm::sin(t), libm::cos(t)),
                 speed: radius,
@@ -42,7 +42,7 @@ fn arcs_of_every_radius() {
 #[test]
 fn tolerances_over_nine_decades() {
     let machine = Machine::load("dpi", &[]).expect("valid").0;
-    let rotary = Rotary::solve(&machine, 35.0).expect("a cam");
+    let rotary = Disc::solve(&machine, 35.0).expect("a cam");
     println!("{:>12} {:>8} {:>10} {:>14} {:>14}", "tolerance/mm", "arcs", "N*", "deviation/tol", "arcs·tol^(1/3)");
     for decade in -9..=0 {
         let tolerance = libm::pow(10.0, f64::from(decade));
@@ -80,7 +80,7 @@ fn arcs_near_the_limit() {
         "cam.lever=0.3",
     ] {
         let machine = Machine::load("dpi", &[overrides.into()]).expect("valid").0;
-        let cam = Rotary::solve(&machine, 35.0).expect("a cam");
+        let cam = Disc::solve(&machine, 35.0).expect("a cam");
         for step in 0..=24 {
             let tolerance = 0.1 * libm::pow(10.0, -0.125 * f64::from(step));
             for (index, piece) in cam.curves.law.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell) {
@@ -104,7 +104,7 @@ fn arcs_near_the_limit() {
 fn cams_at_the_edge() {
     let solve = |overrides: &[String]| {
         let machine = Machine::load("dpi", overrides).expect("valid").0;
-        Rotary::solve(&machine, 35.0)
+        Disc::solve(&machine, 35.0)
     };
     let base = solve(&["cam.base_radius=90mm".into()]).expect("a cam");
     let prime = base.curves.follower.prime_radius();

@@ -3,9 +3,9 @@
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
 use assert_cmd::Command;
-use camgen::contour::{Contour, Vertex};
 use camgen::drawing::{Entity, Layer};
-use camgen::output::dxf::{self, Version};
+use camgen::geometry::contour::{Contour, Vertex};
+use camgen::write::dxf::{self, Version};
 use nalgebra::Vector2;
 use serde_json::Value;
 use std::fs;

@@ -9,7 +9,7 @@
 mod big;
 
 use big::{Big, big, number, ulp};
-use camgen::buffer::balance::{Balance, Column};
+use camgen::buffer::bottom_law::{BottomLaw, Column};
 
 /// Crank radius of the reference machine, m.
 const R: f64 = 0.18;
@@ -47,9 +47,9 @@ fn worst_relative(column: Column) -> (f64, String) {
     let mut worst = (0.0, String::new());
     for q in RATIOS {
         for k in EXPONENTS {
-            let balance = Balance::new((q - 1.0) / R, k, R, column, 0.0);
+            let bottom_law = BottomLaw::new((q - 1.0) / R, k, R, column, 0.0);
             for x in overruns() {
-                let got = balance.displacement(x);
+                let got = bottom_law.displacement(x);
                 let exact = exact(q, k, x, column);
                 if x == R && column == Column::Return {
                     assert_eq!(got, 0.0, "the bottom is back at x = r");
@@ -85,11 +85,11 @@ fn a_given_column_keeps_two_ulp_of_its_length() {
             let loading = (q - 1.0) / R;
             for share in [0.7, 0.999, 1.000_001, 1.3, 4.0] {
                 let length = share * k / loading;
-                let balance = Balance::new(loading, k, R, Column::Length(length), 0.0);
+                let bottom_law = BottomLaw::new(loading, k, R, Column::Length(length), 0.0);
                 for x in overruns() {
                     let exact = exact(q, k, x, Column::Length(length));
                     let rounding = 0.5 * ulp(number(&exact).abs());
-                    let off = number(&(big(balance.displacement(x)) - exact)).abs();
+                    let off = number(&(big(bottom_law.displacement(x)) - exact)).abs();
                     let error = (off - rounding).max(0.0) / ulp(length);
                     if error > worst.0 {
                         worst = (error, format!("q = {q}, k = {k}, L = {length}, x = {x:e}"));
@@ -108,7 +108,7 @@ fn derivatives_are_exact() {
     for q in RATIOS {
         for k in EXPONENTS {
             for column in [Column::Matched, Column::Return] {
-                let balance = Balance::new((q - 1.0) / R, k, R, column, 0.0);
+                let bottom_law = BottomLaw::new((q - 1.0) / R, k, R, column, 0.0);
                 for x in overruns() {
                     let (loading, shrink) = parts(q, k, x);
                     let base = big(1.0) + &loading * big(x);
@@ -120,7 +120,7 @@ fn derivatives_are_exact() {
                     let slope = &c * &shrink / &base - big(1.0);
                     let steeper = big(1.0) / big(k) + big(1.0);
                     let second = -(&c * &loading * &steeper * &shrink) / (&base * &base);
-                    let got = balance.bottom(x, R - x);
+                    let got = bottom_law.bottom(x, R - x);
                     let slope_error = number(&(big(got.slope) - &slope)).abs();
                     let bound =
                         if column == Column::Matched { 1e-15 * number(&slope).abs() } else { 1e-15 * number(&c) };

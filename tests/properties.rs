@@ -2,14 +2,14 @@
 
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
-use camgen::cam::envelope;
-use camgen::cam::rotary::Rotary;
-use camgen::checks::rolling;
+use camgen::body::disc::Disc;
 use camgen::drawing::{self, solid};
-use camgen::law::Law;
+use camgen::geometry::envelope;
 use camgen::machine::Machine;
-use camgen::output::dxf::Version;
-use camgen::output::proof;
+use camgen::motion::Motion;
+use camgen::verify::rolling;
+use camgen::write::dxf::Version;
+use camgen::write::proof;
 use proptest::prelude::*;
 
 /// Log-uniform between two powers of ten.
@@ -50,7 +50,7 @@ proptest! {
     #[test]
     fn any_machine_gives_a_true_cam_or_a_named_wall(overrides in overrides(), rpm in 5.0..100.0_f64) {
         let machine = Machine::load("dpi", &overrides).expect("in range").0;
-        let Ok(cam) = Rotary::solve(&machine, rpm) else { return Ok(()) };
+        let Ok(cam) = Disc::solve(&machine, rpm) else { return Ok(()) };
         for (index, piece) in cam.curves.law.pieces().iter().enumerate() {
             for step in 0..=20 {
                 let angle = piece.start + (piece.end - piece.start) * f64::from(step) / 20.0;

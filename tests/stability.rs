@@ -11,11 +11,11 @@ mod random;
 mod worst;
 
 use big::{Big, big, number, ulp};
-use camgen::buffer::balance::{Balance, Column, column_for};
+use camgen::buffer::bottom_law::{BottomLaw, Column, column_for};
 use camgen::buffer::{Bed, Cylinder, regime};
 use camgen::cam::Curves;
 use camgen::follower::TranslatingRoller;
-use camgen::law::{EccentricCircle, Law, Reversal, ReversalLaw, Transition};
+use camgen::motion::{EccentricCircle, Motion, Reversal, ReversalLaw, Transition};
 use nalgebra::Vector2;
 use random::Random;
 use worst::Worst;
@@ -62,7 +62,7 @@ fn the_buffer_over_its_whole_domain() {
             share if share < 0.7 => Column::Return,
             _ => Column::Length(k / loading * random.log_between(0.3, 5.0)),
         };
-        let balance = Balance::new(loading, k, r, column, 0.0);
+        let bottom_law = BottomLaw::new(loading, k, r, column, 0.0);
         let place =
             || format!("q − 1 = {:.2e}, k − 1 = {:.1e}, r = {r:.2e}, x = {x:.3e}, {column:?}", q - 1.0, k - 1.0);
         let (whole, _) = shrink(loading, k, r);
@@ -73,25 +73,25 @@ fn the_buffer_over_its_whole_domain() {
         };
         let (part, load) = shrink(loading, k, x);
         let exact = &exact_length * (big(1.0) - &part) - big(x);
-        let off = number(&(big(balance.displacement(x)) - &exact)).abs();
+        let off = number(&(big(bottom_law.displacement(x)) - &exact)).abs();
         let given = matches!(column, Column::Length(_));
         if x <= 1e-3 && !given && x > 0.0 {
             small.see(off / ulp(number(&exact)), place);
         }
         // Beside half an ulp of the result itself, which exceeds that of L where x is many times L.
-        large.see((off - 0.5 * ulp(number(&exact))).max(0.0) / ulp(balance.column), place);
+        large.see((off - 0.5 * ulp(number(&exact))).max(0.0) / ulp(bottom_law.column), place);
 
         let base = big(1.0) + &load;
         let c = &exact_length * big(loading) / big(k);
         let power = &part / &base;
         let steeper = big(1.0) / big(k) + big(1.0);
-        let got = balance.bottom(x, r - x);
+        let got = bottom_law.bottom(x, r - x);
         slope.see(number(&((big(got.slope) - (&c * &power - big(1.0))) / &c)).abs(), place);
         let exact_second = -(&c * big(loading) * &steeper * &power) / &base;
         second.see(number(&((big(got.second) - &exact_second) / &exact_second)).abs(), place);
         let exact_third = -(&exact_second * big(loading) * (&steeper + big(1.0))) / &base;
         third.see(number(&((big(got.third) - &exact_third) / &exact_third)).abs(), place);
-        let ratio = balance.pressure_ratio(x, balance.displacement(x));
+        let ratio = bottom_law.pressure_ratio(x, bottom_law.displacement(x));
         pressure.see(number(&((big(ratio) - &base) / &base)).abs(), place);
         let by_7 = column_for(r, loading * r, k);
         let exact_7 = big(r) / (big(1.0) - (-(big(1.0) + big(loading * r)).ln() / big(k)).exp());
@@ -117,7 +117,7 @@ fn the_reset_at_other_speeds() {
     for _ in 0..400 {
         let (q, k) = (1.0 + random.log_between(1e-3, 50.0), 1.0 + random.log_between(1e-3, 1.0));
         let cylinder = Cylinder::sized(&bed, 35.0, k, 98_066.5, q * 98_066.5);
-        let design = Balance::new(cylinder.loading(35.0), k, 0.18, Column::Matched, 0.0);
+        let design = BottomLaw::new(cylinder.loading(35.0), k, 0.18, Column::Matched, 0.0);
         let rpm = 35.0 * random.log_between(0.01, 10.0);
         let found = regime::reset(&design, &cylinder, rpm);
         let load = cylinder.loading(rpm) * 0.18;
@@ -220,9 +220,10 @@ fn geometry_of_random_cams() {
     for _ in 0..600 {
         let buffer = sample(&mut random);
         let column = if random.next() < 0.5 { Column::Matched } else { Column::Return };
-        let balance = Balance::new(buffer.loading, buffer.k, buffer.r, column, 0.0);
+        let bottom_law = BottomLaw::new(buffer.loading, buffer.k, buffer.r, column, 0.0);
         let (lever, ratio) = (random.log_between(0.05, 20.0), random.log_between(0.2, 1.9));
-        let motion = Reversal::new(ReversalLaw { balance, lever, ratio, transition: Transition::None }).expect("fits");
+        let motion =
+            Reversal::new(ReversalLaw { bottom_law, lever, ratio, transition: Transition::None }).expect("fits");
         let prime = random.log_between(1e-3, 1e3);
         let offset = if random.next() < 0.5 { 0.0 } else { prime * (1.8 * random.next() - 0.9) };
         let roller = prime * random.log_between(1e-3, 0.9);
@@ -263,7 +264,7 @@ fn geometry_of_random_cams() {
         };
         let on_profile = plus(&centre, &normal, &-big(roller));
         // The angle is rounded, and with it x: a roller path of many radii is off by its own rounding.
-        let path = size + lever * buffer.r * (1.0 + balance.start_slope);
+        let path = size + lever * buffer.r * (1.0 + bottom_law.start_slope);
         point.see(off(contact.pitch.point, &centre).max(off(profile.point, &on_profile)) / path, place);
         let curvature = number(&kappa);
         let error = number(&(big(contact.pitch.curvature) - &kappa)).abs();

@@ -10,24 +10,24 @@
 #[path = "common/random.rs"]
 mod random;
 
-use camgen::buffer::balance::{Balance, Column};
-use camgen::law::translating::{
-    EfficiencyModel, Exact, Mechanism, Side, Solution, Solver, Stations, Translating, Wall, Way,
+use camgen::buffer::bottom_law::{BottomLaw, Column};
+use camgen::motion::equation_18::{
+    EfficiencyModel, ExactOn, Mechanism, Solution, Solver, Stations, Trend, Wall, Way, WedgeMotion,
 };
-use camgen::law::{Law, Transition};
+use camgen::motion::{Motion, Transition};
 use random::Random;
 use std::f64::consts::FRAC_PI_2;
 
 fn mechanism(column: Column, model: EfficiencyModel) -> Mechanism {
     Mechanism {
-        balance: Balance::new(1.0 / 0.18, 1.35, 0.18, column, 0.0),
+        bottom_law: BottomLaw::new(1.0 / 0.18, 1.35, 0.18, column, 0.0),
         bottom_arm: 0.3,
         arm_ratio: 1.0,
         delta: FRAC_PI_2,
         friction_angle: 3.0_f64.to_radians(),
         efficiency: 0.95,
         model,
-        exact: Exact::Braking,
+        exact_on: ExactOn::Braking,
     }
 }
 
@@ -72,11 +72,11 @@ fn extreme(random: &mut Random) -> Mechanism {
     };
     let (friction, efficiency) = (pick(random, 0.0, 20.0).to_radians(), pick(random, 0.3, 1.0));
     let delta = pick(random, 30.0, 150.0).to_radians();
-    let exact = [Exact::Braking, Exact::Return, Exact::Mean]
+    let exact = [ExactOn::Braking, ExactOn::Return, ExactOn::Mean]
         [usize::from(random.next() < 0.5) + usize::from(random.next() < 0.3)];
     let model = if random.next() < 0.7 { EfficiencyModel::Consistent } else { EfficiencyModel::Printed };
     Mechanism {
-        balance: Balance::new((q - 1.0) / 0.18, 1.35, 0.18, column, 0.0),
+        bottom_law: BottomLaw::new((q - 1.0) / 0.18, 1.35, 0.18, column, 0.0),
         bottom_arm: 0.3 * arm_ratio,
         arm_ratio,
         delta,
@@ -110,17 +110,17 @@ fn extremes_balance_or_name_their_wall() {
             }
             Ok(solution) => {
                 solved += 1;
-                let load = mechanism.balance.loading * 0.18;
+                let load = mechanism.bottom_law.loading * 0.18;
                 for i in 1..=60 {
                     let x = 0.18 * f64::from(i) / 60.0;
                     let [bottom, slope, second, third] = solution.at(x, false);
                     assert!(second.is_finite() && third.is_finite(), "{case}: {mechanism:?}");
                     let residual = |way| mechanism.residual(x, bottom, slope, way) / load;
-                    let residual = match mechanism.exact {
-                        Exact::Braking => residual(Way::Braking),
-                        Exact::Return => residual(Way::Return),
-                        Exact::Mean if slope == 0.0 => 0.0,
-                        Exact::Mean => 0.5 * (residual(Way::Braking) + residual(Way::Return)),
+                    let residual = match mechanism.exact_on {
+                        ExactOn::Braking => residual(Way::Braking),
+                        ExactOn::Return => residual(Way::Return),
+                        ExactOn::Mean if slope == 0.0 => 0.0,
+                        ExactOn::Mean => 0.5 * (residual(Way::Braking) + residual(Way::Return)),
                     };
                     // The slope satisfies the equation to rounding; what a rounding of it means in force grows where the
                     // flank is steep, the roller moves along the bed or the arm stands upright.
@@ -225,7 +225,7 @@ fn stations_converge_to_the_differential_equation() {
 fn stations_agree_in_every_mode() {
     for column in [Column::Matched, Column::Return] {
         for model in [EfficiencyModel::Consistent, EfficiencyModel::Printed] {
-            for exact in [Exact::Braking, Exact::Return, Exact::Mean] {
+            for exact in [ExactOn::Braking, ExactOn::Return, ExactOn::Mean] {
                 let mechanism = Mechanism { exact, ..mechanism(column, model) };
                 let truth = ode(&mechanism, 1e-14);
                 let stations = Stations::new(&mechanism, 2000).expect("no wall");
@@ -242,7 +242,7 @@ fn stations_agree_in_every_mode() {
 #[test]
 fn no_friction_and_no_loss_conserves_energy() {
     for column in [Column::Matched, Column::Return, Column::Length(0.3)] {
-        for exact in [Exact::Braking, Exact::Return, Exact::Mean] {
+        for exact in [ExactOn::Braking, ExactOn::Return, ExactOn::Mean] {
             let free = Mechanism {
                 friction_angle: 0.0,
                 efficiency: 1.0,
@@ -253,7 +253,7 @@ fn no_friction_and_no_loss_conserves_energy() {
             };
             let solution = ode(&free, 1e-15);
             assert!(solution.breaks.is_empty());
-            let (length, k, a) = (free.balance.column, 1.35, free.balance.loading);
+            let (length, k, a) = (free.bottom_law.column, 1.35, free.bottom_law.loading);
             for i in 1..=90 {
                 let x = 0.002 * f64::from(i);
                 let s = x + solution.value(x);
@@ -270,7 +270,7 @@ fn no_friction_and_no_loss_conserves_energy() {
 fn a_sticking_lever_is_published() {
     let solution = ode(&mechanism(Column::Return, EfficiencyModel::Consistent), 1e-15);
     let [stick, fall] = solution.breaks.as_slice() else { panic!("{:?}", solution.breaks) };
-    assert_eq!((stick.then, fall.then), (Side::Stuck, Side::Falling));
+    assert_eq!((stick.then, fall.then), (Trend::Stuck, Trend::Falling));
     assert!(solution.at(stick.x, true)[1].abs() < 1e-15 && solution.at(fall.x, false)[1].abs() < 1e-15);
     let middle = 0.5 * (stick.x + fall.x);
     assert_eq!(solution.at(middle, false)[1], 0.0);
@@ -278,15 +278,15 @@ fn a_sticking_lever_is_published() {
     // Without friction the lever only passes through: one break, where the efficiency changes sides.
     let smooth = Mechanism { friction_angle: 0.0, ..mechanism(Column::Return, EfficiencyModel::Consistent) };
     let solution = ode(&smooth, 1e-15);
-    let sides: Vec<Side> = solution.breaks.iter().map(|b| b.then).collect();
-    assert_eq!(sides, [Side::Falling]);
+    let sides: Vec<Trend> = solution.breaks.iter().map(|b| b.then).collect();
+    assert_eq!(sides, [Trend::Falling]);
 }
 
 /// The compromise levels the two directions at every x, and its worst is less than the worst of either exact one.
 #[test]
 fn the_mean_levels_the_two_directions() {
     for column in [Column::Matched, Column::Return] {
-        let worst = |exact: Exact| {
+        let worst = |exact_on: ExactOn| {
             let mechanism = Mechanism { exact, ..mechanism(column, EfficiencyModel::Consistent) };
             let solution = ode(&mechanism, 1e-15);
             let mut worst = 0.0_f64;
@@ -297,14 +297,14 @@ fn the_mean_levels_the_two_directions() {
                     mechanism.residual(x, bottom, slope, Way::Braking),
                     mechanism.residual(x, bottom, slope, Way::Return),
                 );
-                if exact == Exact::Mean && slope != 0.0 {
+                if exact == ExactOn::Mean && slope != 0.0 {
                     assert!((braking + back).abs() < 1e-12, "{x}: {braking} {back}");
                 }
                 worst = worst.max(braking.abs()).max(back.abs());
             }
             worst
         };
-        let (braking, back, mean) = (worst(Exact::Braking), worst(Exact::Return), worst(Exact::Mean));
+        let (braking, back, mean) = (worst(ExactOn::Braking), worst(ExactOn::Return), worst(ExactOn::Mean));
         assert!(mean < 0.7 * braking.min(back), "{column:?}: {braking} {back} {mean}");
     }
 }
@@ -322,10 +322,10 @@ fn walls_are_named() {
     let none = Mechanism { delta: 0.3, friction_angle: 0.34, ..base };
     assert!(matches!(Solution::new(&none, 1e-12), Err(Wall::NoStart { .. })));
     let used = Mechanism {
-        balance: Balance::new(9.0 / 0.18, 1.35, 0.18, Column::Matched, 0.0),
+        bottom_law: BottomLaw::new(9.0 / 0.18, 1.35, 0.18, Column::Matched, 0.0),
         efficiency: 0.3,
         model: EfficiencyModel::Consistent,
-        exact: Exact::Return,
+        exact_on: ExactOn::Return,
         ..base
     };
     assert!(matches!(Solution::new(&used, 1e-12), Err(Wall::Column { .. })), "{:?}", Solution::new(&used, 1e-12).err());
@@ -355,7 +355,7 @@ fn the_run_in_is_smooth() {
     for column in [Column::Matched, Column::Return] {
         for transition in [Transition::RunUp { width }, Transition::Blend { width }] {
             let mechanism = mechanism(column, EfficiencyModel::Consistent);
-            let law = Translating::new(mechanism, Solver::Ode { tolerance: 1e-15 }, transition, 0.03).expect("a law");
+            let law = WedgeMotion::new(mechanism, Solver::Ode { tolerance: 1e-15 }, transition, 0.03).expect("a law");
             assert!(law.slope_jump() == 0.0);
             for (i, pair) in law.pieces().windows(2).enumerate() {
                 let (a, b) = (law.jet(i, pair[0].end), law.jet(i + 1, pair[1].start));
@@ -369,6 +369,6 @@ fn the_run_in_is_smooth() {
         }
     }
     let mechanism = mechanism(Column::Return, EfficiencyModel::Printed);
-    let sharp = Translating::new(mechanism, Solver::Ode { tolerance: 1e-15 }, Transition::None, 0.03).expect("a law");
+    let sharp = WedgeMotion::new(mechanism, Solver::Ode { tolerance: 1e-15 }, Transition::None, 0.03).expect("a law");
     assert!((sharp.slope_jump() - 0.319_416_84).abs() < 1e-8);
 }

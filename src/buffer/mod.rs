@@ -3,12 +3,12 @@
 //! Two cylinders at each end of the bed brake it over its overrun x; the air follows p·vᵏ = const. All pressures are
 //! absolute. Knows the bed's overrun, not the angles of any cam.
 
-pub mod balance;
+pub mod bottom_law;
 pub mod energy;
 pub mod regime;
 pub mod spring;
 
-use balance::Balance;
+use bottom_law::BottomLaw;
 use std::f64::consts::PI;
 
 /// The bed and the crank that reverses it.
@@ -82,14 +82,14 @@ impl Cylinder {
 
     /// Inertia force of the bed at the end of the stroke, N, by the loading of a law.
     #[must_use]
-    pub fn largest_load(&self, balance: &Balance) -> f64 {
-        balance.loading * balance.stroke * self.unit_force()
+    pub fn largest_load(&self, bottom_law: &BottomLaw) -> f64 {
+        bottom_law.loading * bottom_law.stroke * self.unit_force()
     }
 
     /// What a plain buffer with fixed bottom and column by (7) would leave at the speed of a law, N.
     #[must_use]
-    pub fn residual_fixed_bottom(&self, balance: &Balance) -> f64 {
-        let plain = PlainBuffer::new(balance.loading, balance.exponent, balance.stroke);
+    pub fn residual_fixed_bottom(&self, bottom_law: &BottomLaw) -> f64 {
+        let plain = PlainBuffer::new(bottom_law.loading, bottom_law.exponent, bottom_law.stroke);
         plain.largest_residual().1 * self.unit_force()
     }
 
@@ -113,7 +113,7 @@ impl PlainBuffer {
     /// Column by (7) for the loading A: `h_a` = r.
     #[must_use]
     pub fn new(loading: f64, exponent: f64, crank_radius: f64) -> Self {
-        let column = balance::column_for(crank_radius, loading * crank_radius, exponent);
+        let column = bottom_law::column_for(crank_radius, loading * crank_radius, exponent);
         Self { column, loading, exponent }
     }
 

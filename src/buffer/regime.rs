@@ -1,7 +1,7 @@
 //! One cam at another speed: the column is reset, a residual force stays. Equations (14) and (15).
 
 use super::Cylinder;
-use super::balance::{Balance, column_for};
+use super::bottom_law::{BottomLaw, column_for};
 use crate::numeric::extremum;
 
 /// Cells for the search of the largest residual: it has two humps over the stroke at the most, eight cells each.
@@ -22,7 +22,7 @@ pub struct Regime {
 
 /// Resets the column for `rpm` so that the unchanged cam of `design` is right at x = r, and finds the residual.
 #[must_use]
-pub fn reset(design: &Balance, cylinder: &Cylinder, rpm: f64) -> Regime {
+pub fn reset(design: &BottomLaw, cylinder: &Cylinder, rpm: f64) -> Regime {
     let loading = cylinder.loading(rpm);
     let (r, k) = (design.stroke, design.exponent);
     let shortening = r + design.displacement(r);
@@ -50,7 +50,7 @@ pub fn reset(design: &Balance, cylinder: &Cylinder, rpm: f64) -> Regime {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::buffer::balance::Column;
+    use crate::buffer::bottom_law::Column;
     use crate::buffer::tests::reference;
     use crate::units::KILOGRAM_FORCE;
 
@@ -58,7 +58,7 @@ mod tests {
     #[test]
     fn the_paper_s_residual_at_25_rpm() {
         let (_, cylinder) = reference(5.0);
-        let design = Balance::new(cylinder.loading(35.0), 1.35, 0.18, Column::Return, 0.0);
+        let design = BottomLaw::new(cylinder.loading(35.0), 1.35, 0.18, Column::Return, 0.0);
         let slow = reset(&design, &cylinder, 25.0);
         assert!((slow.residual / KILOGRAM_FORCE - 118.15).abs() < 5e-3, "{}", slow.residual / KILOGRAM_FORCE);
         assert!(slow.column > design.column && slow.added_volume > 0.0);

@@ -1,11 +1,11 @@
 //! What the user typed.
 
 use super::Failure;
-use camgen::law::translating::Exact;
 use camgen::machine::{Machine, valid_rpm};
-use camgen::output::dxf::Version;
-use camgen::output::formats::FORMATS;
+use camgen::motion::equation_18::ExactOn;
 use camgen::units::{self, Dimension};
+use camgen::write::dxf::Version;
+use camgen::write::formats::by_name;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -82,7 +82,7 @@ impl CommonArgs {
     /// The one speed of a cam that is not a conoid.
     pub(super) fn one_speed(&self, machine: &Machine) -> Result<f64, Failure> {
         match self.rpm.as_slice() {
-            [] => Ok(machine.design_rpm),
+            [] => Ok(machine.press().map_err(Failure::new)?.design_rpm),
             [Speed::One(rpm)] => Ok(*rpm),
             [Speed::Range(..)] => Err(Failure("this cam is cut for one speed, not for a range".into())),
             more => Err(Failure(format!("this cam is cut for one speed, not {}", more.len()))),
@@ -231,11 +231,11 @@ pub(super) enum Balanced {
 }
 
 impl Balanced {
-    pub(super) fn exact(self) -> Exact {
+    pub(super) fn exact_on(self) -> ExactOn {
         match self {
-            Balanced::Braking => Exact::Braking,
-            Balanced::Return => Exact::Return,
-            Balanced::Mean => Exact::Mean,
+            Balanced::Braking => ExactOn::Braking,
+            Balanced::Return => ExactOn::Return,
+            Balanced::Mean => ExactOn::Mean,
         }
     }
 }
@@ -245,7 +245,7 @@ impl Balanced {
 pub(super) struct FileArgs {
     /// What to write: dxf, svg, step, csv, json, and stl of a conoid [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
-    pub(super) format: Option<Vec<&'static str>>,
+    pub(super) format: Option<Vec<String>>,
 
     /// Directory for the files, created when missing
     #[arg(long, value_name = "DIR", default_value = "output")]
@@ -292,9 +292,6 @@ pub(super) enum MachinesCommand {
         name: String,
     },
 }
-
-/// The format only a conoid has.
-pub(super) const STL: &str = "stl";
 
 /// A speed, or `A..B` from one to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -352,12 +349,12 @@ fn cutter(text: &str) -> Result<f64, String> {
     }
 }
 
-fn format(text: &str) -> Result<&'static str, String> {
-    let known = || FORMATS.iter().map(|(name, _)| *name).chain([STL]);
-    known().find(|name| *name == text).ok_or_else(|| {
-        let known: Vec<&str> = known().collect();
-        format!("no such format; one of {}", known.join(", "))
-    })
+fn format(text: &str) -> Result<String, String> {
+    if by_name().any(|format| format.name == text) {
+        return Ok(text.to_owned());
+    }
+    let known: Vec<&str> = by_name().map(|format| format.name).collect();
+    Err(format!("no such format; one of {}", known.join(", ")))
 }
 
 fn dxf_version(text: &str) -> Result<Version, String> {

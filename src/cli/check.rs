@@ -2,66 +2,42 @@
 
 use super::args::{CamKind, CheckArgs};
 use super::{Failure, Outcome, print, text};
-use camgen::cam::Cam;
-use camgen::cam::plate::{LAW_TOLERANCE, Plate};
-use camgen::cam::rotary::Rotary;
-use camgen::checks::rolling::Rolled;
-use camgen::checks::{self, Finding, file};
-use camgen::law::translating::Solver;
-use camgen::reading;
-use serde::Serialize;
+use camgen::body::wedge::LAW_TOLERANCE;
+use camgen::motion::equation_18::Solver;
+use camgen::pipeline::{Error, Spec};
+use camgen::report::Section;
+use camgen::write::json;
 use std::io::Read;
 use std::path::Path;
 
 /// Largest DXF file that is read, bytes: ten million lines of a cut file are not one.
 const LARGEST_FILE: u64 = 1 << 28;
 
-/// The report of a checked file.
-#[derive(Debug, Serialize)]
-pub(super) struct CheckReport {
-    schema: u32,
-    command: &'static str,
-    pub(super) file: String,
-    pub(super) machine: String,
-    pub(super) cam: &'static str,
-    pub(super) rpm: f64,
-    pub(super) checks: Vec<Finding>,
-    rolling: Option<Rolled>,
-}
-
 pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let (machine, _) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
     let bytes = read(&args.file)?;
-    let tolerance_mm = 1e3 * args.common.tolerance();
-    let reading = reading::read(&bytes, file::join_reach(tolerance_mm))
-        .map_err(|error| Failure(format!("`{}` is {error}", args.file.display())))?;
-    let cam: Box<dyn Cam> = match args.cam {
-        CamKind::Rotary => Box::new(Rotary::solve(&machine, rpm).map_err(Failure::new)?),
+    let spec = match args.cam {
+        CamKind::Rotary => Spec::rotary(machine, rpm),
         CamKind::Translating => {
             let solver = Solver::Ode { tolerance: LAW_TOLERANCE };
-            Box::new(Plate::solve(&machine, rpm, solver, args.balance.exact()).map_err(Failure::new)?)
+            Spec::translating(machine, rpm, solver, args.balance.exact_on())
         }
     };
-    let (checks, rolling) = file::check(&*cam, &reading, tolerance_mm);
-    let passed = checks::passed(&checks);
-    let report = CheckReport {
-        schema: 1,
-        command: "check",
-        file: args.file.display().to_string(),
-        machine: machine.name,
-        cam: cam.kind(),
-        rpm,
-        checks,
-        rolling,
-    };
+    let cam = spec.solve().map_err(Failure::new)?;
+    let file = args.file.display().to_string();
+    let mut report = cam.check(&bytes, args.common.tolerance()).map_err(|error| match error {
+        Error::Read(error) => Failure(format!("`{file}` is {error}")),
+        other => Failure::new(other),
+    })?;
+    report.sections.insert(0, Section::new("file", &file));
     if args.common.json {
-        let json = serde_json::to_string_pretty(&report).map_err(Failure::new)?;
-        print(&format!("{json}\n"))?;
+        let json = json::write(&report).map_err(Failure::new)?;
+        print(&String::from_utf8_lossy(&json))?;
     } else if !args.common.quiet {
-        print(&text::check_report(&report, passed, args.common.colour()))?;
+        print(&text::check_report(&file, &report, args.common.colour()))?;
     }
-    Ok(if passed { Outcome::Fine } else { Outcome::CheckFailed })
+    Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {

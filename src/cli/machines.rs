@@ -10,7 +10,7 @@ pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
             let mut text = String::new();
             for embedded in EMBEDDED {
                 let (machine, _) = Machine::load(embedded.name, &[]).map_err(Failure::new)?;
-                text.push_str(&format!("{:<12} {}\n", embedded.name, machine.name));
+                text.push_str(&format!("{:<12} {}\n", embedded.name, machine.name()));
             }
             print(&text)?;
         }

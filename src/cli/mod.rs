@@ -1,14 +1,11 @@
 //! Commands, their exit codes and what they print: data and reports on stdout, messages on stderr.
 
 mod args;
+mod cams;
 mod check;
-mod conoid;
-mod cut;
 mod machines;
-mod rotary;
 mod text;
 mod trade;
-mod translating;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -37,9 +34,9 @@ impl Failure {
 
 pub(crate) fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
-        Command::Rotary(args) => rotary::run(&args),
-        Command::Translating(args) => translating::run(&args),
-        Command::Conoid(args) => conoid::run(&args),
+        Command::Rotary(args) => cams::rotary(&args),
+        Command::Translating(args) => cams::translating(&args),
+        Command::Conoid(args) => cams::conoid(&args),
         Command::Trade(args) => trade::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Machines(args) => machines::run(&args),

@@ -2,18 +2,16 @@
 
 use super::args::{CamKind, TradeArgs};
 use super::{Failure, Outcome, print};
-use camgen::cam::Cam;
-use camgen::cam::plate::Plate;
-use camgen::cam::rotary::Rotary;
-use camgen::checks::{self, Subject, rolling};
-use camgen::drawing::sheet::{self, Sheet};
-use camgen::drawing::solid::solid;
-use camgen::drawing::{self, Part, Report, Table};
-use camgen::law::translating::{Exact, Motion, Solver, Way};
+use camgen::body::wedge::Wedge;
 use camgen::machine::Machine;
-use camgen::output::files::{Output, write_all};
-use camgen::output::number::shortest;
-use camgen::output::{csv, dxf, json, proof, step, svg};
+use camgen::motion::equation_18::{BottomMotion, ExactOn, Solver, Way};
+use camgen::pipeline::{Cam, Spec};
+use camgen::report::chart::{self, Point};
+use camgen::report::sheet::Sheet;
+use camgen::write::files::{Output, write_all};
+use camgen::write::formats::{FORMATS, Rendering};
+use camgen::write::number::shortest;
+use camgen::write::{dxf, json, proof, svg};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -32,6 +30,10 @@ const TOLERANCES: [(&str, f64); 9] = [
 /// Tolerances of the differential equation, by name in mm and in m, and stations of the paper's method.
 const ODE: [(&str, f64); 4] = [("1e-3", 1e-6), ("1e-6", 1e-9), ("1e-9", 1e-12), ("1e-12", 1e-15)];
 const STATIONS: [u32; 4] = [18, 180, 1800, 18_000];
+/// Tolerance of the outline on the ladder of the law, m.
+const LAW_LADDER_TOLERANCE: f64 = 1e-6;
+/// Rows of the point table.
+const SAMPLES: u32 = 720;
 /// Runs of a stage; the median counts.
 const RUNS: usize = 7;
 /// Places at which two motions are compared.
@@ -82,10 +84,11 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
         CamKind::Rotary => "rotary",
         CamKind::Translating => "translating",
     };
-    let limit = args.residual.unwrap_or(SHARE * machine.bed.largest_inertia(rpm));
+    let inertia = machine.press().map_err(Failure::new)?.bed.largest_inertia(rpm);
+    let limit = args.residual.unwrap_or(SHARE * inertia);
     let advice = advice(&rows, limit);
     let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", shortest(rpm)));
-    let title = format!("{}: what a {kind} cam costs and leaves at {} rpm", machine.name, shortest(rpm));
+    let title = format!("{}: what a {kind} cam costs and leaves at {} rpm", machine.name(), shortest(rpm));
     let picture = svg::write(&picture(&rows, &title), svg::TEMPLATE).map_err(Failure::new)?;
     let outputs = [
         Output { name: format!("{stem}.csv"), bytes: table(&rows).into_bytes() },
@@ -97,7 +100,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
         schema: 1,
         command: "trade",
         cam: kind,
-        machine: &machine.name,
+        machine: machine.name(),
         rpm,
         residual_limit_n: limit,
         rows: &rows,
@@ -129,111 +132,87 @@ fn timed<T>(mut work: impl FnMut() -> Result<T, Failure>) -> Result<(f64, T), Fa
     }
 }
 
-/// How a cam is drawn and told, for the stages behind the law.
-struct Stages<'a> {
-    cam: &'a dyn Cam,
-    part: &'a dyn Fn(f64) -> Result<Part, Failure>,
-    report: &'a dyn Fn(&Part, rolling::Rolled) -> Report,
-    sheet: &'a dyn Fn(&Part, &Report) -> Result<Sheet, Failure>,
-    table: &'a dyn Fn() -> Table,
+/// One setting from the outline on.
+fn measure(cam: &Cam, setting: String, (law_us, law_error): (f64, f64), tolerance: f64) -> Result<Row, Failure> {
+    let (outline_us, drawing) = timed(|| cam.draw(tolerance).map_err(Failure::new))?;
+    let parts = drawing.drawn().map(|drawn| drawn.parts.as_slice()).unwrap_or_default();
+    let write = |part| proof::write(part, dxf::Version::R2000).map_err(Failure::new);
+    let (dxf_us, _) = timed(|| parts.iter().map(write).collect::<Result<Vec<_>, _>>())?;
+    let (proof_us, proven) = timed(|| drawing.clone().prove().map_err(Failure::new))?;
+    let report = proven.report();
+    let rendering = proven.rendering(&report, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
+    let ([svg_us, step_us, csv_us], sizes) = formats(&rendering)?;
+    let outlines = proven.outlines().iter().flat_map(|outline| &outline.contour.vertices);
+    let bytes: usize = proven.cut_files().iter().map(Vec::len).sum();
+    Ok(Row {
+        setting,
+        law_us,
+        outline_us,
+        checks_us: (proof_us - dxf_us).max(0.0),
+        dxf_us,
+        svg_us: svg_us.unwrap_or(0.0),
+        step_us,
+        csv_us: csv_us.unwrap_or(0.0),
+        total_us: law_us + outline_us + proof_us + [svg_us, step_us, csv_us].into_iter().flatten().sum::<f64>(),
+        arcs: outlines.filter(|vertex| vertex.bulge != 0.0).count(),
+        bytes: bytes + sizes,
+        law_error_mm: law_error,
+        deviation_mm: parts.iter().map(|part| part.outline.deviation).fold(0.0, f64::max),
+        residual_n: proven.rolled().map_or(0.0, |rolled| rolled.residual_max_n),
+    })
 }
 
-impl Stages<'_> {
-    /// One setting from the outline on.
-    fn measure(&self, setting: String, (law_us, law_error): (f64, f64), tolerance: f64) -> Result<Row, Failure> {
-        let (outline_us, part) = timed(|| (self.part)(tolerance))?;
-        let (dxf_us, written) = timed(|| proof::write(&part, dxf::Version::R2000).map_err(Failure::new))?;
-        let tolerance_mm = 1e3 * tolerance;
-        let (checks_us, (rolled, _)) = timed(|| {
-            let rolled = rolling::roll(self.cam, &written.outline, tolerance_mm);
-            let outline = Some(&written.outline);
-            let balancing = part.balancing.as_ref();
-            let findings =
-                checks::run(&Subject { cam: self.cam, outline, rolled: Some(&rolled), balancing, tolerance_mm });
-            Ok((rolled, findings))
-        })?;
-        let residual = rolled.residual_max_n;
-        let report = (self.report)(&part, rolled);
-        let (svg_us, preview) =
-            timed(|| svg::write(&(self.sheet)(&part, &report)?, svg::TEMPLATE).map_err(Failure::new))?;
-        let (csv_us, table) = timed(|| Ok(csv::write(&(self.table)())))?;
-        let solid =
-            self.cam.machine().cam.thickness.map(|thickness| {
-                timed(|| Ok(step::write(&solid(&part, 1e3 * thickness).map_err(Failure::new)?, "cam")))
-            });
-        let (step_us, solid) = solid.transpose()?.map_or((None, 0), |(time, bytes)| (Some(time), bytes.len()));
-        Ok(Row {
-            setting,
-            law_us,
-            outline_us,
-            checks_us,
-            dxf_us,
-            svg_us,
-            step_us,
-            csv_us,
-            total_us: law_us + outline_us + checks_us + dxf_us + svg_us + step_us.unwrap_or(0.0) + csv_us,
-            arcs: part.outline.contour.vertices.iter().filter(|vertex| vertex.bulge != 0.0).count(),
-            bytes: written.bytes.len() + preview.len() + table.len() + solid,
-            law_error_mm: law_error,
-            deviation_mm: part.outline.deviation,
-            residual_n: residual,
-        })
+/// Times of the formats beside the cut file, those that the cam can have, and the bytes of all.
+fn formats(rendering: &Rendering<'_>) -> Result<([Option<f64>; 3], usize), Failure> {
+    let (mut times, mut sizes) = ([None; 3], 0);
+    for (name, time) in ["svg", "step", "csv"].into_iter().zip(&mut times) {
+        let fits = FORMATS.iter().find(|format| format.name == name && (format.unfit)(rendering.body).is_none());
+        if let Some(format) = fits {
+            let (micros, files) = timed(|| (format.write)(rendering).map_err(Failure::new))?;
+            *time = Some(micros);
+            sizes += files.iter().map(Vec::len).sum::<usize>();
+        }
     }
+    Ok((times, sizes))
 }
 
 /// The disc cam over the ladder; its law is a closed form, exact to rounding.
 fn rotary(machine: &Machine, rpm: f64) -> Result<Vec<Row>, Failure> {
-    let (law_us, rotary) = timed(|| Rotary::solve(machine, rpm).map_err(Failure::new))?;
-    let stages = Stages {
-        cam: &rotary,
-        part: &|tolerance| drawing::part(&rotary, tolerance).map_err(Failure::new),
-        report: &|part, rolled| drawing::report(&rotary, Some(part), Some(rolled), 0.0, Vec::new()),
-        sheet: &|part, report| sheet::disc(&rotary, part, report).map_err(Failure::new),
-        table: &|| drawing::table(&rotary, 720),
-    };
-    let row = |(name, tolerance): &(&str, f64)| stages.measure((*name).into(), (law_us, 0.0), *tolerance);
+    let (law_us, cam) = timed(|| Spec::rotary(machine.clone(), rpm).solve().map_err(Failure::new))?;
+    let row = |(name, tolerance): &(&str, f64)| measure(&cam, (*name).into(), (law_us, 0.0), *tolerance);
     TOLERANCES.iter().map(row).collect()
 }
 
 /// The plate: the surface ladder with the finest law, then the law's own ladder at 1 µm.
 fn translating(machine: &Machine, rpm: f64) -> Result<Vec<Row>, Failure> {
-    let solve = |solver: Solver| Plate::solve(machine, rpm, solver, Exact::Braking).map_err(Failure::new);
+    let solve = |solver: Solver| Wedge::solve(machine, rpm, solver, ExactOn::Braking).map_err(Failure::new);
     let [.., (_, finest)] = ODE;
     let truth = solve(Solver::Ode { tolerance: finest })?;
-    let measure = |name: String, solver: Solver, tolerance: f64| {
-        let (law_us, plate) = timed(|| solve(solver))?;
-        let error = 1e3 * apart(&truth, &plate);
+    let of = |name: String, solver: Solver, tolerance: f64| {
+        let spec = || Spec::translating(machine.clone(), rpm, solver, ExactOn::Braking);
+        let (law_us, cam) = timed(|| spec().solve().map_err(Failure::new))?;
+        let plate = solve(solver)?;
+        let row = measure(&cam, name, (law_us, 1e3 * apart(&truth, &plate)), tolerance)?;
         // What the law itself leaves is no matter of the outline.
-        let law_residual = plate.residual_max(Way::Braking).0;
-        let stages = Stages {
-            cam: &plate,
-            part: &|tolerance| drawing::plate_part(&plate, tolerance).map_err(Failure::new),
-            report: &|part, rolled| drawing::plate_report(&plate, Some(part), Some(rolled), 0.0, Vec::new()),
-            sheet: &|part, report| sheet::plate(&plate, part, report).map_err(Failure::new),
-            table: &|| drawing::plate_table(&plate, 720),
-        };
-        let row = stages.measure(name, (law_us, error), tolerance)?;
-        Ok(Row { residual_n: row.residual_n.max(law_residual), ..row })
+        Ok(Row { residual_n: row.residual_n.max(plate.residual_max(Way::Braking).0), ..row })
     };
-    let mut rows: Vec<Row> = Vec::new();
-    for (name, tolerance) in TOLERANCES {
-        rows.push(measure(name.into(), Solver::Ode { tolerance: finest }, tolerance)?);
-    }
-    for (name, tolerance) in ODE {
-        rows.push(measure(format!("ode {name} mm, 1 µm"), Solver::Ode { tolerance }, 1e-6)?);
-    }
-    for stations in STATIONS {
-        rows.push(measure(format!("paper {stations}, 1 µm"), Solver::Paper { stations }, 1e-6)?);
-    }
-    Ok(rows)
+    let ladder =
+        TOLERANCES.iter().map(|(name, tolerance)| of((*name).into(), Solver::Ode { tolerance: finest }, *tolerance));
+    let solvers = ODE.iter().map(|(name, tolerance)| {
+        of(format!("ode {name} mm, 1 µm"), Solver::Ode { tolerance: *tolerance }, LAW_LADDER_TOLERANCE)
+    });
+    let paper = STATIONS.iter().map(|stations| {
+        of(format!("paper {stations}, 1 µm"), Solver::Paper { stations: *stations }, LAW_LADDER_TOLERANCE)
+    });
+    ladder.chain(solvers).chain(paper).collect()
 }
 
 /// Largest distance of two motions over the stroke, m.
-fn apart(a: &Plate, b: &Plate) -> f64 {
-    let at = |motion: &Motion, x: f64| motion.at(x, false)[0];
+fn apart(a: &Wedge, b: &Wedge) -> f64 {
+    let at = |motion: &BottomMotion, x: f64| motion.at(x, false)[0];
     let off = |i: u32| {
         let x = a.stroke() * f64::from(i) / f64::from(PLACES);
-        (at(a.curves.law.motion(), x) - at(b.curves.law.motion(), x)).abs()
+        (at(a.motion().motion(), x) - at(b.motion().motion(), x)).abs()
     };
     (0..=PLACES).map(off).fold(0.0, f64::max)
 }
@@ -334,9 +313,8 @@ fn words(report: &TradeReport<'_>) -> String {
 
 /// Total time against the force that is left, with the Pareto front.
 fn picture(rows: &[Row], title: &str) -> Sheet {
-    let point =
-        |row: &Row| sheet::Point { x: row.total_us, y: row.residual_n, label: row.setting.clone(), best: false };
-    let mut points: Vec<sheet::Point> = rows.iter().map(point).collect();
-    sheet::mark_front(&mut points);
-    sheet::chart(title, "total time, µs", "force left, N", &points)
+    let point = |row: &Row| Point { x: row.total_us, y: row.residual_n, label: row.setting.clone(), best: false };
+    let mut points: Vec<Point> = rows.iter().map(point).collect();
+    chart::mark_front(&mut points);
+    chart::chart(title, "total time, µs", "force left, N", &points)
 }

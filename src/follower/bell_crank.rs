@@ -1,7 +1,8 @@
 //! The bell crank whose roller runs under a plate on the bed.
 
-use super::{Follower, Pitch};
-use crate::law::Jet;
+use super::{Element, Follower, Touch};
+use crate::geometry::CurvePoint;
+use crate::motion::Jet;
 use nalgebra::Vector2;
 
 /// A roller on the arm l1 of a lever whose other arm l2 moves the bottom by Δx, sin ψ = Δx/l2.
@@ -40,7 +41,11 @@ impl BellCrank {
 }
 
 impl Follower for BellCrank {
-    fn pitch(&self, x: f64, lift: &Jet) -> Pitch {
+    fn element(&self) -> Element {
+        Element::Roller { radius: self.roller_radius }
+    }
+
+    fn touch(&self, x: f64, lift: &Jet) -> Touch {
         let [psi, first, second, third] = self.lever(lift);
         let theta = self.delta + psi;
         let (sin, cos) = (libm::sin(theta), libm::cos(theta));
@@ -53,23 +58,18 @@ impl Follower for BellCrank {
         let square = first * first;
         let (second_cos, second_sin) = (second, square);
         let (third_cos, third_sin) = (third - square * first, 3.0 * first * second);
-        Pitch {
-            point: Vector2::new(along, -up),
-            first: Vector2::new(1.0 + l * cos * first, -l * sin * first),
-            second: Vector2::new(l * (cos * second_cos - sin * second_sin), -l * (sin * second_cos + cos * second_sin)),
-            third: Vector2::new(l * (cos * third_cos - sin * third_sin), -l * (sin * third_cos + cos * third_sin)),
-            drive: Vector2::new(cos, -sin),
-            drive_turn: -first,
-        }
+        let curve = CurvePoint::from_derivatives(
+            Vector2::new(along, -up),
+            Vector2::new(1.0 + l * cos * first, -l * sin * first),
+            Vector2::new(l * (cos * second_cos - sin * second_sin), -l * (sin * second_cos + cos * second_sin)),
+            Vector2::new(l * (cos * third_cos - sin * third_sin), -l * (sin * third_cos + cos * third_sin)),
+        );
+        Touch { curve, drive: Vector2::new(cos, -sin), drive_turn: -first }
     }
 
     fn parameter_of(&self, centre: Vector2<f64>) -> f64 {
         let up = -centre.y - self.axis_distance;
         let theta = libm::acos(libm::cos(self.delta) - up / self.roller_arm);
         centre.x - self.roller_arm * (libm::sin(theta) - libm::sin(self.delta))
-    }
-
-    fn roller_radius(&self) -> f64 {
-        self.roller_radius
     }
 }

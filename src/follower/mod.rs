@@ -1,7 +1,10 @@
-//! Followers: cam angle and lift to the path of the roller's centre, seen from the cam.
+//! Followers: parameter and lift to the curve the follower draws on the cam.
 //!
-//! A follower gives the pitch curve with exact derivatives and the direction in which it is driven. What follows from
-//! those (normal, curvature, pressure angle, profile) is the same for every follower and is derived once, in `cam`.
+//! A follower hands out a point of a curve with tangent, curvature and slope of the curvature, how far inwards of that curve the
+//! profile lies, and the direction in which it is driven. For a roller the curve is the path of its centre (the pitch curve)
+//! and the distance its radius; a flat face has no pitch curve: its curve is the profile itself and the distance 0. What
+//! follows from these (profile, pressure angle, undercut, size, rolling) is the same for every follower and is derived once, in
+//! `profile` and `verify`.
 
 mod bell_crank;
 mod translating_roller;
@@ -9,51 +12,76 @@ mod translating_roller;
 pub use bell_crank::BellCrank;
 pub use translating_roller::TranslatingRoller;
 
-use crate::law::Jet;
+use crate::geometry::CurvePoint;
+use crate::motion::{Jet, Quantity};
 use nalgebra::Vector2;
 
-/// The pitch curve at a value of the law's parameter, m and rad, in the frame of the cam: the cam angle θ of a disc, the
+/// What of the follower touches the cam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Element {
+    /// A roller of this radius, m.
+    Roller {
+        /// Radius, m.
+        radius: f64,
+    },
+    /// A flat face.
+    Face,
+}
+
+impl Element {
+    /// How far inwards of the follower's curve the profile lies, m.
+    #[must_use]
+    pub fn offset(self) -> f64 {
+        match self {
+            Element::Roller { radius } => radius,
+            Element::Face => 0.0,
+        }
+    }
+}
+
+/// A follower at a value of the motion's parameter, m and rad, in the frame of the cam: the cam angle θ of a disc, the
 /// overrun x of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pitch {
-    /// Centre of the roller.
-    pub point: Vector2<f64>,
-    /// First derivative by the parameter.
-    pub first: Vector2<f64>,
-    /// Second derivative by the parameter.
-    pub second: Vector2<f64>,
-    /// Third derivative by the parameter.
-    pub third: Vector2<f64>,
-    /// Unit vector of the roller's path on the machine.
+pub struct Touch {
+    /// Point of the follower's curve: the path of a roller's centre, the profile under a flat face.
+    pub curve: CurvePoint,
+    /// Unit vector in which what touches the cam moves when the lift grows.
     pub drive: Vector2<f64>,
     /// Derivative of the angle of `drive` by the parameter.
     pub drive_turn: f64,
 }
 
-/// A follower whose roller rides outside the cam.
-pub trait Follower: Send + Sync {
-    /// The pitch curve at a value of the parameter for the lift there.
-    fn pitch(&self, parameter: f64, lift: &Jet) -> Pitch;
+/// A follower outside the cam.
+pub trait Follower: std::fmt::Debug + Send + Sync {
+    /// What touches the cam.
+    fn element(&self) -> Element;
 
-    /// The parameter at which the centre of the roller stands at a point seen from the cam: the inverse of the pitch
-    /// curve, whatever the lift. NaN for a point the roller never gets to.
-    fn parameter_of(&self, centre: Vector2<f64>) -> f64;
-
-    /// Radius of the roller, m.
-    fn roller_radius(&self) -> f64;
-}
-
-impl<F: Follower + ?Sized> Follower for &F {
-    fn pitch(&self, parameter: f64, lift: &Jet) -> Pitch {
-        (**self).pitch(parameter, lift)
+    /// Whether it takes a lift in metres or in radians.
+    fn quantity(&self) -> Quantity {
+        Quantity::Length
     }
 
-    fn parameter_of(&self, centre: Vector2<f64>) -> f64 {
-        (**self).parameter_of(centre)
+    /// The follower at a value of the parameter for the lift there.
+    fn touch(&self, parameter: f64, lift: &Jet) -> Touch;
+
+    /// The parameter at which a point of the follower's curve (m, seen from the cam) is reached, whatever the lift: the
+    /// inverse of the curve. NaN for a point it never gets to.
+    fn parameter_of(&self, point: Vector2<f64>) -> f64;
+
+    /// Smallest radius of its curve, at lift 0, about the shaft, m: the prime radius of a roller, the base radius of a face.
+    /// `None` where the cam has no such radius.
+    fn prime_radius(&self) -> Option<f64> {
+        None
     }
 
-    fn roller_radius(&self) -> f64 {
-        (**self).roller_radius()
+    /// The same follower on a cam with another prime radius, m; `None` where it cannot reach.
+    fn sized(&self, _prime_radius: f64) -> Option<Box<dyn Follower>> {
+        None
+    }
+
+    /// Smallest prime radius that makes sense whatever the limits, m: what an offset roller needs to reach the cam.
+    fn least_prime_radius(&self) -> f64 {
+        0.0
     }
 }
 
@@ -62,15 +90,8 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Each derivative of the pitch curve against the central difference of the one before.
-    #[test]
-    fn derivatives_belong_to_their_points() {
-        let lift = |angle: f64| Jet {
-            s: 0.02 * (1.0 + libm::sin(2.0 * angle)),
-            ds: 0.04 * libm::cos(2.0 * angle),
-            dds: -0.08 * libm::sin(2.0 * angle),
-            ddds: -0.16 * libm::cos(2.0 * angle),
-        };
+    /// Every follower of the house: the contract below walks this list.
+    fn followers() -> Vec<Box<dyn Follower>> {
         let crank = BellCrank {
             roller_arm: 0.3,
             bottom_arm: 0.2,
@@ -79,28 +100,55 @@ mod tests {
             axis_distance: 0.06,
             roller_radius: 0.02,
         };
-        let followers: [Box<dyn Follower>; 3] = [
+        vec![
             Box::new(TranslatingRoller::new(0.1, 0.0, 0.02)),
             Box::new(TranslatingRoller::new(0.1, -0.03, 0.02)),
             Box::new(crank),
-        ];
+        ]
+    }
+
+    /// Tangent, curvature and slope of the curvature against central differences of the points, and the inverse.
+    #[test]
+    fn a_curve_point_belongs_to_its_curve() {
+        let lift = |angle: f64| Jet {
+            s: 0.02 * (1.0 + libm::sin(2.0 * angle)),
+            ds: 0.04 * libm::cos(2.0 * angle),
+            dds: -0.08 * libm::sin(2.0 * angle),
+            ddds: -0.16 * libm::cos(2.0 * angle),
+        };
         let h = 1e-3;
-        for follower in followers {
+        for follower in followers() {
             for i in 0..60 {
                 let angle = 0.1 * f64::from(i);
-                let at = |n: f64| follower.pitch(angle + n * h, &lift(angle + n * h));
-                let difference = |f: fn(&Pitch) -> Vector2<f64>| {
+                let at = |n: f64| follower.touch(angle + n * h, &lift(angle + n * h));
+                let difference = |f: &dyn Fn(&Touch) -> Vector2<f64>| {
                     ((f(&at(1.0)) - f(&at(-1.0))) * 8.0 - (f(&at(2.0)) - f(&at(-2.0)))) / (12.0 * h)
                 };
                 let here = at(0.0);
-                assert!((here.first - difference(|p| p.point)).norm() < 1e-11);
-                assert!((here.second - difference(|p| p.first)).norm() < 1e-11);
-                assert!((here.third - difference(|p| p.second)).norm() < 1e-11);
-                let back = follower.parameter_of(here.point) - angle;
-                assert!((back - (back / TAU).round() * TAU).abs() < 1e-14, "{back}");
-                let turn = difference(|p| p.drive);
-                assert!((here.drive.perp(&turn) - here.drive_turn).abs() < 1e-11);
+                let curve = here.curve;
+                assert!((curve.tangent * curve.speed - difference(&|t| t.curve.point)).norm() < 1e-10, "{follower:?}");
+                let turn = difference(&|t| t.curve.tangent);
+                assert!((curve.tangent.perp(&turn) - curve.curvature * curve.speed).abs() < 1e-9, "{follower:?}");
+                let bend = difference(&|t| Vector2::new(t.curve.curvature, 0.0)).x;
+                assert!((bend - curve.curvature_slope * curve.speed).abs() < 1e-7 * (1.0 + bend.abs()), "{follower:?}");
+                let back = follower.parameter_of(curve.point) - angle;
+                assert!((back - (back / TAU).round() * TAU).abs() < 1e-14, "{follower:?}: {back}");
+                let turn = difference(&|t| t.drive);
+                assert!((here.drive.perp(&turn) - here.drive_turn).abs() < 1e-11, "{follower:?}");
             }
         }
+    }
+
+    /// Made for another size a follower has that size and the same element.
+    #[test]
+    fn a_follower_is_made_for_a_size() {
+        for follower in followers() {
+            let Some(prime) = follower.prime_radius() else { continue };
+            let larger = follower.sized(2.0 * prime).expect("larger is always in reach");
+            assert_eq!(larger.prime_radius(), Some(2.0 * prime));
+            assert_eq!(larger.element(), follower.element());
+            assert!((larger.touch(0.3, &Jet::default()).curve.point.norm() - 2.0 * prime).abs() < 1e-15);
+        }
+        assert!(TranslatingRoller::new(0.1, 0.05, 0.02).sized(0.04).is_none(), "the roller passes beside the cam");
     }
 }

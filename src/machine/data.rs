@@ -1,9 +1,10 @@
 //! What a machine file describes, in SI units.
 
-use crate::buffer::Bed;
-use crate::buffer::balance::Column;
-use crate::law::Transition;
-use crate::law::translating::EfficiencyModel;
+use super::press::{NoPress, NoRoller, Press};
+use crate::follower::Follower;
+use crate::motion::Transition;
+use crate::motion::equation_18::EfficiencyModel;
+use std::sync::Arc;
 
 /// How the cam turns, seen in the drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,6 +114,19 @@ pub enum Crown {
     Cylinder,
 }
 
+/// The follower.
+#[derive(Debug, Clone)]
+pub struct FollowerData {
+    /// The follower itself, not yet made for a size.
+    pub shape: Arc<dyn Follower>,
+    /// Mass that moves with it along its path, kg.
+    pub mass: Option<f64>,
+    /// Force that presses it onto the cam beside the load, N.
+    pub preload: Option<f64>,
+    /// What only a translating roller has.
+    pub roller: Option<RollerData>,
+}
+
 /// The translating roller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollerData {
@@ -120,10 +134,6 @@ pub struct RollerData {
     pub radius: f64,
     /// Offset of its path from the shaft, m.
     pub offset: f64,
-    /// Mass that moves with it along its path, kg.
-    pub mass: Option<f64>,
-    /// Force that presses it onto the cam beside the air, N.
-    pub preload: Option<f64>,
     /// Shape of its rim on a conoid.
     pub crown: Crown,
     /// Width of a cylindrical rim, m.
@@ -198,34 +208,58 @@ pub struct Limits {
 }
 
 /// A machine in SI units, every value in range.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Machine {
     /// What the sheet and the report call it.
-    pub name: String,
-    /// Bed and crank.
-    pub bed: Bed,
-    /// Polytropic exponent k.
-    pub polytropic_exponent: f64,
-    /// Ambient pressure, Pa, absolute.
-    pub ambient_pressure: f64,
-    /// End pressure at the design speed, Pa, absolute.
-    pub end_pressure: f64,
-    /// Air column.
-    pub column: Column,
-    /// Lead e, m.
-    pub lead: f64,
-    /// Design speed of the main shaft, rpm.
-    pub design_rpm: f64,
+    pub(crate) name: String,
+    /// The press, when described.
+    pub(crate) press: Option<Press>,
     /// Follower.
-    pub roller: RollerData,
+    pub(crate) follower: FollowerData,
     /// Disc.
-    pub cam: CamData,
+    pub(crate) cam: CamData,
     /// Transition.
-    pub transition: Transition,
+    pub(crate) transition: Transition,
     /// Plate on the bed, when described.
-    pub translating: Option<TranslatingData>,
+    pub(crate) translating: Option<TranslatingData>,
     /// Conoid, when described.
-    pub conoid: Option<ConoidData>,
+    pub(crate) conoid: Option<ConoidData>,
     /// Limits.
-    pub limits: Limits,
+    pub(crate) limits: Limits,
+}
+
+impl Machine {
+    /// What reports call it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The press.
+    ///
+    /// # Errors
+    /// [`NoPress`] when the machine file describes none.
+    pub fn press(&self) -> Result<&Press, NoPress> {
+        self.press.as_ref().ok_or(NoPress)
+    }
+
+    /// Asks that a cutter of a radius (m) gets into the hollows too.
+    pub fn ask_for_cutter(&mut self, radius: f64) {
+        let limit = &mut self.limits.cutter_radius;
+        *limit = Some(limit.map_or(radius, |other| other.max(radius)));
+    }
+
+    /// The translating roller.
+    ///
+    /// # Errors
+    /// [`NoRoller`] when the follower is another one.
+    pub fn roller(&self) -> Result<&RollerData, NoRoller> {
+        self.follower.roller.as_ref().ok_or(NoRoller)
+    }
+
+    /// Keys that were given and have no effect on a kind of cam, a sentence each.
+    #[must_use]
+    pub(crate) fn without_effect(&self, _kind: &crate::body::Kind) -> Vec<String> {
+        Vec::new()
+    }
 }

@@ -7,19 +7,22 @@ mod bounds;
 mod data;
 mod embedded;
 mod fault;
+mod press;
 mod reader;
 
 pub use data::{
-    CamData, ConoidData, ConoidMode, Crown, Keyway, Limits, Machine, Material, RollerData, Rotation, Shift,
-    TranslatingData,
+    CamData, ConoidData, ConoidMode, Crown, FollowerData, Keyway, Limits, Machine, Material, RollerData, Rotation,
+    Shift, TranslatingData,
 };
 pub use embedded::{EMBEDDED, Embedded};
 pub use fault::{Excerpt, Fault, MachineError};
+pub use press::{NoPress, NoRoller, Press};
 
-use crate::buffer::balance::Column;
-use crate::buffer::{Bed, Cylinder};
-use crate::law::Transition;
-use crate::law::translating::EfficiencyModel;
+use crate::buffer::Bed;
+use crate::buffer::bottom_law::Column;
+use crate::follower::TranslatingRoller;
+use crate::motion::Transition;
+use crate::motion::equation_18::EfficiencyModel;
 use crate::units::Dimension::{Angle, Force, Length, Mass, Pressure};
 use bounds::{above, within};
 use reader::Reader;
@@ -113,14 +116,13 @@ impl Machine {
         };
         Ok(Self {
             name,
-            bed,
-            polytropic_exponent,
-            ambient_pressure,
-            end_pressure,
-            column,
-            lead,
-            design_rpm,
-            roller: RollerData { radius, offset, mass, preload, crown, width },
+            press: Some(Press { bed, polytropic_exponent, ambient_pressure, end_pressure, column, lead, design_rpm }),
+            follower: FollowerData {
+                shape: std::sync::Arc::new(TranslatingRoller::new(1.0, offset, radius)),
+                mass,
+                preload,
+                roller: Some(RollerData { radius, offset, crown, width }),
+            },
             cam,
             transition,
             translating,
@@ -149,13 +151,6 @@ impl Machine {
         let machine = Self::from_toml(name_or_path, &text, overrides)?;
         let stem = path.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy().into_owned());
         Ok((machine, stem))
-    }
-
-    /// The pair of cylinders, sized at the design speed.
-    #[must_use]
-    pub fn cylinder(&self) -> Cylinder {
-        let (k, p0, end) = (self.polytropic_exponent, self.ambient_pressure, self.end_pressure);
-        Cylinder::sized(&self.bed, self.design_rpm, k, p0, end)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Loose segments joined end to end into chains.
 
-use crate::contour::{Contour, Segment, Vertex};
+use crate::geometry::contour::{Contour, Segment, Vertex};
 use nalgebra::Vector2;
 use std::collections::BTreeMap;
 

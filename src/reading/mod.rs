@@ -9,7 +9,7 @@ mod spline;
 
 pub use join::Chain;
 
-use crate::contour::{Contour, Segment, Vertex};
+use crate::geometry::contour::{Contour, Segment, Vertex};
 use dxf::entities::{Entity, EntityType};
 use dxf::enums::Units;
 use nalgebra::Vector2;

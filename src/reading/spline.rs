@@ -1,6 +1,6 @@
 //! A SPLINE entity as chords.
 
-use crate::contour::Segment;
+use crate::geometry::contour::Segment;
 use dxf::entities::Spline;
 use nalgebra::Vector2;
 

@@ -1,0 +1,125 @@
+//! What a conoid leaves at the speeds between its sections, and how few sections keep that under a limit.
+
+use super::{Conoid, ConoidError, Interpolation, bottom_law_at};
+use crate::machine::Machine;
+use crate::motion::Motion;
+use crate::numeric::extremum;
+use rayon::prelude::*;
+
+/// Speeds looked at between two sections, cells of a reversal, and golden sections at the worst of either: the residual
+/// of a strip is a smooth hump or two across it, and has a few humps over the reversal.
+const SPEEDS: u32 = 12;
+const SPEED_SECTIONS: u32 = 10;
+const CELLS: u32 = 48;
+const SECTIONS: u32 = 24;
+
+/// Most sections that are tried.
+pub const MOST_SECTIONS: u32 = 65;
+
+/// The largest force left between the sections.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Residual {
+    /// |inertia − air|, N.
+    pub force: f64,
+    /// Speed, rpm.
+    pub rpm: f64,
+    /// Cam angle, rad.
+    pub angle: f64,
+}
+
+/// The largest |inertia − air| over all speeds from the slowest to the fastest section, the column being what the mode
+/// makes it at each.
+#[must_use]
+pub fn residual(conoid: &Conoid, interpolation: Interpolation) -> Residual {
+    let pairs: Vec<(f64, f64)> = conoid.speeds.iter().copied().zip(conoid.speeds.iter().skip(1).copied()).collect();
+    let in_strip = |&(low, high): &(f64, f64)| {
+        let force = |rpm: f64| at_speed(conoid, rpm, interpolation).force;
+        let worst = extremum::largest_without_slope(force, (low, high), SPEEDS, SPEED_SECTIONS);
+        at_speed(conoid, worst.at, interpolation)
+    };
+    let worst: Vec<Residual> = pairs.par_iter().filter(|(a, b)| a < b).map(in_strip).collect();
+    let none = Residual { force: 0.0, rpm: conoid.speeds.first().copied().unwrap_or(0.0), angle: 0.0 };
+    worst.into_iter().fold(none, |best, next| if next.force > best.force { next } else { best })
+}
+
+/// The largest residual at one speed.
+fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual {
+    let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
+    let z = conoid.position(rpm);
+    let Some(section) = conoid.sections.first() else { return Residual { force: f64::NAN, rpm, angle: 0.0 } };
+    let force = |piece: usize, angle: f64| {
+        let overrun = section.state(piece, angle).overrun;
+        if overrun == 0.0 {
+            return 0.0;
+        }
+        let bottom = conoid.displacement(piece, angle, z, interpolation);
+        let air = bottom_law.pressure_ratio(overrun, bottom) - 1.0;
+        conoid.cylinder.unit_force() * (bottom_law.loading * overrun - air).abs()
+    };
+    let of_piece = |(index, piece): (usize, &crate::motion::Piece)| {
+        let range = (piece.start, piece.end);
+        let worst = extremum::largest_without_slope(|angle| force(index, angle), range, CELLS, SECTIONS);
+        Residual { force: worst.value, rpm, angle: worst.at }
+    };
+    let moving = section.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell);
+    let none = Residual { force: 0.0, rpm, angle: 0.0 };
+    moving.map(of_piece).fold(none, |best, next| if next.force > best.force { next } else { best })
+}
+
+/// The conoid with the fewest evenly spaced speeds between two that leaves no more than a force (N), or, when
+/// [`MOST_SECTIONS`] do not either, the one with that many.
+///
+/// # Errors
+/// [`ConoidError`] when a conoid cannot be made.
+pub fn fewest(machine: &Machine, (first, last): (f64, f64), limit: f64) -> Result<Conoid, ConoidError> {
+    let mut count = 2;
+    loop {
+        let step = |i: u32| first + (last - first) * (f64::from(i) / f64::from(count - 1));
+        let speeds: Vec<f64> = (0..count).map(|i| if i + 1 == count { last } else { step(i) }).collect();
+        // The size does not change the law: it is solved once, when the count is known.
+        let conoid = Conoid::unsized_of(machine, &speeds)?;
+        if conoid.left_between().force <= limit || count >= MOST_SECTIONS {
+            return Conoid::solve(machine, &speeds);
+        }
+        count += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::KILOGRAM_FORCE;
+
+    fn conoid(count: u32, overrides: &[&str]) -> Conoid {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let machine = Machine::load("dpi", &overrides).expect("valid").0;
+        let speeds: Vec<f64> = (0..count).map(|i| 20.0 + 15.0 * f64::from(i) / f64::from(count - 1)).collect();
+        Conoid::unsized_of(&machine, &speeds).expect("a conoid")
+    }
+
+    /// q = 2, 20–35 rpm, `fixed` with L by (7) of the design speed, linear in n, in kgf: the figures of the issue.
+    #[test]
+    fn straight_strips_leave_what_is_known_and_splines_far_less() {
+        let overrides = ["conoid.mode=fixed", "buffer.column=return", "transition.kind=none"];
+        for (count, known) in [(2, 33.2), (3, 13.6), (4, 6.8), (5, 4.0), (9, 1.1)] {
+            let conoid = conoid(count, &overrides);
+            let straight = residual(&conoid, Interpolation::Straight).force / KILOGRAM_FORCE;
+            assert!((straight - known).abs() < 0.08, "{count}: {straight}");
+            let smooth = residual(&conoid, Interpolation::Smooth).force / KILOGRAM_FORCE;
+            match count {
+                2 => assert!((smooth - straight).abs() < 1e-9),
+                5 => assert!(smooth < 0.1 * straight && (smooth - 0.11).abs() < 0.01, "{smooth}"),
+                _ => assert!(smooth < straight),
+            }
+        }
+    }
+
+    #[test]
+    fn as_few_sections_as_keep_the_limit() {
+        let machine = Machine::load("dpi", &[]).expect("valid").0;
+        let found = fewest(&machine, (20.0, 35.0), 2.0).expect("a conoid");
+        let left = found.left_between();
+        let count = u32::try_from(found.speeds.len()).expect("small");
+        assert!(left.force <= 2.0 && residual(&conoid(count - 1, &[]), Interpolation::Smooth).force > 2.0, "{count}");
+    }
+}

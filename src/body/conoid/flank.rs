@@ -1,0 +1,294 @@
+//! The flank of a conoid as bicubic B-spline patches in millimetres, within a tolerance of the exact surface.
+//!
+//! The surface is cut at stations along the axis; each cut is interpolated over the cam angle by cubic splines whose ends
+//! have the exact tangents, the cuts along the axis by a not-a-knot spline. Both are linear, so the control points follow
+//! one direction after the other. A patch ends where the law has a break and at the latest after 30°: then even a reader
+//! that integrates edge by edge finds the mass.
+
+use super::Conoid;
+use crate::geometry::MILLIMETRES;
+use crate::geometry::solid::SplineSurface;
+use crate::machine::Rotation;
+use crate::numeric::spline::{Spline, bspline_basis, bspline_knots};
+use nalgebra::{Vector2, Vector3};
+use rayon::prelude::*;
+use truck_modeling::Point3;
+
+/// Points and slopes of one cam angle at the stations.
+type Column = (Vec<Vector2<f64>>, Vec<Vector2<f64>>);
+
+/// Longest patch, rad.
+const LONGEST: f64 = std::f64::consts::PI / 6.0;
+/// Spans of a patch and stations between two sections to begin with, and how often either is doubled.
+const SPANS: u32 = 4;
+const STATIONS: u32 = 2;
+const DOUBLINGS: u32 = 6;
+/// Share of the tolerance the splines may take at the points where they are compared, the middles of the spans: between
+/// those the error of a cubic interpolant is no more than a quarter larger.
+const SHARE: f64 = 0.6;
+/// Steps to the nearest point of a patch.
+const FOOT_STEPS: usize = 12;
+
+/// The flank with its proof.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flank {
+    /// Patches in the order of the drawing's polar angle, u the angle (rad), v the place along the axis (mm).
+    pub patches: Vec<SplineSurface>,
+    /// Largest distance from the exact surface at the middles of the spans, mm.
+    pub deviation: f64,
+    /// Volume within the flank, mm³.
+    pub volume: f64,
+}
+
+/// The splines would need more control points than is sensible.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("the flank cannot be drawn as splines to {tolerance} mm, {SHARE} of the tolerance: {found:.6} mm were reached")]
+pub struct FlankError {
+    /// What they may be off, mm.
+    pub tolerance: f64,
+    /// What was reached, mm.
+    pub found: f64,
+}
+
+/// A stretch of the drawing's polar angle within one piece of the law.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    piece: usize,
+    start: f64,
+    end: f64,
+}
+
+/// The exact surface as it lies in the drawing.
+struct ExactFlank<'a> {
+    conoid: &'a Conoid,
+    turned: bool,
+}
+
+impl ExactFlank<'_> {
+    /// Point (mm), derivative by the angle and outward normal in the plane, where the cut at z (mm) has the angle u.
+    fn at(&self, piece: usize, u: f64, z: f64) -> (Vector2<f64>, Vector2<f64>, Vector2<f64>) {
+        let angle = if self.turned { -u } else { u };
+        let nowhere = Vector2::new(f64::NAN, f64::NAN);
+        let Some((frame, _)) = self.conoid.cut(piece, angle, z / MILLIMETRES) else {
+            return (nowhere, nowhere, nowhere);
+        };
+        let mirrored = |v: Vector2<f64>| if self.turned { Vector2::new(v.x, -v.y) } else { v };
+        let sense = if self.turned { -1.0 } else { 1.0 };
+        let slope = frame.tangent * (sense * frame.speed * MILLIMETRES);
+        (mirrored(frame.point * MILLIMETRES), mirrored(slope), mirrored(frame.outward()))
+    }
+
+    fn stretches(&self) -> Vec<Stretch> {
+        let of_piece = |(piece, span): (usize, &crate::motion::Piece)| {
+            let count = ((span.end - span.start) / LONGEST - 1e-9).ceil().max(1.0);
+            let mut stretches = Vec::new();
+            let mut i = 0.0;
+            while i < count {
+                let place = |share: f64| span.start + (span.end - span.start) * share / count;
+                stretches.push(Stretch {
+                    piece,
+                    start: place(i),
+                    end: if i + 1.0 < count { place(i + 1.0) } else { span.end },
+                });
+                i += 1.0;
+            }
+            stretches
+        };
+        let stretches: Vec<Stretch> = self.conoid.pieces().iter().enumerate().flat_map(of_piece).collect();
+        if self.turned {
+            let mirror = |s: &Stretch| Stretch { piece: s.piece, start: -s.end, end: -s.start };
+            stretches.iter().rev().map(mirror).collect()
+        } else {
+            stretches
+        }
+    }
+}
+
+/// Places along the axis (mm) at which the surface is cut: the sections, `parts` to each interval, and the ends.
+fn stations(conoid: &Conoid, parts: u32) -> Vec<f64> {
+    let (low, high) = conoid.ends();
+    let mut joints: Vec<f64> = conoid.positions.iter().copied().chain([low, high]).collect();
+    joints.sort_by(f64::total_cmp);
+    joints.dedup();
+    let pairs = joints.iter().zip(joints.iter().skip(1));
+    let inner = pairs.flat_map(|(a, b)| (0..parts).map(move |i| a + (b - a) * f64::from(i) / f64::from(parts)));
+    inner.chain(joints.last().copied()).map(|z| MILLIMETRES * z).collect()
+}
+
+/// The flank of a conoid within `tolerance` (mm).
+///
+/// # Errors
+/// [`FlankError`] when the tolerance is finer than splines of a sensible size can keep.
+pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, FlankError> {
+    let exact = ExactFlank { conoid, turned: conoid.machine.cam.rotation == Rotation::CounterClockwise };
+    let stretches = exact.stretches();
+    let (mut spans, mut parts) = (SPANS, STATIONS);
+    let mut found = f64::INFINITY;
+    for _ in 0..DOUBLINGS {
+        let places = stations(conoid, parts);
+        let patches: Vec<SplineSurface> = stretches.par_iter().map(|s| patch(&exact, *s, spans, &places)).collect();
+        let off = |(stretch, patch): (&Stretch, &SplineSurface)| deviation(&exact, *stretch, patch);
+        let worst: Vec<[f64; 2]> = stretches.par_iter().zip(&patches).map(off).collect();
+        let [along, across] = worst.iter().fold([0.0_f64; 2], |[a, b], [c, d]| [nan_max(a, *c), nan_max(b, *d)]);
+        found = nan_max(along, across);
+        if found <= SHARE * tolerance {
+            let volume = patches.iter().map(volume).sum();
+            return Ok(Flank { patches, deviation: found, volume });
+        }
+        if !(along <= 0.5 * SHARE * tolerance) {
+            spans *= 2;
+        }
+        if !(across <= 0.5 * SHARE * tolerance) {
+            parts *= 2;
+        }
+    }
+    Err(FlankError { tolerance: SHARE * tolerance, found })
+}
+
+fn nan_max(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+/// One patch: `spans` spans over the angle, a station for each of `places` along the axis.
+fn patch(exact: &ExactFlank<'_>, stretch: Stretch, spans: u32, places: &[f64]) -> SplineSurface {
+    let angle = |i: u32| {
+        if i == spans {
+            stretch.end
+        } else {
+            stretch.start + (stretch.end - stretch.start) * f64::from(i) / f64::from(spans)
+        }
+    };
+    let angles: Vec<f64> = (0..=spans).map(angle).collect();
+    // Control values along the axis of a quantity known at the stations.
+    let along_axis = |values: &[f64]| Spline::not_a_knot(places, values).controls();
+    let columns: Vec<Column> = angles
+        .iter()
+        .map(|u| places.iter().map(|z| exact.at(stretch.piece, *u, *z)).map(|(p, d, _)| (p, d)).unzip())
+        .collect();
+    let component = |vectors: &[Vector2<f64>], axis: usize| -> Vec<f64> {
+        along_axis(&vectors.iter().map(|v| v.get(axis).copied().unwrap_or(f64::NAN)).collect::<Vec<f64>>())
+    };
+    let heights = along_axis(places);
+    let mut controls = vec![vec![Point3::new(0.0, 0.0, 0.0); heights.len()]; angles.len() + 2];
+    for axis in 0..2 {
+        let values: Vec<Vec<f64>> = columns.iter().map(|(points, _)| component(points, axis)).collect();
+        let slope = |column: Option<&Column>| column.map(|(_, slopes)| component(slopes, axis)).unwrap_or_default();
+        let (first, last) = (slope(columns.first()), slope(columns.last()));
+        for (v, z) in heights.iter().enumerate() {
+            let at = |list: &Vec<f64>| list.get(v).copied().unwrap_or(f64::NAN);
+            let row: Vec<f64> = values.iter().map(at).collect();
+            let around = Spline::clamped(&angles, &row, (at(&first), at(&last))).controls();
+            for (u, value) in around.into_iter().enumerate() {
+                if let Some(point) = controls.get_mut(u).and_then(|row| row.get_mut(v)) {
+                    *if axis == 0 { &mut point.x } else { &mut point.y } = value;
+                    point.z = *z;
+                }
+            }
+        }
+    }
+    SplineSurface { u: bspline_knots(&angles), v: bspline_knots(places), controls }
+}
+
+impl SplineSurface {
+    /// Point and derivatives by both parameters.
+    #[must_use]
+    pub fn at(&self, u: f64, v: f64) -> [Vector3<f64>; 3] {
+        let (first_u, basis_u, slopes_u) = bspline_basis(&self.u, u);
+        let (first_v, basis_v, slopes_v) = bspline_basis(&self.v, v);
+        let mut sums = [Vector3::zeros(); 3];
+        for (row, (bu, du)) in self.controls.iter().skip(first_u).zip(basis_u.iter().zip(slopes_u)) {
+            for (p, (bv, dv)) in row.iter().skip(first_v).zip(basis_v.iter().zip(slopes_v)) {
+                let p = Vector3::new(p.x, p.y, p.z);
+                let [point, by_u, by_v] = &mut sums;
+                *point += p * (bu * bv);
+                *by_u += p * (du * bv);
+                *by_v += p * (bu * dv);
+            }
+        }
+        sums
+    }
+
+    /// First and last value of either parameter.
+    #[must_use]
+    pub fn range(&self) -> [(f64, f64); 2] {
+        [&self.u, &self.v]
+            .map(|knots| (knots.first().copied().unwrap_or(f64::NAN), knots.last().copied().unwrap_or(f64::NAN)))
+    }
+
+    /// Distance of a point from the patch near the parameters (u, v), the foot kept within the patch.
+    ///
+    /// Gauss and Newton's step, halved until the distance falls: beside a sharp place the whole step overshoots.
+    #[must_use]
+    pub fn distance(&self, from: &Vector3<f64>, (mut u, mut v): (f64, f64)) -> f64 {
+        let [(u0, u1), (v0, v1)] = self.range();
+        let away = |u: f64, v: f64| (from - self.at(u, v)[0]).norm();
+        let mut nearest = away(u, v);
+        for _ in 0..FOOT_STEPS {
+            let [point, by_u, by_v] = self.at(u, v);
+            let gap = from - point;
+            let (e, f, g) = (by_u.dot(&by_u), by_u.dot(&by_v), by_v.dot(&by_v));
+            let (a, b) = (gap.dot(&by_u), gap.dot(&by_v));
+            let determinant = e * g - f * f;
+            let mut step = ((g * a - f * b) / determinant, (e * b - f * a) / determinant);
+            for _ in 0..FOOT_STEPS {
+                let next = ((u + step.0).clamp(u0, u1), (v + step.1).clamp(v0, v1));
+                let found = away(next.0, next.1);
+                if found < nearest {
+                    (nearest, u, v) = (found, next.0, next.1);
+                    break;
+                }
+                step = (0.5 * step.0, 0.5 * step.1);
+            }
+        }
+        nearest
+    }
+}
+
+/// Largest distance of a patch from the exact surface at the middles of its spans, along the normal in the plane of the
+/// cut: between the angles on the stations, and between the stations.
+fn deviation(exact: &ExactFlank<'_>, stretch: Stretch, patch: &SplineSurface) -> [f64; 2] {
+    let joints =
+        |knots: &[f64]| -> Vec<f64> { knots.get(3..knots.len().saturating_sub(3)).unwrap_or_default().to_vec() };
+    let middles =
+        |list: &[f64]| -> Vec<f64> { list.iter().zip(list.iter().skip(1)).map(|(a, b)| 0.5 * (a + b)).collect() };
+    let (angles, places) = (joints(&patch.u), joints(&patch.v));
+    let off = |u: f64, v: f64| {
+        let (point, _, normal) = exact.at(stretch.piece, u, v);
+        let [found, ..] = patch.at(u, v);
+        (found.xy() - point).dot(&normal).abs()
+    };
+    let over = |angles: &[f64], places: &[f64]| {
+        let all = angles.iter().flat_map(|u| places.iter().map(move |v| (*u, *v)));
+        all.map(|(u, v)| off(u, v)).fold(0.0, nan_max)
+    };
+    let both = over(&middles(&angles), &middles(&places));
+    [over(&middles(&angles), &places), nan_max(over(&angles, &middles(&places)), both)]
+}
+
+/// Abscissae and weights of Gauss' rule with four points on [0, 1]: exact to the seventh power, and the integrand has the
+/// fifth and the sixth (Abramowitz & Stegun, table 25.4).
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+
+/// Volume between a patch and the axis, mm³: ∫∫ (x y_u − y x_u)/2 du dv, since v is the height.
+fn volume(patch: &SplineSurface) -> f64 {
+    let spans = |knots: &[f64]| -> Vec<(f64, f64)> {
+        knots.iter().zip(knots.iter().skip(1)).filter(|(a, b)| a < b).map(|(a, b)| (*a, b - a)).collect()
+    };
+    let mut volume = 0.0;
+    for (u, width) in spans(&patch.u) {
+        for (v, height) in spans(&patch.v) {
+            for (a, wa) in GAUSS {
+                for (b, wb) in GAUSS {
+                    let [p, d, _] = patch.at(u + a * width, v + b * height);
+                    volume += 0.5 * (p.x * d.y - p.y * d.x) * wa * wb * width * height;
+                }
+            }
+        }
+    }
+    volume
+}

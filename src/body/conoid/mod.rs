@@ -1,0 +1,715 @@
+//! The conoid, a three-dimensional cam: one cam for many speeds, shifted along its axis as the speed changes.
+//!
+//! The law is interpolated along the axis: s(θ, z) = Σ wⱼ(z) sⱼ(θ), sⱼ the lift of section j and wⱼ the cardinal
+//! not-a-knot splines, so that all derivatives in both directions are exact. The roller is crowned, a sphere of radius
+//! r: the surface of the cam is the offset of the pitch surface in space. With the roller's path û, its normal n̂, height
+//! u = √(R_p² − ε²) + s, a = s_θ − ε, ℓ = √(a² + u²), cos α = u/ℓ and τ = s_z cos α:
+//!
+//! ```text
+//! P = (u û + ε n̂, z),   N = (n, −τ)/√(1+τ²),   contact = P − r N = (C − r n/√(1+τ²), z + r τ/√(1+τ²))
+//! ```
+//!
+//! n the normal of the plane pitch curve. A cut at z₀ is touched by the rollers at ζ(θ) with ζ + r τ/√(1+τ²) = z₀; its
+//! tangent is that of the plane pitch curve at ζ, since the section of a surface lies across its normal.
+
+pub mod between;
+pub mod flank;
+pub mod mesh;
+mod report;
+mod sheet;
+mod surface;
+mod worst;
+
+pub use surface::SpatialContact;
+
+use super::part::{Part, point_as_turned};
+use super::{Body, DrawError, Drawn, Found, Kind, Request, stress};
+use crate::buffer::Cylinder;
+use crate::buffer::bottom_law::{BottomLaw, Column, column_for};
+use crate::follower::{Follower, TranslatingRoller};
+use crate::geometry::contour::Vertex;
+use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::machine::{ConoidData, ConoidMode, Machine, NoPress, NoRoller, Press, RollerData, Rotation, Shift};
+use crate::motion::{Jet, Motion, MotionError, Piece, Reversal, ReversalLaw};
+use crate::numeric::spline::Spline;
+use crate::profile::outline::{self, Fit, Outline, OutlineError};
+use crate::profile::size::{self, NoRadius, Required, rounded_up};
+use crate::profile::{Curves, Worst, extremes};
+use crate::report::sheet::Sheet;
+use crate::report::{Report, Section, Speeds};
+use crate::table::{BedRow, ForceRow, Row, SurfaceRow, crank_degrees};
+use between::Residual;
+use nalgebra::Vector2;
+use rayon::prelude::*;
+use std::f64::consts::TAU;
+use std::sync::{Arc, OnceLock};
+
+/// The cam for many speeds.
+pub const KIND: Kind = Kind { command: "conoid", noun: "conoid" };
+
+/// Slices between two sections at which the surface is searched for its worst places.
+const SLICES: u32 = 6;
+/// Least distance of two sections over the axial travel: nearer, the splines along the axis multiply their roundings.
+const LEAST_DISTANCE: f64 = 1e-3;
+/// Halvings of the last growth: to a micrometre of a metre.
+const BISECTIONS: u32 = 14;
+/// Growth of the prime radius while the surface is too sharp along its axis, and how often it is tried.
+const GROWTH: f64 = 1.01;
+const GROWTHS: usize = 700;
+
+/// Lift and its derivatives: `[m][n]` by θ m times and by z n times, up to order three in all.
+pub type Partials = [[f64; 4]; 4];
+
+/// How the law is interpolated between sections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Not-a-knot cubic splines along the axis.
+    Smooth,
+    /// Straight strips from section to section, for comparison.
+    Straight,
+}
+
+/// A cam for many speeds.
+#[derive(Debug, Clone)]
+pub struct Conoid {
+    machine: Arc<Machine>,
+    press: Press,
+    roller: RollerData,
+    data: ConoidData,
+    cylinder: Cylinder,
+    /// Speeds of the main shaft, one for each section, rpm, rising.
+    speeds: Vec<f64>,
+    /// Place of each section along the axis, m.
+    positions: Vec<f64>,
+    /// Motion of each section.
+    sections: Vec<Reversal>,
+    /// The follower, its prime radius common to all sections.
+    follower: TranslatingRoller,
+    /// Smallest prime radius that keeps every limit over the whole surface, m.
+    smallest_prime_radius: Option<f64>,
+    weights: Vec<Spline>,
+    /// Δx at lift 0: the least of all sections, m.
+    lowest: f64,
+    /// Force that may be left between the sections, N.
+    residual_limit: Option<f64>,
+    found: Searched,
+}
+
+/// What checks and report both want of the surface, searched once and only when somebody asks.
+#[derive(Debug, Clone, Default)]
+struct Searched {
+    sharpest: OnceLock<Worst>,
+    wander: OnceLock<Worst>,
+    axial_force: OnceLock<Worst>,
+    between: OnceLock<Residual>,
+}
+
+/// Why there is no conoid.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ConoidError {
+    /// The machine file does not describe one.
+    #[error("the machine file has no [conoid] table: a conoid needs axial_travel, mode and shift")]
+    NotDescribed,
+    /// It describes no press.
+    #[error(transparent)]
+    NoPress(#[from] NoPress),
+    /// Its follower is no roller.
+    #[error(transparent)]
+    NoRoller(#[from] NoRoller),
+    /// Two sections would lie in one plane.
+    #[error("the speed {rpm} is asked for twice among others; a section has one place along the axis")]
+    Twice {
+        /// The speed, rpm.
+        rpm: f64,
+    },
+    /// Two sections would lie nearly in one plane.
+    #[error(
+        "the speeds {first} and {second} are too near to each other: their sections would lie {apart_mm:e} mm apart"
+    )]
+    TooNear {
+        /// The slower, rpm.
+        first: f64,
+        /// The faster, rpm.
+        second: f64,
+        /// Their distance along the axis, mm.
+        apart_mm: f64,
+    },
+    /// No speed at all.
+    #[error("a conoid needs a speed")]
+    NoSpeed,
+    /// The motion does not go together.
+    #[error("{0}; see transition.width, buffer.lead and cam.cam_turns_per_crank_turn")]
+    Motion(#[from] MotionError),
+    /// `auto` found nothing.
+    #[error(
+        "{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, make conoid.axial_travel longer \
+         (the surface may be too sharp along the axis), or give cam.base_radius"
+    )]
+    Size(#[from] NoRadius),
+}
+
+/// The law of a press at a speed of a conoid.
+fn bottom_law_at(press: &Press, data: &ConoidData, rpm: f64) -> BottomLaw {
+    let design = press.bottom_law(press.design_rpm);
+    if rpm == press.design_rpm {
+        return design;
+    }
+    match data.mode {
+        ConoidMode::Fixed => press.with_column(rpm, Column::Length(design.column)),
+        // (14): the column is reset by its screw so that every section ends where the design does.
+        ConoidMode::Adjusted => {
+            let r = press.bed.crank_radius;
+            let shortening = r + press.lead + design.displacement(r);
+            let loading = press.cylinder().loading(rpm);
+            press.with_column(rpm, Column::Length(column_for(shortening, loading * r, press.polytropic_exponent)))
+        }
+    }
+}
+
+impl Conoid {
+    /// Solves the sections and sizes the cam.
+    ///
+    /// # Errors
+    /// [`ConoidError`] when the machine has no conoid, the speeds make none, or no radius keeps the limits.
+    pub fn solve(machine: &Machine, speeds: &[f64]) -> Result<Self, ConoidError> {
+        let mut conoid = Self::unsized_of(machine, speeds)?;
+        let radius = conoid.roller.radius;
+        let required = Required::of(&machine.limits, &machine.cam, &conoid.follower);
+        let smallest = conoid.size(&required);
+        let base = match machine.cam.base_radius {
+            Some(base) => base,
+            None => rounded_up(smallest? - radius),
+        };
+        conoid.smallest_prime_radius = smallest.ok();
+        conoid.resize(base + radius);
+        Ok(conoid)
+    }
+
+    /// With a limit for the force that is left at the speeds between the sections, N.
+    #[must_use]
+    pub fn with_residual_limit(self, residual_limit: Option<f64>) -> Self {
+        Self { residual_limit, ..self }
+    }
+
+    /// The limit for the force that is left between the sections, N.
+    #[must_use]
+    pub fn residual_limit(&self) -> Option<f64> {
+        self.residual_limit
+    }
+
+    /// On another prime radius; what was searched on the old surface is forgotten, but for what the radius does not change.
+    fn resize(&mut self, prime_radius: f64) {
+        self.follower = TranslatingRoller::new(prime_radius, self.roller.offset, self.roller.radius);
+        let between = std::mem::take(&mut self.found.between);
+        self.found = Searched { between, ..Searched::default() };
+    }
+
+    /// The laws of the sections and their interpolation, on a prime radius of a metre.
+    ///
+    /// # Errors
+    /// [`ConoidError`] when the machine has no conoid or the speeds make none.
+    pub fn unsized_of(machine: &Machine, speeds: &[f64]) -> Result<Self, ConoidError> {
+        let data = machine.conoid.ok_or(ConoidError::NotDescribed)?;
+        let (press, roller) = (*machine.press()?, *machine.roller()?);
+        let mut speeds = speeds.to_vec();
+        speeds.sort_by(f64::total_cmp);
+        let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else { return Err(ConoidError::NoSpeed) };
+        if speeds.len() == 1 {
+            speeds.push(first);
+        }
+        if first < last
+            && let Some([rpm, _]) = speeds.windows(2).find(|pair| matches!(pair, [a, b] if a == b))
+        {
+            return Err(ConoidError::Twice { rpm: *rpm });
+        }
+        let law = |rpm: &f64| {
+            Reversal::new(ReversalLaw {
+                bottom_law: bottom_law_at(&press, &data, *rpm),
+                lever: machine.cam.lever,
+                ratio: machine.cam.turns_per_crank_turn,
+                transition: machine.transition,
+            })
+        };
+        let sections: Result<Vec<Reversal>, MotionError> = speeds.iter().map(law).collect();
+        let sections = sections?;
+        let positions = if first < last {
+            speeds.iter().map(|rpm| position(&data, (first, last), *rpm)).collect()
+        } else {
+            // Equal speeds: a prism, its sections evenly spaced.
+            #[expect(clippy::cast_precision_loss, reason = "a few sections")]
+            let place = |index: usize| data.axial_travel * index as f64 / (speeds.len() - 1) as f64;
+            (0..speeds.len()).map(place).collect::<Vec<f64>>()
+        };
+        let pairs = positions.iter().zip(positions.iter().skip(1)).zip(speeds.iter().zip(speeds.iter().skip(1)));
+        for ((a, b), (first, second)) in pairs {
+            if b - a < LEAST_DISTANCE * data.axial_travel {
+                return Err(ConoidError::TooNear { first: *first, second: *second, apart_mm: 1e3 * (b - a) });
+            }
+        }
+        let unit = |index: usize| {
+            let values: Vec<f64> = (0..speeds.len()).map(|other| f64::from(u8::from(other == index))).collect();
+            Spline::not_a_knot(&positions, &values)
+        };
+        let weights = (0..speeds.len()).map(unit).collect();
+        let lowest = sections.iter().map(Reversal::lowest).fold(f64::INFINITY, f64::min);
+        Ok(Self {
+            machine: Arc::new(machine.clone()),
+            press,
+            roller,
+            data,
+            cylinder: press.cylinder(),
+            speeds,
+            positions,
+            sections,
+            follower: TranslatingRoller::new(1.0, roller.offset, roller.radius),
+            smallest_prime_radius: None,
+            weights,
+            lowest,
+            residual_limit: None,
+            found: Searched::default(),
+        })
+    }
+
+    /// The smallest prime radius that keeps the limits in every slice, and the curvature across them.
+    fn size(&mut self, required: &Required) -> Result<f64, NoRadius> {
+        let of_slice = |z: &f64| size::smallest_prime_radius(&self.slice(*z), &self.follower, required);
+        let radii: Result<Vec<f64>, _> = self.slices().par_iter().map(of_slice).collect();
+        let mut radius = radii?.into_iter().fold(required.least, f64::max);
+        let keeps = |conoid: &mut Self, radius: f64| {
+            conoid.resize(radius);
+            conoid.sharpest_smooth().value * required.convex_radius <= 1.0 + 1e-9
+        };
+        if !keeps(self, radius) {
+            let mut failing = radius;
+            let grown = (0..GROWTHS).find_map(|_| {
+                (failing, radius) = (radius, radius * GROWTH);
+                keeps(self, radius).then_some(radius)
+            });
+            let mut passing = grown.ok_or(NoRadius)?;
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (failing + passing);
+                if keeps(self, middle) { passing = middle } else { failing = middle }
+            }
+            radius = passing;
+        }
+        // A flank that leans can reach nearer to the axis than the base radius.
+        self.resize(radius);
+        let wall = required.least - self.roller.radius - self.smallest_radius().value;
+        Ok(if wall > 0.0 { radius + wall } else { radius })
+    }
+
+    /// Ends of the cam along its axis, m.
+    #[must_use]
+    pub fn ends(&self) -> (f64, f64) {
+        (0.0 - self.data.overhang, self.data.axial_travel + self.data.overhang)
+    }
+
+    /// Prime radius, common to all sections, m.
+    #[must_use]
+    pub fn prime_radius(&self) -> f64 {
+        self.follower.prime_radius().unwrap_or(f64::NAN)
+    }
+
+    /// What the machine file tells of it.
+    #[must_use]
+    pub fn data(&self) -> &ConoidData {
+        &self.data
+    }
+
+    /// What the machine file tells of its roller.
+    #[must_use]
+    pub fn roller(&self) -> &RollerData {
+        &self.roller
+    }
+
+    /// Base radius R_b, m.
+    #[must_use]
+    pub fn base_radius(&self) -> f64 {
+        self.prime_radius() - self.roller.radius
+    }
+
+    /// Place along the axis for a speed, m.
+    #[must_use]
+    pub fn position(&self, rpm: f64) -> f64 {
+        match (self.speeds.first(), self.speeds.last()) {
+            (Some(first), Some(last)) if first < last => position(&self.data, (*first, *last), rpm),
+            _ => 0.0,
+        }
+    }
+
+    /// Δx at lift 0, m.
+    #[must_use]
+    pub fn lowest(&self) -> f64 {
+        self.lowest
+    }
+
+    /// The pieces of a turn, the same for every section.
+    #[must_use]
+    pub fn pieces(&self) -> &[Piece] {
+        self.sections.first().map_or(&[], |section| section.pieces())
+    }
+
+    /// Weights of the sections at z and their first three derivatives.
+    fn weights_at(&self, z: f64) -> Vec<[f64; 4]> {
+        self.weights.iter().map(|weight| weight.at(z)).collect()
+    }
+
+    /// Lifts of the sections at a cam angle, counted from the common lowest point.
+    fn lifts(&self, piece: usize, angle: f64) -> Vec<Jet> {
+        let lift = |section: &Reversal| {
+            let bottom = section.bottom(piece, angle);
+            Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.machine.cam.lever)
+        };
+        self.sections.iter().map(lift).collect()
+    }
+
+    fn partials(&self, lifts: &[Jet], z: f64) -> Partials {
+        let mut partials = [[0.0; 4]; 4];
+        for (lift, weight) in lifts.iter().zip(&self.weights) {
+            let weight = weight.at(z);
+            for (row, derivative) in partials.iter_mut().zip([lift.s, lift.ds, lift.dds, lift.ddds]) {
+                for (slot, w) in row.iter_mut().zip(weight) {
+                    *slot += w * derivative;
+                }
+            }
+        }
+        partials
+    }
+
+    /// Lift at a cam angle of a piece and a place along the axis (m), with its derivatives.
+    #[must_use]
+    pub fn lift(&self, piece: usize, angle: f64, z: f64) -> Partials {
+        self.partials(&self.lifts(piece, angle), z)
+    }
+
+    /// Δx of the bottom, m, when a section z (m) of the surface is under the roller.
+    #[must_use]
+    pub fn displacement(&self, piece: usize, angle: f64, z: f64, interpolation: Interpolation) -> f64 {
+        let bottoms = self.sections.iter().map(|section| section.bottom(piece, angle).s);
+        match interpolation {
+            Interpolation::Smooth => bottoms.zip(self.weights_at(z)).map(|(bottom, weight)| bottom * weight[0]).sum(),
+            Interpolation::Straight => {
+                let bottoms: Vec<f64> = bottoms.collect();
+                let right = self.positions.partition_point(|place| *place <= z).clamp(1, self.positions.len() - 1);
+                let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(f64::NAN);
+                let (a, b) = (at(&self.positions, right - 1), at(&self.positions, right));
+                let share = (z - a) / (b - a);
+                at(&bottoms, right - 1) * (1.0 - share) + at(&bottoms, right) * share
+            }
+        }
+    }
+
+    /// The law in one plane across the axis.
+    #[must_use]
+    pub fn slice(&self, z: f64) -> Slice<'_> {
+        Slice { conoid: self, weights: self.weights_at(z).into_iter().map(|weight| weight[0]).collect() }
+    }
+
+    /// Motion and follower in one plane, as if the roller were a disc in it.
+    #[must_use]
+    pub fn plane_of<'a>(&'a self, slice: &'a Slice<'_>) -> Curves<'a> {
+        Curves { motion: slice, follower: &self.follower }
+    }
+
+    /// Force between roller and cam along the roller's path at the speed of a section, N: the air's, and preload and
+    /// inertia where they are given.
+    #[must_use]
+    pub fn path_force(&self, section: &Reversal, rpm: f64, piece: usize, angle: f64) -> f64 {
+        let (lever, follower) = (self.machine.cam.lever, &self.machine.follower);
+        let air = self.cylinder.force(section.state(piece, angle).pressure_ratio) / lever;
+        let inertia = follower.mass.map_or(0.0, |mass| {
+            let speed = self.press.bed.crank_speed(rpm) * self.machine.cam.turns_per_crank_turn;
+            mass * speed * speed * lever * section.bottom(piece, angle).dds
+        });
+        air + inertia + follower.preload.unwrap_or(0.0)
+    }
+
+    /// The speeds that have a cut of their own, with their places along the axis (m) and their motions; equal speeds have one.
+    #[must_use]
+    pub fn cuts(&self) -> Vec<(f64, f64, &Reversal)> {
+        let all = self.speeds.iter().zip(&self.positions).zip(&self.sections);
+        let mut cuts: Vec<(f64, f64, &Reversal)> = all.map(|((rpm, z), section)| (*rpm, *z, section)).collect();
+        cuts.dedup_by(|later, first| later.0 == first.0);
+        cuts
+    }
+
+    /// How many sections it has.
+    #[must_use]
+    pub fn section_count(&self) -> usize {
+        self.speeds.len()
+    }
+
+    /// What is left at the speeds between the sections.
+    #[must_use]
+    pub fn left_between(&self) -> Residual {
+        *self.found.between.get_or_init(|| between::residual(self, Interpolation::Smooth))
+    }
+
+    /// The cut at z (m) as an outline, of a clockwise cam.
+    fn section(&self, z: f64, fit: Fit) -> Result<Outline, OutlineError> {
+        let (shift, tolerance) = fit.band();
+        let nowhere = Vector2::new(f64::NAN, f64::NAN);
+        let broken = CurvePoint {
+            point: nowhere,
+            tangent: nowhere,
+            speed: f64::NAN,
+            curvature: f64::NAN,
+            curvature_slope: f64::NAN,
+        };
+        let frame = |piece: usize, angle: f64| {
+            self.cut(piece, angle, z).map_or(broken, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
+        };
+        let pieces = self.pieces();
+        if let Some(corner) = extremes::corners(self.plane_of(&self.slice(z))).first() {
+            return Err(OutlineError::Corner { cam_deg: corner.at.to_degrees() });
+        }
+        outline::fits_a_drawing(pieces, frame)?;
+        let first = pieces.iter().position(|piece| piece.dwell).unwrap_or(0);
+        let mut outline = Outline::empty();
+        for (index, piece) in pieces.iter().enumerate().cycle().skip(first).take(pieces.len()) {
+            // A dwell that does not lean along the axis is a circle; one that does is nearly one.
+            let round = piece.dwell && self.lift(index, piece.start, z)[0][1] == 0.0;
+            for range in outline::parts(&Piece { dwell: round, ..*piece }, &[], Some(TAU)) {
+                if round {
+                    let bulge = libm::tan(0.25 * (range.1 - range.0));
+                    outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
+                } else {
+                    outline.lay(|angle| frame(index, angle), range, tolerance)?;
+                }
+            }
+        }
+        Ok(outline.from_exact(shift))
+    }
+
+    fn draw_parts(&self, fit: Fit) -> Result<Vec<Part>, OutlineError> {
+        let part = |(rpm, z, _): &(f64, f64, &Reversal)| {
+            let part = Part::turning(&self.machine, self.section(*z, fit)?);
+            Ok(Part { rpm: Some(*rpm), z: *z, ..part })
+        };
+        self.cuts().par_iter().map(part).collect()
+    }
+
+    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), plane: Curves<'_>, cam_deg: f64) -> Row {
+        let (piece, angle) = section.locate(cam_deg.to_radians());
+        let (state, lift) = (section.state(piece, angle), self.lift(piece, angle, z));
+        let contact = self.contact(piece, angle, z);
+        let in_plane = plane.contact(piece, angle);
+        let cut = self.cut(piece, angle, z).map(|(frame, _)| frame);
+        let force = self.path_force(section, rpm, piece, angle);
+        let turned = |point: Vector2<f64>| point_as_turned(&self.machine, point * MILLIMETRES);
+        let touch = turned(contact.point.xy());
+        let nowhere = Vector2::new(f64::NAN, f64::NAN);
+        Row {
+            cam_deg: Some(cam_deg),
+            lift: Some(Jet { s: lift[0][0], ds: lift[1][0], dds: lift[2][0], ddds: lift[3][0] }),
+            bed: Some(BedRow {
+                crank_deg: Some(crank_degrees(cam_deg, self.machine.cam.turns_per_crank_turn)),
+                x: MILLIMETRES * state.overrun,
+                dx: MILLIMETRES * state.displacement,
+            }),
+            curve: Some(turned(contact.centre.xy())),
+            profile: Some(cut.map_or(nowhere, |frame| turned(frame.point))),
+            pressure_angle_deg: Some(in_plane.pressure_angle.to_degrees()),
+            curve_radius: Some(MILLIMETRES / in_plane.curve.curvature),
+            profile_radius: Some(cut.map_or(f64::NAN, |frame| MILLIMETRES / frame.curvature)),
+            force: Some(ForceRow { path: force, torque: force * lift[1][0], contact: None }),
+            plate: None,
+            surface: Some(SurfaceRow {
+                z: MILLIMETRES * z,
+                rpm,
+                lift_per_z: lift[0][1],
+                contact: nalgebra::Vector3::new(touch.x, touch.y, MILLIMETRES * contact.point.z),
+                axial_angle_deg: libm::asin(-contact.normal.z).to_degrees(),
+                principal_radius: MILLIMETRES / self.principal_curvatures(piece, angle, z).0,
+                axial_force: -force * lift[0][1],
+            }),
+        }
+    }
+}
+
+impl Body for Conoid {
+    fn kind(&self) -> &'static Kind {
+        &KIND
+    }
+
+    fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    fn speeds(&self) -> Speeds {
+        Speeds::Several(self.cuts().iter().map(|(rpm, ..)| *rpm).collect())
+    }
+
+    fn plane(&self) -> Option<Curves<'_>> {
+        None
+    }
+
+    fn spatial(&self) -> Option<&Conoid> {
+        Some(self)
+    }
+
+    fn along_axis(&self, z: f64) -> Option<String> {
+        (self.speeds.first() != self.speeds.last()).then(|| format!("at z = {:.3} mm", MILLIMETRES * z))
+    }
+
+    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
+        libm::atan2(point_as_turned(&self.machine, point).y, point.x)
+    }
+
+    fn mirrored(&self) -> &'static [bool] {
+        match self.machine.cam.rotation {
+            Rotation::Clockwise => &[false],
+            Rotation::CounterClockwise => &[true],
+        }
+    }
+
+    /// The angle between the roller's path and the normal of the section, over every slice.
+    fn pressure_angle(&self) -> Worst {
+        let in_slice = |z: &f64| {
+            let worst = extremes::pressure_angle(self.plane_of(&self.slice(*z)));
+            Worst { value: worst.value, at: worst.at, z: *z }
+        };
+        let all: Vec<Worst> = self.slices().par_iter().map(in_slice).collect();
+        all.into_iter().fold(Worst::NONE, Worst::or_larger)
+    }
+
+    /// By the principal curvatures of the pitch surface.
+    fn sharpest(&self) -> Worst {
+        let corner = |z: &f64| {
+            let corners = extremes::corners(self.plane_of(&self.slice(*z)));
+            corners.iter().find(|c| c.turn > 0.0).map(|c| Worst { value: f64::INFINITY, at: c.at, z: *z })
+        };
+        self.positions.iter().find_map(corner).unwrap_or_else(|| self.sharpest_smooth())
+    }
+
+    /// The largest ball that gets into the hollows of the cam's surface.
+    fn hollow(&self) -> Option<Worst> {
+        let hollow = self.worst_of_metal(|conoid, piece, angle, z| -conoid.principal_curvatures(piece, angle, z).1);
+        (hollow.value > 0.0).then(|| Worst { value: 1.0 / hollow.value + self.roller.radius, ..hollow })
+    }
+
+    fn lost_motion(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    fn roller_radius(&self) -> Option<f64> {
+        Some(self.roller.radius)
+    }
+
+    /// Metal between the bore and the nearest place of the surface.
+    fn wall(&self) -> Option<(f64, Option<Worst>)> {
+        let bore = self.machine.cam.bore_reach()?;
+        let nearest = self.smallest_radius();
+        Some((nearest.value - bore, Some(nearest)))
+    }
+
+    fn contact_force(&self, _: usize, _: f64) -> Option<f64> {
+        None
+    }
+
+    /// Of the sphere of the roller on the surface, at the speed of each section.
+    fn contact_stress(&self) -> Option<Worst> {
+        let material = self.machine.cam.material?;
+        let radius = self.roller.radius;
+        Some(self.worst_of_sections(|section, rpm, z, piece, angle| {
+            let contact = self.contact(piece, angle, z);
+            let path = contact.normal.x * libm::cos(angle) + contact.normal.y * libm::sin(angle);
+            let force = self.path_force(section, rpm, piece, angle).max(0.0) / path;
+            // The cam's own surface lies a roller's radius inside the pitch surface.
+            let (first, second) = self.principal_curvatures(piece, angle, z);
+            let inside = |curvature: f64| curvature / (1.0 - curvature * radius);
+            stress::of_sphere(force, radius, (inside(first), inside(second)), material)
+        }))
+    }
+
+    fn least_closing_force(&self) -> Option<Worst> {
+        let follower = &self.machine.follower;
+        if follower.mass.is_none() && follower.preload.is_none() {
+            return None;
+        }
+        let least =
+            self.worst_of_sections(|section, rpm, _, piece, angle| -self.path_force(section, rpm, piece, angle));
+        Some(Worst { value: -least.value, ..least })
+    }
+
+    fn unbalanced(&self, _: usize, _: f64, _: f64, _: Vector2<f64>) -> f64 {
+        0.0
+    }
+
+    fn remedy(&self) -> Option<String> {
+        let base = self.smallest_prime_radius? - self.roller.radius;
+        Some(format!("a base radius of {} mm would pass", (MILLIMETRES * base - 1e-3).ceil()))
+    }
+
+    fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
+        let parts = self.draw_parts(request.fit).map_err(|error| match error {
+            OutlineError::Fit(_) | OutlineError::Undercut(_)
+                if self.sharpest_smooth().value * self.roller.radius >= 1.0 =>
+            {
+                DrawError::NoOutline("the surface folds over itself where the roller is larger than it".to_owned())
+            }
+            other => DrawError::Outline(other),
+        })?;
+        let tolerance = MILLIMETRES * request.fit.tolerance;
+        let flank = request.flank.then(|| flank::flank(self, tolerance)).transpose()?;
+        Ok(Drawn { parts, flank, cutter_path: None })
+    }
+
+    fn height(&self) -> Option<(f64, f64)> {
+        let (low, high) = self.ends();
+        Some((MILLIMETRES * low, MILLIMETRES * high))
+    }
+
+    /// `samples` rows for each speed, at 360 i/samples degrees.
+    fn rows(&self, samples: u32) -> Vec<Row> {
+        let rows = |cut: &(f64, f64, &Reversal)| -> Vec<Row> {
+            let slice = self.slice(cut.1);
+            let plane = self.plane_of(&slice);
+            (0..samples).map(|i| self.row(*cut, plane, 360.0 * f64::from(i) / f64::from(samples))).collect()
+        };
+        self.cuts().par_iter().flat_map(rows).collect()
+    }
+
+    fn sections(&self, found: &Found<'_>) -> Vec<Section> {
+        report::sections(self, found)
+    }
+
+    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
+        Ok(sheet::sheet(self, drawn, report))
+    }
+}
+
+/// The law in one plane across the axis.
+#[derive(Debug, Clone)]
+pub struct Slice<'a> {
+    conoid: &'a Conoid,
+    weights: Vec<f64>,
+}
+
+impl Motion for Slice<'_> {
+    fn pieces(&self) -> &[Piece] {
+        self.conoid.pieces()
+    }
+
+    fn jet(&self, piece: usize, angle: f64) -> Jet {
+        let lifts = self.conoid.lifts(piece, angle);
+        lifts.iter().zip(&self.weights).fold(Jet::default(), |sum, (lift, weight)| Jet {
+            s: sum.s + weight * lift.s,
+            ds: sum.ds + weight * lift.ds,
+            dds: sum.dds + weight * lift.dds,
+            ddds: sum.ddds + weight * lift.ddds,
+        })
+    }
+}
+
+/// z(n) between the slowest and the fastest speed.
+fn position(data: &ConoidData, (first, last): (f64, f64), rpm: f64) -> f64 {
+    let share = match data.shift {
+        Shift::Linear => (rpm - first) / (last - first),
+        Shift::Square => (rpm - first) * (rpm + first) / ((last - first) * (last + first)),
+    };
+    data.axial_travel * share
+}
+
+#[cfg(test)]
+mod tests;

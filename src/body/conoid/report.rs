@@ -1,0 +1,271 @@
+//! What a conoid tells in its report.
+
+use super::between::{self, Residual};
+use super::{Conoid, Interpolation};
+use crate::body::part::{Part, bore};
+use crate::body::{Found, flank_of};
+use crate::geometry::MILLIMETRES;
+use crate::geometry::contour::Vertex;
+use crate::motion::Reversal;
+use crate::report::sheet::rounded;
+use crate::report::{Section, degrees, shown};
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// The outlines of all sections together.
+#[derive(Debug, Serialize)]
+struct Outlines {
+    arcs: usize,
+    lines: usize,
+    deviation_max_mm: f64,
+    tangent_break_max_deg: f64,
+}
+
+/// Forces at the speeds of the sections, and what is left between them.
+#[derive(Debug, Serialize)]
+struct Forces {
+    inertia_max_n: f64,
+    residual_max_n: f64,
+    axial_force_max_n: f64,
+}
+
+/// Measures of a conoid.
+#[derive(Debug, Serialize)]
+struct Measures {
+    prime_radius_mm: f64,
+    base_radius_mm: f64,
+    roller_radius_mm: f64,
+    /// Largest lift over all sections, from their common lowest point.
+    max_lift_mm: f64,
+    smallest_prime_radius_mm: Option<f64>,
+    z_min_mm: f64,
+    z_max_mm: f64,
+    /// Of the metal; `None` when no flank was drawn.
+    volume_mm3: Option<f64>,
+    mass_kg: Option<f64>,
+}
+
+/// One section.
+#[derive(Debug, Serialize)]
+struct SectionMeasures {
+    rpm: f64,
+    z_mm: f64,
+    column_length_mm: f64,
+    start_slope: f64,
+    dx_max_mm: f64,
+    dx_max_at_x_mm: f64,
+    inertia_max_n: f64,
+    arcs: Option<usize>,
+    area_mm2: Option<f64>,
+    deviation_max_mm: Option<f64>,
+    /// By how much a plane offset of this section's pitch curve would miss the section.
+    plane_offset_error_mm: f64,
+}
+
+/// The surface.
+#[derive(Debug, Serialize)]
+struct SurfaceMeasures {
+    /// Largest distance of the contact from the roller's plane, along the axis.
+    axial_wander_mm: f64,
+    axial_wander_cam_deg: f64,
+    axial_wander_z_mm: f64,
+    /// Largest force the drive of the shift must hold.
+    axial_force_max_n: f64,
+    plane_offset_error_max_mm: f64,
+    patches: Option<usize>,
+    deviation_max_mm: Option<f64>,
+}
+
+/// Between the sections.
+#[derive(Debug, Serialize)]
+struct Between {
+    residual_max_n: f64,
+    rpm: f64,
+    cam_deg: f64,
+    /// What straight strips from section to section would leave.
+    residual_straight_strips_max_n: f64,
+}
+
+/// The sections of the report.
+pub(super) fn sections(conoid: &Conoid, found: &Found<'_>) -> Vec<Section> {
+    let cuts = conoid.cuts();
+    let errors: Vec<f64> = cuts.par_iter().map(|(_, z, _)| conoid.plane_offset_error(*z)).collect();
+    let parts = found.drawn.map(|drawn| drawn.parts.as_slice());
+    let section = |(index, (cut, error)): (usize, (&(f64, f64, &Reversal), &f64))| {
+        let part = parts.and_then(|parts| parts.get(index));
+        SectionMeasures::new(conoid, *cut, part, *error)
+    };
+    let all: Vec<SectionMeasures> = cuts.iter().zip(&errors).enumerate().map(section).collect();
+    let (left, straight) = (conoid.left_between(), between::residual(conoid, Interpolation::Straight));
+    let words = all.iter().map(SectionMeasures::words).collect();
+    let outlines = parts.map(Outlines::new);
+    vec![
+        Measures::new(conoid, found).section(),
+        Section::new("sections", &all).with_words(words),
+        SurfaceMeasures::new(conoid, found, &errors).section(),
+        Between::new(left, straight).section(),
+        Section::new("outline", &outlines),
+        Section::new("force", &Forces::new(conoid, left)),
+    ]
+}
+
+impl SectionMeasures {
+    fn new(conoid: &Conoid, (rpm, z, section): (f64, f64, &Reversal), part: Option<&Part>, error: f64) -> Self {
+        let law = section.law().bottom_law;
+        let (dx_max_at_x, dx_max) = law.largest_displacement();
+        Self {
+            rpm,
+            z_mm: MILLIMETRES * z,
+            column_length_mm: MILLIMETRES * law.column,
+            start_slope: law.start_slope,
+            dx_max_mm: MILLIMETRES * dx_max,
+            dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
+            inertia_max_n: conoid.cylinder.largest_load(&law),
+            arcs: part.map(|part| part.outline.contour.vertices.len()),
+            area_mm2: part.map(|part| part.area_and_moment().0),
+            deviation_max_mm: part.map(|part| part.outline.deviation),
+            plane_offset_error_mm: MILLIMETRES * error,
+        }
+    }
+
+    fn words(&self) -> String {
+        let arcs = self.arcs.map_or(String::new(), |arcs| format!(", {arcs} arcs"));
+        format!(
+            "{:>6} rpm  z {:.3} mm, column {:.3} mm, slope at the start {:.4}, Δx {:.3} mm at x = {:.2} mm{arcs}",
+            shown(self.rpm),
+            self.z_mm,
+            self.column_length_mm,
+            self.start_slope,
+            self.dx_max_mm,
+            self.dx_max_at_x_mm
+        )
+    }
+}
+
+impl Measures {
+    fn new(conoid: &Conoid, found: &Found<'_>) -> Self {
+        let (low, high) = conoid.ends();
+        let volume = flank_of(found).map(|flank| {
+            let hole = bore(&conoid.machine).map_or(0.0, |hole| hole.contour().area_and_centroid().0);
+            flank.volume - hole * MILLIMETRES * (high - low)
+        });
+        Self {
+            prime_radius_mm: MILLIMETRES * conoid.prime_radius(),
+            base_radius_mm: MILLIMETRES * conoid.base_radius(),
+            roller_radius_mm: MILLIMETRES * conoid.roller.radius,
+            max_lift_mm: MILLIMETRES * conoid.max_lift(),
+            smallest_prime_radius_mm: conoid.smallest_prime_radius.map(|radius| MILLIMETRES * radius),
+            z_min_mm: MILLIMETRES * low,
+            z_max_mm: MILLIMETRES * high,
+            volume_mm3: volume,
+            mass_kg: volume.map(|volume| 1e-9 * volume * conoid.machine.cam.density()),
+        }
+    }
+
+    fn section(&self) -> Section {
+        let smallest = self
+            .smallest_prime_radius_mm
+            .map_or_else(|| "no radius keeps the limits".into(), |radius| format!("smallest possible {radius:.3} mm"));
+        let mut words = vec![format!(
+            "base radius {} mm, roller {} mm, prime radius {} mm ({smallest}), lift {:.3} mm, z {} to {} mm",
+            shown(self.base_radius_mm),
+            shown(self.roller_radius_mm),
+            shown(self.prime_radius_mm),
+            self.max_lift_mm,
+            shown(self.z_min_mm),
+            shown(self.z_max_mm)
+        )];
+        let mut figures = vec![
+            format!("base radius {} mm, roller {} mm", rounded(self.base_radius_mm), rounded(self.roller_radius_mm)),
+            format!(
+                "lift {:.3} mm, z from {} to {} mm",
+                self.max_lift_mm,
+                rounded(self.z_min_mm),
+                rounded(self.z_max_mm)
+            ),
+        ];
+        if let (Some(volume), Some(mass)) = (self.volume_mm3, self.mass_kg) {
+            words.push(format!("volume {volume:.1} mm³, mass {mass:.3} kg"));
+            figures.push(format!("mass {mass:.2} kg"));
+        }
+        Section::new("cam", self).with_words(words).with_figures(figures)
+    }
+}
+
+impl SurfaceMeasures {
+    fn new(conoid: &Conoid, found: &Found<'_>, errors: &[f64]) -> Self {
+        let (wander, flank) = (conoid.largest_wander(), flank_of(found));
+        Self {
+            axial_wander_mm: MILLIMETRES * wander.value,
+            axial_wander_cam_deg: degrees(wander.at),
+            axial_wander_z_mm: MILLIMETRES * wander.z,
+            axial_force_max_n: conoid.axial_force().value,
+            plane_offset_error_max_mm: MILLIMETRES * errors.iter().copied().fold(0.0, f64::max),
+            patches: flank.map(|flank| flank.patches.len()),
+            deviation_max_mm: flank.map(|flank| flank.deviation),
+        }
+    }
+
+    fn section(&self) -> Section {
+        let mut words = vec![format!(
+            "the contact wanders {:.4} mm along the axis; plane offsets would miss by {:.4} mm; axial force {:.1} N",
+            self.axial_wander_mm, self.plane_offset_error_max_mm, self.axial_force_max_n
+        )];
+        if let (Some(patches), Some(deviation)) = (self.patches, self.deviation_max_mm) {
+            words.push(format!("{patches} spline patches, {:.4} µm from the exact surface", 1e3 * deviation));
+        }
+        let figures = vec![
+            format!("contact wanders {:.3} mm along the axis", self.axial_wander_mm),
+            format!("plane offsets would miss by {:.4} mm", self.plane_offset_error_max_mm),
+            format!("axial force {:.0} N at the most", self.axial_force_max_n),
+        ];
+        Section::new("surface", self).with_words(words).with_figures(figures)
+    }
+}
+
+impl Between {
+    fn new(left: Residual, straight: Residual) -> Self {
+        Self {
+            residual_max_n: left.force,
+            rpm: left.rpm,
+            cam_deg: degrees(left.angle),
+            residual_straight_strips_max_n: straight.force,
+        }
+    }
+
+    fn section(&self) -> Section {
+        let words = vec![format!(
+            "{} N left at {:.3} rpm, {:.2}°; straight strips would leave {} N",
+            shown(self.residual_max_n),
+            self.rpm,
+            self.cam_deg,
+            shown(self.residual_straight_strips_max_n)
+        )];
+        let figure = format!("between sections {:.2} N at {:.2} rpm", self.residual_max_n, self.rpm);
+        Section::new("between", self).with_words(words).with_figures(vec![figure])
+    }
+}
+
+impl Forces {
+    fn new(conoid: &Conoid, left: Residual) -> Self {
+        Self {
+            inertia_max_n: conoid.press.bed.largest_inertia(conoid.speeds.last().copied().unwrap_or(0.0)),
+            residual_max_n: left.force,
+            axial_force_max_n: conoid.axial_force().value,
+        }
+    }
+}
+
+impl Outlines {
+    fn new(parts: &[Part]) -> Self {
+        let vertices = parts.iter().flat_map(|part| &part.outline.contour.vertices);
+        let (lines, arcs): (Vec<&Vertex>, Vec<&Vertex>) = vertices.partition(|vertex| vertex.bulge == 0.0);
+        let breaks = parts.iter().flat_map(|part| part.outline.contour.tangent_breaks());
+        Self {
+            arcs: arcs.len(),
+            lines: lines.len(),
+            deviation_max_mm: parts.iter().map(|part| part.outline.deviation).fold(0.0, f64::max),
+            tangent_break_max_deg: breaks.map(f64::abs).fold(0.0, f64::max).to_degrees(),
+        }
+    }
+}

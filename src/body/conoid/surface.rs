@@ -1,0 +1,176 @@
+//! The surface of a conoid: contact of the sphere, principal curvatures, cuts.
+
+use super::{Conoid, Partials};
+use crate::geometry::CurvePoint;
+use crate::numeric::series::Series;
+use nalgebra::{Vector2, Vector3};
+
+/// Newton steps to the roller that touches a cut.
+const CUT_STEPS: usize = 20;
+
+impl Conoid {
+    /// Where the sphere at a cam angle and a place along the axis touches, m: its centre, the unit normal out of the
+    /// metal, the point of contact.
+    #[must_use]
+    pub fn contact(&self, piece: usize, angle: f64, z: f64) -> SpatialContact {
+        let partials = self.lift(piece, angle, z);
+        let (u, a) = self.height_and_slope(&partials);
+        let axes = Axes::new(angle);
+        let length = libm::hypot(a, u);
+        let normal = axes.along * (u / length) - axes.across * (a / length);
+        let taper = partials[0][1] * u / length;
+        let stretch = (1.0 + taper * taper).sqrt();
+        let centre = axes.along * u + axes.across * self.roller.offset;
+        let normal = Vector3::new(normal.x, normal.y, -taper) / stretch;
+        let centre = Vector3::new(centre.x, centre.y, z);
+        SpatialContact { centre, normal, point: centre - normal * self.roller.radius, slope: partials[0][1] }
+    }
+
+    pub(super) fn height_and_slope(&self, partials: &Partials) -> (f64, f64) {
+        let (offset, prime) = (self.roller.offset, self.prime_radius());
+        (((prime - offset) * (prime + offset)).sqrt() + partials[0][0], partials[1][0] - offset)
+    }
+
+    /// Largest and smallest principal curvature of the pitch surface, 1/m, convex positive.
+    #[must_use]
+    pub fn principal_curvatures(&self, piece: usize, angle: f64, z: f64) -> (f64, f64) {
+        let p = self.lift(piece, angle, z);
+        let offset = self.roller.offset;
+        let (u, a) = self.height_and_slope(&p);
+        // In the basis along, across, axis.
+        let normal = Vector3::new(u, -a, -u * p[0][1]);
+        let by_angle = Vector3::new(a, u, 0.0);
+        let by_axis = Vector3::new(p[0][1], 0.0, 1.0);
+        let second = [
+            Vector3::new(p[2][0] - u, 2.0 * p[1][0] - offset, 0.0),
+            Vector3::new(p[1][1], p[0][1], 0.0),
+            Vector3::new(p[0][2], 0.0, 0.0),
+        ];
+        let size = normal.norm();
+        let [l, m, n] = second.map(|vector| -vector.dot(&normal) / size);
+        let (e, f, g) = (by_angle.norm_squared(), by_angle.dot(&by_axis), by_axis.norm_squared());
+        let area = e * g - f * f;
+        let mean = 0.5 * (e * n - 2.0 * f * m + g * l) / area;
+        let gauss = (l * n - m * m) / area;
+        let apart = (mean * mean - gauss).max(0.0).sqrt();
+        (mean + apart, mean - apart)
+    }
+
+    /// The cut of the cam at z (m) where the roller at a cam angle of a piece touches it: a point of the section with
+    /// its tangent and curvature, parametrised by the cam angle, and the place ζ of that roller. `None` where the
+    /// surface folds along the axis.
+    #[must_use]
+    pub fn cut(&self, piece: usize, angle: f64, z: f64) -> Option<(CurvePoint, f64)> {
+        let lifts = self.lifts(piece, angle);
+        let mut zeta = z;
+        for _ in 0..CUT_STEPS {
+            let (wander, slope) = self.wander(&self.partials(&lifts, zeta));
+            // A surface that folds back along the axis has no single roller for the cut.
+            if !(1.0 + slope > 0.0) {
+                return None;
+            }
+            let step = (zeta + wander - z) / (1.0 + slope);
+            zeta -= step;
+            if step.abs() <= 1e-15 * (1.0 + z.abs()) {
+                break;
+            }
+        }
+        let partials = self.partials(&lifts, zeta);
+        let axial = |first: f64, second: f64| self.along(&partials, angle, Series([zeta, first, second])).axial.0;
+        // Each coefficient of ζ enters the coefficient of its power linearly.
+        let (without, with) = (axial(0.0, 0.0)[1], axial(1.0, 0.0)[1]);
+        let first = -without / (with - without);
+        let (without, with) = (axial(first, 0.0)[2], axial(first, 1.0)[2]);
+        let second = -without / (with - without);
+        let along = self.along(&partials, angle, Series([zeta, first, second]));
+        let [heading, turn, turn2] = along.heading.0;
+        let [speed, speed1, _] = along.speed.0;
+        let tangent = Vector2::new(libm::cos(heading), libm::sin(heading));
+        let axes = Axes::new(angle);
+        let centre = axes.along * along.height + axes.across * self.roller.offset;
+        let outward = Vector2::new(tangent.y, -tangent.x);
+        let frame = CurvePoint {
+            point: centre - outward * along.reach,
+            tangent,
+            speed,
+            curvature: turn / speed,
+            curvature_slope: (2.0 * turn2 * speed - turn * speed1) / (speed * speed * speed),
+        };
+        Some((frame, zeta))
+    }
+
+    /// What follows from the lift along θ ↦ (θ, ζ(θ)), as series in θ.
+    fn along(&self, p: &Partials, angle: f64, zeta: Series) -> Along {
+        let [_, z1, z2] = zeta.0;
+        let compose = |m: usize, n: usize| {
+            let at = |m: usize, n: usize| p.get(m).and_then(|row| row.get(n)).copied().unwrap_or(0.0);
+            Series([
+                at(m, n),
+                at(m + 1, n) + at(m, n + 1) * z1,
+                0.5 * (at(m + 2, n) + 2.0 * at(m + 1, n + 1) * z1 + at(m, n + 2) * z1 * z1) + at(m, n + 1) * z2,
+            ])
+        };
+        let (radius, offset) = (self.roller.radius, self.roller.offset);
+        let (height, _) = self.height_and_slope(p);
+        let (u, a, slope) = (
+            compose(0, 0) + Series::constant(height - p[0][0]),
+            compose(1, 0) - Series::constant(offset),
+            compose(0, 1),
+        );
+        let length = (a * a + u * u).sqrt();
+        let taper = slope * u / length;
+        let stretch = (Series::constant(1.0) + taper * taper).sqrt();
+        let axial = zeta + taper * radius / stretch;
+        let heading = u.atan2(a) + Series([angle, 1.0, 0.0]);
+        let reach = Series::constant(radius) / stretch;
+        let speed = length + slope * zeta.slope() * a / length - reach * heading.slope();
+        Along { axial, heading, speed, reach: reach.0[0], height: u.0[0] }
+    }
+
+    /// How far the contact lies from the roller's plane along the axis, r τ/√(1+τ²), m, and its derivative by z.
+    pub(super) fn wander(&self, p: &Partials) -> (f64, f64) {
+        let (u, a) = self.height_and_slope(p);
+        let length = libm::hypot(a, u);
+        let (s_z, s_zz, a_z) = (p[0][1], p[0][2], p[1][1]);
+        let taper = s_z * u / length;
+        let by_axis = s_zz * u / length + s_z * (s_z / length - u * (a * a_z + u * s_z) / (length * length * length));
+        let stretch = (1.0 + taper * taper).sqrt();
+        let radius = self.roller.radius;
+        (radius * taper / stretch, radius * by_axis / (stretch * stretch * stretch))
+    }
+}
+
+/// Series along a cut.
+struct Along {
+    axial: Series,
+    heading: Series,
+    speed: Series,
+    reach: f64,
+    height: f64,
+}
+
+/// Directions of the roller's path and across it.
+struct Axes {
+    along: Vector2<f64>,
+    across: Vector2<f64>,
+}
+
+impl Axes {
+    fn new(angle: f64) -> Self {
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        Self { along: Vector2::new(cos, sin), across: Vector2::new(-sin, cos) }
+    }
+}
+
+/// The sphere on the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpatialContact {
+    /// Centre of the sphere, m.
+    pub centre: Vector3<f64>,
+    /// Unit normal out of the metal.
+    pub normal: Vector3<f64>,
+    /// Point of contact, m.
+    pub point: Vector3<f64>,
+    /// Slope of the lift along the axis.
+    pub slope: f64,
+}

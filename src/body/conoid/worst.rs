@@ -1,0 +1,139 @@
+//! The worst places of a conoid: over every turn of slices along its axis, and over its sections.
+
+use super::{Conoid, SLICES};
+use crate::motion::Reversal;
+use crate::profile::{Worst, extremes};
+use rayon::prelude::*;
+
+impl Conoid {
+    /// Places along the axis at which the roller may stand and the surface is looked at, m: the sections and some between
+    /// them.
+    #[must_use]
+    pub fn slices(&self) -> Vec<f64> {
+        let pairs = self.positions.iter().zip(self.positions.iter().skip(1));
+        let between = pairs.flat_map(|(a, b)| (0..SLICES).map(move |i| a + (b - a) * f64::from(i) / f64::from(SLICES)));
+        between.chain(self.positions.last().copied()).collect()
+    }
+
+    /// The same with the ends of the cam.
+    pub(super) fn slices_and_ends(&self) -> Vec<f64> {
+        let (low, high) = self.ends();
+        let mut all = self.slices();
+        all.extend([low, high]);
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+        all
+    }
+
+    /// The same with places as far beyond the ends as the contact wanders: spheres there make the metal at the ends, though
+    /// no roller ever stands there.
+    pub(super) fn slices_of_metal(&self) -> Vec<f64> {
+        let mut all = self.slices_and_ends();
+        let wander =
+            self.worst_of(&all, |conoid, piece, angle, z| conoid.wander(&conoid.lift(piece, angle, z)).0.abs());
+        let ((low, high), reach) = (self.ends(), wander.value);
+        if reach > 0.0 {
+            all.extend([low - reach, low - 0.5 * reach, high + 0.5 * reach, high + reach]);
+        }
+        all
+    }
+
+    /// The sharpest convex place of the pitch surface but for corners: the curvature, 1/m.
+    pub(super) fn sharpest_smooth(&self) -> Worst {
+        let search = || self.worst_of_metal(|conoid, piece, angle, z| conoid.principal_curvatures(piece, angle, z).0);
+        *self.found.sharpest.get_or_init(search)
+    }
+
+    /// The largest value of something over all spheres that make the metal.
+    #[must_use]
+    pub fn worst_of_metal(&self, value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
+        self.worst_of(&self.slices_of_metal(), value)
+    }
+
+    /// The largest value of something over the surface: over every turn of the slices.
+    #[must_use]
+    pub fn worst(&self, value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
+        self.worst_of(&self.slices(), value)
+    }
+
+    pub(super) fn worst_of(&self, slices: &[f64], value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
+        let in_slice = |z: &f64| {
+            let slice = self.slice(*z);
+            let found =
+                extremes::largest_without_slope(self.plane_of(&slice), |piece, angle| value(self, piece, angle, *z));
+            Worst { value: found.value, at: found.at, z: *z }
+        };
+        let all: Vec<Worst> = slices.par_iter().map(in_slice).collect();
+        all.into_iter().fold(Worst::NONE, Worst::or_larger)
+    }
+
+    /// The largest and the smallest of something over the turns of the sections, each at its own speed.
+    #[must_use]
+    pub fn worst_of_sections(&self, value: impl Fn(&Reversal, f64, f64, usize, f64) -> f64 + Sync) -> Worst {
+        let of_section = |((section, rpm), z): ((&Reversal, &f64), &f64)| {
+            let slice = self.slice(*z);
+            let found = extremes::largest_without_slope(self.plane_of(&slice), |piece, angle| {
+                value(section, *rpm, *z, piece, angle)
+            });
+            Worst { value: found.value, at: found.at, z: *z }
+        };
+        let all = self.sections.iter().zip(&self.speeds).zip(&self.positions).map(of_section);
+        all.fold(Worst::NONE, Worst::or_larger)
+    }
+
+    /// The axial component of the contact force that the drive of the shift must hold, N: the force along the path times
+    /// the slope of the lift along the axis.
+    #[must_use]
+    pub fn axial_force(&self) -> Worst {
+        let force = |section: &Reversal, rpm: f64, z: f64, piece: usize, angle: f64| {
+            (self.path_force(section, rpm, piece, angle) * self.lift(piece, angle, z)[0][1]).abs()
+        };
+        *self.found.axial_force.get_or_init(|| self.worst_of_sections(force))
+    }
+
+    /// Largest lift over all sections, m.
+    #[must_use]
+    pub fn max_lift(&self) -> f64 {
+        let highest = self.worst_of_sections(|section, _, _, piece, angle| section.bottom(piece, angle).s).value;
+        (highest - self.lowest) * self.machine.cam.lever
+    }
+
+    /// By how much the plane offset of the pitch curve at z misses the cut there, m: from a point of the one along the
+    /// normal of the other, its foot found by Newton's method.
+    #[must_use]
+    pub fn plane_offset_error(&self, z: f64) -> f64 {
+        let slice = self.slice(z);
+        let plane = self.plane_of(&slice);
+        let miss = |piece: usize, angle: f64| {
+            let naive = plane.profile(piece, angle).point;
+            let Some(span) = self.pieces().get(piece) else { return f64::NAN };
+            let mut foot = angle;
+            let mut left = f64::NAN;
+            for _ in 0..4 {
+                let Some((cut, _)) = self.cut(piece, foot, z) else { return f64::NAN };
+                let away = naive - cut.point;
+                left = away.dot(&cut.outward());
+                foot = (foot + away.dot(&cut.tangent) / cut.speed).clamp(span.start, span.end);
+            }
+            left.abs()
+        };
+        extremes::largest_without_slope(plane, miss).value
+    }
+
+    /// Largest distance of the contact from the roller's plane along the axis, m.
+    #[must_use]
+    pub fn largest_wander(&self) -> Worst {
+        let search = || self.worst(|conoid, piece, angle, z| conoid.wander(&conoid.lift(piece, angle, z)).0.abs());
+        *self.found.wander.get_or_init(search)
+    }
+
+    /// The smallest radius of the cam about its axis, m, and where it is.
+    #[must_use]
+    pub fn smallest_radius(&self) -> Worst {
+        let within = self.slices_and_ends();
+        let worst = self.worst_of(&within, |conoid, piece, angle, z| {
+            conoid.cut(piece, angle, z).map_or(0.0, |(frame, _)| -frame.point.norm())
+        });
+        Worst { value: -worst.value, ..worst }
+    }
+}

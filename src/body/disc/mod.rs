@@ -1,0 +1,426 @@
+//! The disc cam: one section for one speed, under any follower.
+
+mod sheet;
+
+use super::part::{Part, point_as_turned};
+use super::{Body, DrawError, Drawn, Found, Kind, Request, largest, max_lift, stress};
+use crate::follower::{Element, Follower};
+use crate::geometry::MILLIMETRES;
+use crate::load::{AirBuffer, Load};
+use crate::machine::{Machine, NoPress, Press, Rotation};
+use crate::motion::{Motion, MotionError, Reversal, ReversalLaw};
+use crate::profile::outline::{self, OutlineError};
+use crate::profile::size::{self, NoRadius, Required, rounded_up};
+use crate::profile::{Curves, Worst};
+use crate::report::sheet::Sheet;
+use crate::report::{CamMeasures, Forces, Report, Section, Speeds};
+use crate::table::{BedRow, ForceRow, Row, crank_degrees};
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// The disc cam of a press.
+pub const ROTARY: Kind = Kind { command: "rotary", noun: "rotary cam" };
+
+/// The disc cam of any motion.
+pub const GENERAL: Kind = Kind { command: "make", noun: "disc cam" };
+
+/// A disc cam.
+#[derive(Debug, Clone)]
+pub struct Disc {
+    machine: Arc<Machine>,
+    kind: &'static Kind,
+    rpm: Option<f64>,
+    /// Angular speed of the cam, rad/s, where it is known.
+    speed: Option<f64>,
+    motion: Arc<dyn Motion>,
+    follower: Arc<dyn Follower>,
+    load: Option<Arc<dyn Load>>,
+    /// Smallest prime radius that keeps every limit, m; `None` when none does.
+    smallest_prime_radius: Option<f64>,
+}
+
+/// Why there is no disc cam.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DiscError {
+    /// The machine file describes no press.
+    #[error(transparent)]
+    NoPress(#[from] NoPress),
+    /// The motion does not go together.
+    #[error("{0}; see transition.width, buffer.lead and cam.cam_turns_per_crank_turn")]
+    Motion(#[from] MotionError),
+    /// `auto` found nothing.
+    #[error("{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, or give cam.base_radius")]
+    Size(#[from] NoRadius),
+    /// The follower does not reach the cam.
+    #[error("the follower does not reach a cam of base radius {base_radius_mm} mm; give a larger cam.base_radius")]
+    OutOfReach {
+        /// The base radius, mm.
+        base_radius_mm: f64,
+    },
+    /// Lengths as lift for a follower that swings, or the other way round.
+    #[error("the motion is {motion}, but the follower takes {follower}")]
+    WrongQuantity {
+        /// What the motion gives.
+        motion: &'static str,
+        /// What the follower takes.
+        follower: &'static str,
+    },
+}
+
+impl Disc {
+    /// Solves the law of a press at a speed of its main shaft (rpm) and sizes the cam.
+    ///
+    /// # Errors
+    /// [`DiscError`] when the motion cannot be put together or no radius keeps the limits.
+    pub fn solve(machine: &Machine, rpm: f64) -> Result<Self, DiscError> {
+        let press = machine.press()?;
+        let reversal = Arc::new(Reversal::new(ReversalLaw {
+            bottom_law: press.bottom_law(rpm),
+            lever: machine.cam.lever,
+            ratio: machine.cam.turns_per_crank_turn,
+            transition: machine.transition,
+        })?);
+        let load: Arc<dyn Load> = Arc::new(AirBuffer::new(press.cylinder(), Arc::clone(&reversal)));
+        let disc = Self {
+            kind: &ROTARY,
+            rpm: Some(rpm),
+            speed: Some(Self::speed_of(press, machine, rpm)),
+            load: Some(load),
+            ..Self::unsized_of(machine, reversal)
+        };
+        disc.sized()
+    }
+
+    /// The cam of any motion under the machine's follower, sized; `rpm` is the speed of the cam itself, where it is known.
+    ///
+    /// # Errors
+    /// [`DiscError`] when motion and follower do not fit each other or no radius keeps the limits.
+    pub fn of_motion(machine: &Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, DiscError> {
+        let speed = rpm.map(|rpm| rpm * std::f64::consts::TAU / 60.0);
+        Self { rpm, speed, ..Self::unsized_of(machine, motion) }.sized()
+    }
+
+    fn unsized_of(machine: &Machine, motion: Arc<dyn Motion>) -> Self {
+        Self {
+            follower: Arc::clone(&machine.follower.shape),
+            machine: Arc::new(machine.clone()),
+            kind: &GENERAL,
+            rpm: None,
+            speed: None,
+            motion,
+            load: None,
+            smallest_prime_radius: None,
+        }
+    }
+
+    /// Angular speed of the cam of a press, rad/s.
+    fn speed_of(press: &Press, machine: &Machine, rpm: f64) -> f64 {
+        press.bed.crank_speed(rpm) * machine.cam.turns_per_crank_turn
+    }
+
+    fn sized(mut self) -> Result<Self, DiscError> {
+        let (motion, follower) = (self.motion.quantity(), self.follower.quantity());
+        if motion != follower {
+            return Err(DiscError::WrongQuantity { motion: motion.words(), follower: follower.words() });
+        }
+        let offset = self.follower.element().offset();
+        let required = Required::of(&self.machine.limits, &self.machine.cam, &*self.follower);
+        let smallest = size::smallest_prime_radius(&*self.motion, &*self.follower, &required);
+        let base = match self.machine.cam.base_radius {
+            Some(base) => base,
+            None => rounded_up(smallest? - offset),
+        };
+        let sized = self.follower.sized(base + offset);
+        self.follower = sized.ok_or(DiscError::OutOfReach { base_radius_mm: MILLIMETRES * base })?.into();
+        self.smallest_prime_radius = smallest.ok();
+        Ok(self)
+    }
+
+    /// Motion and follower.
+    #[must_use]
+    pub fn curves(&self) -> Curves<'_> {
+        Curves { motion: &*self.motion, follower: &*self.follower }
+    }
+
+    /// Prime radius, m.
+    #[must_use]
+    pub fn prime_radius(&self) -> f64 {
+        self.follower.prime_radius().unwrap_or(f64::NAN)
+    }
+
+    /// Base radius R_b, m.
+    #[must_use]
+    pub fn base_radius(&self) -> f64 {
+        self.prime_radius() - self.curves().offset()
+    }
+
+    /// The base radius `auto` would take, m: the smallest that passes, in whole millimetres.
+    #[must_use]
+    pub fn passing_base_radius(&self) -> Option<f64> {
+        self.smallest_prime_radius.map(|prime| rounded_up(prime - self.curves().offset()))
+    }
+
+    /// Smallest prime radius that keeps every limit, m; `None` when none does.
+    #[must_use]
+    pub fn smallest_prime_radius(&self) -> Option<f64> {
+        self.smallest_prime_radius
+    }
+
+    /// Largest lift, m or rad.
+    #[must_use]
+    pub fn max_lift(&self) -> f64 {
+        max_lift(self.curves())
+    }
+
+    /// Force between follower and cam along the follower's path, N: the load's and, where they are given, preload and the
+    /// inertia of what moves with the follower. `None` where nothing presses.
+    #[must_use]
+    pub fn path_force(&self, piece: usize, angle: f64) -> Option<f64> {
+        let follower = &self.machine.follower;
+        if self.load.is_none() && follower.preload.is_none() {
+            return None;
+        }
+        let load = self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle));
+        let preload = follower.preload.unwrap_or(0.0);
+        let (Some(mass), Some(speed)) = (follower.mass, self.speed) else { return Some(load + preload) };
+        Some(load + preload + mass * speed * speed * self.motion.jet(piece, angle).dds)
+    }
+
+    /// Largest |what must be balanced − what is| the motion itself leaves, N: rounding, or what a blend costs; 0 without a
+    /// load.
+    #[must_use]
+    pub fn residual_max(&self) -> f64 {
+        let Some(load) = &self.load else { return 0.0 };
+        largest(self.curves(), |piece, angle| load.residual(piece, angle, 0.0, Vector2::zeros())).value
+    }
+
+    fn forces(&self, residual_max_n: f64) -> Option<Forces> {
+        let load = self.load.as_ref()?;
+        let force = |piece: usize, angle: f64| self.path_force(piece, angle).unwrap_or(f64::NAN);
+        let torque = |piece: usize, angle: f64| force(piece, angle) * self.motion.jet(piece, angle).ds;
+        Some(Forces {
+            inertia_max_n: load.largest(),
+            residual_max_n,
+            residual_share: residual_max_n / load.largest(),
+            residual_fixed_bottom_max_n: load.left_without_cam(),
+            by_way: None,
+            roller_force_max_n: largest(self.curves(), force).value,
+            torque_max_nm: Some(largest(self.curves(), |piece, angle| torque(piece, angle).abs()).value),
+        })
+    }
+
+    fn row(&self, cam_deg: f64) -> Row {
+        let curves = self.curves();
+        let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
+        let contact = curves.contact(piece, angle);
+        let profile = contact.curve.offset_inward(curves.offset());
+        let bed = self.load.as_ref().map(|load| {
+            let state = load.state(piece, angle);
+            BedRow {
+                crank_deg: Some(crank_degrees(cam_deg, self.machine.cam.turns_per_crank_turn)),
+                x: MILLIMETRES * state.overrun,
+                dx: MILLIMETRES * state.displacement,
+            }
+        });
+        let force = self.path_force(piece, angle).map(|force| ForceRow {
+            path: force,
+            torque: force * contact.lift.ds,
+            contact: Some(force / libm::cos(contact.pressure_angle)),
+        });
+        Row {
+            cam_deg: Some(cam_deg),
+            lift: Some(contact.lift),
+            bed,
+            curve: Some(point_as_turned(&self.machine, contact.curve.point * MILLIMETRES)),
+            profile: Some(point_as_turned(&self.machine, profile.point * MILLIMETRES)),
+            pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
+            curve_radius: Some(MILLIMETRES / contact.curve.curvature),
+            profile_radius: Some(MILLIMETRES / profile.curvature),
+            force,
+            ..Row::default()
+        }
+    }
+}
+
+impl Body for Disc {
+    fn kind(&self) -> &'static Kind {
+        self.kind
+    }
+
+    fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    fn speeds(&self) -> Speeds {
+        self.rpm.map_or(Speeds::Any(()), Speeds::One)
+    }
+
+    fn plane(&self) -> Option<Curves<'_>> {
+        Some(self.curves())
+    }
+
+    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
+        let angle = libm::atan2(point.y, point.x);
+        match self.machine.cam.rotation {
+            Rotation::Clockwise => angle,
+            Rotation::CounterClockwise => -angle,
+        }
+    }
+
+    fn mirrored(&self) -> &'static [bool] {
+        match self.machine.cam.rotation {
+            Rotation::Clockwise => &[false],
+            Rotation::CounterClockwise => &[true],
+        }
+    }
+
+    fn roller_radius(&self) -> Option<f64> {
+        match self.follower.element() {
+            Element::Roller { radius } => Some(radius),
+            Element::Face => None,
+        }
+    }
+
+    fn wall(&self) -> Option<(f64, Option<Worst>)> {
+        self.machine.cam.bore_reach().map(|bore| (self.base_radius() - bore, None))
+    }
+
+    fn contact_force(&self, piece: usize, angle: f64) -> Option<f64> {
+        let force = self.path_force(piece, angle)?.max(0.0);
+        Some(force / libm::cos(self.curves().contact(piece, angle).pressure_angle))
+    }
+
+    fn contact_stress(&self) -> Option<Worst> {
+        stress::of_lines(self, self.curves(), &self.machine)
+    }
+
+    fn least_closing_force(&self) -> Option<Worst> {
+        let follower = &self.machine.follower;
+        if follower.mass.is_none() && follower.preload.is_none() {
+            return None;
+        }
+        let away = |piece: usize, at: f64| self.path_force(piece, at).map_or(f64::NAN, |force| -force);
+        let least = largest(self.curves(), away);
+        Some(Worst { value: -least.value, ..least })
+    }
+
+    fn unbalanced(&self, piece: usize, angle: f64, moved: f64, normal: Vector2<f64>) -> f64 {
+        self.load.as_ref().map_or(0.0, |load| load.residual(piece, angle, moved, normal))
+    }
+
+    fn remedy(&self) -> Option<String> {
+        self.passing_base_radius().map(|base| format!("a base radius of {} mm would pass", 1e3 * base))
+    }
+
+    fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
+        let curves = self.curves();
+        let outline = outline::profile(curves, request.fit).map_err(|error| match error {
+            OutlineError::Undercut(_) => DrawError::NoOutline(error.to_string()),
+            other => DrawError::Outline(other),
+        })?;
+        let part = Part::turning(&self.machine, outline).balanced(&self.machine);
+        let cutter_path = |radius: f64| {
+            let path = outline::cutter_path(curves, radius, request.fit.tolerance)?;
+            Ok::<_, OutlineError>(Part::turning(&self.machine, path).outline)
+        };
+        Ok(Drawn { parts: vec![part], flank: None, cutter_path: request.cutter.map(cutter_path).transpose()? })
+    }
+
+    /// At 360 i/samples degrees; at a break of the motion the row belongs to the later piece.
+    fn rows(&self, samples: u32) -> Vec<Row> {
+        (0..samples).map(|i| self.row(360.0 * f64::from(i) / f64::from(samples))).collect()
+    }
+
+    fn sections(&self, found: &Found<'_>) -> Vec<Section> {
+        let part = found.drawn.and_then(|drawn| drawn.parts.first());
+        let cam = CamMeasures {
+            prime_radius_mm: Some(MILLIMETRES * self.prime_radius()),
+            base_radius_mm: Some(MILLIMETRES * self.base_radius()),
+            roller_radius_mm: self.roller_radius().map(|radius| MILLIMETRES * radius),
+            max_lift_mm: MILLIMETRES * self.max_lift(),
+            smallest_prime_radius_mm: self.smallest_prime_radius.map(|radius| MILLIMETRES * radius),
+            plate: None,
+            weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
+        };
+        let outline = part.map(|part| part.measures(found.tolerance_mm, |_| false));
+        let residual = found.rolled.map_or_else(|| self.residual_max(), |rolled| rolled.residual_max_n);
+        let mut sections = vec![cam.section()];
+        sections.extend(self.load.as_ref().map(|load| load.section()));
+        sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
+        sections.push(Section::new("rolling", &found.rolled));
+        sections.extend(self.forces(residual).map(|forces| forces.section()));
+        sections
+    }
+
+    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
+        sheet::sheet(self, drawn, report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::profile::extremes;
+
+    fn disc(name: &str, overrides: &[&str]) -> Disc {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let machine = Machine::load(name, &overrides).expect("valid").0;
+        Disc::solve(&machine, machine.press().expect("a press").design_rpm).expect("a cam")
+    }
+
+    #[test]
+    fn the_reference_cams_have_the_reference_radii() {
+        let dpi = disc("dpi", &["transition.kind=none"]);
+        let prime = dpi.smallest_prime_radius().expect("a radius");
+        assert!((prime - 0.098_98).abs() < 5e-6, "{prime}");
+        assert_eq!(dpi.base_radius(), 0.069);
+        assert!((dpi.max_lift() - 0.082_42).abs() < 5e-6);
+        let dwell = prime + dpi.max_lift();
+        assert!((dwell - 0.1814).abs() < 5e-5, "dwell at {dwell}");
+
+        // At 5 at a pitch radius of 200 mm has 71.1° without transition; 30° needs 1015 mm.
+        let paper = disc("dpi-paper", &["transition.kind=none", "cam.base_radius=170mm"]);
+        let worst = extremes::pressure_angle(paper.curves());
+        assert!((worst.value.to_degrees() - 71.1).abs() < 0.05, "{}", worst.value.to_degrees());
+        let passing = paper.smallest_prime_radius.expect("a radius");
+        assert!((passing - 1.015).abs() < 1e-3, "{passing}");
+    }
+
+    /// The solved radius is the smallest: it passes, and a hair less does not.
+    #[test]
+    fn the_solved_radius_is_the_smallest_that_passes() {
+        for overrides in [
+            vec![],
+            vec!["follower.roller.offset=15mm"],
+            vec!["follower.roller.offset=-15mm"],
+            vec!["limits.pressure_angle=60deg"],
+            vec!["limits.pressure_angle=60deg", "limits.min_convex_pitch_radius_over_roller=3"],
+            vec!["buffer.column=return", "cam.lever=0.2"],
+        ] {
+            let cam = disc("dpi", &overrides);
+            let prime = cam.smallest_prime_radius.expect("a radius");
+            let limits = cam.machine.limits;
+            let passes = |prime: f64| {
+                let follower = cam.follower.sized(prime).expect("in reach");
+                let curves = Curves { motion: &*cam.motion, follower: &*follower };
+                let convex = limits.min_convex_pitch_radius_over_roller * curves.offset();
+                extremes::pressure_angle(curves).value <= limits.pressure_angle
+                    && extremes::convex_curvature(curves).value * convex <= 1.0
+            };
+            assert!(passes(prime), "{overrides:?}");
+            assert!(!passes(prime * (1.0 - 1e-9)), "{overrides:?}");
+            assert!(passes(cam.prime_radius()), "{overrides:?}");
+        }
+    }
+
+    #[test]
+    fn a_run_up_leaves_no_residual_and_a_blend_its_own() {
+        let inertia = |disc: &Disc| disc.load.as_ref().expect("a press").largest();
+        let exact = disc("dpi", &[]);
+        assert!(exact.residual_max() < 1e-13 * inertia(&exact), "{}", exact.residual_max());
+        assert!((exact.load.as_ref().expect("a press").left_without_cam() / inertia(&exact) - 0.150).abs() < 5e-4);
+        let blend = disc("dpi", &["transition.kind=blend", "transition.width=30deg"]);
+        let share = blend.residual_max() / inertia(&blend);
+        assert!((share - 0.002_094_2).abs() < 1e-6, "{share}");
+    }
+}

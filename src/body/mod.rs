@@ -1,0 +1,273 @@
+//! Bodies: what is cut. A body is solved from a machine, tells its worst places, draws itself to a tolerance, and contributes
+//! to table, report and sheet.
+//!
+//! A new body is a folder here with `impl Body`, one line in [`KINDS`] and its command.
+
+pub mod balancing;
+pub mod conoid;
+pub mod disc;
+mod part;
+mod stress;
+pub mod wedge;
+
+pub use part::{Layer, Part};
+
+use crate::machine::Machine;
+use crate::numeric::extremum;
+use crate::profile::outline::{Fit, Outline, OutlineError};
+use crate::profile::{Curves, Worst, envelope, extremes};
+use crate::report::sheet::Sheet;
+use crate::report::{Place, Report, Rolled, Section, Speeds};
+use crate::table::Row;
+use conoid::Conoid;
+use conoid::flank::{Flank, FlankError};
+use nalgebra::Vector2;
+
+/// A kind of body.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// The command that makes it, which is also what file names and the table of keys call it.
+    pub command: &'static str,
+    /// What messages call it: "rotary cam".
+    pub noun: &'static str,
+}
+
+/// Every kind of body.
+pub const KINDS: &[&Kind] = &[&disc::ROTARY, &disc::GENERAL, &wedge::KIND, &conoid::KIND];
+
+/// What is asked of a drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// How near the outlines keep to the exact curves, and on which side.
+    pub fit: Fit,
+    /// The flank of a body whose sections differ is wanted as a surface.
+    pub flank: bool,
+    /// Radius of a cutter whose path is wanted, m.
+    pub cutter: Option<f64>,
+}
+
+impl Request {
+    /// Outlines within a tolerance (m), nothing else.
+    #[must_use]
+    pub fn within(fit: impl Into<Fit>) -> Self {
+        Self { fit: fit.into(), flank: false, cutter: None }
+    }
+}
+
+/// A body as drawn, in millimetres.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    /// What is cut, a part for each section.
+    pub parts: Vec<Part>,
+    /// The flank of a body whose sections differ, when it was asked for.
+    pub flank: Option<Flank>,
+    /// The path of a cutter, when it was asked for.
+    pub cutter_path: Option<Outline>,
+}
+
+/// Why there is no drawing.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DrawError {
+    /// The cam has no outline that could be cut; which limit it breaks, the checks tell.
+    #[error("{0}")]
+    NoOutline(String),
+    /// The outline cannot be drawn.
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
+    /// The flank cannot be drawn.
+    #[error(transparent)]
+    Flank(#[from] FlankError),
+}
+
+/// Why there is no cam.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// Of a disc.
+    #[error(transparent)]
+    Disc(#[from] disc::DiscError),
+    /// Of a plate on the bed.
+    #[error(transparent)]
+    Wedge(#[from] wedge::WedgeError),
+    /// Of a conoid.
+    #[error(transparent)]
+    Conoid(#[from] conoid::ConoidError),
+}
+
+/// What was found of a drawing, for the report.
+#[derive(Debug, Clone, Copy)]
+pub struct Found<'a> {
+    /// The drawing; `None` when there is none.
+    pub drawn: Option<&'a Drawn>,
+    /// What rolling on the written outline has shown.
+    pub rolled: Option<&'a Rolled>,
+    /// Tolerance of the outline, mm.
+    pub tolerance_mm: f64,
+}
+
+/// The flank that was drawn, if one was.
+fn flank_of<'a>(found: &Found<'a>) -> Option<&'a Flank> {
+    found.drawn?.flank.as_ref()
+}
+
+/// Cells in which the largest lift of a piece is searched: a piece has two extrema at the most.
+const LIFT_CELLS: u32 = 64;
+
+/// A solved cam: what checks, drawings, tables and reports want to know, whatever its kind.
+pub trait Body: std::fmt::Debug + Send + Sync {
+    /// Its kind.
+    fn kind(&self) -> &'static Kind;
+
+    /// The machine it is for.
+    fn machine(&self) -> &Machine;
+
+    /// For which speeds it is made.
+    fn speeds(&self) -> Speeds;
+
+    /// Motion and follower of a body whose sections are all alike.
+    fn plane(&self) -> Option<Curves<'_>>;
+
+    /// The body whose sections differ along its axis, if it is one.
+    fn spatial(&self) -> Option<&Conoid> {
+        None
+    }
+
+    /// Where a value of the motion's parameter is.
+    fn place(&self, parameter: f64) -> Place {
+        Place::at_angle(parameter)
+    }
+
+    /// Where a worst place lies along the axis, for a reader, where that tells something.
+    fn along_axis(&self, _z: f64) -> Option<String> {
+        None
+    }
+
+    /// The parameter at which a point of the drawing (m) lies.
+    fn parameter_at(&self, point: Vector2<f64>) -> f64;
+
+    /// Whether a point of the drawing (m) lies on an end of the cam, where its outline has corners.
+    fn ends_at(&self, _point: Vector2<f64>) -> bool {
+        false
+    }
+
+    /// Ways in which the follower meets the drawing: as it is, or with the drawing mirrored about X.
+    fn mirrored(&self) -> &'static [bool];
+
+    /// Straight edges of the drawing (m) that no follower touches.
+    fn edges(&self) -> Vec<[Vector2<f64>; 2]> {
+        Vec::new()
+    }
+
+    /// Largest |pressure angle|, rad.
+    fn pressure_angle(&self) -> Worst {
+        self.plane().map_or(Worst::NONE, |curves| plane(extremes::pressure_angle(curves)))
+    }
+
+    /// The sharpest convex place of what the follower draws: the curvature, 1/m, infinite at a corner.
+    fn sharpest(&self) -> Worst {
+        let Some(curves) = self.plane() else { return Worst::NONE };
+        match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
+            Some(corner) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
+            None => plane(extremes::convex_curvature(curves)),
+        }
+    }
+
+    /// Radius of the largest cutter that gets into the hollows, m; `None` where nothing is concave.
+    fn hollow(&self) -> Option<Worst> {
+        let curves = self.plane()?;
+        let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
+        // At a concave corner of the pitch curve the profile is an arc of the roller's own radius.
+        if let Some(corner) = corner {
+            return Some(Worst { value: curves.offset(), at: corner.at, z: 0.0 });
+        }
+        let smooth = extremes::concave_profile_curvature(curves);
+        (smooth.value > 0.0).then(|| Worst { value: 1.0 / smooth.value, at: smooth.at, z: 0.0 })
+    }
+
+    /// What the follower loses of its motion where the profile is undercut, a sentence each.
+    fn lost_motion(&self) -> Vec<String> {
+        let Some(curves) = self.plane() else { return Vec::new() };
+        match envelope::losses(curves) {
+            Err(error) => vec![format!("{error}, at {}", self.place(error.parameter))],
+            Ok(losses) => losses
+                .iter()
+                .map(|loss| {
+                    let [from, to, at] = [loss.from, loss.to, loss.lost_at].map(|place| self.place(place));
+                    format!("motion is lost from {from} to {to}, {:.4} mm at {at}", 1e3 * loss.lost)
+                })
+                .collect(),
+        }
+    }
+
+    /// Radius of the roller, or `None` under a flat face, m.
+    fn roller_radius(&self) -> Option<f64>;
+
+    /// Least metal behind the profile, m, where there is something behind it; the place where it can be told.
+    fn wall(&self) -> Option<(f64, Option<Worst>)>;
+
+    /// Room between two rollers that face each other, m, and where it is least; `None` where there is only one.
+    fn roller_clearance(&self) -> Option<Worst> {
+        None
+    }
+
+    /// Force between follower and cam along the normal, N; `None` where no force is known.
+    fn contact_force(&self, piece: usize, parameter: f64) -> Option<f64>;
+
+    /// Largest pressure between roller and cam after Hertz, Pa; `None` where thickness, material or forces are not told.
+    fn contact_stress(&self) -> Option<Worst>;
+
+    /// Least force that presses the follower onto the cam along its path, N; `None` when the machine file does not tell what
+    /// beside the load does.
+    fn least_closing_force(&self) -> Option<Worst>;
+
+    /// |what must be balanced − what the cam balances|, N, with the follower `moved` (m) along its path from where the motion
+    /// wants it, touching the cam where its normal (a unit vector out of the metal) is; 0 where nothing must be.
+    fn unbalanced(&self, piece: usize, parameter: f64, moved: f64, normal: Vector2<f64>) -> f64;
+
+    /// What would keep the limits of pressure angle and curvature.
+    fn remedy(&self) -> Option<String> {
+        None
+    }
+
+    /// Draws what is cut.
+    ///
+    /// # Errors
+    /// [`DrawError`] when there is no outline, or it cannot be drawn.
+    fn draw(&self, request: &Request) -> Result<Drawn, DrawError>;
+
+    /// Height of the solid, mm: from 0 to the thickness of a plane cam, the ends of a conoid; `None` when none is told.
+    fn height(&self) -> Option<(f64, f64)> {
+        self.machine().cam.thickness.map(|thickness| (0.0, crate::geometry::MILLIMETRES * thickness))
+    }
+
+    /// The rows of its point table.
+    fn rows(&self, samples: u32) -> Vec<Row>;
+
+    /// What it and its parts tell in the report.
+    fn sections(&self, found: &Found<'_>) -> Vec<Section>;
+
+    /// Its review sheet.
+    ///
+    /// # Errors
+    /// [`OutlineError`] when a curve for the eye cannot be drawn.
+    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError>;
+}
+
+/// A worst place of a plane cam.
+fn plane(found: extremum::Extremum) -> Worst {
+    Worst { value: found.value, at: found.at, z: 0.0 }
+}
+
+/// The largest value over a motion of something without a derivative at hand.
+fn largest(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Worst {
+    plane(extremes::largest_without_slope(curves, value))
+}
+
+/// Largest lift of a motion, m or rad.
+fn max_lift(curves: Curves<'_>) -> f64 {
+    let lifts = curves.motion.pieces().iter().enumerate().map(|(index, piece)| {
+        let jet = |at| curves.motion.jet(index, at);
+        extremum::largest(|at| jet(at).s, |at| jet(at).ds, (piece.start, piece.end), LIFT_CELLS).value
+    });
+    lifts.fold(0.0, f64::max)
+}

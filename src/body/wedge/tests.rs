@@ -1,0 +1,65 @@
+use super::*;
+use crate::motion::equation_18::Solver;
+
+fn plate(overrides: &[&str]) -> Wedge {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let machine = Machine::load("dpi", &overrides).expect("valid").0;
+    Wedge::solve(&machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking).expect("a plate")
+}
+
+/// The slope of the pitch curve is tan α of (21), and the pressure angle 90° − (θ − α).
+#[test]
+fn the_pitch_curve_has_the_slope_of_the_velocity_plan() {
+    for overrides in [vec![], vec!["buffer.column=return", "translating.delta=75deg", "translating.bottom_arm=200mm"]] {
+        let plate = plate(&overrides);
+        let curves = plate.curves();
+        for (piece, span) in curves.motion.pieces().iter().enumerate() {
+            for i in 0..=20 {
+                let x = span.start + (span.end - span.start) * f64::from(i) / 20.0;
+                let bottom = plate.motion.bottom(piece, x);
+                let alpha = plate.mechanism().slope_angle(bottom.s, bottom.ds);
+                let contact = curves.contact(piece, x);
+                let tangent = contact.curve.tangent;
+                assert!((libm::atan2(-tangent.y, tangent.x) - alpha).abs() < 1e-14, "{x}");
+                let theta = plate.data.delta + plate.mechanism().psi(bottom.s);
+                let pressure = std::f64::consts::FRAC_PI_2 - (theta - alpha);
+                assert!((contact.pressure_angle.abs() - pressure.abs()).abs() < 1e-14, "{x}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_plate_has_its_height() {
+    for overrides in [vec![], vec!["buffer.column=return"], vec!["transition.kind=none"]] {
+        let plate = plate(&overrides);
+        let half = |piece: usize, x: f64| -plate.curves().profile(piece, x).point.y;
+        let highest = largest(plate.curves(), half).value;
+        assert!((2.0 * highest - 0.12).abs() < 1e-12 && plate.height == 0.12, "{highest}");
+        assert!(plate.thinnest > 0.01 && plate.thinnest < 0.12, "{}", plate.thinnest);
+    }
+}
+
+/// What the law leaves on the way it balances is rounding; an exact normal and no error of lift leave the same.
+#[test]
+fn the_forces_balance_while_the_bed_is_braked() {
+    let plate = plate(&["buffer.column=return"]);
+    assert!(plate.residual_max(Way::Braking).0 < 1e-9 * plate.inertia_max());
+    assert!(plate.residual_max(Way::Return).0 > 0.01 * plate.inertia_max());
+    for i in 1..=18 {
+        let (piece, x) = plate.motion.locate(0.01 * f64::from(i));
+        let normal = plate.curves().contact(piece, x).curve.outward();
+        let left = plate.unbalanced(piece, x, 0.0, normal);
+        assert!(left < 1e-8 * plate.inertia_max(), "{x}: {left}");
+        let (bottom, slope) = (plate.motion.bottom(piece, x).s, plate.motion.bottom(piece, x).ds);
+        // (16) from its own terms: m a = 2 p F + 2 R sin(α+ρ)/cos ρ.
+        let alpha = plate.mechanism().slope_angle(bottom, slope);
+        let rho = plate.data.friction_angle;
+        let unit = plate.cylinder.unit_force();
+        let wedge = 2.0 * plate.roller_force(piece, x, Way::Braking) * libm::sin(alpha + rho) / libm::cos(rho);
+        let sides = plate.mechanism().bottom_law.loading * x * unit - (plate.mechanism().air(x, bottom) * unit + wedge);
+        if slope != 0.0 {
+            assert!(sides.abs() < 1e-9 * plate.inertia_max(), "{x}: {sides}");
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
+
+use super::args::{CommonArgs, ConoidArgs, FileArgs, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs};
+use super::{Failure, Outcome, print, tell, text};
+use camgen::body::Request;
+use camgen::body::wedge::LAW_TOLERANCE;
+use camgen::machine::Machine;
+use camgen::motion::equation_18::Solver;
+use camgen::pipeline::{Cam, Spec, Writing};
+use camgen::profile::outline::{Fit, Side};
+use camgen::report::{Report, Speeds};
+use camgen::write::json;
+use camgen::write::number::shortest;
+use camgen::write::svg;
+
+/// Stations of the paper's solver when none are asked for: its error is then a hundredth of a millimetre.
+const STATIONS: u32 = 1800;
+/// More speeds than these are named by the first and the last.
+const MOST_NAMED: usize = 6;
+
+pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
+    let (mut machine, name) = args.common.machine()?;
+    let rpm = args.common.one_speed(&machine)?;
+    if let Some(radius) = args.cutter {
+        // The cutter that is asked for is the one that has to get in.
+        machine.ask_for_cutter(radius);
+    }
+    let request = Request { cutter: args.cutter, ..args.files.request(&args.common) };
+    make(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
+}
+
+pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = args.common.machine()?;
+    let rpm = args.common.one_speed(&machine)?;
+    let solver = match (args.solver, args.stations) {
+        (SolverKind::Paper, stations) => Solver::Paper { stations: stations.unwrap_or(STATIONS) },
+        (SolverKind::Ode, None) => Solver::Ode { tolerance: LAW_TOLERANCE },
+        (SolverKind::Ode, Some(_)) => {
+            return Err(Failure("--stations belongs to --solver paper; the solver ode chooses its own steps".into()));
+        }
+    };
+    let spec = Spec::translating(machine, rpm, solver, args.balance.exact_on());
+    make(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+}
+
+pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = args.common.machine()?;
+    let spec = conoid_spec(args, machine)?;
+    make(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+}
+
+fn conoid_spec(args: &ConoidArgs, machine: Machine) -> Result<Spec, Failure> {
+    if let [Speed::Range(from, to)] = args.common.rpm.as_slice() {
+        let Some(limit) = args.residual else {
+            let why = "a range of speeds needs --residual, the force that may be left between the sections, e.g. 2N";
+            return Err(Failure(why.into()));
+        };
+        return Ok(Spec::conoid_within(machine, (*from, *to), limit));
+    }
+    let one = |speed: &Speed| match speed {
+        Speed::One(rpm) => Ok(*rpm),
+        Speed::Range(..) => Err(Failure("give one range A..B, or a list of speeds".into())),
+    };
+    let mut speeds: Vec<f64> = args.common.rpm.iter().map(one).collect::<Result<_, _>>()?;
+    if speeds.is_empty() {
+        speeds.push(machine.press().map_err(Failure::new)?.design_rpm);
+    }
+    Ok(Spec::conoid(machine, speeds, args.residual))
+}
+
+impl FileArgs {
+    fn request(&self, common: &CommonArgs) -> Request {
+        let side = match self.side {
+            SideOf::Both => Side::Both,
+            SideOf::Inside => Side::Inside,
+            SideOf::Outside => Side::Outside,
+        };
+        Request::within(Fit { tolerance: common.tolerance(), side })
+    }
+
+    fn template(&self) -> Result<String, Failure> {
+        match &self.template {
+            None => Ok(svg::TEMPLATE.to_owned()),
+            Some(path) => std::fs::read_to_string(path)
+                .map_err(|error| Failure(format!("cannot read the template `{}`: {error}", path.display()))),
+        }
+    }
+}
+
+/// What the names of the files begin with.
+fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String {
+    let command = cam.body().kind().command;
+    let speeds = match cam.body().speeds() {
+        Speeds::Any(()) => return files.name.clone().unwrap_or_else(|| format!("{machine}-{command}")),
+        Speeds::One(rpm) => shortest(rpm),
+        Speeds::Several(speeds) => {
+            let names: Vec<String> = speeds.iter().map(|rpm| shortest(*rpm)).collect();
+            match (args.rpm.as_slice(), names.as_slice()) {
+                ([Speed::Range(from, to)], _) => format!("{}-{}", shortest(*from), shortest(*to)),
+                (_, [first, .., last]) if names.len() > MOST_NAMED => format!("{first}-{last}"),
+                _ => names.join("-"),
+            }
+        }
+    };
+    files.name.clone().unwrap_or_else(|| format!("{machine}-{command}-{speeds}rpm"))
+}
+
+/// Solves, draws, proves, writes and reports.
+fn make(
+    spec: Spec,
+    request: Request,
+    common: &CommonArgs,
+    files: &FileArgs,
+    machine: &str,
+) -> Result<Outcome, Failure> {
+    let template = files.template()?;
+    let cam = spec.solve().map_err(Failure::new)?;
+    let writing = Writing {
+        directory: files.out.clone(),
+        stem: stem(common, files, &cam, machine),
+        formats: files.format.clone(),
+        samples: files.samples,
+        template,
+        force: files.force,
+    };
+    let (formats, left_out) = writing.chosen(cam.body()).map_err(Failure::new)?;
+    // The flank of a three-dimensional cam is drawn, and proved, only for a format that shows it.
+    let request = Request { flank: formats.iter().any(|format| format.flank), ..request };
+    let proven = cam.draw(request).and_then(|drawing| drawing.prove_as(files.dxf_version)).map_err(Failure::new)?;
+    let report = if let Some(why) = proven.no_outline() {
+        tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
+        proven.report()
+    } else if proven.passed() || files.force {
+        for (format, why) in left_out {
+            tell(&format!("no {} file: {why}", format.to_uppercase()));
+        }
+        proven.files(&writing).and_then(camgen::pipeline::FileSet::commit).map_err(Failure::new)?
+    } else {
+        tell("refused: a check failed, nothing was written (--force writes all the same)");
+        proven.report()
+    };
+    show(&report, common)?;
+    Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
+}
+
+/// Prints a report as it was asked for.
+pub(super) fn show(report: &Report, common: &CommonArgs) -> Result<(), Failure> {
+    if common.json {
+        let bytes = json::write(report).map_err(Failure::new)?;
+        print(&String::from_utf8_lossy(&bytes))
+    } else if common.quiet {
+        Ok(())
+    } else {
+        print(&text::report(report, common.colour()))
+    }
+}

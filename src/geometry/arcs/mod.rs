@@ -1,0 +1,364 @@
+//! A smooth curve as a chain of tangent arcs, within a tolerance, with few arcs.
+//!
+//! # The limit
+//!
+//! Along an arc the deviation e(s) from the curve obeys e'' = κ_arc − κ(s), so a chain of tangent arcs is, to first
+//! order, a C¹ spline of second degree with free knots, and e''' = −κ' on each arc. Where κ' is constant the best such
+//! chain repeats itself: e = −κ'/6 · s (s − h/2)(s − h) on each arc of length h, two equal lobes of κ'h³/(72√3). The
+//! joints lie on the curve, the heading there is off the curve's tangent by η* = −κ'h²/12. With K = 72√3 an arc may be
+//! h = (K tol/|κ'|)^(1/3) long, so that the count is
+//!
+//! ```text
+//! N* = I₃/(K tol)^(1/3),   I₃ = ∫ |dκ/ds|^(1/3) ds,   η*(s) = −sign(κ') (K tol)^(2/3) |κ'|^(1/3)/12
+//! ```
+//!
+//! # The way
+//!
+//! The curve is sampled once, at nodes of equal share of I₃ (`nodes`). The number of arcs and the places of their joints
+//! are known to first order, the arcs at an exact tangent and those over an extremum of the curvature too (`spacing`).
+//! From there joints and headings are moved together until no node is off by more than the tolerance (`trial`, `minimax`);
+//! where that cannot be, one more arc is tried. Tangency is a condition of the same system, and is met to rounding in the end.
+//!
+//! Nodes lie dense enough that the lobes are seen to a percent. The finished chain is checked anew between them, and laid
+//! again with the places where it does not hold as further nodes.
+
+mod minimax;
+mod nodes;
+mod spacing;
+mod trial;
+
+use crate::geometry::CurvePoint;
+use crate::geometry::contour::Segment;
+use crate::numeric::extremum::larger;
+use nalgebra::Vector2;
+use nodes::{Arc, Node, sample};
+use spacing::Spacing;
+
+/// Share of the tolerance that the lobes may take as seen at the nodes; the rest is what is not seen there.
+const SEEN: f64 = 0.992;
+/// Points per arc at which the finished chain is checked.
+const CHECKS_PER_ARC: u32 = 64;
+/// Further nodes beyond which less is taken as well.
+const MANY: usize = 200;
+/// Share of the tolerance that may lie unseen between two of them, twice what a lobe leaves, and how often a stretch is
+/// halved for it at the most.
+const UNSEEN: f64 = 0.004;
+const HALVINGS: u32 = 12;
+/// Times a chain is laid again when the check between the nodes finds more than the tolerance.
+const TRIES: u32 = 12;
+/// Arcs that are tried at the most, against the first number: far beyond any that was ever needed.
+const MOST_TIMES: u32 = 4;
+const MOST_MORE: u32 = 60;
+/// One arc in so many does not matter: a fifth of a percent.
+const FEW: u32 = 500;
+/// A piece of a smaller share may be a circle, told by its headings; one with a feature between them has more.
+const CIRCLE: f64 = 0.1;
+/// Headings closer than this are one, rad: a circle is seen as a circle with rounding.
+const SAME_HEADING: f64 = 1e-10;
+
+/// One joint of a chain: the arc that leaves it turns by 4 atan(bulge).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Place.
+    pub point: Vector2<f64>,
+    /// Parameter of the curve there.
+    pub parameter: f64,
+    /// tan(sweep/4) of the arc to the next joint.
+    pub bulge: f64,
+}
+
+/// A fitted piece.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// Start of every arc; the last ends where the piece ends.
+    pub joints: Vec<Joint>,
+    /// Largest distance between chain and curve, checked between the nodes, with a bound for what lies between.
+    pub deviation: f64,
+    /// Best possible number of arcs N*; 0 for a circle.
+    pub best_possible: f64,
+}
+
+/// Why a piece cannot be fitted.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// The curve is not finite or turns back.
+    #[error("the curve is not smooth near parameter {parameter}")]
+    NotSmooth {
+        /// Where.
+        parameter: f64,
+    },
+    /// The tolerance asks for more arcs than a drawing can hold, or lies in the rounding of the coordinates.
+    #[error("a tolerance of {tolerance} cannot be kept")]
+    ToleranceTooFine {
+        /// The tolerance, in the unit of the curve.
+        tolerance: f64,
+    },
+}
+
+/// Fits the piece of `curve` over `range`, growing parameters, which need not be short but must not close on itself. The
+/// tolerance is in the unit of the curve.
+///
+/// # Errors
+/// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
+pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Result<Chain, FitError> {
+    let (start, end) = (curve(range.0), curve(range.1));
+    let size = start.point.norm().max(end.point.norm());
+    if !(tolerance > 64.0 * f64::EPSILON * size) {
+        return Err(FitError::ToleranceTooFine { tolerance });
+    }
+    let mut seen = SEEN * tolerance;
+    let mut missed = Vec::new();
+    for _ in 0..TRIES {
+        let (mut nodes, best_possible) = sample(&curve, range, tolerance, seen)?;
+        if best_possible < CIRCLE
+            && let Some(chain) = one_arc(&curve, range, tolerance)
+        {
+            return Ok(chain);
+        }
+        nodes::insert(&mut nodes, &curve, &missed, seen);
+        let Some(joints) = fewest(&curve, &nodes, seen) else {
+            return Err(FitError::ToleranceTooFine { tolerance });
+        };
+        let (deviation, mut beyond) = check(&curve, &joints, (range.1, end.point), tolerance);
+        if deviation <= tolerance {
+            return Ok(Chain { joints, deviation, best_possible });
+        }
+        if beyond.is_empty() || missed.len() > MANY {
+            seen *= (tolerance / deviation).clamp(0.5, 0.995);
+        }
+        missed.append(&mut beyond);
+    }
+    Err(FitError::ToleranceTooFine { tolerance })
+}
+
+/// The first chain that the minimax finds, from the least number of arcs that may do.
+fn fewest(curve: &impl Fn(f64) -> CurvePoint, nodes: &[Node], seen: f64) -> Option<Vec<Joint>> {
+    let mut spacing = Spacing::new(nodes);
+    let first = spacing.arcs();
+    while spacing.arcs() <= MOST_TIMES * first + MOST_MORE {
+        if let Some(joints) = minimax::relax(curve, nodes, seen, spacing.places(nodes)) {
+            return Some(joints);
+        }
+        // One by one where a chain must be near, faster where one among thousands does not matter or the curve is not what
+        // the spacing expects.
+        for _ in 0..=spacing.arcs() / FEW + (spacing.arcs() - first) / 4 {
+            spacing.add_arc();
+        }
+    }
+    None
+}
+
+/// The piece as one arc, when it is a circle to rounding.
+fn one_arc(curve: &impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Option<Chain> {
+    let (start, end) = (curve(range.0), curve(range.1));
+    let (arc, heading) = Arc::to(start.point, start.tangent, end.point)?;
+    if (heading - end.tangent).norm() > SAME_HEADING {
+        return None;
+    }
+    let joints = vec![Joint { point: start.point, parameter: range.0, bulge: arc.bulge }];
+    let (deviation, _) = check(curve, &joints, (range.1, end.point), tolerance);
+    (deviation <= tolerance).then_some(Chain { joints, deviation, best_possible: 0.0 })
+}
+
+/// Largest distance between the chain and the curve, and the parameters where it exceeds the tolerance.
+///
+/// Each arc, as its two points and its bulge give it, is compared with its stretch of the curve at
+/// [`CHECKS_PER_ARC`] + 1 points. Between two of them the distance cannot exceed the larger by more than
+/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points. Where that is not small against the
+/// tolerance the stretch is halved. A NaN anywhere is the result.
+fn check(
+    curve: &impl Fn(f64) -> CurvePoint,
+    joints: &[Joint],
+    end: (f64, Vector2<f64>),
+    tolerance: f64,
+) -> (f64, Vec<f64>) {
+    let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
+    let (mut worst, mut beyond) = (0.0, Vec::new());
+    for (joint, (parameter, point)) in joints.iter().zip(ends) {
+        let segment = Segment { start: joint.point, end: point, bulge: joint.bulge };
+        let curvature = if joint.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
+        let arc = Arc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge };
+        let mut at = |place: f64| {
+            let frame = curve(place);
+            let distance = arc.distance(frame.point).abs();
+            if distance > tolerance {
+                beyond.push(place);
+            }
+            Checked { place, distance, bend: frame.speed * frame.speed / 8.0 * (curvature - frame.curvature).abs() }
+        };
+        let step = (parameter - joint.parameter) / f64::from(CHECKS_PER_ARC);
+        let mut before = at(joint.parameter);
+        for check in 1..=CHECKS_PER_ARC {
+            let after = at(joint.parameter + step * f64::from(check));
+            worst = larger(worst, between(&mut at, before, after, tolerance, HALVINGS));
+            before = after;
+        }
+    }
+    (worst, beyond)
+}
+
+/// A point of the curve that was compared with an arc.
+#[derive(Clone, Copy)]
+struct Checked {
+    place: f64,
+    distance: f64,
+    /// |κ_arc − κ| ℓ²/8: times the square of a step of the parameter it bounds what is not seen.
+    bend: f64,
+}
+
+/// Largest distance between two points, with the bound for what lies between.
+fn between(at: &mut impl FnMut(f64) -> Checked, a: Checked, b: Checked, tolerance: f64, halvings: u32) -> f64 {
+    let step = b.place - a.place;
+    let unseen = step * step * larger(a.bend, b.bend);
+    let seen = larger(a.distance, b.distance);
+    // What is beyond the tolerance already need not be known closer.
+    if unseen <= UNSEEN * tolerance || seen > tolerance || halvings == 0 {
+        return seen + unseen;
+    }
+    let middle = at(a.place + 0.5 * step);
+    larger(between(at, a, middle, tolerance, halvings - 1), between(at, middle, b, tolerance, halvings - 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    /// An ellipse by its parameter: κ' changes sign at the ends of the axes.
+    fn ellipse(a: f64, b: f64) -> impl Fn(f64) -> CurvePoint {
+        move |t| {
+            let (sin, cos) = (libm::sin(t), libm::cos(t));
+            CurvePoint::from_derivatives(
+                Vector2::new(a * cos, b * sin),
+                Vector2::new(-a * sin, b * cos),
+                Vector2::new(-a * cos, -b * sin),
+                Vector2::new(a * sin, -b * cos),
+            )
+        }
+    }
+
+    fn contour(chain: &Chain, end: Vector2<f64>) -> Vec<Segment> {
+        let ends = chain.joints.iter().skip(1).map(|joint| joint.point).chain([end]);
+        chain.joints.iter().zip(ends).map(|(j, end)| Segment { start: j.point, end, bulge: j.bulge }).collect()
+    }
+
+    /// N* of a quarter ellipse against its integral by an independent rule, and the count against N*, over six
+    /// decades of the tolerance. An exact tangent at either end costs a third of an arc each.
+    #[test]
+    fn the_count_stays_near_the_limit() {
+        let curve = ellipse(60.0, 40.0);
+        for decade in -6..=-1 {
+            let tolerance = libm::pow(10.0, f64::from(decade));
+            for range in [(0.0, FRAC_PI_2), (0.3, 2.0), (0.0, PI)] {
+                let chain = fit(&curve, range, tolerance).expect("a chain");
+                let integral = crate::numeric::quadrature::integrate(
+                    |t| {
+                        let frame = curve(t);
+                        libm::cbrt(frame.curvature_slope.abs()) * frame.speed
+                    },
+                    range,
+                    2000,
+                );
+                let limit = integral / libm::cbrt(72.0 * 3.0_f64.sqrt() * tolerance);
+                assert!((chain.best_possible / limit - 1.0).abs() < 2e-3, "{} {limit}", chain.best_possible);
+                #[expect(clippy::cast_precision_loss, reason = "small")]
+                let count = chain.joints.len() as f64;
+                assert!(count <= limit.ceil() + 2.0, "{tolerance:e} {range:?}: {count} arcs, N* {limit:.2}");
+                assert!(chain.deviation <= tolerance);
+            }
+        }
+    }
+
+    #[test]
+    fn the_chain_is_tangent_and_keeps_the_ends() {
+        let curve = ellipse(60.0, 40.0);
+        let range = (0.2, 2.9);
+        let chain = fit(&curve, range, 1e-4).expect("a chain");
+        let (start, end) = (curve(range.0), curve(range.1));
+        let segments = contour(&chain, end.point);
+        assert_eq!(segments[0].start, start.point);
+        for pair in segments.windows(2) {
+            assert!((pair[0].end_tangent() - pair[1].start_tangent()).norm() < 1e-12);
+        }
+        assert!((segments[0].start_tangent() - start.tangent).norm() < 1e-12);
+        assert!((segments[segments.len() - 1].end_tangent() - end.tangent).norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_circle_is_one_arc_and_a_line_one_line() {
+        let circle = fit(ellipse(50.0, 50.0), (0.0, PI), 1e-6).expect("a chain");
+        assert_eq!(circle.joints.len(), 1);
+        assert!((circle.joints[0].bulge - 1.0).abs() < 1e-14 && circle.deviation < 1e-13);
+        let line = |t: f64| {
+            let zero = Vector2::zeros();
+            CurvePoint::from_derivatives(Vector2::new(t, 0.5 * t), Vector2::new(1.0, 0.5), zero, zero)
+        };
+        let line = fit(line, (0.0, 9.0), 1e-6).expect("a chain");
+        assert_eq!(line.joints.len(), 1);
+        assert!(line.joints[0].bulge.abs() < 1e-16);
+    }
+
+    /// A long circle has no share at all, a sharp tip hardly one; a chain must not turn by a half circle in one arc.
+    #[test]
+    fn long_circles_and_sharp_tips_are_fitted() {
+        let circle = fit(ellipse(50.0, 50.0), (0.0, 4.0), 1e-6).expect("a chain");
+        assert!(circle.joints.len() <= 6 && circle.deviation < 1e-12, "{circle:?}");
+        let thin = fit(ellipse(60.0, 2.0), (-1.4, 1.4), 1e-4).expect("a chain");
+        #[expect(clippy::cast_precision_loss, reason = "small")]
+        let count = thin.joints.len() as f64;
+        assert!(count <= thin.best_possible.ceil() + 2.0, "{count} arcs, N* {}", thin.best_possible);
+    }
+
+    /// A bump of ten tolerances on a circle, no wider than a hundredth of it, which a chain must not step over.
+    #[test]
+    fn a_narrow_feature_is_seen() {
+        for place in [0.4, 1.0, 1.237] {
+            let bumped = |t: f64| {
+                let (width, height) = (1e-2, 1e-6);
+                let u = (t - place) / width;
+                let g = height * libm::exp(-u * u);
+                let (g1, g2) = (-2.0 * u * g / width, (4.0 * u * u - 2.0) * g / (width * width));
+                let g3 = (12.0 * u - 8.0 * u * u * u) * g / (width * width * width);
+                let (sin, cos) = (libm::sin(t), libm::cos(t));
+                let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
+                let r = 50.0 + g;
+                CurvePoint::from_derivatives(
+                    along * r,
+                    along * g1 + across * r,
+                    along * (g2 - r) + across * (2.0 * g1),
+                    along * (g3 - 3.0 * g1) + across * (3.0 * g2 - r),
+                )
+            };
+            let chain = fit(bumped, (0.0, 2.0), 1e-7).expect("a chain");
+            let ends = chain.joints.iter().skip(1).map(|joint| (joint.parameter, joint.point));
+            let ends: Vec<_> = ends.chain([(2.0, bumped(2.0).point)]).collect();
+            for (joint, (end, point)) in chain.joints.iter().zip(ends) {
+                let segment = Segment { start: joint.point, end: point, bulge: joint.bulge };
+                for part in 0..=400 {
+                    let exact = bumped(joint.parameter + (end - joint.parameter) * f64::from(part) / 400.0).point;
+                    let off = ((exact - segment.centre()).norm() - segment.radius().abs()).abs();
+                    assert!(off <= 1.01e-7, "{place}: {off:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_unknown_is_a_chain() {
+        let broken = |t: f64| {
+            let frame = ellipse(50.0, 50.0)(t);
+            let point = if (1.0..1.1).contains(&t) { Vector2::new(f64::NAN, 0.0) } else { frame.point };
+            CurvePoint { point, ..frame }
+        };
+        assert!(fit(broken, (0.0, 3.0), 1e-3).is_err());
+    }
+
+    #[test]
+    fn what_cannot_be_fitted_is_told() {
+        let curve = ellipse(60.0, 40.0);
+        assert!(matches!(fit(&curve, (0.0, 1.0), 1e-14), Err(FitError::ToleranceTooFine { .. })));
+        assert!(matches!(fit(&curve, (0.0, 1.0), f64::NAN), Err(FitError::ToleranceTooFine { .. })));
+        let folded = |t: f64| curve(t).offset_inward(35.0);
+        assert!(matches!(fit(folded, (-0.5, 1.5), 1e-3), Err(FitError::NotSmooth { .. })));
+    }
+}

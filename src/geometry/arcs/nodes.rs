@@ -1,0 +1,191 @@
+//! A piece of curve sampled at nodes of equal share of I₃, and the arcs that are held against them.
+
+use super::{FitError, SAME_HEADING};
+use crate::geometry::CurvePoint;
+use nalgebra::{Vector2, Vector4};
+
+/// Nodes per best possible arc: they see the lobes to 0.9 %.
+const NODES_PER_ARC: f64 = 24.0;
+/// Nodes a piece has at the least, so that a short piece or a nearly circular one is seen at all.
+const LEAST_NODES: f64 = 96.0;
+/// Cells in which I₃ is summed up first; the integrand has cusps where κ' changes sign, seen to 1e-3 of I₃ with 256.
+const SHARE_CELLS: u32 = 256;
+/// Difference of the two sums of I₃ at which the cells are narrow enough, and how often they are made anew.
+const AGREEMENT: f64 = 0.01;
+const MOST_ROUNDS: u32 = 5;
+/// Share of the nodes that is spread evenly over the piece, so that stretches of constant curvature are not empty.
+const EVEN_SHARE: f64 = 0.05;
+/// Largest number of nodes: a curve whose κ' does not belong to it asks for millions of arcs.
+const MOST_NODES: f64 = 4e6;
+/// K = 72√3 of the best tangent-continuous chain.
+const CHAIN: f64 = 124.707_658_144_958_9;
+
+/// A place where the curve was sampled.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node {
+    pub(super) point: Vector2<f64>,
+    pub(super) tangent: Vector2<f64>,
+    pub(super) parameter: f64,
+    /// I₃ up to here over (K tol)^(1/3): position in best possible arcs.
+    pub(super) share: f64,
+    /// The heading of the best chain against the tangent, rad.
+    pub(super) best_heading: f64,
+}
+
+impl Node {
+    fn new(frame: &CurvePoint, parameter: f64, share: f64, seen: f64) -> Self {
+        let size = libm::cbrt(CHAIN * seen);
+        let best_heading = -libm::cbrt(frame.curvature_slope) * size * size / 12.0;
+        Self { point: frame.point, tangent: frame.tangent, parameter, share, best_heading }
+    }
+}
+
+/// An arc that leaves a point with a heading.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arc {
+    pub(super) start: Vector2<f64>,
+    pub(super) heading: Vector2<f64>,
+    pub(super) curvature: f64,
+    pub(super) bulge: f64,
+}
+
+impl Arc {
+    /// The arc to a point and the heading there, the reflection at the chord; `None` past a half circle.
+    pub(super) fn to(start: Vector2<f64>, heading: Vector2<f64>, end: Vector2<f64>) -> Option<(Self, Vector2<f64>)> {
+        let chord = end - start;
+        let length = chord.norm();
+        let direction = chord / length;
+        let (sine, cosine) = (heading.perp(&direction), heading.dot(&direction));
+        // Written so that a NaN is refused too.
+        if !(cosine > -SAME_HEADING) {
+            return None;
+        }
+        let arc = Self { start, heading, curvature: 2.0 * sine / length, bulge: sine / (1.0 + cosine) };
+        Some((arc, direction * (2.0 * cosine) - heading))
+    }
+
+    /// Signed distance of a point from the circle of the arc, for points near it.
+    pub(super) fn distance(&self, point: Vector2<f64>) -> f64 {
+        self.seen_from(point).1
+    }
+
+    /// 1, a, b, a² + b² of a point, a and b its coordinates along and across the heading, and its signed distance.
+    ///
+    /// The distance is g/(1 + √(1 − κ g)), g = 2 b − κ (a² + b²): no cancellation of large radii, and a straight line is
+    /// no special case. Near the circle it changes by g/2, which is linear in the four.
+    pub(super) fn seen_from(&self, point: Vector2<f64>) -> (Vector4<f64>, f64) {
+        let d = point - self.start;
+        let (along, across, square) = (self.heading.dot(&d), self.heading.perp(&d), d.norm_squared());
+        let g = 2.0 * across - self.curvature * square;
+        let distance = g / (1.0 + (1.0 - self.curvature * g).max(0.0).sqrt());
+        (Vector4::new(1.0, along, across, square), distance)
+    }
+}
+
+/// Samples the curve at nodes of equal share, so many to an arc within `seen`, and returns N* for the whole tolerance.
+///
+/// I₃ is summed up in cells, and again along the nodes; where the two do not agree a feature is narrower than the cells,
+/// and the nodes, which lie closer there, are the next cells.
+pub(super) fn sample(
+    curve: &impl Fn(f64) -> CurvePoint,
+    range: (f64, f64),
+    tolerance: f64,
+    seen: f64,
+) -> Result<(Vec<Node>, f64), FitError> {
+    let step = (range.1 - range.0) / f64::from(SHARE_CELLS);
+    let inner = (1..SHARE_CELLS).map(|cell| range.0 + step * f64::from(cell));
+    let mut bounds: Vec<f64> = std::iter::once(range.0).chain(inner).chain([range.1]).collect();
+    let mut round = 0;
+    loop {
+        let mesh = Mesh::new(curve, &bounds)?;
+        let nodes = mesh.nodes(curve, seen).ok_or(FitError::ToleranceTooFine { tolerance })?;
+        let pairs = nodes.iter().zip(nodes.iter().skip(1));
+        let along: f64 =
+            pairs.map(|(a, b)| 6.0 * (a.best_heading.abs() + b.best_heading.abs()) * (b.point - a.point).norm()).sum();
+        round += 1;
+        let size = libm::cbrt(CHAIN * seen);
+        if round == MOST_ROUNDS || (along / (size * size) - mesh.total).abs() <= AGREEMENT * mesh.total {
+            return Ok((nodes, mesh.total / libm::cbrt(CHAIN * tolerance)));
+        }
+        bounds = nodes.iter().map(|node| node.parameter).collect();
+    }
+}
+
+/// Adds nodes at more places, with their shares in between.
+pub(super) fn insert(nodes: &mut Vec<Node>, curve: &impl Fn(f64) -> CurvePoint, parameters: &[f64], seen: f64) {
+    for &parameter in parameters {
+        let next = nodes.partition_point(|node| node.parameter < parameter);
+        let (Some(before), Some(after)) = (next.checked_sub(1).and_then(|at| nodes.get(at)), nodes.get(next)) else {
+            continue;
+        };
+        if after.parameter == parameter {
+            continue;
+        }
+        let part = (parameter - before.parameter) / (after.parameter - before.parameter);
+        let share = before.share + part * (after.share - before.share);
+        let node = Node::new(&curve(parameter), parameter, share, seen);
+        nodes.insert(next, node);
+    }
+}
+
+/// I₃ along the piece.
+struct Mesh {
+    /// Ends of the cells: parameter and I₃ up to there.
+    bounds: Vec<(f64, f64)>,
+    total: f64,
+}
+
+impl Mesh {
+    fn new(curve: &impl Fn(f64) -> CurvePoint, parameters: &[f64]) -> Result<Self, FitError> {
+        let mut total = 0.0;
+        let mut bounds: Vec<(f64, f64)> = parameters.iter().take(1).map(|start| (*start, 0.0)).collect();
+        for (start, end) in parameters.iter().zip(parameters.iter().skip(1)) {
+            let parameter = 0.5 * (start + end);
+            let frame = curve(parameter);
+            let share = libm::cbrt(frame.curvature_slope.abs()) * frame.speed * (end - start);
+            // Written so that a NaN is refused too.
+            if !(frame.speed > 0.0 && share.is_finite() && frame.point.iter().all(|at| at.is_finite())) {
+                return Err(FitError::NotSmooth { parameter });
+            }
+            total += share;
+            bounds.push((*end, total));
+        }
+        Ok(Self { bounds, total })
+    }
+
+    /// Nodes of equal share, with a little spread evenly; `None` when they are too many.
+    fn nodes(&self, curve: &impl Fn(f64) -> CurvePoint, seen: f64) -> Option<Vec<Node>> {
+        let size = libm::cbrt(CHAIN * seen);
+        let count = (NODES_PER_ARC * self.total / size).ceil() + LEAST_NODES;
+        if count > MOST_NODES {
+            return None;
+        }
+        let ((first, _), (last, _)) = (self.bounds.first()?, self.bounds.last()?);
+        let even = if self.total > 0.0 { EVEN_SHARE } else { 1.0 };
+        let position = |(parameter, share): &(f64, f64)| {
+            (1.0 - even) * share / self.total.max(f64::MIN_POSITIVE) + even * (parameter - first) / (last - first)
+        };
+        let mut nodes = Vec::new();
+        let mut cells = self.bounds.as_slice();
+        let mut index = 0.0;
+        while index <= count {
+            let wanted = index / count;
+            while let [_, rest @ ..] = cells
+                && let [end, _, ..] = rest
+                && position(end) < wanted
+            {
+                cells = rest;
+            }
+            let [low, high, ..] = cells else { return None };
+            let within = ((wanted - position(low)) / (position(high) - position(low))).clamp(0.0, 1.0);
+            let between = |a: f64, b: f64| a + within * (b - a);
+            let parameter = if index == count { *last } else { between(low.0, high.0) };
+            let frame = curve(parameter);
+            // A circle has no I₃; its nodes count as one arc.
+            let share = if self.total > 0.0 { between(low.1, high.1) / size } else { wanted };
+            nodes.push(Node::new(&frame, parameter, share, seen));
+            index += 1.0;
+        }
+        Some(nodes)
+    }
+}

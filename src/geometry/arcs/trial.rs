@@ -1,0 +1,303 @@
+//! A chain of arcs by the places of its joints, with derivatives.
+//!
+//! A joint is free in three ways: along the curve, across it, and in its heading. An arc is given by both of its points and
+//! the heading at its start; the chain is tangent when its other heading has the same angle with the chord.
+
+use super::Joint;
+use super::nodes::{Arc, Node};
+use crate::geometry::CurvePoint;
+use crate::numeric::banded::Banded;
+use crate::numeric::extremum::larger;
+use nalgebra::{Vector2, Vector4};
+
+/// Newton steps that close a chain to rounding: each squares what is open.
+const CLOSING_STEPS: u32 = 4;
+/// A chain is closed when no heading is off by more, rad: half of what the joints are promised.
+const CLOSED: f64 = 5e-10;
+/// Roundings of a coordinate that a heading may be off by beside that.
+const ROUNDINGS: f64 = 4.0;
+/// No further step is of use here, rad.
+const ROUNDING: f64 = 1e-13;
+
+/// A joint by its place along the curve, its offset to the left and the tangent of its heading against the curve's.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) parameter: f64,
+    pub(super) offset: f64,
+    pub(super) slope: f64,
+}
+
+impl Place {
+    /// On the curve, with its heading.
+    pub(super) fn at(node: &Node) -> Self {
+        Self { parameter: node.parameter, offset: 0.0, slope: 0.0 }
+    }
+}
+
+/// A joint in the plane.
+#[derive(Debug)]
+struct Stand {
+    place: Place,
+    frame: CurvePoint,
+    point: Vector2<f64>,
+    heading: Vector2<f64>,
+    /// Half the sum of the chords beside it, the length its freedoms are measured by.
+    length: f64,
+}
+
+impl Stand {
+    fn new(curve: &impl Fn(f64) -> CurvePoint, place: Place) -> Self {
+        let frame = curve(place.parameter);
+        let left = -frame.outward();
+        let heading = (frame.tangent + left * place.slope).normalize();
+        Self { place, frame, point: frame.point + left * place.offset, heading, length: 0.0 }
+    }
+
+    /// Change of the point and of the angle of the heading with the three freedoms: along the curve by the length, across
+    /// it by the tolerance, in heading by the tolerance over the length.
+    fn freedoms(&self, tolerance: f64) -> [(Vector2<f64>, f64); 3] {
+        let shrunk = 1.0 - self.frame.curvature * self.place.offset;
+        let turn = tolerance / self.length / (1.0 + self.place.slope * self.place.slope);
+        [
+            (self.frame.tangent * (self.length * shrunk), self.frame.curvature * self.length),
+            (-self.frame.outward() * tolerance, 0.0),
+            (Vector2::zeros(), turn),
+        ]
+    }
+
+    /// The place after a step of the freedoms.
+    fn moved(&self, step: &[f64], share: f64, tolerance: f64) -> Place {
+        let Place { parameter, offset, slope } = self.place;
+        match step {
+            [along, across, turn, ..] => Place {
+                parameter: parameter + share * along * self.length / self.frame.speed,
+                offset: offset + share * across * tolerance,
+                slope: slope + share * turn * tolerance / self.length,
+            },
+            _ => self.place,
+        }
+    }
+}
+
+/// An arc of the chain with its derivatives by the six freedoms of its two joints.
+#[derive(Debug)]
+pub(super) struct Link {
+    pub(super) arc: Arc,
+    chord: f64,
+    /// Half the difference of the angles of headings and chord, in tolerances over the chord, and its derivatives, both to
+    /// first order in what is open.
+    pub(super) open: f64,
+    pub(super) open_by: [f64; 6],
+    /// Derivatives of the deviation, in tolerances, as factors of 1, a, b, a² + b², see [`Arc::seen_from`].
+    pub(super) off_by: [Vector4<f64>; 6],
+}
+
+impl Link {
+    fn new(start: &Stand, end: &Stand, tolerance: f64) -> Option<Self> {
+        let v = end.point - start.point;
+        let (square, chord) = (v.norm_squared(), v.norm());
+        let (arc, _) = Arc::to(start.point, start.heading, end.point)?;
+        let Arc { heading, curvature, bulge, .. } = arc;
+        let unit = chord / tolerance;
+        let arrival = v.perp(&end.heading) / (chord + v.dot(&end.heading));
+        let open = unit * (arrival - bulge) / (1.0 + arrival * bulge);
+        // Of κ = 2 h × v/v².
+        let bend = |dv: Vector2<f64>, turn: f64| {
+            2.0 * (heading.perp(&dv) - heading.dot(&v) * turn - curvature * v.dot(&dv)) / square
+        };
+        let mut link = Self { arc, chord, open, open_by: [0.0; 6], off_by: [Vector4::zeros(); 6] };
+        let mut targets = link.open_by.iter_mut().zip(&mut link.off_by);
+        for ((step, turn), (open_by, off_by)) in start.freedoms(tolerance).into_iter().zip(&mut targets) {
+            let (along, across) = (heading.dot(&step), heading.perp(&step));
+            *open_by = unit * (0.5 * turn + v.perp(&step) / square);
+            *off_by = Vector4::new(-across, curvature * along - turn, curvature * across, -0.5 * bend(-step, turn))
+                / tolerance;
+        }
+        for ((step, turn), (open_by, off_by)) in end.freedoms(tolerance).into_iter().zip(targets) {
+            *open_by = unit * (0.5 * turn - v.perp(&step) / square);
+            *off_by = Vector4::new(0.0, 0.0, 0.0, -0.5 * bend(step, 0.0)) / tolerance;
+        }
+        Some(link)
+    }
+
+    /// Where the freedoms of both joints of the arc number `index` of `arcs` stand in a [`Step`], with the derivatives of
+    /// opening and deviation; the ends of the piece have none.
+    pub(super) fn freedoms(
+        &self,
+        index: usize,
+        arcs: usize,
+    ) -> impl Iterator<Item = (usize, f64, &Vector4<f64>)> + Clone {
+        let place = move |freedom: usize| {
+            let at_end = freedom > 2;
+            let free = if at_end { index + 1 < arcs } else { index > 0 };
+            free.then(|| if at_end { 4 * index + freedom - 3 } else { 4 * index + freedom - 4 })
+        };
+        let derivatives = self.open_by.iter().zip(&self.off_by).enumerate();
+        derivatives.filter_map(move |(freedom, (open_by, off_by))| Some((place(freedom)?, *open_by, off_by)))
+    }
+}
+
+/// A step of every freedom of a chain: four numbers an arc, three for the joint at its end and the multiplier of its opening.
+#[derive(Debug, Clone)]
+pub(super) struct Step(pub(super) Vec<f64>);
+
+/// A chain with its arcs.
+#[derive(Debug)]
+pub(super) struct Trial {
+    stands: Vec<Stand>,
+    pub(super) links: Vec<Link>,
+}
+
+impl Trial {
+    /// `None` when the joints are out of order or an arc is longer than a half circle.
+    pub(super) fn new(curve: &impl Fn(f64) -> CurvePoint, places: &[Place], tolerance: f64) -> Option<Self> {
+        if !places.is_sorted_by(|a, b| a.parameter < b.parameter) {
+            return None;
+        }
+        let mut stands: Vec<Stand> = places.iter().map(|place| Stand::new(curve, *place)).collect();
+        let pairs = stands.iter().zip(stands.iter().skip(1));
+        let chords: Vec<f64> = pairs.map(|(a, b)| (b.point - a.point).norm()).collect();
+        let before = chords.iter().take(1).chain(&chords);
+        let after = chords.iter().chain(chords.last());
+        for ((stand, before), after) in stands.iter_mut().zip(before).zip(after) {
+            stand.length = 0.5 * (before + after);
+        }
+        let pairs = stands.iter().zip(stands.iter().skip(1));
+        let links = pairs.map(|(start, end)| Link::new(start, end, tolerance)).collect::<Option<Vec<Link>>>()?;
+        Some(Self { stands, links })
+    }
+
+    /// Widest opening, in tolerances over the chord.
+    pub(super) fn open(&self) -> f64 {
+        self.links.iter().map(|link| link.open.abs()).fold(0.0, larger)
+    }
+
+    /// Parameters of the joints, from the start of the piece to its end.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = f64> {
+        self.stands.iter().map(|stand| stand.place.parameter)
+    }
+
+    /// What a step does to the deviation from an arc, as factors of the basis.
+    pub(super) fn change(&self, index: usize, step: &Step) -> Vector4<f64> {
+        let freedoms = self.links.get(index).into_iter().flat_map(|link| link.freedoms(index, self.links.len()));
+        freedoms
+            .fold(Vector4::zeros(), |sum, (place, _, off_by)| sum + off_by * step.0.get(place).copied().unwrap_or(0.0))
+    }
+
+    /// Share of a step that moves no joint along the curve by more than `most` of the shorter chord beside it.
+    pub(super) fn careful(&self, step: &Step, most: f64) -> f64 {
+        let beside = self.links.iter().zip(self.links.iter().skip(1));
+        let of_joint = |(step, (before, after)): (&[f64], (&Link, &Link))| {
+            let along = step.first().copied().unwrap_or(0.0).abs();
+            most * before.chord.min(after.chord) / (along * 0.5 * (before.chord + after.chord))
+        };
+        step.0.chunks_exact(4).zip(beside).map(of_joint).fold(1.0, f64::min)
+    }
+
+    /// The joints after a share of a step.
+    pub(super) fn moved(&self, step: &Step, share: f64, tolerance: f64) -> Vec<Place> {
+        let last = self.links.len();
+        let ends = [0.0; 4];
+        let steps =
+            std::iter::once(ends.as_slice()).chain(step.0.chunks_exact(4).take(last - 1)).chain([ends.as_slice()]);
+        self.stands.iter().zip(steps).map(|(stand, step)| stand.moved(step, share, tolerance)).collect()
+    }
+
+    /// The joints with the bulges of their arcs.
+    pub(super) fn joints(&self) -> Vec<Joint> {
+        let joint = |(stand, link): (&Stand, &Link)| Joint {
+            point: stand.point,
+            parameter: stand.place.parameter,
+            bulge: link.arc.bulge,
+        };
+        self.stands.iter().zip(&self.links).map(joint).collect()
+    }
+
+    /// The chain made tangent by the least change of its freedoms; `None` when it cannot be.
+    pub(super) fn closed(&self, curve: &impl Fn(f64) -> CurvePoint, tolerance: f64) -> Option<Self> {
+        let close = |trial: &Self| Self::new(curve, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
+        let off = |trial: &Self| {
+            // A chord that is short against its coordinates has no more digits in its heading.
+            let rounding = |link: &Link| ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
+            let of_link = |link: &Link| (link.open * tolerance / link.chord).abs() - rounding(link);
+            trial.links.iter().map(of_link).fold(0.0, larger)
+        };
+        let mut closed = close(self)?;
+        for _ in 1..CLOSING_STEPS {
+            if off(&closed) <= ROUNDING {
+                break;
+            }
+            closed = close(&closed)?;
+        }
+        (off(&closed) <= CLOSED).then_some(closed)
+    }
+
+    /// The shortest step x with c + A x = 0: x = Aᵀ y, A Aᵀ y = −c, a tridiagonal system.
+    fn closing_step(&self) -> Step {
+        let arcs = self.links.len();
+        let mut matrix = Banded::<2>::zero(arcs);
+        let mut forces: Vec<f64> = self.links.iter().map(|link| -link.open).collect();
+        let mut before: Option<&Link> = None;
+        for (index, link) in self.links.iter().enumerate() {
+            for (_, open_by, _) in link.freedoms(index, arcs) {
+                matrix.add(index, index, open_by * open_by);
+            }
+            if let (Some(above), Some(before)) = (index.checked_sub(1), before) {
+                let shared = before.open_by.iter().skip(3).zip(&link.open_by);
+                matrix.add(above, index, shared.map(|(end, start)| end * start).sum());
+            }
+            before = Some(link);
+        }
+        matrix.factored().solve(&mut forces);
+        let mut step = vec![0.0; 4 * arcs];
+        for (index, (link, force)) in self.links.iter().zip(&forces).enumerate() {
+            for (place, open_by, _) in link.freedoms(index, arcs) {
+                if let Some(value) = step.get_mut(place) {
+                    *value += open_by * force;
+                }
+            }
+        }
+        Step(step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A parabola, so that nothing is constant.
+    fn curve(t: f64) -> CurvePoint {
+        let zero = Vector2::zeros();
+        CurvePoint::from_derivatives(
+            Vector2::new(t, 0.02 * t * t),
+            Vector2::new(1.0, 0.04 * t),
+            Vector2::new(0.0, 0.04),
+            zero,
+        )
+    }
+
+    /// Opening and deviation by every freedom of both joints, against differences of the trial itself.
+    #[test]
+    fn the_derivatives_are_those_of_the_chain() {
+        let tolerance = 1e-3;
+        let place = |parameter, offset, slope| Place { parameter, offset, slope };
+        let places = [place(1.0, 0.0, 0.0), place(3.0, 4e-4, -1e-4), place(4.5, -3e-4, 2e-4), place(7.0, 0.0, 0.0)];
+        let open = Trial::new(&curve, &places, tolerance).expect("in order");
+        let trial = open.closed(&curve, tolerance).expect("a chain");
+        let point = curve(3.9).point;
+        let of = |trial: &Trial| (trial.links[1].open, trial.links[1].arc.seen_from(point).1 / tolerance);
+        for freedom in 0..6 {
+            let small = 1e-6;
+            let mut step = Step(vec![0.0; 12]);
+            step.0[freedom + freedom / 3] = small;
+            let there = Trial::new(&curve, &trial.moved(&step, 1.0, tolerance), tolerance).expect("in order");
+            let back = Trial::new(&curve, &trial.moved(&step, -1.0, tolerance), tolerance).expect("in order");
+            let ((open, off), (open_back, off_back)) = (of(&there), of(&back));
+            let basis = trial.links[1].arc.seen_from(point).0;
+            let (by, wanted) = (trial.links[1].open_by[freedom], (open - open_back) / (2.0 * small));
+            assert!((by - wanted).abs() < 1e-2 * (1.0 + wanted.abs()), "opening by {freedom}: {by} {wanted}");
+            let (by, wanted) = (trial.change(1, &step).dot(&basis) / small, (off - off_back) / (2.0 * small));
+            assert!((by - wanted).abs() < 1e-2 * (1.0 + wanted.abs()), "deviation by {freedom}: {by} {wanted}");
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Plane and solid geometry: points of curves with their curvature, chains of arcs and lines, the fit of arcs, solids.
+//!
+//! Knows nothing of motions, followers or machines. Curves are functions in any unit of length; contours and solids are in
+//! millimetres.
+
+pub mod arcs;
+pub mod contour;
+mod curve_point;
+mod entity;
+pub mod solid;
+pub mod track;
+
+pub use curve_point::CurvePoint;
+pub use entity::Entity;
+
+/// Millimetres in a metre: geometry leaves SI by this factor.
+pub const MILLIMETRES: f64 = 1e3;

@@ -1,0 +1,396 @@
+//! The part as a solid: its face extruded, exact planes and cylinders, no booleans and no splines.
+//!
+//! Every contour runs with the metal on its left, the outline counter-clockwise, holes clockwise, so that one rule makes
+//! all side faces: the outward normal lies to the right. A line sweeps a plane; an arc sweeps a cylinder, whose own
+//! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
+//! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
+
+use super::contour::{Contour, Segment, sweep_minus_sine};
+use nalgebra::Vector2;
+use truck_modeling::{InnerSpace, Point3, Vector3};
+use truck_topology::compress::{CompressedEdge, CompressedEdgeIndex, CompressedFace, CompressedShell, CompressedSolid};
+
+/// A cubic B-spline curve: either end knot four times.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SplineCurve {
+    /// Its knots.
+    pub knots: Vec<f64>,
+    /// Its control points.
+    pub controls: Vec<Point3>,
+}
+
+/// A bicubic B-spline surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SplineSurface {
+    /// Knots of its first parameter.
+    pub u: Vec<f64>,
+    /// Knots of its second parameter.
+    pub v: Vec<f64>,
+    /// Control points, a row for each of the first parameter.
+    pub controls: Vec<Vec<Point3>>,
+}
+
+/// An edge's carrier, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Curve {
+    /// A straight line from a point along a unit vector.
+    Line {
+        /// A point of it.
+        origin: Point3,
+        /// Its direction.
+        direction: Vector3,
+    },
+    /// A circle in a plane of constant z.
+    Circle {
+        /// Its centre.
+        centre: Point3,
+        /// Its radius.
+        radius: f64,
+        /// The edge runs clockwise, seen from above.
+        clockwise: bool,
+    },
+    /// A spline from its first to its last control point.
+    Spline(SplineCurve),
+}
+
+/// A face's carrier, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FaceSurface {
+    /// A plane.
+    Plane {
+        /// A point of it.
+        origin: Point3,
+        /// Its unit normal.
+        normal: Vector3,
+        /// A unit vector in it.
+        along: Vector3,
+    },
+    /// A cylinder whose axis is parallel to z.
+    Cylinder {
+        /// A point of the axis.
+        origin: Point3,
+        /// Its radius.
+        radius: f64,
+    },
+    /// A spline surface whose normal, first by second parameter, points out of the metal.
+    Spline(SplineSurface),
+}
+
+/// The boundary of a solid: vertices, edges and faces by index, as truck exchanges them.
+pub type Boundary = CompressedSolid<Point3, Curve, FaceSurface>;
+
+/// A solid that has been checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solid {
+    /// Its boundary.
+    pub boundary: Boundary,
+    /// Its volume, mm³.
+    pub volume: f64,
+}
+
+/// Why a solid is not one.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SolidError {
+    /// truck's check of the topology.
+    #[error("the solid is not closed: {0}; please report this")]
+    NotClosed(String),
+    /// Area times thickness is not what the boundary encloses.
+    #[error("the solid encloses {found} mm³ instead of {expected} mm³; please report this")]
+    WrongVolume {
+        /// By the edges of the solid.
+        found: f64,
+        /// By the drawing.
+        expected: f64,
+    },
+}
+
+/// Longest sweep of one cylinder face, rad.
+const LONGEST_SWEEP: f64 = std::f64::consts::PI * (1.0 + 1e-9);
+
+/// An arc with a larger radius, mm, and a smaller sagitta, mm, is written as a line: the last digit of a centre 1e9 mm away is
+/// 1e-7 mm, and a solid states an uncertainty of 1e-6 mm.
+const LARGEST_RADIUS: f64 = 1e9;
+const STRAIGHT: f64 = 1e-6;
+
+/// Largest relative difference of the two volumes: rounding of a few hundred terms.
+const VOLUME_TOLERANCE: f64 = 1e-11;
+
+/// A face of the given area (mm²) as a solid of a thickness (mm), with its underside at z = 0, checked: closed by truck's
+/// rules, and with the volume that the drawing has. Every contour runs with the metal on its left: the outline, which comes
+/// first, counter-clockwise, holes clockwise.
+///
+/// # Errors
+/// [`SolidError`] when a check fails; both would be faults of camgen.
+pub fn prism(contours: &[Contour], area: f64, thickness: f64) -> Result<Solid, SolidError> {
+    let boundary = extruded(contours, thickness);
+    truck_topology::Solid::extract(boundary.clone()).map_err(|error| SolidError::NotClosed(error.to_string()))?;
+    let volume = enclosed(&boundary);
+    let expected = area * thickness;
+    if !((volume / expected - 1.0).abs() <= VOLUME_TOLERANCE) {
+        return Err(SolidError::WrongVolume { found: volume, expected });
+    }
+    Ok(Solid { boundary, volume })
+}
+
+fn at(point: Vector2<f64>, z: f64) -> Point3 {
+    // A negative zero is zero.
+    Point3::new(point.x + 0.0, point.y + 0.0, z)
+}
+
+fn forward(index: usize) -> CompressedEdgeIndex {
+    CompressedEdgeIndex { index, orientation: true }
+}
+
+fn backward(index: usize) -> CompressedEdgeIndex {
+    CompressedEdgeIndex { index, orientation: false }
+}
+
+/// A shell under construction between two planes.
+struct Shell {
+    shell: CompressedShell<Point3, Curve, FaceSurface>,
+    /// Heights of the planes.
+    ends: (f64, f64),
+    under: Vec<Vec<CompressedEdgeIndex>>,
+    above: Vec<Vec<CompressedEdgeIndex>>,
+}
+
+impl Shell {
+    fn new(ends: (f64, f64)) -> Self {
+        let shell = CompressedShell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
+        Self { shell, ends, under: Vec::new(), above: Vec::new() }
+    }
+
+    /// Vertices 2i below and 2i + 1 above, edges 3i below, 3i + 1 above, 3i + 2 upright at the start of side i of a ring
+    /// of n sides.
+    fn vertex(&self, n: usize, i: usize, top: usize) -> usize {
+        self.shell.vertices.len() + 2 * (i % n) + top
+    }
+
+    fn edge(&self, n: usize, i: usize, kind: usize) -> usize {
+        self.shell.edges.len() + 3 * (i % n) + kind
+    }
+
+    /// The walls over a contour with the metal on its left.
+    fn walls(&mut self, contour: &Contour) {
+        let segments: Vec<Segment> = contour.segments().flat_map(|segment| edges(&segment)).collect();
+        let n = segments.len();
+        let (low, high) = self.ends;
+        let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, segment) in segments.iter().enumerate() {
+            for (top, z) in [(0, low), (1, high)] {
+                vertices.push(at(segment.start, z));
+                let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
+                edges.push(CompressedEdge { vertices: ends, curve: carrier(segment, z) });
+            }
+            let upright = Curve::Line { origin: at(segment.start, low), direction: Vector3::unit_z() };
+            edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
+            let around = [self.edge(n, i, 0), self.edge(n, i + 1, 2), self.edge(n, i, 1), self.edge(n, i, 2)];
+            faces.push(side(segment, low, around));
+        }
+        self.close(n, vertices, edges, faces);
+    }
+
+    /// The patches of a flank that closes on itself, counter-clockwise, u along it and v up it.
+    fn flank(&mut self, patches: &[SplineSurface]) {
+        let n = patches.len();
+        let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, patch) in patches.iter().enumerate() {
+            let first = patch.controls.first().cloned().unwrap_or_default();
+            let row = |end: fn(&[Point3]) -> Option<&Point3>| -> Vec<Point3> {
+                patch.controls.iter().filter_map(|row| end(row).copied()).collect()
+            };
+            for (top, controls) in [(0, row(<[Point3]>::first)), (1, row(<[Point3]>::last))] {
+                vertices.extend(controls.first().copied());
+                let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
+                let curve = Curve::Spline(SplineCurve { knots: patch.u.clone(), controls });
+                edges.push(CompressedEdge { vertices: ends, curve });
+            }
+            let upright = Curve::Spline(SplineCurve { knots: patch.v.clone(), controls: first });
+            edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
+            let outward = vec![
+                forward(self.edge(n, i, 0)),
+                forward(self.edge(n, i + 1, 2)),
+                backward(self.edge(n, i, 1)),
+                backward(self.edge(n, i, 2)),
+            ];
+            let surface = FaceSurface::Spline(patch.clone());
+            faces.push(CompressedFace { boundaries: vec![outward], orientation: true, surface });
+        }
+        self.close(n, vertices, edges, faces);
+    }
+
+    fn close(
+        &mut self,
+        n: usize,
+        vertices: Vec<Point3>,
+        edges: Vec<CompressedEdge<Curve>>,
+        faces: Vec<CompressedFace<FaceSurface>>,
+    ) {
+        self.under.push((0..n).rev().map(|i| backward(self.edge(n, i, 0))).collect());
+        self.above.push((0..n).map(|i| forward(self.edge(n, i, 1))).collect());
+        self.shell.vertices.extend(vertices);
+        self.shell.edges.extend(edges);
+        self.shell.faces.extend(faces);
+    }
+
+    /// Adds the end faces.
+    fn capped(mut self) -> Boundary {
+        let (low, high) = self.ends;
+        for (boundaries, z, normal) in [(self.under, low, -Vector3::unit_z()), (self.above, high, Vector3::unit_z())] {
+            let surface = FaceSurface::Plane { origin: Point3::new(0.0, 0.0, z), normal, along: Vector3::unit_x() };
+            self.shell.faces.push(CompressedFace { boundaries, orientation: true, surface });
+        }
+        CompressedSolid { boundaries: vec![self.shell] }
+    }
+}
+
+/// Contours with the metal on their left, the outer one first, extruded from z = 0.
+fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
+    let mut shell = Shell::new((0.0, thickness));
+    for contour in contours {
+        shell.walls(contour);
+    }
+    shell.capped()
+}
+
+/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`solid`] is; `area` is
+/// the area of the holes and `volume` what the flank encloses.
+///
+/// # Errors
+/// [`SolidError`] when the boundary is not closed.
+pub fn conical(
+    patches: &[SplineSurface],
+    holes: &[Contour],
+    ends: (f64, f64),
+    volume: f64,
+) -> Result<Solid, SolidError> {
+    let mut shell = Shell::new(ends);
+    shell.flank(patches);
+    for hole in holes {
+        shell.walls(hole);
+    }
+    let boundary = shell.capped();
+    truck_topology::Solid::extract(boundary.clone()).map_err(|error| SolidError::NotClosed(error.to_string()))?;
+    // Clockwise: their area is negative.
+    let drilled: f64 = holes.iter().map(|hole| hole.area_and_centroid().0).sum();
+    Ok(Solid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
+}
+
+/// An arc as its edges: two where it is long, as some readers cannot tell the inside of a cylinder face that is almost
+/// closed, and a line where it differs from one by less than
+/// the solid's uncertainty and its centre would be too far away.
+fn edges(segment: &Segment) -> Vec<Segment> {
+    let sagitta = 0.5 * (segment.end - segment.start).norm() * segment.bulge.abs();
+    if segment.radius().abs() > LARGEST_RADIUS && sagitta < STRAIGHT {
+        return vec![Segment { bulge: 0.0, ..*segment }];
+    }
+    if segment.sweep().abs() <= LONGEST_SWEEP {
+        return vec![*segment];
+    }
+    let (middle, bulge) = (segment.middle(), libm::tan(0.125 * segment.sweep()));
+    vec![Segment { end: middle, bulge, ..*segment }, Segment { start: middle, bulge, ..*segment }]
+}
+
+fn carrier(segment: &Segment, z: f64) -> Curve {
+    if segment.bulge == 0.0 {
+        let direction = segment.start_tangent();
+        return Curve::Line {
+            origin: at(segment.start, z),
+            direction: Vector3::new(direction.x + 0.0, direction.y + 0.0, 0.0),
+        };
+    }
+    Curve::Circle { centre: at(segment.centre(), z), radius: segment.radius().abs(), clockwise: segment.bulge < 0.0 }
+}
+
+/// The side face over a segment; edges: below, upright at its end, above, upright at its start.
+fn side(segment: &Segment, low: f64, [below, end, above, start]: [usize; 4]) -> CompressedFace<FaceSurface> {
+    // Counter-clockwise about the normal to the right of the segment.
+    let outward = vec![forward(below), forward(end), backward(above), backward(start)];
+    if segment.bulge == 0.0 {
+        let tangent = segment.start_tangent();
+        let along = Vector3::new(tangent.x + 0.0, tangent.y + 0.0, 0.0);
+        let normal = Vector3::new(tangent.y + 0.0, -tangent.x + 0.0, 0.0);
+        let surface = FaceSurface::Plane { origin: at(segment.start, low), normal, along };
+        return CompressedFace { boundaries: vec![outward], orientation: true, surface };
+    }
+    let surface = FaceSurface::Cylinder { origin: at(segment.centre(), low), radius: segment.radius().abs() };
+    if segment.bulge > 0.0 {
+        CompressedFace { boundaries: vec![outward], orientation: true, surface }
+    } else {
+        // Loops run counter-clockwise about the normal of the surface, which here points into the metal.
+        let inward = vec![forward(start), forward(above), backward(end), backward(below)];
+        CompressedFace { boundaries: vec![inward], orientation: false, surface }
+    }
+}
+
+/// Volume within the boundary, mm³, by the divergence of (0, 0, z): the end faces only. Their area comes from the
+/// vertices and the edges' own circles.
+#[must_use]
+pub fn enclosed(boundary: &Boundary) -> f64 {
+    let mut volume = 0.0;
+    for shell in &boundary.boundaries {
+        for face in &shell.faces {
+            let FaceSurface::Plane { origin, normal, .. } = &face.surface else { continue };
+            if normal.z == 0.0 {
+                continue;
+            }
+            // Counter-clockwise about the normal; seen from above that is reversed under a downward one, and so is the
+            // normal: both signs cancel in z n_z × area about n.
+            let area: f64 = face.boundaries.iter().flatten().map(|used| swept(shell, *used)).sum();
+            volume += origin.z * area;
+        }
+    }
+    volume
+}
+
+fn swept(shell: &CompressedShell<Point3, Curve, FaceSurface>, used: CompressedEdgeIndex) -> f64 {
+    let Some(edge) = shell.edges.get(used.index) else { return f64::NAN };
+    let (Some(a), Some(b)) = (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1)) else {
+        return f64::NAN;
+    };
+    let area = match &edge.curve {
+        // Flanks of splines have a volume of their own.
+        Curve::Spline(_) => return f64::NAN,
+        Curve::Line { .. } => 0.5 * (a.x * b.y - a.y * b.x),
+        Curve::Circle { centre, radius, clockwise } => {
+            // Under the chord a triangle with the origin, over it R²/2 (θ − sin θ); θ from the circle's centre, seen
+            // from the chord, so that a nearly straight arc keeps its digits.
+            let (radius, side) = (*radius, if *clockwise { -1.0 } else { 1.0 });
+            let (dx, dy) = (b.x - a.x, b.y - a.y);
+            let chord = (dx * dx + dy * dy).sqrt();
+            let (mx, my) = (0.5 * (a.x + b.x) - centre.x, 0.5 * (a.y + b.y) - centre.y);
+            let away = side * (mx * dy - my * dx) / chord;
+            let turn = 2.0 * libm::atan2(0.5 * chord, away);
+            0.5 * (a.x * b.y - a.y * b.x) + side * 0.5 * radius * radius * sweep_minus_sine(turn)
+        }
+    };
+    if used.orientation { area } else { -area }
+}
+
+/// Largest distance of a vertex from the carriers of its edges, mm.
+#[must_use]
+pub fn largest_gap(boundary: &Boundary) -> f64 {
+    let mut worst = 0.0_f64;
+    for shell in &boundary.boundaries {
+        for edge in &shell.edges {
+            for vertex in [edge.vertices.0, edge.vertices.1] {
+                let Some(point) = shell.vertices.get(vertex) else { return f64::INFINITY };
+                worst = worst.max(match &edge.curve {
+                    Curve::Line { origin, direction } => (point - origin).cross(*direction).magnitude(),
+                    Curve::Spline(spline) => {
+                        let ends = [spline.controls.first(), spline.controls.last()];
+                        ends.iter().flatten().map(|end| (point - **end).magnitude()).fold(f64::INFINITY, f64::min)
+                    }
+                    Curve::Circle { centre, radius, .. } => {
+                        let away = point - centre;
+                        (away.magnitude() - radius).abs().max(away.z.abs())
+                    }
+                });
+            }
+        }
+    }
+    worst
+}
+
+#[cfg(test)]
+mod tests;

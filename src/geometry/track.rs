@@ -1,0 +1,211 @@
+//! An outline as something a roller can roll on: exact arcs for the verdict, parry2d to find them fast and to measure
+//! the same distances a second way.
+//!
+//! parry's polyline is hollow and made of chords. Its bounding-volume tree over the exact segments is the broad phase;
+//! a polyline of chords much finer than the tolerance gives distances that share no formula with ours.
+
+use crate::geometry::contour::{Contour, Nearest, Segment};
+use nalgebra::Vector2;
+use parry2d_f64::bounding_volume::Aabb;
+use parry2d_f64::math::Vector;
+use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
+use parry2d_f64::query::PointQuery;
+use parry2d_f64::shape::{Polyline, PolylineFlags};
+
+/// Largest number of chords: a tolerance so fine that it asks for more is compared with coarser ones.
+const MOST_CHORDS: f64 = 2e5;
+
+/// The outline ready to be touched.
+pub struct Track {
+    segments: Vec<Segment>,
+    tree: Bvh,
+}
+
+fn parry(point: Vector2<f64>) -> Vector {
+    Vector::new(point.x, point.y)
+}
+
+impl Track {
+    /// The outline, counter-clockwise.
+    #[must_use]
+    pub fn new(contour: &Contour) -> Self {
+        let segments: Vec<Segment> = contour.segments().collect();
+        let boxes: Vec<Aabb> = segments
+            .iter()
+            .map(|segment| {
+                let extents = segment.extents();
+                Aabb::new(parry(extents.least), parry(extents.largest))
+            })
+            .collect();
+        Self { segments, tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
+    }
+
+    /// The segments.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// The nearest point of the outline, exact; `None` for a point that is not finite.
+    #[must_use]
+    pub fn nearest(&self, point: Vector2<f64>) -> Option<Nearest> {
+        let from = parry(point);
+        let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
+        let distance = |leaf: u32, _: f64| {
+            let nearest = self.segments.get(leaf as usize)?.nearest(point);
+            Some((nearest.left.abs(), (leaf as usize, nearest)))
+        };
+        let (_, (_, (leaf, nearest))) = self.tree.find_best(f64::MAX, distance_to_box, distance)?;
+        Some(self.at_vertex(point, leaf, nearest))
+    }
+
+    /// The nearest point seen from both segments where it is their common vertex: on which side the point lies is told by
+    /// the two together, and the tangent is that of the segment it stands squarer to.
+    fn at_vertex(&self, point: Vector2<f64>, leaf: usize, nearest: Nearest) -> Nearest {
+        let n = self.segments.len();
+        let Some(own) = self.segments.get(leaf) else { return nearest };
+        let (before, after) = if nearest.foot == own.start {
+            (self.segments.get((leaf + n - 1) % n), Some(own))
+        } else if nearest.foot == own.end {
+            (Some(own), self.segments.get((leaf + 1) % n))
+        } else {
+            return nearest;
+        };
+        let (Some(before), Some(after)) = (before, after) else { return nearest };
+        let (first, second) = (before.end_tangent(), after.start_tangent());
+        let away = point - nearest.foot;
+        let left = nearest.left.abs().copysign((first + second).perp(&away));
+        let tangent = if first.dot(&away).abs() <= second.dot(&away).abs() { first } else { second };
+        Nearest { left, foot: nearest.foot, tangent }
+    }
+
+    /// How far the outline reaches in a direction (a unit vector) from the origin, exact; `None` for an empty outline.
+    #[must_use]
+    pub fn farthest(&self, direction: Vector2<f64>) -> Option<f64> {
+        self.segments.iter().map(|segment| segment.farthest(direction)).max_by(f64::total_cmp)
+    }
+
+    /// In how many separate places the outline comes within `reach` of a point. Neighbouring segments are one place.
+    #[must_use]
+    pub fn places_within(&self, point: Vector2<f64>, reach: f64) -> usize {
+        let corner = Vector2::new(reach, reach);
+        let region = Aabb::new(parry(point - corner), parry(point + corner));
+        let near = |leaf: &u32| {
+            self.segments.get(*leaf as usize).is_some_and(|segment| segment.nearest(point).left.abs() <= reach)
+        };
+        let mut touching: Vec<u32> = self.tree.intersect_aabb(&region).filter(near).collect();
+        touching.sort_unstable();
+        let gaps = touching.windows(2).filter(|pair| matches!(pair, [a, b] if b - a > 1)).count();
+        let closes = match (touching.first(), touching.last()) {
+            (Some(0), Some(last)) => *last as usize + 1 == self.segments.len(),
+            _ => false,
+        };
+        match touching.len() {
+            0 => 0,
+            _ if closes => gaps.max(1),
+            _ => gaps + 1,
+        }
+    }
+}
+
+/// The outline as chords, for parry's own distance.
+pub struct Chords {
+    polyline: Polyline,
+    /// How many.
+    pub count: usize,
+    /// Largest distance of a chord from its arc, mm.
+    pub sagitta: f64,
+}
+
+impl Chords {
+    /// Chords within `sagitta` (mm) of the outline.
+    #[must_use]
+    pub fn new(contour: &Contour, sagitta: f64) -> Self {
+        let mut points = Vec::new();
+        let mut worst = 0.0_f64;
+        #[expect(clippy::cast_precision_loss, reason = "a few thousand segments")]
+        let share = MOST_CHORDS / contour.vertices.len().max(1) as f64;
+        for segment in contour.segments() {
+            points.push(parry(segment.start));
+            if segment.bulge == 0.0 {
+                continue;
+            }
+            let (radius, sweep) = (segment.radius().abs(), segment.sweep());
+            // Sagitta of a chord over the angle a: R (1 − cos(a/2)) ≈ R a²/8, from above.
+            let wanted = (sweep.abs() * (radius / (8.0 * sagitta)).sqrt()).ceil();
+            let count = wanted.clamp(1.0, share.max(1.0));
+            worst = worst.max(radius * (sweep / count) * (sweep / count) / 8.0);
+            let mut step = 1.0;
+            while step < count {
+                // From the chord, so that a nearly straight arc keeps its digits.
+                points.push(parry(segment.at(step / count).0));
+                step += 1.0;
+            }
+        }
+        let count = points.len();
+        let last = u32::try_from(count).unwrap_or(u32::MAX);
+        let closed = (0..last).map(|i| [i, if i + 1 == last { 0 } else { i + 1 }]).collect();
+        let polyline = Polyline::with_flags(points, Some(closed), PolylineFlags::ORIENTED);
+        Self { polyline, count, sagitta: worst }
+    }
+
+    /// How far the chords reach in a direction (a unit vector) from the origin.
+    #[must_use]
+    pub fn farthest(&self, direction: Vector2<f64>) -> f64 {
+        let reach = |point: &Vector| point.x * direction.x + point.y * direction.y;
+        self.polyline.vertices().iter().map(reach).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Distance of a point from the chords, positive outside.
+    #[must_use]
+    pub fn distance(&self, point: Vector2<f64>) -> f64 {
+        let from = parry(point);
+        let projection = self.polyline.project_local_point(from, false);
+        let distance = (projection.point - from).length();
+        if projection.is_inside { -distance } else { distance }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::contour::Vertex;
+
+    #[test]
+    fn exact_and_chordal_distances_agree_inside_and_outside() {
+        let at = |x: f64, y: f64, bulge: f64| Vertex { point: Vector2::new(x, y), bulge };
+        let slot = Contour {
+            vertices: vec![at(0.0, -10.0, 0.0), at(40.0, -10.0, 1.0), at(40.0, 10.0, -0.1), at(0.0, 10.0, 1.0)],
+        };
+        let (surface, chords) = (Track::new(&slot), Chords::new(&slot, 1e-6));
+        assert!(chords.sagitta <= 1e-6 && chords.count > 1000, "{}", chords.count);
+        for (x, y) in [(20.0, 0.0), (60.0, 0.0), (-30.0, 5.0), (20.0, 30.0), (20.0, -30.0), (55.0, 20.0), (44.0, 1.0)] {
+            let point = Vector2::new(x, y);
+            let exact = -surface.nearest(point).expect("finite").left;
+            assert!((exact - chords.distance(point)).abs() <= 1.1e-6, "({x}, {y}): {exact} {}", chords.distance(point));
+        }
+        assert!(surface.nearest(Vector2::new(f64::NAN, 0.0)).is_none());
+    }
+
+    #[test]
+    fn separate_places_are_counted() {
+        let at = |x: f64, y: f64| Vertex { point: Vector2::new(x, y), bulge: 0.0 };
+        let channel = Contour {
+            vertices: vec![
+                at(0.0, 0.0),
+                at(9.0, 0.0),
+                at(9.0, 9.0),
+                at(6.0, 9.0),
+                at(6.0, 3.0),
+                at(3.0, 3.0),
+                at(3.0, 9.0),
+                at(0.0, 9.0),
+            ],
+        };
+        let surface = Track::new(&channel);
+        assert_eq!(surface.places_within(Vector2::new(4.5, 7.0), 1.6), 2, "both walls of the channel");
+        assert_eq!(surface.places_within(Vector2::new(4.5, 4.5), 1.6), 1, "walls and floor are neighbours");
+        assert_eq!(surface.places_within(Vector2::new(-1.0, -1.0), 2.0), 1, "round the first vertex");
+        assert_eq!(surface.places_within(Vector2::new(-9.0, -9.0), 2.0), 0);
+    }
+}

@@ -1,0 +1,85 @@
+//! The air buffers of a press under a disc cam: the air presses the roller on, and its force is to equal the bed's inertia.
+
+use super::Load;
+use crate::buffer::Cylinder;
+use crate::buffer::bottom_law::BottomLaw;
+use crate::geometry::MILLIMETRES;
+use crate::motion::{Reversal, State};
+use crate::report::{AirLaw, Section};
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// The pair of cylinders whose bottom the cam moves.
+#[derive(Debug, Clone)]
+pub struct AirBuffer {
+    cylinder: Cylinder,
+    reversal: Arc<Reversal>,
+}
+
+impl AirBuffer {
+    /// The cylinders and the motion of their bottom.
+    #[must_use]
+    pub fn new(cylinder: Cylinder, reversal: Arc<Reversal>) -> Self {
+        Self { cylinder, reversal }
+    }
+
+    fn bottom_law(&self) -> &BottomLaw {
+        &self.reversal.law().bottom_law
+    }
+}
+
+/// What is told of a pair of cylinders under a law; slope and jump as they are where the law starts.
+#[must_use]
+pub(crate) fn air_law(cylinder: &Cylinder, law: &BottomLaw, (dx_max_at_x, dx_max): (f64, f64)) -> AirLaw {
+    AirLaw {
+        dx_max_mm: MILLIMETRES * dx_max,
+        dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
+        column_length_mm: MILLIMETRES * law.column,
+        piston_area_mm2: MILLIMETRES * MILLIMETRES * cylinder.piston_area,
+        bore_mm: MILLIMETRES * cylinder.bore(),
+        start_slope: law.start_slope,
+        velocity_jump_mm_per_rad: 0.0,
+        equation_18: None,
+    }
+}
+
+impl Load for AirBuffer {
+    /// 2 (p − p0) F / lever.
+    fn pressing(&self, piece: usize, at: f64) -> f64 {
+        self.cylinder.force(self.state(piece, at).pressure_ratio) / self.reversal.law().lever
+    }
+
+    /// 0 outside the reversal.
+    fn residual(&self, piece: usize, at: f64, moved: f64, _: Vector2<f64>) -> f64 {
+        let state = self.state(piece, at);
+        if state.overrun == 0.0 {
+            return 0.0;
+        }
+        let law = self.bottom_law();
+        let bottom = state.displacement + moved / self.reversal.law().lever;
+        let air = law.pressure_ratio(state.overrun, bottom) - 1.0;
+        self.cylinder.unit_force() * (law.loading * state.overrun - air).abs()
+    }
+
+    fn state(&self, piece: usize, at: f64) -> State {
+        self.reversal.state(piece, at)
+    }
+
+    fn largest(&self) -> f64 {
+        self.cylinder.largest_load(self.bottom_law())
+    }
+
+    /// A plain buffer with fixed bottom and column by (7), at this speed.
+    fn left_without_cam(&self) -> f64 {
+        self.cylinder.residual_fixed_bottom(self.bottom_law())
+    }
+
+    fn section(&self) -> Section {
+        let law = self.bottom_law();
+        AirLaw {
+            velocity_jump_mm_per_rad: MILLIMETRES * self.reversal.velocity_jump(),
+            ..air_law(&self.cylinder, law, law.largest_displacement())
+        }
+        .section()
+    }
+}

@@ -1,0 +1,55 @@
+//! The press: what makes the motion of its cams and what presses on them.
+
+use crate::buffer::bottom_law::{BottomLaw, Column};
+use crate::buffer::{Bed, Cylinder};
+
+/// A flat-bed press with air buffers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Press {
+    /// Bed and crank.
+    pub bed: Bed,
+    /// Polytropic exponent k.
+    pub polytropic_exponent: f64,
+    /// Ambient pressure, Pa, absolute.
+    pub ambient_pressure: f64,
+    /// End pressure at the design speed, Pa, absolute.
+    pub end_pressure: f64,
+    /// Air column.
+    pub column: Column,
+    /// Lead e, m.
+    pub lead: f64,
+    /// Design speed of the main shaft, rpm.
+    pub design_rpm: f64,
+}
+
+/// The machine file describes no press.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the machine file describes no press: add the tables [bed], [buffer] and [design], or use `camgen make`")]
+pub struct NoPress;
+
+/// The follower of the machine file is not the roller that the cam needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("this cam needs a translating roller: give the table [follower.roller]")]
+pub struct NoRoller;
+
+impl Press {
+    /// The pair of cylinders, sized at the design speed.
+    #[must_use]
+    pub fn cylinder(&self) -> Cylinder {
+        let (k, p0, end) = (self.polytropic_exponent, self.ambient_pressure, self.end_pressure);
+        Cylinder::sized(&self.bed, self.design_rpm, k, p0, end)
+    }
+
+    /// The law of the bottom at a speed of the main shaft, rpm.
+    #[must_use]
+    pub fn bottom_law(&self, rpm: f64) -> BottomLaw {
+        self.with_column(rpm, self.column)
+    }
+
+    /// The same with another air column.
+    #[must_use]
+    pub fn with_column(&self, rpm: f64, column: Column) -> BottomLaw {
+        let loading = self.cylinder().loading(rpm);
+        BottomLaw::new(loading, self.polytropic_exponent, self.bed.crank_radius, column, self.lead)
+    }
+}

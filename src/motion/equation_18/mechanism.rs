@@ -1,0 +1,348 @@
+//! Equation (18): the forces of a cam that rides on the bed and moves the bottom through a bell crank.
+//!
+//! ```text
+//! A x = P · {1 + λ cos ψ · sin(α+ρ)/(η sin[θ−(α+ρ)])},   P = (L/(L−x−Δx))^k − 1                     (18) over 2 p0 F
+//! sin ψ = Δx/l2,   θ = Δ + ψ,   dΔx/dx = λ cos ψ · sin α/sin(θ−α)                                  (19), (21)–(24)
+//! ```
+//!
+//! With C = λ cos ψ, σ = (dΔx/dx)/C = sin α/sin(θ−α), s± = sin(θ±ρ), q = sin ρ the fraction of (18) is
+//!
+//! ```text
+//! T = sin(α+ρ)/sin(θ−α−ρ) = (σ s₊ + q)/(s₋ − σ q),   and back   σ = (T s₋ − q)/(s₊ + T q)
+//! ```
+//!
+//! so that neither α nor any angle but the given ones is needed, and without friction T is σ. Solved for the slope, with
+//! B = A x/P − 1:  dΔx/dx = C (η B s₋ − C q)/(C s₊ + η B q). On the way back ρ changes its sign.
+
+use crate::buffer::bottom_law::BottomLaw;
+use crate::numeric::taylor::{Tape, Term};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Share of the bottom's arm that may be used: beyond, ψ is over 87° and roundings of Δx are multiplied in the force.
+pub(super) const ARM_SHARE: f64 = 0.999;
+
+/// How the efficiency enters equation (18).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EfficiencyModel {
+    /// The loss is on the driven side: η while the cam drives the lever, 1/η while the air does.
+    Consistent,
+    /// η throughout, as the paper prints it.
+    Printed,
+}
+
+/// In which direction of the bed the forces shall balance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExactOn {
+    /// While the bed is braked.
+    Braking,
+    /// While it is sent back.
+    Return,
+    /// In neither: at every x the residuals of the two are opposite and equal.
+    Mean,
+}
+
+/// A way of the bed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// x grows: the bed is braked.
+    Braking,
+    /// x falls: the bed is sent back.
+    Return,
+}
+
+/// What the bottom does while x grows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Trend {
+    /// Δx grows.
+    Rising,
+    /// Δx falls.
+    Falling,
+    /// The lever sticks.
+    Stuck,
+}
+
+/// The bell crank between plate and bottom, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mechanism {
+    /// Loading A, exponent k, stroke r and column L.
+    pub bottom_law: BottomLaw,
+    /// Arm of the bottom l2, m.
+    pub bottom_arm: f64,
+    /// λ = l2/l1.
+    pub arm_ratio: f64,
+    /// Δ, rad, in (0, π).
+    pub delta: f64,
+    /// ρ, rad, in [0, π/2).
+    pub friction_angle: f64,
+    /// η in (0, 1].
+    pub efficiency: f64,
+    /// How η enters.
+    pub model: EfficiencyModel,
+    /// Which direction balances.
+    pub exact_on: ExactOn,
+}
+
+/// What the geometry of the lever gives at a Δx.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lever {
+    /// C = λ cos ψ.
+    pub(super) ratio: f64,
+    /// sin θ.
+    pub(super) sine: f64,
+    /// cos θ.
+    pub(super) cosine: f64,
+    /// sin(θ+ρ).
+    pub(super) plus: f64,
+    /// sin(θ−ρ).
+    pub(super) minus: f64,
+}
+
+impl Mechanism {
+    /// The two efficiencies of (18), on the way in and on the way back.
+    pub(super) fn efficiencies(&self, side: Trend) -> (f64, f64) {
+        let eta = self.efficiency;
+        match (self.model, side) {
+            (EfficiencyModel::Printed, _) => (eta, eta),
+            (EfficiencyModel::Consistent, Trend::Rising) => (eta, 1.0 / eta),
+            (EfficiencyModel::Consistent, Trend::Falling) => (1.0 / eta, eta),
+            (EfficiencyModel::Consistent, Trend::Stuck) => (1.0, 1.0),
+        }
+    }
+
+    /// Whether the slope has another law where Δx falls than where it rises. Without friction the mean of the two
+    /// directions has not: both sides have the same two losses.
+    pub(super) fn two_sided(&self) -> bool {
+        self.model == EfficiencyModel::Consistent
+            && self.efficiency < 1.0
+            && !(self.exact_on == ExactOn::Mean && self.friction_angle == 0.0)
+    }
+
+    /// Size of the Δx at which the roller moves along the bed's line, sin θ = 0, on a side: ψ = −Δ or π − Δ. Infinite where
+    /// the arm ends before.
+    pub(super) fn furthest_before_line(&self, side: Trend) -> f64 {
+        let left = if side == Trend::Falling { self.delta } else { PI - self.delta };
+        if left < FRAC_PI_2 { self.bottom_arm * libm::sin(left) } else { f64::INFINITY }
+    }
+
+    pub(super) fn lever(&self, bottom: f64) -> Lever {
+        let sin_psi = bottom / self.bottom_arm;
+        let cos_psi = ((1.0 - sin_psi) * (1.0 + sin_psi)).sqrt();
+        let turned = |angle: f64| libm::sin(angle) * cos_psi + libm::cos(angle) * sin_psi;
+        Lever {
+            ratio: self.arm_ratio * cos_psi,
+            sine: turned(self.delta),
+            cosine: turned(self.delta + FRAC_PI_2),
+            plus: turned(self.delta + self.friction_angle),
+            minus: turned(self.delta - self.friction_angle),
+        }
+    }
+
+    /// P = (L/(L−x−Δx))^k − 1: the air force over 2 p0 F; NaN when the column is used up.
+    #[must_use]
+    pub fn air(&self, x: f64, bottom: f64) -> f64 {
+        libm::expm1(-self.bottom_law.exponent * libm::log1p(-(x + bottom) / self.bottom_law.column))
+    }
+
+    /// ψ, rad, by (19).
+    #[must_use]
+    pub fn psi(&self, bottom: f64) -> f64 {
+        libm::asin(bottom / self.bottom_arm)
+    }
+
+    /// α, rad, the slope of the pitch curve, by (21).
+    #[must_use]
+    pub fn slope_angle(&self, bottom: f64, slope: f64) -> f64 {
+        let lever = self.lever(bottom);
+        let sigma = slope / lever.ratio;
+        libm::atan2(sigma * lever.sine, 1.0 + sigma * lever.cosine)
+    }
+
+    /// The side of a slope; a slope of exactly 0 is a lever that sticks.
+    #[must_use]
+    pub fn trend_of(slope: f64) -> Trend {
+        if slope > 0.0 {
+            Trend::Rising
+        } else if slope < 0.0 {
+            Trend::Falling
+        } else {
+            Trend::Stuck
+        }
+    }
+
+    /// T and η of (18) for a way of the bed.
+    fn fraction(&self, lever: &Lever, slope: f64, side: Trend, way: Way) -> (f64, f64) {
+        let (sigma, q) = (slope / lever.ratio, libm::sin(self.friction_angle));
+        let (braking, returning) = self.efficiencies(side);
+        match way {
+            Way::Braking => ((sigma * lever.plus + q) / (lever.minus - sigma * q), braking),
+            Way::Return => ((sigma * lever.minus - q) / (lever.plus + sigma * q), returning),
+        }
+    }
+
+    /// Left side less right side of (18), over 2 p0 F, at overrun x with the bottom at Δx and the slope dΔx/dx.
+    ///
+    /// Where a lever sticks in the direction that is to balance, the friction in it is whatever balances: the residual
+    /// is 0 as far as the losses reach, and what is beyond them elsewhere. On the other way it is taken without loss.
+    #[must_use]
+    pub fn residual(&self, x: f64, bottom: f64, slope: f64, way: Way) -> f64 {
+        self.residual_on(Self::trend_of(slope), x, bottom, slope, way)
+    }
+
+    /// The same for a flank that was to make the bottom do what `side` says, whatever its own slope.
+    #[must_use]
+    pub fn residual_on(&self, side: Trend, x: f64, bottom: f64, slope: f64, way: Way) -> f64 {
+        let (lever, air, load) = (self.lever(bottom), self.air(x, bottom), self.bottom_law.loading * x);
+        let (fraction, efficiency) = self.fraction(&lever, slope, side, way);
+        let with = |efficiency: f64| load - air * (1.0 + lever.ratio * fraction / efficiency);
+        let balanced =
+            matches!((self.exact_on, way), (ExactOn::Braking, Way::Braking) | (ExactOn::Return, Way::Return));
+        if side == Trend::Stuck && balanced && self.two_sided() {
+            let (a, b) = (with(self.efficiency), with(1.0 / self.efficiency));
+            if a.min(b) <= 0.0 && a.max(b) >= 0.0 {
+                0.0
+            } else if a.abs() < b.abs() {
+                a
+            } else {
+                b
+            }
+        } else {
+            with(efficiency)
+        }
+    }
+
+    /// Normal force of one roller on its flank over p0 F, equation (17), on a way of the bed; sent back, ρ has the other
+    /// sign and η changes sides.
+    #[must_use]
+    pub fn normal_force(&self, side: Trend, way: Way, x: f64, bottom: f64, slope: f64) -> f64 {
+        let lever = self.lever(bottom);
+        let (sigma, q) = (slope / lever.ratio, libm::sin(self.friction_angle));
+        let (braking, returning) = self.efficiencies(side);
+        let (left, efficiency) = match way {
+            Way::Braking => (lever.minus - sigma * q, braking),
+            Way::Return => (lever.plus + sigma * q, returning),
+        };
+        // sin(θ−α−ρ) over sin(θ−α) is (s₋ − σ q)/sin θ, and 1/sin(θ−α) is √(1 + 2 σ cos θ + σ²)/sin θ.
+        let stretch = (1.0 + 2.0 * sigma * lever.cosine + sigma * sigma).sqrt();
+        self.air(x, bottom) * lever.ratio * libm::cos(self.friction_angle) * stretch / (left * efficiency)
+    }
+
+    /// The right-hand side for x > 0, in units of the stroke.
+    pub(super) fn tape(&self, side: Trend) -> Tape {
+        let mut tape = Tape::default();
+        let (x, y) = (tape.abscissa(), tape.state());
+        let shortened = tape.sum(x, y);
+        let argument = tape.scaled(shortened, self.bottom_law.stroke / self.bottom_law.column);
+        let air = tape.power_less_one(argument, self.bottom_law.exponent);
+        let load = tape.scaled(x, self.bottom_law.loading * self.bottom_law.stroke);
+        let ratio = tape.quotient(load, air);
+        let slope = self.slope(&mut tape, ratio, y, side);
+        tape.finish(slope)
+    }
+
+    /// The right-hand side about x = 0, where y = x w and the state is w.
+    pub(super) fn starting_tape(&self, side: Trend) -> Tape {
+        let mut tape = Tape::default();
+        let (w, one) = (tape.state(), tape.constant(1.0));
+        let shortened = tape.sum(one, w);
+        let argument = tape.scaled(shortened, self.bottom_law.stroke / self.bottom_law.column);
+        let argument = tape.times_abscissa(argument);
+        let air = tape.power_less_one(argument, self.bottom_law.exponent);
+        let air = tape.over_abscissa(air);
+        let load = tape.constant(self.bottom_law.loading * self.bottom_law.stroke);
+        let ratio = tape.quotient(load, air);
+        let y = tape.times_abscissa(w);
+        let slope = self.slope(&mut tape, ratio, y, side);
+        tape.finish(slope)
+    }
+
+    /// dΔx/dx from A x/P and Δx (in strokes). Without friction it is η B and needs nothing of the lever.
+    fn slope(&self, tape: &mut Tape, ratio: Term, y: Term, side: Trend) -> Term {
+        let minus_one = tape.constant(-1.0);
+        let surplus = tape.sum(ratio, minus_one);
+        let (braking, returning) = self.efficiencies(side);
+        if self.friction_angle == 0.0 {
+            let efficiency = match self.exact_on {
+                ExactOn::Braking => braking,
+                ExactOn::Return => returning,
+                ExactOn::Mean => 2.0 / (1.0 / braking + 1.0 / returning),
+            };
+            return if efficiency == 1.0 { surplus } else { tape.scaled(surplus, efficiency) };
+        }
+        let one = tape.constant(1.0);
+        let sin_psi = tape.scaled(y, self.bottom_law.stroke / self.bottom_arm);
+        let square = tape.product(sin_psi, sin_psi);
+        let less = tape.scaled(square, -1.0);
+        let less = tape.sum(one, less);
+        let cos_psi = tape.root(less);
+        let ratio = tape.scaled(cos_psi, self.arm_ratio);
+        let mut turned = |angle: f64| {
+            let (a, b) = (tape.scaled(cos_psi, libm::sin(angle)), tape.scaled(sin_psi, libm::cos(angle)));
+            tape.sum(a, b)
+        };
+        let (plus, minus) = (turned(self.delta + self.friction_angle), turned(self.delta - self.friction_angle));
+        let q = libm::sin(self.friction_angle);
+        match self.exact_on {
+            ExactOn::Braking => one_way(tape, (surplus, ratio), (plus, minus), braking, q),
+            ExactOn::Return => one_way(tape, (surplus, ratio), (minus, plus), returning, -q),
+            ExactOn::Mean => both_ways(tape, (surplus, ratio), (plus, minus), (1.0 / braking, 1.0 / returning), q),
+        }
+    }
+}
+
+/// C (η B s₋ − C q)/(C s₊ + η B q).
+fn one_way(tape: &mut Tape, (b, c): (Term, Term), (plus, minus): (Term, Term), efficiency: f64, q: f64) -> Term {
+    let driven = tape.scaled(b, efficiency);
+    let (first, second) = (tape.product(driven, minus), tape.scaled(c, -q));
+    let above = tape.sum(first, second);
+    let (first, second) = (tape.product(c, plus), tape.scaled(driven, q));
+    let below = tape.sum(first, second);
+    let sigma = tape.quotient(above, below);
+    tape.product(c, sigma)
+}
+
+/// C σ with a T(ρ) + b T(−ρ) = 2 B/C: the root near 0 of
+///
+/// ```text
+/// σ² [C q (a s₊ − b s₋) + 2 B q²] + σ [C (a s₊² + b s₋² + (a+b) q²) + 2 B q (s₊ − s₋)] + C q (a s₊ − b s₋) − 2 B s₊ s₋
+/// ```
+fn both_ways(
+    tape: &mut Tape,
+    (b, c): (Term, Term),
+    (plus, minus): (Term, Term),
+    (first, second): (f64, f64),
+    q: f64,
+) -> Term {
+    let twice = tape.scaled(b, 2.0);
+    let (of_plus, of_minus) = (tape.scaled(plus, first * q), tape.scaled(minus, -second * q));
+    let lean = tape.sum(of_plus, of_minus);
+    let lean = tape.product(c, lean);
+    let square = tape.scaled(twice, q * q);
+    let quadratic = tape.sum(lean, square);
+
+    let (of_plus, of_minus) = (tape.product(plus, plus), tape.product(minus, minus));
+    let (of_plus, of_minus) = (tape.scaled(of_plus, first), tape.scaled(of_minus, second));
+    let squares = tape.sum(of_plus, of_minus);
+    let rest = tape.constant((first + second) * q * q);
+    let squares = tape.sum(squares, rest);
+    let own = tape.product(c, squares);
+    let negative = tape.scaled(minus, -1.0);
+    let difference = tape.sum(plus, negative);
+    let difference = tape.scaled(difference, q);
+    let pushed = tape.product(twice, difference);
+    let linear = tape.sum(own, pushed);
+
+    let both = tape.product(plus, minus);
+    let driven = tape.product(twice, both);
+    let negative = tape.scaled(lean, -1.0);
+    let minus_constant = tape.sum(driven, negative);
+
+    let discriminant = tape.product(linear, linear);
+    let product = tape.product(quadratic, minus_constant);
+    let product = tape.scaled(product, 4.0);
+    let discriminant = tape.sum(discriminant, product);
+    let root = tape.root(discriminant);
+    let below = tape.sum(linear, root);
+    let above = tape.scaled(minus_constant, 2.0);
+    let sigma = tape.quotient(above, below);
+    tape.product(c, sigma)
+}

@@ -1,0 +1,269 @@
+//! The law of a cam plate that rides on the bed: run-in, then the bottom's Δx over the overrun by equation (18).
+//!
+//! The parameter of the law is the bed's place x in metres, 0 where the reversal starts. Before that the bed runs at
+//! constant speed, so that a crank angle w is a way r w.
+
+mod mechanism;
+mod ode;
+mod stations;
+mod wall;
+
+pub use mechanism::{EfficiencyModel, ExactOn, Mechanism, Trend, Way};
+pub use ode::{Break, Solution};
+pub use stations::Stations;
+pub use wall::Wall;
+
+use super::transition::{Derivatives, Quintic, Transition};
+use super::{Jet, Motion, Piece};
+use crate::numeric::extremum;
+use std::f64::consts::FRAC_PI_2;
+
+/// How (18) is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Solver {
+    /// As a differential equation, to an absolute tolerance of Δx in m.
+    Ode {
+        /// The tolerance, m.
+        tolerance: f64,
+    },
+    /// Station by station, as the paper does.
+    Paper {
+        /// Number of stations after the one at x = 0.
+        stations: u32,
+    },
+}
+
+/// Cells for the search of the lowest point in a piece.
+const CELLS: u32 = 32;
+
+/// Why there is no law.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum WedgeMotionError {
+    /// (18) has no answer.
+    #[error(transparent)]
+    Wall(#[from] Wall),
+    /// A blend reaches past the end of the stroke.
+    #[error("a blend of {width_deg:.3} deg reaches past the end of the stroke; at most 180 deg (transition.width)")]
+    BlendTooWide {
+        /// Its width, degrees of crank angle.
+        width_deg: f64,
+    },
+}
+
+/// Δx over the stroke.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BottomMotion {
+    /// By the differential equation.
+    Ode(Solution),
+    /// By stations.
+    Paper(Stations),
+}
+
+impl BottomMotion {
+    /// Solves (18).
+    ///
+    /// # Errors
+    /// The [`Wall`] it runs into.
+    pub fn solve(mechanism: &Mechanism, solver: Solver) -> Result<Self, Wall> {
+        match solver {
+            Solver::Ode { tolerance } => Solution::new(mechanism, tolerance).map(Self::Ode),
+            Solver::Paper { stations } => Stations::new(mechanism, stations).map(Self::Paper),
+        }
+    }
+
+    /// Δx and its first three derivatives by x in [0, r], SI; at a break those of the later side, or of the earlier one.
+    #[must_use]
+    pub fn at(&self, x: f64, before: bool) -> Derivatives {
+        match self {
+            Self::Ode(solution) => solution.at(x, before),
+            Self::Paper(stations) => stations.at(x),
+        }
+    }
+
+    /// What the bottom does there while x grows.
+    #[must_use]
+    pub fn trend(&self, x: f64, before: bool) -> Trend {
+        match self {
+            Self::Ode(solution) => solution.trend(x, before),
+            Self::Paper(stations) => Mechanism::trend_of(stations.at(x)[1]),
+        }
+    }
+
+    /// Where the law of the slope changes.
+    #[must_use]
+    pub fn breaks(&self) -> &[Break] {
+        match self {
+            Self::Ode(solution) => &solution.breaks,
+            Self::Paper(_) => &[],
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shape {
+    Flat(f64),
+    Polynomial(Quintic),
+    /// The motion, its end taken from before the break there.
+    BottomMotion,
+}
+
+/// The law of the plate.
+#[derive(Debug, Clone)]
+pub struct WedgeMotion {
+    mechanism: Mechanism,
+    motion: BottomMotion,
+    pieces: Vec<Piece>,
+    shapes: Vec<Shape>,
+    lowest: f64,
+}
+
+impl WedgeMotion {
+    /// Puts a flat of the given length (m), the transition and the motion together.
+    ///
+    /// # Errors
+    /// [`WedgeMotionError`] when (18) has no answer or the transition does not fit.
+    pub fn new(
+        mechanism: Mechanism,
+        solver: Solver,
+        transition: Transition,
+        flat: f64,
+    ) -> Result<Self, WedgeMotionError> {
+        let motion = BottomMotion::solve(&mechanism, solver)?;
+        let stroke = mechanism.bottom_law.stroke;
+        let mut law = Self { mechanism, motion, pieces: Vec::new(), shapes: Vec::new(), lowest: 0.0 };
+        let (start, shape, motion_start) = match transition {
+            Transition::None => (0.0, None, 0.0),
+            Transition::RunUp { width } => {
+                let way = stroke * width;
+                let quintic = Quintic::run_up(-way, way, law.motion.at(0.0, false));
+                (-way, Some(quintic), 0.0)
+            }
+            Transition::Blend { width } => {
+                let half = 0.5 * width;
+                if half > FRAC_PI_2 {
+                    return Err(WedgeMotionError::BlendTooWide { width_deg: width.to_degrees() });
+                }
+                let (start, end) = (-stroke * half, stroke * libm::sin(half));
+                (start, Some(Quintic::blend(start, end - start, 0.0, law.motion.at(end, false))), end)
+            }
+        };
+        let level = shape.map_or(0.0, |quintic| quintic.level());
+        law.push(start - flat, start, Shape::Flat(level));
+        if let Some(quintic) = shape {
+            law.push(start, motion_start, Shape::Polynomial(quintic));
+        }
+        let breaks: Vec<f64> =
+            law.motion.breaks().iter().map(|b| b.x).filter(|x| (motion_start..stroke).contains(x)).collect();
+        let mut from = motion_start;
+        for end in breaks.into_iter().chain([stroke]) {
+            law.push(from, end, Shape::BottomMotion);
+            from = end;
+        }
+        law.lowest = law.find_lowest();
+        Ok(law)
+    }
+
+    fn push(&mut self, start: f64, end: f64, shape: Shape) {
+        // A nanometre of bed travel is no piece of its own.
+        if end - start > 1e-9 {
+            let dwell = matches!(shape, Shape::Flat(_)) || self.rests(start, end, shape);
+            self.pieces.push(Piece { start, end, dwell });
+            self.shapes.push(shape);
+        } else if let Some(last) = self.pieces.last_mut() {
+            last.end = end;
+        }
+    }
+
+    /// A lever that sticks leaves a flat on the plate.
+    fn rests(&self, start: f64, end: f64, shape: Shape) -> bool {
+        let slope = |x: f64| self.motion.at(x, false)[1];
+        shape == Shape::BottomMotion
+            && matches!(self.motion, BottomMotion::Ode(_))
+            && slope(start) == 0.0
+            && slope(0.5 * (start + end)) == 0.0
+    }
+
+    fn find_lowest(&self) -> f64 {
+        let lowest = self.pieces.iter().enumerate().map(|(index, piece)| {
+            let of = |x: f64| self.bottom(index, x);
+            -extremum::largest(|x| -of(x).s, |x| -of(x).ds, (piece.start, piece.end), CELLS).value
+        });
+        lowest.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Δx and its derivatives by x; m.
+    #[must_use]
+    pub fn bottom(&self, piece: usize, x: f64) -> Jet {
+        let (Some(shape), Some(place)) = (self.shapes.get(piece), self.pieces.get(piece)) else {
+            return Jet::default();
+        };
+        let [s, ds, dds, ddds] = match shape {
+            Shape::Flat(level) => [*level, 0.0, 0.0, 0.0],
+            Shape::Polynomial(quintic) => quintic.at(x),
+            Shape::BottomMotion => self.motion.at(x, x >= place.end),
+        };
+        Jet { s, ds, dds, ddds }
+    }
+
+    /// Forces and lever.
+    #[must_use]
+    pub fn mechanism(&self) -> &Mechanism {
+        &self.mechanism
+    }
+
+    /// Δx over the stroke.
+    #[must_use]
+    pub fn motion(&self) -> &BottomMotion {
+        &self.motion
+    }
+
+    /// Δx at lift 0, m.
+    #[must_use]
+    pub fn lowest(&self) -> f64 {
+        self.lowest
+    }
+
+    /// Jump of the slope dΔx/dx at x = 0: what a transition of kind `none` leaves.
+    #[must_use]
+    pub fn slope_jump(&self) -> f64 {
+        let starts = self.shapes.iter().position(|shape| *shape == Shape::BottomMotion);
+        match starts.and_then(|index| Some((index, self.shapes.get(index.checked_sub(1)?)?))) {
+            Some((index, Shape::Flat(_))) => self.bottom(index, 0.0).ds,
+            _ => 0.0,
+        }
+    }
+
+    /// What the bottom does at a place of a piece while x grows.
+    #[must_use]
+    pub fn trend(&self, piece: usize, x: f64) -> Trend {
+        match (self.shapes.get(piece), self.pieces.get(piece)) {
+            (Some(Shape::BottomMotion), Some(place)) => self.motion.trend(x, x >= place.end),
+            _ => Mechanism::trend_of(self.bottom(piece, x).ds),
+        }
+    }
+
+    /// Left side less right side of (18) over 2 p0 F on a way of the bed; 0 before the reversal.
+    #[must_use]
+    pub fn residual(&self, piece: usize, x: f64, way: Way) -> f64 {
+        if x <= 0.0 {
+            return 0.0;
+        }
+        let bottom = self.bottom(piece, x);
+        self.mechanism.residual_on(self.trend(piece, x), x, bottom.s, bottom.ds, way)
+    }
+}
+
+impl Motion for WedgeMotion {
+    fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    fn jet(&self, piece: usize, x: f64) -> Jet {
+        let bottom = self.bottom(piece, x);
+        Jet { s: bottom.s - self.lowest, ..bottom }
+    }
+
+    fn period(&self) -> Option<f64> {
+        None
+    }
+}

@@ -1,0 +1,177 @@
+//! The bottom of a translating cam station by station, as the paper has it: (18) with the slope by the backward
+//! difference (25), solved for Δx at one overrun after the other.
+//!
+//! # The bracket
+//!
+//! With the slope (y − y₀)/h the right side of (18) grows with y as long as the flank does not jam: the air force grows,
+//! and so does T. Written without the fraction, so that the jam is no pole,
+//!
+//! ```text
+//! G(y) = (A x − P) (s₋ − σ q) − P C (σ s₊ + q)/η
+//! ```
+//!
+//! falls through zero once. At y₀, where σ = 0, the two laws of unequal efficiencies tell the side: G > 0 as the rising
+//! law has it means a root above, G < 0 as the falling law has it one below, and neither a lever that sticks, y = y₀. From
+//! there the bracket is widened, doubling, until G has changed its sign, but never past the place where the flank jams, the
+//! roller moves along the bed or arm or column are used up: those are walls, and they have names. Chandrupatla's method
+//! ([`crate::numeric::root`]) then closes in, superlinearly and never leaving the bracket.
+
+use super::mechanism::{ARM_SHARE, ExactOn, Mechanism, Trend};
+use super::wall::Wall;
+use crate::numeric::root;
+use crate::numeric::spline::Spline;
+
+/// Share of the column, and of the way to a jam, that is kept free.
+const MARGIN: f64 = 1e-12;
+/// sin θ below which it is the bed's line, not friction, that stops the flank.
+const IN_LINE: f64 = 1e-3;
+/// First width of the bracket over the step in x, and doublings from there: far past any wall.
+const FIRST_WIDTH: f64 = 0.05;
+const DOUBLINGS: u32 = 80;
+
+/// Stations with the bottom's Δx.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stations {
+    /// Overruns, m, from 0 to r.
+    pub overruns: Vec<f64>,
+    /// Δx there, m.
+    pub bottoms: Vec<f64>,
+    spline: Spline,
+}
+
+impl Stations {
+    /// Solves (18) at `count` stations equally spaced in x, after the one at x = 0.
+    ///
+    /// # Errors
+    /// The [`Wall`] a station runs into.
+    pub fn new(mechanism: &Mechanism, count: u32) -> Result<Self, Wall> {
+        let stroke = mechanism.bottom_law.stroke;
+        let (mut overruns, mut bottoms) = (vec![0.0], vec![0.0]);
+        let (mut before, mut bottom) = (0.0, 0.0);
+        for station in 1..=count {
+            let x = stroke * (f64::from(station) / f64::from(count));
+            bottom = solve(mechanism, x, x - before, bottom)?;
+            overruns.push(x);
+            bottoms.push(bottom);
+            before = x;
+        }
+        let spline = Spline::not_a_knot(&overruns, &bottoms);
+        Ok(Self { overruns, bottoms, spline })
+    }
+
+    /// Δx and its first three derivatives by x, SI: a cubic spline through the stations.
+    #[must_use]
+    pub fn at(&self, x: f64) -> [f64; 4] {
+        self.spline.at(x)
+    }
+}
+
+/// A station: (18) with the slope by the backward difference.
+struct Station<'a> {
+    mechanism: &'a Mechanism,
+    x: f64,
+    step: f64,
+    before: f64,
+    q: f64,
+}
+
+impl Station<'_> {
+    /// What is left until the flank jams, and the roller until it moves along the bed's line, for the ways that balance.
+    fn free(&self, y: f64) -> f64 {
+        let lever = self.mechanism.lever(y);
+        let sigma = (y - self.before) / (self.step * lever.ratio);
+        let (braking, returning) = (lever.minus - sigma * self.q, lever.plus + sigma * self.q);
+        match self.mechanism.exact_on {
+            ExactOn::Braking => braking,
+            ExactOn::Return => returning,
+            ExactOn::Mean => braking.min(returning),
+        }
+    }
+
+    /// G with the efficiencies of a side.
+    fn remainder(&self, y: f64, side: Trend) -> f64 {
+        let (mechanism, q) = (self.mechanism, self.q);
+        let lever = mechanism.lever(y);
+        let sigma = (y - self.before) / (self.step * lever.ratio);
+        let (braking, returning) = mechanism.efficiencies(side);
+        let (air, load, c) = (mechanism.air(self.x, y), mechanism.bottom_law.loading * self.x, lever.ratio);
+        let in_way = |plus: f64, minus: f64, q: f64, eta: f64| {
+            (load - air) * (minus - sigma * q) - air * c * (sigma * plus + q) / eta
+        };
+        match mechanism.exact_on {
+            ExactOn::Braking => in_way(lever.plus, lever.minus, q, braking),
+            ExactOn::Return => in_way(lever.minus, lever.plus, -q, returning),
+            ExactOn::Mean => {
+                let (first, second) = (lever.minus - sigma * q, lever.plus + sigma * q);
+                in_way(lever.plus, lever.minus, q, braking) * second
+                    + in_way(lever.minus, lever.plus, -q, returning) * first
+            }
+        }
+    }
+
+    /// The furthest Δx on a side before a wall, and the wall.
+    fn furthest(&self, side: Trend) -> (f64, Wall) {
+        let (m, x_mm) = (self.mechanism, 1e3 * self.x);
+        let (line, arm) = (m.furthest_before_line(side), ARM_SHARE * m.bottom_arm);
+        let arm_wall = Wall::Arm { x_mm, arm_mm: 1e3 * m.bottom_arm };
+        let sign = if side == Trend::Falling { -1.0 } else { 1.0 };
+        let mut least = (arm, arm_wall);
+        if line < arm {
+            least = (line, Wall::Line { x_mm });
+        }
+        let column = m.bottom_law.column * (1.0 - MARGIN) - self.x;
+        if side == Trend::Rising && column < least.0 {
+            least = (column, Wall::Column { x_mm });
+        }
+        (sign * least.0, least.1)
+    }
+
+    fn solve(&self) -> Result<f64, Wall> {
+        let x_mm = 1e3 * self.x;
+        if !(self.free(self.before) > 0.0) {
+            return Err(Wall::Jam { x_mm });
+        }
+        let (side, sign) = if self.remainder(self.before, Trend::Rising) > 0.0 {
+            (Trend::Rising, 1.0)
+        } else if self.remainder(self.before, Trend::Falling) < 0.0 {
+            (Trend::Falling, -1.0)
+        } else {
+            return Ok(self.before);
+        };
+        let (furthest, wall) = self.furthest(side);
+        let mut near = self.before;
+        let mut width = FIRST_WIDTH * self.step;
+        for _ in 0..DOUBLINGS {
+            let mut far = self.before + sign * width;
+            let at_wall = sign * (far - furthest) >= 0.0;
+            if at_wall {
+                far = furthest;
+            }
+            let mut jams = false;
+            if !(self.free(far) > 0.0) {
+                let jam = root::bracketed(|y| self.free(y), near, far, 0.0).unwrap_or(near);
+                far = jam + (near - jam) * MARGIN.sqrt();
+                jams = true;
+            }
+            if sign * self.remainder(far, side) <= 0.0 {
+                let root = root::bracketed(|y| self.remainder(y, side), near, far, 0.0);
+                return root.map_err(|_| Wall::Unnamed { x_mm });
+            }
+            if jams {
+                let in_line = self.mechanism.lever(far).sine < IN_LINE;
+                return Err(if in_line { Wall::Line { x_mm } } else { Wall::Jam { x_mm } });
+            }
+            if at_wall {
+                return Err(wall);
+            }
+            near = far;
+            width *= 2.0;
+        }
+        Err(Wall::Unnamed { x_mm })
+    }
+}
+
+/// Δx at the overrun x, a step after a station with the bottom at `before`.
+fn solve(mechanism: &Mechanism, x: f64, step: f64, before: f64) -> Result<f64, Wall> {
+    Station { mechanism, x, step, before, q: libm::sin(mechanism.friction_angle) }.solve()
+}

@@ -1,0 +1,144 @@
+//! The files of a proven cam: made in memory, then written all or none.
+
+use super::{Error, Proven};
+use crate::body::Body;
+use crate::report::Report;
+use crate::write::files::{self, write_all};
+use crate::write::formats::{FORMATS, Format, When, by_name};
+use crate::write::svg;
+use std::path::{Path, PathBuf};
+
+pub use files::Output;
+
+/// Which files are written, and where.
+#[derive(Debug, Clone)]
+pub struct Writing {
+    /// Directory, made when missing.
+    pub directory: PathBuf,
+    /// What the names of the files begin with.
+    pub stem: String,
+    /// Names of the formats; `None` for the usual ones that the cam can have.
+    pub formats: Option<Vec<String>>,
+    /// Rows of the point table.
+    pub samples: u32,
+    /// The SVG template the review sheet is put into.
+    pub template: String,
+    /// Write although a check failed.
+    pub force: bool,
+}
+
+/// Rows of the point table when nothing else is asked for: every half degree.
+const SAMPLES: u32 = 720;
+
+impl Writing {
+    /// The usual formats in a directory.
+    pub fn to(directory: impl Into<PathBuf>, stem: impl Into<String>) -> Self {
+        Self {
+            directory: directory.into(),
+            stem: stem.into(),
+            formats: None,
+            samples: SAMPLES,
+            template: svg::TEMPLATE.to_owned(),
+            force: false,
+        }
+    }
+
+    /// Only these formats.
+    #[must_use]
+    pub fn formats(self, names: &[&str]) -> Self {
+        Self { formats: Some(names.iter().map(|&name| name.to_owned()).collect()), ..self }
+    }
+
+    /// The formats that are written for a body, and the usual ones it cannot have, with the reason.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchFormat`]; [`Error::Unfit`] when a format was asked for that the body cannot have.
+    #[expect(clippy::type_complexity, reason = "two lists")]
+    pub fn chosen(&self, body: &dyn Body) -> Result<(Vec<&'static Format>, Vec<(&'static str, &'static str)>), Error> {
+        let (mut chosen, mut left_out) = (Vec::new(), Vec::new());
+        if let Some(unknown) = self.formats.iter().flatten().find(|name| !by_name().any(|format| format.name == *name))
+        {
+            let known: Vec<&str> = by_name().map(|format| format.name).collect();
+            return Err(Error::NoSuchFormat { name: unknown.clone(), known: known.join(", ") });
+        }
+        for format in FORMATS {
+            let asked = self.formats.as_ref().map(|names| names.iter().any(|name| name == format.name));
+            match (format.when, asked, (format.unfit)(body)) {
+                (When::Drawn, _, _) | (_, Some(true), None) | (When::Usual, None, None) => chosen.push(format),
+                (_, Some(true), Some(why)) => return Err(Error::Unfit { format: format.name, why }),
+                (When::Usual, None, Some(why)) => left_out.push((format.name, why)),
+                (_, Some(false), _) | (When::Asked, None, _) => {}
+            }
+        }
+        Ok((chosen, left_out))
+    }
+}
+
+/// Files in memory, ready to be written.
+#[derive(Debug, Clone)]
+pub struct FileSet {
+    directory: PathBuf,
+    report: Report,
+    outputs: Vec<Output>,
+}
+
+/// Makes the files of a proven cam.
+pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, Error> {
+    let drawn = proven.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
+    if !proven.passed() && !writing.force {
+        let failed = proven.findings().iter().filter(|finding| finding.verdict == crate::report::Verdict::Fail);
+        let names: Vec<&str> = failed.map(|finding| &*finding.check).collect();
+        return Err(Error::Refused(names.join(", ")));
+    }
+    let body = proven.cam.body();
+    let (formats, _) = writing.chosen(body)?;
+    let names: Vec<String> = formats
+        .iter()
+        .flat_map(|format| (format.endings)(drawn))
+        .map(|ending| format!("{}{ending}", writing.stem))
+        .collect();
+    let mut report = proven.report();
+    report.files = names.iter().map(|name| writing.directory.join(name).display().to_string()).collect();
+    let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
+    let mut bytes = Vec::with_capacity(names.len());
+    for format in formats {
+        bytes.extend((format.write)(&rendering)?);
+    }
+    let outputs = names.into_iter().zip(bytes).map(|(name, bytes)| Output { name, bytes }).collect();
+    Ok(FileSet { directory: writing.directory.clone(), report, outputs })
+}
+
+impl FileSet {
+    /// The report, with the names of the files.
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+
+    /// The files.
+    #[must_use]
+    pub fn outputs(&self) -> &[Output] {
+        &self.outputs
+    }
+
+    /// The bytes of a file by the end of its name.
+    #[must_use]
+    pub fn bytes(&self, ending: &str) -> Option<&[u8]> {
+        self.outputs.iter().find(|output| output.name.ends_with(ending)).map(|output| output.bytes.as_slice())
+    }
+
+    /// Where they go.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    /// Writes all files, or none.
+    ///
+    /// # Errors
+    /// [`Error::Files`]; then every file is as it was before.
+    pub fn commit(self) -> Result<Report, Error> {
+        write_all(&self.directory, &self.outputs)?;
+        Ok(self.report)
+    }
+}

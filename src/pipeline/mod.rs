@@ -1,0 +1,119 @@
+//! The pipeline as types: [`Spec`] → [`Cam`] → [`Drawing`] → [`Proven`] → [`FileSet`], each step a method of the one before.
+//!
+//! There is no other way from one to the next, so nothing can be written that was not proved: the files are made of what
+//! [`Drawing::prove`] read back from their own bytes.
+
+mod builder;
+mod error;
+mod file_set;
+mod proven;
+mod spec;
+
+pub use builder::Builder;
+pub use error::Error;
+pub use file_set::{FileSet, Output, Writing};
+pub use proven::Proven;
+pub use spec::Spec;
+
+use crate::body::{Body, DrawError, Drawn, Request};
+use crate::geometry::MILLIMETRES;
+use crate::reading;
+use crate::report::{Report, Section};
+use crate::verify::{self, Evidence, WrittenOutline, join_reach, rolling};
+
+/// A solved cam: exact curves, nothing drawn yet.
+#[derive(Debug)]
+pub struct Cam {
+    body: Box<dyn Body>,
+}
+
+impl Cam {
+    /// The cam itself: its curves, worst places and tables.
+    #[must_use]
+    pub fn body(&self) -> &dyn Body {
+        &*self.body
+    }
+
+    /// Draws what is cut, within a tolerance (m) or as a [`Request`] tells.
+    ///
+    /// # Errors
+    /// [`Error::Draw`] when the outline cannot be drawn. A cam that has no outline at all, because it is undercut beyond
+    /// repair, is a drawing without one: its checks say why, and it cannot be written.
+    pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
+        let request = request.into();
+        match self.body.draw(&request) {
+            Ok(drawn) => Ok(Drawing { cam: self, request, drawn: Ok(drawn) }),
+            Err(DrawError::NoOutline(why)) => Ok(Drawing { cam: self, request, drawn: Err(why) }),
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Whether a DXF file, also one that was edited or written by another program, holds this cam within a tolerance (m).
+    ///
+    /// # Errors
+    /// [`Error::Read`] when the bytes are no DXF file.
+    pub fn check(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
+        let tolerance_mm = MILLIMETRES * tolerance;
+        let reading = reading::read(bytes, join_reach(tolerance_mm))?;
+        let outlines: Vec<WrittenOutline> = match reading.chains.as_slice() {
+            [chain] if chain.closed => {
+                let found = chain.contour();
+                // Which way round another program wrote it does not change the metal.
+                let turns_left = found.area_and_centroid().0 > 0.0;
+                vec![WrittenOutline { z: 0.0, contour: if turns_left { found } else { chain.reversed().contour() } }]
+            }
+            _ => Vec::new(),
+        };
+        let body = self.body();
+        let curves = body.plane().zip(outlines.first());
+        let rolled = curves.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
+        let checks = verify::run(&Evidence {
+            body,
+            drawn: None,
+            outlines: &outlines,
+            rolled: rolled.as_ref(),
+            foreign: Some(&reading),
+            tolerance_mm,
+        });
+        let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
+        Ok(Report { command: "check".into(), ..report(body, sections, checks) })
+    }
+}
+
+impl From<f64> for Request {
+    fn from(tolerance: f64) -> Self {
+        Request::within(tolerance)
+    }
+}
+
+/// A cam as drawn to a tolerance, not yet proved.
+#[derive(Debug, Clone)]
+pub struct Drawing<'c> {
+    cam: &'c Cam,
+    request: Request,
+    /// What was drawn, or why there is no outline.
+    drawn: Result<Drawn, String>,
+}
+
+impl Drawing<'_> {
+    /// What was drawn; `None` when there is no outline.
+    #[must_use]
+    pub fn drawn(&self) -> Option<&Drawn> {
+        self.drawn.as_ref().ok()
+    }
+}
+
+/// The report of a body, without files.
+fn report(body: &dyn Body, sections: Vec<Section>, checks: Vec<crate::report::Finding>) -> Report {
+    let (kind, machine) = (body.kind(), body.machine());
+    Report {
+        command: kind.command.into(),
+        noun: kind.noun.into(),
+        machine: machine.name().to_owned(),
+        rpm: body.speeds(),
+        sections,
+        checks,
+        notes: machine.without_effect(kind),
+        files: Vec::new(),
+    }
+}

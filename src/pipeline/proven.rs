@@ -1,0 +1,149 @@
+//! A drawing with its proof: the bytes of its cut files, and what every check found of them.
+
+use super::{Cam, Drawing, Error, FileSet, Writing, file_set, report};
+use crate::body::{Drawn, Found, Request};
+use crate::geometry::MILLIMETRES;
+use crate::report::{Finding, Report, Rolled, passed};
+use crate::table::Table;
+use crate::verify::{self, Evidence, WrittenOutline, rolling};
+use crate::write::dxf::Version;
+use crate::write::formats::Rendering;
+use crate::write::proof;
+
+/// A cam whose cut files were written to memory, read back, and checked.
+#[derive(Debug)]
+pub struct Proven<'c> {
+    pub(super) cam: &'c Cam,
+    request: Request,
+    pub(super) drawn: Result<Drawn, String>,
+    /// The bytes of the cut files, one for each part.
+    cut_files: Vec<Vec<u8>>,
+    version: Version,
+    outlines: Vec<WrittenOutline>,
+    rolled: Option<Rolled>,
+    findings: Vec<Finding>,
+}
+
+impl<'c> Drawing<'c> {
+    /// Writes the cut files to memory as R2000, reads the outlines back from their bytes, and checks the cam.
+    ///
+    /// # Errors
+    /// [`Error::Proof`] when the bytes do not hold what was drawn: a fault of camgen.
+    pub fn prove(self) -> Result<Proven<'c>, Error> {
+        self.prove_as(Version::default())
+    }
+
+    /// As [`Drawing::prove`], in another version of DXF.
+    ///
+    /// # Errors
+    /// As [`Drawing::prove`].
+    pub fn prove_as(self, version: Version) -> Result<Proven<'c>, Error> {
+        let body = self.cam.body();
+        let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
+        for part in self.drawn.iter().flat_map(|drawn| &drawn.parts) {
+            // The proof is of the bytes that would be cut from, not of what they were made of.
+            let written = proof::write(part, version)?;
+            cut_files.push(written.bytes);
+            outlines.push(WrittenOutline { z: part.z, contour: written.outline });
+        }
+        let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
+        let plane = body.plane().zip(outlines.first());
+        let rolled = plane.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
+        let findings = verify::run(&Evidence {
+            body,
+            drawn: self.drawn.as_ref().ok(),
+            outlines: &outlines,
+            rolled: rolled.as_ref(),
+            foreign: None,
+            tolerance_mm,
+        });
+        let (cam, request, drawn) = (self.cam, self.request, self.drawn);
+        Ok(Proven { cam, request, drawn, cut_files, version, outlines, rolled, findings })
+    }
+}
+
+impl Proven<'_> {
+    /// What every check found.
+    #[must_use]
+    pub fn findings(&self) -> &[Finding] {
+        &self.findings
+    }
+
+    /// Whether no check failed.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        passed(&self.findings)
+    }
+
+    /// Why there is no outline, when there is none.
+    #[must_use]
+    pub fn no_outline(&self) -> Option<&str> {
+        self.drawn.as_ref().err().map(String::as_str)
+    }
+
+    /// What was drawn.
+    #[must_use]
+    pub fn drawn(&self) -> Option<&Drawn> {
+        self.drawn.as_ref().ok()
+    }
+
+    /// The bytes of the cut files, as they were proved.
+    #[must_use]
+    pub fn cut_files(&self) -> &[Vec<u8>] {
+        &self.cut_files
+    }
+
+    /// The outlines as another program would find them in the cut files.
+    #[must_use]
+    pub fn outlines(&self) -> &[WrittenOutline] {
+        &self.outlines
+    }
+
+    /// What rolling the follower on the written outline has shown, of a plane cam.
+    #[must_use]
+    pub fn rolled(&self) -> Option<&Rolled> {
+        self.rolled.as_ref()
+    }
+
+    /// The report, without files.
+    #[must_use]
+    pub fn report(&self) -> Report {
+        let body = self.cam.body();
+        let found = Found {
+            drawn: self.drawn(),
+            rolled: self.rolled.as_ref(),
+            tolerance_mm: MILLIMETRES * self.request.fit.tolerance,
+        };
+        report(body, body.sections(&found), self.findings.clone())
+    }
+
+    /// The point table with so many rows over a turn of the cam, or steps over the stroke of a plate.
+    #[must_use]
+    pub fn table(&self, samples: u32) -> Table {
+        Table::of(&self.cam.body().rows(samples))
+    }
+
+    /// The cam as the formats see it, with a report and the template of the sheet.
+    ///
+    /// # Errors
+    /// [`Error::NoOutline`] when there is nothing to write.
+    pub fn rendering<'a>(
+        &'a self,
+        report: &'a Report,
+        samples: u32,
+        template: &'a str,
+    ) -> Result<Rendering<'a>, Error> {
+        let drawn = self.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
+        let (body, cut_files, dxf_version) = (self.cam.body(), &self.cut_files, self.version);
+        Ok(Rendering { body, drawn, cut_files, dxf_version, report, samples, template })
+    }
+
+    /// Makes the files in memory.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] when a check failed and `writing.force` is not set; [`Error::NoOutline`], [`Error::Unfit`],
+    /// [`Error::Format`].
+    pub fn files(&self, writing: &Writing) -> Result<FileSet, Error> {
+        file_set::files(self, writing)
+    }
+}

@@ -1,0 +1,94 @@
+//! What cam is asked for: a machine, and how the body is solved from it.
+
+use super::{Builder, Cam, Error};
+use crate::body::conoid::{Conoid, between};
+use crate::body::disc::Disc;
+use crate::body::wedge::Wedge;
+use crate::body::{Body, SolveError};
+use crate::machine::Machine;
+use crate::motion::Motion;
+use crate::motion::equation_18::{ExactOn, Solver};
+use std::fmt;
+use std::sync::Arc;
+
+type Solve = dyn FnOnce(&Machine) -> Result<Box<dyn Body>, SolveError>;
+
+/// A specification: what cam is asked for, every value in range.
+pub struct Spec {
+    machine: Machine,
+    solve: Box<Solve>,
+}
+
+impl fmt::Debug for Spec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Spec").field("machine", &self.machine).finish_non_exhaustive()
+    }
+}
+
+impl Spec {
+    /// Any body: `solve` makes it from the machine.
+    pub fn new<B, E>(machine: Machine, solve: impl FnOnce(&Machine) -> Result<B, E> + 'static) -> Self
+    where
+        B: Body + 'static,
+        E: Into<SolveError>,
+    {
+        let solve = |machine: &Machine| match solve(machine) {
+            Ok(body) => Ok(Box::new(body) as Box<dyn Body>),
+            Err(error) => Err(error.into()),
+        };
+        Self { machine, solve: Box::new(solve) }
+    }
+
+    /// The disc cam of a press for a speed of its main shaft, rpm.
+    #[must_use]
+    pub fn rotary(machine: Machine, rpm: f64) -> Self {
+        Self::new(machine, move |machine| Disc::solve(machine, rpm))
+    }
+
+    /// The wedge cam of a press (a linear cam, the plate on the bed) for a speed of its main shaft, rpm.
+    #[must_use]
+    pub fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
+        Self::new(machine, move |machine| Wedge::solve(machine, rpm, solver, exact_on))
+    }
+
+    /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the force that may be left
+    /// between them, N.
+    #[must_use]
+    pub fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
+        let solve = move |machine: &Machine| Conoid::solve(machine, &speeds);
+        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(residual_limit)))
+    }
+
+    /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a force between them, N.
+    #[must_use]
+    pub fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
+        let solve = move |machine: &Machine| between::fewest(machine, speeds, residual_limit);
+        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(Some(residual_limit))))
+    }
+
+    /// The disc cam of any motion; `rpm` is the speed of the cam itself, where it is known.
+    #[must_use]
+    pub fn of_motion(machine: Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Self {
+        Self::new(machine, move |machine| Disc::of_motion(machine, motion, rpm))
+    }
+
+    /// A specification put together in code instead of in a file.
+    #[must_use]
+    pub fn builder(name: &str) -> Builder {
+        Builder::new(name)
+    }
+
+    /// The machine it is for.
+    #[must_use]
+    pub fn machine(&self) -> &Machine {
+        &self.machine
+    }
+
+    /// Solves the motion and sizes the cam.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] when there is no such cam.
+    pub fn solve(self) -> Result<Cam, Error> {
+        Ok(Cam { body: (self.solve)(&self.machine)? })
+    }
+}

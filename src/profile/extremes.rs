@@ -1,0 +1,103 @@
+//! The worst places of a disc cam, solved from exact derivatives.
+
+use super::Curves;
+use crate::motion::Piece;
+use crate::numeric::extremum::{self, Extremum};
+
+/// Cells a piece is cut into: pressure angle and curvature of a piece have a handful of extrema.
+const CELLS: u32 = 32;
+
+/// Largest value of a quantity over the motion; `quantity` gives value and derivative at a cam angle of a piece.
+fn largest(curves: Curves<'_>, quantity: impl Fn(usize, f64) -> (f64, f64)) -> Extremum {
+    let in_piece = |(index, piece): (usize, &Piece)| {
+        let cells = if piece.dwell { 1 } else { CELLS };
+        let range = (piece.start, piece.end);
+        extremum::largest(|angle| quantity(index, angle).0, |angle| quantity(index, angle).1, range, cells)
+    };
+    curves.motion.pieces().iter().enumerate().map(in_piece).fold(
+        Extremum { at: 0.0, value: f64::NEG_INFINITY },
+        |best, next| {
+            if next.value > best.value || best.value.is_nan() { next } else { best }
+        },
+    )
+}
+
+/// Cells of a piece, and golden sections, in which a value without derivative is searched: forces are smooth with a
+/// hump or two.
+const FORCE_CELLS: u32 = 48;
+const FORCE_SECTIONS: u32 = 30;
+
+/// Largest value over the turn of something that depends on the cam angle of a piece, when no derivative is at hand.
+pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Extremum {
+    let of_piece = |(index, piece): (usize, &Piece)| {
+        let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
+        extremum::largest_without_slope(|angle| value(index, angle), (piece.start, piece.end), cells, sections)
+    };
+    curves
+        .motion
+        .pieces()
+        .iter()
+        .enumerate()
+        .map(of_piece)
+        .fold(NOTHING, |best, next| if next.value > best.value || best.value.is_nan() { next } else { best })
+}
+
+const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };
+
+/// Largest |pressure angle|, rad.
+pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
+    let signed = |sign: f64| {
+        largest(curves, |piece, angle| {
+            let contact = curves.contact(piece, angle);
+            (sign * contact.pressure_angle, sign * contact.pressure_angle_slope)
+        })
+    };
+    let (rise, fall) = (signed(1.0), signed(-1.0));
+    if rise.value >= fall.value { rise } else { fall }
+}
+
+/// Largest curvature of the follower's curve, 1/m: the sharpest convex place.
+pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
+    largest(curves, |piece, angle| {
+        let pitch = curves.contact(piece, angle).curve;
+        (pitch.curvature, pitch.curvature_slope)
+    })
+}
+
+/// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.
+///
+/// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
+pub fn concave_profile_curvature(curves: Curves<'_>) -> Extremum {
+    let pitch = largest(curves, |piece, angle| {
+        let pitch = curves.contact(piece, angle).curve;
+        (-pitch.curvature, -pitch.curvature_slope)
+    });
+    Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * curves.offset()) }
+}
+
+/// A corner of the pitch curve between two pieces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner {
+    /// The motion's parameter.
+    pub at: f64,
+    /// Turn of the tangent, rad: positive to the left (convex), negative to the right (concave).
+    pub turn: f64,
+}
+
+/// A turn below this is no corner, rad: far below the 0.05° a shop tolerates, far above rounding (1e-12).
+const LEAST_CORNER: f64 = 1e-9;
+
+/// The corners of the pitch curve, in the order of the pieces; each stands at the end of a piece.
+pub fn corners(curves: Curves<'_>) -> Vec<Corner> {
+    let pieces = curves.motion.pieces();
+    let joints = if curves.motion.period().is_some() { pieces.len() } else { pieces.len().saturating_sub(1) };
+    let turn = |index: usize| {
+        let next = (index + 1) % pieces.len();
+        let (before, after) = (pieces.get(index)?, pieces.get(next)?);
+        let left = curves.contact(index, before.end).curve.tangent;
+        let right = curves.contact(next, after.start).curve.tangent;
+        let turn = libm::atan2(left.perp(&right), left.dot(&right));
+        (turn.abs() > LEAST_CORNER).then_some(Corner { at: before.end, turn })
+    };
+    (0..joints).filter_map(turn).collect()
+}

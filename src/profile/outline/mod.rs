@@ -1,0 +1,264 @@
+//! A profile as a chain of tangent arcs in millimetres, piece by piece: where curves are sampled, once, to a stated tolerance.
+//!
+//! Tolerances are in metres, like everything that comes in; contours, and what is told of them, are in millimetres.
+
+use super::envelope::{self, Loss, NoEnvelope};
+use super::{Curves, extremes};
+use crate::geometry::arcs::{self, FitError};
+use crate::geometry::contour::{Contour, Vertex};
+use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::motion::Piece;
+use std::f64::consts::PI;
+
+/// A piece that turns by more than a half circle is fitted in two, so that no arc ends where it starts.
+const LONGEST_PIECE: f64 = PI * (1.0 + 1e-12);
+
+/// A dwell is one arc up to here; beyond, its ends come so close that readers cannot tell its centre.
+const LONGEST_DWELL: f64 = 1.9 * PI;
+
+/// Largest coordinate a drawing may have, mm: readers take anything beyond for a mistake.
+const LARGEST_COORDINATE: f64 = 1e6;
+
+/// The pitch curve on a sheet is only looked at: a fifth of a thin pen, m.
+const PITCH_TOLERANCE: f64 = 0.05e-3;
+
+/// On which side of the exact curve an outline may lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Side {
+    /// On either.
+    #[default]
+    Both,
+    /// Within the metal of the exact cam: never metal in the way.
+    Inside,
+    /// Outside of it: never cut too deep.
+    Outside,
+}
+
+/// How near an outline keeps to the exact curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// Largest distance, m.
+    pub tolerance: f64,
+    /// On which side.
+    pub side: Side,
+}
+
+impl From<f64> for Fit {
+    fn from(tolerance: f64) -> Self {
+        Self { tolerance, side: Side::Both }
+    }
+}
+
+impl Fit {
+    /// How far inwards the middle of the band lies, and half its width, m. A band on one side is as wide as the tolerance,
+    /// one on both sides twice that.
+    pub(crate) fn band(&self) -> (f64, f64) {
+        match self.side {
+            Side::Both => (0.0, self.tolerance),
+            Side::Inside => (0.5 * self.tolerance, 0.5 * self.tolerance),
+            Side::Outside => (-0.5 * self.tolerance, 0.5 * self.tolerance),
+        }
+    }
+}
+
+/// A closed outline with its proof.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    /// The chain, counter-clockwise, starting on a dwell when there is one.
+    pub contour: Contour,
+    /// Largest distance from the exact curve, mm.
+    pub deviation: f64,
+    /// Best possible number of arcs N*, dwells not counted.
+    pub best_possible: f64,
+}
+
+/// Why there is no outline.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum OutlineError {
+    /// The profile folds over itself beyond repair.
+    #[error(transparent)]
+    Undercut(#[from] NoEnvelope),
+    /// A cutter has no smooth path along the profile.
+    #[error("the cutter cannot follow the profile at {cam_deg:.3} deg: an edge, or a concave part sharper than it")]
+    CutterPath {
+        /// Cam angle, degrees.
+        cam_deg: f64,
+    },
+    /// The cam is too large to draw.
+    #[error("the cam would reach {radius_mm:.0} mm from its shaft, more than a drawing holds (1e6 mm)")]
+    TooLarge {
+        /// Largest radius, mm.
+        radius_mm: f64,
+    },
+    /// The flanks of a plate cross.
+    #[error(
+        "the plate would be {thinnest_mm:.3} mm high at x = {x_mm:.3} mm; translating.plate_height must exceed \
+         {least_mm:.3} mm"
+    )]
+    Thin {
+        /// Height where it is thinnest, mm.
+        thinnest_mm: f64,
+        /// Where, mm of overrun.
+        x_mm: f64,
+        /// Least height of the plate, mm.
+        least_mm: f64,
+    },
+    /// A section of a conoid has a corner.
+    #[error(
+        "the sections of a conoid have a corner at {cam_deg:.3} deg: a crowned roller needs a smooth surface; use \
+         transition.kind = \"run-up\" or \"blend\", and no buffer.lead"
+    )]
+    Corner {
+        /// Cam angle, degrees.
+        cam_deg: f64,
+    },
+    /// The tolerance cannot be kept.
+    #[error("{0}: between 64 roundings of the coordinates and a millimetre it can")]
+    Fit(#[from] FitError),
+}
+
+impl Outline {
+    /// An outline without a segment yet.
+    pub(crate) fn empty() -> Self {
+        Self { contour: Contour { vertices: Vec::new() }, deviation: 0.0, best_possible: 0.0 }
+    }
+
+    /// With the deviation counted from the exact curve, where the chain was fitted to one `shift` (m) beside it.
+    pub(crate) fn from_exact(self, shift: f64) -> Self {
+        let deviation = self.deviation + MILLIMETRES * shift.abs();
+        Self { deviation, ..self }
+    }
+
+    /// Lays arcs along a curve, given in millimetres over a range of its parameter, within a tolerance (m).
+    pub(crate) fn lay(
+        &mut self,
+        curve: impl Fn(f64) -> CurvePoint,
+        range: (f64, f64),
+        tolerance: f64,
+    ) -> Result<(), OutlineError> {
+        let chain = arcs::fit(curve, range, MILLIMETRES * tolerance)?;
+        self.contour
+            .vertices
+            .extend(chain.joints.iter().map(|joint| Vertex { point: joint.point, bulge: joint.bulge }));
+        self.deviation = self.deviation.max(chain.deviation);
+        self.best_possible += chain.best_possible;
+        Ok(())
+    }
+}
+
+/// The profile as an outline. Where it is undercut the loops are left out: what can be cut is drawn, with a sharp edge
+/// where the loop was.
+///
+/// # Errors
+/// [`OutlineError`] when the loops leave no outline, it is too large, or the tolerance cannot be kept.
+pub fn profile(curves: Curves<'_>, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
+    let (shift, half) = fit.into().band();
+    Ok(parallel(curves, curves.offset() + shift, half, &envelope::losses(curves)?)?.from_exact(shift))
+}
+
+/// The path of the centre of a cutter (radius in m) along the profile, within a tolerance (m): parallel to the follower's
+/// curve at the difference of the radii.
+///
+/// # Errors
+/// [`OutlineError`] as for [`profile`]; also when the profile is undercut or the cutter does not get into a corner.
+pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, tolerance: f64) -> Result<Outline, OutlineError> {
+    if let Some(loss) = envelope::losses(curves)?.first() {
+        return Err(OutlineError::CutterPath { cam_deg: loss.from.to_degrees() });
+    }
+    let distance = curves.offset() - cutter_radius;
+    let concave = extremes::concave_profile_curvature(curves);
+    if concave.value * cutter_radius >= 1.0 {
+        return Err(OutlineError::CutterPath { cam_deg: concave.at.to_degrees() });
+    }
+    match extremes::corners(curves).first() {
+        Some(corner) if distance <= 0.0 => Err(OutlineError::CutterPath { cam_deg: corner.at.to_degrees() }),
+        _ => parallel(curves, distance, tolerance, &[]),
+    }
+}
+
+/// The follower's curve as an outline for the eye.
+///
+/// # Errors
+/// As [`profile`], but a pitch curve cannot be undercut.
+pub fn pitch(curves: Curves<'_>) -> Result<Outline, OutlineError> {
+    pitch_within(curves, PITCH_TOLERANCE)
+}
+
+/// The follower's curve as an outline within a tolerance (m).
+///
+/// # Errors
+/// As for [`pitch`].
+pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, OutlineError> {
+    parallel(curves, 0.0, tolerance, &[])
+}
+
+/// Refuses a curve that no drawing holds; `frame` gives its points in millimetres.
+pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), OutlineError> {
+    let radius_mm = pieces.iter().enumerate().map(|(i, p)| frame(i, p.start).point.norm()).fold(0.0, f64::max);
+    if radius_mm <= LARGEST_COORDINATE { Ok(()) } else { Err(OutlineError::TooLarge { radius_mm }) }
+}
+
+/// The parallel of the follower's curve at a distance inwards (m), within a tolerance (m), without the losses.
+pub(crate) fn parallel(
+    curves: Curves<'_>,
+    distance: f64,
+    tolerance: f64,
+    losses: &[Loss],
+) -> Result<Outline, OutlineError> {
+    let period = curves.motion.period();
+    let pieces = curves.motion.pieces();
+    let frame = |piece: usize, angle: f64| -> CurvePoint {
+        curves.contact(piece, angle).curve.offset_inward(distance).scaled(MILLIMETRES)
+    };
+    fits_a_drawing(pieces, frame)?;
+    let corners = extremes::corners(curves);
+    // A closed outline starts on a dwell.
+    let first = period.and_then(|_| pieces.iter().position(|piece| piece.dwell)).unwrap_or(0);
+    let mut outline = Outline::empty();
+    let in_turn = pieces.iter().enumerate().cycle().skip(first).take(pieces.len());
+    for (index, piece) in in_turn {
+        for range in parts(piece, losses, period) {
+            if piece.dwell {
+                // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
+                let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
+                outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
+            } else {
+                outline.lay(|angle| frame(index, angle), range, tolerance)?;
+            }
+        }
+        // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
+        if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
+            && distance > 0.0
+        {
+            let bulge = libm::tan(0.25 * corner.turn);
+            outline.contour.vertices.push(Vertex { point: frame(index, piece.end).point, bulge });
+        }
+    }
+    Ok(outline)
+}
+
+/// What is left of a piece without the losses, halved where it is longer than one arc or one fit may be.
+pub(crate) fn parts(piece: &Piece, losses: &[Loss], period: Option<f64>) -> Vec<(f64, f64)> {
+    let mut left = vec![(piece.start, piece.end)];
+    for loss in losses {
+        for turns in [-1.0, 0.0, 1.0] {
+            let turn = turns * period.unwrap_or(0.0);
+            let (from, to) = (loss.from + turn, loss.to + turn);
+            left = left
+                .into_iter()
+                .flat_map(|(start, end)| [(start, end.min(from)), (start.max(to), end)])
+                .filter(|(start, end)| start < end)
+                .collect();
+        }
+    }
+    let longest = if piece.dwell { LONGEST_DWELL } else { LONGEST_PIECE };
+    left.into_iter()
+        .flat_map(|(start, end)| {
+            let middle = 0.5 * (start + end);
+            if end - start > longest { vec![(start, middle), (middle, end)] } else { vec![(start, end)] }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

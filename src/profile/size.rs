@@ -1,0 +1,108 @@
+//! The smallest prime radius that keeps every limit, solved.
+
+use super::{Curves, extremes};
+use crate::follower::Follower;
+use crate::machine::{CamData, Limits};
+use crate::motion::Motion;
+use crate::numeric::root;
+
+/// Whole millimetres an automatic base radius is rounded up to, m; rounding noise of 1 nm is not a millimetre.
+const BASE_STEP: f64 = 1e-3;
+const BASE_STEP_NOISE: f64 = 1e-6;
+
+/// What a radius must keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Required {
+    /// Largest |pressure angle|, rad.
+    pub pressure_angle: f64,
+    /// Smallest convex radius of the follower's curve, m.
+    pub convex_radius: f64,
+    /// Prime radius below which nothing is tried, m.
+    pub least: f64,
+}
+
+impl Required {
+    /// What the limits of a machine file and the bore ask of a disc under a follower.
+    #[must_use]
+    pub fn of(limits: &Limits, cam: &CamData, follower: &dyn Follower) -> Self {
+        let offset = follower.element().offset();
+        let least_base = cam.bore_reach().map_or(BASE_STEP, |reach| reach + limits.wall);
+        Self {
+            pressure_angle: limits.pressure_angle,
+            convex_radius: limits.min_convex_pitch_radius_over_roller.max(1.0) * offset,
+            least: (least_base + offset).max(follower.least_prime_radius()),
+        }
+    }
+}
+
+/// The base radius `auto` takes for a smallest one, m: the next whole millimetre.
+#[must_use]
+pub fn rounded_up(base_radius: f64) -> f64 {
+    let steps = (base_radius / BASE_STEP - BASE_STEP_NOISE).ceil();
+    // A quotient keeps "69 mm" the number nearest to 0.069.
+    steps / (1.0 / BASE_STEP)
+}
+
+/// Doublings from the least radius before giving up: 1 µm to 1e9 m.
+const DOUBLINGS: u32 = 50;
+
+/// Rounds of solving each limit in turn. A limit may be broken anew by the radius another one asked for only where it
+/// is not monotone in the radius; each round then starts above the last.
+const ROUNDS: u32 = 8;
+
+/// No radius keeps the limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("no base radius keeps the limits")]
+pub struct NoRadius;
+
+/// The smallest prime radius (m) at which the disc made by the follower keeps every limit.
+///
+/// Both the pressure angle and the curvature fall as the radius grows, so each limit is a root in the radius.
+///
+/// # Errors
+/// [`NoRadius`] when no radius up to 1e9 m does.
+pub fn smallest_prime_radius(
+    motion: &dyn Motion,
+    follower: &dyn Follower,
+    required: &Required,
+) -> Result<f64, NoRadius> {
+    // Out of reach is no pass.
+    let at = |radius: f64, excess: &dyn Fn(Curves<'_>) -> f64| {
+        follower.sized(radius).map_or(f64::NAN, |follower| excess(Curves { motion, follower: &*follower }))
+    };
+    let pressure = |radius: f64| at(radius, &|curves| extremes::pressure_angle(curves).value - required.pressure_angle);
+    let curvature =
+        |radius: f64| at(radius, &|curves| extremes::convex_curvature(curves).value * required.convex_radius - 1.0);
+    let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
+    let mut radius = required.least;
+    for _ in 0..ROUNDS {
+        for limit in limits {
+            radius = first_at_or_above(radius, limit)?;
+        }
+        if limits.iter().all(|limit| limit(radius) <= 0.0) {
+            return Ok(radius);
+        }
+    }
+    Err(NoRadius)
+}
+
+/// The first radius from `low` on at which `excess` is not positive.
+fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
+    // A NaN is no pass: it says that the curve does not exist at this radius.
+    if excess(low) <= 0.0 {
+        return Ok(low);
+    }
+    let (mut failing, mut passing) = (low, 2.0 * low);
+    for _ in 0..DOUBLINGS {
+        if excess(passing) <= 0.0 {
+            let mut radius = root::bracketed(&excess, failing, passing, 0.0).map_err(|_| NoRadius)?;
+            // The root is known to an ulp; stand on the side that passes.
+            while excess(radius) > 0.0 && radius < passing {
+                radius *= 1.0 + 4.0 * f64::EPSILON;
+            }
+            return Ok(radius);
+        }
+        (failing, passing) = (passing, 2.0 * passing);
+    }
+    Err(NoRadius)
+}

@@ -1,0 +1,132 @@
+//! What came of a check, and where.
+
+use serde::ser::Serializer;
+use serde::{Deserialize, Deserializer, Serialize};
+use std::borrow::Cow;
+
+/// What came of a check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Verdict {
+    /// The limit is kept.
+    Pass,
+    /// The limit is broken.
+    Fail,
+    /// There is no limit.
+    Info,
+}
+
+impl Verdict {
+    /// Pass or fail.
+    #[must_use]
+    pub fn of(kept: bool) -> Self {
+        if kept { Verdict::Pass } else { Verdict::Fail }
+    }
+
+    /// As reports and sheets write it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Pass => "pass",
+            Verdict::Fail => "FAIL",
+            Verdict::Info => "info",
+        }
+    }
+}
+
+/// A place on a cam, as reports tell it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Place {
+    /// Cam angle, degrees in [0, 360).
+    pub cam_deg: Option<f64>,
+    /// Overrun of the bed, mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x_mm: Option<f64>,
+}
+
+impl Place {
+    /// At a cam angle in rad.
+    #[must_use]
+    pub fn at_angle(angle: f64) -> Self {
+        Self { cam_deg: Some(degrees(angle)), x_mm: None }
+    }
+
+    /// At an overrun in m.
+    #[must_use]
+    pub fn at_overrun(x: f64) -> Self {
+        Self { cam_deg: None, x_mm: Some(1e3 * x + 0.0) }
+    }
+}
+
+/// A cam angle (rad) in degrees in [0, 360).
+#[must_use]
+pub fn degrees(angle: f64) -> f64 {
+    let degrees = angle.to_degrees() % 360.0;
+    let positive = if degrees < 0.0 { degrees + 360.0 } else { degrees };
+    // A hair below zero rounds up to a whole turn.
+    if positive >= 360.0 { 0.0 } else { positive + 0.0 }
+}
+
+/// In degrees or millimetres, as a person reads it.
+impl std::fmt::Display for Place {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.cam_deg, self.x_mm) {
+            (Some(degrees), _) => write!(formatter, "{degrees:.3}°"),
+            (None, Some(x)) => write!(formatter, "x = {x:.3} mm"),
+            (None, None) => formatter.write_str("–"),
+        }
+    }
+}
+
+/// The result of a check.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Finding {
+    /// Name of the check.
+    pub check: Cow<'static, str>,
+    /// What was found; not finite when there is nothing to measure (no concave part, say), which JSON writes as null.
+    #[serde(serialize_with = "finite", deserialize_with = "or_nan")]
+    pub value: f64,
+    /// What it must keep, if anything.
+    pub limit: Option<f64>,
+    /// Unit of both.
+    pub unit: Cow<'static, str>,
+    /// The worst place.
+    #[serde(flatten)]
+    pub place: Place,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// What would help, or what the figure means.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+/// Whether nothing failed.
+#[must_use]
+pub fn passed(findings: &[Finding]) -> bool {
+    findings.iter().all(|finding| finding.verdict != Verdict::Fail)
+}
+
+/// JSON has no infinity.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
+fn finite<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
+}
+
+fn or_nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_told_within_one_turn() {
+        for (angle, degrees) in [(0.0, 0.0), (-std::f64::consts::FRAC_PI_2, 270.0), (7.0, 7.0_f64.to_degrees() - 360.0)]
+        {
+            assert!((Place::at_angle(angle).cam_deg.expect("an angle") - degrees).abs() < 1e-12);
+        }
+        assert_eq!(Place::at_angle(-1e-18).cam_deg.map(f64::to_bits), Some(0.0_f64.to_bits()));
+    }
+}

@@ -1,0 +1,252 @@
+//! What is told of a cam: findings, sections of a report, the review sheet.
+//!
+//! A report is a list of sections that the parts of a cam contribute (motion, follower, body, load, outline). Each section
+//! has its values for programs and its words for people; JSON, text and sheet walk the same list. Nothing here knows a cam.
+
+pub mod chart;
+mod finding;
+mod rolled;
+pub mod sheet;
+mod values;
+
+pub use finding::{Finding, Place, Verdict, degrees, passed};
+pub use rolled::Rolled;
+pub use values::{
+    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, shown,
+};
+
+use serde::de::{Error, MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value;
+use std::borrow::Cow;
+use std::fmt;
+
+/// Version of the form of a report.
+pub const SCHEMA: u32 = 1;
+
+/// For which speeds of the main shaft a cam is made, rpm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Speeds {
+    /// A single one.
+    One(f64),
+    /// One for each section.
+    Several(Vec<f64>),
+    /// Any.
+    Any(()),
+}
+
+/// More speeds than these are told by the first and the last.
+const MOST_NAMED: usize = 8;
+
+impl fmt::Display for Speeds {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Speeds::One(rpm) => write!(f, " for {rpm} rpm"),
+            Speeds::Any(()) => Ok(()),
+            Speeds::Several(speeds) => {
+                let all: Vec<String> = speeds.iter().map(|rpm| sheet::rounded(*rpm)).collect();
+                match all.as_slice() {
+                    [first, .., last] if all.len() > MOST_NAMED => {
+                        write!(f, " for {first} to {last} rpm, {} sections", all.len())
+                    }
+                    _ => write!(f, " for {} rpm", all.join(", ")),
+                }
+            }
+        }
+    }
+}
+
+/// One section of a report: what a part of the cam has to tell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Its key in JSON, and its label in the text.
+    pub key: Cow<'static, str>,
+    /// Values with their units in their names.
+    pub value: Value,
+    /// The same for a person, a line each.
+    pub words: Vec<String>,
+    /// The few that belong on the review sheet.
+    pub figures: Vec<String>,
+}
+
+impl Section {
+    /// A section of values that are told to programs only.
+    #[must_use]
+    pub fn new(key: &'static str, value: &impl Serialize) -> Self {
+        // Only a map with keys that are no texts cannot be a value; a report has none.
+        let value = serde_json::to_value(value).unwrap_or(Value::Null);
+        Self { key: key.into(), value, words: Vec::new(), figures: Vec::new() }
+    }
+
+    /// With words for a person.
+    #[must_use]
+    pub fn with_words(self, words: Vec<String>) -> Self {
+        Self { words, ..self }
+    }
+
+    /// With figures for the sheet.
+    #[must_use]
+    pub fn with_figures(self, figures: Vec<String>) -> Self {
+        Self { figures, ..self }
+    }
+}
+
+/// Everything that was solved, checked and written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// The command that made it.
+    pub command: Cow<'static, str>,
+    /// What kind of cam it is: "rotary cam".
+    pub noun: Cow<'static, str>,
+    /// Name of the machine.
+    pub machine: String,
+    /// Speeds of the main shaft.
+    pub rpm: Speeds,
+    /// What the parts contribute, in their order.
+    pub sections: Vec<Section>,
+    /// Every check.
+    pub checks: Vec<Finding>,
+    /// What the user should know beside: keys that have no effect, say.
+    pub notes: Vec<String>,
+    /// Files written.
+    pub files: Vec<String>,
+}
+
+impl Report {
+    /// "DPI flat-bed press, 2 at, rotary cam for 35 rpm".
+    #[must_use]
+    pub fn title(&self) -> String {
+        format!("{}, {}{}", self.machine, self.noun, self.rpm)
+    }
+
+    /// The values of a section.
+    #[must_use]
+    pub fn section(&self, key: &str) -> Option<&Value> {
+        self.sections.iter().find(|section| section.key == key).map(|section| &section.value)
+    }
+
+    /// Whether no check failed.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        passed(&self.checks)
+    }
+
+    /// The figures for the review sheet.
+    #[must_use]
+    pub fn figures(&self) -> Vec<String> {
+        self.sections.iter().flat_map(|section| section.figures.iter().cloned()).collect()
+    }
+}
+
+impl Serialize for Report {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("schema", &SCHEMA)?;
+        map.serialize_entry("command", &self.command)?;
+        map.serialize_entry("machine", &self.machine)?;
+        map.serialize_entry("rpm", &self.rpm)?;
+        for section in &self.sections {
+            map.serialize_entry(&section.key, &section.value)?;
+        }
+        map.serialize_entry("checks", &self.checks)?;
+        if !self.notes.is_empty() {
+            map.serialize_entry("notes", &self.notes)?;
+        }
+        map.serialize_entry("files", &self.files)?;
+        map.end()
+    }
+}
+
+/// Values come back; words and figures are made of values and do not.
+impl<'de> Deserialize<'de> for Report {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(ReportVisitor)
+    }
+}
+
+struct ReportVisitor;
+
+impl<'de> Visitor<'de> for ReportVisitor {
+    type Value = Report;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a report of camgen, schema {SCHEMA}")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Report, A::Error> {
+        let mut report = Report {
+            command: "".into(),
+            noun: "".into(),
+            machine: String::new(),
+            rpm: Speeds::Any(()),
+            sections: Vec::new(),
+            checks: Vec::new(),
+            notes: Vec::new(),
+            files: Vec::new(),
+        };
+        let mut schema = None;
+        while let Some(key) = map.next_key::<String>()? {
+            match key.as_str() {
+                "schema" => schema = Some(map.next_value::<u32>()?),
+                "command" => report.command = map.next_value::<String>()?.into(),
+                "machine" => report.machine = map.next_value()?,
+                "rpm" => report.rpm = map.next_value()?,
+                "checks" => report.checks = map.next_value()?,
+                "notes" => report.notes = map.next_value()?,
+                "files" => report.files = map.next_value()?,
+                _ => {
+                    let value = map.next_value()?;
+                    report.sections.push(Section { key: key.into(), value, words: Vec::new(), figures: Vec::new() });
+                }
+            }
+        }
+        match schema {
+            Some(SCHEMA) => Ok(report),
+            Some(other) => Err(A::Error::custom(format!("schema {other}; this camgen reads schema {SCHEMA}"))),
+            None => Err(A::Error::missing_field("schema")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_comes_back_from_its_json() {
+        let report = Report {
+            command: "rotary".into(),
+            noun: "".into(),
+            machine: "press".into(),
+            rpm: Speeds::One(35.0),
+            sections: vec![Section::new("cam", &serde_json::json!({"base_radius_mm": 69.0, "area_mm2": null}))],
+            checks: vec![Finding {
+                check: "wall".into(),
+                value: 44.0,
+                limit: Some(5.0),
+                unit: "mm".into(),
+                place: Place::default(),
+                verdict: Verdict::Pass,
+                note: None,
+            }],
+            notes: vec!["`cam.balance` has no effect on a conoid".into()],
+            files: vec!["a.dxf".into()],
+        };
+        let text = serde_json::to_string(&report).expect("JSON");
+        assert_eq!(serde_json::from_str::<Report>(&text).expect("a report"), report);
+        let several = Report { rpm: Speeds::Several(vec![20.0, 35.0]), ..report };
+        let text = serde_json::to_string(&several).expect("JSON");
+        assert_eq!(serde_json::from_str::<Report>(&text).expect("a report"), several);
+        assert!(serde_json::from_str::<Report>(&text.replace("\"schema\":1", "\"schema\":9")).is_err());
+        assert!(serde_json::from_str::<Report>("{}").is_err());
+    }
+
+    #[test]
+    fn speeds_are_told_in_words() {
+        assert_eq!(Speeds::One(35.0).to_string(), " for 35 rpm");
+        assert_eq!(Speeds::Several(vec![20.0, 35.0]).to_string(), " for 20, 35 rpm");
+        assert_eq!(Speeds::Several((0..9).map(f64::from).collect()).to_string(), " for 0 to 8 rpm, 9 sections");
+    }
+}

@@ -1,0 +1,196 @@
+//! The point table: one list of columns, walked for every kind of cam.
+//!
+//! A row holds what a cam knows at one place, in the units of the table; what a cam does not have stays empty, and so does the
+//! column. A new column is one function and one line in [`COLUMNS`].
+
+use crate::motion::Jet;
+use nalgebra::{Vector2, Vector3};
+
+/// What is known at one place of a cam: millimetres, degrees, newtons; derivatives by the parameter in radians.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Row {
+    /// Cam angle.
+    pub cam_deg: Option<f64>,
+    /// Lift in metres or radians, of a cam that turns.
+    pub lift: Option<Jet>,
+    /// Bed, bottom and crank of a press.
+    pub bed: Option<BedRow>,
+    /// A point of the follower's curve.
+    pub curve: Option<Vector2<f64>>,
+    /// A point of the profile.
+    pub profile: Option<Vector2<f64>>,
+    /// Angle between the follower's path and the normal.
+    pub pressure_angle_deg: Option<f64>,
+    /// Signed radius of curvature of the follower's curve, convex positive.
+    pub curve_radius: Option<f64>,
+    /// The same of the profile.
+    pub profile_radius: Option<f64>,
+    /// Forces of a turning cam.
+    pub force: Option<ForceRow>,
+    /// What only a plate on the bed has.
+    pub plate: Option<PlateRow>,
+    /// What only a body has whose sections differ.
+    pub surface: Option<SurfaceRow>,
+}
+
+/// The press at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BedRow {
+    /// Crank angle in [0, 360), of a cam that turns.
+    pub crank_deg: Option<f64>,
+    /// Overrun of the bed.
+    pub x: f64,
+    /// Δx of the bottom.
+    pub dx: f64,
+}
+
+/// Forces of a turning cam at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ForceRow {
+    /// Along the follower's path.
+    pub path: f64,
+    /// On the camshaft, N·m.
+    pub torque: f64,
+    /// Along the normal, where it is told.
+    pub contact: Option<f64>,
+}
+
+/// A plate at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlateRow {
+    /// ψ of (19).
+    pub psi_deg: f64,
+    /// α of (21).
+    pub alpha_deg: f64,
+    /// dΔx/dx.
+    pub slope: f64,
+    /// Normal force of one roller while the bed is braked, (17).
+    pub roller_force: f64,
+    /// What (18) leaves on the way back.
+    pub residual_return: f64,
+    /// What (18) leaves while the bed is braked.
+    pub residual_braking: f64,
+}
+
+/// A surface at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SurfaceRow {
+    /// Place along the axis.
+    pub z: f64,
+    /// Speed of its section, rpm.
+    pub rpm: f64,
+    /// Slope of the lift along the axis.
+    pub lift_per_z: f64,
+    /// Where the sphere touches.
+    pub contact: Vector3<f64>,
+    /// How far the normal leans along the axis.
+    pub axial_angle_deg: f64,
+    /// Sharpest principal radius of curvature of the pitch surface.
+    pub principal_radius: f64,
+    /// Component of the force along the axis.
+    pub axial_force: f64,
+}
+
+/// A column: its name, with its unit, and its value; `None` for a cam that does not have it.
+pub type Column = (&'static str, fn(&Row) -> Option<f64>);
+
+/// Every column, in the order of the table. Two entries of one name stand where two kinds of cam have it at different
+/// places; a cam has one of them.
+pub const COLUMNS: &[Column] = &[
+    ("z_mm", |row| Some(row.surface?.z)),
+    ("cam_deg", |row| row.cam_deg),
+    ("crank_deg", |row| row.bed?.crank_deg),
+    ("x_mm", |row| Some(row.bed?.x)),
+    ("dx_mm", |row| Some(row.bed?.dx)),
+    ("psi_deg", |row| Some(row.plate?.psi_deg)),
+    ("alpha_deg", |row| Some(row.plate?.alpha_deg)),
+    // Rounding about the lowest point is no lift below it.
+    ("lift_mm", |row| Some(1e3 * row.lift?.s.max(0.0))),
+    ("velocity_mm_per_rad", |row| Some(1e3 * row.lift?.ds)),
+    ("acceleration_mm_per_rad2", |row| Some(1e3 * row.lift?.dds)),
+    ("jerk_mm_per_rad3", |row| Some(1e3 * row.lift?.ddds)),
+    ("pitch_x_mm", |row| Some(row.curve?.x)),
+    ("pitch_y_mm", |row| Some(row.curve?.y)),
+    ("profile_x_mm", |row| Some(row.profile?.x)),
+    ("profile_y_mm", |row| Some(row.profile?.y)),
+    ("roller_force_n", |row| Some(row.plate?.roller_force)),
+    ("residual_return_n", |row| Some(row.plate?.residual_return)),
+    ("residual_braking_n", |row| Some(row.plate?.residual_braking)),
+    ("slope", |row| Some(row.plate?.slope)),
+    ("pressure_angle_deg", |row| row.pressure_angle_deg),
+    ("pitch_curvature_radius_mm", |row| row.curve_radius),
+    ("profile_curvature_radius_mm", |row| row.profile_radius),
+    ("roller_force_n", |row| Some(row.force?.path)),
+    ("torque_nm", |row| Some(row.force?.torque)),
+    ("contact_force_n", |row| row.force?.contact),
+    ("rpm", |row| Some(row.surface?.rpm)),
+    ("lift_per_z", |row| Some(row.surface?.lift_per_z)),
+    ("contact_x_mm", |row| Some(row.surface?.contact.x)),
+    ("contact_y_mm", |row| Some(row.surface?.contact.y)),
+    ("contact_z_mm", |row| Some(row.surface?.contact.z)),
+    ("axial_angle_deg", |row| Some(row.surface?.axial_angle_deg)),
+    ("principal_curvature_radius_mm", |row| Some(row.surface?.principal_radius)),
+    ("axial_force_n", |row| Some(row.surface?.axial_force)),
+];
+
+/// A table of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Names of the columns, with their units.
+    pub columns: Vec<&'static str>,
+    /// Rows, each as long as `columns`.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    /// The rows of a cam under the columns that it has.
+    #[must_use]
+    pub fn of(rows: &[Row]) -> Self {
+        let has = |column: &&Column| rows.first().is_some_and(|row| (column.1)(row).is_some());
+        let columns: Vec<&Column> = COLUMNS.iter().filter(has).collect();
+        // A negative zero is zero.
+        let values = |row: &Row| columns.iter().map(|(_, value)| value(row).unwrap_or(f64::NAN) + 0.0).collect();
+        Self { columns: columns.iter().map(|(name, _)| *name).collect(), rows: rows.iter().map(values).collect() }
+    }
+}
+
+/// Crank angle in [0, 360) from the cam angle, without a detour over radians that would lose the round numbers.
+#[must_use]
+pub fn crank_degrees(cam_deg: f64, ratio: f64) -> f64 {
+    (cam_deg / ratio) % 360.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A name stands twice only for cams that cannot be the same.
+    #[test]
+    fn a_cam_has_every_column_once() {
+        let turning = Row {
+            cam_deg: Some(1.0),
+            lift: Some(Jet::default()),
+            bed: Some(BedRow::default()),
+            curve: Some(Vector2::zeros()),
+            profile: Some(Vector2::zeros()),
+            pressure_angle_deg: Some(1.0),
+            curve_radius: Some(1.0),
+            profile_radius: Some(1.0),
+            force: Some(ForceRow { contact: Some(1.0), ..ForceRow::default() }),
+            plate: None,
+            surface: Some(SurfaceRow::default()),
+        };
+        let plate = Row { force: None, plate: Some(PlateRow::default()), ..turning };
+        let mut all: Vec<&str> = Vec::new();
+        for row in [turning, plate] {
+            let columns = Table::of(&[row]).columns;
+            let mut names = columns.clone();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), columns.len(), "{columns:?}");
+            all.extend(names);
+        }
+        assert!(COLUMNS.iter().all(|(name, _)| all.contains(name)), "every column belongs to some cam");
+        assert!(Table::of(&[]).columns.is_empty());
+    }
+}

@@ -1,0 +1,32 @@
+//! A straight roller on a flank that leans along the axis stands on an edge.
+
+use super::{Check, Evidence, On, at};
+use crate::machine::Crown;
+use crate::report::{Finding, Verdict};
+
+pub(super) const CHECK: Check = Check {
+    name: "cylinder_contact",
+    on: On::Cam,
+    about: "By how much the surface of a conoid departs from the line of a straight roller over its width.",
+    run: check,
+};
+
+/// Places over the width of the roller, as shares of it.
+const PLACES: [f64; 5] = [-0.5, -0.25, 0.0, 0.25, 0.5];
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let conoid = evidence.body.spatial()?;
+    let roller = conoid.roller();
+    let width = (roller.crown == Crown::Cylinder).then_some(roller.width)??;
+    let gap = conoid.worst(|conoid, piece, angle, z| {
+        let slice = conoid.slice(z);
+        let cosine = libm::cos(conoid.plane_of(&slice).contact(piece, angle).pressure_angle);
+        let lifts = PLACES.map(|share| conoid.lift(piece, angle, z + share * width)[0][0] * cosine);
+        let (least, most) = lifts.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
+        1e3 * (most - least)
+    });
+    let kept = gap.value <= evidence.tolerance_mm;
+    let note = (!kept).then(|| "the roller bears on an edge; follower.roller.crown = \"sphere\" would not".into());
+    let found = CHECK.found(gap.value, Some(evidence.tolerance_mm), "mm", Verdict::of(kept));
+    Some(at(evidence.body, &gap, found, note))
+}

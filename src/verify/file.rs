@@ -1,0 +1,117 @@
+//! What a DXF file must be before it can be rolled on: one closed outline in millimetres, on its layer, readable, once.
+
+use super::{Check, Evidence, On, place};
+use crate::reading::{OUTLINE_LAYER, Reading, Unit};
+use crate::report::{Finding, Verdict};
+
+const fn file_check(name: &'static str, about: &'static str, run: fn(&Evidence<'_>) -> Option<Finding>) -> Check {
+    Check { name, on: On::File, about, run }
+}
+
+pub(super) const LAYER: Check =
+    file_check("layer", "Whether something lies on the layer CAM_PROFILE, where the outline belongs.", |evidence| {
+        Some(layer(evidence.foreign?))
+    });
+
+pub(super) const UNITS: Check =
+    file_check("units", "Whether the file is in millimetres.", |evidence| Some(unit(evidence.foreign?)));
+
+pub(super) const READABLE: Check = file_check(
+    "readable",
+    "How many entities on the layer of the outline are neither arcs nor lines nor splines.",
+    |evidence| Some(readable(evidence.foreign?)),
+);
+
+pub(super) const DUPLICATES: Check =
+    file_check("duplicates", "How many segments lie on another one or have no length.", |evidence| {
+        Some(duplicates(evidence, evidence.foreign?))
+    });
+
+pub(super) const CONTOURS: Check = file_check(
+    "contours",
+    "How many separate contours lie on the layer of the outline; it must be one, and run round once.",
+    |evidence| Some(contours(evidence.foreign?)),
+);
+
+pub(super) const CLOSED: Check =
+    file_check("closed", "How far apart the ends of the outline are.", |evidence| closed(evidence, evidence.foreign?));
+
+/// Ends nearer than this share of the tolerance are one: programs round coordinates to four to six decimals.
+const JOIN_SHARE: f64 = 0.1;
+
+/// Reach (mm) within which ends of a file are joined, for a tolerance in mm.
+#[must_use]
+pub fn join_reach(tolerance_mm: f64) -> f64 {
+    JOIN_SHARE * tolerance_mm
+}
+
+#[expect(clippy::cast_precision_loss, reason = "counts of things in a file")]
+fn count(check: &Check, found: usize, limit: usize, kept: bool, note: Option<String>) -> Finding {
+    Finding { note, ..check.found(found as f64, Some(limit as f64), "", Verdict::of(kept)) }
+}
+
+fn layer(reading: &Reading) -> Finding {
+    let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(OUTLINE_LAYER));
+    let layers = reading.layers.join(", ");
+    let note = (!there).then(|| format!("nothing lies on layer {OUTLINE_LAYER}; the file's layers are: {layers}"));
+    count(&LAYER, usize::from(there), 1, there, note)
+}
+
+fn unit(reading: &Reading) -> Finding {
+    let (verdict, note) = match reading.unit {
+        Unit::Millimetres => (Verdict::Pass, None),
+        Unit::Untold => (Verdict::Info, Some("the file tells no unit; read as millimetres".to_owned())),
+        Unit::Other(name) => (Verdict::Fail, Some(format!("the file is in {name}, not in millimetres ($INSUNITS)"))),
+    };
+    Finding { note, ..UNITS.found(1.0, None, "mm", verdict) }
+}
+
+fn readable(reading: &Reading) -> Finding {
+    let found = &reading.unreadable;
+    let mut notes = Vec::new();
+    if !found.is_empty() {
+        notes.push(format!("on the layer of the outline, neither arc nor line: {}", found.join(", ")));
+    }
+    if reading.splines > 0 {
+        notes.push(format!("{} splines were read as chords", reading.splines));
+    }
+    count(&READABLE, found.len(), 0, found.is_empty(), (!notes.is_empty()).then(|| notes.join("; ")))
+}
+
+fn duplicates(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
+    let found = reading.duplicates.len() + reading.points.len();
+    let first = reading.duplicates.first().or(reading.points.first());
+    let note = first.map(|_| {
+        format!("{} segments lie on another one, {} have no length", reading.duplicates.len(), reading.points.len())
+    });
+    let finding = count(&DUPLICATES, found, 0, found == 0, note);
+    Finding { place: first.map(|point| place(evidence.body, *point)).unwrap_or_default(), ..finding }
+}
+
+fn contours(reading: &Reading) -> Finding {
+    let found = reading.chains.len();
+    let round = match reading.chains.as_slice() {
+        [chain] if chain.closed => chain.contour().turns().abs(),
+        _ => 1.0,
+    };
+    let note = if found > 1 {
+        Some("the outline must be one contour; the rest belongs on other layers".to_owned())
+    } else if round == 1.0 {
+        None
+    } else {
+        Some(format!("the outline crosses itself: it turns round {round} times"))
+    };
+    count(&CONTOURS, found, 1, found == 1 && round == 1.0, note)
+}
+
+fn closed(evidence: &Evidence<'_>, reading: &Reading) -> Option<Finding> {
+    let open = reading.chains.iter().filter(|chain| !chain.closed).max_by(|a, b| a.gap().total_cmp(&b.gap()));
+    let end = open.and_then(|chain| chain.segments.last()).map(|segment| segment.end);
+    let gap = open.or(reading.chains.first())?.gap();
+    let found = CLOSED.found(gap, Some(join_reach(evidence.tolerance_mm)), "mm", Verdict::of(open.is_none()));
+    Some(Finding {
+        place: end.map(|point| place(evidence.body, point)).unwrap_or_default(),
+        note: open.map(|_| "the outline is open: its ends do not meet".to_owned()),
+        ..found
+    })
+}

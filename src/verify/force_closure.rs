@@ -1,0 +1,25 @@
+//! Whether the follower stays on the cam: load, preload and the inertia of the follower, all round.
+
+use super::{Check, Evidence, On, at};
+use crate::report::{Finding, Verdict};
+
+pub(super) const CHECK: Check = Check {
+    name: "force_closure",
+    on: On::Cam,
+    about: "The least force that presses the follower onto the cam: air or spring, preload and inertia together. Where it is not \
+            above 0 the follower leaves the cam.",
+    run: check,
+};
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let body = evidence.body;
+    let Some(least) = body.least_closing_force() else {
+        return Some(CHECK.not_run("N", "neither follower.roller.mass nor follower.roller.preload is given"));
+    };
+    let force = least.value;
+    let kept = force > 0.0;
+    let needed = (body.machine().follower.preload.unwrap_or(0.0) - force).ceil() + 1.0;
+    let note =
+        (!kept).then(|| format!("the roller leaves the cam; follower.roller.preload = \"{needed} N\" would hold it"));
+    Some(at(body, &least, CHECK.found(force, Some(0.0), "N", Verdict::of(kept)), note))
+}

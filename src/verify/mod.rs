@@ -1,0 +1,151 @@
+//! What a cam must keep: one list of checks, walked for every kind of cam and for a file that somebody else may have written.
+//!
+//! A check takes what is known and says value, limit and place, also when it passes. A new check is one file and one line in
+//! [`CHECKS`].
+
+mod balance;
+mod between_sections;
+mod contact_stress;
+mod curvature;
+mod cutter_radius;
+mod cylinder_contact;
+mod file;
+mod force_closure;
+mod plate_ends;
+mod pressure_angle;
+pub mod rolling;
+mod shift;
+mod sphere;
+mod tangency;
+mod wall;
+
+pub use file::join_reach;
+
+use crate::body::{Body, Drawn};
+use crate::geometry::contour::Contour;
+use crate::profile::Worst;
+use crate::reading::Reading;
+use crate::report::{Finding, Place, Rolled, Verdict};
+use nalgebra::Vector2;
+
+/// An outline as another program would find it in the written file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenOutline {
+    /// Place of its section along the axis, m; 0 for a plane cam.
+    pub z: f64,
+    /// The outline, counter-clockwise, mm.
+    pub contour: Contour,
+}
+
+/// What is known of a cam when it is checked.
+#[derive(Clone, Copy)]
+pub struct Evidence<'a> {
+    /// The solved cam.
+    pub body: &'a dyn Body,
+    /// Its drawing, when it has one of its own.
+    pub drawn: Option<&'a Drawn>,
+    /// The outlines as read back, one for each section; none when nothing was drawn.
+    pub outlines: &'a [WrittenOutline],
+    /// What rolling on the outline has shown, when a plane cam was rolled on.
+    pub rolled: Option<&'a Rolled>,
+    /// What was read from a file that somebody else may have written.
+    pub foreign: Option<&'a Reading>,
+    /// Tolerance of the outline, mm.
+    pub tolerance_mm: f64,
+}
+
+/// What a check looks at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum On {
+    /// The cam as it was solved: when it is made.
+    Cam,
+    /// The written outline: ours, or that of any file.
+    Outline,
+    /// A file that somebody else may have written.
+    File,
+}
+
+/// A check.
+#[derive(Debug)]
+pub struct Check {
+    /// Its name in reports.
+    pub name: &'static str,
+    /// What it looks at.
+    pub on: On,
+    /// What it means, in a sentence.
+    pub about: &'static str,
+    /// The check itself; `None` where it does not apply to the cam.
+    run: fn(&Evidence<'_>) -> Option<Finding>,
+}
+
+/// Every check, in the order of the report.
+pub const CHECKS: &[Check] = &[
+    file::LAYER,
+    file::UNITS,
+    file::READABLE,
+    file::DUPLICATES,
+    file::CONTOURS,
+    file::CLOSED,
+    pressure_angle::CHECK,
+    shift::AXIAL_FORCE,
+    curvature::UNDERCUT,
+    curvature::MIN_CONVEX_RADIUS,
+    cutter_radius::CHECK,
+    wall::CHECK,
+    plate_ends::ROLLER_CLEARANCE,
+    plate_ends::ENDS,
+    tangency::CHECK,
+    rolling::CHECK,
+    sphere::ROLLING_FLANK,
+    shift::AXIAL_REACH,
+    cylinder_contact::CHECK,
+    force_closure::CHECK,
+    contact_stress::CHECK,
+    between_sections::CHECK,
+    balance::CHECK,
+];
+
+/// Runs every check that applies.
+#[must_use]
+pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
+    let applies = |check: &&Check| match check.on {
+        On::Cam => evidence.foreign.is_none(),
+        On::Outline => !evidence.outlines.is_empty(),
+        On::File => evidence.foreign.is_some(),
+    };
+    CHECKS.iter().filter(applies).filter_map(|check| (check.run)(evidence)).collect()
+}
+
+impl Check {
+    /// A finding of this check at no particular place.
+    fn found(&self, value: f64, limit: Option<f64>, unit: &'static str, verdict: Verdict) -> Finding {
+        Finding {
+            check: self.name.into(),
+            value,
+            limit,
+            unit: unit.into(),
+            place: Place::default(),
+            verdict,
+            note: None,
+        }
+    }
+
+    /// A check that could not be run for want of data.
+    fn not_run(&self, unit: &'static str, why: &str) -> Finding {
+        Finding { note: Some(format!("not run: {why}")), ..self.found(f64::NAN, None, unit, Verdict::Info) }
+    }
+}
+
+/// A finding at a worst place, with what is told of the place and more.
+fn at(body: &dyn Body, worst: &Worst, finding: Finding, more: Option<String>) -> Finding {
+    let words: Vec<String> = body.along_axis(worst.z).into_iter().chain(more).collect();
+    Finding { place: body.place(worst.at), note: (!words.is_empty()).then(|| words.join("; ")), ..finding }
+}
+
+/// Where a place of the drawing (mm) lies on the cam.
+fn place(body: &dyn Body, point: Vector2<f64>) -> Place {
+    body.place(body.parameter_at(point * 1e-3))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,46 @@
+//! What only a plate on the bed has: two rollers that face each other, and edges no roller touches.
+
+use super::{Check, Evidence, On, at, place};
+use crate::geometry::track::Track;
+use crate::report::{Finding, Verdict};
+
+pub(super) const ROLLER_CLEARANCE: Check = Check {
+    name: "roller_clearance",
+    on: On::Cam,
+    about: "The room between the rollers of the two flanks of a plate where they come nearest to each other.",
+    run: roller_clearance,
+};
+
+pub(super) const ENDS: Check = Check {
+    name: "ends",
+    on: On::Outline,
+    about: "How far the straight ends and run-outs of a plate are from where they belong.",
+    run: ends,
+};
+
+/// Points of an edge at which the outline is looked for.
+const POINTS: u32 = 32;
+
+fn roller_clearance(evidence: &Evidence<'_>) -> Option<Finding> {
+    let room = evidence.body.roller_clearance()?;
+    let kept = room.value > 0.0;
+    let note = (!kept).then(|| "the rollers of the two flanks meet; a higher plate keeps them apart".into());
+    let found = ROLLER_CLEARANCE.found(1e3 * room.value, Some(0.0), "mm", Verdict::of(kept));
+    Some(at(evidence.body, &room, found, note))
+}
+
+fn ends(evidence: &Evidence<'_>) -> Option<Finding> {
+    let (outline, edges) = (evidence.outlines.first()?, evidence.body.edges());
+    if edges.is_empty() {
+        return None;
+    }
+    let track = Track::new(&outline.contour);
+    let points = edges
+        .iter()
+        .flat_map(|[a, b]| (0..=POINTS).map(move |i| (a + (b - a) * (f64::from(i) / f64::from(POINTS))) * 1e3));
+    let off = points.map(|point| (track.nearest(point).map_or(f64::INFINITY, |nearest| nearest.left.abs()), point));
+    let (value, point) = off.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let limit = evidence.tolerance_mm;
+    let found = ENDS.found(value, Some(limit), "mm", Verdict::of(value <= limit));
+    Some(Finding { place: place(evidence.body, point), ..found })
+}

@@ -1,0 +1,26 @@
+//! The angle between the follower's path and the normal of the cam.
+
+use super::{Check, Evidence, On, at};
+use crate::report::{Finding, Verdict};
+
+pub(super) const CHECK: Check = Check {
+    name: "pressure_angle",
+    on: On::Cam,
+    about: "The largest angle between the direction in which the follower moves and the normal of the cam. Beyond about 30° \
+            (translating) or 45° (swinging) the side thrust jams the follower; a larger base radius lowers it.",
+    run: check,
+};
+
+/// Rounding of an angle that was solved to be the limit, as a share of it.
+const ROUNDING: f64 = 1e-12;
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let body = evidence.body;
+    let worst = body.pressure_angle();
+    let limit = body.machine().limits.pressure_angle;
+    let kept = worst.value <= limit * (1.0 + ROUNDING);
+    // The detour over radians costs an ulp: what was typed as 30 is told as 30.
+    let told = (limit.to_degrees() * 1e12).round() / 1e12;
+    let found = CHECK.found(worst.value.to_degrees(), Some(told), "deg", Verdict::of(kept));
+    Some(at(body, &worst, found, if kept { None } else { body.remedy() }))
+}

@@ -1,0 +1,112 @@
+//! The sphere of a conoid's roller put on its written sections and on the flank of its solid.
+
+use super::{Check, Evidence, On, WrittenOutline, at};
+use crate::body::conoid::Conoid;
+use crate::body::conoid::flank::Flank;
+use crate::geometry::MILLIMETRES;
+use crate::geometry::solid::SplineSurface;
+use crate::geometry::track::Track;
+use crate::machine::Rotation;
+use crate::motion::Motion;
+use crate::profile::Worst;
+use crate::report::{Finding, Verdict};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+
+pub(super) const ROLLING_FLANK: Check = Check {
+    name: "rolling_flank",
+    on: On::Outline,
+    about: "The largest gap between the sphere of the roller, where the law wants it, and the flank of the solid as it is \
+            written.",
+    run: rolling_flank,
+};
+
+/// Cam angles at which the sphere is put on a written section, and on a slice of the flank.
+const ANGLES: u32 = 720;
+const FLANK_ANGLES: u32 = 180;
+
+/// Whether the drawing is mirrored.
+fn turned(conoid: &Conoid) -> bool {
+    use crate::body::Body;
+    conoid.machine().cam.rotation == Rotation::CounterClockwise
+}
+
+/// Nothing off so far.
+fn none(at: f64, z: f64) -> Worst {
+    Worst { value: 0.0, at, z }
+}
+
+fn or_farther(best: Worst, next: Worst) -> Worst {
+    if next.value.abs() > best.value.abs() { next } else { best }
+}
+
+/// The sphere that touches the cut at z stands at ζ, and the plane cuts a circle of radius √(r² − (ζ − z)²) out of it that must
+/// touch the outline.
+pub(super) fn on_sections(evidence: &Evidence<'_>, conoid: &Conoid, check: &Check) -> Option<Finding> {
+    let radius = conoid.roller().radius;
+    let of_section = |section: &WrittenOutline| {
+        let outline = if turned(conoid) { section.contour.mirrored_about_x() } else { section.contour.clone() };
+        let track = Track::new(&outline);
+        let slice = conoid.slice(section.z);
+        let gap = |angle: f64| {
+            let (piece, inside) = slice.locate(angle);
+            let (_, zeta) = conoid.cut(piece, inside, section.z)?;
+            let sphere = conoid.contact(piece, inside, zeta);
+            let away = zeta - section.z;
+            let circle = MILLIMETRES * ((radius - away) * (radius + away)).sqrt();
+            Some(-track.nearest(sphere.centre.xy() * MILLIMETRES)?.left - circle)
+        };
+        let (first, last) = slice.range();
+        let place = |i: u32| first + (last - first) * (f64::from(i) + 0.5) / f64::from(ANGLES);
+        let all =
+            (0..ANGLES).map(|i| Worst { value: gap(place(i)).unwrap_or(f64::INFINITY), at: place(i), z: section.z });
+        all.fold(none(first, section.z), or_farther)
+    };
+    let all: Vec<Worst> = evidence.outlines.par_iter().map(of_section).collect();
+    let worst = all.into_iter().reduce(or_farther)?;
+    let limit = evidence.tolerance_mm;
+    let found = check.found(worst.value.abs(), Some(limit), "mm", Verdict::of(worst.value.abs() <= limit));
+    let count = evidence.outlines.len();
+    let note = format!("sphere on {count} sections as read from their files, at {ANGLES} angles each");
+    Some(at(evidence.body, &worst, found, Some(note)))
+}
+
+fn rolling_flank(evidence: &Evidence<'_>) -> Option<Finding> {
+    let (conoid, flank) = (evidence.body.spatial()?, evidence.drawn?.flank.as_ref()?);
+    let worst = on_flank(conoid, flank);
+    let limit = evidence.tolerance_mm;
+    let found = ROLLING_FLANK.found(worst.value.abs(), Some(limit), "mm", Verdict::of(worst.value.abs() <= limit));
+    Some(at(evidence.body, &worst, found, Some("sphere on the spline patches of the solid".into())))
+}
+
+/// The sphere on the flank, over the sections and between them: the gap of largest size, mm, signed as metal missing.
+fn on_flank(conoid: &Conoid, flank: &Flank) -> Worst {
+    let turned = turned(conoid);
+    let (low, high) = conoid.ends();
+    let radius = MILLIMETRES * conoid.roller().radius;
+    let sense = if turned { -1.0 } else { 1.0 };
+    let gap = |piece: usize, inside: f64, z: f64| {
+        let contact = conoid.contact(piece, inside, z);
+        // Beyond the ends of the cam there is nothing to touch.
+        if !(low..=high).contains(&contact.point.z) {
+            return 0.0;
+        }
+        let u = sense * inside;
+        let near = |patch: &&SplineSurface| (patch.range()[0].0..=patch.range()[0].1).contains(&u);
+        let centre = Vector3::new(contact.centre.x, sense * contact.centre.y, contact.centre.z) * MILLIMETRES;
+        let away = |patch: &SplineSurface| patch.distance(&centre, (u, MILLIMETRES * contact.point.z)) - radius;
+        flank.patches.iter().find(near).map_or(f64::INFINITY, away)
+    };
+    let at_slice = |z: &f64| {
+        let slice = conoid.slice(*z);
+        let (first, last) = slice.range();
+        let place = |i: u32| first + (last - first) * (f64::from(i) + 0.5) / f64::from(FLANK_ANGLES);
+        let all = (0..FLANK_ANGLES).map(|i| {
+            let (piece, inside) = slice.locate(place(i));
+            Worst { value: gap(piece, inside, *z), at: place(i), z: *z }
+        });
+        all.fold(none(first, *z), or_farther)
+    };
+    let all: Vec<Worst> = conoid.slices().par_iter().map(at_slice).collect();
+    all.into_iter().fold(none(0.0, 0.0), or_farther)
+}

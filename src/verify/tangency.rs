@@ -1,0 +1,35 @@
+//! Kinks between the segments of the outline. The corners of a plate's ends are none.
+
+use super::{Check, Evidence, On, WrittenOutline, place};
+use crate::geometry::contour::Vertex;
+use crate::report::{Finding, Place, Verdict};
+
+pub(super) const CHECK: Check = Check {
+    name: "tangency",
+    on: On::Outline,
+    about: "The largest kink between neighbouring arcs and lines of the outline. Controls and shops take up to 0.05° for smooth; \
+            more is a mark on the metal and a knock in the follower.",
+    run: check,
+};
+
+/// Largest kink, degrees: what controllers and shops take for smooth.
+const LIMIT: f64 = 0.05;
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let body = evidence.body;
+    let of = |written: &WrittenOutline| -> Option<(f64, Vertex, f64)> {
+        let breaks = written.contour.tangent_breaks();
+        let smooth = |(_, vertex): &(&f64, &Vertex)| !body.ends_at(vertex.point * 1e-3);
+        let joints = breaks.iter().zip(&written.contour.vertices).filter(smooth);
+        let (turn, vertex) = joints.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        Some((*turn, *vertex, written.z))
+    };
+    let all = evidence.outlines.iter().filter_map(of);
+    let (turn, vertex, z) = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+    let value = turn.abs().to_degrees();
+    let found = CHECK.found(value, Some(LIMIT), "deg", Verdict::of(value <= LIMIT));
+    Some(match body.spatial() {
+        Some(_) => Finding { place: Place::default(), note: Some(format!("at z = {:.3} mm", 1e3 * z)), ..found },
+        None => Finding { place: place(body, vertex.point), ..found },
+    })
+}

@@ -1,0 +1,26 @@
+//! The metal left behind the profile: to the bore, keyway included, or to the other flank of a plate.
+
+use super::{Check, Evidence, On, at};
+use crate::report::{Finding, Verdict};
+
+pub(super) const CHECK: Check = Check {
+    name: "wall",
+    on: On::Cam,
+    about: "The least metal between the profile and the bore with its keyway, or between the two flanks of a plate.",
+    run: check,
+};
+
+/// Rounding of a base radius that was sized for this very wall is no breach.
+const ROUNDING: f64 = 1e-9;
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let body = evidence.body;
+    let (wall, place) = body.wall()?;
+    let limit = body.machine().limits.wall;
+    let kept = wall > 0.0 && wall >= limit * (1.0 - ROUNDING);
+    let found = CHECK.found(1e3 * wall, Some(1e3 * limit), "mm", Verdict::of(kept));
+    Some(match place {
+        Some(worst) => at(body, &worst, found, None),
+        None => found,
+    })
+}

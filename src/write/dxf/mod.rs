@@ -1,0 +1,280 @@
+//! The cut file: DXF in four versions, ASCII, millimetres, nothing in it but what is cut.
+//!
+//! Written by hand: a cut file needs two entities, and every reader must take it without a repair. R12 is the old
+//! flat form with POLYLINE; the later ones have handles and owners for every table, record and object, the two block
+//! records of model and paper space with their layouts, and LWPOLYLINE.
+
+mod objects;
+mod tables;
+mod tags;
+
+use super::formats::{Format, When, fits_all};
+use super::number::shortest;
+use crate::body::{Layer, Part};
+use crate::geometry::Entity;
+use crate::geometry::contour::{Contour, Extents};
+use crate::profile::outline::Outline;
+use nalgebra::Vector2;
+use tags::{Tags, handle};
+
+/// The cut files, as they were proved: one for each section.
+pub const FORMAT: Format = Format {
+    name: "dxf",
+    when: When::Usual,
+    flank: false,
+    unfit: fits_all,
+    endings: |drawn| {
+        let ending = |part: &Part| part.rpm.map_or(".dxf".into(), |rpm| format!("-{}rpm.dxf", shortest(rpm)));
+        drawn.parts.iter().map(ending).collect()
+    },
+    write: |cam| Ok(cam.cut_files.to_vec()),
+};
+
+/// The path of a cutter's centre.
+pub const CUTTER_PATH: Format = Format {
+    name: "cutter path",
+    when: When::Drawn,
+    flank: false,
+    unfit: fits_all,
+    endings: |drawn| drawn.cutter_path.iter().map(|_| "-cutter.dxf".into()).collect(),
+    write: |cam| {
+        let path = |outline: &Outline| {
+            write(&[(Layer::CutterPath, Entity::Polyline(outline.contour.clone()))], cam.dxf_version)
+        };
+        Ok(cam.drawn.cutter_path.iter().map(path).collect())
+    },
+};
+
+/// Version of a DXF file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Version {
+    /// AC1009.
+    R12,
+    /// AC1015.
+    #[default]
+    R2000,
+    /// AC1024.
+    R2010,
+    /// AC1027.
+    R2013,
+}
+
+impl Version {
+    /// Every version with its name on the command line.
+    pub const ALL: [(&'static str, Version); 4] =
+        [("r12", Version::R12), ("r2000", Version::R2000), ("r2010", Version::R2010), ("r2013", Version::R2013)];
+
+    fn code(self) -> &'static str {
+        match self {
+            Version::R12 => "AC1009",
+            Version::R2000 => "AC1015",
+            Version::R2010 => "AC1024",
+            Version::R2013 => "AC1027",
+        }
+    }
+}
+
+/// The entities as a DXF file.
+#[must_use]
+pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
+    let extents = entities.iter().map(|(_, entity)| entity.extents()).reduce(|a, b| a.with(&b));
+    let extents = extents.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
+    let mut layers: Vec<Layer> = entities.iter().map(|(layer, _)| *layer).collect();
+    layers.sort_unstable();
+    layers.dedup();
+    // The header holds the first free handle, which is known only at the end: it is written last, put first.
+    let mut body = Tags { text: String::new(), version, next_handle: handle::FIRST_FREE };
+    if body.modern() {
+        body.section("CLASSES", |_| {});
+    }
+    body.section("TABLES", |tags| tables::tables(tags, &layers, &extents));
+    if body.modern() {
+        body.section("BLOCKS", blocks);
+    }
+    body.section("ENTITIES", |tags| {
+        for (layer, entity) in entities {
+            write_entity(tags, *layer, entity);
+        }
+    });
+    if body.modern() {
+        body.section("OBJECTS", |tags| objects::objects(tags, &extents));
+    }
+    body.text(0, "EOF");
+    let mut head = Tags { text: String::new(), version, next_handle: body.next_handle };
+    header(&mut head, &extents);
+    head.text.push_str(&body.text);
+    head.text.into_bytes()
+}
+
+fn header(tags: &mut Tags, extents: &Extents) {
+    let next_handle = tags.next_handle;
+    tags.section("HEADER", |tags| {
+        tags.text(9, "$ACADVER");
+        tags.text(1, tags.version.code());
+        if tags.modern() {
+            tags.text(9, "$DWGCODEPAGE");
+            tags.text(3, "ANSI_1252");
+        }
+        tags.text(9, "$INSBASE");
+        tags.point_3d(10, Vector2::zeros());
+        tags.text(9, "$EXTMIN");
+        tags.point_3d(10, extents.least);
+        tags.text(9, "$EXTMAX");
+        tags.point_3d(10, extents.largest);
+        tags.text(9, "$LIMMIN");
+        tags.point(10, extents.least);
+        tags.text(9, "$LIMMAX");
+        tags.point(10, extents.largest);
+        tags.text(9, "$CLAYER");
+        tags.text(8, "0");
+        // Decimal lengths; millimetres twice, because readers look at one or the other.
+        tags.text(9, "$LUNITS");
+        tags.integer(70, 2);
+        if tags.modern() {
+            tags.text(9, "$HANDSEED");
+            tags.handle(5, next_handle);
+        }
+        tags.text(9, "$INSUNITS");
+        tags.integer(70, 4);
+        tags.text(9, "$MEASUREMENT");
+        tags.integer(70, 1);
+    });
+}
+
+fn blocks(tags: &mut Tags) {
+    for (name, record, begin, end) in [
+        ("*Model_Space", handle::MODEL_SPACE, handle::MODEL_SPACE_BEGIN, handle::MODEL_SPACE_END),
+        ("*Paper_Space", handle::PAPER_SPACE, handle::PAPER_SPACE_BEGIN, handle::PAPER_SPACE_END),
+    ] {
+        tags.record("BLOCK", 5, begin, record, &["AcDbEntity"]);
+        if name == "*Paper_Space" {
+            tags.integer(67, 1);
+        }
+        tags.text(8, "0");
+        tags.text(100, "AcDbBlockBegin");
+        tags.text(2, name);
+        tags.integer(70, 0);
+        tags.point_3d(10, Vector2::zeros());
+        tags.text(3, name);
+        tags.text(1, "");
+        tags.record("ENDBLK", 5, end, record, &["AcDbEntity"]);
+        if name == "*Paper_Space" {
+            tags.integer(67, 1);
+        }
+        tags.text(8, "0");
+        tags.text(100, "AcDbBlockEnd");
+    }
+}
+
+/// Handle, owner and layer of an entity in model space.
+fn begin_entity(tags: &mut Tags, kind: &str, layer: Layer, subclass: &str) -> u32 {
+    let own = tags.new_handle();
+    tags.record(kind, 5, own, handle::MODEL_SPACE, &["AcDbEntity"]);
+    tags.text(8, layer.name());
+    if tags.modern() {
+        tags.text(100, subclass);
+    }
+    own
+}
+
+fn write_entity(tags: &mut Tags, layer: Layer, entity: &Entity) {
+    match entity {
+        Entity::Polyline(contour) if tags.modern() => lightweight_polyline(tags, layer, contour),
+        Entity::Polyline(contour) => old_polyline(tags, layer, contour),
+        Entity::Circle(centre, radius) => {
+            begin_entity(tags, "CIRCLE", layer, "AcDbCircle");
+            tags.point_3d(10, *centre);
+            tags.real(40, *radius);
+        }
+    }
+}
+
+fn lightweight_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
+    begin_entity(tags, "LWPOLYLINE", layer, "AcDbPolyline");
+    tags.text(90, &contour.vertices.len().to_string());
+    tags.integer(70, 1);
+    tags.real(43, 0.0);
+    for vertex in &contour.vertices {
+        tags.point(10, vertex.point);
+        tags.real(42, vertex.bulge);
+    }
+}
+
+fn old_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
+    begin_entity(tags, "POLYLINE", layer, "");
+    tags.integer(66, 1);
+    tags.point_3d(10, Vector2::zeros());
+    tags.integer(70, 1);
+    for vertex in &contour.vertices {
+        tags.text(0, "VERTEX");
+        tags.text(8, layer.name());
+        tags.point_3d(10, vertex.point);
+        tags.real(42, vertex.bulge);
+    }
+    tags.text(0, "SEQEND");
+    tags.text(8, layer.name());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::contour::Vertex;
+
+    fn slot() -> Vec<(Layer, Entity)> {
+        let at = |x: f64, y: f64, bulge: f64| Vertex { point: Vector2::new(x, y), bulge };
+        let vertices = vec![at(0.0, -10.0, 0.0), at(40.0, -10.0, 1.0), at(40.0, 10.0, 0.0), at(0.0, 10.0, 1.0)];
+        vec![
+            (Layer::CamProfile, Entity::Polyline(Contour { vertices })),
+            (Layer::Bore, Entity::Circle(Vector2::new(20.0, 0.0), 4.5)),
+        ]
+    }
+
+    /// The dxf crate reads back what was written, to the last bit of twelve decimals.
+    #[test]
+    fn reads_back_in_every_version() {
+        for (name, version) in Version::ALL {
+            let bytes = write(&slot(), version);
+            let drawing = dxf::Drawing::load(&mut bytes.as_slice()).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let entities: Vec<_> = drawing.entities().collect();
+            assert_eq!(entities.len(), 2, "{name}");
+            assert_eq!(entities[0].common.layer, "CAM_PROFILE");
+            let vertices: Vec<(f64, f64, f64)> = match &entities[0].specific {
+                dxf::entities::EntityType::LwPolyline(line) => {
+                    assert!(line.is_closed());
+                    line.vertices.iter().map(|v| (v.x, v.y, v.bulge)).collect()
+                }
+                dxf::entities::EntityType::Polyline(line) => {
+                    assert!(line.is_closed());
+                    line.vertices().map(|v| (v.location.x, v.location.y, v.bulge)).collect()
+                }
+                other => panic!("{name}: {other:?}"),
+            };
+            assert_eq!(vertices, [(0.0, -10.0, 0.0), (40.0, -10.0, 1.0), (40.0, 10.0, 0.0), (0.0, 10.0, 1.0)]);
+            assert!(matches!(&entities[1].specific, dxf::entities::EntityType::Circle(c) if c.radius == 4.5));
+            assert_eq!(drawing.header.default_drawing_units, dxf::enums::Units::Millimeters, "{name}");
+        }
+    }
+
+    #[test]
+    fn codes_alternate_with_values_and_handles_are_unique() {
+        for (name, version) in Version::ALL {
+            let text = String::from_utf8(write(&slot(), version)).expect("ASCII");
+            assert!(text.is_ascii() && text.ends_with("  0\nEOF\n"), "{name}");
+            let lines: Vec<&str> = text.lines().collect();
+            assert_eq!(lines.len() % 2, 0);
+            let mut handles = Vec::new();
+            for pair in lines.chunks(2) {
+                let code: u16 = pair[0].trim().parse().expect("a group code");
+                if code == 5 && pair[1] != format!("{:X}", 0) {
+                    handles.push(u32::from_str_radix(pair[1], 16).expect("a handle"));
+                }
+            }
+            let seed = if version == Version::R12 { u32::MAX } else { handles.remove(0) };
+            assert!(handles.iter().all(|handle| *handle < seed), "{name}");
+            let count = handles.len();
+            handles.sort_unstable();
+            handles.dedup();
+            assert_eq!(handles.len(), count, "{name}");
+        }
+    }
+}

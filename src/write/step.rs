@@ -1,0 +1,294 @@
+//! The solid as a STEP file: AP214, millimetres, ASCII.
+//!
+//! truck-stepio numbers and writes topology and geometry; its frame is not used, because its product has no name, its
+//! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is ours.
+
+use super::formats::{Format, FormatError, Rendering, When};
+use super::number::shortest;
+use crate::geometry::solid::{Boundary, Curve, FaceSurface, Solid, SolidError, SplineCurve, SplineSurface, conical};
+use std::fmt::{Formatter, Result};
+use truck_modeling::{Point3, Vector3};
+use truck_stepio::out::{DisplayByStep, StepCurve, StepLength, StepModel, StepSurface};
+
+/// The solid.
+pub const FORMAT: Format = Format {
+    name: "step",
+    when: When::Usual,
+    flank: true,
+    unfit: |body| body.height().is_none().then_some("cam.thickness is not given"),
+    endings: |_| vec![".step".into()],
+    write: |cam| Ok(vec![write(&solid(cam)?, &cam.report.title())]),
+};
+
+fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {
+    let (low, high) = cam.body.height().unwrap_or_default();
+    let Some(part) = cam.drawn.parts.first() else { return Err(SolidError::NotClosed("no part".into()).into()) };
+    match &cam.drawn.flank {
+        Some(flank) => Ok(conical(&flank.patches, &part.hole_contours(), (low, high), flank.volume)?),
+        None => Ok(part.solid(high - low)?),
+    }
+}
+
+/// First entity truck writes; the frame takes the numbers below.
+const FIRST: &str = "#16 = ";
+/// A fixed time: the same input gives the same bytes.
+const TIME: &str = "1970-01-01T00:00:00";
+
+/// A real of a STEP file: shortest, with its decimal point.
+fn real(value: f64) -> String {
+    let text = shortest(value);
+    match text.split_once('e') {
+        Some((mantissa, exponent)) if mantissa.contains('.') => format!("{mantissa}E{exponent}"),
+        Some((mantissa, exponent)) => format!("{mantissa}.E{exponent}"),
+        None if text.contains('.') => text,
+        None => format!("{text}."),
+    }
+}
+
+fn point(p: Point3) -> String {
+    format!("CARTESIAN_POINT('', ({}, {}, {}))", real(p.x), real(p.y), real(p.z))
+}
+
+fn direction(v: Vector3) -> String {
+    format!("DIRECTION('', ({}, {}, {}))", real(v.x), real(v.y), real(v.z))
+}
+
+/// AXIS2_PLACEMENT_3D with its point and directions, in the lines from `index` on.
+fn placement(f: &mut Formatter<'_>, index: usize, origin: Point3, axis: Vector3, along: Vector3) -> Result {
+    let (a, b, c) = (index + 1, index + 2, index + 3);
+    writeln!(f, "#{index} = AXIS2_PLACEMENT_3D('', #{a}, #{b}, #{c});")?;
+    writeln!(f, "#{a} = {};", point(origin))?;
+    writeln!(f, "#{b} = {};", direction(axis))?;
+    writeln!(f, "#{c} = {};", direction(along))
+}
+
+impl StepLength for Curve {
+    fn step_length(&self) -> usize {
+        match self {
+            Curve::Line { .. } => 4,
+            Curve::Circle { .. } => 5,
+            Curve::Spline(spline) => 1 + spline.controls.len(),
+        }
+    }
+}
+
+impl StepCurve for Curve {
+    fn same_sense(&self) -> bool {
+        match self {
+            Curve::Line { .. } | Curve::Spline(_) => true,
+            Curve::Circle { clockwise, .. } => !clockwise,
+        }
+    }
+}
+
+impl DisplayByStep for Curve {
+    fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
+        let next = index + 1;
+        match self {
+            Curve::Line { origin, direction: along } => {
+                let (vector, unit) = (index + 2, index + 3);
+                writeln!(f, "#{index} = LINE('', #{next}, #{vector});")?;
+                writeln!(f, "#{next} = {};", point(*origin))?;
+                writeln!(f, "#{vector} = VECTOR('', #{unit}, 1.);")?;
+                writeln!(f, "#{unit} = {};", direction(*along))
+            }
+            Curve::Circle { centre, radius, .. } => {
+                writeln!(f, "#{index} = CIRCLE('', #{next}, {});", real(*radius))?;
+                placement(f, next, *centre, Vector3::unit_z(), Vector3::unit_x())
+            }
+            Curve::Spline(SplineCurve { knots, controls }) => {
+                let (places, (counts, knots)) = (numbered(next, controls.len()), multiplicities(knots));
+                writeln!(
+                    f,
+                    "#{index} = B_SPLINE_CURVE_WITH_KNOTS('', 3, ({places}), .UNSPECIFIED., .F., .F., ({counts}), \
+                     ({knots}), .UNSPECIFIED.);"
+                )?;
+                controls.iter().zip(next..).try_for_each(|(p, at)| writeln!(f, "#{at} = {};", point(*p)))
+            }
+        }
+    }
+}
+
+/// `#7, #8, #9`.
+fn numbered(from: usize, count: usize) -> String {
+    (from..from + count).map(|at| format!("#{at}")).collect::<Vec<_>>().join(", ")
+}
+
+/// Multiplicities and values of a knot vector.
+fn multiplicities(knots: &[f64]) -> (String, String) {
+    let runs: Vec<&[f64]> = knots.chunk_by(|a, b| a == b).collect();
+    let counts: Vec<String> = runs.iter().map(|run| run.len().to_string()).collect();
+    let values: Vec<String> = runs.iter().filter_map(|run| run.first()).map(|value| real(*value)).collect();
+    (counts.join(", "), values.join(", "))
+}
+
+impl StepLength for FaceSurface {
+    fn step_length(&self) -> usize {
+        match self {
+            FaceSurface::Plane { .. } | FaceSurface::Cylinder { .. } => 5,
+            FaceSurface::Spline(spline) => 1 + spline.controls.iter().map(Vec::len).sum::<usize>(),
+        }
+    }
+}
+
+impl StepSurface for FaceSurface {}
+
+impl DisplayByStep for FaceSurface {
+    fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
+        let next = index + 1;
+        match self {
+            FaceSurface::Plane { origin, normal, along } => {
+                writeln!(f, "#{index} = PLANE('', #{next});")?;
+                placement(f, next, *origin, *normal, *along)
+            }
+            FaceSurface::Cylinder { origin, radius } => {
+                writeln!(f, "#{index} = CYLINDRICAL_SURFACE('', #{next}, {});", real(*radius))?;
+                placement(f, next, *origin, Vector3::unit_z(), Vector3::unit_x())
+            }
+            FaceSurface::Spline(SplineSurface { u, v, controls }) => {
+                let mut from = next;
+                let mut rows = Vec::with_capacity(controls.len());
+                for row in controls {
+                    rows.push(format!("({})", numbered(from, row.len())));
+                    from += row.len();
+                }
+                let ((u_counts, u), (v_counts, v)) = (multiplicities(u), multiplicities(v));
+                writeln!(
+                    f,
+                    "#{index} = B_SPLINE_SURFACE_WITH_KNOTS('', 3, 3, ({}), .UNSPECIFIED., .F., .F., .F., ({u_counts}), \
+                     ({v_counts}), ({u}), ({v}), .UNSPECIFIED.);",
+                    rows.join(", ")
+                )?;
+                let places = controls.iter().flatten();
+                places.zip(next..).try_for_each(|(p, at)| writeln!(f, "#{at} = {};", point(*p)))
+            }
+        }
+    }
+}
+
+/// A vertex, written by ourselves so that its digits are those of the drawing.
+#[derive(Debug, Clone, Copy)]
+struct Place(Point3);
+
+impl StepLength for Place {
+    fn step_length(&self) -> usize {
+        1
+    }
+}
+
+impl DisplayByStep for Place {
+    fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
+        writeln!(f, "#{index} = {};", point(self.0))
+    }
+}
+
+/// Text in a STEP file: quotes doubled, runs of what is not ASCII as `\X2\…\X0\` or `\X4\…\X0\` (ISO 10303-21),
+/// control characters left out. An apostrophe before a comma or a parenthesis is written by its code: OpenCASCADE 7.8
+/// takes a doubled one there for the end of the text.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    // Hexadecimal digits of a character of the open run; 0 outside of one.
+    let mut open = 0;
+    let text: Vec<char> = text.chars().filter(|c| !c.is_control()).collect();
+    for (index, c) in text.iter().copied().enumerate() {
+        let code = u32::from(c);
+        let digits = if c.is_ascii() {
+            0
+        } else if code <= 0xFFFF {
+            4
+        } else {
+            8
+        };
+        if digits != open {
+            if open != 0 {
+                out.push_str("\\X0\\");
+            }
+            if digits != 0 {
+                out.push_str(if digits == 4 { "\\X2\\" } else { "\\X4\\" });
+            }
+            open = digits;
+        }
+        match (digits, c) {
+            (0, '\'') => {
+                let next = text.iter().skip(index + 1).find(|c| **c != ' ');
+                out.push_str(if matches!(next, Some(',' | ')')) { "\\X\\27" } else { "''" });
+            }
+            (0, '\\') => out.push_str("\\\\"),
+            (0, c) => out.push(c),
+            (digits, _) => out.push_str(&format!("{code:0digits$X}")),
+        }
+    }
+    if open != 0 {
+        out.push_str("\\X0\\");
+    }
+    out
+}
+
+/// The solid under a product name.
+#[must_use]
+pub fn write(solid: &Solid, product: &str) -> Vec<u8> {
+    let boundary = with_places(&solid.boundary);
+    let written = StepModel::from(&boundary).to_string();
+    let start = written.find(FIRST).unwrap_or(0);
+    let data = written.get(start..).unwrap_or_default().replace("= FACE_SURFACE(", "= ADVANCED_FACE(");
+    // The category comes behind the last of truck's lines.
+    let category = data.lines().filter_map(|line| line.strip_prefix('#')?.split(' ').next()?.parse::<u32>().ok()).max();
+    let category = category.unwrap_or(16) + 1;
+    let name = escaped(product);
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION(('{name}'), '2;1');
+FILE_NAME('{name}', '{TIME}', (''), (''), 'camgen {version}', 'camgen', '');
+FILE_SCHEMA(('AUTOMOTIVE_DESIGN {{ 1 0 10303 214 1 1 1 1 }}'));
+ENDSEC;
+DATA;
+#1 = APPLICATION_PROTOCOL_DEFINITION('international standard', 'automotive_design', 2000, #2);
+#2 = APPLICATION_CONTEXT('core data for automotive mechanical design processes');
+#3 = SHAPE_DEFINITION_REPRESENTATION(#4, #10);
+#4 = PRODUCT_DEFINITION_SHAPE('', '', #5);
+#5 = PRODUCT_DEFINITION('design', '', #6, #9);
+#6 = PRODUCT_DEFINITION_FORMATION('', '', #7);
+#7 = PRODUCT('{name}', '{name}', '', (#8));
+#8 = PRODUCT_CONTEXT('', #2, 'mechanical');
+#9 = PRODUCT_DEFINITION_CONTEXT('part definition', #2, 'design');
+#10 = ADVANCED_BREP_SHAPE_REPRESENTATION('{name}', (#16), #11);
+#11 = (GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#15)) GLOBAL_UNIT_ASSIGNED_CONTEXT((#12, #13, #14)) REPRESENTATION_CONTEXT('', '3D'));
+#12 = (LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI., .METRE.));
+#13 = (NAMED_UNIT(*) PLANE_ANGLE_UNIT() SI_UNIT($, .RADIAN.));
+#14 = (NAMED_UNIT(*) SI_UNIT($, .STERADIAN.) SOLID_ANGLE_UNIT());
+#15 = UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06), #12, 'distance_accuracy_value', 'confusion accuracy');
+{data}#{category} = PRODUCT_RELATED_PRODUCT_CATEGORY('part', '', (#7));
+ENDSEC;
+END-ISO-10303-21;
+"
+    )
+    .into_bytes()
+}
+
+fn with_places(boundary: &Boundary) -> truck_topology::compress::CompressedSolid<Place, Curve, FaceSurface> {
+    let shell = |shell: &truck_topology::compress::CompressedShell<Point3, Curve, FaceSurface>| {
+        truck_topology::compress::CompressedShell {
+            vertices: shell.vertices.iter().map(|point| Place(*point)).collect(),
+            edges: shell.edges.clone(),
+            faces: shell.faces.clone(),
+        }
+    };
+    truck_topology::compress::CompressedSolid { boundaries: boundary.boundaries.iter().map(shell).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reals_have_a_point_and_texts_are_escaped() {
+        for (value, text) in [(1.0, "1."), (-0.0, "0."), (0.1, "0.1"), (1.5e-17, "1.5E-17"), (2e-9, "2.E-9")] {
+            assert_eq!(real(value), text);
+        }
+        assert_eq!(escaped("It's ДПИ\\\u{1}\n"), "It''s \\X2\\0414041F0418\\X0\\\\\\");
+        assert_eq!(escaped("a', (b'), 'c'"), "a\\X\\27, (b\\X\\27), ''c''");
+        assert_eq!(escaped("𝜑é"), "\\X4\\0001D711\\X0\\\\X2\\00E9\\X0\\");
+    }
+}

@@ -1,0 +1,228 @@
+//! The review sheet as SVG at true size: one user unit is a millimetre, arcs are arcs, y is flipped once, in the
+//! coordinates.
+
+use super::formats::{Format, When, fits_all};
+use super::number::plain;
+use crate::geometry::Entity;
+use crate::geometry::contour::{Contour, Segment};
+use crate::report::sheet::{Group, Shape, Sheet, TextAnchor};
+use nalgebra::Vector2;
+use svg::node::element;
+
+/// The review sheet.
+pub const FORMAT: Format = Format {
+    name: "svg",
+    when: When::Usual,
+    flank: false,
+    unfit: fits_all,
+    endings: |_| vec![".svg".into()],
+    write: |cam| Ok(vec![write(&cam.body.sheet(cam.drawn, cam.report)?, cam.template)?]),
+};
+
+/// The sheet used when none is given.
+pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");
+
+/// Decimals of a coordinate: a nanometre.
+const DECIMALS: usize = 6;
+/// Largest sweep of one SVG arc, rad: the direction of a half circle is ambiguous within rounding.
+const LONGEST_SWEEP: f64 = 3.0;
+
+/// Why a template cannot be filled in.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TemplateError {
+    /// The drawing has no place in it.
+    #[error("the template has no {{{{drawing}}}}: nothing would be drawn")]
+    NoDrawing,
+    /// Something in it that is not known.
+    #[error("the template asks for {{{{{0}}}}}, which is not known; known are {KNOWN}")]
+    Unknown(String),
+}
+
+const KNOWN: &str = "width, height, left, top, stroke, thick, dash, dot, title, drawing";
+
+fn number(value: f64) -> String {
+    let text = plain(value, DECIMALS);
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
+
+/// Fills a template with the sheet.
+///
+/// # Errors
+/// [`TemplateError`] when a placeholder is missing or unknown.
+pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
+    let size = sheet.extents.size();
+    let dashes = |parts: &[f64]| parts.iter().map(|n| number(n * sheet.stroke)).collect::<Vec<_>>().join(" ");
+    let lookup = |name: &str| {
+        Some(match name {
+            "width" => number(size.x),
+            "height" => number(size.y),
+            "left" => number(sheet.extents.least.x),
+            // Upwards in the drawing, downwards in the file.
+            "top" => number(-sheet.extents.largest.y),
+            "stroke" => number(sheet.stroke),
+            "thick" => number(2.5 * sheet.stroke),
+            "dash" => dashes(&[24.0, 6.0, 4.0, 6.0]),
+            "dot" => dashes(&[8.0, 8.0]),
+            "title" => escaped(&sheet.title),
+            "drawing" => sheet.groups.iter().map(group).collect::<Vec<_>>().join("\n"),
+            _ => return None,
+        })
+    };
+    if !template.contains("{{drawing}}") {
+        return Err(TemplateError::NoDrawing);
+    }
+    // The comment that explains the placeholders is the template's own and goes out with it.
+    let mut text = String::with_capacity(template.len() * 4);
+    let mut rest = without_comments(template);
+    while let Some((before, behind)) = rest.split_once("{{") {
+        let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
+        text.push_str(before);
+        text.push_str(&lookup(name.trim()).ok_or_else(|| TemplateError::Unknown(name.trim().to_owned()))?);
+        rest = after.to_owned();
+    }
+    text.push_str(&rest);
+    Ok(text.into_bytes())
+}
+
+fn without_comments(template: &str) -> String {
+    let mut text = String::new();
+    let mut rest = template;
+    while let Some((before, behind)) = rest.split_once("<!--") {
+        text.push_str(before);
+        rest = behind.split_once("-->").map_or("", |(_, after)| after.trim_start_matches('\n'));
+    }
+    text.push_str(rest);
+    text
+}
+
+/// Text that may stand in XML: escaped, control characters left out.
+fn escaped(text: &str) -> String {
+    printable(text).replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+fn printable(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).collect()
+}
+
+fn group(group: &Group) -> String {
+    let mut node = element::Group::new()
+        .set("id", group.id.as_str())
+        .set("class", group.class)
+        .set("inkscape:groupmode", "layer")
+        .set("inkscape:label", printable(&group.label));
+    if let Some(colour) = &group.colour {
+        node = node.set("stroke", colour.as_str());
+    }
+    for shape in &group.shapes {
+        node = match shape {
+            Shape::Entity(Entity::Polyline(contour)) => node.add(element::Path::new().set("d", path(contour))),
+            Shape::Entity(Entity::Circle(centre, radius)) => node.add(
+                element::Circle::new()
+                    .set("cx", number(centre.x))
+                    .set("cy", number(-centre.y))
+                    .set("r", number(*radius)),
+            ),
+            Shape::Line(a, b) => node.add(
+                element::Line::new()
+                    .set("x1", number(a.x))
+                    .set("y1", number(-a.y))
+                    .set("x2", number(b.x))
+                    .set("y2", number(-b.y)),
+            ),
+            Shape::Path(points) => {
+                let points: Vec<String> = points.iter().map(|point| place(*point)).collect();
+                node.add(element::Polyline::new().set("points", points.join(" ")))
+            }
+            Shape::Arc(start, end, bulge) => {
+                let segment = Segment { start: *start, end: *end, bulge: *bulge };
+                node.add(element::Path::new().set("d", format!("M{} {}", place(*start), arc(&segment))))
+            }
+            Shape::Triangle(corners) => {
+                let points: Vec<String> = corners.iter().map(|corner| place(*corner)).collect();
+                node.add(element::Polygon::new().set("points", points.join(" ")))
+            }
+            Shape::Text { at, height, anchor, text } => {
+                let anchor = match anchor {
+                    TextAnchor::Start => "start",
+                    TextAnchor::Middle => "middle",
+                    TextAnchor::End => "end",
+                };
+                node.add(
+                    element::Text::new(printable(text))
+                        .set("x", number(at.x))
+                        .set("y", number(-at.y))
+                        .set("font-size", number(*height))
+                        .set("text-anchor", anchor)
+                        .set("xml:space", "preserve"),
+                )
+            }
+        };
+    }
+    node.to_string()
+}
+
+fn place(point: Vector2<f64>) -> String {
+    format!("{},{}", number(point.x), number(-point.y))
+}
+
+fn path(contour: &Contour) -> String {
+    let start = contour.vertices.first().map(|vertex| place(vertex.point)).unwrap_or_default();
+    let segments: Vec<String> = contour.segments().map(|segment| arc(&segment)).collect();
+    format!("M{start} {} Z", segments.join(" "))
+}
+
+/// The commands of one segment: a line, an arc, or the two halves of a long arc.
+fn arc(segment: &Segment) -> String {
+    if segment.bulge == 0.0 {
+        return format!("L{}", place(segment.end));
+    }
+    let radius = number(segment.radius().abs());
+    // A left turn upwards is a right turn (sweep flag 0) once y points down.
+    let sweep = u8::from(segment.bulge < 0.0);
+    let to = |point| format!("A{radius},{radius} 0 0 {sweep} {}", place(point));
+    if segment.sweep().abs() <= LONGEST_SWEEP {
+        return to(segment.end);
+    }
+    format!("{} {}", to(segment.middle()), to(segment.end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::contour::Extents;
+
+    fn sheet(title: &str) -> Sheet {
+        let contour = Contour::circle(Vector2::new(1.0, 2.0), 5.0);
+        let shapes = vec![
+            Shape::Entity(Entity::Polyline(contour)),
+            Shape::Text { at: Vector2::zeros(), height: 2.0, anchor: TextAnchor::Middle, text: title.into() },
+        ];
+        Sheet {
+            title: title.into(),
+            extents: Extents { least: Vector2::new(-10.0, -20.0), largest: Vector2::new(30.0, 40.0) },
+            stroke: 0.1,
+            groups: vec![Group::new("profile", "profile", shapes)],
+        }
+    }
+
+    #[test]
+    fn size_is_true_and_y_flipped_once() {
+        let text = String::from_utf8(write(&sheet("x"), TEMPLATE).expect("filled")).expect("UTF-8");
+        assert!(text.contains(r#"width="40mm" height="60mm" viewBox="-10 -40 40 60""#), "{text}");
+        assert!(text.contains("M6,-2 A5,5 0 0 0 1,-7 A5,5 0 0 0 -4,-2"), "{text}");
+        assert!(!text.contains("{{"));
+    }
+
+    #[test]
+    fn words_are_escaped_and_cleaned() {
+        let text = String::from_utf8(write(&sheet("a<b>&\u{1}\u{7f}\"Ю\""), TEMPLATE).expect("filled")).expect("UTF-8");
+        assert!(text.contains("a&lt;b&gt;&amp;") && text.contains('Ю'));
+        assert!(!text.chars().any(|c| c.is_control() && c != '\n'));
+    }
+
+    #[test]
+    fn a_template_that_cannot_be_filled_is_told() {
+        assert_eq!(write(&sheet("x"), "<svg/>"), Err(TemplateError::NoDrawing));
+        assert_eq!(write(&sheet("x"), "{{drawing}}{{colour}}"), Err(TemplateError::Unknown("colour".into())));
+    }
+}
