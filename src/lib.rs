@@ -3,7 +3,7 @@
 //! The library is a pipeline, and the modules below are its rooms in order: a room knows only those before it.
 //!
 //! ```text
-//! units → numeric → buffer → law → follower → machine → cam → contour → reading → checks → drawing → output
+//! units → document → numeric → buffer → law → follower → machine → cam → contour → reading → checks → drawing → output
 //! ```
 //!
 //! Two doors: [`machine::Machine`] in, [`drawing`] out. Numbers are SI and radians until `drawing`, millimetres from
@@ -23,6 +23,8 @@
 #![forbid(unsafe_code)]
 
 pub mod units;
+
+pub mod document;
 
 pub mod numeric;
 
