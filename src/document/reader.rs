@@ -6,7 +6,7 @@
 
 use super::fault::{Fault, nearest};
 use super::key::{Field, Key, Occurs, Presence, Section, Value, join};
-use super::text::{Document, Found, Place};
+use super::text::{Document, Entry, Found, MOST_FAULTS, Place};
 use super::value::{self, Misfit, Scalar};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -140,7 +140,9 @@ impl<'a> Reader<'a> {
             }
             let (pattern, indices) = pattern(path);
             let (message, help) = if !known.contains(&pattern) {
-                let near = nearest(&pattern, &known).map(|near| format!("did you mean `{}`?", filled(near, &indices)));
+                // Beyond those that are told, comparing takes time for nothing.
+                let near = if faults.len() < MOST_FAULTS { nearest(&pattern, &known) } else { None };
+                let near = near.map(|near| format!("did you mean `{}`?", filled(near, &indices)));
                 (format!("unknown key `{path}`"), near)
             } else if let Some((array, count)) = self.beyond_the_end(path) {
                 let help = format!("a file adds elements, one [[{array}]] each; overrides change those it has");
@@ -167,7 +169,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `segment = []` is no segments, not a key.
-    fn is_empty_list_of_tables(&self, path: &str, entry: &super::text::Entry) -> bool {
+    fn is_empty_list_of_tables(&self, path: &str, entry: &Entry) -> bool {
         matches!(&entry.value, Scalar::List(items) if items.is_empty())
             && self.sections.iter().any(|section| section.occurs == Occurs::Repeated && section.path == path)
     }

@@ -164,6 +164,14 @@ fn hostile_inputs_end_in_faults() {
         "name = \"a\\u0007b\"".into(),
         "\r\n\r\r\n[motion]\r\nx = 1\r".into(),
         "a".repeat(1_000_000) + " = 1",
+        format!("[{}]\n{}", "a".repeat(100_000), wide.replace(',', "\n")),
+        format!("[{}]\n{}", "motion.".repeat(12) + "x", wide.replace(',', "\n")),
+        format!(
+            "[{0}b]\n{0}c = {1}1{2}",
+            "a.".repeat(78),
+            format!("{{ {}a = ", "a.".repeat(78)).repeat(79),
+            "}".repeat(79)
+        ),
     ] {
         let told = faults(&text, &[]);
         assert!(!told.is_empty() && told.len() <= 101, "{}: {}", text.chars().take(40).collect::<String>(), told.len());

@@ -10,11 +10,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeArray, DeTable, DeValue};
 
-/// Most parts of a dotted key. The parser builds a table for each part, and frees them by recursion: beyond some ten
-/// thousand the stack would not hold. No real key has more than five.
-const MOST_PARTS: usize = 100;
+/// Deepest that tables stand within tables: deeper, every path would be told in full for nothing. No section is deeper
+/// than three.
+const DEEPEST: usize = 16;
+/// Longest name of a key, in bytes: with [`DEEPEST`] it bounds the length of a path, of which there is one for each key.
+const LONGEST_NAME: usize = 100;
 /// Most faults that are told: the hundredth helps nobody, and each carries the line it stands on.
-const MOST_FAULTS: usize = 100;
+pub(super) const MOST_FAULTS: usize = 100;
 
 /// Where something stands.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -102,15 +104,11 @@ impl<'a> Document<'a> {
     }
 
     fn parse(&mut self) {
-        if let Some(span) = too_many_parts(self.text) {
-            self.not_toml(&format!("a key of more than {MOST_PARTS} parts"), Some(span));
-            return;
-        }
         let (table, errors) = DeTable::parse_recoverable(self.text);
         for error in errors {
             self.not_toml(error.message(), error.span());
         }
-        self.table("", table.get_ref());
+        self.table("", table.get_ref(), 0);
     }
 
     fn not_toml(&mut self, why: &str, span: Option<Range<usize>>) {
@@ -119,37 +117,32 @@ impl<'a> Document<'a> {
         self.faults.push(Found { message: format!("not TOML: {why}"), help: None, place });
     }
 
-    fn table(&mut self, prefix: &str, table: &DeTable<'_>) {
+    fn table(&mut self, prefix: &str, table: &DeTable<'_>, depth: usize) {
         for (key, value) in table {
-            let name = key.get_ref().as_ref();
-            if name.contains(['.', '[', ']']) {
-                // A quoted key with a dot or bracket in it is another key than the path it looks like.
-                let message = format!("unknown key `\"{name}\"`");
-                let help = Some("write the dotted path without quotes".into());
+            if let Some((message, help)) = not_a_name(key.get_ref(), depth) {
                 self.faults.push(Found { message, help, place: Some(Place::File(key.span())) });
                 continue;
             }
-            let path = join(prefix, name);
+            let path = join(prefix, key.get_ref());
             match value.get_ref() {
                 DeValue::Table(inner) => {
-                    self.table(&path, inner);
+                    self.table(&path, inner, depth + 1);
                     self.tables.insert(path, key.span());
                 }
                 DeValue::Array(items) if is_array_of_tables(items) => {
                     for (index, item) in items.iter().enumerate() {
                         if let DeValue::Table(inner) = item.get_ref() {
                             let path = format!("{path}[{index}]");
-                            self.table(&path, inner);
+                            self.table(&path, inner, depth + 1);
                             self.tables.insert(path, item.span());
                         }
                     }
                     self.arrays.insert(path, (key.span(), items.len()));
                 }
                 other => {
-                    let value_span = value.span();
-                    let value = self.scalar(other, &value_span);
-                    let at = Place::File(value_span);
-                    self.entries.insert(path, Entry { value, key: Place::File(key.span()), at });
+                    let scalar = self.scalar(other, &value.span());
+                    let (key, at) = (Place::File(key.span()), Place::File(value.span()));
+                    self.entries.insert(path, Entry { value: scalar, key, at });
                 }
             }
         }
@@ -261,24 +254,20 @@ fn first_from<'m, V>(map: &'m BTreeMap<String, V>, start: &str) -> Option<&'m St
     map.range::<str, _>((std::ops::Bound::Included(start), std::ops::Bound::Unbounded)).next().map(|(key, _)| key)
 }
 
-fn is_array_of_tables(items: &DeArray<'_>) -> bool {
-    !items.is_empty() && items.iter().all(|item| matches!(item.get_ref(), DeValue::Table(_)))
+/// Why a name in the file can be that of no key, and what would be right.
+fn not_a_name(name: &str, depth: usize) -> Option<(String, Option<String>)> {
+    if depth >= DEEPEST {
+        return Some((format!("no key is within {DEEPEST} tables"), None));
+    }
+    if name.len() > LONGEST_NAME {
+        let start: String = name.chars().take(LONGEST_NAME / 4).collect();
+        return Some((format!("unknown key `{start}…`"), None));
+    }
+    // A quoted key with a dot or bracket in it is another key than the path it looks like.
+    let help = || Some("write the dotted path without quotes".into());
+    name.contains(['.', '[', ']']).then(|| (format!("unknown key `\"{name}\"`"), help()))
 }
 
-/// A stretch of text that could be a dotted key of too many parts.
-fn too_many_parts(text: &str) -> Option<Range<usize>> {
-    let (mut start, mut dots, mut after_dot) = (0, 0, false);
-    for (at, byte) in text.bytes().enumerate() {
-        let of_key = byte.is_ascii_alphanumeric() || b"_-.\"' \t".contains(&byte) || !byte.is_ascii();
-        // Dots in a row are punctuation, no key.
-        if !of_key || (byte == b'.' && after_dot) {
-            (start, dots) = (at + 1, 0);
-        }
-        after_dot = byte == b'.';
-        dots += usize::from(after_dot);
-        if dots >= MOST_PARTS {
-            return Some(start..at);
-        }
-    }
-    None
+fn is_array_of_tables(items: &DeArray<'_>) -> bool {
+    !items.is_empty() && items.iter().all(|item| matches!(item.get_ref(), DeValue::Table(_)))
 }

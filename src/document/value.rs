@@ -149,7 +149,7 @@ impl Named<'_> {
 
     /// A quantity, or one of a few words instead.
     fn quantity(&self, scalar: &Scalar, words: &[&str], dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
-        let or_words: String = words.iter().map(|word| format!(" or \"{word}\"")).collect();
+        let or_words = words.iter().map(|word| format!(" or \"{word}\"")).collect::<Vec<_>>().concat();
         let text = match scalar {
             Scalar::Text(text) => text,
             Scalar::Number(text) => {
