@@ -18,6 +18,8 @@ pub struct Reader<'a> {
     sections: &'a [&'a Section],
     /// Every value without a fault, defaults too, by its path.
     values: BTreeMap<String, Value>,
+    /// Required keys that are absent, by their paths, until it is known whether a slip of the pen explains them.
+    missing: BTreeMap<String, Found>,
     /// Paths that have the wrong shape: what is inside them is not worth telling.
     misshapen: BTreeSet<String>,
     faults: RefCell<Vec<Found>>,
@@ -29,7 +31,8 @@ impl<'a> Reader<'a> {
     pub fn new(source: &'a str, text: &'a str, overrides: &[String], sections: &'a [&'a Section]) -> Self {
         let mut document = Document::new(source, text, overrides);
         let faults = RefCell::new(std::mem::take(&mut document.faults));
-        let mut reader = Self { document, sections, values: BTreeMap::new(), misshapen: BTreeSet::new(), faults };
+        let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
+        let mut reader = Self { document, sections, values, missing, misshapen, faults };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -110,7 +113,8 @@ impl<'a> Reader<'a> {
                     Presence::Required(_) => {
                         let header = self.document.tables.get(table).filter(|_| section.occurs == Occurs::Repeated);
                         let place = header.map(|span| Place::File(span.clone()));
-                        Err((missing(key, &path, source), place))
+                        self.missing.insert(path.clone(), missing(key, &path, source, place));
+                        continue;
                     }
                 }
             };
@@ -142,8 +146,12 @@ impl<'a> Reader<'a> {
             let (message, help) = if !known.contains(&pattern) {
                 // Beyond those that are told, comparing takes time for nothing.
                 let near = if faults.len() < MOST_FAULTS { nearest(&pattern, &known) } else { None };
-                let near = near.map(|near| format!("did you mean `{}`?", filled(near, &indices)));
-                (format!("unknown key `{path}`"), near)
+                let near = near.map(|near| filled(near, &indices));
+                if let Some(near) = &near {
+                    // The key is there under a wrong name: that it is missing follows.
+                    self.missing.remove(near);
+                }
+                (format!("unknown key `{path}`"), near.map(|near| format!("did you mean `{near}`?")))
             } else if let Some((array, count)) = self.beyond_the_end(path) {
                 let help = format!("a file adds elements, one [[{array}]] each; overrides change those it has");
                 (format!("`{path}`: the file has {count} of [[{array}]], counted from 0"), Some(help))
@@ -160,6 +168,7 @@ impl<'a> Reader<'a> {
                 faults.push(Found { message: format!("unknown table `{path}`"), help: None, place });
             }
         }
+        faults.extend(std::mem::take(&mut self.missing).into_values());
         self.faults.get_mut().extend(faults);
     }
 
@@ -276,10 +285,11 @@ impl Table<'_> {
     }
 }
 
-fn missing(key: &Key, path: &str, source: &str) -> Misfit {
-    Misfit {
+fn missing(key: &Key, path: &str, source: &str, place: Option<Place>) -> Found {
+    Found {
         message: format!("missing key `{path}` in {source}"),
         help: Some(format!("add it, e.g. {}", key.in_toml(key.presence.text()))),
+        place,
     }
 }
 

@@ -65,12 +65,19 @@ fn faults_in_an_element_name_its_index_and_its_line() {
     let told: Vec<(String, usize)> =
         faults.iter().map(|fault| (fault.message.clone(), fault.place.as_ref().map_or(0, |p| p.line))).collect();
     let expected = [
-        ("missing key `motion.segment[0].to` in cam.toml", 3),
         ("unknown key `motion.segment[0].too`", 4),
         ("`motion.segment[1].to`: `kg` is a unit of mass, not of length", 8),
     ];
     assert_eq!(told, expected.map(|(message, line)| (message.to_owned(), line)));
-    assert_eq!(faults[1].help.as_deref(), Some("did you mean `motion.segment[0].to`?"));
+    assert_eq!(faults[0].help.as_deref(), Some("did you mean `motion.segment[0].to`?"));
+}
+
+#[test]
+fn a_missing_key_of_an_element_is_told_at_its_header() {
+    let told = faults(&FILE.replace("to = \"20 mm\"\n", ""), &[]);
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].message.contains("missing key `motion.segment[1].to`"), "{}", told[0]);
+    assert_eq!(told[0].place.as_ref().map(|place| (place.line, place.width)), Some((6, 18)), "{}", told[0]);
 }
 
 #[test]

@@ -25,7 +25,7 @@ const CRANK_TURNS: Field<f64> = Field::number(
 /// `[bed]`.
 pub(super) const SECTION: Section = Section {
     path: "bed",
-    about: "",
+    about: "the bed and its crank",
     occurs: Occurs::Once,
     cams: &[],
     keys: &[MASS.key, CRANK_RADIUS.key, CRANK_TURNS.key],

@@ -15,10 +15,10 @@ const POLYTROPIC_EXPONENT: Field<f64> = Field::number(
     within(1.0, 3.0),
 );
 const AMBIENT_PRESSURE: Field<f64> =
-    Field::quantity("ambient_pressure", "absolute", Required("1 at"), Pressure, PRESSURE);
+    Field::quantity("ambient_pressure", "pressure of the air around, absolute", Required("1 at"), Pressure, PRESSURE);
 const END_PRESSURE: Field<f64> = Field::quantity(
     "end_pressure",
-    "absolute, at the end of the compression at the design speed; above ambient_pressure",
+    "absolute pressure at the end of the compression, design speed; above ambient_pressure",
     Required("2 at"),
     Pressure,
     PRESSURE,
@@ -41,7 +41,7 @@ const LEAD: Field<f64> = Field::quantity(
 /// `[buffer]`.
 pub(super) const SECTION: Section = Section {
     path: "buffer",
-    about: "",
+    about: "the air buffer",
     occurs: Occurs::Once,
     cams: &[],
     keys: &[POLYTROPIC_EXPONENT.key, AMBIENT_PRESSURE.key, END_PRESSURE.key, COLUMN.key, LEAD.key],
@@ -55,8 +55,13 @@ const RPM: Field<f64> = Field::number(
 );
 
 /// `[design]`.
-pub(super) const DESIGN: Section =
-    Section { path: "design", about: "", occurs: Occurs::Once, cams: &[], keys: &[RPM.key] };
+pub(super) const DESIGN: Section = Section {
+    path: "design",
+    about: "what the machine is built for",
+    occurs: Occurs::Once,
+    cams: &[],
+    keys: &[RPM.key],
+};
 
 /// What the machine file says of the buffer.
 pub(super) struct Buffer {

@@ -133,14 +133,20 @@ const BASE_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
 .only(TURNING);
 const THICKNESS: Field<f64> = Field::quantity(
     "thickness",
-    "of the disc or plate, at least 1 um: for the solid, mass and contact stress",
+    "thickness of disc or plate, at least 1 um: for solid, mass and contact stress",
     Optional("30 mm"),
     Length,
     within(THINNEST, LONGEST),
 )
 .only(&[ROTARY, TRANSLATING]);
-const BORE_RADIUS: Field<f64> =
-    Field::quantity("bore_radius", "below base_radius", Optional("25 mm"), Length, LENGTH).only(TURNING);
+const BORE_RADIUS: Field<f64> = Field::quantity(
+    "bore_radius",
+    "radius of the bore for the shaft, below base_radius",
+    Optional("25 mm"),
+    Length,
+    LENGTH,
+)
+.only(TURNING);
 const MATERIAL: Field<Material> = Field::words(
     "material",
     "\"steel\", \"cast-iron\", \"bronze\" or \"aluminium\": for mass (steel when absent) and contact stress",
@@ -158,7 +164,7 @@ const BALANCE: Field<(f64, f64)> = Field::band(
 .only(&[ROTARY]);
 const ROTATION: Field<Rotation> = Field::words(
     "rotation",
-    "as seen in the drawing: \"cw\" or \"ccw\"",
+    "sense of rotation as seen in the drawing: \"cw\" or \"ccw\"",
     Default("cw"),
     &["cw", "ccw"],
     &[Rotation::Clockwise, Rotation::CounterClockwise],
@@ -168,7 +174,7 @@ const ROTATION: Field<Rotation> = Field::words(
 /// `[cam]`.
 pub(super) const SECTION: Section = Section {
     path: "cam",
-    about: "",
+    about: "the disc",
     occurs: Occurs::Once,
     cams: &[],
     keys: &[
@@ -184,9 +190,10 @@ pub(super) const SECTION: Section = Section {
 };
 
 const KEYWAY_WIDTH: Field<f64> =
-    Field::quantity("width", "below the bore's diameter", Required("8 mm"), Length, LENGTH).only(TURNING);
+    Field::quantity("width", "width of the slot, below the bore's diameter", Required("8 mm"), Length, LENGTH)
+        .only(TURNING);
 const KEYWAY_DEPTH: Field<f64> =
-    Field::quantity("depth", "beyond the bore", Required("3.3 mm"), Length, LENGTH).only(TURNING);
+    Field::quantity("depth", "depth beyond the bore", Required("3.3 mm"), Length, LENGTH).only(TURNING);
 const KEYWAY_ANGLE: Field<f64> = Field::quantity(
     "angle",
     "cam angle of its middle, -360 deg to 360 deg",
@@ -199,7 +206,7 @@ const KEYWAY_ANGLE: Field<f64> = Field::quantity(
 /// `[cam.keyway]`.
 pub(super) const KEYWAY: Section = Section {
     path: "cam.keyway",
-    about: "in the bore",
+    about: "a keyway in the bore",
     occurs: Occurs::Optional,
     cams: &[],
     keys: &[KEYWAY_WIDTH.key, KEYWAY_DEPTH.key, KEYWAY_ANGLE.key],

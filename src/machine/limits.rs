@@ -39,14 +39,14 @@ const MIN_CONVEX: Field<f64> = Field::number(
 );
 const CUTTER_RADIUS: Field<f64> = Field::quantity(
     "cutter_radius",
-    "the tool the shop cuts with; concave parts must let it in",
+    "radius of the tool the shop cuts with; concave parts must let it in",
     Optional("10 mm"),
     Length,
     above(0.0, LONGEST),
 );
 const WALL: Field<f64> = Field::quantity(
     "wall",
-    "metal between bore and profile, or between the flanks of a plate",
+    "least metal between bore and profile, or between the flanks of a plate",
     Default("0 mm"),
     Length,
     within(0.0, LONGEST),
@@ -63,7 +63,7 @@ const CONTACT_STRESS: Field<f64> = Field::quantity(
 /// `[limits]`.
 pub(super) const SECTION: Section = Section {
     path: "limits",
-    about: "",
+    about: "what a cam must keep",
     occurs: Occurs::Once,
     cams: &[],
     keys: &[PRESSURE_ANGLE.key, MIN_CONVEX.key, CUTTER_RADIUS.key, WALL.key, CONTACT_STRESS.key],

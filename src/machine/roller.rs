@@ -37,7 +37,7 @@ pub(super) const RADIUS: Field<f64> =
 /// Offset of its path from the shaft, which the disc must reach.
 pub(super) const OFFSET: Field<f64> = Field::quantity(
     "offset",
-    "of its path from the shaft, positive against the rotation of the cam",
+    "distance of its path from the shaft, positive against the rotation of the cam",
     Default("0 mm"),
     Length,
     within(-LONGEST, LONGEST),
@@ -45,7 +45,7 @@ pub(super) const OFFSET: Field<f64> = Field::quantity(
 .only(&[ROTARY, CONOID]);
 const MASS: Field<f64> = Field::quantity(
     "mass",
-    "of what moves with the roller along its path: asks for the check force_closure",
+    "of all that moves with the roller along its path; asks for the check force_closure",
     Optional("40 kg"),
     Mass,
     above(0.0, HEAVIEST),
@@ -66,12 +66,13 @@ const CROWN: Field<Crown> = Field::words(
 )
 .only(&[CONOID]);
 const WIDTH: Field<f64> =
-    Field::quantity("width", "of a cylindrical rim", Optional("20 mm"), Length, above(0.0, LONGEST)).only(&[CONOID]);
+    Field::quantity("width", "width of a cylindrical rim", Optional("20 mm"), Length, above(0.0, LONGEST))
+        .only(&[CONOID]);
 
 /// `[follower.roller]`.
 pub(super) const SECTION: Section = Section {
     path: "follower.roller",
-    about: "translating roller",
+    about: "the follower: a translating roller",
     occurs: Occurs::Once,
     cams: &[],
     keys: &[RADIUS.key, OFFSET.key, MASS.key, PRELOAD.key, CROWN.key, WIDTH.key],

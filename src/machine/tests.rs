@@ -270,6 +270,7 @@ fn every_word_of_a_key_reads() {
 #[test]
 fn every_key_tells_what_it_is_and_for_which_cams() {
     for section in SECTIONS {
+        assert!(section.path.is_empty() || !section.about.is_empty(), "{}", section.path);
         for key in section.keys {
             assert!(!key.about.is_empty() && !key.presence.text().is_empty(), "{}", section.path_of(key));
             for cam in section.cams_of(key) {

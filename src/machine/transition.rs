@@ -14,12 +14,12 @@ const KIND: Field<fn(f64) -> Transition> = Field::words(
     &[|width| Transition::RunUp { width }, |width| Transition::Blend { width }, |_| Transition::None],
 );
 const WIDTH: Field<f64> =
-    Field::quantity("width", "crank angle, at most 180 deg", Default("20 deg"), Angle, above(0.0, PI));
+    Field::quantity("width", "crank angle it takes, at most 180 deg", Default("20 deg"), Angle, above(0.0, PI));
 
 /// `[transition]`.
 pub(super) const SECTION: Section = Section {
     path: "transition",
-    about: "between dwell and reversal",
+    about: "the transition between dwell and reversal",
     occurs: Occurs::Once,
     cams: &[],
     keys: &[KIND.key, WIDTH.key],

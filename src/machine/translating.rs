@@ -31,25 +31,25 @@ pub struct TranslatingData {
 const LENGTH: Bounds = above(0.0, LONGEST);
 
 const ROLLER_ARM: Field<f64> =
-    Field::quantity("roller_arm", "from the pivot to the roller", Required("300 mm"), Length, LENGTH);
+    Field::quantity("roller_arm", "arm l1 from the pivot to the roller", Required("300 mm"), Length, LENGTH);
 const BOTTOM_ARM: Field<f64> =
-    Field::quantity("bottom_arm", "from the pivot to the cylinder's bottom", Required("300 mm"), Length, LENGTH);
+    Field::quantity("bottom_arm", "arm l2 from the pivot to the cylinder's bottom", Required("300 mm"), Length, LENGTH);
 const DELTA: Field<f64> = Field::quantity(
     "delta",
-    "between the roller's velocity and the line of the bed, at most 180 deg",
+    "angle between the roller's velocity and the line of the bed, at most 180 deg",
     Required("90 deg"),
     Angle,
     above(0.0, PI),
 );
 const FRICTION_ANGLE: Field<f64> = Field::quantity(
     "friction_angle",
-    "of the roller on the plate, 0 deg to 90 deg",
+    "friction angle, 0 deg to 90 deg",
     Default("0 deg"),
     Angle,
     within(0.0, FRAC_PI_2),
 );
 const EFFICIENCY: Field<f64> =
-    Field::number("efficiency", "of the bell crank, above 0, at most 1", Default("1"), above(0.0, 1.0));
+    Field::number("efficiency", "efficiency of the bell crank, above 0, at most 1", Default("1"), above(0.0, 1.0));
 const MODEL: Field<EfficiencyModel> = Field::words(
     "efficiency_model",
     "\"consistent\" or \"printed\" (as the paper has it)",
@@ -57,11 +57,16 @@ const MODEL: Field<EfficiencyModel> = Field::words(
     &["consistent", "printed"],
     &[EfficiencyModel::Consistent, EfficiencyModel::Printed],
 );
-const ROLLER_RADIUS: Field<f64> =
-    Field::quantity("roller_radius", "follower.roller.radius when absent", Optional("30 mm"), Length, LENGTH);
+const ROLLER_RADIUS: Field<f64> = Field::quantity(
+    "roller_radius",
+    "radius of its roller; follower.roller.radius when absent",
+    Optional("30 mm"),
+    Length,
+    LENGTH,
+);
 const PLATE_HEIGHT: Field<f64> = Field::quantity(
     "plate_height",
-    "over both flanks where it is highest; found by itself when absent",
+    "height over both flanks where it is highest; found by itself when absent",
     Optional("120 mm"),
     Length,
     LENGTH,
