@@ -149,7 +149,7 @@ fn the_schema_follows_the_tables() {
 #[test]
 fn hostile_inputs_end_in_faults() {
     let deep = |open: &str, close: &str, n: usize| format!("a = {}{}", open.repeat(n), close.repeat(n));
-    let wide: String = (0..20_000).map(|i| format!("k{i}=1,")).collect();
+    let wide = (0..20_000).map(|i| format!("k{i}=1,")).collect::<Vec<_>>().concat();
     for text in [
         String::new(),
         "\u{feff}".into(),
@@ -165,7 +165,7 @@ fn hostile_inputs_end_in_faults() {
         format!("[{}a]", "\"=\".".repeat(100_000)),
         format!("x = {{ {}a = 1 }}", "'{'.".repeat(100_000)),
         format!("[{}a]", "\"\\u0041\".".repeat(100_000)),
-        format!("x = {{ {}z = 1 }}", wide),
+        format!("x = {{ {wide}z = 1 }}"),
         "é = 1\n\"\u{1F600}\" = 2\n[\"ключ\"]\n".into(),
         "name = 99999999999999999999999999999999999\n[motion]\nstart = 1e999\nterms = [1e999, nan]\n".into(),
         "name = \"a\\u0007b\"".into(),
