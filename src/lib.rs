@@ -5,6 +5,8 @@ pub mod units;
 
 pub mod numeric;
 
+pub mod document;
+
 pub mod geometry;
 
 pub mod buffer;

@@ -29,12 +29,35 @@ pub(super) enum Command {
     Translating(TranslatingArgs),
     /// One cam for many speeds, shifted along its axis as the speed changes: sections and a solid
     Conoid(ConoidArgs),
+    /// Any cam: the motion program of a file under the follower of a file, as a disc
+    Make(MakeArgs),
     /// Speed against accuracy, measured here and now: time by stage, arcs, bytes, true error and the force that is left
     Trade(TradeArgs),
     /// Prove a DXF file, also one edited or written by another program: one closed tangent outline that gives the law?
     Check(CheckArgs),
     /// The machine files carried in the program
     Machines(MachinesArgs),
+    /// A commented machine file to start from
+    Init,
+    /// What a check means; without a name, all of them
+    Explain(ExplainArgs),
+    /// The JSON schema of machine files, for editors
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ExplainArgs {
+    /// Name of the check, as reports tell it
+    pub(super) check: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct MakeArgs {
+    #[command(flatten)]
+    pub(super) common: CommonArgs,
+
+    #[command(flatten)]
+    pub(super) files: FileArgs,
 }
 
 /// Flags that every command about a cam has.

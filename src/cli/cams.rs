@@ -1,6 +1,6 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
-use super::args::{CommonArgs, ConoidArgs, FileArgs, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs};
+use super::args::{CommonArgs, ConoidArgs, FileArgs, MakeArgs, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs};
 use super::{Failure, Outcome, print, tell, text};
 use camgen::body::Request;
 use camgen::body::wedge::LAW_TOLERANCE;
@@ -26,7 +26,7 @@ pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
         machine.ask_for_cutter(radius);
     }
     let request = Request { cutter: args.cutter, ..args.files.request(&args.common) };
-    make(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
+    cut(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
 }
 
 pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
@@ -40,13 +40,28 @@ pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
         }
     };
     let spec = Spec::translating(machine, rpm, solver, args.balance.exact_on());
-    make(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
 }
 
 pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.common.machine()?;
     let spec = conoid_spec(args, machine)?;
-    make(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+}
+
+/// The cam of a motion program.
+pub(super) fn make(args: &MakeArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = args.common.machine()?;
+    let rpm = match args.common.rpm.as_slice() {
+        [] => None,
+        _ => Some(args.common.one_speed(&machine)?),
+    };
+    let Some((motion, told)) = machine.motion() else {
+        let why = "the file has no motion: `make` needs the tables [motion] and [[motion.segment]]";
+        return Err(Failure(format!("{why}; the cams of a press are made by rotary, translating and conoid")));
+    };
+    let spec = Spec::of_motion(machine, motion, rpm.or(told));
+    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
 }
 
 fn conoid_spec(args: &ConoidArgs, machine: Machine) -> Result<Spec, Failure> {
@@ -106,13 +121,7 @@ fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String
 }
 
 /// Solves, draws, proves, writes and reports.
-fn make(
-    spec: Spec,
-    request: Request,
-    common: &CommonArgs,
-    files: &FileArgs,
-    machine: &str,
-) -> Result<Outcome, Failure> {
+fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, machine: &str) -> Result<Outcome, Failure> {
     let template = files.template()?;
     let cam = spec.solve().map_err(Failure::new)?;
     let writing = Writing {

@@ -2,7 +2,8 @@
 
 use super::args::{MachinesArgs, MachinesCommand};
 use super::{Failure, Outcome, print};
-use camgen::machine::{EMBEDDED, Machine};
+use camgen::machine::{self, EMBEDDED, Machine};
+use camgen::write::json;
 
 pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
     match &args.what {
@@ -22,5 +23,11 @@ pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
             print(embedded.toml)?;
         }
     }
+    Ok(Outcome::Fine)
+}
+
+pub(super) fn schema() -> Result<Outcome, Failure> {
+    let bytes = json::write(&machine::schema()).map_err(Failure::new)?;
+    print(&String::from_utf8_lossy(&bytes))?;
     Ok(Outcome::Fine)
 }

@@ -3,11 +3,13 @@
 mod args;
 mod cams;
 mod check;
+mod explain;
 mod machines;
 mod text;
 mod trade;
 
 use args::{Cli, Command};
+use camgen::machine;
 use clap::Parser;
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
@@ -39,7 +41,11 @@ pub(crate) fn main() -> ExitCode {
         Command::Conoid(args) => cams::conoid(&args),
         Command::Trade(args) => trade::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Make(args) => cams::make(&args),
         Command::Machines(args) => machines::run(&args),
+        Command::Init => print(&machine::template()).map(|()| Outcome::Fine),
+        Command::Explain(args) => explain::run(&args),
+        Command::Schema => machines::schema(),
     };
     match outcome {
         Ok(Outcome::Fine) => ExitCode::SUCCESS,

@@ -10,11 +10,74 @@ mod bell_crank;
 mod translating_roller;
 
 pub use bell_crank::BellCrank;
-pub use translating_roller::TranslatingRoller;
+pub use translating_roller::{Crown, RollerData, TranslatingRoller};
 
+use crate::document::Presence::Optional;
+use crate::document::range::{HEAVIEST, LARGEST_FORCE};
+use crate::document::{Field, Reader, Section, Table, above, within};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
+use crate::units::Dimension::{Force, Mass};
 use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// A kind of follower that a file can ask for by its table.
+#[derive(Debug)]
+pub struct FollowerKind {
+    /// Its table, `[follower.roller]`.
+    pub section: &'static Section,
+    /// Reads it.
+    read: fn(&Table<'_>) -> Option<FollowerData>,
+}
+
+/// Every kind of follower: a new one is a file with its geometry and its table, and one line here.
+pub const FOLLOWERS: &[FollowerKind] = &[translating_roller::KIND];
+
+/// A follower as a file describes it.
+#[derive(Debug, Clone)]
+pub struct FollowerData {
+    /// The follower itself, not yet made for a size.
+    pub shape: Arc<dyn Follower>,
+    /// Mass that moves with it along its path, kg.
+    pub mass: Option<f64>,
+    /// Force that presses it onto the cam beside the load, N.
+    pub preload: Option<f64>,
+    /// What only a translating roller has.
+    pub roller: Option<RollerData>,
+}
+
+/// Mass of a follower, a key of every follower's table.
+const MASS: Field<f64> = Field::quantity(
+    "mass",
+    "of all that moves with the follower along its path; asks for the check force_closure",
+    Optional("40 kg"),
+    Mass,
+    above(0.0, HEAVIEST),
+);
+/// Preload of a follower, a key of every follower's table.
+const PRELOAD: Field<f64> = Field::quantity(
+    "preload",
+    "spring or weight that presses the follower onto the cam beside the air",
+    Optional("1600 N"),
+    Force,
+    within(0.0, LARGEST_FORCE),
+);
+
+/// The one follower of a file.
+pub(crate) fn read(reader: &Reader<'_>) -> Option<FollowerData> {
+    let mut told = FOLLOWERS.iter().filter_map(|kind| Some((kind, reader.find(kind.section)?)));
+    let known = || FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect::<Vec<_>>().join(", ");
+    let Some((kind, table)) = told.next() else {
+        let message = "the follower is not described".to_owned();
+        reader.fail(message, Some(format!("add the table {}", known())));
+        return None;
+    };
+    if let Some((other, _)) = told.next() {
+        let message = format!("two followers: [{}] and [{}]", kind.section.path, other.section.path);
+        reader.fail(message, Some(format!("a cam has one; give one of {}", known())));
+    }
+    (kind.read)(&table)
+}
 
 /// What of the follower touches the cam.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,86 @@
 //! The translating roller, centred or offset.
 
-use super::{Element, Follower, Touch};
+use super::{Element, Follower, FollowerData, FollowerKind, MASS, PRELOAD, Touch};
+use crate::document::Presence::{Default, Optional, Required};
+use crate::document::cams::{CONOID, TURNING};
+use crate::document::range::LONGEST;
+use crate::document::{Field, Occurs, Section, Table, above, within};
 use crate::geometry::CurvePoint;
 use crate::motion::Jet;
+use crate::units::Dimension::Length;
 use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// Shape of a roller's rim along its axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Crown {
+    /// A sphere of the roller's radius.
+    Sphere,
+    /// Straight.
+    Cylinder,
+}
+
+/// The translating roller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollerData {
+    /// Radius, m.
+    pub radius: f64,
+    /// Offset of its path from the shaft, m.
+    pub offset: f64,
+    /// Shape of its rim on a conoid.
+    pub crown: Crown,
+    /// Width of a cylindrical rim, m.
+    pub width: Option<f64>,
+}
+
+const RADIUS: Field<f64> =
+    Field::quantity("radius", "radius of the roller", Required("30 mm"), Length, above(0.0, LONGEST));
+const OFFSET: Field<f64> = Field::quantity(
+    "offset",
+    "distance of its path from the shaft, positive against the rotation of the cam",
+    Default("0 mm"),
+    Length,
+    within(-LONGEST, LONGEST),
+)
+.only(TURNING);
+const CROWN: Field<Crown> = Field::words(
+    "crown",
+    "shape of its rim: \"sphere\", or \"cylinder\", which needs a width and is checked for edge contact",
+    Default("sphere"),
+    &["sphere", "cylinder"],
+    &[Crown::Sphere, Crown::Cylinder],
+)
+.only(&[CONOID]);
+const WIDTH: Field<f64> =
+    Field::quantity("width", "width of a cylindrical rim", Optional("20 mm"), Length, above(0.0, LONGEST))
+        .only(&[CONOID]);
+
+/// `[follower.roller]`.
+pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
+
+const SECTION: Section = Section {
+    path: "follower.roller",
+    about: "the follower: a translating roller",
+    occurs: Occurs::Optional,
+    cams: &[],
+    keys: &[RADIUS.key, OFFSET.key, MASS.key, PRELOAD.key, CROWN.key, WIDTH.key],
+};
+
+fn read(table: &Table<'_>) -> Option<FollowerData> {
+    let crown = table.get(&CROWN);
+    if crown == Some(Crown::Cylinder) && !table.has(&WIDTH) {
+        let help = Some("add follower.roller.width".into());
+        table.fail(&CROWN, "a cylindrical roller needs a width".into(), help);
+    }
+    let (radius, offset) = (table.get(&RADIUS)?, table.get(&OFFSET)?);
+    Some(FollowerData {
+        // Made for a size when the cam is sized; until then large enough to reach.
+        shape: Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius)),
+        mass: table.get(&MASS),
+        preload: table.get(&PRELOAD),
+        roller: Some(RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) }),
+    })
+}
 
 /// By how much the prime radius must exceed the offset, as a share of it: at the offset itself the roller would stand beside
 /// the cam, with a pressure angle of 90°.

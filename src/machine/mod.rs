@@ -2,50 +2,88 @@
 //!
 //! One of the two doors of the library: what comes out of here is a machine that can be computed. Whatever can be told
 //! by line and column is told here; rooms behind this one do not see a negative mass.
+//!
+//! Each part of the machine has a file with its data, its table of keys and its reading. [`SECTIONS`] gathers the
+//! tables; a key is one constant in its table and one line in its reading.
 
-mod bounds;
-mod data;
+mod bed;
+mod buffer;
+mod conoid;
+mod disc;
 mod embedded;
-mod fault;
+mod limits;
 mod press;
-mod reader;
+mod transition;
+mod translating;
 
-pub use data::{
-    CamData, ConoidData, ConoidMode, Crown, FollowerData, Keyway, Limits, Machine, Material, RollerData, Rotation,
-    Shift, TranslatingData,
-};
+pub use crate::document::{Excerpt, Fault};
+pub use crate::follower::{Crown, FollowerData, RollerData};
+pub use conoid::{ConoidData, ConoidMode, Shift};
+pub use disc::{CamData, Keyway, Material, Rotation};
 pub use embedded::{EMBEDDED, Embedded};
-pub use fault::{Excerpt, Fault, MachineError};
+pub use limits::Limits;
 pub use press::{NoPress, NoRoller, Press};
+pub use translating::TranslatingData;
 
-use crate::buffer::Bed;
-use crate::buffer::bottom_law::Column;
-use crate::follower::TranslatingRoller;
-use crate::motion::Transition;
-use crate::motion::equation_18::EfficiencyModel;
-use crate::units::Dimension::{Angle, Force, Length, Mass, Pressure};
-use bounds::{above, within};
-use reader::Reader;
-use std::f64::consts::{FRAC_PI_2, PI};
+use crate::document::Presence::Required;
+use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
+use crate::document::{self, Field, Occurs, Reader, Section};
+use crate::follower::{self, FOLLOWERS};
+use crate::motion::{Motion, Transition, program};
+use std::fmt;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
-/// Longest length in a machine file, m: a cam of a kilometre is a slip of the pen, not a cam.
-const LONGEST: f64 = 1e3;
-/// Heaviest bed, kg.
-const HEAVIEST: f64 = 1e7;
-/// Highest pressure, Pa.
-const HIGHEST_PRESSURE: f64 = 1e9;
-/// Largest force, N.
-const LARGEST_FORCE: f64 = 1e9;
-/// Highest speed, ratio or lever.
-const LARGEST_NUMBER: f64 = 1e5;
-/// Slowest speed, rpm: slower, the air column is longer than anything on earth.
-const LEAST_RPM: f64 = 1e-3;
-/// Thinnest disc, m: CAD systems take less than a micrometre for nothing.
-const THINNEST: f64 = 1e-6;
 /// Largest machine file, bytes.
 const LARGEST_FILE: u64 = 1 << 20;
+
+const NAME: Field<String> = Field::text("name", "what the sheet and the report call the machine", Required("my press"));
+
+/// The keys before the first table.
+const ROOT: Section = Section { path: "", about: "", occurs: Occurs::Once, cams: &[], keys: &[NAME.key] };
+
+/// The tables of a machine file before those of the followers, in the order of the template.
+const MOTION_TABLES: &[&Section] =
+    &[&ROOT, &bed::SECTION, &buffer::SECTION, &buffer::DESIGN, &program::SECTION, &program::SEGMENT];
+
+/// The tables behind those of the followers.
+const BODY_TABLES: &[&Section] =
+    &[&disc::SECTION, &disc::KEYWAY, &transition::SECTION, &translating::SECTION, &conoid::SECTION, &limits::SECTION];
+
+/// Every table of a machine file: those of the machine, and one for each kind of follower.
+#[must_use]
+pub fn sections() -> Vec<&'static Section> {
+    let followers = FOLLOWERS.iter().map(|kind| kind.section);
+    MOTION_TABLES.iter().copied().chain(followers).chain(BODY_TABLES.iter().copied()).collect()
+}
+
+/// A commented machine file of a press with every key, to start from.
+#[must_use]
+pub fn template() -> String {
+    let shown = ["bed", "buffer", "design", "follower.roller"];
+    document::template("A machine file of camgen. A quantity is \"number unit\".", &sections(), &shown)
+}
+
+/// The JSON schema of machine files.
+#[must_use]
+pub fn schema() -> serde_json::Value {
+    document::schema("machine file of camgen", &sections())
+}
+
+/// All faults of a machine file and its overrides.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct MachineError {
+    /// At least one.
+    pub faults: Vec<Fault>,
+}
+
+impl fmt::Display for MachineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let texts: Vec<String> = self.faults.iter().map(Fault::to_string).collect();
+        f.write_str(&texts.join("\n"))
+    }
+}
 
 /// A speed of the main shaft a machine can be asked for, rpm: at least 0.001, at most 100000.
 ///
@@ -59,76 +97,117 @@ pub fn valid_rpm(rpm: f64) -> Result<f64, String> {
     }
 }
 
+/// A machine in SI units, every value in range: what comes out of [`Machine::from_toml`] or [`Machine::load`] only.
+#[derive(Debug, Clone)]
+pub struct Machine {
+    /// What the sheet and the report call it.
+    pub(crate) name: String,
+    /// The press, when described.
+    press: Option<Press>,
+    /// The motion program, when described.
+    motion: Option<Arc<program::Program>>,
+    /// Follower.
+    pub(crate) follower: FollowerData,
+    /// Disc.
+    pub(crate) cam: CamData,
+    /// Transition.
+    pub(crate) transition: Transition,
+    /// Plate on the bed, when described.
+    pub(crate) translating: Option<TranslatingData>,
+    /// Conoid, when described.
+    pub(crate) conoid: Option<ConoidData>,
+    /// Limits.
+    pub(crate) limits: Limits,
+    /// Keys the user gave.
+    given: Vec<String>,
+}
+
 impl Machine {
     /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
     ///
     /// # Errors
     /// All faults found, each with its place.
     pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
-        let mut read = Reader::new(source, text, overrides);
-        let name = read.text("name", "my press");
-        let bed = read_bed(&mut read);
-        let polytropic_exponent = read.number("buffer.polytropic_exponent", Some(1.35), within(1.0, 3.0));
-        let pressure = above(0.0, HIGHEST_PRESSURE);
-        let ambient_pressure = read.quantity("buffer.ambient_pressure", Pressure, "1 at", pressure);
-        let end_pressure = read.quantity("buffer.end_pressure", Pressure, "2 at", pressure);
-        if end_pressure <= ambient_pressure {
-            let (end, ambient) = (read.typed("buffer.end_pressure"), read.typed("buffer.ambient_pressure"));
-            read.fail(
-                "buffer.end_pressure",
-                format!("end_pressure must be above ambient_pressure: {end} ≤ {ambient}"),
-                Some("both are absolute; an end pressure of 1 at gauge is 2 at absolute".into()),
-            );
-        }
-        let column = read.word_or_quantity(
-            "buffer.column",
-            &[("matched", Column::Matched), ("return", Column::Return)],
-            Length,
-            above(0.0, LONGEST),
-            Column::Length,
-        );
-        let lead = read.quantity_or("buffer.lead", Length, 0.0, within(0.0, LONGEST));
-        let design_rpm = read.number("design.rpm", Some(35.0), within(LEAST_RPM, LARGEST_NUMBER));
-        let radius = read.quantity("follower.roller.radius", Length, "30 mm", above(0.0, LONGEST));
-        let offset = read.quantity_or("follower.roller.offset", Length, 0.0, within(-LONGEST, LONGEST));
-        let mass = read.optional("follower.roller.mass", Mass, above(0.0, HEAVIEST)).map(|q| q.si);
-        let preload = read.optional("follower.roller.preload", Force, within(0.0, LARGEST_FORCE)).map(|q| q.si);
-        let (crown, width) = read_crown(&mut read);
-        let cam = read_cam(&mut read, radius, offset);
-        let transition = read_transition(&mut read);
-        let translating = read.has("translating").then(|| read_translating(&mut read, radius)).flatten();
-        let conoid = read.has("conoid").then(|| read_conoid(&mut read)).flatten();
-        let limits = Limits {
-            pressure_angle: read.quantity_or("limits.pressure_angle", Angle, PI / 6.0, above(0.0, FRAC_PI_2)),
-            min_convex_pitch_radius_over_roller: read.number(
-                "limits.min_convex_pitch_radius_over_roller",
-                Some(2.0),
-                within(0.0, LARGEST_NUMBER),
-            ),
-            cutter_radius: read.optional("limits.cutter_radius", Length, above(0.0, LONGEST)).map(|q| q.si),
-            wall: read.quantity_or("limits.wall", Length, 0.0, within(0.0, LONGEST)),
-            contact_stress: read.optional("limits.contact_stress", Pressure, above(0.0, 1e12)).map(|q| q.si),
-        };
-        read.finish()?;
-        // Every `None` above has left a fault, so `finish` has returned before.
-        let (Some(column), Some(cam), Some(transition)) = (column, cam, transition) else {
-            return Err(MachineError { faults: Vec::new() });
-        };
-        Ok(Self {
-            name,
-            press: Some(Press { bed, polytropic_exponent, ambient_pressure, end_pressure, column, lead, design_rpm }),
-            follower: FollowerData {
-                shape: std::sync::Arc::new(TranslatingRoller::new(1.0, offset, radius)),
-                mass,
-                preload,
-                roller: Some(RollerData { radius, offset, crown, width }),
-            },
+        Self::read(source, text, overrides, true)
+    }
+
+    /// `own` tells that the user wrote the text.
+    fn read(source: &str, text: &str, overrides: &[String], own: bool) -> Result<Self, MachineError> {
+        let sections = sections();
+        let reader = Reader::new(source, text, overrides, &sections);
+        let machine = Self::parts(&reader, own);
+        reader.finish().map_err(|faults| MachineError { faults })?;
+        // A part is missing only after a fault, so `finish` has returned before.
+        machine.ok_or(MachineError { faults: Vec::new() })
+    }
+
+    fn parts(reader: &Reader<'_>, own: bool) -> Option<Self> {
+        // Every part is read before the first `?`, so that each tells what is wrong between its keys.
+        let (press, motion) = (press::read(reader), program::read(reader));
+        let (follower, cam) = (follower::read(reader), disc::read(reader));
+        let (follower, cam) = (follower?, cam?);
+        disc::reached_by(reader, &cam, &follower);
+        let radius = follower.roller.map(|roller| roller.radius);
+        Some(Self {
+            name: reader.table(&ROOT).get(&NAME)?,
+            press,
+            motion: motion.map(Arc::new),
             cam,
-            transition,
-            translating,
-            conoid,
-            limits,
+            transition: transition::read(reader)?,
+            translating: translating::read(reader, radius),
+            conoid: conoid::read(reader),
+            limits: limits::read(reader)?,
+            given: reader.given(own),
+            follower,
         })
+    }
+
+    /// What reports call it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The press.
+    ///
+    /// # Errors
+    /// [`NoPress`] when the machine file describes none.
+    pub fn press(&self) -> Result<&Press, NoPress> {
+        self.press.as_ref().ok_or(NoPress)
+    }
+
+    /// The motion program of the file, with the speed of the cam it tells, rpm.
+    #[must_use]
+    pub fn motion(&self) -> Option<(Arc<dyn Motion>, Option<f64>)> {
+        let program = self.motion.as_ref()?;
+        Some((Arc::clone(program) as Arc<dyn Motion>, program.rpm()))
+    }
+
+    /// The translating roller.
+    ///
+    /// # Errors
+    /// [`NoRoller`] when the follower is another one.
+    pub fn roller(&self) -> Result<&RollerData, NoRoller> {
+        self.follower.roller.as_ref().ok_or(NoRoller)
+    }
+
+    /// Asks that a cutter of a radius (m) gets into the hollows too.
+    pub fn ask_for_cutter(&mut self, radius: f64) {
+        let limit = &mut self.limits.cutter_radius;
+        *limit = Some(limit.map_or(radius, |other| other.max(radius)));
+    }
+
+    /// Of the keys given, those that have no effect on a kind of cam as a command names it.
+    #[must_use]
+    pub fn without_effect(&self, command: &str) -> Vec<String> {
+        document::without_effect(&sections(), &self.given, command)
+    }
+
+    /// The keys the user gave, in a file of their own or by overrides, for [`Machine::without_effect`]. Of the tables
+    /// `[translating]` and `[conoid]` only those given by overrides: a file may describe all kinds of cam.
+    #[must_use]
+    pub fn given(&self) -> &[String] {
+        &self.given
     }
 
     /// Reads an embedded machine by its name, or a file. Returns the machine and the word that names its files.
@@ -137,7 +216,7 @@ impl Machine {
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
         if let Some(embedded) = EMBEDDED.iter().find(|machine| machine.name == name_or_path) {
-            let machine = Self::from_toml(&format!("{name_or_path} (embedded)"), embedded.toml, overrides)?;
+            let machine = Self::read(&format!("{name_or_path} (embedded)"), embedded.toml, overrides, false)?;
             return Ok((machine, name_or_path.to_owned()));
         }
         let path = Path::new(name_or_path);
@@ -165,128 +244,6 @@ fn read_text(path: &Path) -> Result<String, String> {
         return Err(format!("it is larger than {LARGEST_FILE} bytes"));
     }
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
-}
-
-fn read_bed(read: &mut Reader<'_>) -> Bed {
-    Bed {
-        mass: read.quantity("bed.mass", Mass, "978.2 kg", above(0.0, HEAVIEST)),
-        crank_radius: read.quantity("bed.crank_radius", Length, "180 mm", above(0.0, LONGEST)),
-        crank_turns_per_main_shaft_turn: read.number(
-            "bed.crank_turns_per_main_shaft_turn",
-            Some(3.0),
-            above(0.0, LARGEST_NUMBER),
-        ),
-    }
-}
-
-fn read_cam(read: &mut Reader<'_>, roller_radius: f64, offset: f64) -> Option<CamData> {
-    let turns_per_crank_turn = read.number("cam.cam_turns_per_crank_turn", Some(1.0), above(0.0, LARGEST_NUMBER));
-    let lever = read.number("cam.lever", Some(1.0), above(0.0, LARGEST_NUMBER));
-    let base_radius = read.word_or_quantity("cam.base_radius", &[("auto", None)], Length, above(0.0, LONGEST), Some);
-    let thickness = read.optional("cam.thickness", Length, within(THINNEST, LONGEST)).map(|q| q.si);
-    let bore_radius = read.optional("cam.bore_radius", Length, above(0.0, LONGEST)).map(|q| q.si);
-    let materials = [
-        ("steel", Some(Material::Steel)),
-        ("cast-iron", Some(Material::CastIron)),
-        ("bronze", Some(Material::Bronze)),
-        ("aluminium", Some(Material::Aluminium)),
-    ];
-    let material = if read.has("cam.material") { read.word("cam.material", &materials)? } else { None };
-    let keyway = if read.has("cam.keyway") { Some(read_keyway(read, bore_radius)) } else { None };
-    let balance = read.band("cam.balance", Length, above(0.0, LONGEST));
-    let rotation = read.word("cam.rotation", &[("cw", Rotation::Clockwise), ("ccw", Rotation::CounterClockwise)]);
-    if let (Some((inner, _)), Some(bore)) = (balance, bore_radius)
-        && inner <= bore
-    {
-        let typed = read.typed("cam.bore_radius");
-        read.fail("cam.balance", format!("the band of cam.balance must begin outside the bore of {typed}"), None);
-    }
-    if let Some(Some(base)) = base_radius {
-        if offset.abs() >= base + roller_radius {
-            let typed = read.typed("follower.roller.offset");
-            read.fail(
-                "cam.base_radius",
-                format!("base radius and roller radius together must exceed the follower's offset of {typed}"),
-                None,
-            );
-        }
-        if bore_radius.is_some_and(|bore| bore >= base) {
-            let (base, bore) = (read.typed("cam.base_radius"), read.typed("cam.bore_radius"));
-            read.fail("cam.bore_radius", format!("bore_radius must be below base_radius: {bore} ≥ {base}"), None);
-        }
-    }
-    Some(CamData {
-        turns_per_crank_turn,
-        lever,
-        base_radius: base_radius?,
-        thickness,
-        bore_radius,
-        keyway,
-        material,
-        balance,
-        rotation: rotation?,
-    })
-}
-
-fn read_keyway(read: &mut Reader<'_>, bore_radius: Option<f64>) -> Keyway {
-    let length = above(0.0, LONGEST);
-    let keyway = Keyway {
-        width: read.quantity("cam.keyway.width", Length, "8 mm", length),
-        depth: read.quantity("cam.keyway.depth", Length, "3.3 mm", length),
-        angle: read.quantity_or("cam.keyway.angle", Angle, 0.0, within(-2.0 * PI, 2.0 * PI)),
-    };
-    match bore_radius {
-        None => read.fail("cam.keyway.width", "a keyway needs a bore".into(), Some("add cam.bore_radius".into())),
-        Some(bore) if keyway.width >= 2.0 * bore => {
-            let typed = read.typed("cam.bore_radius");
-            read.fail("cam.keyway.width", format!("the keyway is wider than the bore of radius {typed}"), None);
-        }
-        Some(_) => {}
-    }
-    keyway
-}
-
-fn read_crown(read: &mut Reader<'_>) -> (Crown, Option<f64>) {
-    let shapes = [("sphere", Crown::Sphere), ("cylinder", Crown::Cylinder)];
-    let crown = read.word("follower.roller.crown", &shapes).unwrap_or(Crown::Sphere);
-    let width = read.optional("follower.roller.width", Length, above(0.0, LONGEST)).map(|q| q.si);
-    if crown == Crown::Cylinder && width.is_none() {
-        let remedy = Some("add follower.roller.width".into());
-        read.fail("follower.roller.crown", "a cylindrical roller needs a width".into(), remedy);
-    }
-    (crown, width)
-}
-
-fn read_transition(read: &mut Reader<'_>) -> Option<Transition> {
-    let width = read.quantity_or("transition.width", Angle, PI / 9.0, above(0.0, PI));
-    let from: fn(f64) -> [Transition; 3] =
-        |width| [Transition::RunUp { width }, Transition::Blend { width }, Transition::None];
-    let [run_up, blend, none] = from(width);
-    read.word("transition.kind", &[("run-up", run_up), ("blend", blend), ("none", none)])
-}
-
-fn read_translating(read: &mut Reader<'_>, roller_radius: f64) -> Option<TranslatingData> {
-    let length = above(0.0, LONGEST);
-    let model = [("consistent", EfficiencyModel::Consistent), ("printed", EfficiencyModel::Printed)];
-    Some(TranslatingData {
-        roller_arm: read.quantity("translating.roller_arm", Length, "300 mm", length),
-        bottom_arm: read.quantity("translating.bottom_arm", Length, "300 mm", length),
-        delta: read.quantity("translating.delta", Angle, "90 deg", above(0.0, PI)),
-        friction_angle: read.quantity_or("translating.friction_angle", Angle, 0.0, within(0.0, FRAC_PI_2)),
-        efficiency: read.number("translating.efficiency", Some(1.0), above(0.0, 1.0)),
-        efficiency_model: read.word("translating.efficiency_model", &model)?,
-        roller_radius: read.quantity_or("translating.roller_radius", Length, roller_radius, length),
-        plate_height: read.optional("translating.plate_height", Length, length).map(|q| q.si),
-    })
-}
-
-fn read_conoid(read: &mut Reader<'_>) -> Option<ConoidData> {
-    Some(ConoidData {
-        axial_travel: read.quantity("conoid.axial_travel", Length, "120 mm", above(0.0, LONGEST)),
-        mode: read.word("conoid.mode", &[("adjusted", ConoidMode::Adjusted), ("fixed", ConoidMode::Fixed)])?,
-        shift: read.word("conoid.shift", &[("linear", Shift::Linear), ("square", Shift::Square)])?,
-        overhang: read.quantity_or("conoid.overhang", Length, 0.0, within(0.0, LONGEST)),
-    })
 }
 
 #[cfg(test)]

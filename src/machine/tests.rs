@@ -1,4 +1,6 @@
 use super::*;
+use crate::document::Form;
+use crate::law::translating::EfficiencyModel;
 
 fn dpi(overrides: &[&str]) -> Result<Machine, MachineError> {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
@@ -105,5 +107,274 @@ fn files_that_cannot_be_read_are_told() {
     for (path, part) in [("no-such.toml", "cannot read"), ("src", "directory"), ("/dev/zero", "larger than")] {
         let text = Machine::load(path, &[]).expect_err(path).to_string();
         assert!(text.contains(part) && text.contains("dpi-paper"), "{text}");
+    }
+}
+
+#[test]
+fn a_bad_word_is_one_fault() {
+    let error = dpi(&["cam.material=wood"]).expect_err("no such material");
+    assert_eq!(error.faults.len(), 1, "{error}");
+    assert!(error.to_string().contains("`cam.material` cannot be \"wood\""), "{error}");
+}
+
+/// Faults of every sort in one file: each is told once, and nothing that only follows from another.
+#[test]
+fn faults_of_every_sort_come_at_once() {
+    let file = [
+        "name = 7",
+        "\"bed.mass\" = \"1 kg\"",
+        "colour = \"red\"",
+        "[bed]",
+        "mass = \"978.2\"",
+        "crank_radius = \"180 kg\"",
+        "crank_turns_per_main_shaft_turn = \"three\"",
+        "[buffer]",
+        "ambient_pressure = \"1 at\"",
+        "end_pressure = \"0.9 at\"",
+        "column = \"long\"",
+        "lead = [1]",
+        "[follower.roller]",
+        "radius = \"0 mm\"",
+        "crown = \"cylinder\"",
+        "[cam]",
+        "bore_radius = \"25 furlongs\"",
+        "base_radius = \"20 mm\"",
+        "material = \"wood\"",
+        "balance = \"60 mm .. 40 mm\"",
+        "rotation = true",
+        "[cam.keyway]",
+        "width = \"80 mm\"",
+        "[limits]",
+        "pressure_angle = \"91 deg\"",
+        "[foo]",
+    ]
+    .join("\n");
+    let overrides = ["cam.lever".to_owned(), "transition.kind=smooth".to_owned()];
+    let error = Machine::from_toml("press.toml", &file, &overrides).expect_err("faults");
+    let told: Vec<(usize, &str)> = error
+        .faults
+        .iter()
+        .map(|fault| (fault.place.as_ref().map_or(0, |place| place.line), fault.message.as_str()))
+        .collect();
+    let expected = [
+        (0, "--set cam.lever: no `=`"),
+        (0, "missing key `cam.keyway.depth` in press.toml"),
+        (1, "`name` must be a text"),
+        (2, "unknown key `\"bed.mass\"`"),
+        (3, "unknown key `colour`"),
+        (5, "`bed.mass`: `978.2` has no unit"),
+        (6, "`bed.crank_radius`: `kg` is a unit of mass, not of length"),
+        (7, "`bed.crank_turns_per_main_shaft_turn`: `three` does not start with a number"),
+        (10, "end_pressure must be above ambient_pressure: 0.9 at ≤ 1 at"),
+        (11, "`buffer.column`: `long` does not start with a number"),
+        (12, "`buffer.lead` must be a quantity of length, not array"),
+        (14, "`follower.roller.radius` must be above 0 mm: 0 mm"),
+        (15, "a cylindrical roller needs a width"),
+        (17, "`cam.bore_radius`: unknown unit `furlongs`"),
+        (19, "`cam.material` cannot be \"wood\""),
+        (20, "`cam.balance` must go from the smaller to the larger: 60 mm .. 40 mm"),
+        (21, "`cam.rotation` must be a word"),
+        (25, "`limits.pressure_angle` must be at most 90 deg: 91 deg"),
+        (26, "unknown table `foo`"),
+        (1, "`transition.kind` cannot be \"smooth\""),
+    ];
+    assert_eq!(told, expected);
+}
+
+/// Every key with a value that is not the one it has in the profile, default or absence.
+const OTHERS: &[(&str, &str)] = &[
+    ("name", "another"),
+    ("bed.mass", "900 kg"),
+    ("bed.crank_radius", "170 mm"),
+    ("bed.crank_turns_per_main_shaft_turn", "2"),
+    ("buffer.polytropic_exponent", "1.4"),
+    ("buffer.ambient_pressure", "1.1 at"),
+    ("buffer.end_pressure", "3 at"),
+    ("buffer.column", "200 mm"),
+    ("buffer.lead", "1 mm"),
+    ("design.rpm", "30"),
+    ("follower.roller.radius", "25 mm"),
+    ("follower.roller.offset", "5 mm"),
+    ("follower.roller.mass", "40 kg"),
+    ("follower.roller.preload", "1600 N"),
+    ("follower.roller.crown", "cylinder"),
+    ("follower.roller.width", "20 mm"),
+    ("cam.cam_turns_per_crank_turn", "2"),
+    ("cam.lever", "2"),
+    ("cam.base_radius", "90 mm"),
+    ("cam.thickness", "20 mm"),
+    ("cam.bore_radius", "20 mm"),
+    ("cam.material", "bronze"),
+    ("cam.balance", "40 mm .. 85 mm"),
+    ("cam.rotation", "ccw"),
+    ("cam.keyway.width", "9 mm"),
+    ("cam.keyway.depth", "4 mm"),
+    ("cam.keyway.angle", "90 deg"),
+    ("transition.kind", "blend"),
+    ("transition.width", "10 deg"),
+    ("translating.roller_arm", "200 mm"),
+    ("translating.bottom_arm", "200 mm"),
+    ("translating.delta", "80 deg"),
+    ("translating.friction_angle", "2 deg"),
+    ("translating.efficiency", "0.9"),
+    ("translating.efficiency_model", "printed"),
+    ("translating.roller_radius", "20 mm"),
+    ("translating.plate_height", "130 mm"),
+    ("conoid.axial_travel", "100 mm"),
+    ("conoid.mode", "fixed"),
+    ("conoid.shift", "square"),
+    ("conoid.overhang", "3 mm"),
+    ("limits.pressure_angle", "29 deg"),
+    ("limits.min_convex_pitch_radius_over_roller", "3"),
+    ("limits.cutter_radius", "9 mm"),
+    ("limits.wall", "4 mm"),
+    ("limits.contact_stress", "1200 MPa"),
+];
+
+fn every_key() -> Vec<String> {
+    SECTIONS.iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect()
+}
+
+/// The machine without the list of keys that were given.
+fn alike(machine: Machine) -> Machine {
+    Machine { given: Vec::new(), ..machine }
+}
+
+#[test]
+fn every_key_of_the_table_reaches_the_machine() {
+    let keys: Vec<&str> = OTHERS.iter().map(|(key, _)| *key).collect();
+    assert_eq!(keys, every_key());
+    let base = ["cam.keyway.width=8mm", "cam.keyway.depth=3mm", "follower.roller.width=10mm"];
+    let plain = alike(dpi(&base).expect("valid"));
+    for (key, value) in OTHERS {
+        let set = format!("{key}={value}");
+        let other = dpi(&[&base[..], &[&set]].concat()).unwrap_or_else(|error| panic!("{set}: {error}"));
+        assert!(other.given().contains(&(*key).to_owned()));
+        assert_ne!(alike(other), plain, "{set}");
+    }
+}
+
+#[test]
+fn every_word_of_a_key_reads() {
+    for section in SECTIONS {
+        for key in section.keys {
+            let (Form::Words(words) | Form::WordsOrQuantity(words, ..)) = key.form else { continue };
+            for word in words {
+                let set = format!("{}={word}", section.path_of(key));
+                assert!(dpi(&[&set, "follower.roller.width=10mm"]).is_ok(), "{set}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_key_tells_what_it_is_and_for_which_cams() {
+    for section in SECTIONS {
+        assert!(section.path.is_empty() || !section.about.is_empty(), "{}", section.path);
+        for key in section.keys {
+            assert!(!key.about.is_empty() && !key.presence.text().is_empty(), "{}", section.path_of(key));
+            for cam in section.cams_of(key) {
+                assert!([ROTARY, TRANSLATING, CONOID].contains(cam), "{}: {cam}", section.path_of(key));
+            }
+        }
+    }
+}
+
+#[test]
+fn defaults_are_what_they_were() {
+    let toml = "name = \"x\"\n[bed]\nmass = \"1 kg\"\ncrank_radius = \"1 m\"\n[buffer]\nambient_pressure = \"1 at\"\n\
+                end_pressure = \"2 at\"\n[follower.roller]\nradius = \"30 mm\"\n[translating]\nroller_arm = \"1 m\"\n\
+                bottom_arm = \"1 m\"\ndelta = \"90 deg\"\n[conoid]\naxial_travel = \"1 m\"\n";
+    let machine = Machine::from_toml("least.toml", toml, &[]).expect("valid");
+    assert_eq!((machine.polytropic_exponent, machine.column, machine.lead), (1.35, Column::Matched, 0.0));
+    assert_eq!((machine.bed.crank_turns_per_main_shaft_turn, machine.design_rpm), (3.0, 35.0));
+    let roller = RollerData { radius: 0.03, offset: 0.0, mass: None, preload: None, crown: Crown::Sphere, width: None };
+    assert_eq!(machine.roller, roller);
+    assert_eq!((machine.cam.turns_per_crank_turn, machine.cam.lever, machine.cam.base_radius), (1.0, 1.0, None));
+    assert_eq!((machine.cam.thickness, machine.cam.material, machine.cam.rotation), (None, None, Rotation::Clockwise));
+    assert_eq!(machine.transition, Transition::RunUp { width: std::f64::consts::PI / 9.0 });
+    let plate = machine.translating.expect("a plate");
+    assert_eq!((plate.friction_angle, plate.efficiency, plate.roller_radius), (0.0, 1.0, 0.03));
+    assert_eq!((plate.efficiency_model, plate.plate_height), (EfficiencyModel::Consistent, None));
+    let conoid = machine.conoid.expect("a conoid");
+    assert_eq!((conoid.mode, conoid.shift, conoid.overhang), (ConoidMode::Adjusted, Shift::Linear, 0.0));
+    let limits = machine.limits;
+    assert_eq!(limits.pressure_angle, std::f64::consts::PI / 6.0);
+    assert_eq!((limits.min_convex_pitch_radius_over_roller, limits.wall), (2.0, 0.0));
+    assert_eq!((limits.cutter_radius, limits.contact_stress), (None, None));
+}
+
+/// A text with its commented keys and tables live.
+fn with_everything(text: &str) -> String {
+    let live = |line: &str| {
+        let code = line.strip_prefix("# ").unwrap_or(line);
+        let table = code.starts_with('[') && code.contains(']');
+        let key = code.split_once(" = ").is_some_and(|(name, _)| !name.is_empty() && !name.contains(' '));
+        if table || key { code.to_owned() } else { line.to_owned() }
+    };
+    text.lines().map(live).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_template_is_written_from_the_table() {
+    let stored = include_str!("../../templates/machine.toml");
+    assert!(stored == template(), "templates/machine.toml should be:\n{}", template());
+    let machine = Machine::from_toml("template", stored, &[]).expect("it reads");
+    let dpi = dpi(&[]).expect("valid");
+    let expected = Machine {
+        name: "my press".into(),
+        cam: CamData { thickness: None, bore_radius: None, material: None, ..dpi.cam },
+        translating: None,
+        conoid: None,
+        limits: Limits { cutter_radius: None, wall: 0.0, ..dpi.limits },
+        ..dpi
+    };
+    assert_eq!(alike(machine), alike(expected));
+}
+
+#[test]
+fn template_and_profiles_have_every_key() {
+    let mut keys = every_key();
+    keys.sort();
+    let profiles = EMBEDDED.iter().map(|machine| (machine.name, machine.toml.to_owned()));
+    for (name, text) in profiles.chain([("template", template())]) {
+        let text = with_everything(&text);
+        let sections: Vec<Section> = SECTIONS.iter().map(|section| Section { cams: &[], ..**section }).collect();
+        let sections: Vec<&Section> = sections.iter().collect();
+        let reader = Reader::new(name, &text, &[], &sections);
+        assert_eq!(reader.given(true), keys, "{name}");
+        Machine::from_toml(name, &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+#[test]
+fn the_schema_has_every_key() {
+    let schema = schema();
+    for path in every_key() {
+        let key = path.split('.').fold(&schema, |table, name| &table["properties"][name]);
+        assert!(key["description"].is_string(), "{path}: {key}");
+    }
+    assert_eq!(schema["required"], serde_json::json!(["name", "bed", "buffer", "follower"]));
+    assert_eq!(schema["properties"]["follower"]["required"], serde_json::json!(["roller"]));
+    assert_eq!(schema["properties"]["cam"]["additionalProperties"], false);
+}
+
+#[test]
+fn keys_without_effect_are_told_for_each_kind() {
+    let sets = ["cam.balance=40mm .. 85mm", "cam.rotation=ccw", "conoid.overhang=3mm", "limits.contact_stress=1000MPa"];
+    let machine = dpi(&sets).expect("valid");
+    for (cam, idle) in [
+        (ROTARY, &["conoid.overhang"][..]),
+        (TRANSLATING, &["cam.balance", "cam.rotation", "conoid.overhang"]),
+        (CONOID, &["cam.balance", "limits.contact_stress"]),
+    ] {
+        assert_eq!(without_effect(machine.given(), cam), idle, "{cam}");
+    }
+    assert!(dpi(&[]).expect("valid").given().is_empty(), "nobody gave the keys of an embedded machine");
+    let own = Machine::from_toml("dpi.toml", EMBEDDED[0].toml, &[]).expect("valid");
+    assert!(without_effect(own.given(), ROTARY).is_empty(), "a file may describe all kinds");
+    let shared = ["cam.cam_turns_per_crank_turn", "cam.lever", "cam.base_radius", "cam.bore_radius", "cam.rotation"];
+    for key in shared {
+        assert!(without_effect(own.given(), TRANSLATING).contains(&key.to_owned()), "{key}");
     }
 }

@@ -5,6 +5,8 @@
 
 mod eccentric;
 pub mod equation_18;
+pub mod laws;
+pub mod program;
 mod reversal;
 mod transition;
 

@@ -15,8 +15,9 @@ pub use file_set::{FileSet, Output, Writing};
 pub use proven::Proven;
 pub use spec::Spec;
 
-use crate::body::{Body, DrawError, Drawn, Request};
+use crate::body::{Body, DrawError, Drawn, Kind, Request};
 use crate::geometry::MILLIMETRES;
+use crate::machine::Machine;
 use crate::reading;
 use crate::report::{Report, Section};
 use crate::verify::{self, Evidence, WrittenOutline, join_reach, rolling};
@@ -103,6 +104,13 @@ impl Drawing<'_> {
     }
 }
 
+/// A sentence for each key that was given and has no effect on the cam.
+fn without_effect(machine: &Machine, kind: &Kind) -> Vec<String> {
+    let keys = machine.without_effect(kind.command);
+    let article = if kind.noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    keys.iter().map(|key| format!("`{key}` has no effect on {article} {}", kind.noun)).collect()
+}
+
 /// The report of a body, without files.
 fn report(body: &dyn Body, sections: Vec<Section>, checks: Vec<crate::report::Finding>) -> Report {
     let (kind, machine) = (body.kind(), body.machine());
@@ -113,7 +121,7 @@ fn report(body: &dyn Body, sections: Vec<Section>, checks: Vec<crate::report::Fi
         rpm: body.speeds(),
         sections,
         checks,
-        notes: machine.without_effect(kind),
+        notes: without_effect(machine, kind),
         files: Vec::new(),
     }
 }

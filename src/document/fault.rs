@@ -1,4 +1,4 @@
-//! Faults of a machine file: what was wrong, where, and what would be right.
+//! Faults of a file: what was wrong, where, and what would be right.
 
 use std::fmt;
 
@@ -35,7 +35,7 @@ impl fmt::Display for Fault {
             let margin = " ".repeat(place.line.to_string().len());
             write!(f, "\n{margin}--> {}:{}:{}", place.source, place.line, place.column)?;
             write!(f, "\n{margin} |\n{} | {}", place.line, place.text)?;
-            write!(f, "\n{margin} | {}{}", " ".repeat(place.column - 1), "^".repeat(place.width.max(1)))?;
+            write!(f, "\n{margin} | {}{}", " ".repeat(place.column.saturating_sub(1)), "^".repeat(place.width.max(1)))?;
         }
         if let Some(help) = &self.help {
             write!(f, "\n  help: {help}")?;
@@ -44,28 +44,30 @@ impl fmt::Display for Fault {
     }
 }
 
-/// All faults of a machine file and its overrides.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub struct MachineError {
-    /// At least one.
-    pub faults: Vec<Fault>,
-}
+/// Longest path for which a known key is looked for: longer ones are no slip of the pen, and comparing them takes time.
+const LONGEST_PATH: usize = 200;
 
-impl fmt::Display for MachineError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let texts: Vec<String> = self.faults.iter().map(Fault::to_string).collect();
-        f.write_str(&texts.join("\n"))
+/// The known key a path may be a slip of; `None` when nothing is near.
+///
+/// The smallest edit distance wins; a key whose last part fits exactly is nearer than any other, and of two as near the
+/// one whose table fits. Near is a last part of which at most half is wrong, or a path of which at most a third is.
+pub(super) fn nearest<'k>(path: &str, known: &'k [String]) -> Option<&'k str> {
+    if path.len() > LONGEST_PATH {
+        return None;
     }
+    let name = last(path);
+    let distances = known.iter().map(|candidate| {
+        let (whole, name) = (edit_distance(path, candidate), edit_distance(name, last(candidate)));
+        (candidate.as_str(), whole, name)
+    });
+    let (nearest, whole, wrong) = distances.min_by_key(|(_, whole, name)| ((name * 2).min(whole * 2 + 1), *whole))?;
+    let near = wrong * 2 <= name.chars().count() || whole * 3 <= path.chars().count();
+    near.then_some(nearest)
 }
 
-/// The known key with the smallest edit distance; a key whose last part fits exactly is nearer than any other, and of two
-/// as near the one whose table fits.
-pub(crate) fn nearest<'k>(key: &str, known: &[&'k str]) -> Option<&'k str> {
-    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
-    known.iter().copied().min_by_key(|candidate| {
-        let whole = edit_distance(key, candidate);
-        ((edit_distance(&last(key), &last(candidate)) * 2).min(whole * 2 + 1), whole)
-    })
+/// The name at the end of a path.
+fn last(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or_default()
 }
 
 /// Levenshtein's distance, one row at a time.
@@ -101,9 +103,11 @@ mod tests {
 
     #[test]
     fn a_key_in_the_wrong_table_is_named() {
-        let known = ["bed.mass", "cam.thickness", "follower.roller.radius"];
+        let known = ["bed.mass", "cam.thickness", "follower.roller.radius"].map(str::to_owned);
         assert_eq!(nearest("cam.thicknes", &known), Some("cam.thickness"));
         assert_eq!(nearest("bed.thickness", &known), Some("cam.thickness"));
         assert_eq!(nearest("roller.radius", &known), Some("follower.roller.radius"));
+        assert_eq!(nearest("bearing.kind", &known), None, "nothing is near");
+        assert_eq!(nearest(&"bed.mass".repeat(1000), &known), None);
     }
 }

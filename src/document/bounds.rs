@@ -1,25 +1,29 @@
-//! The range a value of the machine file may have.
+//! The range a value may have.
 
-/// What a value may be.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Bounds {
+/// The range a value may have, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
     pub(super) low: f64,
-    low_included: bool,
-    high: f64,
+    pub(super) low_included: bool,
+    pub(super) high: f64,
 }
 
 /// Above the low end, up to and including the high one.
-pub(crate) const fn above(low: f64, high: f64) -> Bounds {
+#[must_use]
+pub const fn above(low: f64, high: f64) -> Bounds {
     Bounds { low, low_included: false, high }
 }
 
 /// From the low end to the high one, both included.
-pub(crate) const fn within(low: f64, high: f64) -> Bounds {
+#[must_use]
+pub const fn within(low: f64, high: f64) -> Bounds {
     Bounds { low, low_included: true, high }
 }
 
 impl Bounds {
-    pub(super) fn holds(self, value: f64) -> bool {
+    /// Whether a value is in the range; a NaN is in none.
+    #[must_use]
+    pub fn holds(self, value: f64) -> bool {
         value <= self.high && if self.low_included { value >= self.low } else { value > self.low }
     }
 

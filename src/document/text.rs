@@ -1,0 +1,273 @@
+//! A TOML text and its overrides, flattened to dotted paths that know their places.
+//!
+//! `[bed] mass` becomes `bed.mass`, and the second `[[motion.segment]]`'s `law` becomes `motion.segment[1].law`. The
+//! paths are whatever stands in the file; which of them mean something is for the reader to say.
+
+use super::fault::{Excerpt, Fault};
+use super::key::join;
+use super::value::Scalar;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::de::{DeArray, DeTable, DeValue};
+
+/// Deepest that tables stand within tables: deeper, every path would be told in full for nothing. No section is deeper
+/// than three.
+const DEEPEST: usize = 16;
+/// Longest name of a key, in bytes: with [`DEEPEST`] it bounds the length of a path, of which there is one for each key.
+const LONGEST_NAME: usize = 100;
+/// Most faults that are told: the hundredth helps nobody, and each carries the line it stands on.
+pub(super) const MOST_FAULTS: usize = 100;
+
+/// Where something stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In the file, by bytes.
+    File(Range<usize>),
+    /// In an override: which one, from which character on, how many.
+    Flag { index: usize, start: usize, width: usize },
+}
+
+/// A fault whose line has not been cut out of the text yet.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Found {
+    pub(super) message: String,
+    pub(super) help: Option<String>,
+    pub(super) place: Option<Place>,
+}
+
+impl Found {
+    /// Faults without a place come first, then those of the file, then those of the overrides.
+    fn order(&self) -> (u8, usize, usize) {
+        match &self.place {
+            None => (0, 0, 0),
+            Some(Place::File(span)) => (1, span.start, 0),
+            Some(Place::Flag { index, start, .. }) => (2, *index, *start),
+        }
+    }
+}
+
+/// A value under its path.
+#[derive(Debug, Clone)]
+pub(super) struct Entry {
+    pub(super) value: Scalar,
+    pub(super) key: Place,
+    pub(super) at: Place,
+}
+
+impl Entry {
+    /// Whether an override has set it.
+    pub(super) fn by_override(&self) -> bool {
+        matches!(self.key, Place::Flag { .. })
+    }
+}
+
+/// A text with its overrides, flattened.
+#[derive(Debug)]
+pub(super) struct Document<'a> {
+    source: &'a str,
+    text: &'a str,
+    /// Where each line begins.
+    lines: Vec<usize>,
+    /// The overrides as told in messages, `key=value`.
+    flags: Vec<String>,
+    /// Every value.
+    pub(super) entries: BTreeMap<String, Entry>,
+    /// Every table, elements of arrays of tables too, by where its name stands.
+    pub(super) tables: BTreeMap<String, Range<usize>>,
+    /// Every array of tables: where its name stands first, and its length.
+    pub(super) arrays: BTreeMap<String, (Range<usize>, usize)>,
+    /// The text is no TOML; what follows from that is not worth telling.
+    pub(super) broken: bool,
+    /// What is wrong with the text whatever it should mean.
+    pub(super) faults: Vec<Found>,
+}
+
+impl<'a> Document<'a> {
+    /// Reads a TOML text named `source`, then the overrides, each `key=value`.
+    pub(super) fn new(source: &'a str, text: &'a str, overrides: &[String]) -> Self {
+        let mut document = Self {
+            source,
+            text,
+            lines: std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect(),
+            flags: Vec::new(),
+            entries: BTreeMap::new(),
+            tables: BTreeMap::new(),
+            arrays: BTreeMap::new(),
+            broken: false,
+            faults: Vec::new(),
+        };
+        document.parse();
+        for text in overrides {
+            document.override_with(text);
+        }
+        document
+    }
+
+    fn parse(&mut self) {
+        let (table, errors) = DeTable::parse_recoverable(self.text);
+        for error in errors {
+            self.not_toml(error.message(), error.span());
+        }
+        self.table("", table.get_ref(), 0);
+    }
+
+    fn not_toml(&mut self, why: &str, span: Option<Range<usize>>) {
+        self.broken = true;
+        let place = span.map(Place::File);
+        self.faults.push(Found { message: format!("not TOML: {why}"), help: None, place });
+    }
+
+    fn table(&mut self, prefix: &str, table: &DeTable<'_>, depth: usize) {
+        for (key, value) in table {
+            if let Some((message, help)) = not_a_name(key.get_ref(), depth) {
+                self.faults.push(Found { message, help, place: Some(Place::File(key.span())) });
+                continue;
+            }
+            let path = join(prefix, key.get_ref());
+            match value.get_ref() {
+                DeValue::Table(inner) => {
+                    self.table(&path, inner, depth + 1);
+                    self.tables.insert(path, key.span());
+                }
+                DeValue::Array(items) if is_array_of_tables(items) => {
+                    for (index, item) in items.iter().enumerate() {
+                        if let DeValue::Table(inner) = item.get_ref() {
+                            let path = format!("{path}[{index}]");
+                            self.table(&path, inner, depth + 1);
+                            self.tables.insert(path, item.span());
+                        }
+                    }
+                    self.arrays.insert(path, (key.span(), items.len()));
+                }
+                other => {
+                    let scalar = self.scalar(other, &value.span());
+                    let (key, at) = (Place::File(key.span()), Place::File(value.span()));
+                    self.entries.insert(path, Entry { value: scalar, key, at });
+                }
+            }
+        }
+    }
+
+    fn scalar(&self, value: &DeValue<'_>, span: &Range<usize>) -> Scalar {
+        match value {
+            DeValue::String(text) => Scalar::Text(text.to_string()),
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                Scalar::Number(self.text.get(span.clone()).unwrap_or_default().replace('_', ""))
+            }
+            DeValue::Boolean(truth) => Scalar::Boolean(*truth),
+            DeValue::Array(items) => {
+                Scalar::List(items.iter().map(|item| self.scalar(item.get_ref(), &item.span())).collect())
+            }
+            other => Scalar::Other(other.type_str()),
+        }
+    }
+
+    fn override_with(&mut self, text: &str) {
+        let Some((key, value)) = text.split_once('=') else {
+            self.faults.push(Found {
+                message: format!("--set {text}: no `=`"),
+                help: Some("write --set KEY=VALUE, e.g. --set follower.roller.radius=25mm".into()),
+                place: None,
+            });
+            return;
+        };
+        let (key, value) = (key.trim(), value.trim());
+        let value = value.strip_prefix('"').and_then(|v| v.strip_suffix('"')).unwrap_or(value).to_owned();
+        let (index, length) = (self.flags.len(), key.chars().count());
+        let at = Place::Flag { index, start: length + 1, width: value.chars().count() };
+        self.flags.push(format!("{key}={value}"));
+        let key_place = Place::Flag { index, start: 0, width: length };
+        self.entries.insert(key.to_owned(), Entry { value: Scalar::Text(value), key: key_place, at });
+    }
+
+    /// Whether a table, an array of tables or anything within stands in the file or is set by an override.
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.tables.contains_key(path) || self.arrays.contains_key(path) || self.has_inside(path)
+    }
+
+    /// Whether anything within a path stands in the file or is set by an override.
+    pub(super) fn has_inside(&self, path: &str) -> bool {
+        let starts = [format!("{path}."), format!("{path}[")];
+        starts.iter().any(|start| {
+            first_from(&self.entries, start).is_some_and(|key| key.starts_with(start))
+                || first_from(&self.tables, start).is_some_and(|key| key.starts_with(start))
+        })
+    }
+
+    /// The faults as they are told: in the order of their places, none twice.
+    pub(super) fn told(&self, mut found: Vec<Found>) -> Vec<Fault> {
+        found.sort_by_key(Found::order);
+        let mut once: Vec<Found> = Vec::new();
+        for fault in found {
+            let same_place = once.iter().rev().take_while(|other| other.order() == fault.order());
+            if !same_place.into_iter().any(|other| *other == fault) {
+                once.push(fault);
+            }
+        }
+        let more = once.len().saturating_sub(MOST_FAULTS);
+        once.truncate(MOST_FAULTS);
+        let mut faults: Vec<Fault> = once
+            .into_iter()
+            .map(|fault| Fault {
+                place: fault.place.map(|place| self.excerpt(&place)),
+                message: fault.message,
+                help: fault.help,
+            })
+            .collect();
+        if more > 0 {
+            faults.push(Fault { message: format!("{more} more faults"), help: None, place: None });
+        }
+        faults
+    }
+
+    fn excerpt(&self, place: &Place) -> Excerpt {
+        match place {
+            Place::File(span) => self.excerpt_of_file(span),
+            Place::Flag { index, start, width } => Excerpt {
+                source: "--set".into(),
+                line: 1,
+                column: start + 1,
+                text: self.flags.get(*index).cloned().unwrap_or_default(),
+                width: *width,
+            },
+        }
+    }
+
+    fn excerpt_of_file(&self, span: &Range<usize>) -> Excerpt {
+        let at = span.start.min(self.text.len());
+        let line = self.lines.partition_point(|start| *start <= at).max(1);
+        let start = self.lines.get(line - 1).copied().unwrap_or_default();
+        let end = self.lines.get(line).map_or(self.text.len(), |next| next - 1);
+        let part = |from: usize, to: usize| self.text.get(from..to).unwrap_or_default();
+        Excerpt {
+            source: self.source.to_owned(),
+            line,
+            column: part(start, at).chars().count() + 1,
+            text: part(start, end).trim_end().to_owned(),
+            width: part(at, span.end.clamp(at, end.max(at))).chars().count(),
+        }
+    }
+}
+
+/// The first path that is not before `start`.
+fn first_from<'m, V>(map: &'m BTreeMap<String, V>, start: &str) -> Option<&'m String> {
+    map.range::<str, _>((std::ops::Bound::Included(start), std::ops::Bound::Unbounded)).next().map(|(key, _)| key)
+}
+
+/// Why a name in the file can be that of no key, and what would be right.
+fn not_a_name(name: &str, depth: usize) -> Option<(String, Option<String>)> {
+    if depth >= DEEPEST {
+        return Some((format!("no key is within {DEEPEST} tables"), None));
+    }
+    if name.len() > LONGEST_NAME {
+        let start: String = name.chars().take(LONGEST_NAME / 4).collect();
+        return Some((format!("unknown key `{start}…`"), None));
+    }
+    // A quoted key with a dot or bracket in it is another key than the path it looks like.
+    let help = || Some("write the dotted path without quotes".into());
+    name.contains(['.', '[', ']']).then(|| (format!("unknown key `\"{name}\"`"), help()))
+}
+
+fn is_array_of_tables(items: &DeArray<'_>) -> bool {
+    !items.is_empty() && items.iter().all(|item| matches!(item.get_ref(), DeValue::Table(_)))
+}

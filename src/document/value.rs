@@ -1,0 +1,228 @@
+//! A value as it stands in a file, read by the form of its key.
+
+use super::bounds::Bounds;
+use super::key::{Form, Key, LengthOrAngle, Value};
+use crate::units::{self, Dimension, QuantityError};
+
+/// A value as it stands in a file or behind a flag.
+#[derive(Debug, Clone)]
+pub(super) enum Scalar {
+    Text(String),
+    /// A number as written, without underscores.
+    Number(String),
+    Boolean(bool),
+    List(Vec<Scalar>),
+    /// What no key takes, by the name TOML has for it.
+    Other(&'static str),
+}
+
+impl Scalar {
+    fn kind(&self) -> &'static str {
+        match self {
+            Scalar::Text(_) => "text",
+            Scalar::Number(_) => "number",
+            Scalar::Boolean(_) => "boolean",
+            Scalar::List(_) => "array",
+            Scalar::Other(kind) => kind,
+        }
+    }
+
+    /// The value as it was typed, where it is a text or a number.
+    pub(super) fn typed(&self) -> Option<&str> {
+        match self {
+            Scalar::Text(text) | Scalar::Number(text) => Some(text),
+            _ => None,
+        }
+    }
+}
+
+/// Why a value does not fit its key, and what would.
+#[derive(Debug)]
+pub(super) struct Misfit {
+    pub(super) message: String,
+    pub(super) help: Option<String>,
+}
+
+fn misfit<T>(message: String, help: Option<String>) -> Result<T, Misfit> {
+    Err(Misfit { message, help })
+}
+
+/// Reads a value by the form of its key; `path` names the key in messages.
+pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misfit> {
+    let name = Named { key, path };
+    match key.form {
+        Form::Text => name.text(scalar),
+        Form::Boolean => name.boolean(scalar),
+        Form::Number(bounds) => name.number(scalar, bounds).map(Value::Number),
+        Form::Numbers(bounds) => name.numbers(scalar, bounds),
+        Form::Quantity(dimension, bounds) => name.quantity(scalar, &[], dimension, bounds),
+        Form::LengthOrAngle(length, angle) => name.length_or_angle(scalar, length, angle),
+        Form::Words(words) => name.word(scalar, words),
+        Form::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
+        Form::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
+    }
+}
+
+fn position(words: &[&str], text: &str) -> Option<usize> {
+    words.iter().position(|word| *word == text)
+}
+
+/// A key under the path it has in messages.
+struct Named<'a> {
+    key: &'a Key,
+    path: &'a str,
+}
+
+impl Named<'_> {
+    /// The example of the key, as written in TOML.
+    fn example(&self) -> String {
+        format!("e.g. {}", self.key.in_toml(self.key.presence.text()))
+    }
+
+    fn text(&self, scalar: &Scalar) -> Result<Value, Misfit> {
+        match scalar {
+            Scalar::Text(text) if !text.trim().is_empty() && !text.chars().any(char::is_control) => {
+                Ok(Value::Text(text.clone()))
+            }
+            _ => misfit(format!("`{}` must be a text", self.path), Some(self.example())),
+        }
+    }
+
+    fn boolean(&self, scalar: &Scalar) -> Result<Value, Misfit> {
+        match (scalar, scalar.typed()) {
+            (Scalar::Boolean(truth), _) => Ok(Value::Boolean(*truth)),
+            (_, Some("true")) => Ok(Value::Boolean(true)),
+            (_, Some("false")) => Ok(Value::Boolean(false)),
+            _ => misfit(format!("`{}` must be true or false", self.path), None),
+        }
+    }
+
+    fn number(&self, scalar: &Scalar, bounds: Bounds) -> Result<f64, Misfit> {
+        let path = self.path;
+        let Some(text) = scalar.typed() else {
+            return misfit(format!("`{path}` must be a number, not {}", scalar.kind()), None);
+        };
+        match units::parse_bare(text) {
+            Ok(value) if bounds.holds(value) => Ok(value),
+            Ok(value) => {
+                let limit = bounds.broken(value, |v| v.to_string());
+                misfit(format!("`{path}` must be {limit}: {value}"), None)
+            }
+            Err(error) => {
+                misfit(format!("`{path}`: {error}"), Some(format!("`{path}` is a bare number, without a unit")))
+            }
+        }
+    }
+
+    /// A list in the file, or `[1, 2, 3]` behind a flag.
+    fn numbers(&self, scalar: &Scalar, bounds: Bounds) -> Result<Value, Misfit> {
+        let typed: Vec<Scalar>;
+        let items = match scalar {
+            Scalar::List(items) => items,
+            Scalar::Text(text) => {
+                let inside = text.trim().strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
+                let Some(inside) = inside else { return self.no_list() };
+                let parts = inside.split(',').map(str::trim);
+                typed = parts.filter(|part| !part.is_empty()).map(|part| Scalar::Number(part.into())).collect();
+                &typed
+            }
+            _ => return self.no_list(),
+        };
+        items.iter().map(|item| self.number(item, bounds)).collect::<Result<_, _>>().map(Value::Numbers)
+    }
+
+    fn no_list(&self) -> Result<Value, Misfit> {
+        misfit(format!("`{}` must be a list of numbers", self.path), Some(self.example()))
+    }
+
+    fn word(&self, scalar: &Scalar, words: &[&str]) -> Result<Value, Misfit> {
+        let list = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
+        let help = Some(format!("one of {list}"));
+        match scalar {
+            Scalar::Text(text) => match position(words, text) {
+                Some(index) => Ok(Value::Word(index)),
+                None => misfit(format!("`{}` cannot be \"{text}\"", self.path), help),
+            },
+            _ => misfit(format!("`{}` must be a word", self.path), help),
+        }
+    }
+
+    /// A quantity, or one of a few words instead.
+    fn quantity(&self, scalar: &Scalar, words: &[&str], dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
+        let or_words = words.iter().map(|word| format!(" or \"{word}\"")).collect::<Vec<_>>().concat();
+        let text = match scalar {
+            Scalar::Text(text) => text,
+            Scalar::Number(text) => {
+                let error = QuantityError::MissingUnit { found: text.clone() };
+                return self.not_a_quantity(&[dimension], &error, &or_words);
+            }
+            other => {
+                let kind = other.kind();
+                return misfit(
+                    format!("`{}` must be a quantity of {dimension}{or_words}, not {kind}", self.path),
+                    None,
+                );
+            }
+        };
+        match position(words, text) {
+            Some(index) => Ok(Value::Word(index)),
+            None => self.quantity_text(text, dimension, bounds, &or_words).map(Value::Number),
+        }
+    }
+
+    fn quantity_text(&self, text: &str, dimension: Dimension, bounds: Bounds, or_words: &str) -> Result<f64, Misfit> {
+        match units::parse(text, dimension) {
+            Ok(quantity) if bounds.holds(quantity.si) => Ok(quantity.si),
+            Ok(quantity) => {
+                let limit = bounds.broken(quantity.si, |v| quantity.in_same_unit(v));
+                misfit(format!("`{}` must be {limit}: {}", self.path, text.trim()), None)
+            }
+            Err(error) => self.not_a_quantity(&[dimension], &error, or_words),
+        }
+    }
+
+    fn not_a_quantity<T>(&self, dimensions: &[Dimension], error: &QuantityError, or_words: &str) -> Result<T, Misfit> {
+        let path = self.path;
+        let kinds = dimensions.iter().map(Dimension::to_string).collect::<Vec<_>>().join(" or ");
+        let units = dimensions.iter().map(|dimension| dimension.unit_list()).collect::<Vec<_>>().join(", ");
+        let help = format!("`{path}` is a {kinds}: a number and one of {units}{or_words}");
+        misfit(format!("`{path}`: {error}"), Some(help))
+    }
+
+    fn length_or_angle(&self, scalar: &Scalar, length: Bounds, angle: Bounds) -> Result<Value, Misfit> {
+        let both = [Dimension::Length, Dimension::Angle];
+        let text = match scalar {
+            Scalar::Text(text) => text,
+            Scalar::Number(text) => {
+                return self.not_a_quantity(&both, &QuantityError::MissingUnit { found: text.clone() }, "");
+            }
+            other => return misfit(format!("`{}` must be a length or angle, not {}", self.path, other.kind()), None),
+        };
+        match units::parse(text, Dimension::Length) {
+            Err(QuantityError::WrongKind { found: Dimension::Angle, .. }) => {
+                let angle = self.quantity_text(text, Dimension::Angle, angle, "")?;
+                Ok(Value::LengthOrAngle(LengthOrAngle::Angle(angle)))
+            }
+            Err(error) => self.not_a_quantity(&both, &error, ""),
+            Ok(_) => {
+                let length = self.quantity_text(text, Dimension::Length, length, "")?;
+                Ok(Value::LengthOrAngle(LengthOrAngle::Length(length)))
+            }
+        }
+    }
+
+    fn band(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
+        let text = if let Scalar::Text(text) = scalar { text.as_str() } else { "" };
+        let Some((low, high)) = text.split_once("..") else {
+            let help = format!("two quantities of {dimension}, {}", self.example());
+            return misfit(format!("`{}` must be a band", self.path), Some(help));
+        };
+        let low = self.quantity_text(low, dimension, bounds, "")?;
+        let high = self.quantity_text(high, dimension, bounds, "")?;
+        if low >= high {
+            let message = format!("`{}` must go from the smaller to the larger: {text}", self.path);
+            return misfit(message, None);
+        }
+        Ok(Value::Band(low, high))
+    }
+}

@@ -1,0 +1,92 @@
+//! The air buffer: cylinder, column, and the speed it is sized for.
+
+use super::press::Press;
+use crate::buffer::Bed;
+use crate::buffer::bottom_law::Column;
+use crate::document::Presence::{Default, Required};
+use crate::document::cams::OF_A_PRESS;
+use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST};
+use crate::document::{Bounds, Field, Occurs, Reader, Section, above, within};
+use crate::units::Dimension::{Length, Pressure};
+
+/// The tables that describe a press together.
+pub(super) const PRESS: &[&str] = &["bed", "buffer", "design"];
+
+const PRESSURE: Bounds = above(0.0, HIGHEST_PRESSURE);
+
+const POLYTROPIC_EXPONENT: Field<f64> = Field::number(
+    "polytropic_exponent",
+    "k of p·v^k = const, 1 to 3; 1.35 to 1.40 for a quick air buffer",
+    Default("1.35"),
+    within(1.0, 3.0),
+);
+const AMBIENT_PRESSURE: Field<f64> =
+    Field::quantity("ambient_pressure", "pressure of the air around, absolute", Required("1 at"), Pressure, PRESSURE);
+const END_PRESSURE: Field<f64> = Field::quantity(
+    "end_pressure",
+    "absolute pressure at the end of the compression, design speed; above ambient_pressure",
+    Required("2 at"),
+    Pressure,
+    PRESSURE,
+);
+const COLUMN: Field<Column> = Field::words_or_quantity(
+    "column",
+    "air column: \"matched\" (the law starts with slope 0), \"return\" (the bottom comes back) or a length",
+    Default("matched"),
+    (&["matched", "return"], &[Column::Matched, Column::Return]),
+    (Length, above(0.0, LONGEST), Column::Length),
+);
+const LEAD: Field<f64> = Field::quantity(
+    "lead",
+    "piston travel inside the cylinder before the reversal starts",
+    Default("0 mm"),
+    Length,
+    within(0.0, LONGEST),
+);
+
+/// `[buffer]`.
+pub(super) const SECTION: Section = Section {
+    path: "buffer",
+    about: "the air buffer",
+    occurs: Occurs::With(PRESS),
+    cams: OF_A_PRESS,
+    keys: &[POLYTROPIC_EXPONENT.key, AMBIENT_PRESSURE.key, END_PRESSURE.key, COLUMN.key, LEAD.key],
+};
+
+const RPM: Field<f64> = Field::number(
+    "rpm",
+    "main-shaft speed the cylinders are sized for, 0.001 to 100000",
+    Default("35"),
+    within(LEAST_RPM, LARGEST_NUMBER),
+);
+
+/// `[design]`.
+pub(super) const DESIGN: Section = Section {
+    path: "design",
+    about: "what the machine is built for",
+    occurs: Occurs::With(PRESS),
+    cams: OF_A_PRESS,
+    keys: &[RPM.key],
+};
+
+/// The press with its bed, when the tables stand and have no fault.
+pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>) -> Option<Press> {
+    let table = reader.table(&SECTION);
+    if let (Some(ambient), Some(end)) = (table.get(&AMBIENT_PRESSURE), table.get(&END_PRESSURE))
+        && end <= ambient
+    {
+        let (end, ambient) = (table.typed(&END_PRESSURE), table.typed(&AMBIENT_PRESSURE));
+        let message = format!("end_pressure must be above ambient_pressure: {end} ≤ {ambient}");
+        let help = "both are absolute; an end pressure of 1 at gauge is 2 at absolute";
+        table.fail(&END_PRESSURE, message, Some(help.into()));
+    }
+    Some(Press {
+        bed: bed?,
+        polytropic_exponent: table.get(&POLYTROPIC_EXPONENT)?,
+        ambient_pressure: table.get(&AMBIENT_PRESSURE)?,
+        end_pressure: table.get(&END_PRESSURE)?,
+        column: table.get(&COLUMN)?,
+        lead: table.get(&LEAD)?,
+        design_rpm: reader.table(&DESIGN).get(&RPM)?,
+    })
+}

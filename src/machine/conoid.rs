@@ -1,0 +1,86 @@
+//! The cam for many speeds.
+
+use crate::document::Presence::{Default, Required};
+use crate::document::cams::CONOID;
+use crate::document::range::LONGEST;
+use crate::document::{Field, Occurs, Reader, Section, above, within};
+use crate::units::Dimension::Length;
+
+/// What the column does at each speed of a conoid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ConoidMode {
+    /// Reset by (14).
+    Adjusted,
+    /// Stays.
+    Fixed,
+}
+
+/// How the conoid shifts with the speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shift {
+    /// z linear in n.
+    Linear,
+    /// z linear in n².
+    Square,
+}
+
+/// The cam for many speeds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConoidData {
+    /// Axial travel between the extreme speeds, m.
+    pub axial_travel: f64,
+    /// What the column does.
+    pub mode: ConoidMode,
+    /// How the cam shifts.
+    pub shift: Shift,
+    /// What the cam is longer at either end, m.
+    pub overhang: f64,
+}
+
+const AXIAL_TRAVEL: Field<f64> = Field::quantity(
+    "axial_travel",
+    "between the sections of the extreme speeds",
+    Required("120 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+const MODE: Field<ConoidMode> = Field::words(
+    "mode",
+    "\"adjusted\" (the column is reset at each speed) or \"fixed\"",
+    Default("adjusted"),
+    &["adjusted", "fixed"],
+    &[ConoidMode::Adjusted, ConoidMode::Fixed],
+);
+const SHIFT: Field<Shift> = Field::words(
+    "shift",
+    "axial shift in n (\"linear\") or n² (\"square\")",
+    Default("linear"),
+    &["linear", "square"],
+    &[Shift::Linear, Shift::Square],
+);
+const OVERHANG: Field<f64> = Field::quantity(
+    "overhang",
+    "what the cam is longer at either end, so that the contact does not leave it",
+    Default("0 mm"),
+    Length,
+    within(0.0, LONGEST),
+);
+
+/// `[conoid]`.
+pub(super) const SECTION: Section = Section {
+    path: "conoid",
+    about: "the cam for many speeds",
+    occurs: Occurs::Optional,
+    cams: &[CONOID],
+    keys: &[AXIAL_TRAVEL.key, MODE.key, SHIFT.key, OVERHANG.key],
+};
+
+pub(super) fn read(reader: &Reader<'_>) -> Option<ConoidData> {
+    let table = reader.find(&SECTION)?;
+    Some(ConoidData {
+        axial_travel: table.get(&AXIAL_TRAVEL)?,
+        mode: table.get(&MODE)?,
+        shift: table.get(&SHIFT)?,
+        overhang: table.get(&OVERHANG)?,
+    })
+}

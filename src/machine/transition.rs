@@ -1,0 +1,32 @@
+//! The transition between dwell and reversal.
+
+use crate::document::Presence::Default;
+use crate::document::cams::OF_A_PRESS;
+use crate::document::{Field, Occurs, Reader, Section, above};
+use crate::motion::Transition;
+use crate::units::Dimension::Angle;
+use std::f64::consts::PI;
+
+const KIND: Field<fn(f64) -> Transition> = Field::words(
+    "kind",
+    "\"run-up\" (balance stays exact), \"blend\" (rounds the corner) or \"none\"",
+    Default("run-up"),
+    &["run-up", "blend", "none"],
+    &[|width| Transition::RunUp { width }, |width| Transition::Blend { width }, |_| Transition::None],
+);
+const WIDTH: Field<f64> =
+    Field::quantity("width", "crank angle it takes, at most 180 deg", Default("20 deg"), Angle, above(0.0, PI));
+
+/// `[transition]`.
+pub(super) const SECTION: Section = Section {
+    path: "transition",
+    about: "the transition between dwell and reversal",
+    occurs: Occurs::Once,
+    cams: OF_A_PRESS,
+    keys: &[KIND.key, WIDTH.key],
+};
+
+pub(super) fn read(reader: &Reader<'_>) -> Option<Transition> {
+    let table = reader.table(&SECTION);
+    Some(table.get(&KIND)?(table.get(&WIDTH)?))
+}

@@ -1,0 +1,241 @@
+//! A motion program: segments that follow each other over one turn of the cam, each with its law.
+
+use super::laws::{self, LAWS, Law};
+use super::{Jet, Motion, Piece, Quantity};
+use crate::document::Presence::{Optional, Required};
+use crate::document::cams::MAKE;
+use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, LONGEST};
+use crate::document::{Bounds, Field, LengthOrAngle, Occurs, Reader, Section, Table, above, within};
+use crate::numeric::extremum;
+use crate::units::Dimension::Angle;
+use std::f64::consts::{PI, TAU};
+
+/// The law that holds a position.
+const DWELL: &str = "dwell";
+/// The law of a segment that names none.
+const USUAL: &str = "cycloidal";
+
+/// Positions, m or rad.
+const POSITION: (Bounds, Bounds) = (within(-LONGEST, LONGEST), within(-PI, PI));
+
+const RPM: Field<f64> = Field::number(
+    "rpm",
+    "speed of the cam, 0.001 to 100000; without it nothing is told per second",
+    Optional("120"),
+    within(LEAST_RPM, LARGEST_NUMBER),
+);
+const START: Field<LengthOrAngle> = Field::length_or_angle(
+    "start",
+    "position at cam angle 0; a length for a translating follower, an angle for a swinging one",
+    Required("0 mm"),
+    POSITION.0,
+    POSITION.1,
+);
+
+/// `[motion]`.
+pub(crate) const SECTION: Section = Section {
+    path: "motion",
+    about: "a motion program, instead of a press: for `camgen make`",
+    occurs: Occurs::Optional,
+    cams: &[MAKE],
+    keys: &[RPM.key, START.key],
+};
+
+const LAW: Field<String> = Field::text(
+    "law",
+    "\"dwell\" or a law between two rests: cycloidal (default), harmonic, cubic, 3-4-5, 4-5-6-7",
+    Optional(USUAL),
+);
+const OVER: Field<f64> = Field::quantity(
+    "over",
+    "cam angle it takes; the last segment may leave it out",
+    Optional("90 deg"),
+    Angle,
+    above(0.0, TAU),
+);
+const TO: Field<LengthOrAngle> =
+    Field::length_or_angle("to", "position at its end; not of a dwell", Optional("20 mm"), POSITION.0, POSITION.1);
+
+/// `[[motion.segment]]`.
+pub(crate) const SEGMENT: Section = Section {
+    path: "motion.segment",
+    about: "a segment of the program",
+    occurs: Occurs::Repeated,
+    cams: &[MAKE],
+    keys: &[LAW.key, OVER.key, TO.key],
+};
+
+/// What the segments may be off a whole turn together, rad: typing of angles.
+const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
+/// Cells in which the lowest point of a segment is searched: a law between rests has its extremes at its ends.
+const CELLS: u32 = 4;
+
+/// A segment between two positions.
+#[derive(Debug, Clone, Copy)]
+struct Segment {
+    /// `None` rests.
+    law: Option<&'static Law>,
+    from: f64,
+    to: f64,
+}
+
+/// A motion of segments over one turn.
+#[derive(Debug, Clone)]
+pub struct Program {
+    quantity: Quantity,
+    rpm: Option<f64>,
+    pieces: Vec<Piece>,
+    segments: Vec<Segment>,
+    lowest: f64,
+}
+
+impl Program {
+    /// Segments of law (`None` rests), cam angle (rad) and end position (m, or rad of a swing), from a position on.
+    #[must_use]
+    pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Self {
+        let mut program = Self { quantity, rpm: None, pieces: Vec::new(), segments: Vec::new(), lowest: 0.0 };
+        let (mut angle, mut position) = (0.0, start);
+        for (index, (law, over, to)) in segments.iter().enumerate() {
+            let end = if index + 1 == segments.len() { TAU } else { angle + over };
+            let to = if law.is_some() { *to } else { position };
+            program.pieces.push(Piece { start: angle, end, dwell: law.is_none() });
+            program.segments.push(Segment { law: *law, from: position, to });
+            (angle, position) = (end, to);
+        }
+        let least = program.pieces.iter().enumerate().map(|(index, piece)| {
+            let of = |at: f64| program.position(index, at);
+            -extremum::largest(|at| -of(at).s, |at| -of(at).ds, (piece.start, piece.end), CELLS).value
+        });
+        program.lowest = least.fold(f64::INFINITY, f64::min);
+        program
+    }
+
+    /// Speed of the cam, rpm, when it is told.
+    #[must_use]
+    pub fn rpm(&self) -> Option<f64> {
+        self.rpm
+    }
+
+    /// The position the program asks for, with its derivatives.
+    fn position(&self, piece: usize, angle: f64) -> Jet {
+        let (Some(segment), Some(span)) = (self.segments.get(piece), self.pieces.get(piece)) else {
+            return Jet::default();
+        };
+        let Some(law) = segment.law else { return Jet { s: segment.from, ..Jet::default() } };
+        let (width, travel) = (span.end - span.start, segment.to - segment.from);
+        let [s, ds, dds, ddds] = (law.at)(((angle - span.start) / width).clamp(0.0, 1.0));
+        let shape = Jet { s, ds, dds, ddds }.by_angle_times(width).scaled(travel);
+        Jet { s: segment.from + shape.s, ..shape }
+    }
+}
+
+impl Motion for Program {
+    fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    fn jet(&self, piece: usize, angle: f64) -> Jet {
+        let position = self.position(piece, angle);
+        Jet { s: position.s - self.lowest, ..position }
+    }
+
+    fn quantity(&self) -> Quantity {
+        self.quantity
+    }
+}
+
+fn value_of(position: LengthOrAngle) -> (Quantity, f64) {
+    match position {
+        LengthOrAngle::Length(value) => (Quantity::Length, value),
+        LengthOrAngle::Angle(value) => (Quantity::Angle, value),
+    }
+}
+
+/// The program of a file, when one stands there and has no fault.
+pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
+    let table = reader.find(&SECTION)?;
+    let start = table.get(&START);
+    let segments: Vec<Table<'_>> = reader.elements(&SEGMENT).collect();
+    if segments.is_empty() {
+        table.fail(
+            &START,
+            "a motion needs segments".into(),
+            Some("add [[motion.segment]] with law, over and to".into()),
+        );
+        return None;
+    }
+    let angles = widths(&segments);
+    let (quantity, start) = value_of(start?);
+    let ends: Vec<Option<(Option<&'static Law>, f64)>> =
+        segments.iter().map(|segment| read_segment(segment, quantity)).collect();
+    let ends = ends.into_iter().collect::<Option<Vec<_>>>()?;
+    let all: Vec<(Option<&'static Law>, f64, f64)> =
+        ends.iter().zip(angles?).map(|((law, to), over)| (*law, over, *to)).collect();
+    let moving = all.iter().rev().find(|(law, ..)| law.is_some());
+    if let (Some((_, _, last)), Some(segment)) = (moving, segments.last())
+        && *last != start
+    {
+        let message = "the motion does not end where it starts".to_owned();
+        segment.fail(&TO, message, Some(format!("the last `to` must be motion.start, {}", table.typed(&START))));
+        return None;
+    }
+    Some(Program { rpm: table.get(&RPM), ..Program::new(quantity, start, &all) })
+}
+
+/// The cam angles of the segments; the last may leave its own out and takes the rest of the turn.
+fn widths(segments: &[Table<'_>]) -> Option<Vec<f64>> {
+    let mut angles = Vec::new();
+    let mut sum = 0.0;
+    for (index, segment) in segments.iter().enumerate() {
+        let over = match segment.get(&OVER) {
+            Some(over) => over,
+            None if segment.has(&OVER) => return None,
+            None if index + 1 == segments.len() && sum < TAU => TAU - sum,
+            None => {
+                let help = "only the last segment may leave it out, and takes the rest of the turn";
+                segment.fail(&OVER, "a segment has no `over`".into(), Some(help.into()));
+                return None;
+            }
+        };
+        angles.push(over);
+        sum += over;
+    }
+    if (sum - TAU).abs() > WHOLE_TURN {
+        let (covered, off) = (sum.to_degrees(), (TAU - sum).to_degrees());
+        let what = if off > 0.0 { format!("{off:.6} deg are missing") } else { format!("{:.6} deg too much", -off) };
+        let message = format!("the segments cover {covered:.6} deg, {what}");
+        segments.last()?.fail(&OVER, message, Some("leave `over` of the last segment out".into()));
+        return None;
+    }
+    Some(angles)
+}
+
+/// Law and end of a segment.
+fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'static Law>, f64)> {
+    let name = segment.get(&LAW).unwrap_or_else(|| USUAL.to_owned());
+    if name == DWELL {
+        if segment.has(&TO) {
+            let help = "leave `to` out, or name a law that moves";
+            segment.fail(&TO, "a dwell stays where it is".into(), Some(help.into()));
+        }
+        return Some((None, 0.0));
+    }
+    let Some(law) = laws::named(&name) else {
+        let known: Vec<&str> = std::iter::once(DWELL).chain(LAWS.iter().map(|law| law.name)).collect();
+        segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("one of {}", known.join(", "))));
+        return None;
+    };
+    let Some(to) = segment.get(&TO) else {
+        if !segment.has(&TO) {
+            segment.fail(&TO, format!("a segment with the law {name} needs `to`"), Some("e.g. to = \"20 mm\"".into()));
+        }
+        return None;
+    };
+    let (found, to) = value_of(to);
+    if found != quantity {
+        let message = format!("`to` is {}, but motion.start is {}", found.words(), quantity.words());
+        segment.fail(&TO, message, Some("give both in the same kind of unit".into()));
+        return None;
+    }
+    Some((Some(law), to))
+}
