@@ -22,6 +22,7 @@ use crate::table::Row;
 use conoid::Conoid;
 use conoid::flank::{Flank, FlankError};
 use nalgebra::Vector2;
+use std::sync::OnceLock;
 
 /// A kind of body.
 #[derive(Debug, PartialEq, Eq)]
@@ -159,18 +160,10 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     }
 
     /// Largest |pressure angle|, rad.
-    fn pressure_angle(&self) -> Worst {
-        self.plane().map_or(Worst::NONE, |curves| plane(extremes::pressure_angle(curves)))
-    }
+    fn pressure_angle(&self) -> Worst;
 
     /// The sharpest convex place of what the follower draws: the curvature, 1/m, infinite at a corner.
-    fn sharpest(&self) -> Worst {
-        let Some(curves) = self.plane() else { return Worst::NONE };
-        match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
-            Some(corner) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
-            None => plane(extremes::convex_curvature(curves)),
-        }
-    }
+    fn sharpest(&self) -> Worst;
 
     /// Radius of the largest cutter that gets into the hollows, m; `None` where nothing is concave.
     fn hollow(&self) -> Option<Worst> {
@@ -251,6 +244,27 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// # Errors
     /// [`OutlineError`] when a curve for the eye cannot be drawn.
     fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError>;
+}
+
+/// Worst places of a plane cam, searched once and only when somebody asks.
+#[derive(Debug, Clone, Default)]
+struct WorstPlaces {
+    pressure_angle: OnceLock<Worst>,
+    sharpest: OnceLock<Worst>,
+}
+
+impl WorstPlaces {
+    fn pressure_angle(&self, curves: Curves<'_>) -> Worst {
+        *self.pressure_angle.get_or_init(|| plane(extremes::pressure_angle(curves)))
+    }
+
+    fn sharpest(&self, curves: Curves<'_>) -> Worst {
+        let search = || match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
+            Some(corner) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
+            None => plane(extremes::convex_curvature(curves)),
+        };
+        *self.sharpest.get_or_init(search)
+    }
 }
 
 /// A worst place of a plane cam.

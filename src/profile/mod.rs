@@ -9,7 +9,7 @@ pub mod extremes;
 pub mod outline;
 pub mod size;
 
-use crate::follower::{Element, Follower};
+use crate::follower::{Element, Follower, Touch};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Motion};
 use nalgebra::Vector2;
@@ -61,6 +61,12 @@ impl Worst {
 }
 
 impl<'a> Curves<'a> {
+    /// The follower at a parameter of a piece of the motion.
+    #[must_use]
+    pub fn touch(&self, piece: usize, parameter: f64) -> Touch {
+        self.follower.touch(parameter, &self.motion.jet(piece, parameter))
+    }
+
     /// The follower's curve and the pressure angle at a parameter of a piece of the motion.
     #[must_use]
     pub fn contact(&self, piece: usize, parameter: f64) -> Contact {
@@ -80,7 +86,7 @@ impl<'a> Curves<'a> {
     /// The profile at a parameter of a piece: the parallel of the follower's curve.
     #[must_use]
     pub fn profile(&self, piece: usize, parameter: f64) -> CurvePoint {
-        self.contact(piece, parameter).curve.offset_inward(self.offset())
+        self.touch(piece, parameter).curve.offset_inward(self.offset())
     }
 
     /// How far inwards of the follower's curve the profile lies, m.

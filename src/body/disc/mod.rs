@@ -3,7 +3,7 @@
 mod sheet;
 
 use super::part::{Part, point_as_turned};
-use super::{Body, DrawError, Drawn, Found, Kind, Request, largest, max_lift, stress};
+use super::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, largest, max_lift, stress};
 use crate::follower::{Element, Follower};
 use crate::geometry::MILLIMETRES;
 use crate::load::{AirBuffer, Load};
@@ -37,6 +37,7 @@ pub struct Disc {
     load: Option<Arc<dyn Load>>,
     /// Smallest prime radius that keeps every limit, m; `None` when none does.
     smallest_prime_radius: Option<f64>,
+    worst: WorstPlaces,
 }
 
 /// Why there is no disc cam.
@@ -110,6 +111,7 @@ impl Disc {
             motion,
             load: None,
             smallest_prime_radius: None,
+            worst: WorstPlaces::default(),
         }
     }
 
@@ -272,6 +274,14 @@ impl Body for Disc {
             Rotation::Clockwise => &[false],
             Rotation::CounterClockwise => &[true],
         }
+    }
+
+    fn pressure_angle(&self) -> Worst {
+        self.worst.pressure_angle(self.curves())
+    }
+
+    fn sharpest(&self) -> Worst {
+        self.worst.sharpest(self.curves())
     }
 
     fn roller_radius(&self) -> Option<f64> {

@@ -208,7 +208,7 @@ pub(crate) fn parallel(
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
     let frame = |piece: usize, angle: f64| -> CurvePoint {
-        curves.contact(piece, angle).curve.offset_inward(distance).scaled(MILLIMETRES)
+        curves.touch(piece, angle).curve.offset_inward(distance).scaled(MILLIMETRES)
     };
     fits_a_drawing(pieces, frame)?;
     let corners = extremes::corners(curves);
