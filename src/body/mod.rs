@@ -12,6 +12,7 @@ pub mod wedge;
 
 pub use part::{Layer, Part};
 
+use crate::follower::Element;
 use crate::machine::Machine;
 use crate::numeric::extremum;
 use crate::profile::outline::{Fit, Outline, OutlineError};
@@ -110,9 +111,6 @@ pub struct Found<'a> {
 fn flank_of<'a>(found: &Found<'a>) -> Option<&'a Flank> {
     found.drawn?.flank.as_ref()
 }
-
-/// Cells in which the largest lift of a piece is searched: a piece has two extrema at the most.
-const LIFT_CELLS: u32 = 64;
 
 /// A solved cam: what checks, drawings, tables and reports want to know, whatever its kind.
 pub trait Body: std::fmt::Debug + Send + Sync {
@@ -259,9 +257,14 @@ impl WorstPlaces {
     }
 
     fn sharpest(&self, curves: Curves<'_>) -> Worst {
-        let search = || match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
-            Some(corner) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
-            None => plane(extremes::convex_curvature(curves)),
+        let search = || match (extremes::corners(curves).iter().find(|corner| corner.turn > 0.0), curves.element()) {
+            (Some(corner), _) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
+            (None, Element::Roller { .. }) => plane(extremes::convex_curvature(curves)),
+            (None, Element::Face) => {
+                let least = extremes::least_radius(curves);
+                let value = if least.value > 0.0 { 1.0 / least.value } else { f64::INFINITY };
+                Worst { value, at: least.at, z: 0.0 }
+            }
         };
         *self.sharpest.get_or_init(search)
     }
@@ -275,13 +278,4 @@ fn plane(found: extremum::Extremum) -> Worst {
 /// The largest value over a motion of something without a derivative at hand.
 fn largest(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Worst {
     plane(extremes::largest_without_slope(curves, value))
-}
-
-/// Largest lift of a motion, m or rad.
-fn max_lift(curves: Curves<'_>) -> f64 {
-    let lifts = curves.motion.pieces().iter().enumerate().map(|(index, piece)| {
-        let jet = |at| curves.motion.jet(index, at);
-        extremum::largest(|at| jet(at).s, |at| jet(at).ds, (piece.start, piece.end), LIFT_CELLS).value
-    });
-    lifts.fold(0.0, f64::max)
 }

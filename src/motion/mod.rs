@@ -104,6 +104,11 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         Some(TAU)
     }
 
+    /// The position where the lift is 0, in the coordinate of whoever asked for the motion, m or rad.
+    fn origin(&self) -> Option<f64> {
+        None
+    }
+
     /// First and last value of the parameter.
     fn range(&self) -> (f64, f64) {
         let pieces = self.pieces();

@@ -142,6 +142,10 @@ impl Motion for Program {
     fn quantity(&self) -> Quantity {
         self.quantity
     }
+
+    fn origin(&self) -> Option<f64> {
+        Some(self.lowest)
+    }
 }
 
 fn value_of(position: LengthOrAngle) -> (Quantity, f64) {

@@ -64,6 +64,16 @@ pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
     })
 }
 
+/// Smallest radius of curvature under a face, m, signed: not positive where the profile turns back on itself.
+pub fn least_radius(curves: Curves<'_>) -> Extremum {
+    let least = largest(curves, |piece, angle| {
+        let curve = curves.touch(piece, angle).curve;
+        // ρ = 1/κ and dρ/dθ = −κ' ℓ/κ² with ℓ = ρ.
+        (-curve.speed, curve.curvature_slope * curve.speed * curve.speed * curve.speed)
+    });
+    Extremum { at: least.at, value: -least.value }
+}
+
 /// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.
 ///
 /// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.

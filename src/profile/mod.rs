@@ -11,7 +11,8 @@ pub mod size;
 
 use crate::follower::{Element, Follower, Touch};
 use crate::geometry::CurvePoint;
-use crate::motion::{Jet, Motion};
+use crate::motion::{Jet, Motion, Piece};
+use crate::numeric::extremum;
 use nalgebra::Vector2;
 
 /// Motion and follower together: every curve of a cam.
@@ -109,6 +110,22 @@ impl<'a> Curves<'a> {
     {
         Curves { motion: self.motion, follower }
     }
+}
+
+/// Cells in which the extreme lifts of a piece are searched: a piece has two extrema at the most.
+const LIFT_CELLS: u32 = 64;
+
+/// Smallest and largest lift of a motion, m or rad.
+#[must_use]
+pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
+    let of_piece = |(index, piece): (usize, &Piece)| {
+        let jet = |at| motion.jet(index, at);
+        let range = (piece.start, piece.end);
+        let top = extremum::largest(|at| jet(at).s, |at| jet(at).ds, range, LIFT_CELLS).value;
+        (-extremum::largest(|at| -jet(at).s, |at| -jet(at).ds, range, LIFT_CELLS).value, top)
+    };
+    let all = motion.pieces().iter().enumerate().map(of_piece);
+    all.fold((f64::INFINITY, 0.0), |(low, high), (least, top)| (low.min(least), high.max(top)))
 }
 
 #[cfg(test)]

@@ -137,8 +137,8 @@ impl Roll<'_> {
                 #[expect(clippy::cast_precision_loss, reason = "at most eight")]
                 let share = step as f64 / count as f64;
                 let (point, tangent) = segment.at(share);
-                let centre = point + Vector2::new(tangent.y, -tangent.x) * self.radius;
-                self.curves.follower.parameter_of(centre * 1e-3)
+                let outward = Vector2::new(tangent.y, -tangent.x);
+                self.curves.follower.parameter_of((point + outward * self.radius) * 1e-3, outward)
             })
         });
         let inside = |parameter: f64| match period {

@@ -85,7 +85,6 @@ impl Conoid {
             curve_radius: Some(MILLIMETRES / in_plane.curve.curvature),
             profile_radius: Some(cut.map_or(f64::NAN, |frame| MILLIMETRES / frame.curvature)),
             force: Some(ForceRow { path: force, torque: force * lift[1][0], contact: None }),
-            plate: None,
             surface: Some(SurfaceRow {
                 z: MILLIMETRES * z,
                 rpm,
@@ -95,6 +94,7 @@ impl Conoid {
                 principal_radius: MILLIMETRES / self.principal_curvatures(piece, angle, z).0,
                 axial_force: -force * lift[0][1],
             }),
+            ..Row::default()
         }
     }
 }

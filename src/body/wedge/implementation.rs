@@ -287,7 +287,7 @@ impl Body for Wedge {
         weight.unbalance_g_mm = None;
         let cam = CamMeasures {
             roller_radius_mm: Some(MILLIMETRES * self.data.roller_radius),
-            max_lift_mm: MILLIMETRES * self.max_lift(),
+            max_lift_mm: Some(MILLIMETRES * self.max_lift()),
             plate: Some(plate),
             weight,
             ..CamMeasures::default()
