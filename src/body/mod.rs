@@ -69,6 +69,7 @@ pub struct Drawn {
 
 /// Why there is no drawing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DrawError {
     /// The cam has no outline that could be cut; which limit it breaks, the checks tell.
     #[error("{0}")]

@@ -85,6 +85,7 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<FollowerData> {
 
 /// What of the follower touches the cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Element {
     /// A roller of this radius, m.
     Roller {

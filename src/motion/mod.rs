@@ -19,6 +19,7 @@ use std::f64::consts::TAU;
 
 /// What a lift is: the travel of a translating follower or the swing of an oscillating one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Quantity {
     /// Metres.
     Length,

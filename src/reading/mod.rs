@@ -52,6 +52,7 @@ pub struct Reading {
 
 /// Why a file is not read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// It does not end as a DXF file ends.
     #[error("not a whole DXF file: it does not end with EOF")]

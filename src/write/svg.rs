@@ -29,6 +29,7 @@ const LONGEST_SWEEP: f64 = 3.0;
 
 /// Why a template cannot be filled in.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TemplateError {
     /// The drawing has no place in it.
     #[error("the template has no {{{{drawing}}}}: nothing would be drawn")]

@@ -98,6 +98,7 @@ struct Searched {
 
 /// Why there is no conoid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ConoidError {
     /// The machine file does not describe one.
     #[error("the machine file has no [conoid] table: a conoid needs axial_travel, mode and shift")]

@@ -42,6 +42,7 @@ pub struct Disc {
 
 /// Why there is no disc cam.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DiscError {
     /// The machine file describes no press.
     #[error(transparent)]

@@ -56,6 +56,7 @@ pub struct Wedge {
 
 /// Why there is no plate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum WedgeError {
     /// The machine file does not describe one.
     #[error("the machine file has no [translating] table: a plate needs roller_arm, bottom_arm and delta")]

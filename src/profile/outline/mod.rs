@@ -74,6 +74,7 @@ pub struct Outline {
 
 /// Why there is no outline.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutlineError {
     /// The profile folds over itself beyond repair.
     #[error(transparent)]

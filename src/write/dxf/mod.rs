@@ -47,6 +47,7 @@ pub const CUTTER_PATH: Format = Format {
 
 /// Version of a DXF file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Version {
     /// AC1009.
     R12,
