@@ -1,8 +1,8 @@
 //! The review sheet as SVG at true size: one user unit is a millimetre, arcs are arcs, y is flipped once, in the
 //! coordinates.
 
-use super::formats::{Format, When, fits_all};
 use super::number::plain;
+use super::{Format, When, fits_all};
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Segment};
 use crate::report::sheet::{Group, Shape, Sheet, TextAnchor};

@@ -8,8 +8,8 @@ mod objects;
 mod tables;
 mod tags;
 
-use super::formats::{Format, When, fits_all};
 use super::number::shortest;
+use super::{Format, When, fits_all};
 use crate::body::{Layer, Part};
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Extents};
