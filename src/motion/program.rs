@@ -43,7 +43,7 @@ pub(crate) const SECTION: Section = Section {
 
 const LAW: Field<String> = Field::text(
     "law",
-    "\"dwell\" or a law between two rests: cycloidal (default), modified-sine, harmonic, cubic, 3-4-5, 4-5-6-7",
+    "\"dwell\" or a law between two rests, cycloidal when absent; a name that is none is answered with the list",
     Optional(USUAL),
 );
 const OVER: Field<f64> = Field::quantity(
