@@ -158,11 +158,20 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The worst places of a plane cam, kept once they are found.
+    fn worst_places(&self) -> Option<&WorstPlaces> {
+        None
+    }
+
     /// Largest |pressure angle|, rad.
-    fn pressure_angle(&self) -> Worst;
+    fn pressure_angle(&self) -> Worst {
+        self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.pressure_angle(curves))
+    }
 
     /// The sharpest convex place of what the follower draws: the curvature, 1/m, infinite at a corner.
-    fn sharpest(&self) -> Worst;
+    fn sharpest(&self) -> Worst {
+        self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.sharpest(curves))
+    }
 
     /// Radius of the largest cutter that gets into the hollows, m; `None` where nothing is concave.
     fn hollow(&self) -> Option<Worst> {
@@ -247,7 +256,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
 /// Worst places of a plane cam, searched once and only when somebody asks.
 #[derive(Debug, Clone, Default)]
-struct WorstPlaces {
+pub struct WorstPlaces {
     pressure_angle: OnceLock<Worst>,
     sharpest: OnceLock<Worst>,
 }

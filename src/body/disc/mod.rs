@@ -282,12 +282,8 @@ impl Body for Disc {
         }
     }
 
-    fn pressure_angle(&self) -> Worst {
-        self.worst.pressure_angle(self.curves())
-    }
-
-    fn sharpest(&self) -> Worst {
-        self.worst.sharpest(self.curves())
+    fn worst_places(&self) -> Option<&WorstPlaces> {
+        Some(&self.worst)
     }
 
     fn roller_radius(&self) -> Option<f64> {

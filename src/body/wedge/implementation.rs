@@ -2,7 +2,7 @@
 
 use super::{END_WIDTH, KIND, Wedge, sheet};
 use crate::body::part::Part;
-use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, largest, stress};
+use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, largest, stress};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Segment, Vertex};
 use crate::load::air_law;
@@ -192,12 +192,8 @@ impl Body for Wedge {
         &[false, true]
     }
 
-    fn pressure_angle(&self) -> Worst {
-        self.worst.pressure_angle(self.curves())
-    }
-
-    fn sharpest(&self) -> Worst {
-        self.worst.sharpest(self.curves())
+    fn worst_places(&self) -> Option<&WorstPlaces> {
+        Some(&self.worst)
     }
 
     fn roller_radius(&self) -> Option<f64> {
