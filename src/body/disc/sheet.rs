@@ -3,6 +3,7 @@
 use super::Disc;
 use crate::body::part::{as_turned, point_as_turned};
 use crate::body::{Body, Drawn};
+use crate::follower::Element;
 use crate::geometry::contour::{Contour, Extents};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Rotation;
@@ -11,8 +12,8 @@ use crate::report::Report;
 use crate::report::sheet::{Group, PATH_OVER_RADIUS, Pen, Shape, Sheet, TEXT_OVER_WIDTH, roller, rounded, with_facts};
 use nalgebra::Vector2;
 
-/// Radius of the circle that stands for a flat face on the sheet, over the base radius.
-const FACE_OVER_BASE: f64 = 0.2;
+/// Half the length at which a flat face is shown, over the base radius.
+const FACE_OVER_BASE: f64 = 0.8;
 
 /// The review sheet of a disc cam.
 ///
@@ -31,29 +32,32 @@ pub(super) fn sheet(disc: &Disc, drawn: &Drawn, report: &Report) -> Result<Sheet
     let base = MILLIMETRES * disc.base_radius();
     let group = Group::new;
     let profile = outlines.into_iter().map(|contour| Shape::Entity(Entity::Polyline(contour))).collect();
-    let groups = vec![
+    let mut groups = vec![
         group("profile", "profile", profile),
         group("bore", "bore", holes),
-        group("axis", "axes", axes(&pen, &drawn)),
+        group("axis", "axes", axes(&pen, disc, &drawn)),
         group("base-circle", "base circle", circle_with_name(&pen, base, 0.4, "base circle")),
-        group("prime-circle", "prime circle", circle_with_name(&pen, prime, -1.1, "prime circle")),
-        group("pitch-curve", "pitch curve", vec![Shape::Entity(Entity::Polyline(pitch_curve))]),
-        group("roller", "roller at its worst pressure angle", worst_roller(&pen, disc, &drawn)),
-        group("rotation", "rotation of the cam", rotation_arrow(&pen, disc, base)),
     ];
+    // A flat face has no pitch curve: its curve is the profile.
+    if disc.roller_radius().is_some() {
+        groups.push(group("prime-circle", "prime circle", circle_with_name(&pen, prime, -1.1, "prime circle")));
+        groups.push(group("pitch-curve", "pitch curve", vec![Shape::Entity(Entity::Polyline(pitch_curve))]));
+    }
+    groups.push(group("roller", "follower at its worst pressure angle", worst_place(&pen, disc, &drawn)));
+    groups.push(group("rotation", "rotation of the cam", rotation_arrow(&pen, disc, base)));
     Ok(with_facts(&pen, report, &drawn, groups))
 }
 
-fn axes(pen: &Pen, drawn: &Extents) -> Vec<Shape> {
+fn axes(pen: &Pen, disc: &Disc, drawn: &Extents) -> Vec<Shape> {
     let zero = Vector2::new(drawn.largest.x - 3.0 * pen.text, 0.4 * pen.text);
     vec![
         Shape::Line(Vector2::new(drawn.least.x, 0.0), Vector2::new(drawn.largest.x, 0.0)),
         Shape::Line(Vector2::new(0.0, drawn.least.y), Vector2::new(0.0, drawn.largest.y)),
-        pen.middle(zero, "θ = 0, φ = 0"),
+        pen.middle(zero, if disc.load.is_some() { "θ = 0, φ = 0" } else { "θ = 0" }),
     ]
 }
 
-/// Radius of the circle that shows where the follower touches, mm: the roller itself, or a mark of that size on a face.
+/// Radius of the roller, mm, or half the length at which a flat face is shown.
 fn shown_radius(disc: &Disc) -> f64 {
     disc.roller_radius().map_or(FACE_OVER_BASE * MILLIMETRES * disc.base_radius(), |radius| MILLIMETRES * radius)
 }
@@ -67,8 +71,8 @@ fn circle_with_name(pen: &Pen, radius: f64, above: f64, name: &str) -> Vec<Shape
     ]
 }
 
-/// The roller where the pressure angle is worst, with its path and the normal of the cam.
-fn worst_roller(pen: &Pen, disc: &Disc, drawn: &Extents) -> Vec<Shape> {
+/// The follower where the pressure angle is worst, with its path and the normal of the cam.
+fn worst_place(pen: &Pen, disc: &Disc, drawn: &Extents) -> Vec<Shape> {
     let curves = disc.curves();
     let worst = disc.pressure_angle();
     let (piece, angle) = curves.motion.locate(worst.at);
@@ -77,7 +81,14 @@ fn worst_roller(pen: &Pen, disc: &Disc, drawn: &Extents) -> Vec<Shape> {
     let (centre, radius) = (turned(contact.curve.point * MILLIMETRES), shown_radius(disc));
     let text =
         format!("α = {:.2}° at θ = {:.2}°", worst.value.to_degrees(), disc.place(worst.at).cam_deg.unwrap_or(0.0));
-    let mut shapes = roller(centre, turned(contact.drive), turned(contact.curve.outward()), radius);
+    let (drive, along) = (turned(contact.drive), turned(contact.curve.tangent));
+    let mut shapes = match curves.element() {
+        Element::Roller { .. } => roller(centre, drive, turned(contact.curve.outward()), radius),
+        Element::Face => vec![
+            Shape::Line(centre - along * radius, centre + along * radius),
+            Shape::Line(centre, centre + drive * radius),
+        ],
+    };
     shapes.push(pen.beside(centre, radius, radius * PATH_OVER_RADIUS, drawn, text));
     shapes
 }
