@@ -1,6 +1,9 @@
 use super::*;
+use crate::body::KINDS;
+use crate::buffer::bottom_law::Column;
 use crate::document::Form;
-use crate::law::translating::EfficiencyModel;
+use crate::document::cams::{CONOID, MAKE, ROTARY, TRANSLATING};
+use crate::motion::equation_18::EfficiencyModel;
 
 fn dpi(overrides: &[&str]) -> Result<Machine, MachineError> {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
@@ -25,7 +28,7 @@ fn every_embedded_machine_and_the_template_read() {
 #[test]
 fn an_override_replaces_a_value() {
     let machine = dpi(&["follower.roller.radius=25mm", "cam.base_radius = auto", "cam.lever=2"]).expect("valid");
-    assert_eq!(machine.roller.radius, 0.025);
+    assert_eq!(machine.roller().expect("a roller").radius, 0.025);
     assert_eq!(machine.cam.lever, 2.0);
 }
 
@@ -193,6 +196,11 @@ const OTHERS: &[(&str, &str)] = &[
     ("buffer.column", "200 mm"),
     ("buffer.lead", "1 mm"),
     ("design.rpm", "30"),
+    ("motion.rpm", "120"),
+    ("motion.start", "5 mm"),
+    ("motion.segment[0].law", "harmonic"),
+    ("motion.segment[0].over", "170 deg"),
+    ("motion.segment[0].to", "10 mm"),
     ("follower.roller.radius", "25 mm"),
     ("follower.roller.offset", "5 mm"),
     ("follower.roller.mass", "40 kg"),
@@ -231,32 +239,43 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.contact_stress", "1200 MPa"),
 ];
 
+/// A motion program behind a press, so that a file has every table that can stand in it.
+const MOTION: &str = "\n[motion]\nstart = \"0 mm\"\n[[motion.segment]]\nover = \"180 deg\"\nto = \"20 mm\"\n\
+                      [[motion.segment]]\nto = \"0 mm\"\n";
+
 fn every_key() -> Vec<String> {
-    SECTIONS.iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect()
+    sections().iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect()
 }
 
-/// The machine without the list of keys that were given.
-fn alike(machine: Machine) -> Machine {
-    Machine { given: Vec::new(), ..machine }
+/// All of a machine but the list of keys that were given. What the follower and the motion are, only their text tells.
+fn alike(machine: Machine) -> String {
+    format!("{:#?}", Machine { given: Vec::new(), ..machine })
 }
 
 #[test]
 fn every_key_of_the_table_reaches_the_machine() {
-    let keys: Vec<&str> = OTHERS.iter().map(|(key, _)| *key).collect();
+    let keys: Vec<String> = OTHERS.iter().map(|(key, _)| key.replace("[0]", "[]")).collect();
     assert_eq!(keys, every_key());
-    let base = ["cam.keyway.width=8mm", "cam.keyway.depth=3mm", "follower.roller.width=10mm"];
-    let plain = alike(dpi(&base).expect("valid"));
+    let text = format!("{}{MOTION}", EMBEDDED[0].toml);
+    let with = |sets: &[&str]| {
+        let base = ["cam.keyway.width=8mm", "cam.keyway.depth=3mm", "follower.roller.width=10mm"];
+        let sets: Vec<String> = base.iter().chain(sets).map(|&set| set.to_owned()).collect();
+        Machine::from_toml("press.toml", &text, &sets).unwrap_or_else(|error| panic!("{sets:?}: {error}"))
+    };
+    let plain = alike(with(&[]));
     for (key, value) in OTHERS {
         let set = format!("{key}={value}");
-        let other = dpi(&[&base[..], &[&set]].concat()).unwrap_or_else(|error| panic!("{set}: {error}"));
-        assert!(other.given().contains(&(*key).to_owned()));
+        // A motion ends where it starts.
+        let end = (*key == "motion.start").then_some("motion.segment[1].to=5 mm");
+        let other = with(&[&[set.as_str()][..], end.as_slice()].concat());
+        assert!(other.given().contains(&(*key).to_owned()), "{set}");
         assert_ne!(alike(other), plain, "{set}");
     }
 }
 
 #[test]
 fn every_word_of_a_key_reads() {
-    for section in SECTIONS {
+    for section in sections() {
         for key in section.keys {
             let (Form::Words(words) | Form::WordsOrQuantity(words, ..)) = key.form else { continue };
             for word in words {
@@ -269,12 +288,12 @@ fn every_word_of_a_key_reads() {
 
 #[test]
 fn every_key_tells_what_it_is_and_for_which_cams() {
-    for section in SECTIONS {
+    for section in sections() {
         assert!(section.path.is_empty() || !section.about.is_empty(), "{}", section.path);
         for key in section.keys {
             assert!(!key.about.is_empty() && !key.presence.text().is_empty(), "{}", section.path_of(key));
             for cam in section.cams_of(key) {
-                assert!([ROTARY, TRANSLATING, CONOID].contains(cam), "{}: {cam}", section.path_of(key));
+                assert!(KINDS.iter().any(|kind| kind.command == *cam), "{}: {cam}", section.path_of(key));
             }
         }
     }
@@ -286,10 +305,12 @@ fn defaults_are_what_they_were() {
                 end_pressure = \"2 at\"\n[follower.roller]\nradius = \"30 mm\"\n[translating]\nroller_arm = \"1 m\"\n\
                 bottom_arm = \"1 m\"\ndelta = \"90 deg\"\n[conoid]\naxial_travel = \"1 m\"\n";
     let machine = Machine::from_toml("least.toml", toml, &[]).expect("valid");
-    assert_eq!((machine.polytropic_exponent, machine.column, machine.lead), (1.35, Column::Matched, 0.0));
-    assert_eq!((machine.bed.crank_turns_per_main_shaft_turn, machine.design_rpm), (3.0, 35.0));
-    let roller = RollerData { radius: 0.03, offset: 0.0, mass: None, preload: None, crown: Crown::Sphere, width: None };
-    assert_eq!(machine.roller, roller);
+    let press = machine.press().expect("a press");
+    assert_eq!((press.polytropic_exponent, press.column, press.lead), (1.35, Column::Matched, 0.0));
+    assert_eq!((press.bed.crank_turns_per_main_shaft_turn, press.design_rpm), (3.0, 35.0));
+    let roller = RollerData { radius: 0.03, offset: 0.0, crown: Crown::Sphere, width: None };
+    assert_eq!(machine.roller().expect("a roller"), &roller);
+    assert_eq!((machine.follower.mass, machine.follower.preload), (None, None));
     assert_eq!((machine.cam.turns_per_crank_turn, machine.cam.lever, machine.cam.base_radius), (1.0, 1.0, None));
     assert_eq!((machine.cam.thickness, machine.cam.material, machine.cam.rotation), (None, None, Rotation::Clockwise));
     assert_eq!(machine.transition, Transition::RunUp { width: std::f64::consts::PI / 9.0 });
@@ -336,14 +357,20 @@ fn the_template_is_written_from_the_table() {
 fn template_and_profiles_have_every_key() {
     let mut keys = every_key();
     keys.sort();
-    let profiles = EMBEDDED.iter().map(|machine| (machine.name, machine.toml.to_owned()));
-    for (name, text) in profiles.chain([("template", template())]) {
-        let text = with_everything(&text);
-        let sections: Vec<Section> = SECTIONS.iter().map(|section| Section { cams: &[], ..**section }).collect();
+    // A profile is a press; the template has a motion program too.
+    let of_a_press: Vec<String> = keys.iter().filter(|key| !key.starts_with("motion.")).cloned().collect();
+    // Of a program the template shows one segment, which is none yet.
+    let whole = ["motion.segment[0].over=360 deg".to_owned(), "motion.segment[0].to=0 mm".to_owned()];
+    let template = template();
+    let profiles = EMBEDDED.iter().map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
+    for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &keys, &whole[..])]) {
+        let text = with_everything(text);
+        let sections: Vec<Section> = sections().iter().map(|section| Section { cams: &[], ..**section }).collect();
         let sections: Vec<&Section> = sections.iter().collect();
-        let reader = Reader::new(name, &text, &[], &sections);
-        assert_eq!(reader.given(true), keys, "{name}");
-        Machine::from_toml(name, &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let given = Reader::new(name, &text, &[], &sections).given(true);
+        let given: Vec<String> = given.iter().map(|key| key.replace("[0]", "[]")).collect();
+        assert_eq!(&given, keys, "{name}");
+        Machine::from_toml(name, &text, sets).unwrap_or_else(|error| panic!("{error}"));
     }
 }
 
@@ -351,11 +378,16 @@ fn template_and_profiles_have_every_key() {
 fn the_schema_has_every_key() {
     let schema = schema();
     for path in every_key() {
-        let key = path.split('.').fold(&schema, |table, name| &table["properties"][name]);
+        let key = path.split('.').fold(&schema, |table, name| match name.strip_suffix("[]") {
+            Some(name) => &table["properties"][name]["items"],
+            None => &table["properties"][name],
+        });
         assert!(key["description"].is_string(), "{path}: {key}");
     }
-    assert_eq!(schema["required"], serde_json::json!(["name", "bed", "buffer", "follower"]));
-    assert_eq!(schema["properties"]["follower"]["required"], serde_json::json!(["roller"]));
+    // A press is described as a whole or not at all, and a follower by one table of several.
+    assert_eq!(schema["required"], serde_json::json!(["name"]));
+    assert_eq!(schema["properties"]["bed"]["required"], serde_json::json!(["mass", "crank_radius"]));
+    assert_eq!(schema["properties"]["follower"]["properties"]["roller"]["required"], serde_json::json!(["radius"]));
     assert_eq!(schema["properties"]["cam"]["additionalProperties"], false);
 }
 
@@ -366,15 +398,54 @@ fn keys_without_effect_are_told_for_each_kind() {
     for (cam, idle) in [
         (ROTARY, &["conoid.overhang"][..]),
         (TRANSLATING, &["cam.balance", "cam.rotation", "conoid.overhang"]),
-        (CONOID, &["cam.balance", "limits.contact_stress"]),
+        (CONOID, &["cam.balance"]),
+        (MAKE, &["conoid.overhang"]),
     ] {
-        assert_eq!(without_effect(machine.given(), cam), idle, "{cam}");
+        assert_eq!(machine.without_effect(cam), idle, "{cam}");
     }
     assert!(dpi(&[]).expect("valid").given().is_empty(), "nobody gave the keys of an embedded machine");
-    let own = Machine::from_toml("dpi.toml", EMBEDDED[0].toml, &[]).expect("valid");
-    assert!(without_effect(own.given(), ROTARY).is_empty(), "a file may describe all kinds");
+    let own = Machine::from_toml("dpi.toml", &format!("{}{MOTION}", EMBEDDED[0].toml), &[]).expect("valid");
+    assert!(own.without_effect(ROTARY).is_empty(), "a file may describe all kinds");
     let shared = ["cam.cam_turns_per_crank_turn", "cam.lever", "cam.base_radius", "cam.bore_radius", "cam.rotation"];
     for key in shared {
-        assert!(without_effect(own.given(), TRANSLATING).contains(&key.to_owned()), "{key}");
+        assert!(own.without_effect(TRANSLATING).contains(&key.to_owned()), "{key}");
+    }
+}
+
+/// Bed, buffer and design speed are one press: any of them asks for the others.
+#[test]
+fn a_press_is_described_as_a_whole_or_not_at_all() {
+    let roller = "name = \"x\"\n[follower.roller]\nradius = \"30 mm\"\n";
+    let machine = Machine::from_toml("roller.toml", roller, &[]).expect("no press is needed");
+    assert!(machine.press().is_err() && machine.motion().is_none());
+    let why = machine.press().expect_err("no press").to_string();
+    assert!(why.contains("[bed], [buffer] and [design]") && why.contains("camgen make"), "{why}");
+    for table in ["[bed]", "[buffer]", "[design]"] {
+        let text = Machine::from_toml("part.toml", &format!("{roller}{table}\n"), &[]).expect_err(table).to_string();
+        for key in ["bed.mass", "bed.crank_radius", "buffer.ambient_pressure", "buffer.end_pressure"] {
+            assert!(text.contains(&format!("missing key `{key}`")), "{table}: no {key} in\n{text}");
+        }
+    }
+}
+
+#[test]
+fn a_base_radius_out_of_the_follower_s_reach_is_told_at_its_place() {
+    let sets = ["follower.roller.offset=200mm", "cam.base_radius=40mm", "cam.bore_radius=10mm"];
+    let error = dpi(&sets).expect_err("out of reach");
+    assert_eq!(error.faults.len(), 1, "{error}");
+    let fault = &error.faults[0];
+    assert!(fault.message.contains("does not reach a cam of this base radius"), "{error}");
+    assert!(fault.place.is_some() && fault.help.is_some(), "{error}");
+}
+
+/// Every follower has its table, and a file without one, or with a table that is none, is told which there are.
+#[test]
+fn the_follower_is_one_of_the_list() {
+    let told = Machine::from_toml("none.toml", "name = \"x\"\n", &[]).expect_err("no follower").to_string();
+    for kind in FOLLOWERS {
+        assert!(told.contains(&format!("[{}]", kind.section.path)), "{told}");
+        assert!(sections().iter().any(|section| section.path == kind.section.path), "{}", kind.section.path);
+        let keys: Vec<&str> = kind.section.keys.iter().map(|key| key.name).collect();
+        assert!(keys.contains(&"mass") && keys.contains(&"preload"), "{}: {keys:?}", kind.section.path);
     }
 }

@@ -170,7 +170,7 @@ mod tests {
         let turning = Row {
             cam_deg: Some(1.0),
             lift: Some(Jet::default()),
-            bed: Some(BedRow::default()),
+            bed: Some(BedRow { crank_deg: Some(1.0), ..BedRow::default() }),
             curve: Some(Vector2::zeros()),
             profile: Some(Vector2::zeros()),
             pressure_angle_deg: Some(1.0),
