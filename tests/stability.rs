@@ -14,7 +14,7 @@ use big::{Big, big, number, ulp};
 use camgen::buffer::bottom_law::{BottomLaw, Column, column_for};
 use camgen::buffer::{Bed, Cylinder, regime};
 use camgen::follower::TranslatingRoller;
-use camgen::motion::{EccentricCircle, Motion, Reversal, ReversalLaw, Transition};
+use camgen::motion::{EccentricCircle, Reversal, ReversalLaw, Transition};
 use camgen::profile::Curves;
 use nalgebra::Vector2;
 use random::Random;
