@@ -73,7 +73,7 @@ fn paths(all: &[Token], module: &[String]) -> Vec<(Vec<String>, usize)> {
             use_tree(all, at + 1, &[], &mut found);
         } else if matches!(token.text.as_str(), "crate" | "super" | "self") && follows(":") {
             // The head of a path in place; a path inside one that has begun is not a head.
-            if at > 0 && all[at - 1].text == ":" {
+            if at > 1 && all[at - 1].text == ":" && all[at - 2].text == ":" {
                 continue;
             }
             let mut path = vec![token.text.clone()];

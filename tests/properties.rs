@@ -68,35 +68,32 @@ proptest! {
                 return Ok(());
             }
         };
-        match proven.drawn() {
-            Some(drawn) => {
-                let part = &drawn.parts[0];
-                let contour = &part.outline.contour;
-                prop_assert!(part.outline.deviation <= 1e3 * tolerance);
-                let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-6).collect();
-                let losses = envelope::losses(curves).expect("drawn, so they were found");
-                // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
-                prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
-                let body = part.solid(30.0).map_err(|error| TestCaseError::fail(error.to_string()))?;
-                // An arc so flat that its radius is a thousand kilometres has a centre known to a nanometre: the
-                // uncertainty the STEP file states.
-                prop_assert!(solid::largest_gap(&body.boundary) <= 1e-6, "{}", solid::largest_gap(&body.boundary));
-                let (outline, rolled) = (&proven.outlines()[0].contour, proven.rolled().expect("a plane cam is rolled on"));
-                // Coordinates have twelve decimals and 52 bits.
-                let rounding = 2e-12 + 1e-14 * outline.extents().size().max();
-                if losses.is_empty() {
-                    prop_assert!(rolled.gap_mm.abs() <= 1e3 * tolerance + rounding, "{rolled:?}");
-                    prop_assert!(rolled.chord_difference_mm <= rolled.chord_sagitta_mm + rounding, "{rolled:?}");
-                } else {
-                    prop_assert!(rolled.gap_mm >= -1e3 * tolerance - rounding, "no metal is in the way: {rolled:?}");
-                }
-                prop_assert!(contour.area_and_centroid().0 > 0.0);
-                prop_assert!(contour.vertices.iter().all(|v| v.point.iter().all(|c| c.is_finite()) && v.bulge.is_finite()));
+        if let Some(drawn) = proven.drawn() {
+            let part = &drawn.parts[0];
+            let contour = &part.outline.contour;
+            prop_assert!(part.outline.deviation <= 1e3 * tolerance);
+            let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-6).collect();
+            let losses = envelope::losses(curves).expect("drawn, so they were found");
+            // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
+            prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
+            let body = part.solid(30.0).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            // An arc so flat that its radius is a thousand kilometres has a centre known to a nanometre: the
+            // uncertainty the STEP file states.
+            prop_assert!(solid::largest_gap(&body.boundary) <= 1e-6, "{}", solid::largest_gap(&body.boundary));
+            let (outline, rolled) = (&proven.outlines()[0].contour, proven.rolled().expect("a plane cam is rolled on"));
+            // Coordinates have twelve decimals and 52 bits.
+            let rounding = 2e-12 + 1e-14 * outline.extents().size().max();
+            if losses.is_empty() {
+                prop_assert!(rolled.gap_mm.abs() <= 1e3 * tolerance + rounding, "{rolled:?}");
+                prop_assert!(rolled.chord_difference_mm <= rolled.chord_sagitta_mm + rounding, "{rolled:?}");
+            } else {
+                prop_assert!(rolled.gap_mm >= -1e3 * tolerance - rounding, "no metal is in the way: {rolled:?}");
             }
-            None => {
-                let why = proven.no_outline().unwrap_or_default();
-                prop_assert!(!why.is_empty() && !why.contains("NaN"), "{why}");
-            }
+            prop_assert!(contour.area_and_centroid().0 > 0.0);
+            prop_assert!(contour.vertices.iter().all(|v| v.point.iter().all(|c| c.is_finite()) && v.bulge.is_finite()));
+        } else {
+            let why = proven.no_outline().unwrap_or_default();
+            prop_assert!(!why.is_empty() && !why.contains("NaN"), "{why}");
         }
     }
 }
