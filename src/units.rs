@@ -93,6 +93,7 @@ impl fmt::Display for Dimension {
 
 /// Why a text is not a quantity of the kind asked for.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum QuantityError {
     /// No number at the start of the text.
     #[error("`{found}` does not start with a number")]

@@ -8,8 +8,9 @@ mod program;
 
 use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::body::{KINDS, Kind, Request};
+use camgen::document::Key;
 use camgen::document::Presence::Required;
-use camgen::follower::FOLLOWERS;
+use camgen::follower::{FOLLOWERS, FollowerKind};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::{ExactOn, Solver};
 use camgen::motion::laws::LAWS;
@@ -17,7 +18,7 @@ use camgen::pipeline::{Cam, Error, Spec, Writing};
 use camgen::report::{Report, Verdict};
 use camgen::table::COLUMNS;
 use camgen::verify::{CHECKS, On};
-use camgen::write::formats::{FORMATS, When, by_name};
+use camgen::write::{FORMATS, When, by_name};
 use program::{camgen, camgen_in, files, report};
 use std::fs;
 
@@ -46,6 +47,28 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
     let cam = spec.solve().unwrap_or_else(|error| panic!("{}: {error}", kind.command));
     assert_eq!(cam.body().kind(), kind);
     cam
+}
+
+/// The lifter under every follower, each described by the keys its table asks for and no others.
+fn cams_of_followers() -> Vec<(&'static str, Cam)> {
+    let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
+    let in_degrees = head.replace(" mm", " deg");
+    let cam_of = |kind: &FollowerKind| {
+        let section = kind.section;
+        let key = |key: &Key| match key.presence {
+            Required(example) => format!("{} = {}\n", key.name, key.in_toml(example)),
+            _ => String::new(),
+        };
+        let keys: String = section.keys.iter().map(key).collect();
+        // It takes a lift in millimetres or in degrees.
+        let solved =
+            [head, &in_degrees].map(|motion| lifter(&format!("{motion}[{}]\n{keys}", section.path), &[]).solve());
+        match solved {
+            [Ok(cam), _] | [_, Ok(cam)] => (section.path, cam),
+            [Err(length), Err(angle)] => panic!("[{}]\nin millimetres: {length}\nin degrees: {angle}", section.path),
+        }
+    };
+    FOLLOWERS.iter().map(cam_of).collect()
 }
 
 /// The same cam as a user asks for it.
@@ -128,18 +151,18 @@ fn formats_are_chosen_by_what_fits() {
 fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
     let order: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
     let mut seen: Vec<&str> = Vec::new();
-    for kind in KINDS {
-        let cam = cam_of(kind, &[]);
+    let of_kinds = KINDS.iter().map(|kind| (kind.noun, cam_of(kind, &[])));
+    for (what, cam) in of_kinds.chain(cams_of_followers()) {
         let proven = cam.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
         let table = proven.table(36);
         let mut rest = order.iter();
         for column in &table.columns {
-            assert!(rest.any(|name| name == column), "{}: {column} is out of order: {:?}", kind.noun, table.columns);
+            assert!(rest.any(|name| name == column), "{what}: {column} is out of order: {:?}", table.columns);
         }
-        assert!(table.rows.len() >= 36, "{}: {} rows", kind.noun, table.rows.len());
+        assert!(table.rows.len() >= 36, "{what}: {} rows", table.rows.len());
         for row in &table.rows {
-            assert_eq!(row.len(), table.columns.len(), "{}", kind.noun);
-            assert!(row.iter().all(|cell| !cell.is_nan()), "{}: {row:?}", kind.noun);
+            assert_eq!(row.len(), table.columns.len(), "{what}");
+            assert!(row.iter().all(|cell| !cell.is_nan()), "{what}: {row:?}");
         }
         seen.extend(&table.columns);
     }
@@ -230,22 +253,11 @@ fn every_law_makes_a_cam_that_gives_it() {
 /// A follower described by what its table asks for, and nothing else, makes a cam.
 #[test]
 fn every_follower_makes_a_cam_of_its_required_keys() {
-    let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
-    for kind in FOLLOWERS {
-        let section = kind.section;
-        let key = |key: &camgen::document::Key| match key.presence {
-            Required(example) => format!("{} = {}\n", key.name, key.in_toml(example)),
-            _ => String::new(),
-        };
-        let keys: String = section.keys.iter().map(key).collect();
-        let in_degrees = head.replace(" mm", " deg");
-        let of = |motion: &str| lifter(&format!("{motion}[{}]\n{keys}", section.path), &[]).solve();
-        // It takes a lift in millimetres or in degrees.
-        let solved = [of(head), of(&in_degrees)];
-        let cam = solved.iter().find_map(|cam| cam.as_ref().ok());
-        let cam = cam.unwrap_or_else(|| panic!("[{}]: {solved:?}", section.path));
+    for (name, cam) in cams_of_followers() {
         let proven = cam.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
-        assert!(proven.passed(), "[{}]: {:?}", section.path, proven.findings());
+        assert!(proven.passed(), "{name}: {:?}", proven.findings());
+        let gap = proven.rolled().expect("a plane cam is rolled on").gap_mm;
+        assert!(gap.abs() <= 1e3 * TOLERANCE, "{name}: {gap} mm");
     }
 }
 

@@ -12,6 +12,7 @@ pub mod wedge;
 
 pub use part::{Layer, Part};
 
+use crate::follower::Element;
 use crate::machine::Machine;
 use crate::numeric::extremum;
 use crate::profile::outline::{Fit, Outline, OutlineError};
@@ -22,6 +23,7 @@ use crate::table::Row;
 use conoid::Conoid;
 use conoid::flank::{Flank, FlankError};
 use nalgebra::Vector2;
+use std::sync::OnceLock;
 
 /// A kind of body.
 #[derive(Debug, PartialEq, Eq)]
@@ -67,6 +69,7 @@ pub struct Drawn {
 
 /// Why there is no drawing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DrawError {
     /// The cam has no outline that could be cut; which limit it breaks, the checks tell.
     #[error("{0}")]
@@ -109,9 +112,6 @@ pub struct Found<'a> {
 fn flank_of<'a>(found: &Found<'a>) -> Option<&'a Flank> {
     found.drawn?.flank.as_ref()
 }
-
-/// Cells in which the largest lift of a piece is searched: a piece has two extrema at the most.
-const LIFT_CELLS: u32 = 64;
 
 /// A solved cam: what checks, drawings, tables and reports want to know, whatever its kind.
 pub trait Body: std::fmt::Debug + Send + Sync {
@@ -159,18 +159,10 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     }
 
     /// Largest |pressure angle|, rad.
-    fn pressure_angle(&self) -> Worst {
-        self.plane().map_or(Worst::NONE, |curves| plane(extremes::pressure_angle(curves)))
-    }
+    fn pressure_angle(&self) -> Worst;
 
     /// The sharpest convex place of what the follower draws: the curvature, 1/m, infinite at a corner.
-    fn sharpest(&self) -> Worst {
-        let Some(curves) = self.plane() else { return Worst::NONE };
-        match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
-            Some(corner) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
-            None => plane(extremes::convex_curvature(curves)),
-        }
-    }
+    fn sharpest(&self) -> Worst;
 
     /// Radius of the largest cutter that gets into the hollows, m; `None` where nothing is concave.
     fn hollow(&self) -> Option<Worst> {
@@ -253,6 +245,32 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError>;
 }
 
+/// Worst places of a plane cam, searched once and only when somebody asks.
+#[derive(Debug, Clone, Default)]
+struct WorstPlaces {
+    pressure_angle: OnceLock<Worst>,
+    sharpest: OnceLock<Worst>,
+}
+
+impl WorstPlaces {
+    fn pressure_angle(&self, curves: Curves<'_>) -> Worst {
+        *self.pressure_angle.get_or_init(|| plane(extremes::pressure_angle(curves)))
+    }
+
+    fn sharpest(&self, curves: Curves<'_>) -> Worst {
+        let search = || match (extremes::corners(curves).iter().find(|corner| corner.turn > 0.0), curves.element()) {
+            (Some(corner), _) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
+            (None, Element::Roller { .. }) => plane(extremes::convex_curvature(curves)),
+            (None, Element::Face) => {
+                let least = extremes::least_radius(curves);
+                let value = if least.value > 0.0 { 1.0 / least.value } else { f64::INFINITY };
+                Worst { value, at: least.at, z: 0.0 }
+            }
+        };
+        *self.sharpest.get_or_init(search)
+    }
+}
+
 /// A worst place of a plane cam.
 fn plane(found: extremum::Extremum) -> Worst {
     Worst { value: found.value, at: found.at, z: 0.0 }
@@ -261,13 +279,4 @@ fn plane(found: extremum::Extremum) -> Worst {
 /// The largest value over a motion of something without a derivative at hand.
 fn largest(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Worst {
     plane(extremes::largest_without_slope(curves, value))
-}
-
-/// Largest lift of a motion, m or rad.
-fn max_lift(curves: Curves<'_>) -> f64 {
-    let lifts = curves.motion.pieces().iter().enumerate().map(|(index, piece)| {
-        let jet = |at| curves.motion.jet(index, at);
-        extremum::largest(|at| jet(at).s, |at| jet(at).ds, (piece.start, piece.end), LIFT_CELLS).value
-    });
-    lifts.fold(0.0, f64::max)
 }

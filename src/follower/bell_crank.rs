@@ -67,7 +67,7 @@ impl Follower for BellCrank {
         Touch { curve, drive: Vector2::new(cos, -sin), drive_turn: -first }
     }
 
-    fn parameter_of(&self, centre: Vector2<f64>) -> f64 {
+    fn parameter_of(&self, centre: Vector2<f64>, _: Vector2<f64>) -> f64 {
         let up = -centre.y - self.axis_distance;
         let theta = libm::acos(libm::cos(self.delta) - up / self.roller_arm);
         centre.x - self.roller_arm * (libm::sin(theta) - libm::sin(self.delta))

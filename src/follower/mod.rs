@@ -7,9 +7,13 @@
 //! `profile` and `verify`.
 
 mod bell_crank;
+mod flat;
+mod swinging_roller;
 mod translating_roller;
 
 pub use bell_crank::BellCrank;
+pub use flat::FlatFace;
+pub use swinging_roller::SwingingRoller;
 pub use translating_roller::{Crown, RollerData, TranslatingRoller};
 
 use crate::document::Presence::Optional;
@@ -31,7 +35,7 @@ pub struct FollowerKind {
 }
 
 /// Every kind of follower: a new one is a file with its geometry and its table, and one line here.
-pub const FOLLOWERS: &[FollowerKind] = &[translating_roller::KIND];
+pub const FOLLOWERS: &[FollowerKind] = &[translating_roller::KIND, swinging_roller::KIND, flat::KIND];
 
 /// A follower as a file describes it.
 #[derive(Debug, Clone)]
@@ -81,6 +85,7 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<FollowerData> {
 
 /// What of the follower touches the cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Element {
     /// A roller of this radius, m.
     Roller {
@@ -128,8 +133,9 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
     fn touch(&self, parameter: f64, lift: &Jet) -> Touch;
 
     /// The parameter at which a point of the follower's curve (m, seen from the cam) is reached, whatever the lift: the
-    /// inverse of the curve. NaN for a point it never gets to.
-    fn parameter_of(&self, point: Vector2<f64>) -> f64;
+    /// inverse of the curve. A point tells it for a roller, the outward normal of the cam there for a face. NaN for a point it
+    /// never gets to.
+    fn parameter_of(&self, point: Vector2<f64>, outward: Vector2<f64>) -> f64;
 
     /// Smallest radius of its curve, at lift 0, about the shaft, m: the prime radius of a roller, the base radius of a face.
     /// `None` where the cam has no such radius.
@@ -142,9 +148,14 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Smallest prime radius that makes sense whatever the limits, m: what an offset roller needs to reach the cam.
-    fn least_prime_radius(&self) -> f64 {
-        0.0
+    /// The prime radii it can be made for, m: above 0, or the offset of a roller; up to infinity, or what an arm reaches.
+    fn prime_radii(&self) -> (f64, f64) {
+        (0.0, f64::INFINITY)
+    }
+
+    /// The lifts it can follow, m or rad.
+    fn reach(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
     }
 }
 
@@ -167,6 +178,7 @@ mod tests {
             Box::new(TranslatingRoller::new(0.1, 0.0, 0.02)),
             Box::new(TranslatingRoller::new(0.1, -0.03, 0.02)),
             Box::new(crank),
+            FlatFace::new(1.0).sized(0.15).expect("any size"),
         ]
     }
 
@@ -194,7 +206,7 @@ mod tests {
                 assert!((curve.tangent.perp(&turn) - curve.curvature * curve.speed).abs() < 1e-9, "{follower:?}");
                 let bend = difference(&|t| Vector2::new(t.curve.curvature, 0.0)).x;
                 assert!((bend - curve.curvature_slope * curve.speed).abs() < 1e-7 * (1.0 + bend.abs()), "{follower:?}");
-                let back = follower.parameter_of(curve.point) - angle;
+                let back = follower.parameter_of(curve.point, curve.outward()) - angle;
                 assert!((back - (back / TAU).round() * TAU).abs() < 1e-14, "{follower:?}: {back}");
                 let turn = difference(&|t| t.drive);
                 assert!((here.drive.perp(&turn) - here.drive_turn).abs() < 1e-11, "{follower:?}");

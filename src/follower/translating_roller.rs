@@ -128,7 +128,7 @@ impl Follower for TranslatingRoller {
         Touch { curve, drive: along, drive_turn: 1.0 }
     }
 
-    fn parameter_of(&self, centre: Vector2<f64>) -> f64 {
+    fn parameter_of(&self, centre: Vector2<f64>, _: Vector2<f64>) -> f64 {
         let height = ((centre.norm() - self.offset) * (centre.norm() + self.offset)).max(0.0).sqrt();
         libm::atan2(centre.y, centre.x) - libm::atan2(self.offset, height)
     }
@@ -142,7 +142,7 @@ impl Follower for TranslatingRoller {
             .then(|| Box::new(Self::new(prime_radius, self.offset, self.roller_radius)) as Box<dyn Follower>)
     }
 
-    fn least_prime_radius(&self) -> f64 {
-        self.offset.abs() * (1.0 + OFFSET_MARGIN)
+    fn prime_radii(&self) -> (f64, f64) {
+        (self.offset.abs() * (1.0 + OFFSET_MARGIN), f64::INFINITY)
     }
 }

@@ -143,7 +143,7 @@ impl Machine {
 
     fn parts(reader: &Reader<'_>, own: bool) -> Option<Self> {
         // Every part is read before the first `?`, so that each tells what is wrong between its keys.
-        let (press, motion) = (press::read(reader), program::read(reader));
+        let (press, motion) = (buffer::read(reader, bed::read(reader)), program::read(reader));
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let (follower, cam) = (follower?, cam?);
         disc::reached_by(reader, &cam, &follower);

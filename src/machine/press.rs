@@ -2,7 +2,6 @@
 
 use crate::buffer::bottom_law::{BottomLaw, Column};
 use crate::buffer::{Bed, Cylinder};
-use crate::document::Reader;
 
 /// A flat-bed press with air buffers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,11 +31,6 @@ pub struct NoPress;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("this cam needs a translating roller: give the table [follower.roller]")]
 pub struct NoRoller;
-
-/// The press of a file, when its tables stand and have no fault.
-pub(super) fn read(reader: &Reader<'_>) -> Option<Press> {
-    super::buffer::read(reader, super::bed::read(reader))
-}
 
 impl Press {
     /// The pair of cylinders, sized at the design speed.

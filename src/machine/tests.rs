@@ -1,8 +1,9 @@
 use super::*;
 use crate::body::KINDS;
 use crate::buffer::bottom_law::Column;
-use crate::document::Form;
 use crate::document::cams::{CONOID, MAKE, ROTARY, TRANSLATING};
+use crate::document::{Form, Key};
+use crate::follower::FollowerKind;
 use crate::motion::equation_18::EfficiencyModel;
 
 fn dpi(overrides: &[&str]) -> Result<Machine, MachineError> {
@@ -207,6 +208,12 @@ const OTHERS: &[(&str, &str)] = &[
     ("follower.roller.preload", "1600 N"),
     ("follower.roller.crown", "cylinder"),
     ("follower.roller.width", "20 mm"),
+    ("follower.swinging-roller.radius", "20 mm"),
+    ("follower.swinging-roller.arm", "100 mm"),
+    ("follower.swinging-roller.pivot_distance", "150 mm"),
+    ("follower.swinging-roller.side", "leading"),
+    ("follower.flat.mass", "40 kg"),
+    ("follower.flat.preload", "1600 N"),
     ("cam.cam_turns_per_crank_turn", "2"),
     ("cam.lever", "2"),
     ("cam.base_radius", "90 mm"),
@@ -252,24 +259,51 @@ fn alike(machine: Machine) -> String {
     format!("{:#?}", Machine { given: Vec::new(), ..machine })
 }
 
+/// A file of a press and a motion program, with the follower that a key belongs to, or a roller.
+fn file_for(path: &str) -> String {
+    let of = |kind: &&FollowerKind| path.strip_prefix(kind.section.path).is_some_and(|rest| rest.starts_with('.'));
+    let section = FOLLOWERS.iter().find(of).unwrap_or(&FOLLOWERS[0]).section;
+    let required = |key: &Key| match key.presence {
+        Required(example) => format!("{} = {}\n", key.name, key.in_toml(example)),
+        _ => String::new(),
+    };
+    let keys: String = section.keys.iter().map(required).collect();
+    let press = without(EMBEDDED[0].toml, "follower.roller");
+    // A cylindrical crown asks for a width.
+    let width = if section.path == "follower.roller" { "width = \"10 mm\"\n" } else { "" };
+    format!("{press}\n[cam.keyway]\nwidth = \"8 mm\"\ndepth = \"3 mm\"\n[{}]\n{keys}{width}{MOTION}", section.path)
+}
+
+/// A file without one of its tables.
+fn without(text: &str, table: &str) -> String {
+    let header = format!("[{table}]");
+    let mut inside = false;
+    let kept = text.lines().filter(|line| {
+        if line.starts_with('[') {
+            inside = line.starts_with(&header);
+        }
+        !inside
+    });
+    kept.collect::<Vec<_>>().join("\n")
+}
+
 #[test]
 fn every_key_of_the_table_reaches_the_machine() {
     let keys: Vec<String> = OTHERS.iter().map(|(key, _)| key.replace("[0]", "[]")).collect();
     assert_eq!(keys, every_key());
-    let text = format!("{}{MOTION}", EMBEDDED[0].toml);
-    let with = |sets: &[&str]| {
-        let base = ["cam.keyway.width=8mm", "cam.keyway.depth=3mm", "follower.roller.width=10mm"];
-        let sets: Vec<String> = base.iter().chain(sets).map(|&set| set.to_owned()).collect();
-        Machine::from_toml("press.toml", &text, &sets).unwrap_or_else(|error| panic!("{sets:?}: {error}"))
-    };
-    let plain = alike(with(&[]));
     for (key, value) in OTHERS {
-        let set = format!("{key}={value}");
-        // A motion ends where it starts.
-        let end = (*key == "motion.start").then_some("motion.segment[1].to=5 mm");
-        let other = with(&[&[set.as_str()][..], end.as_slice()].concat());
-        assert!(other.given().contains(&(*key).to_owned()), "{set}");
-        assert_ne!(alike(other), plain, "{set}");
+        let text = file_for(key);
+        let with = |sets: &[String]| {
+            Machine::from_toml("press.toml", &text, sets).unwrap_or_else(|error| panic!("{sets:?}: {error}"))
+        };
+        let mut sets = vec![format!("{key}={value}")];
+        if *key == "motion.start" {
+            // A motion ends where it starts.
+            sets.push("motion.segment[1].to=5 mm".into());
+        }
+        let other = with(&sets);
+        assert!(other.given().contains(&(*key).to_owned()), "{key}");
+        assert_ne!(alike(other), alike(with(&[])), "{key}");
     }
 }
 
@@ -279,8 +313,10 @@ fn every_word_of_a_key_reads() {
         for key in section.keys {
             let (Form::Words(words) | Form::WordsOrQuantity(words, ..)) = key.form else { continue };
             for word in words {
-                let set = format!("{}={word}", section.path_of(key));
-                assert!(dpi(&[&set, "follower.roller.width=10mm"]).is_ok(), "{set}");
+                let path = section.path_of(key);
+                let set = format!("{path}={word}");
+                let read = Machine::from_toml("press.toml", &file_for(&path), &[set.clone()]);
+                assert!(read.is_ok(), "{set}: {}", read.expect_err("a fault"));
             }
         }
     }
@@ -355,22 +391,33 @@ fn the_template_is_written_from_the_table() {
 
 #[test]
 fn template_and_profiles_have_every_key() {
-    let mut keys = every_key();
-    keys.sort();
-    // A profile is a press; the template has a motion program too.
-    let of_a_press: Vec<String> = keys.iter().filter(|key| !key.starts_with("motion.")).cloned().collect();
+    let keys_of = |wanted: fn(&Section) -> bool| {
+        let all = sections().into_iter().filter(|section| wanted(section));
+        let mut keys: Vec<String> =
+            all.flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect();
+        keys.sort();
+        keys
+    };
+    // A profile is a press; the template has motion programs and their followers too.
+    let (all, of_a_press) = (keys_of(|_| true), keys_of(|section| section.cams != [MAKE]));
     // Of a program the template shows one segment, which is none yet.
     let whole = ["motion.segment[0].over=360 deg".to_owned(), "motion.segment[0].to=0 mm".to_owned()];
     let template = template();
     let profiles = EMBEDDED.iter().map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
-    for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &keys, &whole[..])]) {
+    for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &all, &whole[..])]) {
         let text = with_everything(text);
         let sections: Vec<Section> = sections().iter().map(|section| Section { cams: &[], ..**section }).collect();
         let sections: Vec<&Section> = sections.iter().collect();
         let given = Reader::new(name, &text, &[], &sections).given(true);
         let given: Vec<String> = given.iter().map(|key| key.replace("[0]", "[]")).collect();
         assert_eq!(&given, keys, "{name}");
-        Machine::from_toml(name, &text, sets).unwrap_or_else(|error| panic!("{error}"));
+        // It reads with any one of its followers.
+        let stands = |kind: &&FollowerKind| text.contains(&format!("[{}]", kind.section.path));
+        for kind in FOLLOWERS.iter().filter(stands) {
+            let others = FOLLOWERS.iter().filter(|other| other.section.path != kind.section.path);
+            let text = others.fold(text.clone(), |text, other| without(&text, other.section.path));
+            Machine::from_toml(name, &text, sets).unwrap_or_else(|error| panic!("[{}]: {error}", kind.section.path));
+        }
     }
 }
 
@@ -438,14 +485,17 @@ fn a_base_radius_out_of_the_follower_s_reach_is_told_at_its_place() {
     assert!(fault.place.is_some() && fault.help.is_some(), "{error}");
 }
 
-/// Every follower has its table, and a file without one, or with a table that is none, is told which there are.
+/// Every follower has its table; a file without one is told which there are, and one with two that they are two.
 #[test]
 fn the_follower_is_one_of_the_list() {
     let told = Machine::from_toml("none.toml", "name = \"x\"\n", &[]).expect_err("no follower").to_string();
     for kind in FOLLOWERS {
-        assert!(told.contains(&format!("[{}]", kind.section.path)), "{told}");
-        assert!(sections().iter().any(|section| section.path == kind.section.path), "{}", kind.section.path);
-        let keys: Vec<&str> = kind.section.keys.iter().map(|key| key.name).collect();
-        assert!(keys.contains(&"mass") && keys.contains(&"preload"), "{}: {keys:?}", kind.section.path);
+        let path = kind.section.path;
+        assert!(told.contains(&format!("[{path}]")), "{told}");
+        assert!(sections().iter().any(|section| section.path == path), "{path}");
     }
+    let tables: String = FOLLOWERS.iter().map(|kind| format!("[{}]\n", kind.section.path)).collect();
+    let told = Machine::from_toml("all.toml", &format!("name = \"x\"\n{tables}"), &[]).expect_err("one too many");
+    let two = format!("two followers: [{}] and [{}]", FOLLOWERS[0].section.path, FOLLOWERS[1].section.path);
+    assert!(told.to_string().contains(&two), "{told}");
 }

@@ -19,6 +19,7 @@ use std::f64::consts::TAU;
 
 /// What a lift is: the travel of a translating follower or the swing of an oscillating one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Quantity {
     /// Metres.
     Length,
@@ -102,6 +103,11 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
     /// After how much the motion repeats itself: a turn, or `None` for a cam that is run over once and back.
     fn period(&self) -> Option<f64> {
         Some(TAU)
+    }
+
+    /// The position where the lift is 0, in the coordinate of whoever asked for the motion, m or rad.
+    fn origin(&self) -> Option<f64> {
+        None
     }
 
     /// First and last value of the parameter.

@@ -43,7 +43,7 @@ pub(crate) const SECTION: Section = Section {
 
 const LAW: Field<String> = Field::text(
     "law",
-    "\"dwell\" or a law between two rests: cycloidal (default), harmonic, cubic, 3-4-5, 4-5-6-7",
+    "\"dwell\" or a law between two rests: cycloidal (default), modified-sine, harmonic, cubic, 3-4-5, 4-5-6-7",
     Optional(USUAL),
 );
 const OVER: Field<f64> = Field::quantity(
@@ -141,6 +141,10 @@ impl Motion for Program {
 
     fn quantity(&self) -> Quantity {
         self.quantity
+    }
+
+    fn origin(&self) -> Option<f64> {
+        Some(self.lowest)
     }
 }
 

@@ -32,6 +32,7 @@ pub struct ReversalLaw {
 
 /// Why a motion cannot be put together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MotionError {
     /// The pieces are longer than one turn.
     #[error("reversal and transitions take {needed_deg:.3} deg of the cam, more than one turn")]

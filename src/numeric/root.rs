@@ -12,6 +12,7 @@ const MAX_STEPS: usize = 200;
 
 /// Why there is no root to return.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RootError {
     /// The function has one sign at both ends.
     #[error("no change of sign between {low} and {high}")]

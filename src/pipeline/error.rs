@@ -3,8 +3,8 @@
 use crate::body::{DrawError, SolveError};
 use crate::machine::MachineError;
 use crate::reading::ReadError;
+use crate::write::FormatError;
 use crate::write::files::FilesError;
-use crate::write::formats::FormatError;
 use crate::write::proof::ProofError;
 
 /// Why there is no cam, no drawing, no proof or no file.

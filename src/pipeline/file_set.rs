@@ -4,8 +4,8 @@ use super::{Error, Proven};
 use crate::body::Body;
 use crate::report::Report;
 use crate::write::files::{self, write_all};
-use crate::write::formats::{FORMATS, Format, When, by_name};
 use crate::write::svg;
+use crate::write::{FORMATS, Format, When, by_name};
 use std::path::{Path, PathBuf};
 
 pub use files::Output;

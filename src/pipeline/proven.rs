@@ -6,8 +6,8 @@ use crate::geometry::MILLIMETRES;
 use crate::report::{Finding, Report, Rolled, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, rolling};
+use crate::write::Rendering;
 use crate::write::dxf::Version;
-use crate::write::formats::Rendering;
 use crate::write::proof;
 
 /// A cam whose cut files were written to memory, read back, and checked.

@@ -174,7 +174,7 @@ fn loss(curves: Curves<'_>, from: f64, to: f64) -> Loss {
     let edge = profile(curves, from, Approach::Before).point;
     let lost = |parameter: f64| {
         let (piece, inside) = curves.motion.locate(parameter);
-        let contact = curves.contact(piece, inside);
+        let contact = curves.touch(piece, inside);
         let away = contact.curve.point - edge;
         match curves.element() {
             Element::Roller { radius } => {

@@ -59,9 +59,19 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
 /// Largest curvature of the follower's curve, 1/m: the sharpest convex place.
 pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
     largest(curves, |piece, angle| {
-        let pitch = curves.contact(piece, angle).curve;
+        let pitch = curves.touch(piece, angle).curve;
         (pitch.curvature, pitch.curvature_slope)
     })
+}
+
+/// Smallest radius of curvature under a face, m, signed: not positive where the profile turns back on itself.
+pub fn least_radius(curves: Curves<'_>) -> Extremum {
+    let least = largest(curves, |piece, angle| {
+        let curve = curves.touch(piece, angle).curve;
+        // ρ = 1/κ and dρ/dθ = −κ' ℓ/κ² with ℓ = ρ.
+        (-curve.speed, curve.curvature_slope * curve.speed * curve.speed * curve.speed)
+    });
+    Extremum { at: least.at, value: -least.value }
 }
 
 /// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.
@@ -69,7 +79,7 @@ pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
 /// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
 pub fn concave_profile_curvature(curves: Curves<'_>) -> Extremum {
     let pitch = largest(curves, |piece, angle| {
-        let pitch = curves.contact(piece, angle).curve;
+        let pitch = curves.touch(piece, angle).curve;
         (-pitch.curvature, -pitch.curvature_slope)
     });
     Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * curves.offset()) }
@@ -94,8 +104,8 @@ pub fn corners(curves: Curves<'_>) -> Vec<Corner> {
     let turn = |index: usize| {
         let next = (index + 1) % pieces.len();
         let (before, after) = (pieces.get(index)?, pieces.get(next)?);
-        let left = curves.contact(index, before.end).curve.tangent;
-        let right = curves.contact(next, after.start).curve.tangent;
+        let left = curves.touch(index, before.end).curve.tangent;
+        let right = curves.touch(next, after.start).curve.tangent;
         let turn = libm::atan2(left.perp(&right), left.dot(&right));
         (turn.abs() > LEAST_CORNER).then_some(Corner { at: before.end, turn })
     };

@@ -9,9 +9,10 @@ pub mod extremes;
 pub mod outline;
 pub mod size;
 
-use crate::follower::{Element, Follower};
+use crate::follower::{Element, Follower, Touch};
 use crate::geometry::CurvePoint;
-use crate::motion::{Jet, Motion};
+use crate::motion::{Jet, Motion, Piece};
+use crate::numeric::extremum;
 use nalgebra::Vector2;
 
 /// Motion and follower together: every curve of a cam.
@@ -61,6 +62,12 @@ impl Worst {
 }
 
 impl<'a> Curves<'a> {
+    /// The follower at a parameter of a piece of the motion.
+    #[must_use]
+    pub fn touch(&self, piece: usize, parameter: f64) -> Touch {
+        self.follower.touch(parameter, &self.motion.jet(piece, parameter))
+    }
+
     /// The follower's curve and the pressure angle at a parameter of a piece of the motion.
     #[must_use]
     pub fn contact(&self, piece: usize, parameter: f64) -> Contact {
@@ -80,7 +87,7 @@ impl<'a> Curves<'a> {
     /// The profile at a parameter of a piece: the parallel of the follower's curve.
     #[must_use]
     pub fn profile(&self, piece: usize, parameter: f64) -> CurvePoint {
-        self.contact(piece, parameter).curve.offset_inward(self.offset())
+        self.touch(piece, parameter).curve.offset_inward(self.offset())
     }
 
     /// How far inwards of the follower's curve the profile lies, m.
@@ -103,6 +110,22 @@ impl<'a> Curves<'a> {
     {
         Curves { motion: self.motion, follower }
     }
+}
+
+/// Cells in which the extreme lifts of a piece are searched: a piece has two extrema at the most.
+const LIFT_CELLS: u32 = 64;
+
+/// Smallest and largest lift of a motion, m or rad.
+#[must_use]
+pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
+    let of_piece = |(index, piece): (usize, &Piece)| {
+        let jet = |at| motion.jet(index, at);
+        let range = (piece.start, piece.end);
+        let top = extremum::largest(|at| jet(at).s, |at| jet(at).ds, range, LIFT_CELLS).value;
+        (-extremum::largest(|at| -jet(at).s, |at| -jet(at).ds, range, LIFT_CELLS).value, top)
+    };
+    let all = motion.pieces().iter().enumerate().map(of_piece);
+    all.fold((f64::INFINITY, 0.0), |(low, high), (least, top)| (low.min(least), high.max(top)))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The smallest prime radius that keeps every limit, solved.
 
-use super::{Curves, extremes};
-use crate::follower::Follower;
+use super::{Curves, extremes, lifts};
+use crate::follower::{Element, Follower};
 use crate::machine::{CamData, Limits};
 use crate::motion::Motion;
 use crate::numeric::root;
@@ -26,11 +26,13 @@ impl Required {
     #[must_use]
     pub fn of(limits: &Limits, cam: &CamData, follower: &dyn Follower) -> Self {
         let offset = follower.element().offset();
-        let least_base = cam.bore_reach().map_or(BASE_STEP, |reach| reach + limits.wall);
+        // Where no wall is asked for there must be some all the same.
+        let wall = if limits.wall > 0.0 { limits.wall } else { BASE_STEP };
+        let least_base = cam.bore_reach().map_or(BASE_STEP, |reach| reach + wall);
         Self {
             pressure_angle: limits.pressure_angle,
             convex_radius: limits.min_convex_pitch_radius_over_roller.max(1.0) * offset,
-            least: (least_base + offset).max(follower.least_prime_radius()),
+            least: (least_base + offset).max(follower.prime_radii().0),
         }
     }
 }
@@ -46,6 +48,11 @@ pub fn rounded_up(base_radius: f64) -> f64 {
 /// Doublings from the least radius before giving up: 1 µm to 1e9 m.
 const DOUBLINGS: u32 = 50;
 
+/// Growth from one radius to the next under a follower whose reach is limited: what passes may lie between two that do not.
+const STEP_IN_REACH: f64 = 1.01;
+/// As many of these as doublings would be: 1.01 to the 3500 is 2 to the 50.
+const STEPS_IN_REACH: u32 = 3500;
+
 /// Rounds of solving each limit in turn. A limit may be broken anew by the radius another one asked for only where it
 /// is not monotone in the radius; each round then starts above the last.
 const ROUNDS: u32 = 8;
@@ -54,6 +61,12 @@ const ROUNDS: u32 = 8;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("no base radius keeps the limits")]
 pub struct NoRadius;
+
+/// The largest lift that a follower of limited reach has to follow, m or rad; any other follows what comes.
+#[must_use]
+pub fn largest_lift_in_reach(motion: &dyn Motion, follower: &dyn Follower) -> f64 {
+    if follower.reach().1.is_finite() { lifts(motion).1 } else { 0.0 }
+}
 
 /// The smallest prime radius (m) at which the disc made by the follower keeps every limit.
 ///
@@ -66,18 +79,26 @@ pub fn smallest_prime_radius(
     follower: &dyn Follower,
     required: &Required,
 ) -> Result<f64, NoRadius> {
+    let top = largest_lift_in_reach(motion, follower);
     // Out of reach is no pass.
     let at = |radius: f64, excess: &dyn Fn(Curves<'_>) -> f64| {
-        follower.sized(radius).map_or(f64::NAN, |follower| excess(Curves { motion, follower: &*follower }))
+        let follower = follower.sized(radius).filter(|follower| top <= follower.reach().1);
+        follower.map_or(f64::NAN, |follower| excess(Curves { motion, follower: &*follower }))
     };
     let pressure = |radius: f64| at(radius, &|curves| extremes::pressure_angle(curves).value - required.pressure_angle);
-    let curvature =
-        |radius: f64| at(radius, &|curves| extremes::convex_curvature(curves).value * required.convex_radius - 1.0);
+    let curvature = |radius: f64| {
+        at(radius, &|curves| match curves.element() {
+            Element::Roller { .. } => extremes::convex_curvature(curves).value * required.convex_radius - 1.0,
+            // The profile under a face must not turn back on itself.
+            Element::Face => -extremes::least_radius(curves).value / radius,
+        })
+    };
     let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
+    let largest = follower.prime_radii().1;
     let mut radius = required.least;
     for _ in 0..ROUNDS {
         for limit in limits {
-            radius = first_at_or_above(radius, limit)?;
+            radius = first_at_or_above(radius, largest, limit)?;
         }
         if limits.iter().all(|limit| limit(radius) <= 0.0) {
             return Ok(radius);
@@ -87,14 +108,19 @@ pub fn smallest_prime_radius(
 }
 
 /// The first radius from `low` on at which `excess` is not positive.
-fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
+fn first_at_or_above(low: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
     // A NaN is no pass: it says that the curve does not exist at this radius.
     if excess(low) <= 0.0 {
         return Ok(low);
     }
-    let (mut failing, mut passing) = (low, 2.0 * low);
-    for _ in 0..DOUBLINGS {
+    let (growth, steps) = if largest.is_finite() { (STEP_IN_REACH, STEPS_IN_REACH) } else { (2.0, DOUBLINGS) };
+    let (mut failing, mut passing) = (low, growth * low);
+    for _ in 0..steps {
         if excess(passing) <= 0.0 {
+            // Where the radius before is out of reach there is no sign to bracket: this one is the first known to pass.
+            if excess(failing).is_nan() {
+                return Ok(passing);
+            }
             let mut radius = root::bracketed(&excess, failing, passing, 0.0).map_err(|_| NoRadius)?;
             // The root is known to an ulp; stand on the side that passes.
             while excess(radius) > 0.0 && radius < passing {
@@ -102,7 +128,7 @@ fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRad
             }
             return Ok(radius);
         }
-        (failing, passing) = (passing, 2.0 * passing);
+        (failing, passing) = (passing, growth * passing);
     }
     Err(NoRadius)
 }

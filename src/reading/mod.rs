@@ -52,6 +52,7 @@ pub struct Reading {
 
 /// Why a file is not read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// It does not end as a DXF file ends.
     #[error("not a whole DXF file: it does not end with EOF")]
@@ -139,38 +140,9 @@ impl Raw {
             self.unreadable.push("an entity that does not lie in the plane of the drawing".into());
             return;
         }
-        let mut segments = match &entity.specific {
-            EntityType::LwPolyline(line) => {
-                let vertices = line.vertices.iter().map(|v| (v.x, v.y, v.bulge));
-                mirrored(chain(vertices, line.is_closed()), line.extrusion_direction.z)
-            }
-            EntityType::Polyline(line) => {
-                let vertices = line.vertices().map(|v| (v.location.x, v.location.y, v.bulge));
-                mirrored(chain(vertices, line.is_closed()), line.normal.z)
-            }
-            EntityType::Line(line) => {
-                vec![Segment {
-                    start: Vector2::new(line.p1.x, line.p1.y),
-                    end: Vector2::new(line.p2.x, line.p2.y),
-                    bulge: 0.0,
-                }]
-            }
-            EntityType::Arc(arc) => {
-                let centre = Vector2::new(arc.center.x, arc.center.y);
-                let sweep = (arc.end_angle - arc.start_angle).rem_euclid(360.0).to_radians();
-                let on = |degrees: f64| {
-                    let angle = degrees.to_radians();
-                    centre + Vector2::new(libm::cos(angle), libm::sin(angle)) * arc.radius
-                };
-                let segment =
-                    Segment { start: on(arc.start_angle), end: on(arc.end_angle), bulge: libm::tan(0.25 * sweep) };
-                mirrored(vec![segment], arc.normal.z)
-            }
-            EntityType::Circle(circle) => {
-                let centre = Vector2::new(circle.center.x, circle.center.y);
-                mirrored(Contour::circle(centre, circle.radius).segments().collect(), circle.normal.z)
-            }
-            EntityType::Spline(line) => {
+        let mut segments = match (exact(&entity.specific), &entity.specific) {
+            (Some(segments), _) => segments,
+            (None, EntityType::Spline(line)) => {
                 let Some(segments) = spline::chords(line) else {
                     self.unreadable.push("SPLINE without control points".into());
                     return;
@@ -179,7 +151,7 @@ impl Raw {
                 segments
             }
             // Text and points cut nothing, but on the layer of the outline they are a surprise.
-            other => {
+            (None, other) => {
                 let name = format!("{other:?}");
                 let kind: String = name.chars().take_while(char::is_ascii_alphanumeric).collect();
                 self.unreadable.push(kind.to_uppercase());
@@ -195,6 +167,43 @@ impl Raw {
         }
         self.pieces.push(segments);
     }
+}
+
+/// The segments of an entity that is made of arcs and lines; `None` of any other.
+fn exact(entity: &EntityType) -> Option<Vec<Segment>> {
+    Some(match entity {
+        EntityType::LwPolyline(line) => {
+            let vertices = line.vertices.iter().map(|v| (v.x, v.y, v.bulge));
+            mirrored(chain(vertices, line.is_closed()), line.extrusion_direction.z)
+        }
+        EntityType::Polyline(line) => {
+            let vertices = line.vertices().map(|v| (v.location.x, v.location.y, v.bulge));
+            mirrored(chain(vertices, line.is_closed()), line.normal.z)
+        }
+        EntityType::Line(line) => {
+            vec![Segment {
+                start: Vector2::new(line.p1.x, line.p1.y),
+                end: Vector2::new(line.p2.x, line.p2.y),
+                bulge: 0.0,
+            }]
+        }
+        EntityType::Arc(arc) => {
+            let centre = Vector2::new(arc.center.x, arc.center.y);
+            let sweep = (arc.end_angle - arc.start_angle).rem_euclid(360.0).to_radians();
+            let on = |degrees: f64| {
+                let angle = degrees.to_radians();
+                centre + Vector2::new(libm::cos(angle), libm::sin(angle)) * arc.radius
+            };
+            let segment =
+                Segment { start: on(arc.start_angle), end: on(arc.end_angle), bulge: libm::tan(0.25 * sweep) };
+            mirrored(vec![segment], arc.normal.z)
+        }
+        EntityType::Circle(circle) => {
+            let centre = Vector2::new(circle.center.x, circle.center.y);
+            mirrored(Contour::circle(centre, circle.radius).segments().collect(), circle.normal.z)
+        }
+        _ => return None,
+    })
 }
 
 fn chain(vertices: impl Iterator<Item = (f64, f64, f64)>, closed: bool) -> Vec<Segment> {

@@ -51,45 +51,14 @@ pub fn chart(title: &str, x_name: &str, y_name: &str, points: &[Point]) -> Sheet
     let share = |value: f64, (low, high): (f64, f64)| (libm::log10(value) - low) / (high - low);
     let at = |p: &Point| Vector2::new(FIELD.x * share(p.x, x), FIELD.y * share(p.y, y));
     let pen = Pen { text: TEXT };
-    let mut grid = Vec::new();
-    for (range, along) in [(x, true), (y, false)] {
-        let mut decade = range.0;
-        while decade <= range.1 {
-            let place = (decade - range.0) / (range.1 - range.0);
-            let name = format!("{:e}", libm::pow(10.0, decade));
-            if along {
-                let across = FIELD.x * place;
-                grid.push(Shape::Line(Vector2::new(across, 0.0), Vector2::new(across, FIELD.y)));
-                grid.push(pen.middle(Vector2::new(across, -1.5 * TEXT), name));
-            } else {
-                let up = FIELD.y * place;
-                grid.push(Shape::Line(Vector2::new(0.0, up), Vector2::new(FIELD.x, up)));
-                let place = Vector2::new(-0.5 * TEXT, up - 0.35 * TEXT);
-                grid.push(Shape::Text { at: place, height: TEXT, anchor: TextAnchor::End, text: name });
-            }
-            decade += 1.0;
-        }
-    }
+    let grid = grid(&pen, x, y);
     let dot = |p: &Point| Shape::Entity(Entity::Polyline(Contour::circle(at(p), POINT)));
     let mut best: Vec<&Point> = shown.iter().copied().filter(|p| p.best).collect();
     best.sort_by(|a, b| a.x.total_cmp(&b.x).then(b.y.total_cmp(&a.y)));
     let mut front: Vec<Shape> = best.iter().map(|p| dot(p)).collect();
     front.push(Shape::Path(best.iter().map(|p| at(p)).collect()));
     let others = shown.iter().filter(|p| !p.best).map(|p| dot(p)).collect();
-    // Of points that lie on each other the first is named.
-    let mut named: Vec<Vector2<f64>> = Vec::new();
-    let mut labels = Vec::new();
-    for p in &shown {
-        let near = |other: &Vector2<f64>| (other.y - at(p).y).abs() < TEXT && (other.x - at(p).x).abs() < LABEL;
-        if named.iter().any(near) {
-            continue;
-        }
-        named.push(at(p));
-        let right = at(p).x < 0.7 * FIELD.x;
-        let (step, anchor) = if right { (1.0, TextAnchor::Start) } else { (-1.0, TextAnchor::End) };
-        let place = at(p) + Vector2::new(step * 1.8 * POINT, 0.3 * TEXT);
-        labels.push(Shape::Text { at: place, height: 0.8 * TEXT, anchor, text: p.label.clone() });
-    }
+    let labels = labels(&shown, at);
     let words = vec![
         pen.words(0.0, FIELD.y + 2.0 * TEXT, title),
         pen.middle(Vector2::new(0.5 * FIELD.x, -3.5 * TEXT), x_name),
@@ -110,4 +79,47 @@ pub fn chart(title: &str, x_name: &str, y_name: &str, points: &[Point]) -> Sheet
             Group::new("facts", "names", words),
         ],
     }
+}
+
+/// The lines of the decades with their names.
+fn grid(pen: &Pen, x: (f64, f64), y: (f64, f64)) -> Vec<Shape> {
+    let mut grid = Vec::new();
+    for (range, along) in [(x, true), (y, false)] {
+        let mut decade = range.0;
+        while decade <= range.1 {
+            let place = (decade - range.0) / (range.1 - range.0);
+            let name = format!("{:e}", libm::pow(10.0, decade));
+            if along {
+                let across = FIELD.x * place;
+                grid.push(Shape::Line(Vector2::new(across, 0.0), Vector2::new(across, FIELD.y)));
+                grid.push(pen.middle(Vector2::new(across, -1.5 * TEXT), name));
+            } else {
+                let up = FIELD.y * place;
+                grid.push(Shape::Line(Vector2::new(0.0, up), Vector2::new(FIELD.x, up)));
+                let place = Vector2::new(-0.5 * TEXT, up - 0.35 * TEXT);
+                grid.push(Shape::Text { at: place, height: TEXT, anchor: TextAnchor::End, text: name });
+            }
+            decade += 1.0;
+        }
+    }
+    grid
+}
+
+/// The names of the points.
+fn labels(shown: &[&Point], at: impl Fn(&Point) -> Vector2<f64>) -> Vec<Shape> {
+    // Of points that lie on each other the first is named.
+    let mut named: Vec<Vector2<f64>> = Vec::new();
+    let mut labels = Vec::new();
+    for p in shown {
+        let near = |other: &Vector2<f64>| (other.y - at(p).y).abs() < TEXT && (other.x - at(p).x).abs() < LABEL;
+        if named.iter().any(near) {
+            continue;
+        }
+        named.push(at(p));
+        let right = at(p).x < 0.7 * FIELD.x;
+        let (step, anchor) = if right { (1.0, TextAnchor::Start) } else { (-1.0, TextAnchor::End) };
+        let place = at(p) + Vector2::new(step * 1.8 * POINT, 0.3 * TEXT);
+        labels.push(Shape::Text { at: place, height: 0.8 * TEXT, anchor, text: p.label.clone() });
+    }
+    labels
 }

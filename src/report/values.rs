@@ -28,7 +28,12 @@ pub struct CamMeasures {
     pub base_radius_mm: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub roller_radius_mm: Option<f64>,
-    pub max_lift_mm: f64,
+    /// Of a follower on a straight path.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_lift_mm: Option<f64>,
+    /// Of a swinging follower.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_lift_deg: Option<f64>,
     /// The smallest prime radius that keeps every limit, before rounding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub smallest_prime_radius_mm: Option<f64>,
@@ -84,31 +89,38 @@ impl CamMeasures {
             ),
             (None, base) => format!("base radius {} mm{of}", rounded(base.unwrap_or(f64::NAN))),
         }];
-        figures.push(format!("lift {:.3} mm", self.max_lift_mm));
+        figures.push(self.lift());
         figures.extend(self.weight.mass_kg.map(|mass| format!("mass {mass:.2} kg")));
         Section::new("cam", self).with_words(words).with_figures(figures)
+    }
+
+    fn lift(&self) -> String {
+        match (self.max_lift_mm, self.max_lift_deg) {
+            (_, Some(degrees)) => format!("lift {degrees:.3}°"),
+            (lift, None) => format!("lift {:.3} mm", lift.unwrap_or(f64::NAN)),
+        }
     }
 
     fn size(&self) -> String {
         let roller = self.roller_radius_mm.map_or(String::new(), |radius| format!(", roller {} mm", shown(radius)));
         if let Some(plate) = &self.plate {
             return format!(
-                "plate {:.2} × {} mm, {:.3} mm where it is thinnest (x = {:.2} mm){roller}, lift {:.3} mm",
+                "plate {:.2} × {} mm, {:.3} mm where it is thinnest (x = {:.2} mm){roller}, {}",
                 plate.length_mm,
                 shown(plate.height_mm),
                 plate.thinnest_mm,
                 plate.thinnest_at_x_mm,
-                self.max_lift_mm
+                self.lift()
             );
         }
         let smallest = self
             .smallest_prime_radius_mm
             .map_or_else(|| "no radius keeps the limits".into(), |radius| format!("smallest possible {radius:.3} mm"));
         format!(
-            "base radius {} mm{roller}, prime radius {} mm ({smallest}), lift {:.3} mm",
+            "base radius {} mm{roller}, prime radius {} mm ({smallest}), {}",
             shown(self.base_radius_mm.unwrap_or(f64::NAN)),
             shown(self.prime_radius_mm.unwrap_or(f64::NAN)),
-            self.max_lift_mm
+            self.lift()
         )
     }
 }

@@ -11,8 +11,12 @@ use nalgebra::{Vector2, Vector3};
 pub struct Row {
     /// Cam angle.
     pub cam_deg: Option<f64>,
-    /// Lift in metres or radians, of a cam that turns.
+    /// Position that a motion program asks for, metres or radians.
+    pub position: Option<f64>,
+    /// Lift in metres, of a cam that turns.
     pub lift: Option<Jet>,
+    /// Lift in radians, of a cam under a swinging follower.
+    pub swing: Option<Jet>,
     /// Bed, bottom and crank of a press.
     pub bed: Option<BedRow>,
     /// A point of the follower's curve.
@@ -104,8 +108,14 @@ pub const COLUMNS: &[Column] = &[
     ("dx_mm", |row| Some(row.bed?.dx)),
     ("psi_deg", |row| Some(row.plate?.psi_deg)),
     ("alpha_deg", |row| Some(row.plate?.alpha_deg)),
+    ("position_mm", |row| row.lift.and(row.position).map(|position| 1e3 * position)),
+    ("position_deg", |row| row.swing.and(row.position).map(f64::to_degrees)),
     // Rounding about the lowest point is no lift below it.
     ("lift_mm", |row| Some(1e3 * row.lift?.s.max(0.0))),
+    ("lift_deg", |row| Some(row.swing?.s.max(0.0).to_degrees())),
+    ("velocity_rad_per_rad", |row| Some(row.swing?.ds)),
+    ("acceleration_rad_per_rad2", |row| Some(row.swing?.dds)),
+    ("jerk_rad_per_rad3", |row| Some(row.swing?.ddds)),
     ("velocity_mm_per_rad", |row| Some(1e3 * row.lift?.ds)),
     ("acceleration_mm_per_rad2", |row| Some(1e3 * row.lift?.dds)),
     ("jerk_mm_per_rad3", |row| Some(1e3 * row.lift?.ddds)),
@@ -169,7 +179,9 @@ mod tests {
     fn a_cam_has_every_column_once() {
         let turning = Row {
             cam_deg: Some(1.0),
+            position: Some(1.0),
             lift: Some(Jet::default()),
+            swing: None,
             bed: Some(BedRow { crank_deg: Some(1.0), ..BedRow::default() }),
             curve: Some(Vector2::zeros()),
             profile: Some(Vector2::zeros()),
@@ -181,8 +193,9 @@ mod tests {
             surface: Some(SurfaceRow::default()),
         };
         let plate = Row { force: None, plate: Some(PlateRow::default()), ..turning };
+        let swinging = Row { lift: None, swing: Some(Jet::default()), ..turning };
         let mut all: Vec<&str> = Vec::new();
-        for row in [turning, plate] {
+        for row in [turning, plate, swinging] {
             let columns = Table::of(&[row]).columns;
             let mut names = columns.clone();
             names.sort_unstable();

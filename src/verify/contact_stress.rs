@@ -14,8 +14,11 @@ pub(super) const CHECK: Check = Check {
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let Some(worst) = body.contact_stress() else {
+        let cam = &body.machine().cam;
         let needs = if body.spatial().is_some() {
             "cam.material is not given"
+        } else if cam.thickness.is_some() && cam.material.is_some() {
+            "no force on the follower is told"
         } else {
             "cam.thickness and cam.material are not both given"
         };

@@ -8,11 +8,11 @@
 
 use super::{Check, Evidence, On, sphere};
 use crate::body::Body;
-use crate::follower::Element;
+use crate::follower::{Element, Touch};
 use crate::geometry::contour::Contour;
 use crate::geometry::track::{Chords, Track};
 use crate::numeric::extremum;
-use crate::profile::{Contact, Curves};
+use crate::profile::Curves;
 use crate::report::{Finding, Place, Rolled, Verdict};
 use nalgebra::Vector2;
 
@@ -68,14 +68,14 @@ struct Roll<'a> {
 
 impl Roll<'_> {
     /// Where the law wants the follower.
-    fn contact(&self, parameter: f64) -> Contact {
+    fn contact(&self, parameter: f64) -> Touch {
         let (piece, inside) = self.curves.motion.locate(parameter);
-        self.curves.contact(piece, inside)
+        self.curves.touch(piece, inside)
     }
 
     /// Gap between the outline and the element with the point of its curve at a place (mm), and the outward normal where they
     /// are nearest.
-    fn clearance(&self, contact: &Contact, centre: Vector2<f64>) -> Option<(f64, Vector2<f64>)> {
+    fn clearance(&self, contact: &Touch, centre: Vector2<f64>) -> Option<(f64, Vector2<f64>)> {
         match self.curves.element() {
             Element::Roller { .. } => {
                 let nearest = self.track.nearest(centre)?;
@@ -95,7 +95,7 @@ impl Roll<'_> {
     }
 
     /// How far along its path the roller stands from where the law wants it, mm.
-    fn lift_error(&self, contact: &Contact) -> Option<f64> {
+    fn lift_error(&self, contact: &Touch) -> Option<f64> {
         let (centre, drive) = (contact.curve.point * 1e3, contact.drive);
         let mut moved = 0.0;
         for _ in 0..TOUCH_STEPS {
@@ -114,7 +114,7 @@ impl Roll<'_> {
 
     fn sample(&self, parameter: f64) -> Sample {
         let (piece, inside) = self.curves.motion.locate(parameter);
-        let contact = self.curves.contact(piece, inside);
+        let contact = self.curves.touch(piece, inside);
         let clearance = self.clearance(&contact, contact.curve.point * 1e3);
         let (gap, normal) = clearance.unwrap_or((f64::INFINITY, contact.drive));
         let lift_error = self.lift_error(&contact);
@@ -137,8 +137,8 @@ impl Roll<'_> {
                 #[expect(clippy::cast_precision_loss, reason = "at most eight")]
                 let share = step as f64 / count as f64;
                 let (point, tangent) = segment.at(share);
-                let centre = point + Vector2::new(tangent.y, -tangent.x) * self.radius;
-                self.curves.follower.parameter_of(centre * 1e-3)
+                let outward = Vector2::new(tangent.y, -tangent.x);
+                self.curves.follower.parameter_of((point + outward * self.radius) * 1e-3, outward)
             })
         });
         let inside = |parameter: f64| match period {

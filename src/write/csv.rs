@@ -1,7 +1,7 @@
 //! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted.
 
-use super::formats::{Format, When, fits_all};
 use super::number::shortest;
+use super::{Format, When, fits_all};
 use crate::table::Table;
 
 /// The point table.

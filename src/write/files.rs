@@ -20,6 +20,7 @@ pub struct Output {
 
 /// Why nothing was written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum FilesError {
     /// The directory cannot be made.
     #[error("cannot make the directory `{}`: {source}; choose another with --out", path.display())]

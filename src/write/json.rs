@@ -1,6 +1,6 @@
 //! The report as JSON.
 
-use super::formats::{Format, When, fits_all};
+use super::{Format, When, fits_all};
 use serde::Serialize;
 
 /// The report.

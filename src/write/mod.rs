@@ -1,12 +1,97 @@
 //! Drawing to bytes, bytes to files. Writers only format: no trigonometry, no offsets, no clock.
+//!
+//! One table of formats, walked for every kind of cam: a new format is one file and one line in [`FORMATS`].
 
 pub mod csv;
 pub mod dxf;
 pub mod files;
-pub mod formats;
 pub mod json;
 pub mod number;
 pub mod proof;
 pub mod step;
 pub mod stl;
 pub mod svg;
+
+use crate::body::{Body, Drawn};
+use crate::geometry::solid::SolidError;
+use crate::profile::outline::OutlineError;
+use crate::report::Report;
+
+/// A proven cam as the formats see it.
+#[derive(Clone, Copy)]
+pub struct Rendering<'a> {
+    /// The solved cam.
+    pub body: &'a dyn Body,
+    /// Its drawing.
+    pub drawn: &'a Drawn,
+    /// The cut files, written and proved, one for each part of the drawing.
+    pub cut_files: &'a [Vec<u8>],
+    /// Version of the cut files.
+    pub dxf_version: dxf::Version,
+    /// Its report, the names of the files in it.
+    pub report: &'a Report,
+    /// Rows of the table over a turn or a stroke.
+    pub samples: u32,
+    /// The sheet the preview is put into.
+    pub template: &'a str,
+}
+
+/// Why a format could not be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FormatError {
+    /// The preview has a curve that cannot be drawn.
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
+    /// The template is not one.
+    #[error(transparent)]
+    Template(#[from] svg::TemplateError),
+    /// The solid is not one.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// The report could not be serialised.
+    #[error(transparent)]
+    Json(#[from] serde_json::Error),
+}
+
+/// When a format is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum When {
+    /// When nothing is asked for, and when it is.
+    Usual,
+    /// When it is asked for.
+    Asked,
+    /// Whenever the drawing has something for it; it cannot be asked for by name.
+    Drawn,
+}
+
+/// A format: what it is called, which cams it fits, and its files. Each computes only what it shows.
+#[derive(Debug)]
+pub struct Format {
+    /// The name it is asked for by.
+    pub name: &'static str,
+    /// When it is written.
+    pub when: When,
+    /// Whether it shows the flank of a body whose sections differ, which then has to be drawn.
+    pub flank: bool,
+    /// Why a cam cannot have it, if so.
+    pub unfit: fn(&dyn Body) -> Option<&'static str>,
+    /// What its files add to the stem of their names; none where the drawing has nothing for it.
+    pub endings: fn(&Drawn) -> Vec<String>,
+    /// The files, in the same order.
+    pub write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
+}
+
+/// Every format, in the order in which files are told.
+pub const FORMATS: &[Format] =
+    &[dxf::FORMAT, svg::FORMAT, step::FORMAT, csv::FORMAT, json::FORMAT, stl::FORMAT, dxf::CUTTER_PATH];
+
+/// The formats that can be asked for.
+pub fn by_name() -> impl Iterator<Item = &'static Format> {
+    FORMATS.iter().filter(|format| format.when != When::Drawn)
+}
+
+/// Any cam.
+fn fits_all(_: &dyn Body) -> Option<&'static str> {
+    None
+}

@@ -19,6 +19,7 @@ pub struct Written {
 
 /// The bytes do not hold the outline that was put in: a fault of camgen.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProofError {
     /// The file cannot be read.
     #[error("the DXF file as written cannot be read back: {0}")]

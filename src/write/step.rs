@@ -3,8 +3,8 @@
 //! truck-stepio numbers and writes topology and geometry; its frame is not used, because its product has no name, its
 //! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is ours.
 
-use super::formats::{Format, FormatError, Rendering, When};
 use super::number::shortest;
+use super::{Format, FormatError, Rendering, When};
 use crate::geometry::solid::{Boundary, Curve, FaceSurface, Solid, SolidError, SplineCurve, SplineSurface, conical};
 use std::fmt::{Formatter, Result};
 use truck_modeling::{Point3, Vector3};

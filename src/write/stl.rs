@@ -1,6 +1,6 @@
 //! The conoid as a binary STL file in millimetres, for a first print: triangles on the exact surface.
 
-use super::formats::{Format, When};
+use super::{Format, When};
 use crate::body::conoid::flank::Flank;
 use crate::body::conoid::mesh::Mesh;
 use crate::geometry::MILLIMETRES;

@@ -1,8 +1,8 @@
 //! The review sheet as SVG at true size: one user unit is a millimetre, arcs are arcs, y is flipped once, in the
 //! coordinates.
 
-use super::formats::{Format, When, fits_all};
 use super::number::plain;
+use super::{Format, When, fits_all};
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Segment};
 use crate::report::sheet::{Group, Shape, Sheet, TextAnchor};
@@ -29,6 +29,7 @@ const LONGEST_SWEEP: f64 = 3.0;
 
 /// Why a template cannot be filled in.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TemplateError {
     /// The drawing has no place in it.
     #[error("the template has no {{{{drawing}}}}: nothing would be drawn")]

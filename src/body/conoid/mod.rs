@@ -14,6 +14,7 @@
 
 pub mod between;
 pub mod flank;
+mod implementation;
 pub mod mesh;
 mod report;
 mod sheet;
@@ -22,26 +23,17 @@ mod worst;
 
 pub use surface::SpatialContact;
 
-use super::part::{Part, point_as_turned};
-use super::{Body, DrawError, Drawn, Found, Kind, Request, stress};
+use super::Kind;
 use crate::buffer::Cylinder;
 use crate::buffer::bottom_law::{BottomLaw, Column, column_for};
 use crate::follower::{Follower, TranslatingRoller};
-use crate::geometry::contour::Vertex;
-use crate::geometry::{CurvePoint, MILLIMETRES};
-use crate::machine::{ConoidData, ConoidMode, Machine, NoPress, NoRoller, Press, RollerData, Rotation, Shift};
+use crate::machine::{ConoidData, ConoidMode, Machine, NoPress, NoRoller, Press, RollerData, Shift};
 use crate::motion::{Jet, Motion, MotionError, Piece, Reversal, ReversalLaw};
 use crate::numeric::spline::Spline;
-use crate::profile::outline::{self, Fit, Outline, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, rounded_up};
-use crate::profile::{Curves, Worst, extremes};
-use crate::report::sheet::Sheet;
-use crate::report::{Report, Section, Speeds};
-use crate::table::{BedRow, ForceRow, Row, SurfaceRow, crank_degrees};
+use crate::profile::{Curves, Worst};
 use between::Residual;
-use nalgebra::Vector2;
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
 /// The cam for many speeds.
@@ -106,6 +98,7 @@ struct Searched {
 
 /// Why there is no conoid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ConoidError {
     /// The machine file does not describe one.
     #[error("the machine file has no [conoid] table: a conoid needs axial_travel, mode and shift")]
@@ -211,17 +204,7 @@ impl Conoid {
     pub fn unsized_of(machine: &Machine, speeds: &[f64]) -> Result<Self, ConoidError> {
         let data = machine.conoid.ok_or(ConoidError::NotDescribed)?;
         let (press, roller) = (*machine.press()?, *machine.roller()?);
-        let mut speeds = speeds.to_vec();
-        speeds.sort_by(f64::total_cmp);
-        let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else { return Err(ConoidError::NoSpeed) };
-        if speeds.len() == 1 {
-            speeds.push(first);
-        }
-        if first < last
-            && let Some([rpm, _]) = speeds.windows(2).find(|pair| matches!(pair, [a, b] if a == b))
-        {
-            return Err(ConoidError::Twice { rpm: *rpm });
-        }
+        let speeds = sorted(speeds)?;
         let law = |rpm: &f64| {
             Reversal::new(ReversalLaw {
                 bottom_law: bottom_law_at(&press, &data, *rpm),
@@ -232,20 +215,7 @@ impl Conoid {
         };
         let sections: Result<Vec<Reversal>, MotionError> = speeds.iter().map(law).collect();
         let sections = sections?;
-        let positions = if first < last {
-            speeds.iter().map(|rpm| position(&data, (first, last), *rpm)).collect()
-        } else {
-            // Equal speeds: a prism, its sections evenly spaced.
-            #[expect(clippy::cast_precision_loss, reason = "a few sections")]
-            let place = |index: usize| data.axial_travel * index as f64 / (speeds.len() - 1) as f64;
-            (0..speeds.len()).map(place).collect::<Vec<f64>>()
-        };
-        let pairs = positions.iter().zip(positions.iter().skip(1)).zip(speeds.iter().zip(speeds.iter().skip(1)));
-        for ((a, b), (first, second)) in pairs {
-            if b - a < LEAST_DISTANCE * data.axial_travel {
-                return Err(ConoidError::TooNear { first: *first, second: *second, apart_mm: 1e3 * (b - a) });
-            }
-        }
+        let positions = positions(&data, &speeds)?;
         let unit = |index: usize| {
             let values: Vec<f64> = (0..speeds.len()).map(|other| f64::from(u8::from(other == index))).collect();
             Spline::not_a_knot(&positions, &values)
@@ -444,239 +414,6 @@ impl Conoid {
     pub fn left_between(&self) -> Residual {
         *self.found.between.get_or_init(|| between::residual(self, Interpolation::Smooth))
     }
-
-    /// The cut at z (m) as an outline, of a clockwise cam.
-    fn section(&self, z: f64, fit: Fit) -> Result<Outline, OutlineError> {
-        let (shift, tolerance) = fit.band();
-        let nowhere = Vector2::new(f64::NAN, f64::NAN);
-        let broken = CurvePoint {
-            point: nowhere,
-            tangent: nowhere,
-            speed: f64::NAN,
-            curvature: f64::NAN,
-            curvature_slope: f64::NAN,
-        };
-        let frame = |piece: usize, angle: f64| {
-            self.cut(piece, angle, z).map_or(broken, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
-        };
-        let pieces = self.pieces();
-        if let Some(corner) = extremes::corners(self.plane_of(&self.slice(z))).first() {
-            return Err(OutlineError::Corner { cam_deg: corner.at.to_degrees() });
-        }
-        outline::fits_a_drawing(pieces, frame)?;
-        let first = pieces.iter().position(|piece| piece.dwell).unwrap_or(0);
-        let mut outline = Outline::empty();
-        for (index, piece) in pieces.iter().enumerate().cycle().skip(first).take(pieces.len()) {
-            // A dwell that does not lean along the axis is a circle; one that does is nearly one.
-            let round = piece.dwell && self.lift(index, piece.start, z)[0][1] == 0.0;
-            for range in outline::parts(&Piece { dwell: round, ..*piece }, &[], Some(TAU)) {
-                if round {
-                    let bulge = libm::tan(0.25 * (range.1 - range.0));
-                    outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
-                } else {
-                    outline.lay(|angle| frame(index, angle), range, tolerance)?;
-                }
-            }
-        }
-        Ok(outline.from_exact(shift))
-    }
-
-    fn draw_parts(&self, fit: Fit) -> Result<Vec<Part>, OutlineError> {
-        let part = |(rpm, z, _): &(f64, f64, &Reversal)| {
-            let part = Part::turning(&self.machine, self.section(*z, fit)?);
-            Ok(Part { rpm: Some(*rpm), z: *z, ..part })
-        };
-        self.cuts().par_iter().map(part).collect()
-    }
-
-    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), plane: Curves<'_>, cam_deg: f64) -> Row {
-        let (piece, angle) = section.locate(cam_deg.to_radians());
-        let (state, lift) = (section.state(piece, angle), self.lift(piece, angle, z));
-        let contact = self.contact(piece, angle, z);
-        let in_plane = plane.contact(piece, angle);
-        let cut = self.cut(piece, angle, z).map(|(frame, _)| frame);
-        let force = self.path_force(section, rpm, piece, angle);
-        let turned = |point: Vector2<f64>| point_as_turned(&self.machine, point * MILLIMETRES);
-        let touch = turned(contact.point.xy());
-        let nowhere = Vector2::new(f64::NAN, f64::NAN);
-        Row {
-            cam_deg: Some(cam_deg),
-            lift: Some(Jet { s: lift[0][0], ds: lift[1][0], dds: lift[2][0], ddds: lift[3][0] }),
-            bed: Some(BedRow {
-                crank_deg: Some(crank_degrees(cam_deg, self.machine.cam.turns_per_crank_turn)),
-                x: MILLIMETRES * state.overrun,
-                dx: MILLIMETRES * state.displacement,
-            }),
-            curve: Some(turned(contact.centre.xy())),
-            profile: Some(cut.map_or(nowhere, |frame| turned(frame.point))),
-            pressure_angle_deg: Some(in_plane.pressure_angle.to_degrees()),
-            curve_radius: Some(MILLIMETRES / in_plane.curve.curvature),
-            profile_radius: Some(cut.map_or(f64::NAN, |frame| MILLIMETRES / frame.curvature)),
-            force: Some(ForceRow { path: force, torque: force * lift[1][0], contact: None }),
-            plate: None,
-            surface: Some(SurfaceRow {
-                z: MILLIMETRES * z,
-                rpm,
-                lift_per_z: lift[0][1],
-                contact: nalgebra::Vector3::new(touch.x, touch.y, MILLIMETRES * contact.point.z),
-                axial_angle_deg: libm::asin(-contact.normal.z).to_degrees(),
-                principal_radius: MILLIMETRES / self.principal_curvatures(piece, angle, z).0,
-                axial_force: -force * lift[0][1],
-            }),
-        }
-    }
-}
-
-impl Body for Conoid {
-    fn kind(&self) -> &'static Kind {
-        &KIND
-    }
-
-    fn machine(&self) -> &Machine {
-        &self.machine
-    }
-
-    fn speeds(&self) -> Speeds {
-        Speeds::Several(self.cuts().iter().map(|(rpm, ..)| *rpm).collect())
-    }
-
-    fn plane(&self) -> Option<Curves<'_>> {
-        None
-    }
-
-    fn spatial(&self) -> Option<&Conoid> {
-        Some(self)
-    }
-
-    fn along_axis(&self, z: f64) -> Option<String> {
-        (self.speeds.first() != self.speeds.last()).then(|| format!("at z = {:.3} mm", MILLIMETRES * z))
-    }
-
-    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
-        libm::atan2(point_as_turned(&self.machine, point).y, point.x)
-    }
-
-    fn mirrored(&self) -> &'static [bool] {
-        match self.machine.cam.rotation {
-            Rotation::Clockwise => &[false],
-            Rotation::CounterClockwise => &[true],
-        }
-    }
-
-    /// The angle between the roller's path and the normal of the section, over every slice.
-    fn pressure_angle(&self) -> Worst {
-        let in_slice = |z: &f64| {
-            let worst = extremes::pressure_angle(self.plane_of(&self.slice(*z)));
-            Worst { value: worst.value, at: worst.at, z: *z }
-        };
-        let all: Vec<Worst> = self.slices().par_iter().map(in_slice).collect();
-        all.into_iter().fold(Worst::NONE, Worst::or_larger)
-    }
-
-    /// By the principal curvatures of the pitch surface.
-    fn sharpest(&self) -> Worst {
-        let corner = |z: &f64| {
-            let corners = extremes::corners(self.plane_of(&self.slice(*z)));
-            corners.iter().find(|c| c.turn > 0.0).map(|c| Worst { value: f64::INFINITY, at: c.at, z: *z })
-        };
-        self.positions.iter().find_map(corner).unwrap_or_else(|| self.sharpest_smooth())
-    }
-
-    /// The largest ball that gets into the hollows of the cam's surface.
-    fn hollow(&self) -> Option<Worst> {
-        let hollow = self.worst_of_metal(|conoid, piece, angle, z| -conoid.principal_curvatures(piece, angle, z).1);
-        (hollow.value > 0.0).then(|| Worst { value: 1.0 / hollow.value + self.roller.radius, ..hollow })
-    }
-
-    fn lost_motion(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    fn roller_radius(&self) -> Option<f64> {
-        Some(self.roller.radius)
-    }
-
-    /// Metal between the bore and the nearest place of the surface.
-    fn wall(&self) -> Option<(f64, Option<Worst>)> {
-        let bore = self.machine.cam.bore_reach()?;
-        let nearest = self.smallest_radius();
-        Some((nearest.value - bore, Some(nearest)))
-    }
-
-    fn contact_force(&self, _: usize, _: f64) -> Option<f64> {
-        None
-    }
-
-    /// Of the sphere of the roller on the surface, at the speed of each section.
-    fn contact_stress(&self) -> Option<Worst> {
-        let material = self.machine.cam.material?;
-        let radius = self.roller.radius;
-        Some(self.worst_of_sections(|section, rpm, z, piece, angle| {
-            let contact = self.contact(piece, angle, z);
-            let path = contact.normal.x * libm::cos(angle) + contact.normal.y * libm::sin(angle);
-            let force = self.path_force(section, rpm, piece, angle).max(0.0) / path;
-            // The cam's own surface lies a roller's radius inside the pitch surface.
-            let (first, second) = self.principal_curvatures(piece, angle, z);
-            let inside = |curvature: f64| curvature / (1.0 - curvature * radius);
-            stress::of_sphere(force, radius, (inside(first), inside(second)), material)
-        }))
-    }
-
-    fn least_closing_force(&self) -> Option<Worst> {
-        let follower = &self.machine.follower;
-        if follower.mass.is_none() && follower.preload.is_none() {
-            return None;
-        }
-        let least =
-            self.worst_of_sections(|section, rpm, _, piece, angle| -self.path_force(section, rpm, piece, angle));
-        Some(Worst { value: -least.value, ..least })
-    }
-
-    fn unbalanced(&self, _: usize, _: f64, _: f64, _: Vector2<f64>) -> f64 {
-        0.0
-    }
-
-    fn remedy(&self) -> Option<String> {
-        let base = self.smallest_prime_radius? - self.roller.radius;
-        Some(format!("a base radius of {} mm would pass", (MILLIMETRES * base - 1e-3).ceil()))
-    }
-
-    fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
-        let parts = self.draw_parts(request.fit).map_err(|error| match error {
-            OutlineError::Fit(_) | OutlineError::Undercut(_)
-                if self.sharpest_smooth().value * self.roller.radius >= 1.0 =>
-            {
-                DrawError::NoOutline("the surface folds over itself where the roller is larger than it".to_owned())
-            }
-            other => DrawError::Outline(other),
-        })?;
-        let tolerance = MILLIMETRES * request.fit.tolerance;
-        let flank = request.flank.then(|| flank::flank(self, tolerance)).transpose()?;
-        Ok(Drawn { parts, flank, cutter_path: None })
-    }
-
-    fn height(&self) -> Option<(f64, f64)> {
-        let (low, high) = self.ends();
-        Some((MILLIMETRES * low, MILLIMETRES * high))
-    }
-
-    /// `samples` rows for each speed, at 360 i/samples degrees.
-    fn rows(&self, samples: u32) -> Vec<Row> {
-        let rows = |cut: &(f64, f64, &Reversal)| -> Vec<Row> {
-            let slice = self.slice(cut.1);
-            let plane = self.plane_of(&slice);
-            (0..samples).map(|i| self.row(*cut, plane, 360.0 * f64::from(i) / f64::from(samples))).collect()
-        };
-        self.cuts().par_iter().flat_map(rows).collect()
-    }
-
-    fn sections(&self, found: &Found<'_>) -> Vec<Section> {
-        report::sections(self, found)
-    }
-
-    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
-        Ok(sheet::sheet(self, drawn, report))
-    }
 }
 
 /// The law in one plane across the axis.
@@ -700,6 +437,40 @@ impl Motion for Slice<'_> {
             ddds: sum.ddds + weight * lift.ddds,
         })
     }
+}
+
+/// The speeds in their order; a single one makes a prism of two equal sections.
+fn sorted(speeds: &[f64]) -> Result<Vec<f64>, ConoidError> {
+    let mut speeds = speeds.to_vec();
+    speeds.sort_by(f64::total_cmp);
+    let (Some(&first), Some(&last)) = (speeds.first(), speeds.last()) else { return Err(ConoidError::NoSpeed) };
+    if speeds.len() == 1 {
+        speeds.push(first);
+    }
+    match speeds.windows(2).find(|pair| matches!(pair, [a, b] if a == b)) {
+        Some([rpm, _]) if first < last => Err(ConoidError::Twice { rpm: *rpm }),
+        _ => Ok(speeds),
+    }
+}
+
+/// Places of the sections along the axis, m.
+fn positions(data: &ConoidData, speeds: &[f64]) -> Result<Vec<f64>, ConoidError> {
+    let (first, last) = (speeds.first().copied().unwrap_or(0.0), speeds.last().copied().unwrap_or(0.0));
+    let positions = if first < last {
+        speeds.iter().map(|rpm| position(data, (first, last), *rpm)).collect()
+    } else {
+        // Equal speeds: a prism, its sections evenly spaced.
+        #[expect(clippy::cast_precision_loss, reason = "a few sections")]
+        let place = |index: usize| data.axial_travel * index as f64 / (speeds.len() - 1) as f64;
+        (0..speeds.len()).map(place).collect::<Vec<f64>>()
+    };
+    let pairs = positions.iter().zip(positions.iter().skip(1)).zip(speeds.iter().zip(speeds.iter().skip(1)));
+    for ((a, b), (first, second)) in pairs {
+        if b - a < LEAST_DISTANCE * data.axial_travel {
+            return Err(ConoidError::TooNear { first: *first, second: *second, apart_mm: 1e3 * (b - a) });
+        }
+    }
+    Ok(positions)
 }
 
 /// z(n) between the slowest and the fastest speed.

@@ -3,15 +3,15 @@
 mod sheet;
 
 use super::part::{Part, point_as_turned};
-use super::{Body, DrawError, Drawn, Found, Kind, Request, largest, max_lift, stress};
+use super::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, largest, stress};
 use crate::follower::{Element, Follower};
 use crate::geometry::MILLIMETRES;
 use crate::load::{AirBuffer, Load};
 use crate::machine::{Machine, NoPress, Press, Rotation};
-use crate::motion::{Motion, MotionError, Reversal, ReversalLaw};
+use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, rounded_up};
-use crate::profile::{Curves, Worst};
+use crate::profile::{Curves, Worst, lifts};
 use crate::report::sheet::Sheet;
 use crate::report::{CamMeasures, Forces, Report, Section, Speeds};
 use crate::table::{BedRow, ForceRow, Row, crank_degrees};
@@ -37,10 +37,12 @@ pub struct Disc {
     load: Option<Arc<dyn Load>>,
     /// Smallest prime radius that keeps every limit, m; `None` when none does.
     smallest_prime_radius: Option<f64>,
+    worst: WorstPlaces,
 }
 
 /// Why there is no disc cam.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum DiscError {
     /// The machine file describes no press.
     #[error(transparent)]
@@ -52,7 +54,9 @@ pub enum DiscError {
     #[error("{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, or give cam.base_radius")]
     Size(#[from] NoRadius),
     /// The follower does not reach the cam.
-    #[error("the follower does not reach a cam of base radius {base_radius_mm} mm; give a larger cam.base_radius")]
+    #[error(
+        "the follower does not reach every lift on a cam of base radius {base_radius_mm} mm; give another cam.base_radius, or a longer arm"
+    )]
     OutOfReach {
         /// The base radius, mm.
         base_radius_mm: f64,
@@ -110,6 +114,7 @@ impl Disc {
             motion,
             load: None,
             smallest_prime_radius: None,
+            worst: WorstPlaces::default(),
         }
     }
 
@@ -130,7 +135,8 @@ impl Disc {
             Some(base) => base,
             None => rounded_up(smallest? - offset),
         };
-        let sized = self.follower.sized(base + offset);
+        let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
+        let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
         self.follower = sized.ok_or(DiscError::OutOfReach { base_radius_mm: MILLIMETRES * base })?.into();
         self.smallest_prime_radius = smallest.ok();
         Ok(self)
@@ -169,7 +175,7 @@ impl Disc {
     /// Largest lift, m or rad.
     #[must_use]
     pub fn max_lift(&self) -> f64 {
-        max_lift(self.curves())
+        lifts(&*self.motion).1
     }
 
     /// Force between follower and cam along the follower's path, N: the load's and, where they are given, preload and the
@@ -229,7 +235,9 @@ impl Disc {
         });
         Row {
             cam_deg: Some(cam_deg),
-            lift: Some(contact.lift),
+            lift: (self.motion.quantity() == Quantity::Length).then_some(contact.lift),
+            swing: (self.motion.quantity() == Quantity::Angle).then_some(contact.lift),
+            position: self.motion.origin().map(|origin| origin + contact.lift.s),
             bed,
             curve: Some(point_as_turned(&self.machine, contact.curve.point * MILLIMETRES)),
             profile: Some(point_as_turned(&self.machine, profile.point * MILLIMETRES)),
@@ -272,6 +280,14 @@ impl Body for Disc {
             Rotation::Clockwise => &[false],
             Rotation::CounterClockwise => &[true],
         }
+    }
+
+    fn pressure_angle(&self) -> Worst {
+        self.worst.pressure_angle(self.curves())
+    }
+
+    fn sharpest(&self) -> Worst {
+        self.worst.sharpest(self.curves())
     }
 
     fn roller_radius(&self) -> Option<f64> {
@@ -333,11 +349,13 @@ impl Body for Disc {
 
     fn sections(&self, found: &Found<'_>) -> Vec<Section> {
         let part = found.drawn.and_then(|drawn| drawn.parts.first());
+        let lift = |quantity, unit: f64| (self.motion.quantity() == quantity).then(|| unit * self.max_lift());
         let cam = CamMeasures {
             prime_radius_mm: Some(MILLIMETRES * self.prime_radius()),
             base_radius_mm: Some(MILLIMETRES * self.base_radius()),
             roller_radius_mm: self.roller_radius().map(|radius| MILLIMETRES * radius),
-            max_lift_mm: MILLIMETRES * self.max_lift(),
+            max_lift_mm: lift(Quantity::Length, MILLIMETRES),
+            max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
             smallest_prime_radius_mm: self.smallest_prime_radius.map(|radius| MILLIMETRES * radius),
             plate: None,
             weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),

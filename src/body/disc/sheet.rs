@@ -6,7 +6,6 @@ use crate::body::{Body, Drawn};
 use crate::geometry::contour::{Contour, Extents};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Rotation;
-use crate::profile::extremes;
 use crate::profile::outline::{OutlineError, pitch};
 use crate::report::Report;
 use crate::report::sheet::{Group, PATH_OVER_RADIUS, Pen, Shape, Sheet, TEXT_OVER_WIDTH, roller, rounded, with_facts};
@@ -71,7 +70,7 @@ fn circle_with_name(pen: &Pen, radius: f64, above: f64, name: &str) -> Vec<Shape
 /// The roller where the pressure angle is worst, with its path and the normal of the cam.
 fn worst_roller(pen: &Pen, disc: &Disc, drawn: &Extents) -> Vec<Shape> {
     let curves = disc.curves();
-    let worst = extremes::pressure_angle(curves);
+    let worst = disc.pressure_angle();
     let (piece, angle) = curves.motion.locate(worst.at);
     let contact = curves.contact(piece, angle);
     let turned = |vector| point_as_turned(&disc.machine, vector);

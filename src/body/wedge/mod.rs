@@ -1,27 +1,16 @@
 //! The wedge cam of the press (a linear cam): the plate that rides on the bed, for a speed.
 
+mod implementation;
 mod sheet;
 
-use super::part::Part;
-use super::{Body, DrawError, Drawn, Found, Kind, Request, largest, stress};
+use super::{Kind, WorstPlaces, largest};
 use crate::buffer::Cylinder;
 use crate::follower::BellCrank;
-use crate::geometry::MILLIMETRES;
-use crate::geometry::contour::{Contour, Segment, Vertex};
-use crate::load::air_law;
 use crate::machine::{Machine, NoPress, TranslatingData};
-use crate::motion::equation_18::{
-    BottomMotion, EfficiencyModel, ExactOn, Mechanism, Solver, Trend, Way, WedgeMotionError,
-};
+use crate::motion::equation_18::{ExactOn, Mechanism, Solver, Way, WedgeMotionError};
 use crate::motion::{Motion, WedgeMotion};
 use crate::numeric::extremum;
-use crate::profile::outline::{self, Fit, Outline, OutlineError};
-use crate::profile::{Curves, Worst, envelope};
-use crate::report::sheet::Sheet;
-use crate::report::{
-    AirLaw, Break, CamMeasures, Equation18, Forces, Place, PlateMeasures, Report, ResidualByWay, Section, Speeds,
-};
-use crate::table::{BedRow, PlateRow, Row};
+use crate::profile::Curves;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -62,10 +51,12 @@ pub struct Wedge {
     thinnest: f64,
     /// Where it is thinnest, overrun in m.
     thinnest_at: f64,
+    worst: WorstPlaces,
 }
 
 /// Why there is no plate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum WedgeError {
     /// The machine file does not describe one.
     #[error("the machine file has no [translating] table: a plate needs roller_arm, bottom_arm and delta")]
@@ -124,6 +115,7 @@ impl Wedge {
             height: 0.0,
             thinnest: 0.0,
             thinnest_at: 0.0,
+            worst: WorstPlaces::default(),
         };
         plate.place_axis();
         Ok(plate)
@@ -274,287 +266,6 @@ impl Wedge {
         let air = if x > 0.0 { self.mechanism().air(x, bottom.s) } else { 0.0 };
         let by_air = 0.5 * self.cylinder.unit_force() * air * self.mechanism().arm_ratio * cosine;
         by_air + follower.preload.unwrap_or(0.0) + inertia
-    }
-
-    /// The plate as an outline: lower flank, straight run-out, end, the upper flank as its mirror image, other end.
-    fn outline(&self, fit: Fit) -> Result<Outline, OutlineError> {
-        let (shift, half) = fit.band();
-        if !(self.thinnest > 0.0) {
-            return Err(OutlineError::Thin {
-                thinnest_mm: MILLIMETRES * self.thinnest,
-                x_mm: MILLIMETRES * self.thinnest_at,
-                least_mm: MILLIMETRES * (self.height - self.thinnest),
-            });
-        }
-        let curves = self.curves();
-        let distance = curves.offset() + shift;
-        let flank = outline::parallel(curves, distance, half, &envelope::losses(curves)?)?.from_exact(shift);
-        let mut lower = flank.contour.vertices;
-        let last = self.motion.pieces().len().saturating_sub(1);
-        let contact = curves.contact(last, self.stroke()).curve;
-        let end = contact.offset_inward(distance).point * MILLIMETRES;
-        let run_out = self.run_out() * MILLIMETRES - contact.outward() * (MILLIMETRES * shift);
-        lower.extend([end, run_out].map(|point| Vertex { point, bulge: 0.0 }));
-        // Mirrored and run the other way a segment keeps its bulge, which then belongs to its other end.
-        let bulges = lower.iter().map(|vertex| vertex.bulge);
-        let bulges: Vec<f64> = std::iter::once(0.0).chain(bulges).collect();
-        let mirror =
-            |(vertex, bulge): (&Vertex, f64)| Vertex { point: Vector2::new(vertex.point.x, -vertex.point.y), bulge };
-        let upper: Vec<Vertex> = lower.iter().zip(bulges).rev().map(mirror).collect();
-        lower.extend(upper);
-        Ok(Outline {
-            contour: Contour { vertices: lower },
-            deviation: flank.deviation,
-            best_possible: 2.0 * flank.best_possible,
-        })
-    }
-
-    /// The pitch curve of the lower flank, for the eye.
-    fn pitch_curve(&self) -> Result<Vec<Segment>, OutlineError> {
-        let mut vertices = outline::pitch(self.curves())?.contour.vertices;
-        let last = self.motion.pieces().len().saturating_sub(1);
-        let end = self.curves().contact(last, self.stroke()).curve.point * MILLIMETRES;
-        vertices.push(Vertex { point: end, bulge: 0.0 });
-        let pairs = vertices.iter().zip(vertices.iter().skip(1));
-        Ok(pairs.map(|(a, b)| Segment { start: a.point, end: b.point, bulge: a.bulge }).collect())
-    }
-
-    fn law(&self) -> AirLaw {
-        let mechanism = self.mechanism();
-        AirLaw {
-            start_slope: self.motion.motion().at(0.0, false)[1],
-            velocity_jump_mm_per_rad: MILLIMETRES * self.stroke() * self.motion.slope_jump(),
-            equation_18: Some(self.solved()),
-            ..air_law(&self.cylinder, &mechanism.bottom_law, self.largest_displacement())
-        }
-    }
-
-    fn solved(&self) -> Equation18 {
-        let motion = self.motion.motion();
-        let (solver, tolerance_mm, stations) = match self.solver {
-            Solver::Ode { tolerance } => ("ode", Some(MILLIMETRES * tolerance), None),
-            Solver::Paper { stations } => ("paper", None, Some(stations)),
-        };
-        let then = |trend: Trend| match trend {
-            Trend::Rising => "rising",
-            Trend::Falling => "falling",
-            Trend::Stuck => "stuck",
-        };
-        let model = match self.mechanism().model {
-            EfficiencyModel::Consistent => "consistent",
-            EfficiencyModel::Printed => "printed",
-        };
-        let exact_on = match self.mechanism().exact_on {
-            ExactOn::Braking => "braking",
-            ExactOn::Return => "return",
-            ExactOn::Mean => "mean",
-        };
-        Equation18 {
-            solver: solver.into(),
-            tolerance_mm,
-            stations,
-            steps: match motion {
-                BottomMotion::Ode(solution) => Some(solution.steps()),
-                BottomMotion::Paper(_) => None,
-            },
-            efficiency_model: model.into(),
-            balance: exact_on.into(),
-            breaks: motion
-                .breaks()
-                .iter()
-                .map(|b| Break { x_mm: MILLIMETRES * b.x, then: then(b.then).into() })
-                .collect(),
-        }
-    }
-
-    fn forces(&self, rolled: Option<f64>) -> Forces {
-        let ((braking, _), (back, back_at)) = (self.residual_max(Way::Braking), self.residual_max(Way::Return));
-        let inertia = self.inertia_max();
-        let of_law = if self.balanced_ways() == [Way::Return] { back } else { braking };
-        let residual_max_n = rolled.unwrap_or(of_law);
-        Forces {
-            inertia_max_n: inertia,
-            residual_max_n,
-            residual_share: residual_max_n / inertia,
-            residual_fixed_bottom_max_n: self.residual_fixed_bottom(),
-            by_way: Some(ResidualByWay {
-                residual_braking_max_n: braking,
-                residual_braking_share: braking / inertia,
-                residual_return_max_n: back,
-                residual_return_share: back / inertia,
-                residual_return_at_x_mm: MILLIMETRES * back_at,
-            }),
-            roller_force_max_n: self.roller_force_max(),
-            torque_max_nm: None,
-        }
-    }
-
-    /// A place of the stroke in millimetres, as a row of the table; points of the upper flank.
-    fn row(&self, x_mm: f64) -> Row {
-        let (piece, x) = self.motion.locate(x_mm / MILLIMETRES);
-        let bottom = self.motion.bottom(piece, x);
-        let contact = self.curves().contact(piece, x);
-        let profile = contact.curve.offset_inward(self.data.roller_radius);
-        let upper = |point: Vector2<f64>| Vector2::new(MILLIMETRES * point.x, -MILLIMETRES * point.y);
-        Row {
-            bed: Some(BedRow { crank_deg: None, x: x_mm, dx: MILLIMETRES * bottom.s }),
-            curve: Some(upper(contact.curve.point)),
-            profile: Some(upper(profile.point)),
-            pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
-            curve_radius: Some(MILLIMETRES / contact.curve.curvature),
-            profile_radius: Some(MILLIMETRES / profile.curvature),
-            plate: Some(PlateRow {
-                psi_deg: self.mechanism().psi(bottom.s).to_degrees(),
-                alpha_deg: self.mechanism().slope_angle(bottom.s, bottom.ds).to_degrees(),
-                slope: bottom.ds,
-                roller_force: self.roller_force(piece, x, Way::Braking),
-                residual_return: self.residual(piece, x, Way::Return),
-                residual_braking: self.residual(piece, x, Way::Braking),
-            }),
-            ..Row::default()
-        }
-    }
-}
-
-impl Body for Wedge {
-    fn kind(&self) -> &'static Kind {
-        &KIND
-    }
-
-    fn machine(&self) -> &Machine {
-        &self.machine
-    }
-
-    fn speeds(&self) -> Speeds {
-        Speeds::One(self.rpm)
-    }
-
-    fn plane(&self) -> Option<Curves<'_>> {
-        Some(self.curves())
-    }
-
-    fn place(&self, x: f64) -> Place {
-        Place::at_overrun(x)
-    }
-
-    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
-        point.x
-    }
-
-    fn ends_at(&self, point: Vector2<f64>) -> bool {
-        point.x < self.start().x + END_WIDTH || point.x > self.run_out().x - END_WIDTH
-    }
-
-    fn mirrored(&self) -> &'static [bool] {
-        &[false, true]
-    }
-
-    fn roller_radius(&self) -> Option<f64> {
-        Some(self.data.roller_radius)
-    }
-
-    fn contact_force(&self, piece: usize, x: f64) -> Option<f64> {
-        Some(self.normal_force(piece, x))
-    }
-
-    fn contact_stress(&self) -> Option<Worst> {
-        stress::of_lines(self, self.curves(), &self.machine)
-    }
-
-    fn least_closing_force(&self) -> Option<Worst> {
-        let follower = &self.machine.follower;
-        if follower.mass.is_none() && follower.preload.is_none() {
-            return None;
-        }
-        let least = largest(self.curves(), |piece, x| -self.path_force(piece, x));
-        Some(Worst { value: -least.value, ..least })
-    }
-
-    /// On the ways that were to balance. The roller moves on its arm l1, the bottom on l2; the slope is the flank's where
-    /// the roller touches, dΔx/dx = C σ with tan α of the normal.
-    fn unbalanced(&self, piece: usize, x: f64, moved: f64, normal: Vector2<f64>) -> f64 {
-        if x <= 0.0 {
-            return 0.0;
-        }
-        let law = self.motion.bottom(piece, x);
-        let mechanism = self.mechanism();
-        let sine = law.s / self.data.bottom_arm;
-        let bottom = law.s + moved * mechanism.arm_ratio * ((1.0 - sine) * (1.0 + sine)).sqrt();
-        let theta = self.data.delta + mechanism.psi(bottom);
-        // Out of the lower flank the normal is (−sin α, −cos α).
-        let (sin_alpha, cos_alpha) = (-normal.x, -normal.y);
-        let beyond = libm::sin(theta) * cos_alpha - libm::cos(theta) * sin_alpha;
-        let sigma = sin_alpha / beyond;
-        let cos_psi = libm::cos(theta - self.data.delta);
-        let (side, slope) = (self.motion.trend(piece, x), mechanism.arm_ratio * cos_psi * sigma);
-        let of = |way: &Way| (self.cylinder.unit_force() * mechanism.residual_on(side, x, bottom, slope, *way)).abs();
-        self.balanced_ways().iter().map(of).fold(0.0, f64::max)
-    }
-
-    fn wall(&self) -> Option<(f64, Option<Worst>)> {
-        Some((self.thinnest, None))
-    }
-
-    fn roller_clearance(&self) -> Option<Worst> {
-        let away = |piece: usize, x: f64| self.curves().contact(piece, x).curve.point.y;
-        let nearest = largest(self.curves(), away);
-        Some(Worst { value: 2.0 * (-nearest.value - self.data.roller_radius), ..nearest })
-    }
-
-    fn edges(&self) -> Vec<[Vector2<f64>; 2]> {
-        let (start, run_out) = (self.start(), self.run_out());
-        let end = self.curves().profile(self.motion.pieces().len().saturating_sub(1), self.stroke()).point;
-        let mirror = |p: Vector2<f64>| Vector2::new(p.x, -p.y);
-        vec![[start, mirror(start)], [run_out, mirror(run_out)], [end, run_out], [mirror(end), mirror(run_out)]]
-    }
-
-    fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
-        let outline = self.outline(request.fit).map_err(|error| match error {
-            OutlineError::Undercut(_) | OutlineError::Thin { .. } => DrawError::NoOutline(error.to_string()),
-            other => DrawError::Outline(other),
-        })?;
-        Ok(Drawn { parts: vec![Part::solid_plate(outline)], flank: None, cutter_path: None })
-    }
-
-    /// `samples` + 1 rows over the overrun, at x = r i/samples with both ends.
-    fn rows(&self, samples: u32) -> Vec<Row> {
-        let place = |i: u32| MILLIMETRES * self.stroke() * (f64::from(i) / f64::from(samples));
-        (0..=samples).map(|i| self.row(place(i))).collect()
-    }
-
-    fn sections(&self, found: &Found<'_>) -> Vec<Section> {
-        let part = found.drawn.and_then(|drawn| drawn.parts.first());
-        let plate = PlateMeasures {
-            length_mm: MILLIMETRES * (self.run_out().x - self.start().x),
-            height_mm: MILLIMETRES * self.height,
-            thinnest_mm: MILLIMETRES * self.thinnest,
-            thinnest_at_x_mm: MILLIMETRES * self.thinnest_at,
-            axis_distance_mm: MILLIMETRES * self.follower.axis_distance,
-        };
-        let mut weight = part.map(|part| part.weight(&self.machine)).unwrap_or_default();
-        // A plate does not turn.
-        weight.unbalance_g_mm = None;
-        let cam = CamMeasures {
-            roller_radius_mm: Some(MILLIMETRES * self.data.roller_radius),
-            max_lift_mm: MILLIMETRES * self.max_lift(),
-            plate: Some(plate),
-            weight,
-            ..CamMeasures::default()
-        };
-        // The corners of a plate's ends are meant.
-        let outline =
-            part.map(|part| part.measures(found.tolerance_mm, |point| self.ends_at(point / MILLIMETRES)).section());
-        vec![
-            cam.section(),
-            self.law().section(),
-            outline.unwrap_or_else(|| Section::new("outline", &())),
-            Section::new("rolling", &found.rolled),
-            self.forces(found.rolled.map(|rolled| rolled.residual_max_n)).section(),
-        ]
-    }
-
-    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
-        sheet::sheet(self, drawn, report)
     }
 }
 

@@ -1,11 +1,10 @@
 //! The review sheet of a cam plate.
 
 use super::Wedge;
-use crate::body::Drawn;
+use crate::body::{Body, Drawn};
 use crate::geometry::contour::{Extents, Segment};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::motion::Motion;
-use crate::profile::extremes;
 use crate::profile::outline::OutlineError;
 use crate::report::Report;
 use crate::report::sheet::{
@@ -61,7 +60,7 @@ fn axes(pen: &Pen, plate: &Wedge, drawn: &Extents) -> Vec<Shape> {
 /// The rollers of both flanks where the pressure angle is worst, with path and normal.
 fn rollers(pen: &Pen, plate: &Wedge, drawn: &Extents) -> Vec<Shape> {
     let curves = plate.curves();
-    let worst = extremes::pressure_angle(curves);
+    let worst = plate.pressure_angle();
     let (piece, x) = curves.motion.locate(worst.at);
     let contact = curves.contact(piece, x);
     let drive = contact.drive;

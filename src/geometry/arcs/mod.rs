@@ -80,6 +80,7 @@ pub struct Chain {
 
 /// Why a piece cannot be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FitError {
     /// The curve is not finite or turns back.
     #[error("the curve is not smooth near parameter {parameter}")]

@@ -90,6 +90,7 @@ pub struct Solid {
 
 /// Why a solid is not one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SolidError {
     /// truck's check of the topology.
     #[error("the solid is not closed: {0}; please report this")]

@@ -38,6 +38,7 @@ const CELLS: u32 = 32;
 
 /// Why there is no law.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum WedgeMotionError {
     /// (18) has no answer.
     #[error(transparent)]

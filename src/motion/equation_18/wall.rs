@@ -2,6 +2,7 @@
 
 /// A place no plate gets past.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Wall {
     /// No slope to start with.
     #[error(

@@ -74,6 +74,7 @@ pub struct Outline {
 
 /// Why there is no outline.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutlineError {
     /// The profile folds over itself beyond repair.
     #[error(transparent)]
@@ -208,7 +209,7 @@ pub(crate) fn parallel(
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
     let frame = |piece: usize, angle: f64| -> CurvePoint {
-        curves.contact(piece, angle).curve.offset_inward(distance).scaled(MILLIMETRES)
+        curves.touch(piece, angle).curve.offset_inward(distance).scaled(MILLIMETRES)
     };
     fits_a_drawing(pieces, frame)?;
     let corners = extremes::corners(curves);

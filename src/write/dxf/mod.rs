@@ -8,8 +8,8 @@ mod objects;
 mod tables;
 mod tags;
 
-use super::formats::{Format, When, fits_all};
 use super::number::shortest;
+use super::{Format, When, fits_all};
 use crate::body::{Layer, Part};
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Extents};
@@ -47,6 +47,7 @@ pub const CUTTER_PATH: Format = Format {
 
 /// Version of a DXF file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Version {
     /// AC1009.
     R12,

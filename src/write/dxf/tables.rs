@@ -7,25 +7,7 @@ use nalgebra::Vector2;
 
 pub(super) fn tables(tags: &mut Tags, layers: &[Layer], extents: &Extents) {
     tags.table("VPORT", handle::VIEWPORTS, 1, |tags| viewport(tags, extents));
-    let linetypes: &[(&str, u32, &str)] = if tags.modern() {
-        &[
-            ("ByBlock", handle::LINETYPE_BY_BLOCK, ""),
-            ("ByLayer", handle::LINETYPE_BY_LAYER, ""),
-            ("Continuous", handle::LINETYPE_CONTINUOUS, "Solid line"),
-        ]
-    } else {
-        &[("CONTINUOUS", handle::LINETYPE_CONTINUOUS, "Solid line")]
-    };
-    tags.table("LTYPE", handle::LINETYPES, linetypes.len(), |tags| {
-        for (name, own, description) in linetypes {
-            tags.named("LTYPE", *own, handle::LINETYPES, "AcDbLinetypeTableRecord", name);
-            tags.integer(70, 0);
-            tags.text(3, description);
-            tags.integer(72, 65);
-            tags.integer(73, 0);
-            tags.real(40, 0.0);
-        }
-    });
+    linetypes(tags);
     tags.table("LAYER", handle::LAYERS, layers.len() + 1, |tags| {
         layer_record(tags, handle::LAYER_ZERO, "0", 7);
         for layer in layers {
@@ -38,18 +20,7 @@ pub(super) fn tables(tags: &mut Tags, layers: &[Layer], extents: &Extents) {
             layer_record(tags, own, layer.name(), colour);
         }
     });
-    tags.table("STYLE", handle::STYLES, 1, |tags| {
-        let name = if tags.modern() { "Standard" } else { "STANDARD" };
-        tags.named("STYLE", handle::STYLE_STANDARD, handle::STYLES, "AcDbTextStyleTableRecord", name);
-        tags.integer(70, 0);
-        tags.real(40, 0.0);
-        tags.real(41, 1.0);
-        tags.real(50, 0.0);
-        tags.integer(71, 0);
-        tags.real(42, 2.5);
-        tags.text(3, "txt");
-        tags.text(4, "");
-    });
+    text_style(tags);
     tags.table("VIEW", handle::VIEWS, 0, |_| {});
     tags.table("UCS", handle::UCS, 0, |_| {});
     tags.table("APPID", handle::APPLICATIONS, 1, |tags| {
@@ -73,6 +44,43 @@ pub(super) fn tables(tags: &mut Tags, layers: &[Layer], extents: &Extents) {
             }
         });
     }
+}
+
+fn linetypes(tags: &mut Tags) {
+    let linetypes: &[(&str, u32, &str)] = if tags.modern() {
+        &[
+            ("ByBlock", handle::LINETYPE_BY_BLOCK, ""),
+            ("ByLayer", handle::LINETYPE_BY_LAYER, ""),
+            ("Continuous", handle::LINETYPE_CONTINUOUS, "Solid line"),
+        ]
+    } else {
+        &[("CONTINUOUS", handle::LINETYPE_CONTINUOUS, "Solid line")]
+    };
+    tags.table("LTYPE", handle::LINETYPES, linetypes.len(), |tags| {
+        for (name, own, description) in linetypes {
+            tags.named("LTYPE", *own, handle::LINETYPES, "AcDbLinetypeTableRecord", name);
+            tags.integer(70, 0);
+            tags.text(3, description);
+            tags.integer(72, 65);
+            tags.integer(73, 0);
+            tags.real(40, 0.0);
+        }
+    });
+}
+
+fn text_style(tags: &mut Tags) {
+    tags.table("STYLE", handle::STYLES, 1, |tags| {
+        let name = if tags.modern() { "Standard" } else { "STANDARD" };
+        tags.named("STYLE", handle::STYLE_STANDARD, handle::STYLES, "AcDbTextStyleTableRecord", name);
+        tags.integer(70, 0);
+        tags.real(40, 0.0);
+        tags.real(41, 1.0);
+        tags.real(50, 0.0);
+        tags.integer(71, 0);
+        tags.real(42, 2.5);
+        tags.text(3, "txt");
+        tags.text(4, "");
+    });
 }
 
 /// The view a program opens with: the whole part with a little air.

@@ -1,0 +1,19 @@
+//! One cam from an embedded machine to files: `cargo run --example one_cam`.
+
+#![allow(clippy::print_stdout, reason = "an example shows what it found")]
+
+use camgen::{Machine, Spec, Writing};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let (machine, name) = Machine::load("dpi", &["follower.roller.radius=25mm".to_owned()])?;
+    let cam = Spec::rotary(machine, 35.0).solve()?;
+    let proven = cam.draw(5e-6)?.prove()?;
+    for finding in proven.findings() {
+        println!("{:<18} {:>12.4} {:<4} {:?}", finding.check, finding.value, finding.unit, finding.verdict);
+    }
+    // Refused with an error when a check has failed.
+    let directory = std::env::temp_dir().join("camgen-one-cam");
+    let report = proven.files(&Writing::to(directory, name))?.commit()?;
+    println!("{}: {}", report.title(), report.files.join(", "));
+    Ok(())
+}

@@ -1,0 +1,149 @@
+"""Puts the followers of `camgen make` on the outlines of written DXF files, all round, against motions integrated here.
+
+Shares nothing with camgen but the motion programs below: each law is its acceleration integrated twice by Gauss' rule, a
+roller's centre comes from the geometry of its mechanism in complex numbers, a flat face from the support of the outline.
+
+usage: make.py CAMGEN_BINARY DIRECTORY
+"""
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from outline import Chain, polyline
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)
+
+
+def acceleration(law):
+    """A function with the shape of the law's acceleration over x in [0, 1]."""
+    pi = np.pi
+    if law == "cycloidal":
+        return lambda x: np.sin(2 * pi * x)
+    if law == "harmonic":
+        return lambda x: np.cos(pi * x)
+    if law == "cubic":
+        return lambda x: 1 - 2 * x
+    if law == "3-4-5":
+        return lambda x: x * (1 - x) * (1 - 2 * x)
+    if law == "4-5-6-7":
+        return lambda x: (x * (1 - x)) ** 2 * (1 - 2 * x)
+    assert law == "modified-sine", law
+    return lambda x: np.where(
+        x < 1 / 8, np.sin(4 * pi * x), np.where(x < 7 / 8, np.cos(4 * pi / 3 * (x - 1 / 8)), -np.sin(4 * pi * (1 - x)))
+    )
+
+
+def travel(law, x):
+    """s(x) = ∫₀ˣ (x − t) a(t) dt over its value at 1; the pieces of the modified sine are integrated one by one."""
+    shape = acceleration(law)
+    x = np.atleast_1d(x)
+
+    def moment(to):
+        total = np.zeros_like(to)
+        for low, high in zip([0, 1 / 8, 7 / 8], [1 / 8, 7 / 8, 1]):
+            upper = np.clip(to, low, high)
+            half, middle = (upper - low) / 2, (upper + low) / 2
+            t = middle[:, None] + half[:, None] * NODES
+            total += (half[:, None] * WEIGHTS * (to[:, None] - t) * shape(t)).sum(axis=1)
+        return total
+
+    return moment(x) / moment(np.array([1.0]))
+
+
+def motion(segments, start, theta):
+    """Position at cam angles in degrees, and the breaks."""
+    position, breaks = np.full_like(theta, np.nan), [0.0]
+    at, value = 0.0, start
+    for law, over, to in segments:
+        inside = (theta >= at) & (theta <= at + over)
+        if law == "dwell":
+            position[inside] = value
+        else:
+            position[inside] = value + (to - value) * travel(law, (theta[inside] - at) / over)
+            value = to
+        at += over
+        breaks.append(at)
+    return position
+
+
+def toml(name, unit, segments, follower, cam):
+    lines = [f'name = "{name}"', "[motion]", "rpm = 200", f'start = "0 {unit}"']
+    for law, over, to in segments:
+        lines += ["[[motion.segment]]", f'law = "{law}"', f'over = "{over} deg"']
+        lines += [] if law == "dwell" else [f'to = "{to} {unit}"']
+    lines += [f"[follower.{follower[0]}]"] + [f'{k} = "{v}"' for k, v in follower[1].items()]
+    lines += ["[cam]"] + [f'{k} = "{v}"' for k, v in cam.items()]
+    return "\n".join(lines + ["[limits]", 'pressure_angle = "40 deg"', ""])
+
+
+def gaps(kind, values, chain, lift, theta, base, mirror):
+    """Gap between follower and outline, mm, at cam angles in radians."""
+    u = np.exp(1j * theta)
+    flat = chain.flattened(step=2e-4)
+    if kind == "flat":
+        # The face touches the farthest point; a polyline of chords this fine is short by 5e-9 of the radius.
+        normals = np.stack([u.real, mirror * u.imag], axis=1)
+        support = np.array([(flat @ n).max() for n in normals])
+        return base + lift - support
+    mm = lambda key, default="0 mm": float(values.get(key, default).split()[0])
+    radius = mm("radius")
+    prime = base + radius
+    if kind == "roller":
+        offset = mm("offset")
+        centre = (np.sqrt(prime**2 - offset**2) + lift + 1j * offset) * u
+    else:
+        arm, pivot = mm("arm"), mm("pivot_distance")
+        side = -1 if values.get("side") == "leading" else 1
+        psi = np.arccos((pivot**2 + arm**2 - prime**2) / (2 * pivot * arm)) + np.radians(lift)
+        centre = (pivot - arm * np.exp(1j * side * psi)) * u
+    return chain.distance(np.stack([centre.real, mirror * centre.imag], axis=1)) - radius
+
+
+def main():
+    binary, directory = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]) / "make"
+    directory.mkdir(parents=True, exist_ok=True)
+    mixed = [("cycloidal", 90, 20), ("dwell", 25, 0), ("3-4-5", 60, 12), ("modified-sine", 95, 0), ("dwell", 90, 0)]
+    smooth = [("4-5-6-7", 120, 20), ("dwell", 30, 0), ("3-4-5", 150, 0), ("dwell", 60, 0)]
+    rough = [("harmonic", 150, 15), ("cubic", 150, 0), ("dwell", 60, 0)]
+    falls = [("cycloidal", 120, -18), ("dwell", 30, 0), ("modified-sine", 210, 0)]
+    roller = ("roller", {"radius": "15 mm", "offset": "8 mm"})
+    lever = {"radius": "16 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
+    cases = [
+        ("roller", "mm", mixed, roller, {}),
+        ("roller, ccw, falling", "mm", falls, roller, {"rotation": "ccw"}),
+        ("roller, rough", "mm", rough, ("roller", {"radius": "10 mm"}), {}),
+        ("lever trailing", "deg", mixed, ("swinging-roller", lever), {}),
+        ("lever leading, ccw", "deg", smooth, ("swinging-roller", {**lever, "side": "leading"}), {"rotation": "ccw"}),
+        ("flat", "mm", smooth, ("flat", {}), {}),
+        ("flat, ccw", "mm", mixed, ("flat", {}), {"rotation": "ccw"}),
+    ]
+    theta = np.arange(0, 360, 0.25) + 0.01
+    failed = 0
+    print(f"{'cam':26} {'tol/um':>7} {'gap/um':>10} {'arcs':>5}")
+    for tolerance in (0.005, 0.0002):
+        for title, unit, segments, follower, cam in cases:
+            path = directory / "program.toml"
+            path.write_text(toml(title, unit, segments, follower, cam))
+            command = [binary, "make", str(path), "--tolerance", f"{tolerance * 1e3}um", "--format", "dxf", "--json"]
+            run = subprocess.run([*command, "--out", str(directory)], capture_output=True, text=True)
+            assert run.returncode == 0, f"{title}: {run.stderr}{run.stdout}"
+            report = json.loads(run.stdout)
+            _, vertices = polyline(report["files"][0])
+            position = motion(segments, 0.0, theta)
+            # The lowest position is an end of a segment: every law here is monotone.
+            lowest = min([0.0] + [to for law, _, to in segments if law != "dwell"])
+            mirror = -1 if cam.get("rotation") == "ccw" else 1
+            base = report["cam"]["base_radius_mm"]
+            gap = gaps(follower[0], follower[1], Chain(vertices), position - lowest, np.radians(theta), base, mirror)
+            worst = np.abs(gap).max()
+            # Chords of the flattened outline and twelve decimals, on top of the tolerance.
+            good = worst <= tolerance + 2e-6
+            failed += not good
+            print(f"{title:26} {tolerance * 1e3:7} {worst * 1e3:10.6f} {len(vertices):5}{'' if good else '  FAILED'}")
+    print(f"{2 * len(cases) - failed} passed, {failed} failed")
+    sys.exit(failed > 0)
+
+
+main()
