@@ -315,7 +315,7 @@ fn every_word_of_a_key_reads() {
             for word in words {
                 let path = section.path_of(key);
                 let set = format!("{path}={word}");
-                let read = Machine::from_toml("press.toml", &file_for(&path), &[set.clone()]);
+                let read = Machine::from_toml("press.toml", &file_for(&path), std::slice::from_ref(&set));
                 assert!(read.is_ok(), "{set}: {}", read.expect_err("a fault"));
             }
         }
@@ -494,8 +494,9 @@ fn the_follower_is_one_of_the_list() {
         assert!(told.contains(&format!("[{path}]")), "{told}");
         assert!(sections().iter().any(|section| section.path == path), "{path}");
     }
-    let tables: String = FOLLOWERS.iter().map(|kind| format!("[{}]\n", kind.section.path)).collect();
-    let told = Machine::from_toml("all.toml", &format!("name = \"x\"\n{tables}"), &[]).expect_err("one too many");
+    let tables: Vec<String> = FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect();
+    let told = Machine::from_toml("all.toml", &format!("name = \"x\"\n{}\n", tables.join("\n")), &[])
+        .expect_err("one too many");
     let two = format!("two followers: [{}] and [{}]", FOLLOWERS[0].section.path, FOLLOWERS[1].section.path);
     assert!(told.to_string().contains(&two), "{told}");
 }
