@@ -3,11 +3,12 @@
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
 use camgen::body::conoid::between::{self, residual};
-use camgen::body::conoid::{Conoid, Interpolation};
-use camgen::drawing::conoid::{sections, table};
-use camgen::drawing::flank;
+use camgen::body::conoid::{Conoid, Interpolation, flank};
+use camgen::body::{Body, Request};
 use camgen::geometry::solid::conical;
 use camgen::machine::Machine;
+use camgen::table::Table;
+use camgen::verify::{self, Evidence};
 use camgen::write::{step, stl};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -21,14 +22,26 @@ fn stages(criterion: &mut Criterion) {
         let conoid = Conoid::solve(&machine, &speeds).expect("a conoid");
         criterion.bench_function(&name("cut, a point"), |b| b.iter(|| conoid.cut(0, black_box(-0.1), 0.05)));
         criterion.bench_function(&name("between"), |b| b.iter(|| residual(black_box(&conoid), Interpolation::Smooth)));
-        criterion.bench_function(&name("sections 5 um"), |b| b.iter(|| sections(black_box(&conoid), 5e-6)));
+        criterion
+            .bench_function(&name("sections 5 um"), |b| b.iter(|| black_box(&conoid).draw(&Request::within(5e-6))));
         criterion.bench_function(&name("flank 5 um"), |b| b.iter(|| flank::flank(black_box(&conoid), 0.005)));
         let drawn = flank::flank(&conoid, 0.005).expect("a flank");
-        criterion.bench_function(&name("sphere on the flank"), |b| b.iter(|| flank::roll(black_box(&conoid), &drawn)));
+        let request = Request { flank: true, ..Request::within(5e-6) };
+        let whole = conoid.draw(&request).expect("sections and a flank");
+        let evidence = Evidence {
+            body: &conoid,
+            drawn: Some(&whole),
+            outlines: &[],
+            rolled: None,
+            foreign: None,
+            tolerance_mm: 0.005,
+        };
+        criterion
+            .bench_function(&name("checks, sphere on the flank"), |b| b.iter(|| verify::run(black_box(&evidence))));
         let solid = conical(&drawn.patches, &[], (0.0, 120.0), drawn.volume).expect("a solid");
         criterion.bench_function(&name("step"), |b| b.iter(|| step::write(black_box(&solid), "conoid")));
         criterion.bench_function(&name("stl"), |b| b.iter(|| stl::write(black_box(&drawn), Some(25.0))));
-        criterion.bench_function(&name("table"), |b| b.iter(|| table(black_box(&conoid), 720)));
+        criterion.bench_function(&name("table"), |b| b.iter(|| Table::of(&black_box(&conoid).rows(720))));
     }
     criterion.bench_function("conoid/fewest sections for 2 N", |b| {
         b.iter(|| between::fewest(black_box(&machine), (20.0, 35.0), 2.0));

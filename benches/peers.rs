@@ -4,12 +4,11 @@
 #![allow(clippy::expect_used, clippy::print_stdout, missing_docs, reason = "a benchmark fails loudly and prints")]
 
 use camgen::body::disc::Disc;
-use camgen::cam::CurvePoint;
+use camgen::geometry::CurvePoint;
 use camgen::geometry::contour::{Contour, Vertex};
-use camgen::geometry::outline::{self, pitch_within};
 use camgen::geometry::track::Track;
 use camgen::machine::Machine;
-use camgen::motion::Motion;
+use camgen::profile::outline::{self, pitch_within};
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, PlineVertex, Polyline};
 use criterion::{Criterion, criterion_group, criterion_main};
 use kurbo::offset::offset_cubic;
@@ -29,7 +28,7 @@ fn dpi() -> Disc {
 /// The pitch curve as arcs within a tolerance (m), for `cavalier_contours`.
 fn pitch_arcs(cam: &Disc, tolerance: f64) -> Polyline<f64> {
     let mut line = Polyline::new_closed();
-    for vertex in pitch_within(&cam.curves, tolerance).expect("arcs").contour.vertices {
+    for vertex in pitch_within(cam.curves(), tolerance).expect("arcs").contour.vertices {
         line.add_vertex(PlineVertex::new(vertex.point.x, vertex.point.y, vertex.bulge));
     }
     line
@@ -45,7 +44,7 @@ fn pitch_cubics(cam: &Disc, spans: u32) -> Vec<CubicBez> {
     let point = |v: Vector2<f64>| Point::new(v.x, v.y);
     let of_piece = |(index, piece): (usize, &camgen::motion::Piece)| {
         let step = (piece.end - piece.start) / f64::from(spans);
-        let frame = |i: u32| cam.curves.contact(index, piece.start + step * f64::from(i)).pitch.scaled(1e3);
+        let frame = |i: u32| cam.curves().contact(index, piece.start + step * f64::from(i)).curve.scaled(1e3);
         let cubic = |i: u32| {
             let (a, b) = (frame(i), frame(i + 1));
             let third = step / 3.0;
@@ -54,7 +53,7 @@ fn pitch_cubics(cam: &Disc, spans: u32) -> Vec<CubicBez> {
         };
         (0..spans).map(cubic).collect::<Vec<_>>()
     };
-    cam.curves.law.pieces().iter().enumerate().flat_map(of_piece).collect()
+    cam.curves().motion.pieces().iter().enumerate().flat_map(of_piece).collect()
 }
 
 fn kurbo_offset(cubics: &[CubicBez], distance: f64, tolerance: f64) -> Vec<BezPath> {
@@ -68,11 +67,11 @@ fn kurbo_offset(cubics: &[CubicBez], distance: f64, tolerance: f64) -> Vec<BezPa
 
 /// Largest distance of the exact profile from an outline, mm.
 fn true_error(cam: &Disc, outline: &Contour) -> f64 {
-    let surface = Surface::new(outline);
+    let track = Track::new(outline);
     let place = |i: u32| {
-        let (piece, angle) = cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(PLACES));
-        let exact = cam.curves.profile(piece, angle).point * 1e3;
-        surface.nearest(exact).map_or(f64::INFINITY, |nearest| nearest.left.abs())
+        let (piece, angle) = cam.curves().motion.locate(std::f64::consts::TAU * f64::from(i) / f64::from(PLACES));
+        let exact = cam.curves().profile(piece, angle).point * 1e3;
+        track.nearest(exact).map_or(f64::INFINITY, |nearest| nearest.left.abs())
     };
     (0..PLACES).map(place).fold(0.0, f64::max)
 }
@@ -94,7 +93,7 @@ fn offsets(criterion: &mut Criterion) {
     println!("{:>8} {:>28} {:>12} {:>14}", "tol/µm", "offset by", "segments", "true error/µm");
     for tolerance in TOLERANCES {
         let name = format!("{:.0} µm", 1e6 * tolerance);
-        let own = outline::profile(&cam.curves, tolerance).expect("an outline");
+        let own = outline::profile(cam.curves(), tolerance).expect("an outline");
         let tell = |what: &str, count: usize, error: f64| {
             println!("{:>8} {what:>28} {count:>12} {:>14.4}", 1e6 * tolerance, 1e3 * error);
         };
@@ -115,7 +114,7 @@ fn offsets(criterion: &mut Criterion) {
         );
 
         criterion.bench_function(&format!("peers/{name}/camgen: exact offset and its arcs"), |b| {
-            b.iter(|| outline::profile(black_box(&cam.curves), tolerance));
+            b.iter(|| outline::profile(black_box(cam.curves()), tolerance));
         });
         criterion.bench_function(&format!("peers/{name}/cavalier_contours: offset of given arcs"), |b| {
             b.iter(|| black_box(&arcs).parallel_offset(30.0));
@@ -133,9 +132,9 @@ fn offsets(criterion: &mut Criterion) {
 fn points(criterion: &mut Criterion) {
     let cam = dpi();
     for many in [3600_u32, 36_000] {
-        let place = |i: u32| cam.curves.law.locate(std::f64::consts::TAU * f64::from(i) / f64::from(many));
+        let place = |i: u32| cam.curves().motion.locate(std::f64::consts::TAU * f64::from(i) / f64::from(many));
         let pitch: Vec<CurvePoint> =
-            (0..many).map(place).map(|(piece, angle)| cam.curves.contact(piece, angle).pitch).collect();
+            (0..many).map(place).map(|(piece, angle)| cam.curves().contact(piece, angle).curve).collect();
         let mut line = Polyline::new_closed();
         for frame in &pitch {
             line.add_vertex(PlineVertex::new(1e3 * frame.point.x, 1e3 * frame.point.y, 0.0));
@@ -147,7 +146,7 @@ fn points(criterion: &mut Criterion) {
             b.iter(|| black_box(&line).parallel_offset(30.0));
         });
         criterion.bench_function(&format!("peers/{many} points/camgen: law, pitch curve and offset"), |b| {
-            let exact = |(piece, angle)| cam.curves.profile(piece, angle).point;
+            let exact = |(piece, angle)| cam.curves().profile(piece, angle).point;
             b.iter(|| (0..many).map(place).map(exact).collect::<Vec<_>>());
         });
     }

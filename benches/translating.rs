@@ -2,17 +2,18 @@
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
-use camgen::body::wedge::{LAW_TOLERANCE, Plate};
-use camgen::drawing;
+use camgen::body::wedge::{LAW_TOLERANCE, Wedge};
+use camgen::body::{Body, Request};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::{ExactOn, Mechanism, Solution, Solver, Stations};
+use camgen::table::Table;
 use camgen::verify::rolling;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
-fn plate(column: &str) -> Plate {
+fn plate(column: &str) -> Wedge {
     let machine = Machine::load("dpi", &[format!("buffer.column={column}")]).expect("embedded").0;
-    Plate::solve(&machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking).expect("a plate")
+    Wedge::solve(&machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking).expect("a plate")
 }
 
 fn equation(criterion: &mut Criterion) {
@@ -34,12 +35,13 @@ fn equation(criterion: &mut Criterion) {
 
 fn stages(criterion: &mut Criterion) {
     let plate = plate("matched");
-    criterion.bench_function("plate/outline 5 um", |b| b.iter(|| drawing::plate_part(black_box(&plate), 5e-6)));
-    let part = drawing::plate_part(&plate, 5e-6).expect("an outline");
+    criterion.bench_function("plate/outline 5 um", |b| b.iter(|| black_box(&plate).draw(&Request::within(5e-6))));
+    let drawn = plate.draw(&Request::within(5e-6)).expect("an outline");
+    let contour = &drawn.parts[0].outline.contour;
     criterion.bench_function("plate/rolling", |b| {
-        b.iter(|| rolling::roll(black_box(&plate), &part.outline.contour, 0.005));
+        b.iter(|| rolling::roll(black_box(&plate), plate.curves(), contour, 0.005));
     });
-    criterion.bench_function("plate/table", |b| b.iter(|| drawing::plate_table(black_box(&plate), 720)));
+    criterion.bench_function("plate/table", |b| b.iter(|| Table::of(&black_box(&plate).rows(720))));
 }
 
 criterion_group!(benches, equation, stages);

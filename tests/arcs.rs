@@ -7,12 +7,11 @@
 mod worst;
 
 use camgen::body::disc::Disc;
-use camgen::cam::{CurvePoint, Curves, extremes};
-use camgen::drawing::{self, arcs, outline};
-use camgen::follower::{Follower, TranslatingRoller};
+use camgen::follower::TranslatingRoller;
+use camgen::geometry::{CurvePoint, arcs};
 use camgen::machine::Machine;
-use camgen::motion::Motion;
-use camgen::verify::rolling;
+use camgen::pipeline::Spec;
+use camgen::profile::{Curves, extremes, outline};
 use nalgebra::Vector2;
 use worst::Worst;
 
@@ -46,7 +45,7 @@ fn tolerances_over_nine_decades() {
     println!("{:>12} {:>8} {:>10} {:>14} {:>14}", "tolerance/mm", "arcs", "N*", "deviation/tol", "arcs·tol^(1/3)");
     for decade in -9..=0 {
         let tolerance = libm::pow(10.0, f64::from(decade));
-        let drawn = outline::profile(&rotary.curves, 1e-3 * tolerance).expect("an outline");
+        let drawn = outline::profile(rotary.curves(), 1e-3 * tolerance).expect("an outline");
         let count = drawn.contour.vertices.len();
         #[expect(clippy::cast_precision_loss, reason = "a few thousand arcs")]
         let scaled = count as f64 * libm::cbrt(tolerance);
@@ -63,7 +62,7 @@ fn tolerances_over_nine_decades() {
         let breaks = drawn.contour.tangent_breaks();
         assert!(breaks.iter().all(|turn| turn.abs() < 1e-9), "{tolerance}");
     }
-    assert!(outline::profile(&rotary.curves, 1e-16).is_err());
+    assert!(outline::profile(rotary.curves(), 1e-16).is_err());
 }
 
 /// Every smooth piece of six cams from 0.1 mm to 0.1 µm: at most ⌈N*⌉ + 2 arcs, and hardly ever more than ⌈N*⌉ + 1, what
@@ -83,8 +82,8 @@ fn arcs_near_the_limit() {
         let cam = Disc::solve(&machine, 35.0).expect("a cam");
         for step in 0..=24 {
             let tolerance = 0.1 * libm::pow(10.0, -0.125 * f64::from(step));
-            for (index, piece) in cam.curves.law.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell) {
-                let curve = |angle: f64| cam.curves.profile(index, angle).scaled(1e3);
+            for (index, piece) in cam.curves().motion.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell) {
+                let curve = |angle: f64| cam.curves().profile(index, angle).scaled(1e3);
                 let chain = arcs::fit(curve, (piece.start, piece.end), tolerance).expect("a chain");
                 #[expect(clippy::cast_possible_truncation, reason = "a few hundred arcs")]
                 let more = i32::try_from(chain.joints.len()).expect("few") - chain.best_possible.ceil() as i32;
@@ -107,14 +106,15 @@ fn cams_at_the_edge() {
         Disc::solve(&machine, 35.0)
     };
     let base = solve(&["cam.base_radius=90mm".into()]).expect("a cam");
-    let prime = base.curves.follower.prime_radius();
-    let sharpest = 1.0 / extremes::convex_pitch_curvature(&base.curves).value;
+    let prime = base.prime_radius();
+    let sharpest = 1.0 / extremes::convex_curvature(base.curves()).value;
     let ulp_less = f64::from_bits(sharpest.to_bits() - 1);
     for (roller, what) in
         [(ulp_less, "an ulp below"), (sharpest * (1.0 - 1e-9), "1e-9 below"), (sharpest * 1.01, "1 % above")]
     {
-        let curves = Curves { law: &base.curves.law, follower: TranslatingRoller::new(prime, 0.0, roller) };
-        let result = outline::profile(&curves, 5e-6);
+        let follower = TranslatingRoller::new(prime, 0.0, roller);
+        let curves = Curves { motion: base.curves().motion, follower: &follower };
+        let result = outline::profile(curves, 5e-6);
         println!(
             "roller {what} the sharpest radius: {}",
             match &result {
@@ -123,40 +123,35 @@ fn cams_at_the_edge() {
             }
         );
         if let Ok(outline) = result {
-            assert!(outline.deviation <= 0.005 && curves.follower.roller_radius() == roller);
+            assert!(outline.deviation <= 0.005 && curves.offset() == roller);
         }
     }
+    let spec = |overrides: &[String]| Spec::rotary(Machine::load("dpi", overrides).expect("valid").0, 35.0);
     for width in ["1e-9 deg", "2e-7 deg", "1e-6 deg", "1e-5 deg", "1e-3 deg", "1 deg", "90 deg"] {
-        let cam = solve(&[format!("transition.width={width}")]).expect("a cam");
-        let part = drawing::part(&cam, 5e-6);
-        match part {
-            Ok(part) => {
-                let rolled = rolling::roll(&cam, &part.outline.contour, 0.005);
-                println!(
-                    "transition {width}: {} arcs, gap {:.2e} mm",
-                    part.outline.contour.vertices.len(),
-                    rolled.gap_mm
-                );
+        let cam = spec(&[format!("transition.width={width}")]).solve().expect("a cam");
+        let proven = cam.draw(5e-6).and_then(camgen::pipeline::Drawing::prove).expect("a proof");
+        match (proven.rolled(), proven.no_outline()) {
+            (Some(rolled), _) => {
+                let arcs = proven.outlines()[0].contour.vertices.len();
+                println!("transition {width}: {arcs} arcs, gap {:.2e} mm", rolled.gap_mm);
                 assert!(rolled.gap_mm.abs() <= 0.005, "{width}: {}", rolled.gap_mm);
             }
             // A wall of the cam, not of the fit.
-            Err(error) => assert!(error.to_string().contains("folds over itself"), "transition {width}: {error}"),
+            (None, why) => assert!(why.is_some_and(|why| why.contains("folds over itself")), "{width}: {why:?}"),
         }
     }
     for radius in ["1 um", "1000 mm", "100 m", "999 m", "1000 m"] {
-        let cam = solve(&[format!("cam.base_radius={radius}"), "cam.bore_radius=0.5um".into()]).expect("a cam");
-        match drawing::part(&cam, 5e-6) {
-            Ok(part) => println!(
-                "base radius {radius}: {} arcs, {:.2e} mm off",
-                part.outline.contour.vertices.len(),
-                part.outline.deviation
-            ),
-            Err(error) => {
-                println!("base radius {radius}: {error}");
-                // No room for the lift, and no room on a drawing: nothing else is a wall.
-                assert!(["1 um", "1000 m"].contains(&radius), "{radius}: {error}");
-            }
+        let cam = spec(&[format!("cam.base_radius={radius}"), "cam.bore_radius=0.5um".into()]).solve().expect("a cam");
+        let drawn = cam.draw(5e-6);
+        let part = drawn.as_ref().ok().and_then(|drawing| drawing.drawn()).map(|drawn| &drawn.parts[0].outline);
+        if let Some(outline) = part {
+            let arcs = outline.contour.vertices.len();
+            println!("base radius {radius}: {arcs} arcs, {:.2e} mm off", outline.deviation);
+        } else {
+            println!("base radius {radius}: {:?}", drawn.map(|_| "no outline"));
+            // No room for the lift, and no room on a drawing: nothing else is a wall.
+            assert!(["1 um", "1000 m"].contains(&radius), "{radius} is drawn");
         }
-        assert!(cam.curves.law.pieces().len() > 3);
+        assert!(cam.body().plane().expect("a disc").motion.pieces().len() > 3);
     }
 }

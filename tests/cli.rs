@@ -139,7 +139,7 @@ fn an_undercut_cam_is_told_what_it_loses() {
         ["rotary", "--force"].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
     let run = camgen(&folded);
     assert_eq!(run.code, 1);
-    assert!(run.err.contains("folds over itself") && run.err.contains("with --force neither"), "{}", run.err);
+    assert!(run.err.contains("folds over itself") && run.err.contains("--force cannot help"), "{}", run.err);
     assert!(files(run.directory.path()).is_empty());
 }
 
@@ -267,7 +267,11 @@ fn without_a_thickness_there_is_no_solid() {
     assert!(run.err.contains("no STEP file: cam.thickness is not given"), "{}", run.err);
     let run = camgen_in(run.directory, &["rotary", "flat.toml", "--format", "step", "--out", "solid"]);
     assert_eq!(run.code, 2);
-    assert!(run.err.contains("needs cam.thickness") && !run.directory.path().join("solid").exists(), "{}", run.err);
+    assert!(
+        run.err.contains("no step file: cam.thickness is not given") && !run.directory.path().join("solid").exists(),
+        "{}",
+        run.err
+    );
 }
 
 #[test]
@@ -296,6 +300,148 @@ fn the_pictures_in_the_readme_are_current() {
         let kept = fs::read_to_string(golden.join(name)).expect("kept");
         assert!(made == kept, "{name} has changed: look at it, and if it is right copy it to tests/golden");
     }
+}
+
+/// A user mends a file in one go: every fault is told at its line, and nothing is written.
+#[test]
+fn all_faults_of_a_file_are_told_at_once() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let faulty = [
+        "name = \"press\"",
+        "colour = \"red\"",
+        "[bed]",
+        "mass = \"978.2\"",
+        "crank_radius = \"-180 mm\"",
+        "[follower.roller]",
+        "radius = \"30 furlongs\"",
+        "[cam]",
+        "material = \"wood\"",
+    ];
+    fs::write(directory.path().join("faulty.toml"), faulty.join("\n")).expect("written");
+    let run = camgen_in(directory, &["rotary", "faulty.toml"]);
+    assert_eq!(run.code, 2, "{}", run.err);
+    for part in [
+        "faulty.toml:2:1",
+        "unknown key `colour`",
+        "faulty.toml:4:8",
+        "`978.2` has no unit",
+        "faulty.toml:5:16",
+        "must be above 0 mm",
+        "faulty.toml:7:10",
+        "unknown unit `furlongs`",
+        "faulty.toml:9:12",
+        "`cam.material` cannot be \"wood\"",
+        "missing key `buffer.ambient_pressure`",
+        "missing key `buffer.end_pressure`",
+    ] {
+        assert!(run.err.contains(part), "no {part:?} in\n{}", run.err);
+    }
+    assert_eq!(files(run.directory.path()), ["faulty.toml"]);
+}
+
+#[test]
+fn a_file_without_a_press_makes_no_cam_of_a_press() {
+    for command in ["rotary", "translating", "conoid"] {
+        let run = on_lifter(&[command, "lifter.toml"]);
+        assert_eq!(run.code, 2, "{command}: {}", run.err);
+        for part in ["describes no press", "[bed], [buffer] and [design]", "camgen make"] {
+            assert!(run.err.contains(part), "{command}: no {part:?} in\n{}", run.err);
+        }
+        assert_eq!(files(run.directory.path()), ["lifter.toml"], "{command}");
+    }
+    let run = camgen(&["make"]);
+    assert_eq!(run.code, 2, "{}", run.err);
+    assert!(run.err.contains("no motion") && run.err.contains("[[motion.segment]]"), "{}", run.err);
+}
+
+/// The lifter beside the tests, in the directory of the run.
+fn on_lifter(args: &[&str]) -> Run {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("lifter.toml"), include_str!("common/lifter.toml")).expect("written");
+    camgen_in(directory, args)
+}
+
+#[test]
+fn a_motion_program_becomes_a_cam() {
+    let run = on_lifter(&["make", "lifter.toml", "--out", "out", "--samples", "360", "--json"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let expected = ["csv", "dxf", "step", "svg"].map(|extension| format!("lifter-make-120rpm.{extension}"));
+    assert_eq!(files(&run.directory.path().join("out")), expected);
+    let report = report(&run);
+    assert_eq!((&report["command"], &report["rpm"]), (&"make".into(), &120.0.into()), "{report}");
+    assert!(report["law"].is_null() && report["notes"].is_null(), "{report}");
+    let csv = fs::read_to_string(run.directory.path().join("out/lifter-make-120rpm.csv")).expect("a table");
+    let header: Vec<&str> = csv.lines().next().expect("a header").split(',').collect();
+    for column in ["crank_deg", "x_mm", "dx_mm"] {
+        assert!(!header.contains(&column), "{column} is of a press: {header:?}");
+    }
+    let rows: Vec<Vec<f64>> =
+        csv.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    let lift = header.iter().position(|name| *name == "lift_mm").expect("a lift");
+    // Half way up, at rest, and half way down by the cycloid, over the 180 degrees that are left.
+    for (degrees, expected) in [(0, 0.0), (60, 10.0), (120, 20.0), (150, 20.0), (270, 10.0)] {
+        assert!((rows[degrees][lift] - expected).abs() < 1e-12, "{degrees}: {:?}", rows[degrees]);
+    }
+}
+
+/// A limit that nothing keeps: every kind of cam of a press knows the force on its roller.
+#[test]
+fn a_contact_that_bears_too_much_is_refused() {
+    for args in [&["rotary"][..], &["translating"], &["conoid", "--rpm", "20,35"]] {
+        let run = camgen(&[args, &["--set", "limits.contact_stress=1MPa"]].concat());
+        assert_eq!(run.code, 1, "{args:?}: {}", run.err);
+        assert!(run.out.contains("FAIL  contact_stress"), "{args:?}: {}", run.out);
+        assert!(run.err.contains("nothing was written") && files(run.directory.path()).is_empty(), "{args:?}");
+    }
+}
+
+#[test]
+fn a_key_without_effect_is_told() {
+    let told = "`cam.balance` has no effect on a conoid";
+    let args = ["conoid", "--rpm", "20,35", "--format", "csv", "--set", "cam.balance=40mm .. 60mm"];
+    let run = camgen(&args);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.contains(told), "{}", run.out);
+    let run = camgen(&[&args[..], &["--json"]].concat());
+    assert_eq!(report(&run)["notes"], serde_json::json!([told]), "{}", run.out);
+    let run = camgen(&["conoid", "--rpm", "20,35", "--format", "csv", "--json"]);
+    assert!(report(&run)["notes"].is_null(), "nothing to tell: {}", run.out);
+}
+
+#[test]
+fn the_template_makes_a_cam() {
+    let shown = camgen(&["init"]);
+    assert_eq!(shown.code, 0, "{}", shown.err);
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("mine.toml"), &shown.out).expect("written");
+    let run = camgen_in(directory, &["rotary", "mine.toml", "--out", "out"]);
+    assert_eq!(run.code, 0, "{} {}", run.out, run.err);
+    // It tells no thickness, so there is no solid.
+    let expected = ["csv", "dxf", "svg"].map(|extension| format!("mine-rotary-35rpm.{extension}"));
+    assert_eq!(files(&run.directory.path().join("out")), expected);
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("templates/machine.toml");
+    assert!(fs::read_to_string(kept).expect("kept") == shown.out, "templates/machine.toml is not what init prints");
+}
+
+#[test]
+fn the_schema_is_json() {
+    let run = camgen(&["schema"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let schema = report(&run);
+    assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
+    for table in ["bed", "buffer", "motion", "follower", "cam", "limits"] {
+        assert!(schema["properties"][table].is_object(), "{table}: {schema}");
+    }
+}
+
+#[test]
+fn a_check_is_explained_by_name() {
+    let run = camgen(&["explain", "rolling"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.starts_with("rolling\n") && run.out.contains("gap"), "{}", run.out);
+    let run = camgen(&["explain", "nonsense"]);
+    assert_eq!(run.code, 2);
+    assert!(run.out.is_empty() && run.err.contains("no such check") && run.err.contains("rolling"), "{}", run.err);
 }
 
 #[test]

@@ -3,7 +3,8 @@
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
 use assert_cmd::Command;
-use camgen::drawing::{Entity, Layer};
+use camgen::body::Layer;
+use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::write::dxf::{self, Version};
 use nalgebra::Vector2;

@@ -2,14 +2,12 @@
 
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
+use camgen::body::SolveError;
 use camgen::body::disc::Disc;
-use camgen::drawing::{self, solid};
-use camgen::geometry::envelope;
+use camgen::geometry::solid;
 use camgen::machine::Machine;
-use camgen::motion::Motion;
-use camgen::verify::rolling;
-use camgen::write::dxf::Version;
-use camgen::write::proof;
+use camgen::pipeline::Spec;
+use camgen::profile::envelope;
 use proptest::prelude::*;
 
 /// Log-uniform between two powers of ten.
@@ -50,43 +48,52 @@ proptest! {
     #[test]
     fn any_machine_gives_a_true_cam_or_a_named_wall(overrides in overrides(), rpm in 5.0..100.0_f64) {
         let machine = Machine::load("dpi", &overrides).expect("in range").0;
-        let Ok(cam) = Disc::solve(&machine, rpm) else { return Ok(()) };
-        for (index, piece) in cam.curves.law.pieces().iter().enumerate() {
+        let Ok(disc) = Disc::solve(&machine, rpm) else { return Ok(()) };
+        let max_lift = disc.max_lift();
+        let cam = Spec::new(machine, move |_| Ok::<_, SolveError>(disc)).solve().expect("solved before");
+        let curves = cam.body().plane().expect("a disc");
+        for (index, piece) in curves.motion.pieces().iter().enumerate() {
             for step in 0..=20 {
                 let angle = piece.start + (piece.end - piece.start) * f64::from(step) / 20.0;
-                let contact = cam.curves.contact(index, angle);
+                let contact = curves.contact(index, angle);
                 prop_assert!(contact.lift.s.is_finite() && contact.pressure_angle.is_finite(), "{contact:?}");
-                prop_assert!(contact.lift.s >= -1e-12 * cam.max_lift(), "{contact:?}");
+                prop_assert!(contact.lift.s >= -1e-12 * max_lift, "{contact:?}");
             }
         }
         let tolerance = 1e-5;
-        match drawing::part(&cam, tolerance) {
-            Ok(part) => {
-                let contour = &part.outline.contour;
-                prop_assert!(part.outline.deviation <= 1e3 * tolerance);
-                let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-6).collect();
-                let losses = envelope::losses(&cam.curves).expect("drawn, so they were found");
-                // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
-                prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
-                let body = solid::solid(&part, 30.0).map_err(|error| TestCaseError::fail(error.to_string()))?;
-                // An arc so flat that its radius is a thousand kilometres has a centre known to a nanometre: the
-                // uncertainty the STEP file states.
-                prop_assert!(solid::largest_gap(&body.boundary) <= 1e-6, "{}", solid::largest_gap(&body.boundary));
-                let written = proof::write(&part, Version::R2000);
-                let outline = written.map_err(|error| TestCaseError::fail(error.to_string()))?.outline;
-                let rolled = rolling::roll(&cam, &outline, 1e3 * tolerance);
-                // Coordinates have twelve decimals and 52 bits.
-                let rounding = 2e-12 + 1e-14 * outline.extents().size().max();
-                if losses.is_empty() {
-                    prop_assert!(rolled.gap_mm.abs() <= 1e3 * tolerance + rounding, "{rolled:?}");
-                    prop_assert!(rolled.chord_difference_mm <= rolled.chord_sagitta_mm + rounding, "{rolled:?}");
-                } else {
-                    prop_assert!(rolled.gap_mm >= -1e3 * tolerance - rounding, "no metal is in the way: {rolled:?}");
-                }
-                prop_assert!(contour.area_and_centroid().0 > 0.0);
-                prop_assert!(contour.vertices.iter().all(|v| v.point.iter().all(|c| c.is_finite()) && v.bulge.is_finite()));
+        let proven = match cam.draw(tolerance) {
+            Ok(drawing) => drawing.prove().map_err(|error| TestCaseError::fail(error.to_string()))?,
+            Err(error) => {
+                prop_assert!(!error.to_string().contains("NaN"), "{error}");
+                return Ok(());
             }
-            Err(error) => prop_assert!(!error.to_string().contains("NaN"), "{error}"),
+        };
+        if let Some(drawn) = proven.drawn() {
+            let part = &drawn.parts[0];
+            let contour = &part.outline.contour;
+            prop_assert!(part.outline.deviation <= 1e3 * tolerance);
+            let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-6).collect();
+            let losses = envelope::losses(curves).expect("drawn, so they were found");
+            // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
+            prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");
+            let body = part.solid(30.0).map_err(|error| TestCaseError::fail(error.to_string()))?;
+            // An arc so flat that its radius is a thousand kilometres has a centre known to a nanometre: the
+            // uncertainty the STEP file states.
+            prop_assert!(solid::largest_gap(&body.boundary) <= 1e-6, "{}", solid::largest_gap(&body.boundary));
+            let (outline, rolled) = (&proven.outlines()[0].contour, proven.rolled().expect("a plane cam is rolled on"));
+            // Coordinates have twelve decimals and 52 bits.
+            let rounding = 2e-12 + 1e-14 * outline.extents().size().max();
+            if losses.is_empty() {
+                prop_assert!(rolled.gap_mm.abs() <= 1e3 * tolerance + rounding, "{rolled:?}");
+                prop_assert!(rolled.chord_difference_mm <= rolled.chord_sagitta_mm + rounding, "{rolled:?}");
+            } else {
+                prop_assert!(rolled.gap_mm >= -1e3 * tolerance - rounding, "no metal is in the way: {rolled:?}");
+            }
+            prop_assert!(contour.area_and_centroid().0 > 0.0);
+            prop_assert!(contour.vertices.iter().all(|v| v.point.iter().all(|c| c.is_finite()) && v.bulge.is_finite()));
+        } else {
+            let why = proven.no_outline().unwrap_or_default();
+            prop_assert!(!why.is_empty() && !why.contains("NaN"), "{why}");
         }
     }
 }

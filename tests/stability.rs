@@ -13,9 +13,9 @@ mod worst;
 use big::{Big, big, number, ulp};
 use camgen::buffer::bottom_law::{BottomLaw, Column, column_for};
 use camgen::buffer::{Bed, Cylinder, regime};
-use camgen::cam::Curves;
 use camgen::follower::TranslatingRoller;
-use camgen::motion::{EccentricCircle, Motion, Reversal, ReversalLaw, Transition};
+use camgen::motion::{EccentricCircle, Reversal, ReversalLaw, Transition};
+use camgen::profile::Curves;
 use nalgebra::Vector2;
 use random::Random;
 use worst::Worst;
@@ -144,14 +144,14 @@ fn geometry_over_nine_decades() {
         for share in [1e-9, 0.5, 1.0 - 1e-9, 1.0 - 1e-15] {
             let roller = share * radius;
             let follower = TranslatingRoller::new(radius - eccentric, 0.0, roller);
-            let curves = Curves { law: EccentricCircle::new(eccentric, radius), follower };
+            let curves = Curves { motion: &EccentricCircle::new(eccentric, radius), follower: &follower };
             for i in 0..180 {
                 let at = f64::from(2 * i).to_radians();
                 let place = || format!("radius {radius:e} m, roller {share} of it, {}°", 2 * i);
                 let (contact, profile) = (curves.contact(0, at), curves.profile(0, at));
                 let away = (profile.point - Vector2::new(eccentric, 0.0)).norm();
                 point.see((away - (radius - roller)).abs() / radius, place);
-                curvature.see((contact.pitch.curvature * radius - 1.0).abs(), place);
+                curvature.see((contact.curve.curvature * radius - 1.0).abs(), place);
                 let sine = -eccentric / radius * libm::sin(at);
                 angle.see((contact.pressure_angle - libm::asin(sine)).abs(), place);
             }
@@ -233,8 +233,9 @@ fn geometry_of_random_cams() {
             format!("{column:?}, q − 1 = {:.1e}, r {:.1e}, R_p {prime:.1e}, θ {theta:.3e}", buffer.q - 1.0, buffer.r)
         };
         let exact = exact_lift(motion.law(), &buffer, column, theta);
-        let curves = Curves { law: motion, follower: TranslatingRoller::new(prime, offset, roller) };
-        let (piece, theta) = curves.law.locate(theta);
+        let follower = TranslatingRoller::new(prime, offset, roller);
+        let curves = Curves { motion: &motion, follower: &follower };
+        let (piece, theta) = curves.motion.locate(theta);
         let (contact, profile) = (curves.contact(piece, theta), curves.profile(piece, theta));
 
         let [s, ds, dds, ddds] = &exact;
@@ -265,11 +266,11 @@ fn geometry_of_random_cams() {
         let on_profile = plus(&centre, &normal, &-big(roller));
         // The angle is rounded, and with it x: a roller path of many radii is off by its own rounding.
         let path = size + lever * buffer.r * (1.0 + bottom_law.start_slope);
-        point.see(off(contact.pitch.point, &centre).max(off(profile.point, &on_profile)) / path, place);
+        point.see(off(contact.curve.point, &centre).max(off(profile.point, &on_profile)) / path, place);
         let curvature = number(&kappa);
-        let error = number(&(big(contact.pitch.curvature) - &kappa)).abs();
+        let error = number(&(big(contact.curve.curvature) - &kappa)).abs();
         bend.see(error / (curvature.abs() + 1.0 / size), place);
-        let error = number(&(big(contact.pitch.curvature_slope) - &slope)).abs();
+        let error = number(&(big(contact.curve.curvature_slope) - &slope)).abs();
         let terms = (number(&parts[0]).abs() + number(&parts[1]).abs()) / number(&speed);
         change.see(error / (terms + 1.0 / (size * size)), place);
         let (sine, cosine) = big(contact.pressure_angle).sin_cos();

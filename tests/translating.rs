@@ -72,7 +72,7 @@ fn extreme(random: &mut Random) -> Mechanism {
     };
     let (friction, efficiency) = (pick(random, 0.0, 20.0).to_radians(), pick(random, 0.3, 1.0));
     let delta = pick(random, 30.0, 150.0).to_radians();
-    let exact = [ExactOn::Braking, ExactOn::Return, ExactOn::Mean]
+    let exact_on = [ExactOn::Braking, ExactOn::Return, ExactOn::Mean]
         [usize::from(random.next() < 0.5) + usize::from(random.next() < 0.3)];
     let model = if random.next() < 0.7 { EfficiencyModel::Consistent } else { EfficiencyModel::Printed };
     Mechanism {
@@ -83,7 +83,7 @@ fn extreme(random: &mut Random) -> Mechanism {
         friction_angle: friction,
         efficiency,
         model,
-        exact,
+        exact_on,
     }
 }
 
@@ -225,13 +225,13 @@ fn stations_converge_to_the_differential_equation() {
 fn stations_agree_in_every_mode() {
     for column in [Column::Matched, Column::Return] {
         for model in [EfficiencyModel::Consistent, EfficiencyModel::Printed] {
-            for exact in [ExactOn::Braking, ExactOn::Return, ExactOn::Mean] {
-                let mechanism = Mechanism { exact, ..mechanism(column, model) };
+            for exact_on in [ExactOn::Braking, ExactOn::Return, ExactOn::Mean] {
+                let mechanism = Mechanism { exact_on, ..mechanism(column, model) };
                 let truth = ode(&mechanism, 1e-14);
                 let stations = Stations::new(&mechanism, 2000).expect("no wall");
                 let pairs = stations.overruns.iter().zip(&stations.bottoms);
                 let error = pairs.map(|(x, bottom)| (truth.value(*x) - bottom).abs()).fold(0.0, f64::max);
-                assert!(error < 1.2e-5, "{column:?} {model:?} {exact:?}: {error:e}");
+                assert!(error < 1.2e-5, "{column:?} {model:?} {exact_on:?}: {error:e}");
             }
         }
     }
@@ -242,11 +242,11 @@ fn stations_agree_in_every_mode() {
 #[test]
 fn no_friction_and_no_loss_conserves_energy() {
     for column in [Column::Matched, Column::Return, Column::Length(0.3)] {
-        for exact in [ExactOn::Braking, ExactOn::Return, ExactOn::Mean] {
+        for exact_on in [ExactOn::Braking, ExactOn::Return, ExactOn::Mean] {
             let free = Mechanism {
                 friction_angle: 0.0,
                 efficiency: 1.0,
-                exact,
+                exact_on,
                 arm_ratio: 0.7,
                 delta: 1.1,
                 ..mechanism(column, EfficiencyModel::Consistent)
@@ -287,7 +287,7 @@ fn a_sticking_lever_is_published() {
 fn the_mean_levels_the_two_directions() {
     for column in [Column::Matched, Column::Return] {
         let worst = |exact_on: ExactOn| {
-            let mechanism = Mechanism { exact, ..mechanism(column, EfficiencyModel::Consistent) };
+            let mechanism = Mechanism { exact_on, ..mechanism(column, EfficiencyModel::Consistent) };
             let solution = ode(&mechanism, 1e-15);
             let mut worst = 0.0_f64;
             for i in 1..=180 {
@@ -297,7 +297,7 @@ fn the_mean_levels_the_two_directions() {
                     mechanism.residual(x, bottom, slope, Way::Braking),
                     mechanism.residual(x, bottom, slope, Way::Return),
                 );
-                if exact == ExactOn::Mean && slope != 0.0 {
+                if exact_on == ExactOn::Mean && slope != 0.0 {
                     assert!((braking + back).abs() < 1e-12, "{x}: {braking} {back}");
                 }
                 worst = worst.max(braking.abs()).max(back.abs());

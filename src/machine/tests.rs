@@ -1,6 +1,10 @@
 use super::*;
-use crate::document::Form;
-use crate::law::translating::EfficiencyModel;
+use crate::body::KINDS;
+use crate::buffer::bottom_law::Column;
+use crate::document::cams::{CONOID, MAKE, ROTARY, TRANSLATING};
+use crate::document::{Form, Key};
+use crate::follower::FollowerKind;
+use crate::motion::equation_18::EfficiencyModel;
 
 fn dpi(overrides: &[&str]) -> Result<Machine, MachineError> {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
@@ -25,7 +29,7 @@ fn every_embedded_machine_and_the_template_read() {
 #[test]
 fn an_override_replaces_a_value() {
     let machine = dpi(&["follower.roller.radius=25mm", "cam.base_radius = auto", "cam.lever=2"]).expect("valid");
-    assert_eq!(machine.roller.radius, 0.025);
+    assert_eq!(machine.roller().expect("a roller").radius, 0.025);
     assert_eq!(machine.cam.lever, 2.0);
 }
 
@@ -193,12 +197,23 @@ const OTHERS: &[(&str, &str)] = &[
     ("buffer.column", "200 mm"),
     ("buffer.lead", "1 mm"),
     ("design.rpm", "30"),
+    ("motion.rpm", "120"),
+    ("motion.start", "5 mm"),
+    ("motion.segment[0].law", "harmonic"),
+    ("motion.segment[0].over", "170 deg"),
+    ("motion.segment[0].to", "10 mm"),
     ("follower.roller.radius", "25 mm"),
     ("follower.roller.offset", "5 mm"),
     ("follower.roller.mass", "40 kg"),
     ("follower.roller.preload", "1600 N"),
     ("follower.roller.crown", "cylinder"),
     ("follower.roller.width", "20 mm"),
+    ("follower.swinging-roller.radius", "20 mm"),
+    ("follower.swinging-roller.arm", "100 mm"),
+    ("follower.swinging-roller.pivot_distance", "150 mm"),
+    ("follower.swinging-roller.side", "leading"),
+    ("follower.flat.mass", "40 kg"),
+    ("follower.flat.preload", "1600 N"),
     ("cam.cam_turns_per_crank_turn", "2"),
     ("cam.lever", "2"),
     ("cam.base_radius", "90 mm"),
@@ -231,37 +246,77 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.contact_stress", "1200 MPa"),
 ];
 
+/// A motion program behind a press, so that a file has every table that can stand in it.
+const MOTION: &str = "\n[motion]\nstart = \"0 mm\"\n[[motion.segment]]\nover = \"180 deg\"\nto = \"20 mm\"\n\
+                      [[motion.segment]]\nto = \"0 mm\"\n";
+
 fn every_key() -> Vec<String> {
-    SECTIONS.iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect()
+    sections().iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect()
 }
 
-/// The machine without the list of keys that were given.
-fn alike(machine: Machine) -> Machine {
-    Machine { given: Vec::new(), ..machine }
+/// All of a machine but the list of keys that were given. What the follower and the motion are, only their text tells.
+fn alike(machine: Machine) -> String {
+    format!("{:#?}", Machine { given: Vec::new(), ..machine })
+}
+
+/// A file of a press and a motion program, with the follower that a key belongs to, or a roller.
+fn file_for(path: &str) -> String {
+    let of = |kind: &&FollowerKind| path.strip_prefix(kind.section.path).is_some_and(|rest| rest.starts_with('.'));
+    let section = FOLLOWERS.iter().find(of).unwrap_or(&FOLLOWERS[0]).section;
+    let required = |key: &Key| match key.presence {
+        Required(example) => format!("{} = {}\n", key.name, key.in_toml(example)),
+        _ => String::new(),
+    };
+    let keys: String = section.keys.iter().map(required).collect();
+    let press = without(EMBEDDED[0].toml, "follower.roller");
+    // A cylindrical crown asks for a width.
+    let width = if section.path == "follower.roller" { "width = \"10 mm\"\n" } else { "" };
+    format!("{press}\n[cam.keyway]\nwidth = \"8 mm\"\ndepth = \"3 mm\"\n[{}]\n{keys}{width}{MOTION}", section.path)
+}
+
+/// A file without one of its tables.
+fn without(text: &str, table: &str) -> String {
+    let header = format!("[{table}]");
+    let mut inside = false;
+    let kept = text.lines().filter(|line| {
+        if line.starts_with('[') {
+            inside = line.starts_with(&header);
+        }
+        !inside
+    });
+    kept.collect::<Vec<_>>().join("\n")
 }
 
 #[test]
 fn every_key_of_the_table_reaches_the_machine() {
-    let keys: Vec<&str> = OTHERS.iter().map(|(key, _)| *key).collect();
+    let keys: Vec<String> = OTHERS.iter().map(|(key, _)| key.replace("[0]", "[]")).collect();
     assert_eq!(keys, every_key());
-    let base = ["cam.keyway.width=8mm", "cam.keyway.depth=3mm", "follower.roller.width=10mm"];
-    let plain = alike(dpi(&base).expect("valid"));
     for (key, value) in OTHERS {
-        let set = format!("{key}={value}");
-        let other = dpi(&[&base[..], &[&set]].concat()).unwrap_or_else(|error| panic!("{set}: {error}"));
-        assert!(other.given().contains(&(*key).to_owned()));
-        assert_ne!(alike(other), plain, "{set}");
+        let text = file_for(key);
+        let with = |sets: &[String]| {
+            Machine::from_toml("press.toml", &text, sets).unwrap_or_else(|error| panic!("{sets:?}: {error}"))
+        };
+        let mut sets = vec![format!("{key}={value}")];
+        if *key == "motion.start" {
+            // A motion ends where it starts.
+            sets.push("motion.segment[1].to=5 mm".into());
+        }
+        let other = with(&sets);
+        assert!(other.given().contains(&(*key).to_owned()), "{key}");
+        assert_ne!(alike(other), alike(with(&[])), "{key}");
     }
 }
 
 #[test]
 fn every_word_of_a_key_reads() {
-    for section in SECTIONS {
+    for section in sections() {
         for key in section.keys {
             let (Form::Words(words) | Form::WordsOrQuantity(words, ..)) = key.form else { continue };
             for word in words {
-                let set = format!("{}={word}", section.path_of(key));
-                assert!(dpi(&[&set, "follower.roller.width=10mm"]).is_ok(), "{set}");
+                let path = section.path_of(key);
+                let set = format!("{path}={word}");
+                let read = Machine::from_toml("press.toml", &file_for(&path), std::slice::from_ref(&set));
+                assert!(read.is_ok(), "{set}: {}", read.expect_err("a fault"));
             }
         }
     }
@@ -269,12 +324,12 @@ fn every_word_of_a_key_reads() {
 
 #[test]
 fn every_key_tells_what_it_is_and_for_which_cams() {
-    for section in SECTIONS {
+    for section in sections() {
         assert!(section.path.is_empty() || !section.about.is_empty(), "{}", section.path);
         for key in section.keys {
             assert!(!key.about.is_empty() && !key.presence.text().is_empty(), "{}", section.path_of(key));
             for cam in section.cams_of(key) {
-                assert!([ROTARY, TRANSLATING, CONOID].contains(cam), "{}: {cam}", section.path_of(key));
+                assert!(KINDS.iter().any(|kind| kind.command == *cam), "{}: {cam}", section.path_of(key));
             }
         }
     }
@@ -286,10 +341,12 @@ fn defaults_are_what_they_were() {
                 end_pressure = \"2 at\"\n[follower.roller]\nradius = \"30 mm\"\n[translating]\nroller_arm = \"1 m\"\n\
                 bottom_arm = \"1 m\"\ndelta = \"90 deg\"\n[conoid]\naxial_travel = \"1 m\"\n";
     let machine = Machine::from_toml("least.toml", toml, &[]).expect("valid");
-    assert_eq!((machine.polytropic_exponent, machine.column, machine.lead), (1.35, Column::Matched, 0.0));
-    assert_eq!((machine.bed.crank_turns_per_main_shaft_turn, machine.design_rpm), (3.0, 35.0));
-    let roller = RollerData { radius: 0.03, offset: 0.0, mass: None, preload: None, crown: Crown::Sphere, width: None };
-    assert_eq!(machine.roller, roller);
+    let press = machine.press().expect("a press");
+    assert_eq!((press.polytropic_exponent, press.column, press.lead), (1.35, Column::Matched, 0.0));
+    assert_eq!((press.bed.crank_turns_per_main_shaft_turn, press.design_rpm), (3.0, 35.0));
+    let roller = RollerData { radius: 0.03, offset: 0.0, crown: Crown::Sphere, width: None };
+    assert_eq!(machine.roller().expect("a roller"), &roller);
+    assert_eq!((machine.follower.mass, machine.follower.preload), (None, None));
     assert_eq!((machine.cam.turns_per_crank_turn, machine.cam.lever, machine.cam.base_radius), (1.0, 1.0, None));
     assert_eq!((machine.cam.thickness, machine.cam.material, machine.cam.rotation), (None, None, Rotation::Clockwise));
     assert_eq!(machine.transition, Transition::RunUp { width: std::f64::consts::PI / 9.0 });
@@ -334,16 +391,33 @@ fn the_template_is_written_from_the_table() {
 
 #[test]
 fn template_and_profiles_have_every_key() {
-    let mut keys = every_key();
-    keys.sort();
-    let profiles = EMBEDDED.iter().map(|machine| (machine.name, machine.toml.to_owned()));
-    for (name, text) in profiles.chain([("template", template())]) {
-        let text = with_everything(&text);
-        let sections: Vec<Section> = SECTIONS.iter().map(|section| Section { cams: &[], ..**section }).collect();
+    let keys_of = |wanted: fn(&Section) -> bool| {
+        let all = sections().into_iter().filter(|section| wanted(section));
+        let mut keys: Vec<String> =
+            all.flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect();
+        keys.sort();
+        keys
+    };
+    // A profile is a press; the template has motion programs and their followers too.
+    let (all, of_a_press) = (keys_of(|_| true), keys_of(|section| section.cams != [MAKE]));
+    // Of a program the template shows one segment, which is none yet.
+    let whole = ["motion.segment[0].over=360 deg".to_owned(), "motion.segment[0].to=0 mm".to_owned()];
+    let template = template();
+    let profiles = EMBEDDED.iter().map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
+    for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &all, &whole[..])]) {
+        let text = with_everything(text);
+        let sections: Vec<Section> = sections().iter().map(|section| Section { cams: &[], ..**section }).collect();
         let sections: Vec<&Section> = sections.iter().collect();
-        let reader = Reader::new(name, &text, &[], &sections);
-        assert_eq!(reader.given(true), keys, "{name}");
-        Machine::from_toml(name, &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let given = Reader::new(name, &text, &[], &sections).given(true);
+        let given: Vec<String> = given.iter().map(|key| key.replace("[0]", "[]")).collect();
+        assert_eq!(&given, keys, "{name}");
+        // It reads with any one of its followers.
+        let stands = |kind: &&FollowerKind| text.contains(&format!("[{}]", kind.section.path));
+        for kind in FOLLOWERS.iter().filter(stands) {
+            let others = FOLLOWERS.iter().filter(|other| other.section.path != kind.section.path);
+            let text = others.fold(text.clone(), |text, other| without(&text, other.section.path));
+            Machine::from_toml(name, &text, sets).unwrap_or_else(|error| panic!("[{}]: {error}", kind.section.path));
+        }
     }
 }
 
@@ -351,11 +425,16 @@ fn template_and_profiles_have_every_key() {
 fn the_schema_has_every_key() {
     let schema = schema();
     for path in every_key() {
-        let key = path.split('.').fold(&schema, |table, name| &table["properties"][name]);
+        let key = path.split('.').fold(&schema, |table, name| match name.strip_suffix("[]") {
+            Some(name) => &table["properties"][name]["items"],
+            None => &table["properties"][name],
+        });
         assert!(key["description"].is_string(), "{path}: {key}");
     }
-    assert_eq!(schema["required"], serde_json::json!(["name", "bed", "buffer", "follower"]));
-    assert_eq!(schema["properties"]["follower"]["required"], serde_json::json!(["roller"]));
+    // A press is described as a whole or not at all, and a follower by one table of several.
+    assert_eq!(schema["required"], serde_json::json!(["name"]));
+    assert_eq!(schema["properties"]["bed"]["required"], serde_json::json!(["mass", "crank_radius"]));
+    assert_eq!(schema["properties"]["follower"]["properties"]["roller"]["required"], serde_json::json!(["radius"]));
     assert_eq!(schema["properties"]["cam"]["additionalProperties"], false);
 }
 
@@ -366,15 +445,58 @@ fn keys_without_effect_are_told_for_each_kind() {
     for (cam, idle) in [
         (ROTARY, &["conoid.overhang"][..]),
         (TRANSLATING, &["cam.balance", "cam.rotation", "conoid.overhang"]),
-        (CONOID, &["cam.balance", "limits.contact_stress"]),
+        (CONOID, &["cam.balance"]),
+        (MAKE, &["conoid.overhang"]),
     ] {
-        assert_eq!(without_effect(machine.given(), cam), idle, "{cam}");
+        assert_eq!(machine.without_effect(cam), idle, "{cam}");
     }
     assert!(dpi(&[]).expect("valid").given().is_empty(), "nobody gave the keys of an embedded machine");
-    let own = Machine::from_toml("dpi.toml", EMBEDDED[0].toml, &[]).expect("valid");
-    assert!(without_effect(own.given(), ROTARY).is_empty(), "a file may describe all kinds");
+    let own = Machine::from_toml("dpi.toml", &format!("{}{MOTION}", EMBEDDED[0].toml), &[]).expect("valid");
+    assert!(own.without_effect(ROTARY).is_empty(), "a file may describe all kinds");
     let shared = ["cam.cam_turns_per_crank_turn", "cam.lever", "cam.base_radius", "cam.bore_radius", "cam.rotation"];
     for key in shared {
-        assert!(without_effect(own.given(), TRANSLATING).contains(&key.to_owned()), "{key}");
+        assert!(own.without_effect(TRANSLATING).contains(&key.to_owned()), "{key}");
     }
+}
+
+/// Bed, buffer and design speed are one press: any of them asks for the others.
+#[test]
+fn a_press_is_described_as_a_whole_or_not_at_all() {
+    let roller = "name = \"x\"\n[follower.roller]\nradius = \"30 mm\"\n";
+    let machine = Machine::from_toml("roller.toml", roller, &[]).expect("no press is needed");
+    assert!(machine.press().is_err() && machine.motion().is_none());
+    let why = machine.press().expect_err("no press").to_string();
+    assert!(why.contains("[bed], [buffer] and [design]") && why.contains("camgen make"), "{why}");
+    for table in ["[bed]", "[buffer]", "[design]"] {
+        let text = Machine::from_toml("part.toml", &format!("{roller}{table}\n"), &[]).expect_err(table).to_string();
+        for key in ["bed.mass", "bed.crank_radius", "buffer.ambient_pressure", "buffer.end_pressure"] {
+            assert!(text.contains(&format!("missing key `{key}`")), "{table}: no {key} in\n{text}");
+        }
+    }
+}
+
+#[test]
+fn a_base_radius_out_of_the_follower_s_reach_is_told_at_its_place() {
+    let sets = ["follower.roller.offset=200mm", "cam.base_radius=40mm", "cam.bore_radius=10mm"];
+    let error = dpi(&sets).expect_err("out of reach");
+    assert_eq!(error.faults.len(), 1, "{error}");
+    let fault = &error.faults[0];
+    assert!(fault.message.contains("does not reach a cam of this base radius"), "{error}");
+    assert!(fault.place.is_some() && fault.help.is_some(), "{error}");
+}
+
+/// Every follower has its table; a file without one is told which there are, and one with two that they are two.
+#[test]
+fn the_follower_is_one_of_the_list() {
+    let told = Machine::from_toml("none.toml", "name = \"x\"\n", &[]).expect_err("no follower").to_string();
+    for kind in FOLLOWERS {
+        let path = kind.section.path;
+        assert!(told.contains(&format!("[{path}]")), "{told}");
+        assert!(sections().iter().any(|section| section.path == path), "{path}");
+    }
+    let tables: Vec<String> = FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect();
+    let told = Machine::from_toml("all.toml", &format!("name = \"x\"\n{}\n", tables.join("\n")), &[])
+        .expect_err("one too many");
+    let two = format!("two followers: [{}] and [{}]", FOLLOWERS[0].section.path, FOLLOWERS[1].section.path);
+    assert!(told.to_string().contains(&two), "{told}");
 }

@@ -182,7 +182,7 @@ mod tests {
             position: Some(1.0),
             lift: Some(Jet::default()),
             swing: None,
-            bed: Some(BedRow::default()),
+            bed: Some(BedRow { crank_deg: Some(1.0), ..BedRow::default() }),
             curve: Some(Vector2::zeros()),
             profile: Some(Vector2::zeros()),
             pressure_angle_deg: Some(1.0),

@@ -1,4 +1,5 @@
 use super::*;
+use crate::body::Body as _;
 use crate::motion::equation_18::Solver;
 
 fn plate(overrides: &[&str]) -> Wedge {

@@ -63,11 +63,10 @@ mod tests {
         for law in LAWS {
             let (start, end) = ((law.at)(0.0), (law.at)(1.0));
             assert!(start[0].abs() < 1e-16 && (end[0] - 1.0).abs() < 1e-15, "{}: {start:?} {end:?}", law.name);
-            for order in 1..4 {
-                let jumps = start[order].abs().max(end[order].abs()) > 1e-9;
-                let continuous = u32::try_from(order).expect("small") <= law.continuity;
-                assert_eq!(!jumps, continuous, "{}: derivative {order} of {start:?} {end:?}", law.name);
-            }
+            // Of the derivatives in a row: behind one that jumps the next may well be 0 at both ends.
+            let rests = |order: &usize| start[*order].abs().max(end[*order].abs()) < 1e-9;
+            let continuous = (1..4).take_while(rests).count();
+            assert_eq!(u32::try_from(continuous).expect("small"), law.continuity, "{}: {start:?} {end:?}", law.name);
             for i in 0..=50 {
                 let x = f64::from(i) / 50.0;
                 let (here, mirrored) = ((law.at)(x), (law.at)(1.0 - x));

@@ -8,14 +8,15 @@ use crate::verify::rolling;
 fn rotary(overrides: &[&str]) -> Disc {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
     let machine = Machine::load("dpi", &overrides).expect("valid").0;
-    Disc::solve(&machine, machine.design_rpm).expect("a cam")
+    Disc::solve(&machine, machine.press().expect("a press").design_rpm).expect("a cam")
 }
 
 #[test]
 fn an_eccentric_circle_is_two_half_circles() {
     let (e, rho, roller) = (0.012, 0.06, 0.015);
-    let curves = Curves { law: EccentricCircle::new(e, rho), follower: TranslatingRoller::new(rho - e, 0.0, roller) };
-    let outline = profile(&curves, 5e-6).expect("an outline");
+    let curves =
+        Curves { motion: &EccentricCircle::new(e, rho), follower: &TranslatingRoller::new(rho - e, 0.0, roller) };
+    let outline = profile(curves, 5e-6).expect("an outline");
     assert_eq!(outline.contour.vertices.len(), 2);
     assert!(outline.deviation < 1e-12, "{}", outline.deviation);
     for segment in outline.contour.segments() {
@@ -30,7 +31,7 @@ fn the_reference_outline_is_short_smooth_and_true() {
     for overrides in [vec![], vec!["buffer.column=return"], vec!["follower.roller.offset=20mm"]] {
         let cam = rotary(&overrides);
         for tolerance in [0.1, 0.01, 0.005, 1e-3, 1e-4, 5e-5] {
-            let outline = profile(&cam.curves, 1e-3 * tolerance).expect("an outline");
+            let outline = profile(cam.curves(), 1e-3 * tolerance).expect("an outline");
             let breaks = outline.contour.tangent_breaks();
             assert!(outline.deviation <= tolerance);
             assert!(breaks.iter().all(|turn| turn.abs() < 1e-9), "{breaks:?}");
@@ -47,7 +48,7 @@ fn the_reference_outline_is_short_smooth_and_true() {
 #[test]
 fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
     let cam = rotary(&["buffer.column=return", "transition.kind=none"]);
-    let outline = profile(&cam.curves, 5e-6).expect("an outline");
+    let outline = profile(cam.curves(), 5e-6).expect("an outline");
     let of_roller = outline.contour.segments().filter(|s| (s.radius() + 30.0).abs() < 1e-9).count();
     assert_eq!(of_roller, 2);
     assert!(outline.contour.tangent_breaks().iter().all(|turn| turn.abs() < 1e-9));
@@ -57,12 +58,12 @@ fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
         vec!["cam.base_radius=30mm", "follower.roller.radius=80mm"],
     ] {
         let cam = rotary(&overrides);
-        let outline = profile(&cam.curves, 5e-6).expect("an outline");
+        let outline = profile(cam.curves(), 5e-6).expect("an outline");
         let edges: Vec<f64> = outline.contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-9).collect();
         assert_eq!(edges.len(), 2, "{overrides:?}: {edges:?}");
         assert!(edges.iter().all(|turn| *turn > 0.0), "{edges:?}");
-        let losses = envelope::losses(&cam.curves).expect("loops");
-        let rolled = rolling::roll(&cam, &outline.contour, 0.005);
+        let losses = envelope::losses(cam.curves()).expect("loops");
+        let rolled = rolling::roll(&cam, cam.curves(), &outline.contour, 0.005);
         assert!((rolled.gap_mm - 1e3 * losses[0].lost).abs() < 0.3 * rolled.gap_mm, "{rolled:?} {losses:?}");
         let lift = rolled.lift_error_max_mm.expect("it touches");
         let lost = losses.iter().map(|l| 1e3 * l.lost).fold(0.0, f64::max);
@@ -74,9 +75,9 @@ fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
 fn what_cannot_be_drawn_is_told() {
     let swallowed =
         rotary(&["cam.base_radius=1mm", "cam.lever=10", "follower.roller.radius=300mm", "cam.bore_radius=0.5mm"]);
-    assert!(matches!(profile(&swallowed.curves, 0.005), Err(OutlineError::Undercut(_))));
+    assert!(matches!(profile(swallowed.curves(), 0.005), Err(OutlineError::Undercut(_))));
     let huge = rotary(&["cam.base_radius=1000m"]);
-    assert!(matches!(profile(&huge.curves, 0.005), Err(OutlineError::TooLarge { .. })));
+    assert!(matches!(profile(huge.curves(), 0.005), Err(OutlineError::TooLarge { .. })));
     let cam = rotary(&[]);
-    assert!(matches!(profile(&cam.curves, 1e-16), Err(OutlineError::Fit(_))));
+    assert!(matches!(profile(cam.curves(), 1e-16), Err(OutlineError::Fit(_))));
 }

@@ -1,0 +1,91 @@
+//! The library as a program uses it: a cam of one's own, from a specification put together in code to its files.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+use camgen::motion::{Jet, Motion, Piece};
+use camgen::pipeline::{Builder, Error, Spec, Writing};
+use std::f64::consts::TAU;
+use std::fs;
+
+const TOLERANCE: f64 = 5e-6;
+
+/// Twice up and down in a turn, by 8 mm.
+#[derive(Debug)]
+struct Wave;
+
+impl Motion for Wave {
+    fn pieces(&self) -> &[Piece] {
+        &[Piece { start: 0.0, end: TAU, dwell: false }]
+    }
+
+    fn jet(&self, _: usize, angle: f64) -> Jet {
+        let (sin, cos) = (libm::sin(2.0 * angle), libm::cos(2.0 * angle));
+        Jet { s: 0.004 * (1.0 - cos), ds: 0.008 * sin, dds: 0.016 * cos, ddds: -0.032 * sin }
+    }
+}
+
+fn roller() -> Builder {
+    Spec::builder("a \"wave\"").roller(0.01).offset(0.002).thickness(0.012).counter_clockwise()
+}
+
+#[test]
+fn a_motion_of_one_s_own_becomes_files() {
+    let cam = roller().bore_radius(0.008).cutter_radius(0.005).motion(Wave).expect("in range").solve().expect("a cam");
+    let proven = cam.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
+    assert!(proven.passed(), "{:?}", proven.findings());
+    let directory = tempfile::tempdir().expect("a directory");
+    let out = directory.path().join("new/out");
+    let set = proven.files(&Writing::to(&out, "wave")).expect("files");
+    assert!(!out.exists(), "nothing is written before it is committed");
+    let names: Vec<&str> = set.outputs().iter().map(|output| output.name.as_str()).collect();
+    assert_eq!(names, ["wave.dxf", "wave.svg", "wave.step", "wave.csv"]);
+    assert_eq!(set.bytes(".dxf"), Some(&proven.cut_files()[0][..]), "what is written is what was proved");
+    assert_eq!(set.directory(), out);
+    let outputs = set.outputs().to_vec();
+    let report = set.commit().expect("written");
+    assert_eq!(report.machine, "a \"wave\"");
+    assert_eq!(report.files.len(), 4);
+    for output in outputs {
+        assert!(fs::read(out.join(&output.name)).expect("a file") == output.bytes, "{}", output.name);
+    }
+    let checked = cam.check(&proven.cut_files()[0], TOLERANCE).expect("a DXF file");
+    assert!(checked.passed(), "{checked:?}");
+}
+
+/// A pressure angle that no cam of this size keeps: refused by name, made when somebody insists.
+#[test]
+fn a_cam_that_breaks_a_limit_is_refused_unless_forced() {
+    let spec = roller().base_radius(0.012).pressure_angle(0.1).motion(Wave).expect("in range");
+    let cam = spec.solve().expect("a cam");
+    let proven = cam.draw(TOLERANCE).expect("a drawing").prove().expect("a proof");
+    assert!(!proven.passed() && proven.no_outline().is_none(), "{:?}", proven.findings());
+    let writing = Writing::to("never", "wave");
+    match proven.files(&writing) {
+        Err(Error::Refused(checks)) => assert!(checks.contains("pressure_angle"), "{checks}"),
+        other => panic!("{other:?}"),
+    }
+    let forced = proven.files(&Writing { force: true, ..writing }).expect("files");
+    assert!(!forced.report().passed() && forced.outputs().len() == 4);
+}
+
+#[test]
+fn what_cannot_be_is_told_by_its_kind() {
+    let faults = roller().set("cam.thicknes", "3 mm").set("cam.material", "wood").machine().expect_err("two faults");
+    match &faults {
+        Error::Machine(error) => assert_eq!(error.faults.len(), 2, "{error}"),
+        other => panic!("{other:?}"),
+    }
+    let cam = roller().motion(Wave).expect("in range").solve().expect("a cam");
+    let drawing = cam.draw(TOLERANCE).expect("an outline");
+    let proven = drawing.prove().expect("a proof");
+    let asked = |names: &[&str]| proven.files(&Writing::to("never", "wave").formats(names));
+    assert!(matches!(asked(&["stl"]), Err(Error::Unfit { format: "stl", .. })), "{:?}", asked(&["stl"]));
+    assert!(matches!(asked(&["dwg"]), Err(Error::NoSuchFormat { .. })), "{:?}", asked(&["dwg"]));
+    assert!(matches!(cam.draw(1e-16), Err(Error::Draw(_))), "no double keeps a tenth of a femtometre");
+    assert!(matches!(cam.check(b"hello", TOLERANCE), Err(Error::Read(_))));
+    let in_the_way = tempfile::NamedTempFile::new().expect("a file");
+    let set = proven.files(&Writing::to(in_the_way.path(), "wave")).expect("files");
+    assert!(matches!(set.commit(), Err(Error::Files(_))));
+    let press = Spec::rotary(roller().machine().expect("no press is needed"), 35.0).solve().expect_err("no press");
+    assert!(matches!(press, Error::Solve(_)) && press.to_string().contains("describes no press"), "{press}");
+}

@@ -1,0 +1,270 @@
+//! What holds for every entry of a table of the library, whatever it is: laws, followers, checks, formats, columns, bodies.
+//! A new entry is held to the same as soon as it stands in its table.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+#[path = "common/program.rs"]
+mod program;
+
+use camgen::body::wedge::LAW_TOLERANCE;
+use camgen::body::{KINDS, Kind, Request};
+use camgen::document::Key;
+use camgen::document::Presence::Required;
+use camgen::follower::{FOLLOWERS, FollowerKind};
+use camgen::machine::Machine;
+use camgen::motion::equation_18::{ExactOn, Solver};
+use camgen::motion::laws::LAWS;
+use camgen::pipeline::{Cam, Error, Spec, Writing};
+use camgen::report::{Report, Verdict};
+use camgen::table::COLUMNS;
+use camgen::verify::{CHECKS, On};
+use camgen::write::{FORMATS, When, by_name};
+use program::{camgen, camgen_in, files, report};
+use std::fs;
+
+const LIFTER: &str = include_str!("common/lifter.toml");
+const TOLERANCE: f64 = 5e-6;
+const SPEEDS: [f64; 2] = [20.0, 35.0];
+
+fn lifter(text: &str, overrides: &[&str]) -> Spec {
+    let overrides: Vec<String> = overrides.iter().map(|&set| set.to_owned()).collect();
+    let machine = Machine::from_toml("lifter.toml", text, &overrides).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let (motion, rpm) = machine.motion().expect("a motion");
+    Spec::of_motion(machine, motion, rpm)
+}
+
+/// A cam of each kind. A new kind of body needs a line here.
+fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
+    let owned: Vec<String> = overrides.iter().map(|&set| set.to_owned()).collect();
+    let dpi = || Machine::load("dpi", &owned).unwrap_or_else(|error| panic!("{error}")).0;
+    let spec = match kind.command {
+        "rotary" => Spec::rotary(dpi(), 35.0),
+        "translating" => Spec::translating(dpi(), 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking),
+        "conoid" => Spec::conoid(dpi(), SPEEDS.to_vec(), None),
+        "make" => lifter(LIFTER, overrides),
+        other => panic!("no cam of the kind {other} here"),
+    };
+    let cam = spec.solve().unwrap_or_else(|error| panic!("{}: {error}", kind.command));
+    assert_eq!(cam.body().kind(), kind);
+    cam
+}
+
+/// The lifter under every follower, each described by the keys its table asks for and no others.
+fn cams_of_followers() -> Vec<(&'static str, Cam)> {
+    let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
+    let in_degrees = head.replace(" mm", " deg");
+    let cam_of = |kind: &FollowerKind| {
+        let section = kind.section;
+        let key = |key: &Key| match key.presence {
+            Required(example) => format!("{} = {}\n", key.name, key.in_toml(example)),
+            _ => String::new(),
+        };
+        let keys: String = section.keys.iter().map(key).collect();
+        // It takes a lift in millimetres or in degrees.
+        let solved =
+            [head, &in_degrees].map(|motion| lifter(&format!("{motion}[{}]\n{keys}", section.path), &[]).solve());
+        match solved {
+            [Ok(cam), _] | [_, Ok(cam)] => (section.path, cam),
+            [Err(length), Err(angle)] => panic!("[{}]\nin millimetres: {length}\nin degrees: {angle}", section.path),
+        }
+    };
+    FOLLOWERS.iter().map(cam_of).collect()
+}
+
+/// The same cam as a user asks for it.
+fn command_of(kind: &Kind) -> Vec<&'static str> {
+    match kind.command {
+        "make" => vec!["make", "lifter.toml"],
+        "conoid" => vec!["conoid", "--rpm", "20,35"],
+        command => vec![command],
+    }
+}
+
+fn report_of(cam: &Cam) -> Report {
+    let request = Request { flank: true, ..Request::within(TOLERANCE) };
+    cam.draw(request).expect("an outline").prove().expect("a proof").report()
+}
+
+fn names_are_distinct(mut names: Vec<&str>) {
+    let all = names.len();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), all, "{names:?}");
+}
+
+#[test]
+fn every_format_is_written_for_every_cam_it_fits_and_refused_for_the_others() {
+    for kind in KINDS {
+        let cam = cam_of(kind, &[]);
+        let drawing = cam.draw(Request { flank: true, ..Request::within(TOLERANCE) }).expect("a drawing");
+        let drawn = drawing.drawn().expect("an outline");
+        for format in by_name() {
+            let directory = tempfile::tempdir().expect("a directory");
+            fs::write(directory.path().join("lifter.toml"), LIFTER).expect("written");
+            let rest = ["--name", "cam", "--out", "out", "--json", "--format", format.name];
+            let run = camgen_in(directory, &[&command_of(kind)[..], &rest].concat());
+            let what = format!("{} of a {}: {}", format.name, kind.noun, run.err);
+            let out = run.directory.path().join("out");
+            if let Some(why) = (format.unfit)(cam.body()) {
+                assert_eq!(run.code, 2, "{what}");
+                assert!(run.err.contains(why) && run.err.contains(format.name), "{what}");
+                assert!(!out.exists(), "{what}");
+                continue;
+            }
+            assert_eq!(run.code, 0, "{what}");
+            let mut expected: Vec<String> =
+                (format.endings)(drawn).iter().map(|ending| format!("cam{ending}")).collect();
+            expected.sort();
+            assert!(!expected.is_empty(), "{what}");
+            assert_eq!(files(&out), expected, "{what}");
+            assert_eq!(report(&run)["files"].as_array().map(Vec::len), Some(expected.len()), "{what}");
+            for file in expected {
+                assert!(fs::metadata(out.join(&file)).expect("a file").len() > 100, "{file}: {what}");
+            }
+        }
+    }
+}
+
+/// What is asked of the library is told as the program tells it, and the usual formats are those that fit.
+#[test]
+fn formats_are_chosen_by_what_fits() {
+    names_are_distinct(FORMATS.iter().map(|format| format.name).collect());
+    for kind in KINDS {
+        let cam = cam_of(kind, &[]);
+        let (chosen, left_out) = Writing::to("out", "cam").chosen(cam.body()).expect("the usual ones");
+        for format in FORMATS {
+            let is_chosen = chosen.iter().any(|other| other.name == format.name);
+            let unfit = (format.unfit)(cam.body());
+            let usual = format.when == When::Drawn || (format.when == When::Usual && unfit.is_none());
+            assert_eq!(is_chosen, usual, "{} of a {}", format.name, kind.noun);
+            if format.when == When::Usual && unfit.is_some() {
+                assert!(left_out.iter().any(|(name, _)| *name == format.name), "{} of a {}", format.name, kind.noun);
+            }
+        }
+        let asked = Writing::to("out", "cam").formats(&["dwg"]).chosen(cam.body());
+        assert!(matches!(asked, Err(Error::NoSuchFormat { ref name, .. }) if name == "dwg"), "{asked:?}");
+    }
+}
+
+/// The columns of every kind of cam stand in the order of the list, and every column belongs to some cam.
+#[test]
+fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
+    let order: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
+    let mut seen: Vec<&str> = Vec::new();
+    let of_kinds = KINDS.iter().map(|kind| (kind.noun, cam_of(kind, &[])));
+    for (what, cam) in of_kinds.chain(cams_of_followers()) {
+        let proven = cam.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
+        let table = proven.table(36);
+        let mut rest = order.iter();
+        for column in &table.columns {
+            assert!(rest.any(|name| name == column), "{what}: {column} is out of order: {:?}", table.columns);
+        }
+        assert!(table.rows.len() >= 36, "{what}: {} rows", table.rows.len());
+        for row in &table.rows {
+            assert_eq!(row.len(), table.columns.len(), "{what}");
+            assert!(row.iter().all(|cell| !cell.is_nan()), "{what}: {row:?}");
+        }
+        seen.extend(&table.columns);
+    }
+    for name in order {
+        assert!(seen.contains(&name), "no cam has the column {name}");
+    }
+}
+
+/// Every check is reached by some cam or some file, and is found in the order of the list.
+#[test]
+fn every_check_is_run_for_some_cam() {
+    names_are_distinct(CHECKS.iter().map(|check| check.name).collect());
+    let order: Vec<&str> = CHECKS.iter().map(|check| check.name).collect();
+    let mut reports = Vec::new();
+    for kind in KINDS {
+        let crowned = ["follower.roller.crown=cylinder", "follower.roller.width=20mm", "cam.balance=40mm .. 85mm"];
+        let cam = cam_of(kind, &crowned);
+        reports.push((format!("{} as made", kind.noun), report_of(&cam)));
+        if cam.body().plane().is_some() {
+            let made = cam_of(kind, &[]);
+            let proven = made.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
+            let report = made.check(&proven.cut_files()[0], TOLERANCE).expect("a DXF file");
+            assert!(report.passed(), "{}: {report:?}", kind.noun);
+            reports.push((format!("{} as a file", kind.noun), report));
+        }
+    }
+    let mut seen: Vec<String> = Vec::new();
+    for (what, report) in &reports {
+        let mut rest = order.iter();
+        for finding in &report.checks {
+            assert!(rest.any(|name| *name == finding.check), "{what}: {} is unknown or out of order", finding.check);
+            // Whoever is refused is told why.
+            let failed = finding.verdict == Verdict::Fail;
+            assert!(!failed || finding.limit.is_some() || finding.note.is_some(), "{what}: {finding:?}");
+            seen.push(finding.check.to_string());
+        }
+    }
+    for check in CHECKS {
+        assert!(seen.iter().any(|name| name == check.name), "no cam here is checked for {}", check.name);
+        let of_a_file = |what: &str| what.ends_with("as a file");
+        let on_cams = reports.iter().filter(|(what, _)| !of_a_file(what));
+        if check.on == On::File {
+            let mut names = on_cams.flat_map(|(_, report)| &report.checks).map(|finding| &*finding.check);
+            assert!(!names.any(|name| name == check.name), "{} is for files", check.name);
+        }
+    }
+}
+
+#[test]
+fn every_check_is_explained() {
+    let all = camgen(&["explain"]);
+    assert_eq!(all.code, 0, "{}", all.err);
+    for check in CHECKS {
+        let run = camgen(&["explain", check.name]);
+        assert_eq!(run.code, 0, "{}: {}", check.name, run.err);
+        assert!(run.out.starts_with(check.name) && run.out.contains(check.about), "{}", run.out);
+        assert!(all.out.contains(&run.out), "{} is not among all", check.name);
+        // A sentence.
+        assert!(check.about.len() > 20 && check.about.ends_with('.'), "{}: {}", check.name, check.about);
+    }
+}
+
+/// A cam by every law, rolled on as written: the law's own derivatives are proved where the law stands.
+#[test]
+fn every_law_makes_a_cam_that_gives_it() {
+    names_are_distinct(LAWS.iter().map(|law| law.name).collect());
+    for law in LAWS {
+        let cam = lifter(
+            LIFTER,
+            &[&format!("motion.segment[0].law={}", law.name), &format!("motion.segment[2].law={}", law.name)],
+        );
+        let cam = cam.solve().unwrap_or_else(|error| panic!("{}: {error}", law.name));
+        let proven = cam.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
+        assert!(proven.passed(), "{}: {:?}", law.name, proven.findings());
+        let gap = proven.rolled().expect("a plane cam is rolled on").gap_mm;
+        assert!(gap.abs() <= 1e3 * TOLERANCE, "{}: {gap} mm", law.name);
+        let table = proven.table(2);
+        let lift = table.columns.iter().position(|name| *name == "lift_mm").expect("a lift");
+        let last = table.rows[1][lift];
+        assert!((last - 20.0).abs() < 1e-12, "{}: at half a turn the lift is {last} mm", law.name);
+    }
+    let unknown = Machine::from_toml("lifter.toml", &LIFTER.replace("3-4-5", "cycloid"), &[]).expect_err("no such law");
+    for law in LAWS {
+        assert!(unknown.to_string().contains(law.name), "{unknown}");
+    }
+}
+
+/// A follower described by what its table asks for, and nothing else, makes a cam.
+#[test]
+fn every_follower_makes_a_cam_of_its_required_keys() {
+    for (name, cam) in cams_of_followers() {
+        let proven = cam.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
+        assert!(proven.passed(), "{name}: {:?}", proven.findings());
+        let gap = proven.rolled().expect("a plane cam is rolled on").gap_mm;
+        assert!(gap.abs() <= 1e3 * TOLERANCE, "{name}: {gap} mm");
+    }
+}
+
+#[test]
+fn every_kind_is_a_command() {
+    names_are_distinct(KINDS.iter().map(|kind| kind.command).collect());
+    for kind in KINDS {
+        assert_eq!(camgen(&[kind.command, "--help"]).code, 0, "{}", kind.command);
+    }
+}
