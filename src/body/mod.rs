@@ -63,8 +63,8 @@ pub struct Drawn {
     pub parts: Vec<Part>,
     /// The flank of a body whose sections differ, when it was asked for.
     pub flank: Option<Flank>,
-    /// The path of a cutter, when it was asked for.
-    pub cutter_path: Option<Outline>,
+    /// The path of a cutter, when it was asked for, or why the cutter has none: then the check of the cutter's radius fails too.
+    pub cutter_path: Option<Result<Outline, OutlineError>>,
 }
 
 /// Why there is no drawing.

@@ -11,7 +11,7 @@ pub(super) fn run(args: &ExplainArgs) -> Result<Outcome, Failure> {
         let known: Vec<&str> = CHECKS.iter().map(|check| check.name).collect();
         return Err(Failure(format!("no such check; one of {}", known.join(", "))));
     }
-    let text: String = chosen.iter().map(|check| format!("{}\n    {}\n", check.name, check.about)).collect();
-    print(&text)?;
+    let lines: Vec<String> = chosen.iter().map(|check| format!("{}\n    {}\n", check.name, check.about)).collect();
+    print(&lines.concat())?;
     Ok(Outcome::Fine)
 }

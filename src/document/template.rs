@@ -8,9 +8,9 @@ const COMMENT_COLUMN: usize = 38;
 const WIDTH: usize = 120;
 
 /// A file with every key of the sections: required ones with an example, others with their default, and what may be
-/// absent commented out; of the tables that may be absent those of `shown` stand. `title` becomes the comment at its head.
+/// absent commented out; of the tables that may be absent those of `shown` stand. `title` becomes the comment at its head; keys without effect on `cam` are commented out too.
 #[must_use]
-pub fn template(title: &str, sections: &[&Section], shown: &[&str]) -> String {
+pub fn template(title: &str, sections: &[&Section], shown: &[&str], cam: &str) -> String {
     let mut text = comment(title);
     for section in sections {
         // What may be absent as a whole is commented out as a whole.
@@ -22,7 +22,8 @@ pub fn template(title: &str, sections: &[&Section], shown: &[&str]) -> String {
             (path, _) => text.push_str(&line(&format!("{mark}[{path}]"), section.about)),
         }
         for key in section.keys {
-            let mark = if matches!(key.presence, Presence::Optional(_)) { "# " } else { mark };
+            let idle = !key.cams.is_empty() && !key.cams.contains(&cam);
+            let mark = if idle || matches!(key.presence, Presence::Optional(_)) { "# " } else { mark };
             let value = key.in_toml(key.presence.text());
             text.push_str(&line(&format!("{mark}{} = {value}", key.name), &about(key)));
         }

@@ -50,7 +50,7 @@ pub struct FollowerData {
     pub roller: Option<RollerData>,
 }
 
-/// Mass of a follower, a key of every follower's table.
+/// Mass of a follower on a straight path, a key of its table.
 const MASS: Field<f64> = Field::quantity(
     "mass",
     "of all that moves with the follower along its path; asks for the check force_closure",
@@ -58,7 +58,7 @@ const MASS: Field<f64> = Field::quantity(
     Mass,
     above(0.0, HEAVIEST),
 );
-/// Preload of a follower, a key of every follower's table.
+/// Preload of a follower on a straight path, a key of its table.
 const PRELOAD: Field<f64> = Field::quantity(
     "preload",
     "spring or weight that presses the follower onto the cam beside the air",

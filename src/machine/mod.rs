@@ -3,7 +3,7 @@
 //! One of the two doors of the library: what comes out of here is a machine that can be computed. Whatever can be told
 //! by line and column is told here; rooms behind this one do not see a negative mass.
 //!
-//! Each part of the machine has a file with its data, its table of keys and its reading. [`SECTIONS`] gathers the
+//! Each part of the machine has a file with its data, its table of keys and its reading. [`sections`] gathers the
 //! tables; a key is one constant in its table and one line in its reading.
 
 mod bed;
@@ -26,6 +26,7 @@ pub use press::{NoPress, NoRoller, Press};
 pub use translating::TranslatingData;
 
 use crate::document::Presence::Required;
+use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
 use crate::document::{self, Field, Occurs, Reader, Section};
 use crate::follower::{self, FOLLOWERS};
@@ -62,7 +63,7 @@ pub fn sections() -> Vec<&'static Section> {
 #[must_use]
 pub fn template() -> String {
     let shown = ["bed", "buffer", "design", "follower.roller"];
-    document::template("A machine file of camgen. A quantity is \"number unit\".", &sections(), &shown)
+    document::template("A machine file of camgen. A quantity is \"number unit\".", &sections(), &shown, cams::ROTARY)
 }
 
 /// The JSON schema of machine files.

@@ -45,6 +45,7 @@ pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f
 const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };
 
 /// Largest |pressure angle|, rad.
+#[must_use]
 pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
     let signed = |sign: f64| {
         largest(curves, |piece, angle| {
@@ -57,6 +58,7 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
 }
 
 /// Largest curvature of the follower's curve, 1/m: the sharpest convex place.
+#[must_use]
 pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
     largest(curves, |piece, angle| {
         let pitch = curves.touch(piece, angle).curve;
@@ -65,6 +67,7 @@ pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
 }
 
 /// Smallest radius of curvature under a face, m, signed: not positive where the profile turns back on itself.
+#[must_use]
 pub fn least_radius(curves: Curves<'_>) -> Extremum {
     let least = largest(curves, |piece, angle| {
         let curve = curves.touch(piece, angle).curve;
@@ -77,6 +80,7 @@ pub fn least_radius(curves: Curves<'_>) -> Extremum {
 /// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.
 ///
 /// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
+#[must_use]
 pub fn concave_profile_curvature(curves: Curves<'_>) -> Extremum {
     let pitch = largest(curves, |piece, angle| {
         let pitch = curves.touch(piece, angle).curve;
@@ -98,6 +102,7 @@ pub struct Corner {
 const LEAST_CORNER: f64 = 1e-9;
 
 /// The corners of the pitch curve, in the order of the pieces; each stands at the end of a piece.
+#[must_use]
 pub fn corners(curves: Curves<'_>) -> Vec<Corner> {
     let pieces = curves.motion.pieces();
     let joints = if curves.motion.period().is_some() { pieces.len() } else { pieces.len().saturating_sub(1) };

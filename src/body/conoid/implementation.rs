@@ -50,7 +50,7 @@ impl Conoid {
                 }
             }
         }
-        Ok(outline.from_exact(shift))
+        Ok(outline.counted_from_exact(shift))
     }
 
     fn draw_parts(&self, fit: Fit) -> Result<Vec<Part>, OutlineError> {

@@ -335,7 +335,7 @@ impl Body for Disc {
             let path = outline::cutter_path(curves, radius, request.fit.tolerance)?;
             Ok::<_, OutlineError>(Part::turning(&self.machine, path).outline)
         };
-        Ok(Drawn { parts: vec![part], flank: None, cutter_path: request.cutter.map(cutter_path).transpose()? })
+        Ok(Drawn { parts: vec![part], flank: None, cutter_path: request.cutter.map(cutter_path) })
     }
 
     /// At 360 i/samples degrees; at a break of the motion the row belongs to the later piece.

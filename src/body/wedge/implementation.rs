@@ -31,7 +31,7 @@ impl Wedge {
         }
         let curves = self.curves();
         let distance = curves.offset() + shift;
-        let flank = outline::parallel(curves, distance, half, &envelope::losses(curves)?)?.from_exact(shift);
+        let flank = outline::parallel(curves, distance, half, &envelope::losses(curves)?)?.counted_from_exact(shift);
         let mut lower = flank.contour.vertices;
         let last = self.motion.pieces().len().saturating_sub(1);
         let contact = curves.contact(last, self.stroke()).curve;

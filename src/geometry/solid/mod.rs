@@ -254,7 +254,7 @@ fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
     shell.capped()
 }
 
-/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`solid`] is; `area` is
+/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`prism`] is; `area` is
 /// the area of the holes and `volume` what the flank encloses.
 ///
 /// # Errors

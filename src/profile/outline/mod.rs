@@ -125,7 +125,7 @@ impl Outline {
     }
 
     /// With the deviation counted from the exact curve, where the chain was fitted to one `shift` (m) beside it.
-    pub(crate) fn from_exact(self, shift: f64) -> Self {
+    pub(crate) fn counted_from_exact(self, shift: f64) -> Self {
         let deviation = self.deviation + MILLIMETRES * shift.abs();
         Self { deviation, ..self }
     }
@@ -154,7 +154,7 @@ impl Outline {
 /// [`OutlineError`] when the loops leave no outline, it is too large, or the tolerance cannot be kept.
 pub fn profile(curves: Curves<'_>, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
     let (shift, half) = fit.into().band();
-    Ok(parallel(curves, curves.offset() + shift, half, &envelope::losses(curves)?)?.from_exact(shift))
+    Ok(parallel(curves, curves.offset() + shift, half, &envelope::losses(curves)?)?.counted_from_exact(shift))
 }
 
 /// The path of the centre of a cutter (radius in m) along the profile, within a tolerance (m): parallel to the follower's

@@ -13,7 +13,7 @@ use super::{Format, When, fits_all};
 use crate::body::{Layer, Part};
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Extents};
-use crate::profile::outline::Outline;
+use crate::profile::outline::{Outline, OutlineError};
 use nalgebra::Vector2;
 use tags::{Tags, handle};
 
@@ -38,10 +38,13 @@ pub const CUTTER_PATH: Format = Format {
     unfit: fits_all,
     endings: |drawn| drawn.cutter_path.iter().map(|_| "-cutter.dxf".into()).collect(),
     write: |cam| {
-        let path = |outline: &Outline| {
-            write(&[(Layer::CutterPath, Entity::Polyline(outline.contour.clone()))], cam.dxf_version)
+        let path = |outline: &Result<Outline, OutlineError>| match outline {
+            Ok(outline) => {
+                Ok(write(&[(Layer::CutterPath, Entity::Polyline(outline.contour.clone()))], cam.dxf_version))
+            }
+            Err(error) => Err((*error).into()),
         };
-        Ok(cam.drawn.cutter_path.iter().map(path).collect())
+        cam.drawn.cutter_path.iter().map(path).collect()
     },
 };
 
