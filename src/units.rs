@@ -1,6 +1,6 @@
 //! Text to SI number of the right kind: the only place where units exist.
 //!
-//! A quantity is a decimal number followed by a unit, `"180 mm"` or `"5um"`. Everything behind this door is SI `f64`
+//! A quantity is a decimal number followed by a unit, `"180 mm"` or `"5um"`. Everything after this module is SI `f64`
 //! and radians.
 
 use std::fmt;
@@ -113,10 +113,10 @@ pub enum QuantityError {
         /// The text.
         found: String,
     },
-    /// Nothing camgen knows.
+    /// A unit camgen does not know.
     #[error("unknown unit `{unit}`")]
     UnknownUnit {
-        /// What stands behind the number.
+        /// What follows the number.
         unit: String,
     },
     /// A unit of another kind.
@@ -129,7 +129,7 @@ pub enum QuantityError {
         /// The kind asked for.
         expected: Dimension,
     },
-    /// A unit where a bare number stands.
+    /// A unit where a bare number is expected.
     #[error("`{found}` is not a bare number")]
     NotBare {
         /// The text.

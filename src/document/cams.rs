@@ -2,16 +2,16 @@
 
 /// The disc cam of a press.
 pub const ROTARY: &str = "rotary";
-/// The plate that rides on the bed.
+/// The wedge cam: the plate that rides on the bed.
 pub const TRANSLATING: &str = "translating";
-/// The cam for many speeds.
+/// The three-dimensional cam for many speeds.
 pub const CONOID: &str = "conoid";
-/// The cam of any motion.
+/// The disc cam of any motion.
 pub const MAKE: &str = "make";
 
 /// The kinds that turn about a shaft.
 pub const TURNING: &[&str] = &[ROTARY, CONOID, MAKE];
-/// Discs.
+/// Disc cams.
 pub const DISCS: &[&str] = &[ROTARY, MAKE];
 /// The cams of a press.
 pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];

@@ -44,13 +44,13 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Longest path for which a known key is looked for: longer ones are no slip of the pen, and comparing them takes time.
+/// Longest path for which a known key is looked for: longer ones are not misspelt keys, and comparing them takes time.
 const LONGEST_PATH: usize = 200;
 
-/// The known key a path may be a slip of; `None` when nothing is near.
+/// The known key that a path may be a misspelling of; `None` when nothing is near.
 ///
-/// The smallest edit distance wins; a key whose last part fits exactly is nearer than any other, and of two as near the
-/// one whose table fits. Near is a last part of which at most half is wrong, or a path of which at most a third is.
+/// The smallest edit distance wins; a key whose last part fits exactly is nearer than any other, and of two equally near
+/// the one whose table fits. A key is near when at most half of its last part, or a third of its path, is wrong.
 pub(super) fn nearest<'k>(path: &str, known: &'k [String]) -> Option<&'k str> {
     if path.len() > LONGEST_PATH {
         return None;

@@ -1,4 +1,4 @@
-//! What a file may say: its tables, their keys, and what a value of each key may be.
+//! What a file may contain: its tables, their keys, and what a value of each key may be.
 //!
 //! A [`Section`] and its [`Key`]s are constants, written where the part they describe is written. The reader, the
 //! template, the schema and "did you mean" all walk the same list of sections. A [`Field`] is a key together with the
@@ -77,14 +77,14 @@ impl Key {
     }
 }
 
-/// How often a table stands in a file.
+/// How often a table occurs in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Occurs {
-    /// Always: its required keys are asked for even when its header is missing.
+    /// Always: its required keys must be given even when its header is missing.
     Once,
     /// As a whole or not at all.
     Optional,
-    /// When it or one of these tables stands: parts of something that is described as a whole or not at all.
+    /// When it or one of these tables is present: parts of something that is described as a whole or not at all.
     With(&'static [&'static str]),
     /// As an array of tables, `[[path]]`, in any number.
     Repeated,
@@ -97,7 +97,7 @@ pub struct Section {
     pub path: &'static str,
     /// What the table describes.
     pub about: &'static str,
-    /// How often it stands.
+    /// How often it occurs.
     pub occurs: Occurs,
     /// The kinds of cam the whole table belongs to; empty: every one.
     pub cams: &'static [&'static str],
@@ -148,7 +148,7 @@ pub(super) enum Value {
     Band(f64, f64),
 }
 
-/// How a value becomes what the caller wants.
+/// How a value is converted for the caller.
 #[derive(Debug)]
 enum Convert<T: 'static> {
     Plain(fn(&Value) -> Option<T>),

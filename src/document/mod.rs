@@ -1,7 +1,7 @@
 //! Files a person writes: TOML against a table of keys.
 //!
-//! What a file may say is told once, by constant [`Section`]s of [`Key`]s, each written beside the part it describes.
-//! From the same list come the [`Reader`], which tells every fault of a file at once and at its place, the [`template()`]
+//! What a file may contain is stated once, by constant [`Section`]s of [`Key`]s, each written beside the part it describes.
+//! From the same list come the [`Reader`], which reports every fault of a file at once and at its place, the [`template()`]
 //! to start a file from, the JSON [`schema()`] for editors, and the keys that have no effect on a kind of cam.
 
 mod bounds;

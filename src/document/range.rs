@@ -1,4 +1,4 @@
-//! The ranges of a machine file, SI: what lies beyond is a slip of the pen, not a machine.
+//! The ranges of a machine file, SI: a value beyond them is a typing error, not a machine.
 
 /// Longest length, m: a cam of a kilometre.
 pub const LONGEST: f64 = 1e3;
@@ -10,7 +10,7 @@ pub const HIGHEST_PRESSURE: f64 = 1e9;
 pub const LARGEST_FORCE: f64 = 1e9;
 /// Highest speed (rpm), ratio or lever.
 pub const LARGEST_NUMBER: f64 = 1e5;
-/// Slowest speed, rpm: slower, the air column of a press is longer than anything on earth.
+/// Slowest speed, rpm: at less, the air column of a press would be thousands of kilometres long.
 pub const LEAST_RPM: f64 = 1e-3;
-/// Thinnest disc, m: CAD systems take less than a micrometre for nothing.
+/// Thinnest disc, m: CAD systems treat less than a micrometre as zero.
 pub const THINNEST: f64 = 1e-6;

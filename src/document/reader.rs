@@ -1,4 +1,4 @@
-//! Reads a file against its sections, with every fault told at its place.
+//! Reads a file against its sections and reports every fault at its place.
 //!
 //! All keys of all sections are read when the reader is made, in one loop over the table. A fault stops nothing; a
 //! value with a fault, or one that is absent, is `None` from there on, so that what compares two values is asked only
@@ -18,9 +18,9 @@ pub struct Reader<'a> {
     sections: &'a [&'a Section],
     /// Every value without a fault, defaults too, by its path.
     values: BTreeMap<String, Value>,
-    /// Required keys that are absent, by their paths, until it is known whether a slip of the pen explains them.
+    /// Required keys that are absent, by their paths, until it is known whether a misspelling explains them.
     missing: BTreeMap<String, Found>,
-    /// Paths that have the wrong shape: what is inside them is not worth telling.
+    /// Paths that have the wrong shape: faults inside them are not reported.
     misshapen: BTreeSet<String>,
     faults: RefCell<Vec<Found>>,
 }
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Tells a value where the section, or a table around it, should be, or one table instead of several.
+    /// Reports a value where the section, or a table around it, should be, or one table instead of several.
     fn has_wrong_shape(&mut self, section: &Section) -> bool {
         let path = section.path;
         let ends = path.match_indices('.').map(|(at, _)| at).chain((!path.is_empty()).then_some(path.len()));
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
         self.document.tables.get(path).or_else(array).map(|span| Place::File(span.clone()))
     }
 
-    /// Tells every key and table that is in no section.
+    /// Reports every key and table that is in no section.
     fn unknown(&mut self) {
         let known: Vec<String> =
             self.sections.iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect();
@@ -145,11 +145,11 @@ impl<'a> Reader<'a> {
             }
             let (pattern, indices) = pattern(path);
             let (message, help) = if !known.contains(&pattern) {
-                // Beyond those that are told, comparing takes time for nothing.
+                // Faults beyond those reported need no suggestion.
                 let near = if faults.len() < MOST_FAULTS { nearest(&pattern, &known) } else { None };
                 let near = near.map(|near| filled(near, &indices));
                 if let Some(near) = &near {
-                    // The key is there under a wrong name: that it is missing follows.
+                    // The key is there under a wrong name: do not report it as missing too.
                     self.missing.remove(near);
                 }
                 (format!("unknown key `{path}`"), near.map(|near| format!("did you mean `{near}`?")))
@@ -184,7 +184,7 @@ impl<'a> Reader<'a> {
             && self.sections.iter().any(|section| section.occurs == Occurs::Repeated && section.path == path)
     }
 
-    /// The array of tables in which a path counts further than it goes, with its length.
+    /// The array of tables in which the index of a path is out of range, with its length.
     fn beyond_the_end(&self, path: &str) -> Option<(String, usize)> {
         let open = path.find('[')?;
         let array = path.get(..open)?;
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
         self.faults.borrow_mut().push(Found { message, help, place });
     }
 
-    /// Tells a fault of the whole file. What follows from a text that is no TOML is not told.
+    /// Reports a fault of the whole file. What follows from a text that is not TOML is not reported.
     pub fn fail(&self, message: String, help: Option<String>) {
         if !self.document.broken {
             self.told(message, help, None);
@@ -210,7 +210,7 @@ impl<'a> Reader<'a> {
         Table { reader: self, path: section.path.to_owned() }
     }
 
-    /// An optional table, when it stands in the file or an override sets a key of it.
+    /// An optional table, when it is in the file or an override sets a key of it.
     #[must_use]
     pub fn find(&self, section: &Section) -> Option<Table<'_>> {
         self.document.has(section.path).then(|| self.table(section))
@@ -263,13 +263,13 @@ impl Table<'_> {
         join(&self.path, key.name)
     }
 
-    /// The value of a key; `None` when it is absent without a default, or has a fault, which has been told.
+    /// The value of a key; `None` when it is absent without a default, or has a fault, which has been reported.
     #[must_use]
     pub fn get<T: Clone>(&self, field: &Field<T>) -> Option<T> {
         self.reader.values.get(&self.path_of(&field.key)).and_then(|value| field.of(value))
     }
 
-    /// Whether a key stands in the file or is set by an override, with a fault or without.
+    /// Whether a key is in the file or is set by an override, with a fault or without.
     #[must_use]
     pub fn has<T>(&self, field: &Field<T>) -> bool {
         let path = self.path_of(&field.key);
@@ -283,8 +283,8 @@ impl Table<'_> {
         entry.and_then(|entry| entry.value.typed()).unwrap_or("its default").to_owned()
     }
 
-    /// Tells a fault at the value of a key, or without a place when it is absent. What follows from a text that is no
-    /// TOML is not told.
+    /// Reports a fault at the value of a key, or without a place when it is absent. What follows from a text that is not
+    /// TOML is not reported.
     pub fn fail<T>(&self, field: &Field<T>, message: String, help: Option<String>) {
         if !self.reader.document.broken {
             let entry = self.reader.document.entries.get(&self.path_of(&field.key));
@@ -308,7 +308,7 @@ fn is_around(pattern: &str, section: &Section) -> bool {
 }
 
 /// A path with its indices left open, and the indices: `motion.segment[1].law` gives `motion.segment[].law` and `1`.
-/// What is no plain index stays, so that it belongs to no key.
+/// Anything but a plain index is kept, so that it matches no key.
 pub(super) fn pattern(path: &str) -> (String, Vec<&str>) {
     let mut indices = Vec::new();
     let parts: Vec<String> = path

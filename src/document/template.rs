@@ -2,13 +2,14 @@
 
 use super::key::{Key, Occurs, Presence, Section};
 
-/// Column at which the comments stand behind the keys.
+/// Column at which the comments after the keys begin.
 const COMMENT_COLUMN: usize = 38;
 /// Longest line.
 const WIDTH: usize = 120;
 
 /// A file with every key of the sections: required ones with an example, others with their default, and what may be
-/// absent commented out; of the tables that may be absent those of `shown` stand. `title` becomes the comment at its head; keys without effect on `cam` are commented out too.
+/// absent commented out; optional tables not in `shown`, and keys without effect on `cam`, are commented out too. `title`
+/// becomes the comment at its head.
 #[must_use]
 pub fn template(title: &str, sections: &[&Section], shown: &[&str], cam: &str) -> String {
     let mut text = comment(title);
@@ -36,7 +37,7 @@ fn about(key: &Key) -> String {
     if key.cams.is_empty() { key.about.to_owned() } else { format!("{} ({} only)", key.about, key.cams.join(", ")) }
 }
 
-/// A line with its comment behind it, or above it where both do not fit.
+/// A line with its comment after it, or above it where both do not fit.
 fn line(code: &str, about: &str) -> String {
     let beside = format!("{code:COMMENT_COLUMN$}# {about}");
     if about.is_empty() {

@@ -1,7 +1,7 @@
 //! A TOML text and its overrides, flattened to dotted paths that know their places.
 //!
 //! `[bed] mass` becomes `bed.mass`, and the second `[[motion.segment]]`'s `law` becomes `motion.segment[1].law`. The
-//! paths are whatever stands in the file; which of them mean something is for the reader to say.
+//! paths are whatever the file contains; the reader decides which of them mean something.
 
 use super::fault::{Excerpt, Fault};
 use super::key::join;
@@ -10,15 +10,15 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::de::{DeArray, DeTable, DeValue};
 
-/// Deepest that tables stand within tables: deeper, every path would be told in full for nothing. No section is deeper
+/// Deepest nesting of tables that is read, so that hostile files cannot make paths of any length. No section is deeper
 /// than three.
 const DEEPEST: usize = 16;
 /// Longest name of a key, in bytes: with [`DEEPEST`] it bounds the length of a path, of which there is one for each key.
 const LONGEST_NAME: usize = 100;
-/// Most faults that are told: the hundredth helps nobody, and each carries the line it stands on.
+/// Most faults reported: the hundredth helps nobody, and each quotes its line.
 pub(super) const MOST_FAULTS: usize = 100;
 
-/// Where something stands.
+/// Where something was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Place {
     /// In the file, by bytes.
@@ -68,17 +68,17 @@ pub(super) struct Document<'a> {
     text: &'a str,
     /// Where each line begins.
     lines: Vec<usize>,
-    /// The overrides as told in messages, `key=value`.
+    /// The overrides as shown in messages, `key=value`.
     flags: Vec<String>,
     /// Every value.
     pub(super) entries: BTreeMap<String, Entry>,
-    /// Every table, elements of arrays of tables too, by where its name stands.
+    /// Every table, elements of arrays of tables too, by where its name was written.
     pub(super) tables: BTreeMap<String, Range<usize>>,
-    /// Every array of tables: where its name stands first, and its length.
+    /// Every array of tables: where its name comes first, and its length.
     pub(super) arrays: BTreeMap<String, (Range<usize>, usize)>,
-    /// The text is no TOML; what follows from that is not worth telling.
+    /// The text is not TOML; faults that follow from that are not reported.
     pub(super) broken: bool,
-    /// What is wrong with the text whatever it should mean.
+    /// What is wrong with the text whatever the keys mean.
     pub(super) faults: Vec<Found>,
 }
 
@@ -180,12 +180,12 @@ impl<'a> Document<'a> {
         self.entries.insert(key.to_owned(), Entry { value: Scalar::Text(value), key: key_place, at });
     }
 
-    /// Whether a table, an array of tables or anything within stands in the file or is set by an override.
+    /// Whether a table, an array of tables or anything within is in the file or is set by an override.
     pub(super) fn has(&self, path: &str) -> bool {
         self.tables.contains_key(path) || self.arrays.contains_key(path) || self.has_inside(path)
     }
 
-    /// Whether anything within a path stands in the file or is set by an override.
+    /// Whether anything within a path is in the file or is set by an override.
     pub(super) fn has_inside(&self, path: &str) -> bool {
         let starts = [format!("{path}."), format!("{path}[")];
         starts.iter().any(|start| {
@@ -194,7 +194,7 @@ impl<'a> Document<'a> {
         })
     }
 
-    /// The faults as they are told: in the order of their places, none twice.
+    /// The faults as reported: in the order of their places, none twice.
     pub(super) fn told(&self, mut found: Vec<Found>) -> Vec<Fault> {
         found.sort_by_key(Found::order);
         let mut once: Vec<Found> = Vec::new();
@@ -254,10 +254,10 @@ fn first_from<'m, V>(map: &'m BTreeMap<String, V>, start: &str) -> Option<&'m St
     map.range::<str, _>((std::ops::Bound::Included(start), std::ops::Bound::Unbounded)).next().map(|(key, _)| key)
 }
 
-/// Why a name in the file can be that of no key, and what would be right.
+/// Why a name in the file cannot be that of a key, and what would be right.
 fn not_a_name(name: &str, depth: usize) -> Option<(String, Option<String>)> {
     if depth >= DEEPEST {
-        return Some((format!("no key is within {DEEPEST} tables"), None));
+        return Some((format!("tables are nested more than {DEEPEST} deep"), None));
     }
     if name.len() > LONGEST_NAME {
         let start: String = name.chars().take(LONGEST_NAME / 4).collect();

@@ -1,10 +1,10 @@
-//! A value as it stands in a file, read by the form of its key.
+//! A value as written in a file, read by the form of its key.
 
 use super::bounds::Bounds;
 use super::key::{Form, Key, LengthOrAngle, Value};
 use crate::units::{self, Dimension, QuantityError};
 
-/// A value as it stands in a file or behind a flag.
+/// A value as written in a file or after a flag.
 #[derive(Debug, Clone)]
 pub(super) enum Scalar {
     Text(String),
@@ -12,7 +12,7 @@ pub(super) enum Scalar {
     Number(String),
     Boolean(bool),
     List(Vec<Scalar>),
-    /// What no key takes, by the name TOML has for it.
+    /// What no key accepts, by its TOML name.
     Other(&'static str),
 }
 
@@ -114,7 +114,7 @@ impl Named<'_> {
         }
     }
 
-    /// A list in the file, or `[1, 2, 3]` behind a flag.
+    /// A list in the file, or `[1, 2, 3]` after a flag.
     fn numbers(&self, scalar: &Scalar, bounds: Bounds) -> Result<Value, Misfit> {
         let typed: Vec<Scalar>;
         let items = match scalar {

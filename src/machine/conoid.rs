@@ -1,4 +1,4 @@
-//! The cam for many speeds.
+//! The three-dimensional cam for many speeds.
 
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::CONOID;
@@ -11,7 +11,7 @@ use crate::units::Dimension::Length;
 pub enum ConoidMode {
     /// Reset by (14).
     Adjusted,
-    /// Stays.
+    /// Stays the same at all speeds.
     Fixed,
 }
 
@@ -33,7 +33,7 @@ pub struct ConoidData {
     pub mode: ConoidMode,
     /// How the cam shifts.
     pub shift: Shift,
-    /// What the cam is longer at either end, m.
+    /// By how much the cam is extended at either end, m.
     pub overhang: f64,
 }
 

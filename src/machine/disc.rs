@@ -1,4 +1,4 @@
-//! The disc of a rotary cam, its bore and its keyway; a conoid takes what it has of them.
+//! The disc of a disc cam, its bore and its keyway; other cams use the keys that apply to them.
 
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::{CONOID, DISCS, MAKE, ROTARY, TRANSLATING, TURNING};
@@ -55,7 +55,7 @@ impl Material {
     }
 }
 
-/// The disc of a rotary cam.
+/// The disc of a disc cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CamData {
     /// Turns of the cam for one turn of the crank.
@@ -70,7 +70,7 @@ pub struct CamData {
     pub bore_radius: Option<f64>,
     /// Keyway in the bore.
     pub keyway: Option<Keyway>,
-    /// Material; steel where only the mass asks.
+    /// Material; where it is absent the mass is that of steel.
     pub material: Option<Material>,
     /// Band of radii in which holes may balance the disc, m.
     pub balance: Option<(f64, f64)>,

@@ -3,7 +3,7 @@
 /// A machine file in the binary.
 #[derive(Debug, Clone, Copy)]
 pub struct Embedded {
-    /// The name it is asked for by.
+    /// Its name on the command line.
     pub name: &'static str,
     /// Its text.
     pub toml: &'static str,

@@ -1,4 +1,4 @@
-//! What a cam must keep.
+//! The limits of a cam.
 
 use crate::document::Presence::{Default, Optional};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
@@ -6,10 +6,10 @@ use crate::document::{Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Angle, Length, Pressure};
 use std::f64::consts::FRAC_PI_2;
 
-/// Highest pressure a contact may be allowed, Pa: a hundred times what steel bears.
+/// Highest limit of contact pressure that is accepted, Pa: a hundred times what steel withstands.
 const HIGHEST_STRESS: f64 = 1e12;
 
-/// What a cam must keep.
+/// The limits of a cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Largest |pressure angle|, rad.

@@ -1,7 +1,6 @@
 //! The machine file: TOML to a [`Machine`] in SI units with every value in range.
 //!
-//! One of the two doors of the library: what comes out of here is a machine that can be computed. Whatever can be told
-//! by line and column is told here; rooms behind this one do not see a negative mass.
+//! Whatever can be reported by line and column is reported here: no later module sees a negative mass or a wrong unit.
 //!
 //! Each part of the machine has a file with its data, its table of keys and its reading. [`sections`] gathers the
 //! tables; a key is one constant in its table and one line in its reading.
@@ -48,7 +47,7 @@ const ROOT: Section = Section { path: "", about: "", occurs: Occurs::Once, cams:
 const MOTION_TABLES: &[&Section] =
     &[&ROOT, &bed::SECTION, &buffer::SECTION, &buffer::DESIGN, &program::SECTION, &program::SEGMENT];
 
-/// The tables behind those of the followers.
+/// The tables after those of the followers.
 const BODY_TABLES: &[&Section] =
     &[&disc::SECTION, &disc::KEYWAY, &transition::SECTION, &translating::SECTION, &conoid::SECTION, &limits::SECTION];
 
@@ -86,7 +85,7 @@ impl fmt::Display for MachineError {
     }
 }
 
-/// A speed of the main shaft a machine can be asked for, rpm: at least 0.001, at most 100000.
+/// Accepts a speed of the main shaft, rpm: at least 0.001, at most 100000.
 ///
 /// # Errors
 /// A message with the range.
@@ -132,7 +131,7 @@ impl Machine {
         Self::read(source, text, overrides, true)
     }
 
-    /// `own` tells that the user wrote the text.
+    /// `own`: the user wrote the text.
     fn read(source: &str, text: &str, overrides: &[String], own: bool) -> Result<Self, MachineError> {
         let sections = sections();
         let reader = Reader::new(source, text, overrides, &sections);
@@ -143,7 +142,7 @@ impl Machine {
     }
 
     fn parts(reader: &Reader<'_>, own: bool) -> Option<Self> {
-        // Every part is read before the first `?`, so that each tells what is wrong between its keys.
+        // Every part is read before the first `?`, so that each reports what is wrong between its keys.
         let (press, motion) = (buffer::read(reader, bed::read(reader)), program::read(reader));
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let (follower, cam) = (follower?, cam?);
@@ -177,7 +176,7 @@ impl Machine {
         self.press.as_ref().ok_or(NoPress)
     }
 
-    /// The motion program of the file, with the speed of the cam it tells, rpm.
+    /// The motion program of the file, with the speed of the cam where it gives one, rpm.
     #[must_use]
     pub fn motion(&self) -> Option<(Arc<dyn Motion>, Option<f64>)> {
         let program = self.motion.as_ref()?;
@@ -192,7 +191,7 @@ impl Machine {
         self.follower.roller.as_ref().ok_or(NoRoller)
     }
 
-    /// Asks that a cutter of a radius (m) gets into the hollows too.
+    /// Requires that a cutter of this radius (m) fits into the concave parts as well.
     pub fn ask_for_cutter(&mut self, radius: f64) {
         let limit = &mut self.limits.cutter_radius;
         *limit = Some(limit.map_or(radius, |other| other.max(radius)));

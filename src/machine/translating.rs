@@ -25,7 +25,7 @@ pub struct TranslatingData {
     pub efficiency_model: EfficiencyModel,
     /// Radius of the roller, m.
     pub roller_radius: f64,
-    /// Height of the plate over both flanks where it is highest, m; by itself when not given.
+    /// Height of the plate over both flanks where it is highest, m; chosen automatically when not given.
     pub plate_height: Option<f64>,
 }
 
@@ -91,12 +91,12 @@ pub(super) const SECTION: Section = Section {
     ],
 };
 
-/// Reads the plate; the radius of the follower's roller is that of its own unless it is given.
+/// Reads the plate; its roller has the radius of the follower's roller unless the table gives one.
 pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<TranslatingData> {
     let table = reader.find(&SECTION)?;
     let roller_radius = table.get(&ROLLER_RADIUS).or(roller_radius);
     if roller_radius.is_none() && !table.has(&ROLLER_RADIUS) {
-        let message = "the plate needs a roller: neither this table nor [follower.roller] tells its radius";
+        let message = "the plate needs a roller: neither this table nor [follower.roller] gives its radius";
         table.fail(&ROLLER_RADIUS, message.into(), Some("add translating.roller_radius".into()));
     }
     Some(TranslatingData {
