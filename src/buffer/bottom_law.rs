@@ -37,7 +37,7 @@ const SERIES_LIMIT: f64 = 0.25;
 /// Beyond this u the two terms of the law as printed no longer cancel, and it has fewer roundings than x (g − 1).
 const PRINTED_LIMIT: f64 = 4.0;
 
-/// Up to this overrun, m, the law of a matched or returning column is wanted to its last digit, whatever its size.
+/// Up to this overrun, m, the law of a matched or returning column is computed to its last digit, whatever its size.
 const START: f64 = 1e-3;
 
 /// Share of the stroke from its end where a returning law is taken by its slope: the difference of its two terms would lose
@@ -175,14 +175,15 @@ impl BottomLaw {
 
     /// Δx at overrun x in [0, r], m.
     ///
-    /// Without lead: for `Matched` and `Return` rounded correctly up to 1 mm (but for ties), beyond it relative error of a few ulp; for a given length absolute error within 2 ulp of L beside the rounding of the result (which exceeds that where
-    /// x is many times L).
+    /// Without lead: for `Matched` and `Return` rounded correctly up to 1 mm (but for ties), beyond it with a relative error
+    /// of a few ulp; for a given length with an absolute error within 2 ulp of L beside the rounding of the result (which
+    /// exceeds that where x is many times L).
     #[must_use]
     pub fn displacement(&self, x: f64) -> f64 {
         self.displacement_between(x, self.stroke - x)
     }
 
-    /// The same with y = r − x given by the caller, who may know it better than the difference does.
+    /// The same with y = r − x given by the caller, who may know it more accurately than the subtraction gives it.
     #[must_use]
     pub fn displacement_between(&self, x: f64, y: f64) -> f64 {
         if x <= START && self.lead == 0.0 && (self.start_slope == 0.0 || self.returns) {
@@ -242,7 +243,7 @@ impl BottomLaw {
         let (p, a, u) = (1.0 / self.exponent, self.loading, self.loading * x);
         let c = 1.0 + self.start_slope;
         let log = -(p + 1.0) * libm::log1p(u);
-        // Both (1+u)^(−p−1) and its distance from 1 are wanted to full relative accuracy; one call gives both where the
+        // Both (1+u)^(−p−1) and its distance from 1 are needed to full relative accuracy; one call gives both where the
         // other's digits are not yet lost.
         let (power, fall) = if u < 1.0 {
             let fall = libm::expm1(log);

@@ -12,7 +12,7 @@ pub fn plain_work(cylinder: &Cylinder, plain: &PlainBuffer, x: f64) -> f64 {
     cylinder.unit_force() * (column * integral - x)
 }
 
-/// Speed of a bed of the given mass after it gave away `work`, m/s; `None` when it has not that much.
+/// Speed of a bed of the given mass after it has done `work`, m/s; `None` when it has less energy than that.
 #[must_use]
 pub fn speed_after(mass: f64, start_speed: f64, work: f64) -> Option<f64> {
     let square = start_speed * start_speed - 2.0 * work / mass;

@@ -86,7 +86,7 @@ impl Cylinder {
         bottom_law.loading * bottom_law.stroke * self.unit_force()
     }
 
-    /// What a plain buffer with fixed bottom and column by (7) would leave at the speed of a law, N.
+    /// Residual force of a plain buffer with fixed bottom and column by (7) at the speed of a law, N.
     #[must_use]
     pub fn residual_fixed_bottom(&self, bottom_law: &BottomLaw) -> f64 {
         let plain = PlainBuffer::new(bottom_law.loading, bottom_law.exponent, bottom_law.stroke);

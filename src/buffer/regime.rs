@@ -1,4 +1,4 @@
-//! One cam at another speed: the column is reset, a residual force stays. Equations (14) and (15).
+//! One cam at another speed: the column is reset, a residual force remains. Equations (14) and (15).
 
 use super::Cylinder;
 use super::bottom_law::{BottomLaw, column_for};
@@ -12,7 +12,7 @@ const CELLS: u32 = 16;
 pub struct Regime {
     /// Column after the reset, m.
     pub column: f64,
-    /// Volume that would do the same for the pair of cylinders, m³: equation (15).
+    /// Added volume that has the same effect for the pair of cylinders, m³: equation (15).
     pub added_volume: f64,
     /// Largest |inertia − air| over the stroke, N.
     pub residual: f64,

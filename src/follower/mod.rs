@@ -25,7 +25,7 @@ use crate::units::Dimension::{Force, Mass};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// A kind of follower that a file can ask for by its table.
+/// A kind of follower, chosen in a file by its table.
 #[derive(Debug)]
 pub struct FollowerKind {
     /// Its table, `[follower.roller]`.
@@ -40,7 +40,7 @@ pub const FOLLOWERS: &[FollowerKind] = &[translating_roller::KIND, swinging_roll
 /// A follower as a file describes it.
 #[derive(Debug, Clone)]
 pub struct FollowerData {
-    /// The follower itself, not yet made for a size.
+    /// The follower itself, not yet sized.
     pub shape: Arc<dyn Follower>,
     /// Mass that moves with it along its path, kg.
     pub mass: Option<f64>,
@@ -72,7 +72,7 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<FollowerData> {
     let mut told = FOLLOWERS.iter().filter_map(|kind| Some((kind, reader.find(kind.section)?)));
     let known = || FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect::<Vec<_>>().join(", ");
     let Some((kind, table)) = told.next() else {
-        let message = "the follower is not described".to_owned();
+        let message = "no follower is given".to_owned();
         reader.fail(message, Some(format!("add the table {}", known())));
         return None;
     };

@@ -47,7 +47,7 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
 }
 
 /// By how much the prime radius must stay within the triangle of arm and pivot distance, as a share of it: at its ends arm and
-/// line of centres are one line, and the roller does not know which way to swing.
+/// line of centres are one line, and the roller could swing either way.
 const REACH_MARGIN: f64 = 1e-6;
 
 /// A roller on an arm l about a pivot at the distance a from the shaft.

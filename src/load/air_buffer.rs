@@ -1,4 +1,5 @@
-//! The air buffers of a press under a disc cam: the air presses the roller on, and its force is to equal the bed's inertia.
+//! The air buffers of a press under a disc cam: the air presses the roller on, and its
+//! force is to equal the inertia force of the bed.
 
 use super::Load;
 use crate::buffer::Cylinder;
@@ -28,7 +29,7 @@ impl AirBuffer {
     }
 }
 
-/// What is told of a pair of cylinders under a law; slope and jump as they are where the law starts.
+/// What is reported of a pair of cylinders under a law; slope and jump as they are where the law starts.
 #[must_use]
 pub(crate) fn air_law(cylinder: &Cylinder, law: &BottomLaw, (dx_max_at_x, dx_max): (f64, f64)) -> AirLaw {
     AirLaw {

@@ -1,4 +1,4 @@
-//! Loads: what presses the follower onto the cam, and what the cam has to balance. A cam without a load is still a cam.
+//! Loads: what presses the follower onto the cam, and the force balance the motion is made for. A cam may have no load.
 
 mod air_buffer;
 
@@ -15,19 +15,19 @@ pub trait Load: std::fmt::Debug + Send + Sync {
     /// come on top.
     fn pressing(&self, piece: usize, at: f64) -> f64;
 
-    /// |what must be balanced − what the cam balances|, N, with the follower `moved` (m) along its path from where the motion
-    /// wants it and touching where the cam's normal (a unit vector out of the metal) is.
+    /// Size of the residual force that the force balance leaves, N, with the follower `moved` (m) along its path from where
+    /// the motion puts it and touching where the cam's normal (a unit vector out of the metal) is.
     fn residual(&self, piece: usize, at: f64, moved: f64, normal: Vector2<f64>) -> f64;
 
-    /// Where the machine stands.
+    /// The state of the machine.
     fn state(&self, piece: usize, at: f64) -> State;
 
-    /// Largest force that must be balanced, N.
+    /// Largest inertia force that the load counteracts, N.
     fn largest(&self) -> f64;
 
-    /// What would be left of it without a cam, N.
+    /// Residual force without a cam, N.
     fn left_without_cam(&self) -> f64;
 
-    /// What the load tells of itself in the report.
+    /// What the load contributes to the report.
     fn section(&self) -> Section;
 }

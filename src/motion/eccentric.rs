@@ -1,4 +1,4 @@
-//! The eccentric circle: the one law whose disc cam is known to be a circle.
+//! The eccentric circle: the motion whose disc cam is a circle, so that every result is known in closed form.
 
 use super::{Jet, Motion, Piece};
 use std::f64::consts::TAU;

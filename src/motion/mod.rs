@@ -1,7 +1,7 @@
 //! Motions: the cam angle, or the overrun of the bed, to the follower's lift and its derivatives.
 //!
-//! A motion is smooth on each of its pieces and may jump between them. Whoever samples a motion does it piece by piece, so
-//! that both sides of a break can be had: there is no evaluation "at" a break without saying from which side.
+//! A motion is smooth on each of its pieces and may jump between them. A motion is sampled piece by piece, so that
+//! both sides of a break are available: there is no evaluation "at" a break without saying from which side.
 
 mod eccentric;
 pub mod equation_18;
@@ -72,7 +72,7 @@ impl Jet {
     }
 }
 
-/// A stretch of cam angle on which a law is smooth up to and including its ends.
+/// A stretch of cam angle on which a motion is smooth up to and including its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// First cam angle, rad.
@@ -105,7 +105,7 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         Some(TAU)
     }
 
-    /// The position where the lift is 0, in the coordinate of whoever asked for the motion, m or rad.
+    /// The position where the lift is 0, in the coordinate in which the motion was specified, m or rad.
     fn origin(&self) -> Option<f64> {
         None
     }

@@ -12,7 +12,7 @@ use std::f64::consts::{PI, TAU};
 
 /// The law that holds a position.
 const DWELL: &str = "dwell";
-/// The law of a segment that names none.
+/// The law of a segment without the key `law`.
 const USUAL: &str = "cycloidal";
 
 /// Positions, m or rad.
@@ -65,7 +65,7 @@ pub(crate) const SEGMENT: Section = Section {
     keys: &[LAW.key, OVER.key, TO.key],
 };
 
-/// What the segments may be off a whole turn together, rad: typing of angles.
+/// By how much the sum of the segments may differ from a whole turn, rad: rounding of typed angles.
 const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 /// Cells in which the lowest point of a segment is searched: a law between rests has its extremes at its ends.
 const CELLS: u32 = 4;
@@ -110,13 +110,13 @@ impl Program {
         program
     }
 
-    /// Speed of the cam, rpm, when it is told.
+    /// Speed of the cam, rpm, when it is given.
     #[must_use]
     pub fn rpm(&self) -> Option<f64> {
         self.rpm
     }
 
-    /// The position the program asks for, with its derivatives.
+    /// The position in the program, with its derivatives.
     fn position(&self, piece: usize, angle: f64) -> Jet {
         let (Some(segment), Some(span)) = (self.segments.get(piece), self.pieces.get(piece)) else {
             return Jet::default();
@@ -155,7 +155,7 @@ fn value_of(position: LengthOrAngle) -> (Quantity, f64) {
     }
 }
 
-/// The program of a file, when one stands there and has no fault.
+/// The program of a file, when there is one without fault.
 pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
     let table = reader.find(&SECTION)?;
     let start = table.get(&START);
@@ -186,7 +186,7 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
     Some(Program { rpm: table.get(&RPM), ..Program::new(quantity, start, &all) })
 }
 
-/// The cam angles of the segments; the last may leave its own out and takes the rest of the turn.
+/// The cam angles of the segments; the last may omit its own and then takes the rest of the turn.
 fn widths(segments: &[Table<'_>]) -> Option<Vec<f64>> {
     let mut angles = Vec::new();
     let mut sum = 0.0;
@@ -196,7 +196,7 @@ fn widths(segments: &[Table<'_>]) -> Option<Vec<f64>> {
             None if segment.has(&OVER) => return None,
             None if index + 1 == segments.len() && sum < TAU => TAU - sum,
             None => {
-                let help = "only the last segment may leave it out, and takes the rest of the turn";
+                let help = "only the last segment may omit it; it then takes the rest of the turn";
                 segment.fail(&OVER, "a segment has no `over`".into(), Some(help.into()));
                 return None;
             }
@@ -208,7 +208,7 @@ fn widths(segments: &[Table<'_>]) -> Option<Vec<f64>> {
         let (covered, off) = (sum.to_degrees(), (TAU - sum).to_degrees());
         let what = if off > 0.0 { format!("{off:.6} deg are missing") } else { format!("{:.6} deg too much", -off) };
         let message = format!("the segments cover {covered:.6} deg, {what}");
-        segments.last()?.fail(&OVER, message, Some("leave `over` of the last segment out".into()));
+        segments.last()?.fail(&OVER, message, Some("omit `over` of the last segment to fill the turn".into()));
         return None;
     }
     Some(angles)
@@ -219,8 +219,8 @@ fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'sta
     let name = segment.get(&LAW).unwrap_or_else(|| USUAL.to_owned());
     if name == DWELL {
         if segment.has(&TO) {
-            let help = "leave `to` out, or name a law that moves";
-            segment.fail(&TO, "a dwell stays where it is".into(), Some(help.into()));
+            let help = "omit `to`, or give a law that moves";
+            segment.fail(&TO, "a dwell keeps its position and has no `to`".into(), Some(help.into()));
         }
         return Some((None, 0.0));
     }

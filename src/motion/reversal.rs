@@ -1,9 +1,9 @@
-//! The motion of one cam turn: dwell, transition, the balance law over the reversal, mirrored transition.
+//! The motion of one cam turn: dwell, transition, the press's law of the bottom over the reversal, mirrored transition.
 //!
-//! Everything is told by the crank angle φ of the braking half; the return half is its mirror, φ → π − φ, evaluated
+//! Everything is described by the crank angle φ of the braking half; the return half is its mirror, φ → π − φ, evaluated
 //! through the same code so that both halves agree to the last bit. With lead, the bottom must retreat together with
 //! the piston while x = r φ is still ahead of the reversal, from 0 at φ = −e/r to −e at φ = 0, or the air would be
-//! compressed before; the run-up then ends at the start of that retreat.
+//! compressed before; the ramp (key `run-up`) then ends at the start of that retreat.
 
 use super::transition::{Derivatives, Quintic, Transition};
 use super::{Jet, Motion, Piece};
@@ -46,9 +46,10 @@ pub enum MotionError {
         /// Its width, degrees of crank angle.
         width_deg: f64,
     },
-    /// A blend cannot start out of the retreat that a lead asks for.
+    /// A blend cannot start from the retreat that a lead requires.
     #[error(
-        "a lead needs the bottom to retreat before the reversal, which a blend would round off; use run-up or none"
+        "a lead needs the bottom to retreat before the reversal, which a blend would round off; use \
+         transition.kind = \"run-up\" or \"none\""
     )]
     BlendWithLead,
 }
@@ -62,7 +63,7 @@ enum Shape {
     Reversal,
 }
 
-/// Where the machine stands at a cam angle.
+/// The state of the machine at a cam angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State {
     /// Crank angle, rad, in [0, 2π).
@@ -168,7 +169,7 @@ impl Reversal {
             return Jet::default();
         };
         let crank = angle / self.law.ratio;
-        // The balance is one smooth piece whose later half is the mirror of the earlier.
+        // The reversal is one smooth piece whose later half is the mirror of the earlier.
         let mirrored = mirrored || (shape == Shape::Reversal && crank > FRAC_PI_2);
         let crank = if mirrored { PI - crank } else { crank };
         let [s, ds, dds, ddds] = match shape {
@@ -183,7 +184,7 @@ impl Reversal {
         if mirrored { jet.mirrored() } else { jet }
     }
 
-    /// Where bed, bottom and air stand at a cam angle of a piece.
+    /// The state of bed, bottom and air at a cam angle of a piece.
     #[must_use]
     pub fn state(&self, piece: usize, angle: f64) -> State {
         let crank = angle / self.law.ratio;
@@ -211,7 +212,7 @@ impl Reversal {
         &self.law
     }
 
-    /// Jump of the bottom's velocity by the crank angle at the start of the reversal, m/rad: what `none` leaves.
+    /// Jump of the bottom's velocity by the crank angle at the start of the reversal, m/rad: what the transition `none` leaves.
     #[must_use]
     pub fn velocity_jump(&self) -> f64 {
         match (self.law.transition, self.law.bottom_law.lead > 0.0) {

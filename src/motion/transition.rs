@@ -3,9 +3,9 @@
 /// What lies between the dwell and the reversal, once before it and mirrored after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Transition {
-    /// The law as the paper has it; its slope may jump at the dwell.
+    /// The law as in the paper; its slope may jump at the dwell.
     None,
-    /// A piece before the reversal that ends with the law's value, slope and curvature; the balance stays exact.
+    /// A ramp before the reversal that ends with the law's value, slope and curvature; the force balance stays exact.
     RunUp {
         /// Crank angle, rad.
         width: f64,
@@ -29,7 +29,7 @@ pub(crate) struct Quintic {
 pub(crate) type Derivatives = [f64; 4];
 
 impl Quintic {
-    /// The run-up that rises out of a dwell and ends at `start + width` with the given value, slope and curvature.
+    /// The ramp that rises from a dwell and ends at `start + width` with the given value, slope and curvature.
     ///
     /// Its velocity is t³ (b + c t): the drop d = 0.4 v + |a|/20 (v, a: slope and curvature by t at its end) that the
     /// monotone quintic needs at the least for a law that starts upwards. There the jerk is continuous at the dwell

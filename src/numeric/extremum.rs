@@ -84,7 +84,7 @@ pub fn largest_without_slope(
     [inner, outer].into_iter().fold(best, |best, next| if next.value > best.value { next } else { best })
 }
 
-/// The larger of two numbers; NaN where one of them is, so that nothing unknown is lost on the way to a largest value.
+/// The larger of two numbers; NaN where one of them is, so that a maximum never hides a NaN.
 #[must_use]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }

@@ -1,4 +1,6 @@
-//! Root finding, extrema, quadrature, splines, banded systems, longer numbers and differential equations. Knows numbers only; every method cites its source.
+//! Root finding, extrema, quadrature, splines, banded systems, longer numbers and differential equations.
+//!
+//! Knows numbers only; every method cites its source.
 
 pub mod banded;
 pub mod double;

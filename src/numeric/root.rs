@@ -3,7 +3,7 @@
 //! T. R. Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function
 //! without using derivatives", Advances in Engineering Software 28 (1997) 145–149. Inverse quadratic interpolation
 //! where his criterion on the three last points shows it to be monotone, bisection otherwise. The bracket always
-//! holds a change of sign, so what is returned is proved, not hoped for.
+//! holds a change of sign, so the root returned is certain.
 
 /// Bisection halves the bracket; from the widest bracket of `f64` to neighbouring numbers takes 2098 halvings at the
 /// worst, a bracket within a few powers of two 60. Interpolation ends sooner. Running out means the function is not a

@@ -30,23 +30,23 @@ pub enum EfficiencyModel {
     Printed,
 }
 
-/// In which direction of the bed the forces shall balance.
+/// Direction of the bed in which the forces balance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ExactOn {
     /// While the bed is braked.
     Braking,
-    /// While it is sent back.
+    /// While it is accelerated back.
     Return,
     /// In neither: at every x the residuals of the two are opposite and equal.
     Mean,
 }
 
-/// A way of the bed.
+/// A direction of the bed's motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
     /// x grows: the bed is braked.
     Braking,
-    /// x falls: the bed is sent back.
+    /// x falls: the bed is accelerated back.
     Return,
 }
 
@@ -78,7 +78,7 @@ pub struct Mechanism {
     pub efficiency: f64,
     /// How η enters.
     pub model: EfficiencyModel,
-    /// Which direction balances.
+    /// Direction in which the forces balance.
     pub exact_on: ExactOn,
 }
 
@@ -98,7 +98,7 @@ pub(super) struct Lever {
 }
 
 impl Mechanism {
-    /// The two efficiencies of (18), on the way in and on the way back.
+    /// The two efficiencies of (18), while the bed is braked and on the way back.
     pub(super) fn efficiencies(&self, side: Trend) -> (f64, f64) {
         let eta = self.efficiency;
         match (self.model, side) {
@@ -110,7 +110,7 @@ impl Mechanism {
     }
 
     /// Whether the slope has another law where Δx falls than where it rises. Without friction the mean of the two
-    /// directions has not: both sides have the same two losses.
+    /// directions does not: both sides have the same two losses.
     pub(super) fn two_sided(&self) -> bool {
         self.model == EfficiencyModel::Consistent
             && self.efficiency < 1.0
@@ -169,7 +169,7 @@ impl Mechanism {
         }
     }
 
-    /// T and η of (18) for a way of the bed.
+    /// T and η of (18) for a direction of the bed.
     fn fraction(&self, lever: &Lever, slope: f64, side: Trend, way: Way) -> (f64, f64) {
         let (sigma, q) = (slope / lever.ratio, libm::sin(self.friction_angle));
         let (braking, returning) = self.efficiencies(side);
@@ -181,8 +181,8 @@ impl Mechanism {
 
     /// Left side less right side of (18), over 2 p0 F, at overrun x with the bottom at Δx and the slope dΔx/dx.
     ///
-    /// Where a lever sticks in the direction that is to balance, the friction in it is whatever balances: the residual
-    /// is 0 as far as the losses reach, and what is beyond them elsewhere. On the other way it is taken without loss.
+    /// Where a lever sticks in the direction in which the forces are to balance, its friction takes up the difference: the
+    /// residual is 0 as far as the losses reach, and the excess beyond them. In the other direction it is taken without loss.
     #[must_use]
     pub fn residual(&self, x: f64, bottom: f64, slope: f64, way: Way) -> f64 {
         self.residual_on(Self::trend_of(slope), x, bottom, slope, way)
@@ -210,7 +210,7 @@ impl Mechanism {
         }
     }
 
-    /// Normal force of one roller on its flank over p0 F, equation (17), on a way of the bed; sent back, ρ has the other
+    /// Normal force of one roller on its flank over p0 F, equation (17), by the bed's direction; on the way back ρ has the other
     /// sign and η changes sides.
     #[must_use]
     pub fn normal_force(&self, side: Trend, way: Way, x: f64, bottom: f64, slope: f64) -> f64 {
@@ -255,7 +255,7 @@ impl Mechanism {
         tape.finish(slope)
     }
 
-    /// dΔx/dx from A x/P and Δx (in strokes). Without friction it is η B and needs nothing of the lever.
+    /// dΔx/dx from A x/P and Δx (in strokes). Without friction it is η B and does not depend on the lever.
     fn slope(&self, tape: &mut Tape, ratio: Term, y: Term, side: Trend) -> Term {
         let minus_one = tape.constant(-1.0);
         let surplus = tape.sum(ratio, minus_one);

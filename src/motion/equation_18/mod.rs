@@ -1,7 +1,7 @@
-//! The law of a cam plate that rides on the bed: run-in, then the bottom's Δx over the overrun by equation (18).
+//! The motion of the cam plate that rides on the bed: run-in, then the bottom's Δx over the overrun by equation (18).
 //!
-//! The parameter of the law is the bed's place x in metres, 0 where the reversal starts. Before that the bed runs at
-//! constant speed, so that a crank angle w is a way r w.
+//! The parameter of the motion is the bed's position x in metres, 0 where the reversal starts. Before that the bed runs at
+//! constant speed, so that a crank angle w is a travel r w.
 
 mod mechanism;
 mod ode;
@@ -36,11 +36,11 @@ pub enum Solver {
 /// Cells for the search of the lowest point in a piece.
 const CELLS: u32 = 32;
 
-/// Why there is no law.
+/// Why there is no motion.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WedgeMotionError {
-    /// (18) has no answer.
+    /// (18) has no solution.
     #[error(transparent)]
     Wall(#[from] Wall),
     /// A blend reaches past the end of the stroke.
@@ -108,7 +108,7 @@ enum Shape {
     BottomMotion,
 }
 
-/// The law of the plate.
+/// The motion of the plate.
 #[derive(Debug, Clone)]
 pub struct WedgeMotion {
     mechanism: Mechanism,
@@ -122,7 +122,7 @@ impl WedgeMotion {
     /// Puts a flat of the given length (m), the transition and the motion together.
     ///
     /// # Errors
-    /// [`WedgeMotionError`] when (18) has no answer or the transition does not fit.
+    /// [`WedgeMotionError`] when (18) has no solution or the transition does not fit.
     pub fn new(
         mechanism: Mechanism,
         solver: Solver,
@@ -165,7 +165,7 @@ impl WedgeMotion {
     }
 
     fn push(&mut self, start: f64, end: f64, shape: Shape) {
-        // A nanometre of bed travel is no piece of its own.
+        // A nanometre of bed travel does not deserve a piece of its own.
         if end - start > 1e-9 {
             let dwell = matches!(shape, Shape::Flat(_)) || self.rests(start, end, shape);
             self.pieces.push(Piece { start, end, dwell });
@@ -243,7 +243,7 @@ impl WedgeMotion {
         }
     }
 
-    /// Left side less right side of (18) over 2 p0 F on a way of the bed; 0 before the reversal.
+    /// Left side less right side of (18) over 2 p0 F in a direction of the bed; 0 before the reversal.
     #[must_use]
     pub fn residual(&self, piece: usize, x: f64, way: Way) -> f64 {
         if x <= 0.0 {

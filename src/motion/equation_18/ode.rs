@@ -1,4 +1,4 @@
-//! The bottom of a translating cam as the solution of (18) for the slope, by Taylor's method.
+//! The bottom moved by a wedge cam as the solution of (18) for the slope, by Taylor's method.
 //!
 //! x = 0 is a removable singularity: there A x/P is 0/0 and tends to c/(1+w), w the slope, c = L A/k; w is the root of
 //! the equation that this makes of (18), and the series is built on y = x w. With unequal efficiencies the slope has
@@ -13,14 +13,14 @@ use crate::numeric::taylor::{self, Expansion, Tape};
 /// Share of the tolerance one step may take. The solution attracts its neighbours, so that errors of steps die out
 /// rather than add up; near x = 0 the attraction is weak and a few of them may add.
 const STEP_SHARE: f64 = 0.125;
-/// Shortest step over the overrun reached: shorter ones mean a wall.
+/// Shortest step over the overrun reached: shorter ones mean that the solution ends here.
 const SHORTEST_STEP: f64 = 1e-10;
 /// Largest number of steps: even q = 1e5 takes a hundred.
 const MOST_STEPS: usize = 5000;
 /// Cells of a step in which a change of sign is looked for, and cells in which a stuck lever may come free.
 const STEP_CELLS: u32 = 8;
 const STUCK_CELLS: u32 = 128;
-/// What is left of an arm, a sine or the column, as a share, where the solution ends for want of it.
+/// Remaining share of an arm, a sine or the column below which the solution ends because it is used up.
 const NEAR: f64 = 0.02;
 /// Share of the overrun that the air has as its stroke, below which the equation is too stiff to be followed.
 const STIFF: f64 = 0.01;
@@ -149,7 +149,7 @@ impl Run<'_> {
         self.solution.stretches.push(Stretch { side: self.side, series });
     }
 
-    /// From here on the bottom does something else.
+    /// From here on the bottom moves differently.
     fn turn(&mut self, then: Trend) {
         self.side = then;
         self.solution.breaks.push(Break { x: self.x * self.solution.stroke, then });
@@ -255,7 +255,7 @@ impl Run<'_> {
         self.y.abs() * self.solution.stroke / self.mechanism.bottom_arm
     }
 
-    /// Share of the column that is left.
+    /// Remaining share of the column.
     fn column_left(&self) -> f64 {
         1.0 - (self.x + self.y) * self.solution.stroke / self.mechanism.bottom_law.column
     }
@@ -269,12 +269,12 @@ impl Run<'_> {
         self.arm_share() < ARM_SHARE && self.sine() > 0.0 && self.column_left() > 0.0
     }
 
-    /// The name of the wall ahead: the quantity that is nearest to nothing.
+    /// Why the solution ends ahead: the quantity that is nearest to zero.
     fn wall(&self) -> Wall {
         let m = self.mechanism;
         let x_mm = 1e3 * self.solution.stroke * self.x;
         let side = if self.y < 0.0 { Trend::Falling } else { Trend::Rising };
-        // Where the arm ends before the roller moves along the bed, sin θ is small for want of arm.
+        // Where the arm ends before the roller moves along the bed, sin θ is small because the arm is used up.
         if !(self.sine() > NEAR) && m.furthest_before_line(side).is_finite() {
             return Wall::Line { x_mm };
         }
@@ -337,7 +337,7 @@ fn starting_slope(mechanism: &Mechanism, side: Trend) -> Option<f64> {
         let discriminant = a1 * a1 - 4.0 * a2 * a0;
         let below = a1 + discriminant.sqrt();
         let slope = 2.0 * a0 / below;
-        // The branch: NaN and a slope past −1 are no start.
+        // The branch: NaN and a slope past −1 cannot start a solution.
         let denominator = c * plus * (1.0 + slope) + eta * (surplus - slope) * q;
         (slope > -1.0 && denominator > 0.0 && below > 0.0).then_some(slope)
     };

@@ -1,10 +1,10 @@
-//! The bottom of a translating cam station by station, as the paper has it: (18) with the slope by the backward
+//! The bottom moved by a wedge cam, station by station, as in the paper: (18) with the slope by the backward
 //! difference (25), solved for Δx at one overrun after the other.
 //!
 //! # The bracket
 //!
 //! With the slope (y − y₀)/h the right side of (18) grows with y as long as the flank does not jam: the air force grows,
-//! and so does T. Written without the fraction, so that the jam is no pole,
+//! and so does T. Written without the fraction, so that a jam is not a pole,
 //!
 //! ```text
 //! G(y) = (A x − P) (s₋ − σ q) − P C (σ s₊ + q)/η
@@ -13,7 +13,7 @@
 //! falls through zero once. At y₀, where σ = 0, the two laws of unequal efficiencies tell the side: G > 0 as the rising
 //! law has it means a root above, G < 0 as the falling law has it one below, and neither a lever that sticks, y = y₀. From
 //! there the bracket is widened, doubling, until G has changed its sign, but never past the place where the flank jams, the
-//! roller moves along the bed or arm or column are used up: those are walls, and they have names. Chandrupatla's method
+//! roller moves along the bed or arm or column are used up: there the solution ends, see `wall`. Chandrupatla's method
 //! ([`crate::numeric::root`]) then closes in, superlinearly and never leaving the bracket.
 
 use super::mechanism::{ARM_SHARE, ExactOn, Mechanism, Trend};
@@ -76,7 +76,8 @@ struct Station<'a> {
 }
 
 impl Station<'_> {
-    /// What is left until the flank jams, and the roller until it moves along the bed's line, for the ways that balance.
+    /// The margin until the flank jams, and until the roller moves along the bed's line, for the directions in which the
+    /// forces balance.
     fn free(&self, y: f64) -> f64 {
         let lever = self.mechanism.lever(y);
         let sigma = (y - self.before) / (self.step * lever.ratio);
@@ -109,7 +110,7 @@ impl Station<'_> {
         }
     }
 
-    /// The furthest Δx on a side before a wall, and the wall.
+    /// The furthest Δx on a side before the solution ends, and why it ends there.
     fn furthest(&self, side: Trend) -> (f64, Wall) {
         let (m, x_mm) = (self.mechanism, 1e3 * self.x);
         let (line, arm) = (m.furthest_before_line(side), ARM_SHARE * m.bottom_arm);

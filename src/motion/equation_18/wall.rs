@@ -1,6 +1,6 @@
-//! Where equation (18) has no answer, by name.
+//! Where equation (18) has no solution, and why.
 
-/// A place no plate gets past.
+/// A wall: a place beyond which no plate solves (18).
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Wall {
@@ -68,7 +68,7 @@ pub enum Wall {
         /// Overrun, mm.
         x_mm: f64,
     },
-    /// Too many steps, near nothing that has a name.
+    /// Too many steps, for none of the reasons above.
     #[error("equation (18) could not be continued past x = {x_mm:.6} mm; please report this machine")]
     Unnamed {
         /// Overrun, mm.

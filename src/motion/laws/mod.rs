@@ -13,7 +13,7 @@ pub type Values = [f64; 4];
 /// A law of motion.
 #[derive(Debug)]
 pub struct Law {
-    /// The name it is asked for by.
+    /// Its name in files and code.
     pub name: &'static str,
     /// Its formula, for a list.
     pub formula: &'static str,
@@ -45,7 +45,7 @@ fn turn_minus_sine(t: f64) -> f64 {
     sum
 }
 
-/// The law of a name.
+/// The law with this name.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Law> {
     LAWS.iter().find(|law| law.name == name)

@@ -30,7 +30,7 @@ enum Operation {
 #[derive(Debug, Clone, Default)]
 pub struct Tape {
     operations: Vec<Operation>,
-    /// Whether a series is kept one coefficient ahead: what hangs on x·(…) and is divided by x again.
+    /// Whether a series is kept one coefficient ahead: those that depend on x·(…) and are divided by x again.
     ahead: Vec<bool>,
     result: Option<Term>,
 }
@@ -303,7 +303,7 @@ impl Expansion {
 
     /// How far from the centre the last three terms, each times its power, stay below `tolerance`: there the value is
     /// off by about that and its slope by that over the step. Infinite for a polynomial of lower degree; NaN when a
-    /// coefficient is no number.
+    /// coefficient is not a number.
     #[must_use]
     pub fn reach(&self, tolerance: f64) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "orders are small")]
