@@ -12,10 +12,10 @@ use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 use parry2d_f64::query::PointQuery;
 use parry2d_f64::shape::{Polyline, PolylineFlags};
 
-/// Largest number of chords: a tolerance so fine that it asks for more is compared with coarser ones.
+/// Largest number of chords: a tolerance that needs more is compared with coarser chords.
 const MOST_CHORDS: f64 = 2e5;
 
-/// The outline ready to be touched.
+/// The outline, prepared for the search of the nearest point.
 pub struct Track {
     segments: Vec<Segment>,
     tree: Bvh,
@@ -59,7 +59,7 @@ impl Track {
         Some(self.at_vertex(point, leaf, nearest))
     }
 
-    /// The nearest point seen from both segments where it is their common vertex: on which side the point lies is told by
+    /// The nearest point seen from both segments where it is their common vertex: on which side the point lies follows from
     /// the two together, and the tangent is that of the segment it stands squarer to.
     fn at_vertex(&self, point: Vector2<f64>, leaf: usize, nearest: Nearest) -> Nearest {
         let n = self.segments.len();

@@ -1,7 +1,7 @@
 //! What can be cut where the pitch curve is too sharp: the envelope with its loops removed.
 //!
 //! Where a convex radius of the pitch curve is below the roller's, or at a convex corner, the parallel curve folds back
-//! and crosses itself. The roller cannot be held on the law there: the metal ends in the crossing, a sharp edge, and the
+//! and crosses itself. The roller cannot follow the motion there: the metal ends in the crossing, a sharp edge, and the
 //! roller drops onto that edge. Between the two cam angles of the crossing motion is lost.
 
 use super::{Curves, extremes};
@@ -10,7 +10,7 @@ use crate::geometry::CurvePoint;
 use crate::numeric::extremum;
 use nalgebra::{Matrix2, Vector2};
 
-/// Points of a piece at which the parallel curve is asked whether it runs backwards.
+/// Points of a piece at which the parallel curve is tested for running backwards.
 const SEEDS: u32 = 256;
 /// Points of each branch beside a fold, denser near it, and how far the branches are followed, as a share of the cam.
 const BRANCH_POINTS: u32 = 500;
@@ -37,7 +37,7 @@ pub struct Loss {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("the profile folds over itself without a crossing that could be cut")]
 pub struct NoEnvelope {
-    /// Where, as the law's parameter.
+    /// Where, as the motion's parameter.
     pub parameter: f64,
 }
 

@@ -98,7 +98,7 @@ pub struct Corner {
     pub turn: f64,
 }
 
-/// A turn below this is no corner, rad: far below the 0.05° a shop tolerates, far above rounding (1e-12).
+/// A turn below this is not a corner, rad: far below the 0.05° a shop tolerates, far above rounding (1e-12).
 const LEAST_CORNER: f64 = 1e-9;
 
 /// The corners of the pitch curve, in the order of the pieces; each stands at the end of a piece.

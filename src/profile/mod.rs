@@ -51,7 +51,7 @@ pub struct Worst {
 }
 
 impl Worst {
-    /// Smaller than anything, nowhere in particular.
+    /// Smaller than any value, at no particular place.
     pub const NONE: Self = Self { value: f64::NEG_INFINITY, at: 0.0, z: 0.0 };
 
     /// The larger of two, the first of equals.

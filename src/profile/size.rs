@@ -22,11 +22,11 @@ pub struct Required {
 }
 
 impl Required {
-    /// What the limits of a machine file and the bore ask of a disc under a follower.
+    /// What the limits of a machine file and the bore require of a disc under a follower.
     #[must_use]
     pub fn of(limits: &Limits, cam: &CamData, follower: &dyn Follower) -> Self {
         let offset = follower.element().offset();
-        // Where no wall is asked for there must be some all the same.
+        // Without a limit for the wall there must still be some.
         let wall = if limits.wall > 0.0 { limits.wall } else { BASE_STEP };
         let least_base = cam.bore_reach().map_or(BASE_STEP, |reach| reach + wall);
         Self {
@@ -37,7 +37,7 @@ impl Required {
     }
 }
 
-/// The base radius `auto` takes for a smallest one, m: the next whole millimetre.
+/// The base radius that `auto` makes of the smallest one, m: the next whole millimetre.
 #[must_use]
 pub fn rounded_up(base_radius: f64) -> f64 {
     let steps = (base_radius / BASE_STEP - BASE_STEP_NOISE).ceil();
@@ -53,7 +53,7 @@ const STEP_IN_REACH: f64 = 1.01;
 /// As many of these as doublings would be: 1.01 to the 3500 is 2 to the 50.
 const STEPS_IN_REACH: u32 = 3500;
 
-/// Rounds of solving each limit in turn. A limit may be broken anew by the radius another one asked for only where it
+/// Rounds of solving each limit in turn. A limit may be broken again by the radius that another one needs only where it
 /// is not monotone in the radius; each round then starts above the last.
 const ROUNDS: u32 = 8;
 
@@ -62,7 +62,7 @@ const ROUNDS: u32 = 8;
 #[error("no base radius keeps the limits")]
 pub struct NoRadius;
 
-/// The largest lift that a follower of limited reach has to follow, m or rad; any other follows what comes.
+/// The largest lift that a follower of limited reach has to follow, m or rad; any other can follow every lift.
 #[must_use]
 pub fn largest_lift_in_reach(motion: &dyn Motion, follower: &dyn Follower) -> f64 {
     if follower.reach().1.is_finite() { lifts(motion).1 } else { 0.0 }
@@ -80,7 +80,7 @@ pub fn smallest_prime_radius(
     required: &Required,
 ) -> Result<f64, NoRadius> {
     let top = largest_lift_in_reach(motion, follower);
-    // Out of reach is no pass.
+    // Out of reach does not pass.
     let at = |radius: f64, excess: &dyn Fn(Curves<'_>) -> f64| {
         let follower = follower.sized(radius).filter(|follower| top <= follower.reach().1);
         follower.map_or(f64::NAN, |follower| excess(Curves { motion, follower: &*follower }))
@@ -109,7 +109,7 @@ pub fn smallest_prime_radius(
 
 /// The first radius from `low` on at which `excess` is not positive.
 fn first_at_or_above(low: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
-    // A NaN is no pass: it says that the curve does not exist at this radius.
+    // A NaN does not pass: the curve does not exist at this radius.
     if excess(low) <= 0.0 {
         return Ok(low);
     }
@@ -122,7 +122,7 @@ fn first_at_or_above(low: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Res
                 return Ok(passing);
             }
             let mut radius = root::bracketed(&excess, failing, passing, 0.0).map_err(|_| NoRadius)?;
-            // The root is known to an ulp; stand on the side that passes.
+            // The root is known to an ulp; take the side that passes.
             while excess(radius) > 0.0 && radius < passing {
                 radius *= 1.0 + 4.0 * f64::EPSILON;
             }

@@ -110,7 +110,7 @@ pub(super) fn join(pieces: Vec<Vec<Segment>>, others: &[Segment], reach: f64) ->
         }
         chains.extend(started(segments));
     }
-    // Elsewhere the outline must not lie a second time.
+    // The outline must not be repeated elsewhere.
     for other in others {
         if by_middle.near(other.middle()).filter_map(|index| kept.get(index)).any(|s| same(s, other, reach)) {
             duplicates.push(other.middle());

@@ -1,7 +1,7 @@
-//! A DXF file back into chains of arcs and lines: what `output` wrote, or what another program made of it.
+//! Reads a DXF file back into chains of arcs and lines: what `write` wrote, or what another program made of it.
 //!
 //! The entities of layer `CAM_PROFILE` are taken for the outline, joined end to end; what does not fit a single closed
-//! outline is kept and told, not mended. LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE are read exactly, SPLINE as chords
+//! outline is kept and reported, not repaired. LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE are read exactly, SPLINE as chords
 //! that turn by less than a shop's kink.
 
 mod join;
@@ -20,7 +20,7 @@ pub const OUTLINE_LAYER: &str = "CAM_PROFILE";
 /// Largest tilt of an entity's plane: rounding of a unit vector.
 const TILT: f64 = 1e-9;
 
-/// What a file says of its unit.
+/// The unit a file states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
     /// `$INSUNITS` = 4.
@@ -44,13 +44,13 @@ pub struct Reading {
     pub points: Vec<Vector2<f64>>,
     /// Kinds of entities on that layer that cannot be read as arcs and lines.
     pub unreadable: Vec<String>,
-    /// Names of the layers that hold something.
+    /// Names of the layers that are not empty.
     pub layers: Vec<String>,
-    /// Splines are read as chords, which a proof should know.
+    /// Number of splines, which are read as chords.
     pub splines: usize,
 }
 
-/// Why a file is not read.
+/// Why a file cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -60,7 +60,7 @@ pub enum ReadError {
     /// It is not DXF.
     #[error("not a DXF file: {0}")]
     NotDxf(String),
-    /// It holds a number that is none.
+    /// It holds a number that is not finite.
     #[error("layer {OUTLINE_LAYER} holds a coordinate that is not a finite number")]
     NotFinite,
 }
@@ -94,7 +94,7 @@ pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
     for entity in model().filter(on_outline) {
         raw.add(entity);
     }
-    // What lies on other layers is cut as well, and must not be the outline a second time.
+    // Entities on other layers are cut as well, and must not repeat the outline.
     let mut others = Raw::default();
     for entity in model().filter(|entity| !on_outline(entity)) {
         others.add(entity);
@@ -150,7 +150,7 @@ impl Raw {
                 self.splines += 1;
                 segments
             }
-            // Text and points cut nothing, but on the layer of the outline they are a surprise.
+            // Text and points cut nothing, but on the layer of the outline they are unexpected.
             (None, other) => {
                 let name = format!("{other:?}");
                 let kind: String = name.chars().take_while(char::is_ascii_alphanumeric).collect();

@@ -8,10 +8,10 @@
 //! ```
 //!
 //! c the openings of the joints, whose matrices are narrow bands along the chain. It is solved by a primal-dual interior
-//! point method (Wright, Primal-Dual Interior-Point Methods, 1997, chapters 1 and 5): each step takes deviations and
-//! derivatives anew, so that it is a step for the curve as well as for the program. The first chain within the tolerance
-//! will do. Where there is none the dual value, a bound from below once its own conditions are met, tells before the
-//! steps come to an end; it only saves time.
+//! point method (Wright, Primal-Dual Interior-Point Methods, 1997, chapters 1 and 5): each step computes deviations and
+//! derivatives again, so that it is a step for the curve as well as for the program. The first chain within the tolerance
+//! is taken. Where there is none the dual value, a lower bound once its own conditions are met, shows it before the
+//! steps run out; it only saves time.
 
 use super::Joint;
 use super::nodes::Node;
@@ -21,7 +21,7 @@ use crate::numeric::banded::Banded;
 use crate::numeric::extremum::larger;
 use nalgebra::{Matrix4, Vector2, Vector4};
 
-/// Steps at the most: of 1552 chains that exist all were found within twelve.
+/// Most steps: of 1552 chains that exist all were found within twelve.
 const MOST_STEPS: u32 = 14;
 /// The level starts so far above the largest deviation, and is kept so far above it.
 const ROOM: (f64, f64) = (10.0, 1.02);
@@ -37,7 +37,7 @@ const STAY: [f64; 3] = [0.1, 1e-9, 1e-9];
 const GIVE: f64 = 1e-9;
 /// What closing may add to the deviation, as a share of the widest opening: above, it is not tried.
 const CLOSING: f64 = 0.1;
-/// The dual value is believed once the chain is open by less: wider, it says little about chains that are closed.
+/// The dual value is trusted once the chain is open by less: wider, it says little about chains that are closed.
 const TELLING: f64 = 2.0;
 
 /// A node with what the method keeps about it.
@@ -136,7 +136,7 @@ impl Program {
         })
     }
 
-    /// Takes the deviation at every sample, and returns the largest, in tolerances.
+    /// Computes the deviation at every sample, and returns the largest, in tolerances.
     fn measure(&mut self, trial: &Trial) -> f64 {
         let tolerance = self.tolerance;
         let mut worst = 0.0_f64;
@@ -150,7 +150,7 @@ impl Program {
         worst
     }
 
-    /// Takes the slacks below a level, and returns how far the dual value lies below it, and the product of slack and
+    /// Computes the slacks below a level, and returns how far the dual value lies below it, and the product of slack and
     /// multiplier to aim at.
     fn slacks(&mut self, level: f64, arcs: usize) -> (f64, f64) {
         let mut product = 0.0;

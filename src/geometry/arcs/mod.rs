@@ -12,15 +12,15 @@
 //! N* = I₃/(K tol)^(1/3),   I₃ = ∫ |dκ/ds|^(1/3) ds,   η*(s) = −sign(κ') (K tol)^(2/3) |κ'|^(1/3)/12
 //! ```
 //!
-//! # The way
+//! # The method
 //!
 //! The curve is sampled once, at nodes of equal share of I₃ (`nodes`). The number of arcs and the places of their joints
 //! are known to first order, the arcs at an exact tangent and those over an extremum of the curvature too (`spacing`).
 //! From there joints and headings are moved together until no node is off by more than the tolerance (`trial`, `minimax`);
 //! where that cannot be, one more arc is tried. Tangency is a condition of the same system, and is met to rounding in the end.
 //!
-//! Nodes lie dense enough that the lobes are seen to a percent. The finished chain is checked anew between them, and laid
-//! again with the places where it does not hold as further nodes.
+//! Nodes lie dense enough that the lobes are seen to a percent. The finished chain is checked again between them, and fitted
+//! again with the places that exceed the tolerance as further nodes.
 
 mod minimax;
 mod nodes;
@@ -44,14 +44,14 @@ const MANY: usize = 200;
 /// halved for it at the most.
 const UNSEEN: f64 = 0.004;
 const HALVINGS: u32 = 12;
-/// Times a chain is laid again when the check between the nodes finds more than the tolerance.
+/// How often a chain is fitted again when the check between the nodes finds more than the tolerance.
 const TRIES: u32 = 12;
-/// Arcs that are tried at the most, against the first number: far beyond any that was ever needed.
+/// Most arcs that are tried, over the first number: far beyond any that was ever needed.
 const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
 /// One arc in so many does not matter: a fifth of a percent.
 const FEW: u32 = 500;
-/// A piece of a smaller share may be a circle, told by its headings; one with a feature between them has more.
+/// A piece of a smaller share may be a circle, which its headings show; one with a feature between them has more.
 const CIRCLE: f64 = 0.1;
 /// Headings closer than this are one, rad: a circle is seen as a circle with rounding.
 const SAME_HEADING: f64 = 1e-10;
@@ -212,7 +212,7 @@ fn between(at: &mut impl FnMut(f64) -> Checked, a: Checked, b: Checked, toleranc
     let step = b.place - a.place;
     let unseen = step * step * larger(a.bend, b.bend);
     let seen = larger(a.distance, b.distance);
-    // What is beyond the tolerance already need not be known closer.
+    // A distance already beyond the tolerance need not be refined.
     if unseen <= UNSEEN * tolerance || seen > tolerance || halvings == 0 {
         return seen + unseen;
     }

@@ -10,12 +10,12 @@ const NODES_PER_ARC: f64 = 24.0;
 const LEAST_NODES: f64 = 96.0;
 /// Cells in which I₃ is summed up first; the integrand has cusps where κ' changes sign, seen to 1e-3 of I₃ with 256.
 const SHARE_CELLS: u32 = 256;
-/// Difference of the two sums of I₃ at which the cells are narrow enough, and how often they are made anew.
+/// Difference of the two sums of I₃ at which the cells are narrow enough, and how often they are divided again.
 const AGREEMENT: f64 = 0.01;
 const MOST_ROUNDS: u32 = 5;
 /// Share of the nodes that is spread evenly over the piece, so that stretches of constant curvature are not empty.
 const EVEN_SHARE: f64 = 0.05;
-/// Largest number of nodes: a curve whose κ' does not belong to it asks for millions of arcs.
+/// Largest number of nodes: a curve with a wrong κ' would need millions of arcs.
 const MOST_NODES: f64 = 4e6;
 /// K = 72√3 of the best tangent-continuous chain.
 const CHAIN: f64 = 124.707_658_144_958_9;

@@ -64,7 +64,7 @@ impl Spacing {
             }
             let share = 0.5 * (before.share + node.share);
             match bounds.last() {
-                // Two extrema close together are none.
+                // Two extrema close together count as none.
                 Some(last) if share - last < LEAST_BETWEEN => _ = bounds.pop(),
                 None if share < LEAST_AT_END => {}
                 _ => bounds.push(share),

@@ -10,7 +10,7 @@ use crate::numeric::banded::Banded;
 use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
 
-/// Newton steps that close a chain to rounding: each squares what is open.
+/// Newton steps that close a chain to rounding: each squares the openings.
 const CLOSING_STEPS: u32 = 4;
 /// A chain is closed when no heading is off by more, rad: half of what the joints are promised.
 const CLOSED: f64 = 5e-10;

@@ -88,7 +88,7 @@ pub struct Solid {
     pub volume: f64,
 }
 
-/// Why a solid is not one.
+/// Why there is no valid solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolidError {
@@ -98,9 +98,9 @@ pub enum SolidError {
     /// Area times thickness is not what the boundary encloses.
     #[error("the solid encloses {found} mm³ instead of {expected} mm³; please report this")]
     WrongVolume {
-        /// By the edges of the solid.
+        /// As computed from the edges of the solid.
         found: f64,
-        /// By the drawing.
+        /// As computed from the drawing.
         expected: f64,
     },
 }

@@ -1,6 +1,6 @@
 //! A profile as a chain of tangent arcs in millimetres, piece by piece: where curves are sampled, once, to a stated tolerance.
 //!
-//! Tolerances are in metres, like everything that comes in; contours, and what is told of them, are in millimetres.
+//! Tolerances are in metres, like everything that comes in; contours and their measures are in millimetres.
 
 use super::envelope::{self, Loss, NoEnvelope};
 use super::{Curves, extremes};
@@ -16,21 +16,21 @@ const LONGEST_PIECE: f64 = PI * (1.0 + 1e-12);
 /// A dwell is one arc up to here; beyond, its ends come so close that readers cannot tell its centre.
 const LONGEST_DWELL: f64 = 1.9 * PI;
 
-/// Largest coordinate a drawing may have, mm: readers take anything beyond for a mistake.
+/// Largest coordinate a drawing may have, mm: readers treat larger ones as mistakes.
 const LARGEST_COORDINATE: f64 = 1e6;
 
-/// The pitch curve on a sheet is only looked at: a fifth of a thin pen, m.
+/// Tolerance of the pitch curve on a sheet, which is for viewing only: a fifth of a thin pen, m.
 const PITCH_TOLERANCE: f64 = 0.05e-3;
 
 /// On which side of the exact curve an outline may lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {
-    /// On either.
+    /// On either side.
     #[default]
     Both,
     /// Within the metal of the exact cam: never metal in the way.
     Inside,
-    /// Outside of it: never cut too deep.
+    /// Outside it: never cut too deep.
     Outside,
 }
 
@@ -114,7 +114,7 @@ pub enum OutlineError {
         cam_deg: f64,
     },
     /// The tolerance cannot be kept.
-    #[error("{0}: between 64 roundings of the coordinates and a millimetre it can")]
+    #[error("{0}: it must lie between 64 times the rounding of the coordinates and 1 mm")]
     Fit(#[from] FitError),
 }
 
@@ -177,7 +177,7 @@ pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, tolerance: f64) -> Re
     }
 }
 
-/// The follower's curve as an outline for the eye.
+/// The follower's curve as an outline for viewing.
 ///
 /// # Errors
 /// As [`profile`], but a pitch curve cannot be undercut.
@@ -193,7 +193,7 @@ pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, Outli
     parallel(curves, 0.0, tolerance, &[])
 }
 
-/// Refuses a curve that no drawing holds; `frame` gives its points in millimetres.
+/// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
 pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), OutlineError> {
     let radius_mm = pieces.iter().enumerate().map(|(i, p)| frame(i, p.start).point.norm()).fold(0.0, f64::max);
     if radius_mm <= LARGEST_COORDINATE { Ok(()) } else { Err(OutlineError::TooLarge { radius_mm }) }
