@@ -11,7 +11,7 @@ const BETWEEN: f64 = 0.25;
 /// Halvings of the radius of a hole: to rounding.
 const HALVINGS: u32 = 60;
 
-/// What balancing came to, in the drawing plane, mm.
+/// The result of balancing, in the drawing plane, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balancing {
     /// Holes, centre and radius; none when it could not be done.

@@ -1,4 +1,4 @@
-//! Bodies: what is cut. A body is solved from a machine, tells its worst places, draws itself to a tolerance, and contributes
+//! Bodies: what is cut. A body is solved from a machine, finds its worst places, draws itself to a tolerance, and contributes
 //! to table, report and sheet.
 //!
 //! A new body is a folder here with `impl Body`, one line in [`KINDS`] and its command.
@@ -37,14 +37,14 @@ pub struct Kind {
 /// Every kind of body.
 pub const KINDS: &[&Kind] = &[&disc::ROTARY, &disc::GENERAL, &wedge::KIND, &conoid::KIND];
 
-/// What is asked of a drawing.
+/// What a drawing must contain, and how exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
     /// How near the outlines keep to the exact curves, and on which side.
     pub fit: Fit,
-    /// The flank of a body whose sections differ is wanted as a surface.
+    /// The flank of a body whose sections differ is needed as a surface.
     pub flank: bool,
-    /// Radius of a cutter whose path is wanted, m.
+    /// Radius of a cutter whose path is needed, m.
     pub cutter: Option<f64>,
 }
 
@@ -61,9 +61,10 @@ impl Request {
 pub struct Drawn {
     /// What is cut, a part for each section.
     pub parts: Vec<Part>,
-    /// The flank of a body whose sections differ, when it was asked for.
+    /// The flank of a body whose sections differ, when it was requested.
     pub flank: Option<Flank>,
-    /// The path of a cutter, when it was asked for, or why the cutter has none: then the check of the cutter's radius fails too.
+    /// The path of a cutter, when it was requested, or why the cutter has none: then the check of the cutter's radius fails
+    /// too.
     pub cutter_path: Option<Result<Outline, OutlineError>>,
 }
 
@@ -71,7 +72,7 @@ pub struct Drawn {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DrawError {
-    /// The cam has no outline that could be cut; which limit it breaks, the checks tell.
+    /// The cam has no outline that could be cut; the checks show which limit it breaks.
     #[error("{0}")]
     NoOutline(String),
     /// The outline cannot be drawn.
@@ -113,7 +114,7 @@ fn flank_of<'a>(found: &Found<'a>) -> Option<&'a Flank> {
     found.drawn?.flank.as_ref()
 }
 
-/// A solved cam: what checks, drawings, tables and reports want to know, whatever its kind.
+/// A solved cam: what checks, drawings, tables and reports need of it, whatever its kind.
 pub trait Body: std::fmt::Debug + Send + Sync {
     /// Its kind.
     fn kind(&self) -> &'static Kind;
@@ -132,12 +133,12 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Where a value of the motion's parameter is.
+    /// The place that belongs to a value of the motion's parameter.
     fn place(&self, parameter: f64) -> Place {
         Place::at_angle(parameter)
     }
 
-    /// Where a worst place lies along the axis, for a reader, where that tells something.
+    /// Where a worst place lies along the axis, for a reader, where that is informative.
     fn along_axis(&self, _z: f64) -> Option<String> {
         None
     }
@@ -173,7 +174,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.sharpest(curves))
     }
 
-    /// Radius of the largest cutter that gets into the hollows, m; `None` where nothing is concave.
+    /// Radius of the largest cutter that fits into the concave parts, m; `None` where nothing is concave.
     fn hollow(&self) -> Option<Worst> {
         let curves = self.plane()?;
         let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
@@ -203,7 +204,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// Radius of the roller, or `None` under a flat face, m.
     fn roller_radius(&self) -> Option<f64>;
 
-    /// Least metal behind the profile, m, where there is something behind it; the place where it can be told.
+    /// Least metal between the profile and what bounds it inside, m, if anything does; with its place where that is known.
     fn wall(&self) -> Option<(f64, Option<Worst>)>;
 
     /// Room between two rollers that face each other, m, and where it is least; `None` where there is only one.
@@ -214,18 +215,18 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// Force between follower and cam along the normal, N; `None` where no force is known.
     fn contact_force(&self, piece: usize, parameter: f64) -> Option<f64>;
 
-    /// Largest pressure between roller and cam after Hertz, Pa; `None` where thickness, material or forces are not told.
+    /// Largest pressure between roller and cam after Hertz, Pa; `None` where thickness, material or forces are not given.
     fn contact_stress(&self) -> Option<Worst>;
 
-    /// Least force that presses the follower onto the cam along its path, N; `None` when the machine file does not tell what
-    /// beside the load does.
+    /// Least force that presses the follower onto the cam along its path, N; `None` when the machine file gives
+    /// neither mass nor preload of the follower.
     fn least_closing_force(&self) -> Option<Worst>;
 
-    /// |what must be balanced − what the cam balances|, N, with the follower `moved` (m) along its path from where the motion
-    /// wants it, touching the cam where its normal (a unit vector out of the metal) is; 0 where nothing must be.
+    /// Size of the residual force that the force balance leaves, N, with the follower `moved` (m) along its path from where the
+    /// motion puts it, touching the cam where its normal is this unit vector out of the metal; 0 without a load.
     fn unbalanced(&self, piece: usize, parameter: f64, moved: f64, normal: Vector2<f64>) -> f64;
 
-    /// What would keep the limits of pressure angle and curvature.
+    /// A change that would keep the limits of pressure angle and curvature.
     fn remedy(&self) -> Option<String> {
         None
     }
@@ -236,7 +237,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// [`DrawError`] when there is no outline, or it cannot be drawn.
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError>;
 
-    /// Height of the solid, mm: from 0 to the thickness of a plane cam, the ends of a conoid; `None` when none is told.
+    /// Height of the solid, mm: from 0 to the thickness of a plane cam, the ends of a conoid; `None` when none is given.
     fn height(&self) -> Option<(f64, f64)> {
         self.machine().cam.thickness.map(|thickness| (0.0, crate::geometry::MILLIMETRES * thickness))
     }
@@ -244,17 +245,17 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// The rows of its point table.
     fn rows(&self, samples: u32) -> Vec<Row>;
 
-    /// What it and its parts tell in the report.
+    /// What it and its parts contribute to the report.
     fn sections(&self, found: &Found<'_>) -> Vec<Section>;
 
     /// Its review sheet.
     ///
     /// # Errors
-    /// [`OutlineError`] when a curve for the eye cannot be drawn.
+    /// [`OutlineError`] when a curve for viewing cannot be drawn.
     fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError>;
 }
 
-/// Worst places of a plane cam, searched once and only when somebody asks.
+/// Worst places of a plane cam, searched once, on demand.
 #[derive(Debug, Clone, Default)]
 pub struct WorstPlaces {
     pressure_angle: OnceLock<Worst>,

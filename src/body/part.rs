@@ -47,7 +47,7 @@ pub struct Part {
     pub outline: Outline,
     /// The bore, a circle or, with a keyway, a contour; counter-clockwise.
     pub bore: Option<Entity>,
-    /// Holes that balance the disc, when they were asked for.
+    /// Holes that balance the disc, when they were requested.
     pub balancing: Option<Balancing>,
 }
 
@@ -63,7 +63,7 @@ impl Part {
         Self { bore: bore(machine), ..Self::solid_plate(outline) }
     }
 
-    /// With the holes that balance it, when the machine asks for them.
+    /// With the holes that balance it, when the machine file has `cam.balance`.
     pub(super) fn balanced(self, machine: &Machine) -> Self {
         let wall = MILLIMETRES * machine.limits.wall;
         let round = self.bore.as_ref().map(Entity::contour);
@@ -133,7 +133,7 @@ impl Part {
         }
     }
 
-    /// What is told of the outline; `is_corner` tells the places (mm) where a corner is meant.
+    /// What is reported of the outline; `is_corner` is true at places (mm) where a corner is intended.
     #[must_use]
     pub fn measures(&self, tolerance_mm: f64, is_corner: impl Fn(Vector2<f64>) -> bool) -> OutlineMeasures {
         let outline = &self.outline;

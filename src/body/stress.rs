@@ -18,7 +18,7 @@ pub(super) fn of_lines(body: &dyn Body, curves: Curves<'_>, machine: &Machine) -
     let bend = body.roller_radius().map_or(0.0, |radius| 1.0 / radius);
     let square = |piece: usize, at: f64| {
         let profile = curves.profile(piece, at);
-        // On an edge (undercut) the curvature is beyond sense; there the undercut check has spoken.
+        // On an edge (undercut) the curvature means nothing; there the check `undercut` fails.
         let curvature = (bend + profile.curvature).max(0.0);
         body.contact_force(piece, at).unwrap_or(f64::NAN) * modulus * curvature / (PI * width)
     };
@@ -38,7 +38,7 @@ pub(super) fn of_lines(body: &dyn Body, curves: Curves<'_>, machine: &Machine) -
 /// A/B = (b/a)² (K − E)/(E − (b/a)² K),   A + B = (p/E*) E/b,   p = 3 F/(2 π a b)
 /// ```
 ///
-/// The first gives b/a, the two others b³ = 3 F (b/a) E/(2 π E* (A + B)).
+/// The first gives b/a, the other two b³ = 3 F (b/a) E/(2 π E* (A + B)).
 pub(super) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), material: Material) -> f64 {
     let relative = |curvature: f64| (0.5 * (1.0 / radius + curvature)).max(0.0);
     let (first, second) = (relative(curvatures.0), relative(curvatures.1));
@@ -56,7 +56,7 @@ pub(super) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), materia
     3.0 * force * ratio / (2.0 * PI * short * short)
 }
 
-/// Least share of the two relative curvatures that is told apart from a line.
+/// Least ratio of the two relative curvatures; below, the contact counts as a line.
 const LEAST_SHARE: f64 = 1e-9;
 
 /// b/a for A/B: the root of (b/a)² (K − E)/(E − (b/a)² K) = A/B, which grows with b/a from 0 to 1.

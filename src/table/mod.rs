@@ -11,7 +11,7 @@ use nalgebra::{Vector2, Vector3};
 pub struct Row {
     /// Cam angle.
     pub cam_deg: Option<f64>,
-    /// Position that a motion program asks for, metres or radians.
+    /// Position in a motion program, metres or radians.
     pub position: Option<f64>,
     /// Lift in metres, of a cam that turns.
     pub lift: Option<Jet>,
@@ -55,7 +55,7 @@ pub struct ForceRow {
     pub path: f64,
     /// On the camshaft, N·m.
     pub torque: f64,
-    /// Along the normal, where it is told.
+    /// Along the normal, where it is known.
     pub contact: Option<f64>,
 }
 
@@ -70,9 +70,9 @@ pub struct PlateRow {
     pub slope: f64,
     /// Normal force of one roller while the bed is braked, (17).
     pub roller_force: f64,
-    /// What (18) leaves on the way back.
+    /// Residual force of (18) on the way back.
     pub residual_return: f64,
-    /// What (18) leaves while the bed is braked.
+    /// Residual force of (18) while the bed is braked.
     pub residual_braking: f64,
 }
 
@@ -110,7 +110,7 @@ pub const COLUMNS: &[Column] = &[
     ("alpha_deg", |row| Some(row.plate?.alpha_deg)),
     ("position_mm", |row| row.lift.and(row.position).map(|position| 1e3 * position)),
     ("position_deg", |row| row.swing.and(row.position).map(f64::to_degrees)),
-    // Rounding about the lowest point is no lift below it.
+    // Rounding at the lowest point must not give a negative lift.
     ("lift_mm", |row| Some(1e3 * row.lift?.s.max(0.0))),
     ("lift_deg", |row| Some(row.swing?.s.max(0.0).to_degrees())),
     ("velocity_rad_per_rad", |row| Some(row.swing?.ds)),

@@ -1,4 +1,4 @@
-//! The force that a cam for many speeds leaves at the speeds between its sections.
+//! The residual force of a cam for many speeds at the speeds between its sections.
 
 use super::{Check, Evidence, On};
 use crate::report::{Finding, Place, Verdict};
@@ -6,7 +6,7 @@ use crate::report::{Finding, Place, Verdict};
 pub(super) const CHECK: Check = Check {
     name: "between_sections",
     on: On::Cam,
-    about: "The largest difference of inertia and air at any speed between the sections of a conoid.",
+    about: "The largest residual force, inertia less air, at any speed between the sections of a conoid.",
     run: check,
 };
 

@@ -18,7 +18,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         let needs = if body.spatial().is_some() {
             "cam.material is not given"
         } else if cam.thickness.is_some() && cam.material.is_some() {
-            "no force on the follower is told"
+            "no force on the follower is known"
         } else {
             "cam.thickness and cam.material are not both given"
         };

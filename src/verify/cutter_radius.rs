@@ -6,7 +6,7 @@ use crate::report::{Finding, Verdict};
 pub(super) const CHECK: Check = Check {
     name: "cutter_radius",
     on: On::Cam,
-    about: "The radius of the largest cutter that gets into the hollows of the profile.",
+    about: "The radius of the largest cutter that fits into the concave parts of the profile.",
     run: check,
 };
 

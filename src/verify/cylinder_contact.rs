@@ -1,4 +1,4 @@
-//! A straight roller on a flank that leans along the axis stands on an edge.
+//! Whether a cylindrical roller bears on its edge where the flank leans along the axis.
 
 use super::{Check, Evidence, On, at};
 use crate::machine::Crown;
@@ -7,7 +7,7 @@ use crate::report::{Finding, Verdict};
 pub(super) const CHECK: Check = Check {
     name: "cylinder_contact",
     on: On::Cam,
-    about: "By how much the surface of a conoid departs from the line of a straight roller over its width.",
+    about: "By how much the surface of a conoid departs from the contact line of a cylindrical roller over its width.",
     run: check,
 };
 

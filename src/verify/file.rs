@@ -8,10 +8,11 @@ const fn file_check(name: &'static str, about: &'static str, run: fn(&Evidence<'
     Check { name, on: On::File, about, run }
 }
 
-pub(super) const LAYER: Check =
-    file_check("layer", "Whether something lies on the layer CAM_PROFILE, where the outline belongs.", |evidence| {
-        Some(layer(evidence.foreign?))
-    });
+pub(super) const LAYER: Check = file_check(
+    "layer",
+    "Whether the layer CAM_PROFILE, where the outline belongs, exists and is not empty.",
+    |evidence| Some(layer(evidence.foreign?)),
+);
 
 pub(super) const UNITS: Check =
     file_check("units", "Whether the file is in millimetres.", |evidence| Some(unit(evidence.foreign?)));
@@ -29,7 +30,7 @@ pub(super) const DUPLICATES: Check =
 
 pub(super) const CONTOURS: Check = file_check(
     "contours",
-    "How many separate contours lie on the layer of the outline; it must be one, and run round once.",
+    "How many separate contours lie on the layer of the outline; it must be one that goes round once.",
     |evidence| Some(contours(evidence.foreign?)),
 );
 
@@ -60,7 +61,7 @@ fn layer(reading: &Reading) -> Finding {
 fn unit(reading: &Reading) -> Finding {
     let (verdict, note) = match reading.unit {
         Unit::Millimetres => (Verdict::Pass, None),
-        Unit::Untold => (Verdict::Info, Some("the file tells no unit; read as millimetres".to_owned())),
+        Unit::Untold => (Verdict::Info, Some("the file states no unit; read as millimetres".to_owned())),
         Unit::Other(name) => (Verdict::Fail, Some(format!("the file is in {name}, not in millimetres ($INSUNITS)"))),
     };
     Finding { note, ..UNITS.found(1.0, None, "mm", verdict) }

@@ -1,6 +1,6 @@
-//! What a cam must keep: one list of checks, walked for every kind of cam and for a file that somebody else may have written.
+//! One list of checks, walked for every kind of cam and for a file that somebody else may have written.
 //!
-//! A check takes what is known and says value, limit and place, also when it passes. A new check is one file and one line in
+//! A check takes what is known and gives value, limit and place, also when it passes. A new check is one file and one line in
 //! [`CHECKS`].
 
 mod balance;
@@ -130,13 +130,13 @@ impl Check {
         }
     }
 
-    /// A check that could not be run for want of data.
+    /// A check that could not be run because data are missing.
     fn not_run(&self, unit: &'static str, why: &str) -> Finding {
         Finding { note: Some(format!("not run: {why}")), ..self.found(f64::NAN, None, unit, Verdict::Info) }
     }
 }
 
-/// A finding at a worst place, with what is told of the place and more.
+/// A finding at a worst place, with words about the place and more.
 fn at(body: &dyn Body, worst: &Worst, finding: Finding, more: Option<String>) -> Finding {
     let words: Vec<String> = body.along_axis(worst.z).into_iter().chain(more).collect();
     Finding { place: body.place(worst.at), note: (!words.is_empty()).then(|| words.join("; ")), ..finding }

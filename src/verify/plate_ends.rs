@@ -1,4 +1,4 @@
-//! What only a plate on the bed has: two rollers that face each other, and edges no roller touches.
+//! Checks of a plate on the bed: the two rollers that face each other, and the edges that no roller touches.
 
 use super::{Check, Evidence, On, at, place};
 use crate::geometry::track::Track;
@@ -7,14 +7,14 @@ use crate::report::{Finding, Verdict};
 pub(super) const ROLLER_CLEARANCE: Check = Check {
     name: "roller_clearance",
     on: On::Cam,
-    about: "The room between the rollers of the two flanks of a plate where they come nearest to each other.",
+    about: "The gap between the rollers of the two flanks of a plate where they come closest to each other.",
     run: roller_clearance,
 };
 
 pub(super) const ENDS: Check = Check {
     name: "ends",
     on: On::Outline,
-    about: "How far the straight ends and run-outs of a plate are from where they belong.",
+    about: "The distance of the straight ends and run-outs of a plate from where they should be.",
     run: ends,
 };
 

@@ -19,7 +19,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let worst = body.pressure_angle();
     let limit = body.machine().limits.pressure_angle;
     let kept = worst.value <= limit * (1.0 + ROUNDING);
-    // The detour over radians costs an ulp: what was typed as 30 is told as 30.
+    // The conversion to radians costs an ulp: what was typed as 30 is reported as 30.
     let told = (limit.to_degrees() * 1e12).round() / 1e12;
     let found = CHECK.found(worst.value.to_degrees(), Some(told), "deg", Verdict::of(kept));
     Some(at(body, &worst, found, if kept { None } else { body.remedy() }))

@@ -1,9 +1,9 @@
-//! The proof: a roller rolled all round on the outline as it stands in the file, against the law.
+//! The proof: a roller rolled all round on the outline as it is in the file, against the motion.
 //!
-//! For a cam angle, or an overrun of the bed, the law and the follower's geometry say where the centre of the roller must be. Its distance from
-//! the outline, less the roller radius, is the gap along the normal: positive where metal is missing, negative where
+//! For a cam angle, or an overrun of the bed, the motion and the follower's geometry give the place of the roller's centre. Its
+//! distance from the outline, less the roller radius, is the gap along the normal: positive where metal is missing, negative where
 //! metal is in the way. Moved along its path until it touches, the roller shows the lift the cam really gives, and that
-//! lift the force it really balances. Normals, offsets, curvatures and arc fitting, by which the outline was made, are
+//! lift the residual force it really leaves. Normals, offsets, curvatures and arc fitting, by which the outline was made, are
 //! not used; the same distances are measured a second time by parry2d on chords.
 
 use super::{Check, Evidence, On, sphere};
@@ -19,12 +19,12 @@ use nalgebra::Vector2;
 pub(super) const CHECK: Check = Check {
     name: "rolling",
     on: On::Outline,
-    about: "The largest gap between the follower, put where the law wants it, and the outline as it stands in the file: positive \
+    about: "The largest gap between the follower, placed as the motion requires, and the outline as it is in the file: positive \
             where metal is missing, negative where metal is in the way.",
     run: check,
 };
 
-/// Even places beside those at which the roller touches the segments: half a degree of a turn shows the slowest fault.
+/// Even places beside those at which the roller touches the segments: half a degree of a turn shows the widest fault.
 const EVEN_PLACES: u32 = 720;
 /// Places spread over the segments, at the least one on each.
 const SEGMENT_PLACES: usize = 320;
@@ -33,7 +33,7 @@ const BESIDE_BREAK: f64 = 1.6e-5;
 /// Worst places that are looked at closer, and golden sections there: an angle step shrinks to a thousandth.
 const CLOSER_LOOKS: usize = 6;
 const CLOSER_SECTIONS: u32 = 14;
-/// Every how many angles parry is asked as well.
+/// parry measures as well at one angle of so many.
 const PARRY_EVERY: usize = 4;
 /// Chords for parry lie within this share of the tolerance.
 const CHORD_SHARE: f64 = 0.02;
@@ -52,7 +52,7 @@ struct Sample {
     gap: f64,
     lift_error: Option<f64>,
     residual: f64,
-    /// How far parry's distance is from the exact one, where it was asked.
+    /// How far parry's distance is from the exact one, where it was measured.
     difference: f64,
     double: bool,
 }
@@ -67,7 +67,7 @@ struct Roll<'a> {
 }
 
 impl Roll<'_> {
-    /// Where the law wants the follower.
+    /// The place of the follower by the motion.
     fn contact(&self, parameter: f64) -> Touch {
         let (piece, inside) = self.curves.motion.locate(parameter);
         self.curves.touch(piece, inside)
@@ -94,7 +94,7 @@ impl Roll<'_> {
         self.clearance(&contact, contact.curve.point * 1e3).map_or(f64::INFINITY, |(gap, _)| gap)
     }
 
-    /// How far along its path the roller stands from where the law wants it, mm.
+    /// How far along its path the roller stands from its place by the motion, mm.
     fn lift_error(&self, contact: &Touch) -> Option<f64> {
         let (centre, drive) = (contact.curve.point * 1e3, contact.drive);
         let mut moved = 0.0;
@@ -119,7 +119,7 @@ impl Roll<'_> {
         let (gap, normal) = clearance.unwrap_or((f64::INFINITY, contact.drive));
         let lift_error = self.lift_error(&contact);
         let residual = self.body.unbalanced(piece, inside, 1e-3 * lift_error.unwrap_or(gap), normal);
-        // A bottom so far off that no air is left balances nothing.
+        // A bottom so far off that no air is left gives no force.
         let residual = if residual.is_nan() { f64::INFINITY } else { residual };
         Sample { parameter, gap, lift_error, residual, difference: 0.0, double: false }
     }
@@ -170,7 +170,7 @@ impl Roll<'_> {
         peaks.iter().map(look).collect()
     }
 
-    /// Every sample of this flank, the even ones first and the closer looks behind.
+    /// Every sample of this flank, the even ones first and the closer looks after them.
     fn samples(&self, chords: &Chords, tolerance: f64) -> (Vec<Sample>, usize) {
         let mut samples: Vec<Sample> = self.places().into_iter().map(|place| self.sample(place)).collect();
         let even = samples.len();

@@ -1,4 +1,4 @@
-//! What the shift of a conoid along its axis asks for: force, and length of the body.
+//! What the shift of a conoid along its axis needs: force, and length of the body.
 
 use super::{Check, Evidence, On, at};
 use crate::report::{Finding, Verdict};
@@ -6,14 +6,14 @@ use crate::report::{Finding, Verdict};
 pub(super) const AXIAL_FORCE: Check = Check {
     name: "axial_force",
     on: On::Cam,
-    about: "The largest component of the contact force along the axis of a conoid: what the drive of the shift must hold.",
+    about: "The largest component of the contact force along the axis of a conoid, which the drive of the shift must resist.",
     run: axial_force,
 };
 
 pub(super) const AXIAL_REACH: Check = Check {
     name: "axial_reach",
     on: On::Cam,
-    about: "How far the contact of the roller leaves the ends of a conoid.",
+    about: "How far the contact of the roller runs beyond the ends of a conoid.",
     run: axial_reach,
 };
 
@@ -28,7 +28,7 @@ fn axial_force(evidence: &Evidence<'_>) -> Option<Finding> {
     Some(at(evidence.body, &force, AXIAL_FORCE.found(force.value, None, "N", Verdict::Info), Some(note)))
 }
 
-/// Without an overhang in the machine file it is told, with one it fails.
+/// Without an overhang in the machine file it is only reported, with one it can fail.
 fn axial_reach(evidence: &Evidence<'_>) -> Option<Finding> {
     let conoid = evidence.body.spatial()?;
     let (low, high) = conoid.ends();

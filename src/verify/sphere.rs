@@ -16,7 +16,7 @@ use rayon::prelude::*;
 pub(super) const ROLLING_FLANK: Check = Check {
     name: "rolling_flank",
     on: On::Outline,
-    about: "The largest gap between the sphere of the roller, where the law wants it, and the flank of the solid as it is \
+    about: "The largest gap between the sphere of the roller, placed as the motion requires, and the flank of the solid as \
             written.",
     run: rolling_flank,
 };
@@ -31,7 +31,7 @@ fn turned(conoid: &Conoid) -> bool {
     conoid.machine().cam.rotation == Rotation::CounterClockwise
 }
 
-/// Nothing off so far.
+/// No deviation so far.
 fn none(at: f64, z: f64) -> Worst {
     Worst { value: 0.0, at, z }
 }

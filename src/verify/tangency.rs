@@ -1,4 +1,4 @@
-//! Kinks between the segments of the outline. The corners of a plate's ends are none.
+//! Kinks between the segments of the outline. The corners of a plate's ends do not count.
 
 use super::{Check, Evidence, On, WrittenOutline, place};
 use crate::geometry::contour::Vertex;
@@ -12,7 +12,7 @@ pub(super) const CHECK: Check = Check {
     run: check,
 };
 
-/// Largest kink, degrees: what controllers and shops take for smooth.
+/// Largest kink, degrees, that controllers and shops treat as smooth.
 const LIMIT: f64 = 0.05;
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {

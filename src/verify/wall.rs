@@ -10,7 +10,7 @@ pub(super) const CHECK: Check = Check {
     run: check,
 };
 
-/// Rounding of a base radius that was sized for this very wall is no breach.
+/// Rounding of a base radius that was sized for this wall must not fail.
 const ROUNDING: f64 = 1e-9;
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {

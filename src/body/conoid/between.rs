@@ -1,4 +1,4 @@
-//! What a conoid leaves at the speeds between its sections, and how few sections keep that under a limit.
+//! The residual force of a conoid at the speeds between its sections, and the fewest sections that keep it under a limit.
 
 use super::{Conoid, ConoidError, Interpolation, bottom_law_at};
 use crate::machine::Machine;
@@ -16,7 +16,7 @@ const SECTIONS: u32 = 24;
 /// Most sections that are tried.
 pub const MOST_SECTIONS: u32 = 65;
 
-/// The largest force left between the sections.
+/// The largest residual force between the sections.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residual {
     /// |inertia − air|, N.
@@ -66,8 +66,8 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual
     moving.map(of_piece).fold(none, |best, next| if next.force > best.force { next } else { best })
 }
 
-/// The conoid with the fewest evenly spaced speeds between two that leaves no more than a force (N), or, when
-/// [`MOST_SECTIONS`] do not either, the one with that many.
+/// The conoid with the fewest evenly spaced speeds between two that leaves no more than a residual force
+/// (N), or, when even [`MOST_SECTIONS`] leave more, the one with that many.
 ///
 /// # Errors
 /// [`ConoidError`] when a conoid cannot be made.
@@ -97,7 +97,7 @@ mod tests {
         Conoid::unsized_of(&machine, &speeds).expect("a conoid")
     }
 
-    /// q = 2, 20–35 rpm, `fixed` with L by (7) of the design speed, linear in n, in kgf: the figures of the issue.
+    /// q = 2, 20–35 rpm, `fixed` with L by (7) of the design speed, linear in n, in kgf: known figures.
     #[test]
     fn straight_strips_leave_what_is_known_and_splines_far_less() {
         let overrides = ["conoid.mode=fixed", "buffer.column=return", "transition.kind=none"];

@@ -40,13 +40,13 @@ pub struct Flank {
     pub volume: f64,
 }
 
-/// The splines would need more control points than is sensible.
+/// The splines would need more control points than is reasonable.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("the flank cannot be drawn as splines to {tolerance} mm, {SHARE} of the tolerance: {found:.6} mm were reached")]
 pub struct FlankError {
-    /// What they may be off, mm.
+    /// Allowed deviation, mm.
     pub tolerance: f64,
-    /// What was reached, mm.
+    /// Deviation reached, mm.
     pub found: f64,
 }
 
@@ -118,7 +118,7 @@ fn stations(conoid: &Conoid, parts: u32) -> Vec<f64> {
 /// The flank of a conoid within `tolerance` (mm).
 ///
 /// # Errors
-/// [`FlankError`] when the tolerance is finer than splines of a sensible size can keep.
+/// [`FlankError`] when the tolerance is finer than splines of a reasonable size can keep.
 pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, FlankError> {
     let exact = ExactFlank { conoid, turned: conoid.machine.cam.rotation == Rotation::CounterClockwise };
     let stretches = exact.stretches();

@@ -1,4 +1,4 @@
-//! What a conoid is to checks, drawings, tables and reports.
+//! The conoid as a [`Body`]: what checks, drawings, tables and reports use of it.
 
 use super::{Conoid, KIND, flank, report, sheet};
 use crate::body::part::{Part, point_as_turned};
@@ -154,7 +154,7 @@ impl Body for Conoid {
         self.positions.iter().find_map(corner).unwrap_or_else(|| self.sharpest_smooth())
     }
 
-    /// The largest ball that gets into the hollows of the cam's surface.
+    /// The largest ball that fits into the concave parts of the cam's surface.
     fn hollow(&self) -> Option<Worst> {
         let hollow = self.worst_of_metal(|conoid, piece, angle, z| -conoid.principal_curvatures(piece, angle, z).1);
         (hollow.value > 0.0).then(|| Worst { value: 1.0 / hollow.value + self.roller.radius, ..hollow })
@@ -218,7 +218,9 @@ impl Body for Conoid {
             OutlineError::Fit(_) | OutlineError::Undercut(_)
                 if self.sharpest_smooth().value * self.roller.radius >= 1.0 =>
             {
-                DrawError::NoOutline("the surface folds over itself where the roller is larger than it".to_owned())
+                let why =
+                    "the surface folds over itself: the roller is larger than the pitch surface's radius of curvature";
+                DrawError::NoOutline(why.to_owned())
             }
             other => DrawError::Outline(other),
         })?;

@@ -1,4 +1,4 @@
-//! The conoid, a three-dimensional cam: one cam for many speeds, shifted along its axis as the speed changes.
+//! The conoid, a three-dimensional cam (camoid): one cam for many speeds, shifted along its axis as the speed changes.
 //!
 //! The law is interpolated along the axis: s(θ, z) = Σ wⱼ(z) sⱼ(θ), sⱼ the lift of section j and wⱼ the cardinal
 //! not-a-knot splines, so that all derivatives in both directions are exact. The roller is crowned, a sphere of radius
@@ -82,12 +82,12 @@ pub struct Conoid {
     weights: Vec<Spline>,
     /// Δx at lift 0: the least of all sections, m.
     lowest: f64,
-    /// Force that may be left between the sections, N.
+    /// Largest residual force allowed between the sections, N.
     residual_limit: Option<f64>,
     found: Searched,
 }
 
-/// What checks and report both want of the surface, searched once and only when somebody asks.
+/// What both checks and report need of the surface, searched once, on demand.
 #[derive(Debug, Clone, Default)]
 struct Searched {
     sharpest: OnceLock<Worst>,
@@ -100,25 +100,23 @@ struct Searched {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConoidError {
-    /// The machine file does not describe one.
+    /// The machine file has no table `[conoid]`.
     #[error("the machine file has no [conoid] table: a conoid needs axial_travel, mode and shift")]
     NotDescribed,
     /// It describes no press.
     #[error(transparent)]
     NoPress(#[from] NoPress),
-    /// Its follower is no roller.
+    /// Its follower is not a roller.
     #[error(transparent)]
     NoRoller(#[from] NoRoller),
-    /// Two sections would lie in one plane.
-    #[error("the speed {rpm} is asked for twice among others; a section has one place along the axis")]
+    /// Two sections for one speed would lie in one plane.
+    #[error("the speed {rpm} is asked for twice; each speed has one section")]
     Twice {
         /// The speed, rpm.
         rpm: f64,
     },
     /// Two sections would lie nearly in one plane.
-    #[error(
-        "the speeds {first} and {second} are too near to each other: their sections would lie {apart_mm:e} mm apart"
-    )]
+    #[error("the speeds {first} and {second} are too close together: their sections would lie {apart_mm:e} mm apart")]
     TooNear {
         /// The slower, rpm.
         first: f64,
@@ -128,12 +126,12 @@ pub enum ConoidError {
         apart_mm: f64,
     },
     /// No speed at all.
-    #[error("a conoid needs a speed")]
+    #[error("a conoid needs at least one speed")]
     NoSpeed,
-    /// The motion does not go together.
+    /// The parts of the motion do not fit together.
     #[error("{0}; see transition.width, buffer.lead and cam.cam_turns_per_crank_turn")]
     Motion(#[from] MotionError),
-    /// `auto` found nothing.
+    /// `auto` found no radius.
     #[error(
         "{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, make conoid.axial_travel longer \
          (the surface may be too sharp along the axis), or give cam.base_radius"
@@ -178,19 +176,19 @@ impl Conoid {
         Ok(conoid)
     }
 
-    /// With a limit for the force that is left at the speeds between the sections, N.
+    /// With a limit for the residual force at the speeds between the sections, N.
     #[must_use]
     pub fn with_residual_limit(self, residual_limit: Option<f64>) -> Self {
         Self { residual_limit, ..self }
     }
 
-    /// The limit for the force that is left between the sections, N.
+    /// The limit for the residual force between the sections, N.
     #[must_use]
     pub fn residual_limit(&self) -> Option<f64> {
         self.residual_limit
     }
 
-    /// On another prime radius; what was searched on the old surface is forgotten, but for what the radius does not change.
+    /// On another prime radius; values found on the old surface are dropped, except those that do not depend on the radius.
     fn resize(&mut self, prime_radius: f64) {
         self.follower = TranslatingRoller::new(prime_radius, self.roller.offset, self.roller.radius);
         let between = std::mem::take(&mut self.found.between);
@@ -280,13 +278,13 @@ impl Conoid {
         self.follower.prime_radius().unwrap_or(f64::NAN)
     }
 
-    /// What the machine file tells of it.
+    /// Its table of the machine file.
     #[must_use]
     pub fn data(&self) -> &ConoidData {
         &self.data
     }
 
-    /// What the machine file tells of its roller.
+    /// Its roller, from the machine file.
     #[must_use]
     pub fn roller(&self) -> &RollerData {
         &self.roller
@@ -381,8 +379,8 @@ impl Conoid {
         Curves { motion: slice, follower: &self.follower }
     }
 
-    /// Force between roller and cam along the roller's path at the speed of a section, N: the air's, and preload and
-    /// inertia where they are given.
+    /// Force between roller and cam along the roller's path at the speed of a section, N: that of the air, and preload and
+    /// inertia of the follower where they are given.
     #[must_use]
     pub fn path_force(&self, section: &Reversal, rpm: f64, piece: usize, angle: f64) -> f64 {
         let (lever, follower) = (self.machine.cam.lever, &self.machine.follower);
@@ -409,7 +407,7 @@ impl Conoid {
         self.speeds.len()
     }
 
-    /// What is left at the speeds between the sections.
+    /// The residual force at the speeds between the sections.
     #[must_use]
     pub fn left_between(&self) -> Residual {
         *self.found.between.get_or_init(|| between::residual(self, Interpolation::Smooth))

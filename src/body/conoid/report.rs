@@ -1,4 +1,4 @@
-//! What a conoid tells in its report.
+//! What a conoid contributes to its report.
 
 use super::between::{self, Residual};
 use super::{Conoid, Interpolation};
@@ -21,7 +21,7 @@ struct Outlines {
     tangent_break_max_deg: f64,
 }
 
-/// Forces at the speeds of the sections, and what is left between them.
+/// Forces at the speeds of the sections, and the residual force between them.
 #[derive(Debug, Serialize)]
 struct Forces {
     inertia_max_n: f64,
@@ -69,7 +69,7 @@ struct SurfaceMeasures {
     axial_wander_mm: f64,
     axial_wander_cam_deg: f64,
     axial_wander_z_mm: f64,
-    /// Largest force the drive of the shift must hold.
+    /// Largest axial force that the drive of the shift must resist.
     axial_force_max_n: f64,
     plane_offset_error_max_mm: f64,
     patches: Option<usize>,

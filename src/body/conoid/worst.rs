@@ -81,7 +81,7 @@ impl Conoid {
         all.fold(Worst::NONE, Worst::or_larger)
     }
 
-    /// The axial component of the contact force that the drive of the shift must hold, N: the force along the path times
+    /// The axial component of the contact force that the drive of the shift must resist, N: the force along the path times
     /// the slope of the lift along the axis.
     #[must_use]
     pub fn axial_force(&self) -> Worst {

@@ -47,10 +47,10 @@ pub enum DiscError {
     /// The machine file describes no press.
     #[error(transparent)]
     NoPress(#[from] NoPress),
-    /// The motion does not go together.
+    /// The parts of the motion do not fit together.
     #[error("{0}; see transition.width, buffer.lead and cam.cam_turns_per_crank_turn")]
     Motion(#[from] MotionError),
-    /// `auto` found nothing.
+    /// `auto` found no radius.
     #[error("{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, or give cam.base_radius")]
     Size(#[from] NoRadius),
     /// The follower does not reach the cam.
@@ -179,7 +179,7 @@ impl Disc {
     }
 
     /// Force between follower and cam along the follower's path, N: the load's and, where they are given, preload and the
-    /// inertia of what moves with the follower. `None` where nothing presses.
+    /// inertia of what moves with the follower. `None` where no force is known.
     #[must_use]
     pub fn path_force(&self, piece: usize, angle: f64) -> Option<f64> {
         let follower = &self.machine.follower;
@@ -192,8 +192,7 @@ impl Disc {
         Some(load + preload + mass * speed * speed * self.motion.jet(piece, angle).dds)
     }
 
-    /// Largest |what must be balanced − what is| the motion itself leaves, N: rounding, or what a blend costs; 0 without a
-    /// load.
+    /// Largest residual force of the motion itself, N: rounding, or the cost of a blend; 0 without a load.
     #[must_use]
     pub fn residual_max(&self) -> f64 {
         let Some(load) = &self.load else { return 0.0 };

@@ -1,4 +1,4 @@
-//! What a plate on the bed is to checks, drawings, tables and reports.
+//! The plate on the bed as a [`Body`]: what checks, drawings, tables and reports use of it.
 
 use super::{END_WIDTH, KIND, Wedge, sheet};
 use crate::body::part::Part;
@@ -52,7 +52,7 @@ impl Wedge {
         })
     }
 
-    /// The pitch curve of the lower flank, for the eye.
+    /// The pitch curve of the lower flank, for viewing.
     pub(super) fn pitch_curve(&self) -> Result<Vec<Segment>, OutlineError> {
         let mut vertices = outline::pitch(self.curves())?.contour.vertices;
         let last = self.motion.pieces().len().saturating_sub(1);
@@ -217,8 +217,8 @@ impl Body for Wedge {
         Some(Worst { value: -least.value, ..least })
     }
 
-    /// On the ways that were to balance. The roller moves on its arm l1, the bottom on l2; the slope is the flank's where
-    /// the roller touches, dΔx/dx = C σ with tan α of the normal.
+    /// In the directions in which the forces are to balance. The roller moves on its arm l1, the bottom on l2; the slope is
+    /// that of the flank where the roller touches, dΔx/dx = C σ with tan α of the normal.
     fn unbalanced(&self, piece: usize, x: f64, moved: f64, normal: Vector2<f64>) -> f64 {
         if x <= 0.0 {
             return 0.0;
@@ -288,7 +288,7 @@ impl Body for Wedge {
             weight,
             ..CamMeasures::default()
         };
-        // The corners of a plate's ends are meant.
+        // The corners of a plate's ends are intended.
         let outline =
             part.map(|part| part.measures(found.tolerance_mm, |point| self.ends_at(point / MILLIMETRES)).section());
         vec![

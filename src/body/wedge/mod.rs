@@ -1,4 +1,4 @@
-//! The wedge cam of the press (a linear cam): the plate that rides on the bed, for a speed.
+//! The wedge cam of the press (a linear cam): the plate that rides on the bed, for one speed.
 
 mod implementation;
 mod sheet;
@@ -14,10 +14,10 @@ use crate::profile::Curves;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// The plate on the bed.
+/// The wedge cam: the plate on the bed.
 pub const KIND: Kind = Kind { command: "translating", noun: "translating cam" };
 
-/// Absolute tolerance of Δx, m, when nothing else is asked for: a thousandth of a nanometre. The outline adds its own,
+/// Absolute tolerance of Δx, m, unless another is given: a thousandth of a nanometre. The outline adds its own,
 /// a million times larger.
 pub const LAW_TOLERANCE: f64 = 1e-15;
 
@@ -26,7 +26,7 @@ pub const LAW_TOLERANCE: f64 = 1e-15;
 const FLAT_OVER_ROLLER: f64 = 1.0;
 const RUN_OUT_OVER_ROLLER: f64 = 0.1;
 
-/// What is nearer to an end of the plate than this is the end, m.
+/// A point nearer to an end of the plate than this is on the end, m.
 const END_WIDTH: f64 = 1e-4;
 
 /// Whole millimetres a height that was not given is rounded up to, m.
@@ -58,7 +58,7 @@ pub struct Wedge {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WedgeError {
-    /// The machine file does not describe one.
+    /// The machine file has no table `[translating]`.
     #[error("the machine file has no [translating] table: a plate needs roller_arm, bottom_arm and delta")]
     NotDescribed,
     /// It describes no press.
@@ -76,7 +76,7 @@ impl Wedge {
     /// Solves (18) and sizes the plate.
     ///
     /// # Errors
-    /// [`WedgeError`] when the machine has no plate or (18) no answer.
+    /// [`WedgeError`] when the machine has no plate or (18) no solution.
     pub fn solve(machine: &Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Result<Self, WedgeError> {
         let (data, press) = (machine.translating.ok_or(WedgeError::NotDescribed)?, machine.press()?);
         if press.lead > 0.0 {
@@ -197,26 +197,26 @@ impl Wedge {
         self.cylinder.largest_load(&self.mechanism().bottom_law)
     }
 
-    /// Left side less right side of (18), N, on a way of the bed; 0 before the reversal.
+    /// Left side less right side of (18), N, in a direction of the bed; 0 before the reversal.
     #[must_use]
     pub fn residual(&self, piece: usize, x: f64, way: Way) -> f64 {
         self.cylinder.unit_force() * self.motion.residual(piece, x, way)
     }
 
-    /// Residual of largest size on a way of the bed, N, and the overrun where it is, m.
+    /// Residual of largest size in a direction of the bed, N, and the overrun where it is, m.
     #[must_use]
     pub fn residual_max(&self, way: Way) -> (f64, f64) {
         let worst = largest(self.curves(), |piece, x| self.residual(piece, x, way).abs());
         (worst.value, worst.at)
     }
 
-    /// What a plain buffer with fixed bottom and column by (7) would leave at this speed, N.
+    /// Residual force of a plain buffer with fixed bottom and column by (7) at this speed, N.
     #[must_use]
     pub fn residual_fixed_bottom(&self) -> f64 {
         self.cylinder.residual_fixed_bottom(&self.mechanism().bottom_law)
     }
 
-    /// Normal force of one roller on its flank on a way of the bed, N, equation (17); 0 before the reversal.
+    /// Normal force of one roller on its flank in a direction of the bed, N, equation (17); 0 before the reversal.
     #[must_use]
     pub fn roller_force(&self, piece: usize, x: f64, way: Way) -> f64 {
         if x <= 0.0 {
@@ -227,13 +227,13 @@ impl Wedge {
             * self.mechanism().normal_force(self.motion.trend(piece, x), way, x, bottom.s, bottom.ds)
     }
 
-    /// Largest of these on either way, N.
+    /// Largest of these in either direction, N.
     #[must_use]
     pub fn roller_force_max(&self) -> f64 {
         largest(self.curves(), |piece, x| self.normal_force(piece, x)).value
     }
 
-    /// The way on which the forces were to balance, or both.
+    /// The direction in which the forces are to balance, or both.
     #[must_use]
     pub fn balanced_ways(&self) -> &'static [Way] {
         match self.mechanism().exact_on {
@@ -243,7 +243,7 @@ impl Wedge {
         }
     }
 
-    /// Normal force of a roller on its flank on the worse way of the bed, N.
+    /// Normal force of a roller on its flank in the worse direction of the bed, N.
     fn normal_force(&self, piece: usize, x: f64) -> f64 {
         let [braking, back] = [Way::Braking, Way::Return].map(|way| self.roller_force(piece, x, way));
         braking.max(back).max(0.0)
