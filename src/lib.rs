@@ -1,7 +1,7 @@
 //! camgen: cam profiles a CNC shop can cut.
 //!
-//! A cam goes one way, and each step is a method of the one before. Nothing can be written that was not proved: the cut file is
-//! written to memory, read back from its bytes, and the follower is rolled on what was read.
+//! A cam passes through one pipeline; each step is a method of the result before it. Nothing can be written that was not
+//! proved: the cut file is written to memory, read back from its bytes, and the follower is rolled on what was read.
 //!
 //! ```text
 //! Spec ─ solve ─► Cam ─ draw(tolerance) ─► Drawing ─ prove ─► Proven ─ files ─► FileSet ─ commit ─► files, Report
@@ -41,11 +41,11 @@
 //! # Ok::<(), camgen::Error>(())
 //! ```
 //!
-//! Numbers are SI and radians; what is drawn is in millimetres, and every name that is not SI ends in its unit. The library
-//! never prints, never exits, and does not panic on input.
+//! Numbers are SI and radians; what is drawn is in millimetres, and every name of a value that is not SI ends in its unit.
+//! The library never prints, never exits, and does not panic on input.
 //!
-//! The items on this page are the library's surface. The modules behind them, its rooms, are laid out in ARCHITECTURE.md; they
-//! can be reached, for tests and curious readers, but may change with any version.
+//! The items on this page are the public interface. The modules behind them are described in ARCHITECTURE.md; they are
+//! reachable, for tests, but may change with any version.
 #![forbid(unsafe_code)]
 
 #[doc(hidden)]

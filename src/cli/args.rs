@@ -23,31 +23,31 @@ pub(super) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Disc cam for one speed: its bottom moves so that the air force equals the inertia force at every instant
+    /// Disc cam for one speed: moves the bottom of the air buffers so that the air force equals the inertia force
     Rotary(RotaryArgs),
-    /// Cam plate that rides on the bed and moves the bottom through a bell crank, by equation (18)
+    /// Wedge cam: a plate that rides on the bed and moves the bottom through a bell crank, by equation (18)
     Translating(TranslatingArgs),
-    /// One cam for many speeds, shifted along its axis as the speed changes: sections and a solid
+    /// Three-dimensional cam for many speeds, shifted along its axis as the speed changes: sections and a solid
     Conoid(ConoidArgs),
-    /// Any cam: the motion program of a file under the follower of a file, as a disc
+    /// Disc cam of any motion: a program of segments and a follower, both from a file
     Make(MakeArgs),
-    /// Speed against accuracy, measured here and now: time by stage, arcs, bytes, true error and the force that is left
+    /// Speed against accuracy, measured on this computer: time by stage, arcs, bytes, true error and residual force
     Trade(TradeArgs),
-    /// Prove a DXF file, also one edited or written by another program: one closed tangent outline that gives the law?
+    /// Check a DXF file, also one edited or written by another program: is it one closed outline that gives the motion?
     Check(CheckArgs),
-    /// The machine files carried in the program
+    /// The machine files embedded in the program
     Machines(MachinesArgs),
-    /// A commented machine file to start from
+    /// Print a commented machine file to start from
     Init,
-    /// What a check means; without a name, all of them
+    /// Print what a check means; without a name, all of them
     Explain(ExplainArgs),
-    /// The JSON schema of machine files, for editors
+    /// Print the JSON schema of machine files, for editors
     Schema,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct ExplainArgs {
-    /// Name of the check, as reports tell it
+    /// Name of the check, as in reports
     pub(super) check: Option<String>,
 }
 
@@ -60,7 +60,7 @@ pub(super) struct MakeArgs {
     pub(super) files: FileArgs,
 }
 
-/// Flags that every command about a cam has.
+/// Flags of every command about a cam.
 #[derive(Debug, Args)]
 pub(super) struct CommonArgs {
     /// An embedded machine or the path of a machine file
@@ -75,7 +75,7 @@ pub(super) struct CommonArgs {
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true, conflicts_with = "accuracy")]
     pub(super) tolerance: Option<f64>,
 
-    /// A named tolerance: draft (50 µm), standard (5 µm) or fine (0.5 µm); `camgen trade` tells what each costs
+    /// A named tolerance: draft (50 µm), standard (5 µm) or fine (0.5 µm); `camgen trade` measures what each costs
     #[arg(long, value_name = "NAME")]
     pub(super) accuracy: Option<Accuracy>,
 
@@ -133,11 +133,11 @@ pub(super) struct CheckArgs {
     /// The DXF file
     pub(super) file: PathBuf,
 
-    /// Which cam of the machine it is to be: rotary or translating
+    /// Kind of cam the file should hold: rotary or translating
     #[arg(long, value_name = "KIND", default_value = "rotary")]
     pub(super) cam: CamKind,
 
-    /// Way of the bed on which the forces of a plate balance
+    /// Direction of the bed in which the forces of a plate balance
     #[arg(long, value_name = "WAY", default_value = "braking")]
     pub(super) balance: Balanced,
 
@@ -173,7 +173,7 @@ pub(super) struct TranslatingArgs {
     #[command(flatten)]
     pub(super) files: FileArgs,
 
-    /// How (18) is solved: ode (a differential equation, to a thousandth of a nanometre) or paper (station by station with
+    /// How equation (18) is solved: ode (a differential equation, to a thousandth of a nanometre) or paper (station by station with
     /// the backward difference (25))
     #[arg(long, value_name = "SOLVER", default_value = "ode")]
     pub(super) solver: SolverKind,
@@ -182,21 +182,21 @@ pub(super) struct TranslatingArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub(super) stations: Option<u32>,
 
-    /// Way of the bed on which the forces balance, or the compromise that levels the two
+    /// Direction of the bed in which the forces balance, or mean: equal residual forces in both
     #[arg(long, value_name = "WAY", default_value = "braking")]
     pub(super) balance: Balanced,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct TradeArgs {
-    /// Which cam of the machine: rotary or translating
+    /// Kind of cam: rotary or translating
     #[arg(default_value = "rotary", value_name = "KIND")]
     pub(super) kind: CamKind,
 
     #[command(flatten)]
     pub(super) common: CommonArgs,
 
-    /// Force that may be left: the advice is the cheapest setting that keeps it [default: 0.01 % of the largest inertia]
+    /// Largest residual force: the advice is the cheapest setting that keeps it [default: 0.01 % of the largest inertia]
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
 
@@ -217,7 +217,7 @@ pub(super) struct ConoidArgs {
     #[command(flatten)]
     pub(super) files: FileArgs,
 
-    /// Largest force that may be left at the speeds between the sections; with --rpm A..B as few sections as keep it
+    /// Largest residual force at the speeds between the sections; --rpm A..B takes the fewest sections that keep it
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
 }
@@ -229,14 +229,14 @@ pub(super) enum SideOf {
     Outside,
 }
 
-/// Named points of the ladder that `trade` measures.
+/// Named tolerances of those that `trade` measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Accuracy {
-    /// 50 µm: a first look.
+    /// 50 µm: for a first look.
     Draft,
-    /// 5 µm: what a shop cuts.
+    /// 5 µm: for milling.
     Standard,
-    /// 0.5 µm: a ground cam.
+    /// 0.5 µm: for grinding.
     Fine,
 }
 
@@ -286,7 +286,7 @@ pub(super) struct FileArgs {
     #[arg(long, value_name = "N", default_value = "720", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(super) samples: u32,
 
-    /// Sheet for the SVG preview instead of the built-in one, see templates/sheet.svg
+    /// Template of the SVG review sheet instead of the built-in one, templates/sheet.svg
     #[arg(long, value_name = "FILE")]
     pub(super) template: Option<PathBuf>,
 
@@ -307,9 +307,9 @@ pub(super) struct MachinesArgs {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum MachinesCommand {
-    /// Their names
+    /// List their names
     List,
-    /// One of them, as a file to start from
+    /// Print one of them, as a file to start from
     Show {
         /// Its name
         name: String,
@@ -349,7 +349,7 @@ fn rpm(text: &str) -> Result<f64, String> {
     valid_rpm(number)
 }
 
-/// Coarsest tolerance, m: a millimetre is no longer a cam.
+/// Coarsest tolerance, m: a cam that is off by more than a millimetre is of no use.
 const COARSEST: f64 = 1e-3;
 
 fn tolerance(text: &str) -> Result<f64, String> {

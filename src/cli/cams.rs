@@ -13,7 +13,7 @@ use camgen::write::json;
 use camgen::write::number::shortest;
 use camgen::write::svg;
 
-/// Stations of the paper's solver when none are asked for: its error is then a hundredth of a millimetre.
+/// Stations of the paper's solver by default: its error is then a hundredth of a millimetre.
 const STATIONS: u32 = 1800;
 /// More speeds than these are named by the first and the last.
 const MOST_NAMED: usize = 6;
@@ -22,7 +22,7 @@ pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let (mut machine, name) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
     if let Some(radius) = args.cutter {
-        // The cutter that is asked for is the one that has to get in.
+        // The cutter of the path is the one that has to fit.
         machine.ask_for_cutter(radius);
     }
     let request = Request { cutter: args.cutter, ..args.files.request(&args.common) };
@@ -67,7 +67,7 @@ pub(super) fn make(args: &MakeArgs) -> Result<Outcome, Failure> {
 fn conoid_spec(args: &ConoidArgs, machine: Machine) -> Result<Spec, Failure> {
     if let [Speed::Range(from, to)] = args.common.rpm.as_slice() {
         let Some(limit) = args.residual else {
-            let why = "a range of speeds needs --residual, the force that may be left between the sections, e.g. 2N";
+            let why = "a range of speeds needs --residual, the largest residual force between the sections, e.g. 2N";
             return Err(Failure(why.into()));
         };
         return Ok(Spec::conoid_within(machine, (*from, *to), limit));
@@ -145,7 +145,7 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
         }
         proven.files(&writing).and_then(camgen::pipeline::FileSet::commit).map_err(Failure::new)?
     } else {
-        tell("refused: a check failed, nothing was written (--force writes all the same)");
+        tell("refused: a check failed, nothing was written (--force writes nevertheless)");
         proven.report()
     };
     show(&report, common)?;

@@ -1,4 +1,4 @@
-//! `camgen check`: the proof for a DXF file that somebody else may have had in hand.
+//! `camgen check`: the proof for a DXF file that may have been edited or written by another program.
 
 use super::args::{CamKind, CheckArgs};
 use super::{Failure, Outcome, print, text};
@@ -10,7 +10,7 @@ use camgen::write::json;
 use std::io::Read;
 use std::path::Path;
 
-/// Largest DXF file that is read, bytes: ten million lines of a cut file are not one.
+/// Largest DXF file that is read, bytes: far more than any cut file needs.
 const LARGEST_FILE: u64 = 1 << 28;
 
 pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {

@@ -57,7 +57,7 @@ pub(crate) fn main() -> ExitCode {
     }
 }
 
-/// Prints data on stdout. A reader that has left early is no fault of ours.
+/// Prints data on stdout. A reader that closes the pipe early is not an error.
 fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -68,7 +68,7 @@ fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints a message on stderr; when even that fails there is nobody left to tell.
+/// Prints a message on stderr; when even that fails there is nothing left to do.
 fn tell(message: &str) {
     let _ = writeln!(io::stderr().lock(), "{message}");
 }

@@ -26,7 +26,7 @@ fn section(section: &Section) -> Vec<String> {
     section.words.iter().enumerate().map(|(index, words)| format!("  {:<8} {words}", label(index))).collect()
 }
 
-/// Checks, notes and files below what a report begins with.
+/// Checks, notes and files, after the lines a report begins with.
 fn ended(mut lines: Vec<String>, report: &Report, colour: bool) -> String {
     lines.push("  checks".into());
     lines.extend(report.checks.iter().map(|finding| check(finding, colour)));

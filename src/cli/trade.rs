@@ -1,4 +1,4 @@
-//! `camgen trade`: speed against accuracy, measured here and now on the user's machine.
+//! `camgen trade`: speed against accuracy, measured on the user's computer.
 
 use super::args::{CamKind, TradeArgs};
 use super::{Failure, Outcome, print};
@@ -38,7 +38,7 @@ const SAMPLES: u32 = 720;
 const RUNS: usize = 7;
 /// Places at which two motions are compared.
 const PLACES: u32 = 360;
-/// Force that may be left when none is asked for, as a share of the largest inertia.
+/// Largest residual force by default, as a share of the largest inertia.
 const SHARE: f64 = 1e-4;
 
 /// One setting, measured.
@@ -88,7 +88,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let limit = args.residual.unwrap_or(SHARE * inertia);
     let advice = advice(&rows, limit);
     let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", shortest(rpm)));
-    let title = format!("{}: what a {kind} cam costs and leaves at {} rpm", machine.name(), shortest(rpm));
+    let title = format!("{}: time against residual force of a {kind} cam at {} rpm", machine.name(), shortest(rpm));
     let picture = svg::write(&picture(&rows, &title), svg::TEMPLATE).map_err(Failure::new)?;
     let outputs = [
         Output { name: format!("{stem}.csv"), bytes: table(&rows).into_bytes() },
@@ -193,7 +193,7 @@ fn translating(machine: &Machine, rpm: f64) -> Result<Vec<Row>, Failure> {
         let (law_us, cam) = timed(|| spec().solve().map_err(Failure::new))?;
         let plate = solve(solver)?;
         let row = measure(&cam, name, (law_us, 1e3 * apart(&truth, &plate)), tolerance)?;
-        // What the law itself leaves is no matter of the outline.
+        // The residual force of the law itself does not depend on the outline.
         Ok(Row { residual_n: row.residual_n.max(plate.residual_max(Way::Braking).0), ..row })
     };
     let ladder =
@@ -227,7 +227,9 @@ fn advice(rows: &[Row], limit: f64) -> String {
             row.residual_n,
             1e-3 * row.total_us
         ),
-        None => format!("no setting leaves less than {limit:.3} N; what is left is not a matter of the tolerance"),
+        None => {
+            format!("no setting leaves less than {limit:.3} N; the residual force does not depend on the tolerance")
+        }
     }
 }
 
@@ -311,10 +313,10 @@ fn words(report: &TradeReport<'_>) -> String {
     lines.join("\n")
 }
 
-/// Total time against the force that is left, with the Pareto front.
+/// Total time against residual force, with the Pareto front.
 fn picture(rows: &[Row], title: &str) -> Sheet {
     let point = |row: &Row| Point { x: row.total_us, y: row.residual_n, label: row.setting.clone(), best: false };
     let mut points: Vec<Point> = rows.iter().map(point).collect();
     chart::mark_front(&mut points);
-    chart::chart(title, "total time, µs", "force left, N", &points)
+    chart::chart(title, "total time, µs", "residual force, N", &points)
 }

@@ -18,7 +18,7 @@ impl Builder {
         Self { name: name.to_owned(), keys: Vec::new() }
     }
 
-    /// Sets any key by its dotted path, as it would be typed: `set("cam.material", "steel")`.
+    /// Sets any key by its dotted path, with a value as in `--set`: `set("cam.material", "steel")`.
     #[must_use]
     pub fn set(mut self, key: &str, value: &str) -> Self {
         self.keys.push(format!("{key}={value}"));
@@ -75,7 +75,7 @@ impl Builder {
         self.angle("limits.pressure_angle", angle)
     }
 
-    /// Radius of the cutter that must get into the hollows.
+    /// Radius of the cutter that must fit into the concave parts.
     #[must_use]
     pub fn cutter_radius(self, radius: f64) -> Self {
         self.length("limits.cutter_radius", radius)

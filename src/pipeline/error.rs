@@ -11,7 +11,7 @@ use crate::write::proof::ProofError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The machine file has faults; all of them are told.
+    /// The machine file has faults; all of them are reported.
     #[error(transparent)]
     Machine(#[from] MachineError),
     /// No cam can be solved.
@@ -23,18 +23,18 @@ pub enum Error {
     /// The cut file as written does not hold what was drawn: a fault of camgen.
     #[error(transparent)]
     Proof(#[from] ProofError),
-    /// A file given to be checked is no DXF file.
+    /// A file to be checked is not a DXF file.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// No such format.
+    /// Unknown format.
     #[error("no such format `{name}`; one of {known}")]
     NoSuchFormat {
-        /// What was asked for.
+        /// The format requested.
         name: String,
-        /// What there is.
+        /// The formats there are.
         known: String,
     },
-    /// The cam cannot have a format that was asked for.
+    /// The cam cannot have a format that was requested.
     #[error("no {format} file: {why}; give what is missing, or leave {format} out of the formats")]
     Unfit {
         /// The format.
@@ -42,13 +42,13 @@ pub enum Error {
         /// Why the cam cannot have it.
         why: &'static str,
     },
-    /// A check failed, and nobody insisted.
+    /// A check failed, and `force` was not set.
     #[error("a check failed: {0}")]
     Refused(String),
-    /// There is no outline to write, whoever insists.
+    /// There is no outline to write, even with `force`.
     #[error("{0}; there is no outline that could be written")]
     NoOutline(String),
-    /// A format cannot be made.
+    /// A file cannot be made in its format.
     #[error(transparent)]
     Format(#[from] FormatError),
     /// Files cannot be written.

@@ -17,7 +17,7 @@ pub struct Writing {
     pub directory: PathBuf,
     /// What the names of the files begin with.
     pub stem: String,
-    /// Names of the formats; `None` for the usual ones that the cam can have.
+    /// Names of the formats; `None` for the default ones that the cam can have.
     pub formats: Option<Vec<String>>,
     /// Rows of the point table.
     pub samples: u32,
@@ -27,11 +27,11 @@ pub struct Writing {
     pub force: bool,
 }
 
-/// Rows of the point table when nothing else is asked for: every half degree.
+/// Rows of the point table by default: every half degree.
 const SAMPLES: u32 = 720;
 
 impl Writing {
-    /// The usual formats in a directory.
+    /// The default formats in a directory.
     pub fn to(directory: impl Into<PathBuf>, stem: impl Into<String>) -> Self {
         Self {
             directory: directory.into(),
@@ -49,10 +49,10 @@ impl Writing {
         Self { formats: Some(names.iter().map(|&name| name.to_owned()).collect()), ..self }
     }
 
-    /// The formats that are written for a body, and the usual ones it cannot have, with the reason.
+    /// The formats that are written for a body, and the default ones it cannot have, with the reason.
     ///
     /// # Errors
-    /// [`Error::NoSuchFormat`]; [`Error::Unfit`] when a format was asked for that the body cannot have.
+    /// [`Error::NoSuchFormat`]; [`Error::Unfit`] when a format was requested that the body cannot have.
     #[expect(clippy::type_complexity, reason = "two lists")]
     pub fn chosen(&self, body: &dyn Body) -> Result<(Vec<&'static Format>, Vec<(&'static str, &'static str)>), Error> {
         let (mut chosen, mut left_out) = (Vec::new(), Vec::new());

@@ -35,11 +35,11 @@ impl Cam {
         &*self.body
     }
 
-    /// Draws what is cut, within a tolerance (m) or as a [`Request`] tells.
+    /// Draws what is cut, within a tolerance (m) or as a [`Request`] asks.
     ///
     /// # Errors
-    /// [`Error::Draw`] when the outline cannot be drawn. A cam that has no outline at all, because it is undercut beyond
-    /// repair, is a drawing without one: its checks say why, and it cannot be written.
+    /// [`Error::Draw`] when the outline cannot be drawn. A cam that has no outline at all, because it is undercut too
+    /// far, gives a drawing without one: its checks say why, and it cannot be written.
     pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
         let request = request.into();
         match self.body.draw(&request) {
@@ -52,14 +52,14 @@ impl Cam {
     /// Whether a DXF file, also one that was edited or written by another program, holds this cam within a tolerance (m).
     ///
     /// # Errors
-    /// [`Error::Read`] when the bytes are no DXF file.
+    /// [`Error::Read`] when the bytes are not a DXF file.
     pub fn check(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
         let tolerance_mm = MILLIMETRES * tolerance;
         let reading = reading::read(bytes, join_reach(tolerance_mm))?;
         let outlines: Vec<WrittenOutline> = match reading.chains.as_slice() {
             [chain] if chain.closed => {
                 let found = chain.contour();
-                // Which way round another program wrote it does not change the metal.
+                // The direction in which another program wrote the outline does not change the part.
                 let turns_left = found.area_and_centroid().0 > 0.0;
                 vec![WrittenOutline { z: 0.0, contour: if turns_left { found } else { chain.reversed().contour() } }]
             }

@@ -41,7 +41,7 @@ impl<'c> Drawing<'c> {
         let body = self.cam.body();
         let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
         for part in self.drawn.iter().flat_map(|drawn| &drawn.parts) {
-            // The proof is of the bytes that would be cut from, not of what they were made of.
+            // The proof is of the bytes that would be cut, not of the drawing they were made from.
             let written = proof::write(part, version)?;
             cut_files.push(written.bytes);
             outlines.push(WrittenOutline { z: part.z, contour: written.outline });

@@ -1,4 +1,4 @@
-//! What cam is asked for: a machine, and how the body is solved from it.
+//! The cam to be made: a machine, and how the body is solved from it.
 
 use super::{Builder, Cam, Error};
 use crate::body::conoid::{Conoid, between};
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 type Solve = dyn FnOnce(&Machine) -> Result<Box<dyn Body>, SolveError>;
 
-/// A specification: what cam is asked for, every value in range.
+/// A specification: the cam to be made, every value in range.
 pub struct Spec {
     machine: Machine,
     solve: Box<Solve>,
@@ -51,7 +51,7 @@ impl Spec {
         Self::new(machine, move |machine| Wedge::solve(machine, rpm, solver, exact_on))
     }
 
-    /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the force that may be left
+    /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the residual force
     /// between them, N.
     #[must_use]
     pub fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
@@ -59,7 +59,7 @@ impl Spec {
         Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(residual_limit)))
     }
 
-    /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a force between them, N.
+    /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a residual force between them, N.
     #[must_use]
     pub fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
         let solve = move |machine: &Machine| between::fewest(machine, speeds, residual_limit);

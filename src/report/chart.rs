@@ -1,4 +1,4 @@
-//! A log-log chart: what something costs against what it leaves.
+//! A log-log chart, e.g. of computing time against residual force.
 
 use super::sheet::{Group, Pen, STROKE_OVER_TEXT, Shape, Sheet, TextAnchor};
 use crate::geometry::Entity;
@@ -21,13 +21,13 @@ pub struct Point {
     pub x: f64,
     /// Up, above 0.
     pub y: f64,
-    /// What stands beside it.
+    /// The text beside it.
     pub label: String,
-    /// No other point is lower without lying further right.
+    /// On the Pareto front: no other point is lower without lying further right.
     pub best: bool,
 }
 
-/// Marks the points that no other one beats in both directions.
+/// Marks the points of the Pareto front: no other one is better in both directions.
 pub fn mark_front(points: &mut [Point]) {
     let all: Vec<(f64, f64)> = points.iter().map(|p| (p.x, p.y)).collect();
     for point in points {
@@ -43,7 +43,7 @@ fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
     if high > low { (low, high) } else { (low, low + 1.0) }
 }
 
-/// The chart; points that are not above 0 have no place on it and are left out.
+/// The chart; points that are not above 0 cannot be shown and are left out.
 #[must_use]
 pub fn chart(title: &str, x_name: &str, y_name: &str, points: &[Point]) -> Sheet {
     let shown: Vec<&Point> = points.iter().filter(|p| p.x > 0.0 && p.y > 0.0 && (p.x * p.y).is_finite()).collect();

@@ -1,10 +1,10 @@
-//! What came of a check, and where.
+//! The result of a check, and where.
 
 use serde::ser::Serializer;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
 
-/// What came of a check.
+/// The verdict of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -35,7 +35,7 @@ impl Verdict {
     }
 }
 
-/// A place on a cam, as reports tell it.
+/// A place on a cam, as in reports.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Place {
     /// Cam angle, degrees in [0, 360).
@@ -84,10 +84,10 @@ impl std::fmt::Display for Place {
 pub struct Finding {
     /// Name of the check.
     pub check: Cow<'static, str>,
-    /// What was found; not finite when there is nothing to measure (no concave part, say), which JSON writes as null.
+    /// What was found; not finite when there is nothing to measure (no concave part, for example), which JSON writes as null.
     #[serde(serialize_with = "finite", deserialize_with = "or_nan")]
     pub value: f64,
-    /// What it must keep, if anything.
+    /// Its limit, if it has one.
     pub limit: Option<f64>,
     /// Unit of both.
     pub unit: Cow<'static, str>,
@@ -96,7 +96,7 @@ pub struct Finding {
     pub place: Place,
     /// The verdict.
     pub verdict: Verdict,
-    /// What would help, or what the figure means.
+    /// A remedy, or what the figure means.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }

@@ -1,7 +1,8 @@
-//! What is told of a cam: findings, sections of a report, the review sheet.
+//! What is reported of a cam: findings, sections of a report, the review sheet.
 //!
 //! A report is a list of sections that the parts of a cam contribute (motion, follower, body, load, outline). Each section
-//! has its values for programs and its words for people; JSON, text and sheet walk the same list. Nothing here knows a cam.
+//! has its values for programs and its words for people; JSON, text and sheet walk the same list. Nothing here depends
+//! on a kind of cam.
 
 pub mod chart;
 mod finding;
@@ -33,11 +34,11 @@ pub enum Speeds {
     One(f64),
     /// One for each section.
     Several(Vec<f64>),
-    /// Any.
+    /// The speed does not matter.
     Any(()),
 }
 
-/// More speeds than these are told by the first and the last.
+/// More speeds than these are named by the first and the last.
 const MOST_NAMED: usize = 8;
 
 impl fmt::Display for Speeds {
@@ -58,29 +59,29 @@ impl fmt::Display for Speeds {
     }
 }
 
-/// One section of a report: what a part of the cam has to tell.
+/// One section of a report, contributed by a part of the cam.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// Its key in JSON, and its label in the text.
     pub key: Cow<'static, str>,
     /// Values with their units in their names.
     pub value: Value,
-    /// The same for a person, a line each.
+    /// The same in words for people, a line each.
     pub words: Vec<String>,
     /// The few that belong on the review sheet.
     pub figures: Vec<String>,
 }
 
 impl Section {
-    /// A section of values that are told to programs only.
+    /// A section of values for programs only.
     #[must_use]
     pub fn new(key: &'static str, value: &impl Serialize) -> Self {
-        // Only a map with keys that are no texts cannot be a value; a report has none.
+        // Only a map whose keys are not texts cannot become a value; a report has none.
         let value = serde_json::to_value(value).unwrap_or(Value::Null);
         Self { key: key.into(), value, words: Vec::new(), figures: Vec::new() }
     }
 
-    /// With words for a person.
+    /// With words for people.
     #[must_use]
     pub fn with_words(self, words: Vec<String>) -> Self {
         Self { words, ..self }
@@ -108,7 +109,7 @@ pub struct Report {
     pub sections: Vec<Section>,
     /// Every check.
     pub checks: Vec<Finding>,
-    /// What the user should know beside: keys that have no effect, say.
+    /// What the user should know besides, such as keys that have no effect.
     pub notes: Vec<String>,
     /// Files written.
     pub files: Vec<String>,

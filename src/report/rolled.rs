@@ -31,7 +31,7 @@ pub struct Rolled {
     pub chord_sagitta_mm: f64,
     /// Largest difference between the two measurements, mm.
     pub chord_difference_mm: f64,
-    /// Largest |inertia − air and cam| over the reversal with the lift as rolled, N; 0 where nothing has to be balanced.
+    /// Largest residual force over the reversal with the lift as rolled, N; 0 without a load.
     pub residual_max_n: f64,
     /// Where it is.
     #[serde(flatten, serialize_with = "residual_place")]

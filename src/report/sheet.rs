@@ -5,7 +5,7 @@ use crate::geometry::Entity;
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
-/// Where a text hangs on its place.
+/// Which part of a text is at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextAnchor {
     /// Its start.
@@ -35,7 +35,7 @@ pub enum Shape {
         at: Vector2<f64>,
         /// Height, mm.
         height: f64,
-        /// How it hangs there.
+        /// Which part of it is there.
         anchor: TextAnchor,
         /// The words.
         text: String,
@@ -47,18 +47,18 @@ pub enum Shape {
 pub struct Group {
     /// Name for programs, ASCII without spaces.
     pub id: String,
-    /// The class its style goes by.
+    /// The class that gives its style.
     pub class: &'static str,
     /// Name for people.
     pub label: String,
-    /// Colour of its lines, where that is not a matter of style but tells something.
+    /// Colour of its lines, where the colour carries information.
     pub colour: Option<String>,
     /// What is in it.
     pub shapes: Vec<Shape>,
 }
 
 impl Group {
-    /// A group whose style goes by its name.
+    /// A group whose style class is its name.
     #[must_use]
     pub fn new(id: &'static str, label: &str, shapes: Vec<Shape>) -> Self {
         Self { id: id.into(), class: id, label: label.into(), colour: None, shapes }

@@ -4,7 +4,7 @@ use super::Section;
 use super::sheet::rounded;
 use serde::{Deserialize, Serialize};
 
-/// Four decimals at the most, without trailing zeros; what is small keeps four digits, what is tiny two.
+/// Four decimals at the most, without trailing zeros; small values keep four digits, tiny ones two.
 #[must_use]
 pub fn shown(value: f64) -> String {
     let size = value.abs();
@@ -135,7 +135,7 @@ pub struct AirLaw {
     pub column_length_mm: f64,
     pub piston_area_mm2: f64,
     pub bore_mm: f64,
-    /// The slope dΔx/dx at the start of the reversal; c − 1 for a rotary cam.
+    /// The slope dΔx/dx at the start of the reversal; c − 1 for a disc cam.
     pub start_slope: f64,
     /// Jump of the bottom's velocity at the start of the reversal.
     pub velocity_jump_mm_per_rad: f64,
@@ -156,7 +156,7 @@ pub struct Equation18 {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
     pub efficiency_model: String,
-    /// The way of the bed on which the forces balance.
+    /// The direction of the bed in which the forces balance.
     pub balance: String,
     /// Where the law of the slope changes.
     pub breaks: Vec<Break>,
@@ -225,7 +225,7 @@ pub struct OutlineMeasures {
     pub deviation_max_mm: f64,
     pub tangent_break_max_deg: f64,
     pub tolerance_mm: f64,
-    /// N*, the count no chain of tangent arcs can stay below, dwells not counted.
+    /// N*, the least possible number of tangent arcs, dwells not counted.
     pub arcs_best_possible: f64,
     pub arcs_over_best_possible: Option<f64>,
     pub length_mm: f64,
@@ -267,7 +267,8 @@ pub struct Forces {
     pub torque_max_nm: Option<f64>,
 }
 
-/// What the law of a plate leaves while the bed is braked and while it is sent back, with shares of the largest inertia.
+/// Residual force of a plate's motion while the bed is braked and while it is accelerated back, also as shares of the
+/// largest inertia.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
 pub struct ResidualByWay {

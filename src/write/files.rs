@@ -25,7 +25,7 @@ pub enum FilesError {
     /// The directory cannot be made.
     #[error("cannot make the directory `{}`: {source}; choose another with --out", path.display())]
     Directory {
-        /// It.
+        /// The directory.
         path: PathBuf,
         /// Why.
         source: io::Error,
@@ -33,7 +33,7 @@ pub enum FilesError {
     /// A file cannot be written or put in its place.
     #[error("cannot write `{}`: {source}; nothing was changed", path.display())]
     File {
-        /// It.
+        /// The file.
         path: PathBuf,
         /// Why.
         source: io::Error,
@@ -101,7 +101,7 @@ fn place(directory: &Path, temporary: TempPath, target: &Path) -> io::Result<Opt
     };
     if let Err(error) = temporary.persist(target) {
         if let Some(old) = old {
-            // Nothing better can be done when this fails too; the error that is told is the first.
+            // Nothing more can be done when this fails too; the error reported is the first.
             let _ = old.persist(target);
         }
         return Err(error.error);

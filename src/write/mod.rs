@@ -32,7 +32,7 @@ pub struct Rendering<'a> {
     pub report: &'a Report,
     /// Rows of the table over a turn or a stroke.
     pub samples: u32,
-    /// The sheet the preview is put into.
+    /// The template of the review sheet.
     pub template: &'a str,
 }
 
@@ -43,10 +43,10 @@ pub enum FormatError {
     /// The preview has a curve that cannot be drawn.
     #[error(transparent)]
     Outline(#[from] OutlineError),
-    /// The template is not one.
+    /// The template is not valid.
     #[error(transparent)]
     Template(#[from] svg::TemplateError),
-    /// The solid is not one.
+    /// The solid is not valid.
     #[error(transparent)]
     Solid(#[from] SolidError),
     /// The report could not be serialised.
@@ -57,18 +57,18 @@ pub enum FormatError {
 /// When a format is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum When {
-    /// When nothing is asked for, and when it is.
+    /// By default, and when it is requested.
     Usual,
-    /// When it is asked for.
+    /// When it is requested.
     Asked,
-    /// Whenever the drawing has something for it; it cannot be asked for by name.
+    /// Whenever the drawing has something for it; it cannot be requested by name.
     Drawn,
 }
 
 /// A format: what it is called, which cams it fits, and its files. Each computes only what it shows.
 #[derive(Debug)]
 pub struct Format {
-    /// The name it is asked for by.
+    /// Its name on the command line.
     pub name: &'static str,
     /// When it is written.
     pub when: When,
@@ -82,11 +82,11 @@ pub struct Format {
     pub write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
 }
 
-/// Every format, in the order in which files are told.
+/// Every format, in the order in which files are listed.
 pub const FORMATS: &[Format] =
     &[dxf::FORMAT, svg::FORMAT, step::FORMAT, csv::FORMAT, json::FORMAT, stl::FORMAT, dxf::CUTTER_PATH];
 
-/// The formats that can be asked for.
+/// The formats that can be requested.
 pub fn by_name() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|format| format.when != When::Drawn)
 }

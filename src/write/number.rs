@@ -16,7 +16,7 @@ pub fn shortest(value: f64) -> String {
     }
 }
 
-/// A plain decimal with at most `decimals` places and one at the least, as DXF and SVG readers want it: no exponent,
+/// A plain decimal with at most `decimals` places and one at the least, as DXF and SVG readers expect it: no exponent,
 /// no negative zero.
 #[must_use]
 pub fn plain(value: f64, decimals: usize) -> String {

@@ -1,4 +1,4 @@
-//! The cut file as it would be on the disk, and the outline read back from its bytes.
+//! The cut file in memory, as it would be on disk, and the outline read back from its bytes.
 
 use super::dxf::{self, Version};
 use crate::body::Part;
@@ -24,7 +24,7 @@ pub enum ProofError {
     /// The file cannot be read.
     #[error("the DXF file as written cannot be read back: {0}")]
     Unreadable(#[from] ReadError),
-    /// It holds something else than one closed outline.
+    /// It does not hold one closed outline.
     #[error("the DXF file as written does not hold one closed outline; please report this")]
     NotOneOutline,
 }

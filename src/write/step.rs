@@ -1,7 +1,7 @@
 //! The solid as a STEP file: AP214, millimetres, ASCII.
 //!
 //! truck-stepio numbers and writes topology and geometry; its frame is not used, because its product has no name, its
-//! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is ours.
+//! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is written here.
 
 use super::number::shortest;
 use super::{Format, FormatError, Rendering, When};
@@ -166,7 +166,7 @@ impl DisplayByStep for FaceSurface {
     }
 }
 
-/// A vertex, written by ourselves so that its digits are those of the drawing.
+/// A vertex, written here so that its digits are those of the drawing.
 #[derive(Debug, Clone, Copy)]
 struct Place(Point3);
 
@@ -231,7 +231,7 @@ pub fn write(solid: &Solid, product: &str) -> Vec<u8> {
     let written = StepModel::from(&boundary).to_string();
     let start = written.find(FIRST).unwrap_or(0);
     let data = written.get(start..).unwrap_or_default().replace("= FACE_SURFACE(", "= ADVANCED_FACE(");
-    // The category comes behind the last of truck's lines.
+    // The category comes after the last of truck's lines.
     let category = data.lines().filter_map(|line| line.strip_prefix('#')?.split(' ').next()?.parse::<u32>().ok()).max();
     let category = category.unwrap_or(16) + 1;
     let name = escaped(product);

@@ -27,15 +27,15 @@ const DECIMALS: usize = 6;
 /// Largest sweep of one SVG arc, rad: the direction of a half circle is ambiguous within rounding.
 const LONGEST_SWEEP: f64 = 3.0;
 
-/// Why a template cannot be filled in.
+/// Why a template cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TemplateError {
-    /// The drawing has no place in it.
+    /// It has no placeholder for the drawing.
     #[error("the template has no {{{{drawing}}}}: nothing would be drawn")]
     NoDrawing,
-    /// Something in it that is not known.
-    #[error("the template asks for {{{{{0}}}}}, which is not known; known are {KNOWN}")]
+    /// It has an unknown placeholder.
+    #[error("the template has the unknown placeholder {{{{{0}}}}}; known are {KNOWN}")]
     Unknown(String),
 }
 
@@ -72,7 +72,7 @@ pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
     if !template.contains("{{drawing}}") {
         return Err(TemplateError::NoDrawing);
     }
-    // The comment that explains the placeholders is the template's own and goes out with it.
+    // The comment that explains the placeholders belongs to the template and is left out of the sheet.
     let mut text = String::with_capacity(template.len() * 4);
     let mut rest = without_comments(template);
     while let Some((before, behind)) = rest.split_once("{{") {

@@ -1,4 +1,4 @@
-//! The cut file: DXF in four versions, ASCII, millimetres, nothing in it but what is cut.
+//! The cut file: DXF in four versions, ASCII, millimetres, with nothing in it but the lines to cut.
 //!
 //! Written by hand: a cut file needs two entities, and every reader must take it without a repair. R12 is the old
 //! flat form with POLYLINE; the later ones have handles and owners for every table, record and object, the two block

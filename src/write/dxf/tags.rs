@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 /// a long arc by 0.06 µm.
 const DECIMALS: usize = 12;
 
-/// Handles of what every file has; entities and layers take the free ones behind.
+/// Handles of what every file has; entities and layers take those after them.
 pub(super) mod handle {
     pub(in crate::write::dxf) const BLOCK_RECORDS: u32 = 0x1;
     pub(in crate::write::dxf) const LAYERS: u32 = 0x2;
