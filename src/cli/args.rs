@@ -67,7 +67,7 @@ pub(super) struct CommonArgs {
     #[arg(default_value = "dpi")]
     pub(super) machine: String,
 
-    /// Main-shaft speed the cam is cut for, rpm [default: the design speed of the machine]
+    /// Main-shaft speed the cam is cut for (for `make` the speed of the cam), rpm [default: that of the machine file]
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
     pub(super) rpm: Vec<Speed>,
 
