@@ -296,7 +296,7 @@ impl Table<'_> {
 fn missing(key: &Key, path: &str, source: &str, place: Option<Place>) -> Found {
     Found {
         message: format!("missing key `{path}` in {source}"),
-        help: Some(format!("add it, e.g. {}", key.in_toml(key.presence.text()))),
+        help: Some(format!("add it, e.g. {} = {}", key.name, key.in_toml(key.presence.text()))),
         place,
     }
 }

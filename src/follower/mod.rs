@@ -40,6 +40,8 @@ pub const FOLLOWERS: &[FollowerKind] = &[translating_roller::KIND, swinging_roll
 /// A follower as a file describes it.
 #[derive(Debug, Clone)]
 pub struct FollowerData {
+    /// Path of its table, for messages.
+    pub path: &'static str,
     /// The follower itself, not yet sized.
     pub shape: Arc<dyn Follower>,
     /// Mass that moves with it along its path, kg.

@@ -43,7 +43,7 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
     let square = libm::hypot(arm, pivot_distance);
     let shape =
         SwingingRoller { arm, pivot_distance, side: table.get(&SIDE)?, radius, prime_radius: square, start: PI / 2.0 };
-    Some(FollowerData { shape: Arc::new(shape), mass: None, preload: None, roller: None })
+    Some(FollowerData { path: SECTION.path, shape: Arc::new(shape), mass: None, preload: None, roller: None })
 }
 
 /// By how much the prime radius must stay within the triangle of arm and pivot distance, as a share of it: at its ends arm and

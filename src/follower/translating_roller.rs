@@ -74,6 +74,7 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
     }
     let (radius, offset) = (table.get(&RADIUS)?, table.get(&OFFSET)?);
     Some(FollowerData {
+        path: SECTION.path,
         // Made for a size when the cam is sized; until then large enough to reach.
         shape: Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius)),
         mass: table.get(&MASS),

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 const KIND: Field<fn(f64) -> Transition> = Field::words(
     "kind",
-    "\"run-up\" (balance stays exact), \"blend\" (rounds the corner) or \"none\"",
+    "\"run-up\" (a ramp: the force balance stays exact), \"blend\" (rounds the corner) or \"none\"",
     Default("run-up"),
     &["run-up", "blend", "none"],
     &[|width| Transition::RunUp { width }, |width| Transition::Blend { width }, |_| Transition::None],

@@ -20,7 +20,7 @@ const POSITION: (Bounds, Bounds) = (within(-LONGEST, LONGEST), within(-PI, PI));
 
 const RPM: Field<f64> = Field::number(
     "rpm",
-    "speed of the cam, 0.001 to 100000; without it nothing is told per second",
+    "speed of the cam, 0.001 to 100000; forces and contact stress need it",
     Optional("120"),
     within(LEAST_RPM, LARGEST_NUMBER),
 );

@@ -15,12 +15,11 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let Some(worst) = body.contact_stress() else {
         let cam = &body.machine().cam;
-        let needs = if body.spatial().is_some() {
-            "cam.material is not given"
-        } else if cam.thickness.is_some() && cam.material.is_some() {
-            "no force on the follower is known"
-        } else {
-            "cam.thickness and cam.material are not both given"
+        let needs = match (body.spatial().is_some(), cam.thickness.is_some(), cam.material.is_some()) {
+            (true, ..) | (false, true, false) => "cam.material is not given",
+            (false, false, true) => "cam.thickness is not given",
+            (false, false, false) => "cam.thickness and cam.material are not both given",
+            (false, true, true) => "no force on the follower is known",
         };
         return Some(CHECK.not_run("MPa", needs));
     };

@@ -14,12 +14,14 @@ pub(super) const CHECK: Check = Check {
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let Some(least) = body.least_closing_force() else {
-        return Some(CHECK.not_run("N", "neither follower.roller.mass nor follower.roller.preload is given"));
+        let path = body.machine().follower.path;
+        return Some(CHECK.not_run("N", &format!("neither {path}.mass nor {path}.preload is given")));
     };
     let force = least.value;
     let kept = force > 0.0;
     let needed = (body.machine().follower.preload.unwrap_or(0.0) - force).ceil() + 1.0;
-    let note =
-        (!kept).then(|| format!("the roller leaves the cam; follower.roller.preload = \"{needed} N\" would hold it"));
+    let path = body.machine().follower.path;
+    let part = if body.roller_radius().is_some() { "roller" } else { "face" };
+    let note = (!kept).then(|| format!("the {part} leaves the cam; {path}.preload = \"{needed} N\" would hold it"));
     Some(at(body, &least, CHECK.found(force, Some(0.0), "N", Verdict::of(kept)), note))
 }
