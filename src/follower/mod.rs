@@ -52,6 +52,15 @@ pub struct FollowerData {
     pub roller: Option<RollerData>,
 }
 
+impl FollowerData {
+    /// Whether its table has mass and preload: whether forces on it can be described.
+    #[must_use]
+    pub fn has_forces(&self) -> bool {
+        let own = FOLLOWERS.iter().find(|kind| kind.section.path == self.path);
+        own.is_some_and(|kind| kind.section.keys.iter().any(|key| key.name == PRELOAD.key.name))
+    }
+}
+
 /// Mass of a follower on a straight path, a key of its table.
 const MASS: Field<f64> = Field::quantity(
     "mass",

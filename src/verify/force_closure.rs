@@ -14,8 +14,13 @@ pub(super) const CHECK: Check = Check {
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let Some(least) = body.least_closing_force() else {
-        let path = body.machine().follower.path;
-        return Some(CHECK.not_run("N", &format!("neither {path}.mass nor {path}.preload is given")));
+        let follower = &body.machine().follower;
+        let why = if follower.has_forces() {
+            format!("neither {0}.mass nor {0}.preload is given", follower.path)
+        } else {
+            "forces on this follower are not computed".into()
+        };
+        return Some(CHECK.not_run("N", &why));
     };
     let force = least.value;
     let kept = force > 0.0;
