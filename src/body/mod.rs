@@ -174,6 +174,16 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.sharpest(curves))
     }
 
+    /// Smallest convex radius of what the follower draws, m: 0 at a corner, infinite where nothing is convex; negative where a
+    /// profile under a face turns back on itself.
+    fn least_radius(&self) -> Worst {
+        let sharpest = self.sharpest();
+        let face = self.plane().filter(|curves| curves.element() == Element::Face && sharpest.value.is_infinite());
+        let folded = face.map(extremes::least_radius).filter(|least| least.value < 0.0);
+        let radius = if sharpest.value > 0.0 { 1.0 / sharpest.value } else { f64::INFINITY };
+        folded.map_or(Worst { value: radius, ..sharpest }, plane)
+    }
+
     /// Radius of the largest cutter that fits into the concave parts, m; `None` where nothing is concave.
     fn hollow(&self) -> Option<Worst> {
         let curves = self.plane()?;

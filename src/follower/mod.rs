@@ -83,8 +83,9 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<FollowerData> {
     let mut told = FOLLOWERS.iter().filter_map(|kind| Some((kind, reader.find(kind.section)?)));
     let known = || FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect::<Vec<_>>().join(", ");
     let Some((kind, table)) = told.next() else {
-        let message = "no follower is given".to_owned();
-        reader.fail(message, Some(format!("add the table {}", known())));
+        if !FOLLOWERS.iter().any(|kind| reader.is_explained(kind.section)) {
+            reader.fail("no follower is given".into(), Some(format!("add one of the tables {}", known())));
+        }
         return None;
     };
     if let Some((other, _)) = told.next() {

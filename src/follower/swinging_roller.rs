@@ -38,11 +38,8 @@ const SECTION: Section = Section {
 };
 
 fn read(table: &Table<'_>) -> Option<FollowerData> {
-    let (radius, arm, pivot_distance) = (table.get(&RADIUS)?, table.get(&ARM)?, table.get(&PIVOT_DISTANCE)?);
-    // Made for a size when the cam is sized; until then with the arm square to the line of shaft and pivot.
-    let square = libm::hypot(arm, pivot_distance);
     let shape =
-        SwingingRoller { arm, pivot_distance, side: table.get(&SIDE)?, radius, prime_radius: square, start: PI / 2.0 };
+        SwingingRoller::new(table.get(&ARM)?, table.get(&PIVOT_DISTANCE)?, table.get(&RADIUS)?, table.get(&SIDE)?);
     Some(FollowerData { path: SECTION.path, shape: Arc::new(shape), mass: None, preload: None, roller: None })
 }
 
@@ -63,6 +60,16 @@ pub struct SwingingRoller {
     prime_radius: f64,
     /// ψ0, rad.
     start: f64,
+}
+
+impl SwingingRoller {
+    /// Arm, pivot distance and roller radius in m; side 1 trails, −1 leads. Made for a size when the cam is sized, it has its
+    /// arm square to the line of shaft and pivot until then.
+    #[must_use]
+    pub fn new(arm: f64, pivot_distance: f64, radius: f64, side: f64) -> Self {
+        let square = libm::hypot(arm, pivot_distance);
+        Self { arm, pivot_distance, side, radius, prime_radius: square, start: PI / 2.0 }
+    }
 }
 
 impl Follower for SwingingRoller {

@@ -10,6 +10,9 @@ use crate::numeric::root;
 const BASE_STEP: f64 = 1e-3;
 const BASE_STEP_NOISE: f64 = 1e-6;
 
+/// Smallest radius of curvature that an automatic size leaves under a flat face, m: a sharper place is an edge.
+const LEAST_FACE_RADIUS: f64 = 1e-3;
+
 /// What a radius must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Required {
@@ -48,10 +51,13 @@ pub fn rounded_up(base_radius: f64) -> f64 {
 /// Doublings from the least radius before giving up: 1 µm to 1e9 m.
 const DOUBLINGS: u32 = 50;
 
-/// Growth from one radius to the next under a follower whose reach is limited: what passes may lie between two that do not.
-const STEP_IN_REACH: f64 = 1.01;
-/// As many of these as doublings would be: 1.01 to the 3500 is 2 to the 50.
-const STEPS_IN_REACH: u32 = 3500;
+/// Growth from one radius to the next under a follower of limited reach: a range of radii may pass between two that do not.
+const GROWTH_IN_REACH: f64 = 1.01;
+/// Golden sections of the search for a passing range between two radii, and halvings of the search for its lower end.
+const SECTIONS: u32 = 40;
+const HALVINGS: u32 = 60;
+/// Finer steps, of a tenth each, in which a base radius is rounded where the whole millimetre does not pass: to 1 nm.
+const FINER_STEPS: i32 = 6;
 
 /// Rounds of solving each limit in turn. A limit may be broken again by the radius that another one needs only where it
 /// is not monotone in the radius; each round then starts above the last.
@@ -68,37 +74,77 @@ pub fn largest_lift_in_reach(motion: &dyn Motion, follower: &dyn Follower) -> f6
     if follower.reach().1.is_finite() { lifts(motion).1 } else { 0.0 }
 }
 
-/// The smallest prime radius (m) at which the disc made by the follower keeps every limit.
-///
-/// Both the pressure angle and the curvature fall as the radius grows, so each limit is a root in the radius.
+/// The smallest size of a disc that keeps every limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Smallest {
+    /// Prime radius, m.
+    pub prime_radius: f64,
+    /// The base radius that `auto` makes of it, m.
+    pub base_radius: f64,
+}
+
+/// What is solved for: by how much a disc of a prime radius breaks the limits.
+struct Sizing<'a> {
+    motion: &'a dyn Motion,
+    follower: &'a dyn Follower,
+    required: &'a Required,
+    /// The largest lift that has to be in reach.
+    top: f64,
+}
+
+impl Sizing<'_> {
+    /// A quantity of the disc of a radius; NaN, which does not pass, where the follower does not reach.
+    fn at(&self, radius: f64, excess: impl Fn(Curves<'_>) -> f64) -> f64 {
+        let follower = self.follower.sized(radius).filter(|follower| self.top <= follower.reach().1);
+        follower.map_or(f64::NAN, |follower| excess(Curves { motion: self.motion, follower: &*follower }))
+    }
+
+    fn pressure(&self, radius: f64) -> f64 {
+        self.at(radius, |curves| extremes::pressure_angle(curves).value - self.required.pressure_angle)
+    }
+
+    fn curvature(&self, radius: f64) -> f64 {
+        self.at(radius, |curves| match curves.element() {
+            Element::Roller { .. } => extremes::convex_curvature(curves).value * self.required.convex_radius - 1.0,
+            // The profile under a face must not turn back on itself, nor come to an edge.
+            Element::Face => (LEAST_FACE_RADIUS - extremes::least_radius(curves).value) / radius,
+        })
+    }
+
+    /// The worse of both; NaN where one is.
+    fn either(&self, radius: f64) -> f64 {
+        let (pressure, curvature) = (self.pressure(radius), self.curvature(radius));
+        if pressure > curvature || pressure.is_nan() { pressure } else { curvature }
+    }
+}
+
+/// The smallest size (m) at which the disc made by the follower keeps every limit.
 ///
 /// # Errors
-/// [`NoRadius`] when no radius up to 1e9 m does.
-pub fn smallest_prime_radius(
-    motion: &dyn Motion,
-    follower: &dyn Follower,
-    required: &Required,
-) -> Result<f64, NoRadius> {
-    let top = largest_lift_in_reach(motion, follower);
-    // Out of reach does not pass.
-    let at = |radius: f64, excess: &dyn Fn(Curves<'_>) -> f64| {
-        let follower = follower.sized(radius).filter(|follower| top <= follower.reach().1);
-        follower.map_or(f64::NAN, |follower| excess(Curves { motion, follower: &*follower }))
-    };
-    let pressure = |radius: f64| at(radius, &|curves| extremes::pressure_angle(curves).value - required.pressure_angle);
-    let curvature = |radius: f64| {
-        at(radius, &|curves| match curves.element() {
-            Element::Roller { .. } => extremes::convex_curvature(curves).value * required.convex_radius - 1.0,
-            // The profile under a face must not turn back on itself.
-            Element::Face => -extremes::least_radius(curves).value / radius,
-        })
-    };
-    let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
+/// [`NoRadius`] when no radius up to 1e9 m, or in reach of the follower, does.
+pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &Required) -> Result<Smallest, NoRadius> {
+    let sizing = Sizing { motion, follower, required, top: largest_lift_in_reach(motion, follower) };
+    let offset = follower.element().offset();
     let largest = follower.prime_radii().1;
-    let mut radius = required.least;
+    if largest.is_finite() {
+        let prime_radius = first_in_reach(required.least, largest, |radius| sizing.either(radius))?;
+        let base_radius = rounded_in_reach(prime_radius - offset, |base| sizing.either(base + offset) <= 0.0);
+        Ok(Smallest { prime_radius, base_radius })
+    } else {
+        let prime_radius = first_of_falling(required.least, &sizing)?;
+        Ok(Smallest { prime_radius, base_radius: rounded_up(prime_radius - offset) })
+    }
+}
+
+/// Both the pressure angle and the curvature fall as the radius grows under a follower that reaches everywhere, so each limit
+/// is a root in the radius.
+fn first_of_falling(least: f64, sizing: &Sizing<'_>) -> Result<f64, NoRadius> {
+    let (pressure, curvature) = (|radius: f64| sizing.pressure(radius), |radius: f64| sizing.curvature(radius));
+    let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
+    let mut radius = least;
     for _ in 0..ROUNDS {
         for limit in limits {
-            radius = first_at_or_above(radius, largest, limit)?;
+            radius = first_at_or_above(radius, limit)?;
         }
         if limits.iter().all(|limit| limit(radius) <= 0.0) {
             return Ok(radius);
@@ -108,19 +154,14 @@ pub fn smallest_prime_radius(
 }
 
 /// The first radius from `low` on at which `excess` is not positive.
-fn first_at_or_above(low: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
+fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
     // A NaN does not pass: the curve does not exist at this radius.
     if excess(low) <= 0.0 {
         return Ok(low);
     }
-    let (growth, steps) = if largest.is_finite() { (STEP_IN_REACH, STEPS_IN_REACH) } else { (2.0, DOUBLINGS) };
-    let (mut failing, mut passing) = (low, growth * low);
-    for _ in 0..steps {
+    let (mut failing, mut passing) = (low, 2.0 * low);
+    for _ in 0..DOUBLINGS {
         if excess(passing) <= 0.0 {
-            // Where the radius before is out of reach there is no sign to bracket: this one is the first known to pass.
-            if excess(failing).is_nan() {
-                return Ok(passing);
-            }
             let mut radius = root::bracketed(&excess, failing, passing, 0.0).map_err(|_| NoRadius)?;
             // The root is known to an ulp; take the side that passes.
             while excess(radius) > 0.0 && radius < passing {
@@ -128,7 +169,127 @@ fn first_at_or_above(low: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Res
             }
             return Ok(radius);
         }
-        (failing, passing) = (passing, growth * passing);
+        (failing, passing) = (passing, 2.0 * passing);
     }
     Err(NoRadius)
+}
+
+/// The same for an excess that may fall and grow again: every radius in steps of a hundredth is tried, and between three of
+/// which the middle one is the best, the best of all.
+fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
+    let passes = |radius: f64| excess(radius) <= 0.0;
+    let at = |radius: f64| (radius, excess(radius));
+    let (mut before, mut here) = (at(least), at(least));
+    loop {
+        if here.1 <= 0.0 {
+            return Ok(first_passing(before.0, here.0, passes));
+        }
+        if here.0 >= largest {
+            return Err(NoRadius);
+        }
+        let next = at((GROWTH_IN_REACH * here.0).min(largest));
+        // The best of three; a radius out of reach is worse than any other.
+        let better = |one: f64, other: f64| one <= other || other.is_nan();
+        let is_best = !here.1.is_nan() && better(here.1, before.1) && better(here.1, next.1);
+        if is_best && (next.1 > 0.0 || next.1.is_nan()) {
+            let best = lowest(before.0, next.0, &excess);
+            if passes(best) {
+                return Ok(first_passing(before.0, best, passes));
+            }
+        }
+        (before, here) = (here, next);
+    }
+}
+
+/// The first radius that passes between one that does not, or is the same, and one that does.
+fn first_passing(mut failing: f64, mut passing: f64, passes: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (failing + passing);
+        *(if passes(middle) { &mut passing } else { &mut failing }) = middle;
+    }
+    passing
+}
+
+/// The lowest point of a function between two radii by golden sections; what is NaN is higher than any other.
+fn lowest(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {
+    let value = |radius: f64| Some(function(radius)).filter(|value| !value.is_nan()).unwrap_or(f64::INFINITY);
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let (mut low, mut high) = (low, high);
+    for _ in 0..SECTIONS {
+        let width = golden * (high - low);
+        let (left, right) = (high - width, low + width);
+        if value(left) <= value(right) { high = right } else { low = left }
+    }
+    0.5 * (low + high)
+}
+
+/// A base radius in reach in whole millimetres, where that passes too; else in the coarsest finer step that does.
+fn rounded_in_reach(base_radius: f64, passes: impl Fn(f64) -> bool) -> f64 {
+    let tried = (0..=FINER_STEPS).map(|finer| {
+        let steps_per_metre = 10.0_f64.powi(finer) / BASE_STEP;
+        (base_radius * steps_per_metre).ceil() / steps_per_metre
+    });
+    let mut passing = tried.filter(|base| passes(*base));
+    passing.next().unwrap_or(base_radius)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follower::SwingingRoller;
+    use crate::motion::Quantity;
+    use crate::motion::laws::LAWS;
+    use crate::motion::program::Program;
+    use std::f64::consts::TAU;
+
+    /// Numbers in [0, 1) that repeat: Weyl's sequence of the golden ratio.
+    fn spread(index: u32) -> f64 {
+        (f64::from(index) * 0.618_033_988_749_894_8).fract()
+    }
+
+    /// Under a lever the pressure angle falls and grows again with the radius. No radius on a grid twenty times finer than
+    /// the search's own that passes is smaller, and what is solved passes.
+    #[test]
+    fn under_a_lever_no_smaller_radius_passes() {
+        let (mut found, mut none) = (0, 0);
+        for case in 0..20 {
+            let u = |n: u32| spread(7 * case + n);
+            let (arm, pivot) = (0.05 + 0.1 * u(0), 0.05 + 0.15 * u(1));
+            let law = LAWS.get(usize::try_from(case).expect("few") % LAWS.len());
+            let swing = (5.0 + 25.0 * u(2)).to_radians();
+            let rise = TAU * (0.15 + 0.3 * u(3));
+            let fall = TAU * (0.15 + 0.3 * u(4));
+            let program = Program::new(
+                Quantity::Angle,
+                0.0,
+                &[(law, rise, swing), (None, 0.3, swing), (law, fall, 0.0), (None, 0.0, 0.0)],
+            );
+            let follower = SwingingRoller::new(arm, pivot, 0.008, if case % 2 == 0 { 1.0 } else { -1.0 });
+            let required = Required {
+                pressure_angle: (20.0 + 30.0 * u(5)).to_radians(),
+                convex_radius: 0.01,
+                least: 0.02_f64.max(follower.prime_radii().0),
+            };
+            let sizing = Sizing { motion: &program, follower: &follower, required: &required, top: lifts(&program).1 };
+            let solved = smallest(&program, &follower, &required);
+            let mut grid = required.least;
+            let end = solved.map_or(follower.prime_radii().1, |smallest| smallest.prime_radius * (1.0 - 1e-9));
+            while grid < end {
+                assert!(!(sizing.either(grid) <= 0.0), "case {case}: {grid} passes before {solved:?}");
+                grid *= 1.0 + (GROWTH_IN_REACH - 1.0) / 20.0;
+            }
+            match solved {
+                Ok(Smallest { prime_radius, base_radius }) => {
+                    found += 1;
+                    assert!(
+                        sizing.either(prime_radius) <= 0.0 && sizing.either(base_radius + 0.008) <= 0.0,
+                        "case {case}"
+                    );
+                    assert!(base_radius + 0.008 >= prime_radius, "case {case}");
+                }
+                Err(NoRadius) => none += 1,
+            }
+        }
+        assert!(found > 5 && none > 1, "{found} found, {none} not");
+    }
 }

@@ -1,7 +1,6 @@
 //! The sharpest convex place: of the profile (undercut) and of the pitch curve (contact stress).
 
 use super::{Check, Evidence, On, at};
-use crate::profile::Worst;
 use crate::report::{Finding, Verdict};
 
 pub(super) const UNDERCUT: Check = Check {
@@ -23,28 +22,22 @@ pub(super) const MIN_CONVEX_RADIUS: Check = Check {
 /// Rounding of a radius that was solved to be the limit, as a share of it; what a search over a surface leaves, too.
 const ROUNDING: f64 = 1e-9;
 
-/// Smallest convex radius, m: 0 at a corner, infinite where nothing is convex.
-fn radius(sharpest: &Worst) -> f64 {
-    if sharpest.value > 0.0 { 1.0 / sharpest.value } else { f64::INFINITY }
-}
-
 fn undercut(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
-    let sharpest = body.sharpest();
-    let left = radius(&sharpest) - body.roller_radius().unwrap_or(0.0);
+    let least = body.least_radius();
+    let left = least.value - body.roller_radius().unwrap_or(0.0);
     let kept = left > 0.0;
     let found = UNDERCUT.found(1e3 * left, Some(0.0), "mm", Verdict::of(kept));
     let lost = || body.lost_motion().into_iter().chain(body.remedy()).collect::<Vec<String>>().join("; ");
     let note = (!kept).then(lost).filter(|words| !words.is_empty());
-    Some(at(body, &sharpest, found, note))
+    Some(at(body, &least, found, note))
 }
 
 fn min_convex_radius(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
-    let sharpest = body.sharpest();
+    let least = body.least_radius();
     let limit = body.machine().limits.min_convex_pitch_radius_over_roller * body.roller_radius()?;
-    let radius = radius(&sharpest);
-    let kept = radius >= limit * (1.0 - ROUNDING);
-    let found = MIN_CONVEX_RADIUS.found(1e3 * radius, Some(1e3 * limit), "mm", Verdict::of(kept));
-    Some(at(body, &sharpest, found, if kept { None } else { body.remedy() }))
+    let kept = least.value >= limit * (1.0 - ROUNDING);
+    let found = MIN_CONVEX_RADIUS.found(1e3 * least.value, Some(1e3 * limit), "mm", Verdict::of(kept));
+    Some(at(body, &least, found, if kept { None } else { body.remedy() }))
 }

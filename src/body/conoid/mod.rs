@@ -240,7 +240,8 @@ impl Conoid {
 
     /// The smallest prime radius that keeps the limits in every slice, and the curvature across them.
     fn size(&mut self, required: &Required) -> Result<f64, NoRadius> {
-        let of_slice = |z: &f64| size::smallest_prime_radius(&self.slice(*z), &self.follower, required);
+        let of_slice =
+            |z: &f64| size::smallest(&self.slice(*z), &self.follower, required).map(|smallest| smallest.prime_radius);
         let radii: Result<Vec<f64>, _> = self.slices().par_iter().map(of_slice).collect();
         let mut radius = radii?.into_iter().fold(required.least, f64::max);
         let keeps = |conoid: &mut Self, radius: f64| {

@@ -10,7 +10,7 @@ use crate::load::{AirBuffer, Load};
 use crate::machine::{Machine, NoPress, Press, Rotation};
 use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw};
 use crate::profile::outline::{self, OutlineError};
-use crate::profile::size::{self, NoRadius, Required, rounded_up};
+use crate::profile::size::{self, NoRadius, Required, Smallest};
 use crate::profile::{Curves, Worst, lifts};
 use crate::report::sheet::Sheet;
 use crate::report::{CamMeasures, Forces, Report, Section, Speeds};
@@ -35,8 +35,8 @@ pub struct Disc {
     motion: Arc<dyn Motion>,
     follower: Arc<dyn Follower>,
     load: Option<Arc<dyn Load>>,
-    /// Smallest prime radius that keeps every limit, m; `None` when none does.
-    smallest_prime_radius: Option<f64>,
+    /// The sizes that keep every limit; `None` when none does.
+    smallest: Option<Smallest>,
     worst: WorstPlaces,
 }
 
@@ -55,7 +55,7 @@ pub enum DiscError {
     Size(#[from] NoRadius),
     /// The follower does not reach the cam.
     #[error(
-        "the follower does not reach every lift on a cam of base radius {base_radius_mm} mm; give another cam.base_radius, or a longer arm"
+        "the follower does not reach every lift on a cam of base radius {base_radius_mm} mm; give a smaller cam.base_radius, or another arm"
     )]
     OutOfReach {
         /// The base radius, mm.
@@ -113,7 +113,7 @@ impl Disc {
             speed: None,
             motion,
             load: None,
-            smallest_prime_radius: None,
+            smallest: None,
             worst: WorstPlaces::default(),
         }
     }
@@ -130,15 +130,15 @@ impl Disc {
         }
         let offset = self.follower.element().offset();
         let required = Required::of(&self.machine.limits, &self.machine.cam, &*self.follower);
-        let smallest = size::smallest_prime_radius(&*self.motion, &*self.follower, &required);
+        let smallest = size::smallest(&*self.motion, &*self.follower, &required);
         let base = match self.machine.cam.base_radius {
             Some(base) => base,
-            None => rounded_up(smallest? - offset),
+            None => smallest?.base_radius,
         };
         let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
         let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
         self.follower = sized.ok_or(DiscError::OutOfReach { base_radius_mm: MILLIMETRES * base })?.into();
-        self.smallest_prime_radius = smallest.ok();
+        self.smallest = smallest.ok();
         Ok(self)
     }
 
@@ -163,13 +163,13 @@ impl Disc {
     /// The base radius `auto` would take, m: the smallest that passes, in whole millimetres.
     #[must_use]
     pub fn passing_base_radius(&self) -> Option<f64> {
-        self.smallest_prime_radius.map(|prime| rounded_up(prime - self.curves().offset()))
+        self.smallest.map(|smallest| smallest.base_radius)
     }
 
     /// Smallest prime radius that keeps every limit, m; `None` when none does.
     #[must_use]
     pub fn smallest_prime_radius(&self) -> Option<f64> {
-        self.smallest_prime_radius
+        self.smallest.map(|smallest| smallest.prime_radius)
     }
 
     /// Largest lift, m or rad.
@@ -320,13 +320,19 @@ impl Body for Disc {
     }
 
     fn remedy(&self) -> Option<String> {
-        self.passing_base_radius().map(|base| format!("a base radius of {} mm would pass", 1e3 * base))
+        // A cam that no drawing holds is no remedy.
+        let base = self.passing_base_radius().filter(|base| MILLIMETRES * base < outline::LARGEST_COORDINATE)?;
+        Some(format!("a base radius of {} mm would pass", 1e3 * base))
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
         let curves = self.curves();
         let outline = outline::profile(curves, request.fit).map_err(|error| match error {
             OutlineError::Undercut(_) => DrawError::NoOutline(error.to_string()),
+            // Cusps of an undercut profile can lie too near each other to be told apart.
+            OutlineError::Fit(_) if self.least_radius().value <= curves.offset() => {
+                DrawError::NoOutline(error.to_string())
+            }
             other => DrawError::Outline(other),
         })?;
         let part = Part::turning(&self.machine, outline).balanced(&self.machine);
@@ -351,7 +357,7 @@ impl Body for Disc {
             roller_radius_mm: self.roller_radius().map(|radius| MILLIMETRES * radius),
             max_lift_mm: lift(Quantity::Length, MILLIMETRES),
             max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
-            smallest_prime_radius_mm: self.smallest_prime_radius.map(|radius| MILLIMETRES * radius),
+            smallest_prime_radius_mm: self.smallest_prime_radius().map(|radius| MILLIMETRES * radius),
             plate: None,
             weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
         };
@@ -395,7 +401,7 @@ mod tests {
         let paper = disc("dpi-paper", &["transition.kind=none", "cam.base_radius=170mm"]);
         let worst = extremes::pressure_angle(paper.curves());
         assert!((worst.value.to_degrees() - 71.1).abs() < 0.05, "{}", worst.value.to_degrees());
-        let passing = paper.smallest_prime_radius.expect("a radius");
+        let passing = paper.smallest_prime_radius().expect("a radius");
         assert!((passing - 1.015).abs() < 1e-3, "{passing}");
     }
 
@@ -411,7 +417,7 @@ mod tests {
             vec!["buffer.column=return", "cam.lever=0.2"],
         ] {
             let cam = disc("dpi", &overrides);
-            let prime = cam.smallest_prime_radius.expect("a radius");
+            let prime = cam.smallest_prime_radius().expect("a radius");
             let limits = cam.machine.limits;
             let passes = |prime: f64| {
                 let follower = cam.follower.sized(prime).expect("in reach");

@@ -89,7 +89,9 @@ pub enum FitError {
         parameter: f64,
     },
     /// The tolerance asks for more arcs than a drawing can hold, or lies in the rounding of the coordinates.
-    #[error("a tolerance of {tolerance} cannot be kept")]
+    #[error(
+        "a tolerance of {tolerance} cannot be kept: it must lie between 64 times the rounding of the coordinates and 1 mm"
+    )]
     ToleranceTooFine {
         /// The tolerance, in the unit of the curve.
         tolerance: f64,

@@ -17,7 +17,7 @@ const LONGEST_PIECE: f64 = PI * (1.0 + 1e-12);
 const LONGEST_DWELL: f64 = 1.9 * PI;
 
 /// Largest coordinate a drawing may have, mm: readers treat larger ones as mistakes.
-const LARGEST_COORDINATE: f64 = 1e6;
+pub const LARGEST_COORDINATE: f64 = 1e6;
 
 /// Tolerance of the pitch curve on a sheet, which is for viewing only: a fifth of a thin pen, m.
 const PITCH_TOLERANCE: f64 = 0.05e-3;
@@ -113,8 +113,8 @@ pub enum OutlineError {
         /// Cam angle, degrees.
         cam_deg: f64,
     },
-    /// The tolerance cannot be kept.
-    #[error("{0}: it must lie between 64 times the rounding of the coordinates and 1 mm")]
+    /// The curve is not smooth, or the tolerance cannot be kept.
+    #[error(transparent)]
     Fit(#[from] FitError),
 }
 
