@@ -2,6 +2,7 @@
 
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
+use camgen::machine::Machine;
 use camgen::motion::{Jet, Motion, Piece};
 use camgen::pipeline::{Builder, Error, Spec, Writing};
 use std::f64::consts::TAU;
@@ -88,4 +89,43 @@ fn what_cannot_be_is_told_by_its_kind() {
     assert!(matches!(set.commit(), Err(Error::Files(_))));
     let press = Spec::rotary(roller().machine().expect("no press is needed"), 35.0).solve().expect_err("no press");
     assert!(matches!(press, Error::Solve(_)) && press.to_string().contains("describes no press"), "{press}");
+}
+
+/// Under a face ρ = R_b + s + s'' = R_b + 4 mm + 12 mm cos 2θ: −3 mm at 90° on a base radius of 5 mm.
+#[test]
+fn a_profile_that_turns_back_under_a_face_is_told_by_how_much() {
+    let face = Spec::builder("face").set("follower.flat.preload", "100 N").base_radius(0.005);
+    let cam = face.motion(Wave).expect("in range").solve().expect("a cam");
+    let proven = cam.draw(TOLERANCE).expect("a drawing").prove().expect("a proof");
+    let undercut = proven.findings().iter().find(|finding| &*finding.check == "undercut").expect("the check");
+    // Solved by an exact derivative; the report rounds nothing.
+    assert!((undercut.value + 3.0).abs() < 1e-9, "{undercut:?}");
+    assert!(!proven.passed());
+}
+
+/// Lifts of 300 mm within a few degrees under a face on a disc of 20 mm: the profile folds without a crossing to cut at.
+#[test]
+fn a_cam_without_outline_is_never_passed() {
+    let segments = [
+        ("3-4-5", 46, 300),
+        ("cubic", 53, -100),
+        ("cubic", 105, 300),
+        ("cycloidal", 104, 133),
+        ("cycloidal", 35, 300),
+        ("cubic", 17, 100),
+    ];
+    let mut toml =
+        "name = \"x\"\n[cam]\nbase_radius = \"20 mm\"\n[follower.flat]\n[motion]\nstart = \"100 mm\"\n".to_owned();
+    for (law, over, to) in segments {
+        toml += &format!("[[motion.segment]]\nlaw = \"{law}\"\nover = \"{over} deg\"\nto = \"{to} mm\"\n");
+    }
+    let machine = Machine::from_toml("x.toml", &toml, &[]).expect("in range");
+    let (motion, rpm) = machine.motion().expect("a program");
+    let cam = Spec::of_motion(machine, motion, rpm).solve().expect("a cam");
+    let proven = cam.draw(TOLERANCE).expect("a drawing").prove().expect("a proof");
+    let why = proven.no_outline().expect("no outline").to_owned();
+    assert!(!proven.passed());
+    assert!(proven.report().notes.iter().any(|note| note.contains(&why)), "{:?}", proven.report().notes);
+    let forced = proven.files(&Writing { force: true, ..Writing::to("never", "wave") });
+    assert!(matches!(forced, Err(Error::NoOutline(_))), "{forced:?}");
 }

@@ -149,7 +149,7 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
         proven.report()
     };
     show(&report, common)?;
-    Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
+    Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
 /// Prints a report as it was asked for.

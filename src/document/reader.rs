@@ -22,6 +22,8 @@ pub struct Reader<'a> {
     missing: BTreeMap<String, Found>,
     /// Paths that have the wrong shape: faults inside them are not reported.
     misshapen: BTreeSet<String>,
+    /// Tables that a misspelt key or table may have meant.
+    meant: BTreeSet<&'static str>,
     faults: RefCell<Vec<Found>>,
 }
 
@@ -32,7 +34,7 @@ impl<'a> Reader<'a> {
         let mut document = Document::new(source, text, overrides);
         let faults = RefCell::new(std::mem::take(&mut document.faults));
         let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
-        let mut reader = Self { document, sections, values, missing, misshapen, faults };
+        let mut reader = Self { document, sections, values, missing, misshapen, meant: BTreeSet::new(), faults };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -112,8 +114,7 @@ impl<'a> Reader<'a> {
                         value::read(key, &path, &Scalar::Text(text.into())).map_err(|misfit| (misfit, None))
                     }
                     Presence::Required(_) => {
-                        let header = self.document.tables.get(table).filter(|_| section.occurs == Occurs::Repeated);
-                        let place = header.map(|span| Place::File(span.clone()));
+                        let place = self.document.header(table).filter(|_| section.occurs == Occurs::Repeated);
                         self.missing.insert(path.clone(), missing(key, &path, source, place));
                         continue;
                     }
@@ -149,8 +150,11 @@ impl<'a> Reader<'a> {
                 let near = if faults.len() < MOST_FAULTS { nearest(&pattern, &known) } else { None };
                 let near = near.map(|near| filled(near, &indices));
                 if let Some(near) = &near {
-                    // The key is there under a wrong name: do not report it as missing too.
+                    // The key is there under a wrong name: do not report it, or its table, as missing too.
                     self.missing.remove(near);
+                    self.meant.extend(self.sections.iter().map(|section| section.path).filter(|path| {
+                        near.rsplit_once('.').is_some_and(|(table, _)| table.split('[').next() == Some(path))
+                    }));
                 }
                 (format!("unknown key `{path}`"), near.map(|near| format!("did you mean `{near}`?")))
             } else if let Some((array, count)) = self.beyond_the_end(path) {
@@ -195,6 +199,12 @@ impl<'a> Reader<'a> {
 
     fn told(&self, message: String, help: Option<String>, place: Option<Place>) {
         self.faults.borrow_mut().push(Found { message, help, place });
+    }
+
+    /// Whether a fault that was reported explains why a table is absent: it has the wrong shape, or another name.
+    #[must_use]
+    pub fn is_explained(&self, section: &Section) -> bool {
+        self.misshapen.contains(section.path) || self.meant.contains(section.path)
     }
 
     /// Reports a fault of the whole file. What follows from a text that is not TOML is not reported.
@@ -283,12 +293,13 @@ impl Table<'_> {
         entry.and_then(|entry| entry.value.typed()).unwrap_or("its default").to_owned()
     }
 
-    /// Reports a fault at the value of a key, or without a place when it is absent. What follows from a text that is not
+    /// Reports a fault at the value of a key, or at the header of its table when it is absent. What follows from a text that is not
     /// TOML is not reported.
     pub fn fail<T>(&self, field: &Field<T>, message: String, help: Option<String>) {
         if !self.reader.document.broken {
             let entry = self.reader.document.entries.get(&self.path_of(&field.key));
-            self.reader.told(message, help, entry.map(|entry| entry.at.clone()));
+            let place = entry.map(|entry| entry.at.clone()).or_else(|| self.reader.document.header(&self.path));
+            self.reader.told(message, help, place);
         }
     }
 }

@@ -105,7 +105,9 @@ impl<'a> Document<'a> {
 
     fn parse(&mut self) {
         let (table, errors) = DeTable::parse_recoverable(self.text);
-        for error in errors {
+        // What the parser finds after the first fault of the text mostly follows from it.
+        let first = errors.iter().min_by_key(|error| error.span().map(|span| span.start));
+        if let Some(error) = first {
             self.not_toml(error.message(), error.span());
         }
         self.table("", table.get_ref(), 0);
@@ -192,6 +194,11 @@ impl<'a> Document<'a> {
             first_from(&self.entries, start).is_some_and(|key| key.starts_with(start))
                 || first_from(&self.tables, start).is_some_and(|key| key.starts_with(start))
         })
+    }
+
+    /// Where the table at a path begins, when its header is in the file.
+    pub(super) fn header(&self, path: &str) -> Option<Place> {
+        self.tables.get(path).map(|span| Place::File(span.clone()))
     }
 
     /// The faults as reported: in the order of their places, none twice.

@@ -185,7 +185,8 @@ impl Named<'_> {
         let path = self.path;
         let kinds = dimensions.iter().map(Dimension::to_string).collect::<Vec<_>>().join(" or ");
         let units = dimensions.iter().map(|dimension| dimension.unit_list()).collect::<Vec<_>>().join(", ");
-        let help = format!("`{path}` is a {kinds}: a number and one of {units}{or_words}");
+        let article = if kinds.starts_with('a') { "an" } else { "a" };
+        let help = format!("`{path}` is {article} {kinds}: a number and one of {units}{or_words}");
         misfit(format!("`{path}`: {error}"), Some(help))
     }
 

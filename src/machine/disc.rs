@@ -244,7 +244,13 @@ pub(super) fn reached_by(reader: &Reader<'_>, cam: &CamData, follower: &Follower
     let Some(base) = cam.base_radius else { return };
     if follower.shape.sized(base + follower.shape.element().offset()).is_none() {
         let table = reader.table(&SECTION);
-        let help = Some("make it larger, or bring the follower nearer to the shaft".into());
+        let offset = follower.shape.element().offset();
+        let millimetres = |prime: f64| format!("{:.3} mm", 1e3 * (prime - offset));
+        let help = match follower.shape.prime_radii() {
+            (least, f64::INFINITY) => format!("it must be above {}", millimetres(least)),
+            (least, largest) => format!("it must be between {} and {}", millimetres(least), millimetres(largest)),
+        };
+        let help = Some(format!("{help}, or place the follower elsewhere"));
         table.fail(&BASE_RADIUS, "the follower does not reach a cam of this base radius".into(), help);
     }
 }

@@ -500,3 +500,40 @@ fn the_follower_is_one_of_the_list() {
     let two = format!("two followers: [{}] and [{}]", FOLLOWERS[0].section.path, FOLLOWERS[1].section.path);
     assert!(told.to_string().contains(&two), "{told}");
 }
+
+/// A motion program with a fault gives that fault, at its place, and none that follows from it.
+#[test]
+fn a_fault_of_a_motion_program_is_told_once() {
+    let whole = "name = \"cam\"\n[follower.roller]\nradius = \"10 mm\"\n[motion]\nstart = \"0 mm\"\n";
+    let segments = |over: &str| {
+        format!("{whole}[[motion.segment]]\nover = \"{over}\"\nto = \"9 mm\"\n[[motion.segment]]\nto = \"0 mm\"\n")
+    };
+    for (toml, part, line) in [
+        (segments("360 deg"), "already cover 360.000000 deg", 9),
+        (segments("90 deg").replace("over = \"90 deg\"\n", ""), "a segment has no `over`", 6),
+        (segments("90 deg").replace("follower.roller", "follower.rollr"), "did you mean `follower.roller.radius`", 3),
+        (format!("{whole}[motion.segment]\nover = \"90 deg\"\n"), "must be an array of tables", 6),
+        (whole.to_owned(), "a motion needs segments", 5),
+        (
+            segments("90 deg").replace("start = ", "start = = ").replace("[follower.roller]", "[follower.roller"),
+            "not TOML",
+            2,
+        ),
+    ] {
+        let error = Machine::from_toml("cam.toml", &toml, &[]).expect_err(part);
+        assert_eq!(error.faults.len(), 1, "{error}");
+        assert!(error.to_string().contains(part), "no {part:?} in\n{error}");
+        assert_eq!(error.faults[0].place.as_ref().map(|place| place.line), Some(line), "{error}");
+    }
+}
+
+/// What a lever can reach is told when the cam is out of it.
+#[test]
+fn a_cam_out_of_reach_is_told_the_reach() {
+    let lever = "name = \"cam\"\n[follower.swinging-roller]\nradius = \"10 mm\"\narm = \"100 mm\"\npivot_distance = \"150 mm\"\n";
+    for base in ["30 mm", "300 mm"] {
+        let error = Machine::from_toml("cam.toml", &format!("{lever}[cam]\nbase_radius = \"{base}\"\n"), &[]);
+        let text = error.expect_err("out of reach").to_string();
+        assert!(text.contains("between 40.000 mm and 240.000 mm"), "{text}");
+    }
+}

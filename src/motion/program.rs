@@ -15,8 +15,10 @@ const DWELL: &str = "dwell";
 /// The law of a segment without the key `law`.
 const USUAL: &str = "cycloidal";
 
+/// Positions of a lever are counted from any zero: two turns each way hold every one.
+const LARGEST_SWING: f64 = 2.0 * TAU;
 /// Positions, m or rad.
-const POSITION: (Bounds, Bounds) = (within(-LONGEST, LONGEST), within(-PI, PI));
+const POSITION: (Bounds, Bounds) = (within(-LONGEST, LONGEST), within(-LARGEST_SWING, LARGEST_SWING));
 
 const RPM: Field<f64> = Field::number(
     "rpm",
@@ -161,11 +163,10 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
     let start = table.get(&START);
     let segments: Vec<Table<'_>> = reader.elements(&SEGMENT).collect();
     if segments.is_empty() {
-        table.fail(
-            &START,
-            "a motion needs segments".into(),
-            Some("add [[motion.segment]] with law, over and to".into()),
-        );
+        if !reader.is_explained(&SEGMENT) {
+            let help = Some("add [[motion.segment]] with law, over and to".into());
+            table.fail(&START, "a motion needs segments".into(), help);
+        }
         return None;
     }
     let angles = widths(&segments);
@@ -195,6 +196,11 @@ fn widths(segments: &[Table<'_>]) -> Option<Vec<f64>> {
             Some(over) => over,
             None if segment.has(&OVER) => return None,
             None if index + 1 == segments.len() && sum < TAU => TAU - sum,
+            None if index + 1 == segments.len() => {
+                let message = format!("the segments before the last already cover {:.6} deg", sum.to_degrees());
+                segment.fail(&OVER, message, Some("make them shorter, or remove the last".into()));
+                return None;
+            }
             None => {
                 let help = "only the last segment may omit it; it then takes the rest of the turn";
                 segment.fail(&OVER, "a segment has no `over`".into(), Some(help.into()));

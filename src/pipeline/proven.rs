@@ -69,10 +69,10 @@ impl Proven<'_> {
         &self.findings
     }
 
-    /// Whether no check failed.
+    /// Whether there is an outline and no check failed.
     #[must_use]
     pub fn passed(&self) -> bool {
-        passed(&self.findings)
+        self.drawn.is_ok() && passed(&self.findings)
     }
 
     /// Why there is no outline, when there is none.
@@ -114,7 +114,9 @@ impl Proven<'_> {
             rolled: self.rolled.as_ref(),
             tolerance_mm: MILLIMETRES * self.request.fit.tolerance,
         };
-        report(body, body.sections(&found), self.findings.clone())
+        let mut report = report(body, body.sections(&found), self.findings.clone());
+        report.notes.extend(self.no_outline().map(|why| format!("there is no outline: {why}")));
+        report
     }
 
     /// The point table with so many rows over a turn of the cam, or steps over the stroke of a plate.
