@@ -4,6 +4,7 @@
 //! renamed, each over its predecessor, which is kept under another name until the last rename has succeeded; a failure
 //! in between puts the old files back.
 
+use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -38,12 +39,45 @@ pub enum FilesError {
         /// Why.
         source: io::Error,
     },
+    /// A file cannot be put in its place, and neither can what stood in the places of the files before it.
+    #[error(
+        "cannot write `{}`: {source}; not everything could be put back: {}",
+        path.display(),
+        left.iter().map(Left::to_string).collect::<Vec<_>>().join(", ")
+    )]
+    NotPutBack {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+        /// What is not as it was before.
+        left: Vec<Left>,
+    },
+}
+
+/// A file that is not as it was before.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Left {
+    /// The file.
+    pub target: PathBuf,
+    /// Where its old content is; `None` where there was none and the new one could not be removed.
+    pub old: Option<PathBuf>,
+}
+
+impl fmt::Display for Left {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let target = self.target.display();
+        match &self.old {
+            Some(old) => write!(f, "the old `{target}` is kept as `{}`", old.display()),
+            None => write!(f, "the new `{target}` is still there"),
+        }
+    }
 }
 
 /// Writes all outputs into a directory, which is made when missing, and returns their paths.
 ///
 /// # Errors
-/// [`FilesError`]; then every file is as it was before.
+/// [`FilesError`]; then every file is as it was before, or, where the system refuses that too, the error names where it is.
 pub fn write_all(directory: &Path, outputs: &[Output]) -> Result<Vec<PathBuf>, FilesError> {
     fs::create_dir_all(directory).map_err(|source| FilesError::Directory { path: directory.to_owned(), source })?;
     let mut staged: Vec<(TempPath, PathBuf)> = Vec::new();
@@ -55,12 +89,12 @@ pub fn write_all(directory: &Path, outputs: &[Output]) -> Result<Vec<PathBuf>, F
     }
     let mut placed: Vec<(PathBuf, Option<TempPath>)> = Vec::new();
     for (temporary, target) in staged {
-        match place(directory, temporary, &target) {
-            Ok(old) => placed.push((target, old)),
-            Err(source) => {
-                put_back(placed);
-                return Err(FilesError::File { path: target, source });
-            }
+        if let Err(source) = place(directory, temporary, &target, &mut placed) {
+            let left = put_back(placed);
+            return Err(match left.as_slice() {
+                [] => FilesError::File { path: target, source },
+                _ => FilesError::NotPutBack { path: target, source, left },
+            });
         }
     }
     sync_directory(directory);
@@ -90,8 +124,13 @@ fn make_readable(_: &File) -> io::Result<()> {
     Ok(())
 }
 
-/// Renames over the target; the file that stood there is returned under its other name.
-fn place(directory: &Path, temporary: TempPath, target: &Path) -> io::Result<Option<TempPath>> {
+/// Renames over the target; what stood there is kept in `placed` under its other name.
+fn place(
+    directory: &Path,
+    temporary: TempPath,
+    target: &Path,
+    placed: &mut Vec<(PathBuf, Option<TempPath>)>,
+) -> io::Result<()> {
     let old = if target.exists() {
         let keep = NamedTempFile::with_prefix_in(".camgen-old-", directory)?.into_temp_path();
         fs::rename(target, &keep)?;
@@ -99,23 +138,32 @@ fn place(directory: &Path, temporary: TempPath, target: &Path) -> io::Result<Opt
     } else {
         None
     };
-    if let Err(error) = temporary.persist(target) {
-        if let Some(old) = old {
-            // Nothing more can be done when this fails too; the error reported is the first.
-            let _ = old.persist(target);
-        }
-        return Err(error.error);
-    }
-    Ok(old)
+    // Noted before the rename, so that a failure of it is undone as well.
+    placed.push((target.to_owned(), old));
+    temporary.persist(target).map_err(|error| error.error)
 }
 
-fn put_back(placed: Vec<(PathBuf, Option<TempPath>)>) {
+/// Puts back what stood in the places; returns what could not be.
+fn put_back(placed: Vec<(PathBuf, Option<TempPath>)>) -> Vec<Left> {
+    let mut left = Vec::new();
     for (target, old) in placed {
-        match old {
-            Some(old) => drop(old.persist(&target)),
-            None => drop(fs::remove_file(&target)),
-        }
+        let old = match old {
+            Some(old) => match old.persist(&target) {
+                Ok(()) => continue,
+                Err(mut error) => {
+                    // Dropped, it would be deleted: the only copy there is.
+                    error.path.disable_cleanup(true);
+                    Some(error.path.to_path_buf())
+                }
+            },
+            None => match fs::remove_file(&target) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => None,
+                _ => continue,
+            },
+        };
+        left.push(Left { target, old });
     }
+    left
 }
 
 /// Makes the renames last through a power cut, where the system can.
@@ -177,11 +225,32 @@ mod tests {
         let (kept, fresh) = (directory.path().join("kept"), directory.path().join("fresh"));
         fs::write(&kept, "old").expect("written");
         let stage = |target: &Path| stage(directory.path(), target, b"new").expect("staged");
-        let placed = [&kept, &fresh]
-            .map(|target| (target.clone(), place(directory.path(), stage(target), target).expect("placed")));
+        let mut placed = Vec::new();
+        for target in [&kept, &fresh] {
+            place(directory.path(), stage(target), target, &mut placed).expect("placed");
+        }
         assert_eq!(fs::read_to_string(&kept).expect("kept"), "new");
-        put_back(placed.into());
+        assert_eq!(put_back(placed), []);
         assert_eq!(fs::read_to_string(&kept).expect("kept"), "old");
         assert_eq!(names(directory.path()), ["kept"]);
+    }
+
+    /// Where the system does not let the old file back into its place it is kept, and the error says where.
+    #[test]
+    fn an_old_file_is_never_lost() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let target = directory.path().join("x");
+        fs::write(&target, "old").expect("written");
+        let mut placed = Vec::new();
+        let staged = stage(directory.path(), &target, b"new").expect("staged");
+        place(directory.path(), staged, &target, &mut placed).expect("placed");
+        fs::remove_file(&target).expect("removed");
+        fs::create_dir(&target).expect("a directory in the way, over which no file can be renamed");
+        let left = put_back(placed);
+        let old = left.first().and_then(|left| left.old.clone()).expect("kept");
+        assert_eq!(fs::read_to_string(&old).expect("the old file"), "old");
+        let source = io::Error::from(io::ErrorKind::PermissionDenied);
+        let told = FilesError::NotPutBack { path: target, source, left }.to_string();
+        assert!(told.contains(&old.display().to_string()), "{told}");
     }
 }
