@@ -4,6 +4,7 @@
 //! outline is kept and reported, not repaired. LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE are read exactly, SPLINE as chords
 //! that turn by less than a shop's kink.
 
+mod groups;
 mod join;
 mod spline;
 
@@ -61,7 +62,7 @@ pub enum ReadError {
     #[error("not a DXF file: {0}")]
     NotDxf(String),
     /// It holds a number that is not finite.
-    #[error("layer {OUTLINE_LAYER} holds a coordinate that is not a finite number")]
+    #[error("an entity holds a number that is not finite, or beyond every drawing")]
     NotFinite,
 }
 
@@ -74,8 +75,8 @@ pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
     if !binary && !bytes.trim_ascii_end().ends_with(b"EOF") {
         return Err(ReadError::CutShort);
     }
-    let mut source = bytes;
-    let drawing = dxf::Drawing::load(&mut source).map_err(|error| ReadError::NotDxf(error.to_string()))?;
+    let kept = groups::kept(bytes)?;
+    let drawing = dxf::Drawing::load(&mut kept.as_slice()).map_err(|error| ReadError::NotDxf(error.to_string()))?;
     let unit = match drawing.header.default_drawing_units {
         Units::Millimeters => Unit::Millimetres,
         Units::Unitless => Unit::Untold,
@@ -312,6 +313,30 @@ mod tests {
         assert!(reading.chains[0].closed);
         assert!((contour.area_and_centroid().0 - 2500.0 * std::f64::consts::PI).abs() < 1e-2);
         assert!(contour.tangent_breaks().iter().all(|turn| turn.abs().to_degrees() < 0.05));
+    }
+
+    /// Points so far apart that their distance is no number, and a weight that outgrows every point.
+    #[test]
+    fn a_spline_beyond_every_number_is_told() {
+        let spline = |far: f64, weight: f64| {
+            let control_points = vec![point(0.0, 0.0), point(far, -far), point(-far, far)];
+            let knot_values = vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+            let weight_values = vec![1.0, weight, 1e-300];
+            dxf::entities::Spline {
+                degree_of_curve: 2,
+                control_points,
+                knot_values,
+                weight_values,
+                ..Default::default()
+            }
+        };
+        let read = |spline| read(&drawing(vec![("CAM_PROFILE", EntityType::Spline(spline))], Units::Millimeters), 1e-6);
+        for (far, weight) in [(1e300, 1.0), (f64::NAN, 1.0), (1.0, 1e300), (1.0, f64::NAN)] {
+            assert_eq!(read(spline(far, weight)), Err(ReadError::NotFinite), "{far} {weight}");
+        }
+        // The last point has no weight to speak of and stands where no number can.
+        let reading = read(spline(1e15, 1e-300)).expect("numbers");
+        assert!(reading.chains.iter().all(|chain| chain.segments.iter().all(|segment| segment.end.norm().is_finite())));
     }
 
     #[test]

@@ -46,6 +46,9 @@ pub(super) fn chords(spline: &Spline) -> Option<Vec<Segment>> {
         };
         let sharpest = sides.windows(2).map(turn).fold(0.0, f64::max);
         let length: f64 = sides.iter().map(nalgebra::Matrix::norm).sum();
+        if !length.is_finite() {
+            return None;
+        }
         let most = (length / SHORTEST_CHORD).clamp(CHORDS.0, CHORDS.1);
         let count = (f64::from(GUESS) * sharpest / TURN).clamp(CHORDS.0, most).ceil();
         let mut step = if places.is_empty() { 0.0 } else { 1.0 };
