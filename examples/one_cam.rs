@@ -9,7 +9,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let cam = Spec::rotary(machine, 35.0).solve()?;
     let proven = cam.draw(5e-6)?.prove()?;
     for finding in proven.findings() {
-        println!("{:<18} {:>12.4} {:<4} {:?}", finding.check, finding.value, finding.unit, finding.verdict);
+        // A check that was not run has no value.
+        let value = if finding.value.is_nan() { "–".to_owned() } else { format!("{:.4}", finding.value) };
+        println!("{:<18} {value:>12} {:<4} {:?}", finding.check, finding.unit, finding.verdict);
     }
     // Refused with an error when a check has failed.
     let directory = std::env::temp_dir().join("camgen-one-cam");

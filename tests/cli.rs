@@ -384,6 +384,33 @@ fn a_motion_program_becomes_a_cam() {
     }
 }
 
+/// The cut file of a motion program is its cam, also unasked, and not that of another lift.
+#[test]
+fn the_cam_of_a_motion_program_is_checked() {
+    let mut directory = on_lifter(&["make", "lifter.toml", "--name", "cam", "--out", ".", "--format", "dxf"]).directory;
+    for (args, code) in [(&[][..], 0), (&["--cam", "make"], 0), (&["--set", "motion.segment[0].to=20.05mm"], 1)] {
+        let run = camgen_in(directory, &[&["check", "cam.dxf", "lifter.toml"], args].concat());
+        assert_eq!(run.code, code, "{args:?}: {}{}", run.out, run.err);
+        directory = run.directory;
+    }
+}
+
+/// An undercut profile under a flat face has its sheet when it is forced, and the exit code of a failed check.
+#[test]
+fn a_forced_flat_face_has_a_sheet() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let lifter = include_str!("common/lifter.toml");
+    let start = lifter.find("[follower").expect("a follower");
+    let end = lifter[start..].find("\n[").map_or(lifter.len(), |at| start + at + 1);
+    let flat = [&lifter[..start], "[follower.flat]\n", &lifter[end..]].concat();
+    fs::write(directory.path().join("flat.toml"), flat).expect("written");
+    let args = ["make", "flat.toml", "--set", "cam.base_radius=5mm", "--force", "--name", "cam", "--out", "out"];
+    let run = camgen_in(directory, &args);
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert!(run.out.contains("FAIL  undercut"), "{}", run.out);
+    assert_eq!(files(&run.directory.path().join("out")), ["cam.csv", "cam.dxf", "cam.step", "cam.svg"]);
+}
+
 /// A limit that nothing keeps: every kind of cam of a press knows the force on its roller.
 #[test]
 fn a_contact_that_bears_too_much_is_refused() {

@@ -63,7 +63,7 @@ pub(super) struct MakeArgs {
 /// Flags of every command about a cam.
 #[derive(Debug, Args)]
 pub(super) struct CommonArgs {
-    /// An embedded machine or the path of a machine file
+    /// An embedded machine or the path of a machine file; `make` needs a file with a motion
     #[arg(default_value = "dpi")]
     pub(super) machine: String,
 
@@ -133,9 +133,9 @@ pub(super) struct CheckArgs {
     /// The DXF file
     pub(super) file: PathBuf,
 
-    /// Kind of cam the file should hold: rotary or translating
-    #[arg(long, value_name = "KIND", default_value = "rotary")]
-    pub(super) cam: CamKind,
+    /// Kind of cam the file should hold, by the command that makes it [default: rotary; make for a motion program]
+    #[arg(long, value_name = "KIND")]
+    pub(super) cam: Option<Checked>,
 
     /// Direction of the bed in which the forces of a plate balance
     #[arg(long, value_name = "WAY", default_value = "braking")]
@@ -146,6 +146,14 @@ pub(super) struct CheckArgs {
 }
 
 /// A kind of cam that `check` knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Checked {
+    Rotary,
+    Translating,
+    Make,
+}
+
+/// A kind of cam that `trade` knows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum CamKind {
     Rotary,

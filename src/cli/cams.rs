@@ -52,16 +52,21 @@ pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
 /// The cam of a motion program.
 pub(super) fn make(args: &MakeArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.common.machine()?;
-    let rpm = match args.common.rpm.as_slice() {
+    let spec = of_program(&args.common, machine)?;
+    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+}
+
+/// The disc cam of the motion program of a file.
+pub(super) fn of_program(common: &CommonArgs, machine: Machine) -> Result<Spec, Failure> {
+    let rpm = match common.rpm.as_slice() {
         [] => None,
-        _ => Some(args.common.one_speed(&machine)?),
+        _ => Some(common.one_speed(&machine)?),
     };
     let Some((motion, told)) = machine.motion() else {
-        let why = "the file has no motion: `make` needs the tables [motion] and [[motion.segment]]";
+        let why = format!("{} has no motion: `make` needs the tables [motion] and [[motion.segment]]", common.machine);
         return Err(Failure(format!("{why}; the cams of a press are made by rotary, translating and conoid")));
     };
-    let spec = Spec::of_motion(machine, motion, rpm.or(told));
-    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+    Ok(Spec::of_motion(machine, motion, rpm.or(told)))
 }
 
 fn conoid_spec(args: &ConoidArgs, machine: Machine) -> Result<Spec, Failure> {

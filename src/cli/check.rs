@@ -1,6 +1,7 @@
 //! `camgen check`: the proof for a DXF file that may have been edited or written by another program.
 
-use super::args::{CamKind, CheckArgs};
+use super::args::{CheckArgs, Checked};
+use super::cams::of_program;
 use super::{Failure, Outcome, print, text};
 use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::motion::equation_18::Solver;
@@ -15,12 +16,16 @@ const LARGEST_FILE: u64 = 1 << 28;
 
 pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let (machine, _) = args.common.machine()?;
-    let rpm = args.common.one_speed(&machine)?;
     let bytes = read(&args.file)?;
-    let spec = match args.cam {
-        CamKind::Rotary => Spec::rotary(machine, rpm),
-        CamKind::Translating => {
-            let solver = Solver::Ode { tolerance: LAW_TOLERANCE };
+    let of_a_program = machine.press().is_err() && machine.motion().is_some();
+    let spec = match args.cam.unwrap_or(if of_a_program { Checked::Make } else { Checked::Rotary }) {
+        Checked::Make => of_program(&args.common, machine)?,
+        Checked::Rotary => {
+            let rpm = args.common.one_speed(&machine)?;
+            Spec::rotary(machine, rpm)
+        }
+        Checked::Translating => {
+            let (rpm, solver) = (args.common.one_speed(&machine)?, Solver::Ode { tolerance: LAW_TOLERANCE });
             Spec::translating(machine, rpm, solver, args.balance.exact_on())
         }
     };

@@ -73,7 +73,7 @@ pub fn chart(title: &str, x_name: &str, y_name: &str, points: &[Point]) -> Sheet
         stroke: STROKE_OVER_TEXT * TEXT,
         groups: vec![
             Group::new("axis", "grid", grid),
-            Group::new("pitch-curve", "other settings", others),
+            Group::new("other", "other settings", others),
             Group::new("roller", "Pareto front", front),
             Group::new("labels", "labels", labels),
             Group::new("facts", "names", words),

@@ -15,16 +15,23 @@ use nalgebra::Vector2;
 /// Half the length at which a flat face is shown, over the base radius.
 const FACE_OVER_BASE: f64 = 0.8;
 
+const NOWHERE: Extents = Extents { least: Vector2::new(0.0, 0.0), largest: Vector2::new(0.0, 0.0) };
+
 /// The review sheet of a disc cam.
 ///
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.
 pub(super) fn sheet(disc: &Disc, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
-    let pitch_curve = as_turned(&disc.machine, pitch(disc.curves())?.contour);
+    // A flat face has no pitch curve: its curve is the profile, which may be undercut.
+    let pitch_curve = match disc.curves().element() {
+        Element::Roller { .. } => Some(as_turned(&disc.machine, pitch(disc.curves())?.contour)),
+        Element::Face => None,
+    };
     let outlines: Vec<Contour> = drawn.parts.iter().map(|part| part.outline.contour.clone()).collect();
     let holes = drawn.parts.iter().flat_map(super::Part::holes).map(Shape::Entity).collect();
     let roller = shown_radius(disc);
-    let inner = pitch_curve.extents();
+    let profile = drawn.parts.first().map(|part| part.outline.contour.extents());
+    let inner = pitch_curve.as_ref().map(Contour::extents).or(profile).unwrap_or(NOWHERE);
     let reach = Vector2::new(roller, roller) * (1.0 + PATH_OVER_RADIUS);
     let drawn = Extents { least: inner.least - reach, largest: inner.largest + reach };
     let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
@@ -38,8 +45,7 @@ pub(super) fn sheet(disc: &Disc, drawn: &Drawn, report: &Report) -> Result<Sheet
         group("axis", "axes", axes(&pen, disc, &drawn)),
         group("base-circle", "base circle", circle_with_name(&pen, base, 0.4, "base circle")),
     ];
-    // A flat face has no pitch curve: its curve is the profile.
-    if disc.roller_radius().is_some() {
+    if let Some(pitch_curve) = pitch_curve {
         groups.push(group("prime-circle", "prime circle", circle_with_name(&pen, prime, -1.1, "prime circle")));
         groups.push(group("pitch-curve", "pitch curve", vec![Shape::Entity(Entity::Polyline(pitch_curve))]));
     }
