@@ -1,10 +1,11 @@
-//! Root finding, extrema, quadrature, splines, banded systems, longer numbers and differential equations.
+//! Root finding, extrema, quadrature, splines, banded systems, longer numbers, differential equations, threads.
 //!
 //! Knows numbers only; every method cites its source.
 
 pub mod banded;
 pub mod double;
 pub mod extremum;
+pub mod parallel;
 pub mod quadrature;
 pub mod root;
 pub mod series;

@@ -8,10 +8,10 @@ use crate::geometry::solid::SplineSurface;
 use crate::geometry::track::Track;
 use crate::machine::Rotation;
 use crate::motion::Motion;
+use crate::numeric::parallel;
 use crate::profile::Worst;
 use crate::report::{Finding, Verdict};
 use nalgebra::Vector3;
-use rayon::prelude::*;
 
 pub(super) const ROLLING_FLANK: Check = Check {
     name: "rolling_flank",
@@ -62,7 +62,7 @@ pub(super) fn on_sections(evidence: &Evidence<'_>, conoid: &Conoid, check: &Chec
             (0..ANGLES).map(|i| Worst { value: gap(place(i)).unwrap_or(f64::INFINITY), at: place(i), z: section.z });
         all.fold(none(first, section.z), or_farther)
     };
-    let all: Vec<Worst> = evidence.outlines.par_iter().map(of_section).collect();
+    let all: Vec<Worst> = parallel::map(evidence.outlines, of_section);
     let worst = all.into_iter().reduce(or_farther)?;
     let limit = evidence.tolerance_mm;
     let found = check.found(worst.value.abs(), Some(limit), "mm", Verdict::of(worst.value.abs() <= limit));
@@ -107,6 +107,6 @@ fn on_flank(conoid: &Conoid, flank: &Flank) -> Worst {
         });
         all.fold(none(first, *z), or_farther)
     };
-    let all: Vec<Worst> = conoid.slices().par_iter().map(at_slice).collect();
+    let all: Vec<Worst> = parallel::map(&conoid.slices(), at_slice);
     all.into_iter().fold(none(0.0, 0.0), or_farther)
 }

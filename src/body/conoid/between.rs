@@ -3,8 +3,7 @@
 use super::{Conoid, ConoidError, Interpolation, bottom_law_at};
 use crate::machine::Machine;
 use crate::motion::Motion;
-use crate::numeric::extremum;
-use rayon::prelude::*;
+use crate::numeric::{extremum, parallel};
 
 /// Speeds looked at between two sections, cells of a reversal, and golden sections at the worst of either: the residual
 /// of a strip is a smooth hump or two across it, and has a few humps over the reversal.
@@ -31,13 +30,14 @@ pub struct Residual {
 /// makes it at each.
 #[must_use]
 pub fn residual(conoid: &Conoid, interpolation: Interpolation) -> Residual {
-    let pairs: Vec<(f64, f64)> = conoid.speeds.iter().copied().zip(conoid.speeds.iter().skip(1).copied()).collect();
+    let pairs = conoid.speeds.iter().copied().zip(conoid.speeds.iter().skip(1).copied());
+    let pairs: Vec<(f64, f64)> = pairs.filter(|(low, high)| low < high).collect();
     let in_strip = |&(low, high): &(f64, f64)| {
         let force = |rpm: f64| at_speed(conoid, rpm, interpolation).force;
         let worst = extremum::largest_without_slope(force, (low, high), SPEEDS, SPEED_SECTIONS);
         at_speed(conoid, worst.at, interpolation)
     };
-    let worst: Vec<Residual> = pairs.par_iter().filter(|(a, b)| a < b).map(in_strip).collect();
+    let worst: Vec<Residual> = parallel::map(&pairs, in_strip);
     let none = Residual { force: 0.0, rpm: conoid.speeds.first().copied().unwrap_or(0.0), angle: 0.0 };
     worst.into_iter().fold(none, |best, next| if next.force > best.force { next } else { best })
 }

@@ -9,9 +9,9 @@ use super::Conoid;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::solid::SplineSurface;
 use crate::machine::Rotation;
+use crate::numeric::parallel;
 use crate::numeric::spline::{Spline, bspline_basis, bspline_knots};
 use nalgebra::{Vector2, Vector3};
-use rayon::prelude::*;
 use truck_modeling::Point3;
 
 /// Points and slopes of one cam angle at the stations.
@@ -126,9 +126,9 @@ pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, FlankError> {
     let mut found = f64::INFINITY;
     for _ in 0..DOUBLINGS {
         let places = stations(conoid, parts);
-        let patches: Vec<SplineSurface> = stretches.par_iter().map(|s| patch(&exact, *s, spans, &places)).collect();
-        let off = |(stretch, patch): (&Stretch, &SplineSurface)| deviation(&exact, *stretch, patch);
-        let worst: Vec<[f64; 2]> = stretches.par_iter().zip(&patches).map(off).collect();
+        let patches: Vec<SplineSurface> = parallel::map(&stretches, |s| patch(&exact, *s, spans, &places));
+        let pairs: Vec<(Stretch, &SplineSurface)> = stretches.iter().copied().zip(&patches).collect();
+        let worst: Vec<[f64; 2]> = parallel::map(&pairs, |(stretch, patch)| deviation(&exact, *stretch, patch));
         let [along, across] = worst.iter().fold([0.0_f64; 2], |[a, b], [c, d]| [nan_max(a, *c), nan_max(b, *d)]);
         found = nan_max(along, across);
         if found <= SHARE * tolerance {

@@ -7,13 +7,13 @@ use crate::geometry::contour::Vertex;
 use crate::geometry::{CurvePoint, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Jet, Motion, Piece, Reversal};
+use crate::numeric::parallel;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
 use crate::profile::{Curves, Worst, extremes};
 use crate::report::sheet::Sheet;
 use crate::report::{Report, Section, Speeds};
 use crate::table::{BedRow, ForceRow, Row, SurfaceRow, crank_degrees};
 use nalgebra::{Vector2, Vector3};
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 impl Conoid {
@@ -58,7 +58,7 @@ impl Conoid {
             let part = Part::turning(&self.machine, self.section(*z, fit)?);
             Ok(Part { rpm: Some(*rpm), z: *z, ..part })
         };
-        self.cuts().par_iter().map(part).collect()
+        parallel::map(&self.cuts(), part).into_iter().collect()
     }
 
     fn row(&self, (rpm, z, section): (f64, f64, &Reversal), plane: Curves<'_>, cam_deg: f64) -> Row {
@@ -141,7 +141,7 @@ impl Body for Conoid {
             let worst = extremes::pressure_angle(self.plane_of(&self.slice(*z)));
             Worst { value: worst.value, at: worst.at, z: *z }
         };
-        let all: Vec<Worst> = self.slices().par_iter().map(in_slice).collect();
+        let all: Vec<Worst> = parallel::map(&self.slices(), in_slice);
         all.into_iter().fold(Worst::NONE, Worst::or_larger)
     }
 
@@ -241,7 +241,7 @@ impl Body for Conoid {
             let plane = self.plane_of(&slice);
             (0..samples).map(|i| self.row(*cut, plane, 360.0 * f64::from(i) / f64::from(samples))).collect()
         };
-        self.cuts().par_iter().flat_map(rows).collect()
+        parallel::map(&self.cuts(), rows).into_iter().flatten().collect()
     }
 
     fn sections(&self, found: &Found<'_>) -> Vec<Section> {

@@ -29,11 +29,11 @@ use crate::buffer::bottom_law::{BottomLaw, Column, column_for};
 use crate::follower::{Follower, TranslatingRoller};
 use crate::machine::{ConoidData, ConoidMode, Machine, NoPress, NoRoller, Press, RollerData, Shift};
 use crate::motion::{Jet, Motion, MotionError, Piece, Reversal, ReversalLaw};
+use crate::numeric::parallel;
 use crate::numeric::spline::Spline;
 use crate::profile::size::{self, NoRadius, Required, rounded_up};
 use crate::profile::{Curves, Worst};
 use between::Residual;
-use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
 /// The cam for many speeds.
@@ -242,7 +242,7 @@ impl Conoid {
     fn size(&mut self, required: &Required) -> Result<f64, NoRadius> {
         let of_slice =
             |z: &f64| size::smallest(&self.slice(*z), &self.follower, required).map(|smallest| smallest.prime_radius);
-        let radii: Result<Vec<f64>, _> = self.slices().par_iter().map(of_slice).collect();
+        let radii: Result<Vec<f64>, _> = parallel::map(&self.slices(), of_slice).into_iter().collect();
         let mut radius = radii?.into_iter().fold(required.least, f64::max);
         let keeps = |conoid: &mut Self, radius: f64| {
             conoid.resize(radius);

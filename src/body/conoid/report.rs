@@ -7,9 +7,9 @@ use crate::body::{Found, flank_of};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Vertex;
 use crate::motion::Reversal;
+use crate::numeric::parallel;
 use crate::report::sheet::rounded;
 use crate::report::{Section, degrees, shown};
-use rayon::prelude::*;
 use serde::Serialize;
 
 /// The outlines of all sections together.
@@ -89,7 +89,7 @@ struct Between {
 /// The sections of the report.
 pub(super) fn sections(conoid: &Conoid, found: &Found<'_>) -> Vec<Section> {
     let cuts = conoid.cuts();
-    let errors: Vec<f64> = cuts.par_iter().map(|(_, z, _)| conoid.plane_offset_error(*z)).collect();
+    let errors: Vec<f64> = parallel::map(&cuts, |(_, z, _)| conoid.plane_offset_error(*z));
     let parts = found.drawn.map(|drawn| drawn.parts.as_slice());
     let section = |(index, (cut, error)): (usize, (&(f64, f64, &Reversal), &f64))| {
         let part = parts.and_then(|parts| parts.get(index));

@@ -2,8 +2,8 @@
 
 use super::{Conoid, SLICES};
 use crate::motion::Reversal;
+use crate::numeric::parallel;
 use crate::profile::{Worst, extremes};
-use rayon::prelude::*;
 
 impl Conoid {
     /// Places along the axis at which the roller may stand and the surface is looked at, m: the sections and some between
@@ -63,7 +63,7 @@ impl Conoid {
                 extremes::largest_without_slope(self.plane_of(&slice), |piece, angle| value(self, piece, angle, *z));
             Worst { value: found.value, at: found.at, z: *z }
         };
-        let all: Vec<Worst> = slices.par_iter().map(in_slice).collect();
+        let all: Vec<Worst> = parallel::map(slices, in_slice);
         all.into_iter().fold(Worst::NONE, Worst::or_larger)
     }
 
