@@ -411,6 +411,16 @@ fn a_forced_flat_face_has_a_sheet() {
     assert_eq!(files(&run.directory.path().join("out")), ["cam.csv", "cam.dxf", "cam.step", "cam.svg"]);
 }
 
+/// Names of formats and versions as the programs that read them write them.
+#[test]
+fn formats_and_versions_may_be_in_capitals() {
+    let run = camgen(&["rotary", "--format", "DXF,Json", "--dxf-version", "R12", "--name", "cam", "--out", "out"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let out = run.directory.path().join("out");
+    assert_eq!(files(&out), ["cam.dxf", "cam.json"]);
+    assert!(fs::read_to_string(out.join("cam.dxf")).expect("a drawing").contains("AC1009"));
+}
+
 /// A limit that nothing keeps: every kind of cam of a press knows the force on its roller.
 #[test]
 fn a_contact_that_bears_too_much_is_refused() {

@@ -381,18 +381,20 @@ fn cutter(text: &str) -> Result<f64, String> {
 }
 
 fn format(text: &str) -> Result<String, String> {
-    if by_name().any(|format| format.name == text) {
-        return Ok(text.to_owned());
+    if let Some(format) = by_name().find(|format| format.name.eq_ignore_ascii_case(text)) {
+        return Ok(format.name.to_owned());
     }
     let known: Vec<&str> = by_name().map(|format| format.name).collect();
     Err(format!("no such format; one of {}", known.join(", ")))
 }
 
 fn dxf_version(text: &str) -> Result<Version, String> {
-    Version::ALL.iter().find(|(name, _)| *name == text).map(|(_, version)| *version).ok_or_else(|| {
-        let known: Vec<&str> = Version::ALL.iter().map(|(name, _)| *name).collect();
-        format!("no such version; one of {}", known.join(", "))
-    })
+    Version::ALL.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|(_, version)| *version).ok_or_else(
+        || {
+            let known: Vec<&str> = Version::ALL.iter().map(|(name, _)| *name).collect();
+            format!("no such version; one of {}", known.join(", "))
+        },
+    )
 }
 
 /// A stem names files in the output directory and must not lead out of it.
