@@ -68,7 +68,15 @@ pub fn template() -> String {
 /// The JSON schema of machine files.
 #[must_use]
 pub fn schema() -> serde_json::Value {
-    document::schema("machine file of camgen", &sections())
+    let mut schema = document::schema("machine file of camgen", &sections());
+    // A cam has one follower, of any kind.
+    for bound in ["minProperties", "maxProperties"] {
+        schema["properties"]["follower"][bound] = 1.into();
+    }
+    if let Some(names) = schema["required"].as_array_mut() {
+        names.push("follower".into());
+    }
+    schema
 }
 
 /// All faults of a machine file and its overrides.

@@ -432,7 +432,9 @@ fn the_schema_has_every_key() {
         assert!(key["description"].is_string(), "{path}: {key}");
     }
     // A press is described as a whole or not at all, and a follower by one table of several.
-    assert_eq!(schema["required"], serde_json::json!(["name"]));
+    assert_eq!(schema["required"], serde_json::json!(["name", "follower"]));
+    let follower = &schema["properties"]["follower"];
+    assert_eq!((&follower["minProperties"], &follower["maxProperties"]), (&1.into(), &1.into()));
     assert_eq!(schema["properties"]["bed"]["required"], serde_json::json!(["mass", "crank_radius"]));
     assert_eq!(schema["properties"]["follower"]["properties"]["roller"]["required"], serde_json::json!(["radius"]));
     assert_eq!(schema["properties"]["cam"]["additionalProperties"], false);
