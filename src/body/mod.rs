@@ -13,6 +13,7 @@ pub mod wedge;
 pub use part::{Layer, Part};
 
 use crate::follower::Element;
+use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::numeric::extremum;
 use crate::profile::outline::{Fit, Outline, OutlineError};
@@ -169,19 +170,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.pressure_angle(curves))
     }
 
-    /// The sharpest convex place of what the follower draws: the curvature, 1/m, infinite at a corner.
-    fn sharpest(&self) -> Worst {
-        self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.sharpest(curves))
-    }
-
     /// Smallest convex radius of what the follower draws, m: 0 at a corner, infinite where nothing is convex; negative where a
     /// profile under a face turns back on itself.
     fn least_radius(&self) -> Worst {
-        let sharpest = self.sharpest();
-        let face = self.plane().filter(|curves| curves.element() == Element::Face && sharpest.value.is_infinite());
-        let folded = face.map(extremes::least_radius).filter(|least| least.value < 0.0);
-        let radius = if sharpest.value > 0.0 { 1.0 / sharpest.value } else { f64::INFINITY };
-        folded.map_or(Worst { value: radius, ..sharpest }, plane)
+        let nowhere = Worst { value: f64::INFINITY, ..Worst::NONE };
+        self.plane().zip(self.worst_places()).map_or(nowhere, |(curves, worst)| worst.least_radius(curves))
     }
 
     /// Radius of the largest cutter that fits into the concave parts, m; `None` where nothing is concave.
@@ -212,7 +205,12 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     }
 
     /// Radius of the roller, or `None` under a flat face, m.
-    fn roller_radius(&self) -> Option<f64>;
+    fn roller_radius(&self) -> Option<f64> {
+        match self.plane()?.element() {
+            Element::Roller { radius } => Some(radius),
+            Element::Face => None,
+        }
+    }
 
     /// Least metal between the profile and what bounds it inside, m, if anything does; with its place where that is known.
     fn wall(&self) -> Option<(f64, Option<Worst>)>;
@@ -230,7 +228,14 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// Least force that presses the follower onto the cam along its path, N; `None` when the machine file gives
     /// neither mass nor preload of the follower.
-    fn least_closing_force(&self) -> Option<Worst>;
+    fn least_closing_force(&self) -> Option<Worst> {
+        let follower = &self.machine().follower;
+        let least = (follower.mass.is_some() || follower.preload.is_some()).then(|| self.largest_lifting_force());
+        least.map(|least| Worst { value: -least.value, ..least })
+    }
+
+    /// Largest force that lifts the follower from the cam along its path, N; negative where it is pressed on everywhere.
+    fn largest_lifting_force(&self) -> Worst;
 
     /// Size of the residual force that the force balance leaves, N, with the follower `moved` (m) along its path from where the
     /// motion puts it, touching the cam where its normal is this unit vector out of the metal; 0 without a load.
@@ -249,7 +254,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// Height of the solid, mm: from 0 to the thickness of a plane cam, the ends of a conoid; `None` when none is given.
     fn height(&self) -> Option<(f64, f64)> {
-        self.machine().cam.thickness.map(|thickness| (0.0, crate::geometry::MILLIMETRES * thickness))
+        self.machine().cam.thickness.map(|thickness| (0.0, MILLIMETRES * thickness))
     }
 
     /// The rows of its point table.
@@ -269,7 +274,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 #[derive(Debug, Clone, Default)]
 pub struct WorstPlaces {
     pressure_angle: OnceLock<Worst>,
-    sharpest: OnceLock<Worst>,
+    least_radius: OnceLock<Worst>,
 }
 
 impl WorstPlaces {
@@ -277,18 +282,35 @@ impl WorstPlaces {
         *self.pressure_angle.get_or_init(|| plane(extremes::pressure_angle(curves)))
     }
 
-    fn sharpest(&self, curves: Curves<'_>) -> Worst {
-        let search = || match (extremes::corners(curves).iter().find(|corner| corner.turn > 0.0), curves.element()) {
-            (Some(corner), _) => Worst { value: f64::INFINITY, at: corner.at, z: 0.0 },
-            (None, Element::Roller { .. }) => plane(extremes::convex_curvature(curves)),
-            (None, Element::Face) => {
-                let least = extremes::least_radius(curves);
-                let value = if least.value > 0.0 { 1.0 / least.value } else { f64::INFINITY };
-                Worst { value, at: least.at, z: 0.0 }
+    fn least_radius(&self, curves: Curves<'_>) -> Worst {
+        let search = || {
+            let smooth = match curves.element() {
+                Element::Roller { .. } => None,
+                Element::Face => Some(plane(extremes::least_radius(curves))),
+            };
+            // A fold is worse than a corner.
+            if let Some(folded) = smooth.filter(|least| least.value < 0.0) {
+                return folded;
+            }
+            match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
+                Some(corner) => Worst { value: 0.0, at: corner.at, z: 0.0 },
+                None => smooth.unwrap_or_else(|| radius_of(plane(extremes::convex_curvature(curves)))),
             }
         };
-        *self.sharpest.get_or_init(search)
+        *self.least_radius.get_or_init(search)
     }
+}
+
+/// The sentence of a remedy: a base radius (m) in millimetres, without the noise of the last digits.
+fn passing(base_radius: f64) -> String {
+    const PER_METRE: f64 = 1e12;
+    let picometres = (PER_METRE * base_radius - 1e-3).ceil();
+    format!("a base radius of {} mm would pass", picometres / (PER_METRE / MILLIMETRES))
+}
+
+/// The radius of the largest convex curvature; infinite where nothing is convex.
+fn radius_of(sharpest: Worst) -> Worst {
+    Worst { value: if sharpest.value > 0.0 { 1.0 / sharpest.value } else { f64::INFINITY }, ..sharpest }
 }
 
 /// A worst place of a plane cam.

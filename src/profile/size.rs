@@ -4,9 +4,9 @@ use super::{Curves, extremes, lifts};
 use crate::follower::{Element, Follower};
 use crate::machine::{CamData, Limits};
 use crate::motion::Motion;
-use crate::numeric::root;
+use crate::numeric::{extremum, root};
 
-/// Whole millimetres an automatic base radius is rounded up to, m; rounding noise of 1 nm is not a millimetre.
+/// Whole millimetres an automatic base radius is rounded up to, m; a millionth of a step is rounding noise.
 const BASE_STEP: f64 = 1e-3;
 const BASE_STEP_NOISE: f64 = 1e-6;
 
@@ -43,9 +43,12 @@ impl Required {
 /// The base radius that `auto` makes of the smallest one, m: the next whole millimetre.
 #[must_use]
 pub fn rounded_up(base_radius: f64) -> f64 {
-    let steps = (base_radius / BASE_STEP - BASE_STEP_NOISE).ceil();
-    // A quotient keeps "69 mm" the number nearest to 0.069.
-    steps / (1.0 / BASE_STEP)
+    rounded_up_to(base_radius, 1.0 / BASE_STEP)
+}
+
+/// The next of so many steps to a metre, but for rounding noise. A quotient keeps "69 mm" the number nearest to 0.069.
+fn rounded_up_to(radius: f64, steps_per_metre: f64) -> f64 {
+    (radius * steps_per_metre - BASE_STEP_NOISE).ceil() / steps_per_metre
 }
 
 /// Doublings from the least radius before giving up: 1 µm to 1e9 m.
@@ -53,8 +56,7 @@ const DOUBLINGS: u32 = 50;
 
 /// Growth from one radius to the next under a follower of limited reach: a range of radii may pass between two that do not.
 const GROWTH_IN_REACH: f64 = 1.01;
-/// Golden sections of the search for a passing range between two radii, and halvings of the search for its lower end.
-const SECTIONS: u32 = 40;
+/// Halvings of the search for the lower end of a range that passes.
 const HALVINGS: u32 = 60;
 /// Finer steps, of a tenth each, in which a base radius is rounded where the whole millimetre does not pass: to 1 nm.
 const FINER_STEPS: i32 = 6;
@@ -192,7 +194,8 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
         let better = |one: f64, other: f64| one <= other || other.is_nan();
         let is_best = !here.1.is_nan() && better(here.1, before.1) && better(here.1, next.1);
         if is_best && (next.1 > 0.0 || next.1.is_nan()) {
-            let best = lowest(before.0, next.0, &excess);
+            let room = |radius: f64| Some(-excess(radius)).filter(|room| !room.is_nan()).unwrap_or(f64::NEG_INFINITY);
+            let best = extremum::largest_without_slope(room, (before.0, next.0), 1, extremum::TO_ROUNDING).at;
             if passes(best) {
                 return Ok(first_passing(before.0, best, passes));
             }
@@ -210,25 +213,9 @@ fn first_passing(mut failing: f64, mut passing: f64, passes: impl Fn(f64) -> boo
     passing
 }
 
-/// The lowest point of a function between two radii by golden sections; what is NaN is higher than any other.
-fn lowest(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {
-    let value = |radius: f64| Some(function(radius)).filter(|value| !value.is_nan()).unwrap_or(f64::INFINITY);
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut low, mut high) = (low, high);
-    for _ in 0..SECTIONS {
-        let width = golden * (high - low);
-        let (left, right) = (high - width, low + width);
-        if value(left) <= value(right) { high = right } else { low = left }
-    }
-    0.5 * (low + high)
-}
-
 /// A base radius in reach in whole millimetres, where that passes too; else in the coarsest finer step that does.
 fn rounded_in_reach(base_radius: f64, passes: impl Fn(f64) -> bool) -> f64 {
-    let tried = (0..=FINER_STEPS).map(|finer| {
-        let steps_per_metre = 10.0_f64.powi(finer) / BASE_STEP;
-        (base_radius * steps_per_metre).ceil() / steps_per_metre
-    });
+    let tried = (0..=FINER_STEPS).map(|finer| rounded_up_to(base_radius, 10.0_f64.powi(finer) / BASE_STEP));
     let mut passing = tried.filter(|base| passes(*base));
     passing.next().unwrap_or(base_radius)
 }

@@ -9,6 +9,7 @@ use super::Conoid;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::solid::SplineSurface;
 use crate::machine::Rotation;
+use crate::numeric::extremum::larger;
 use crate::numeric::parallel;
 use crate::numeric::spline::{Spline, bspline_basis, bspline_knots};
 use nalgebra::{Vector2, Vector3};
@@ -129,8 +130,8 @@ pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, FlankError> {
         let patches: Vec<SplineSurface> = parallel::map(&stretches, |s| patch(&exact, *s, spans, &places));
         let pairs: Vec<(Stretch, &SplineSurface)> = stretches.iter().copied().zip(&patches).collect();
         let worst: Vec<[f64; 2]> = parallel::map(&pairs, |(stretch, patch)| deviation(&exact, *stretch, patch));
-        let [along, across] = worst.iter().fold([0.0_f64; 2], |[a, b], [c, d]| [nan_max(a, *c), nan_max(b, *d)]);
-        found = nan_max(along, across);
+        let [along, across] = worst.iter().fold([0.0_f64; 2], |[a, b], [c, d]| [larger(a, *c), larger(b, *d)]);
+        found = larger(along, across);
         if found <= SHARE * tolerance {
             let volume = patches.iter().map(volume).sum();
             return Ok(Flank { patches, deviation: found, volume });
@@ -143,10 +144,6 @@ pub fn flank(conoid: &Conoid, tolerance: f64) -> Result<Flank, FlankError> {
         }
     }
     Err(FlankError { tolerance: SHARE * tolerance, found })
-}
-
-fn nan_max(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
 /// One patch: `spans` spans over the angle, a station for each of `places` along the axis.
@@ -259,10 +256,10 @@ fn deviation(exact: &ExactFlank<'_>, stretch: Stretch, patch: &SplineSurface) ->
     };
     let over = |angles: &[f64], places: &[f64]| {
         let all = angles.iter().flat_map(|u| places.iter().map(move |v| (*u, *v)));
-        all.map(|(u, v)| off(u, v)).fold(0.0, nan_max)
+        all.map(|(u, v)| off(u, v)).fold(0.0, larger)
     };
     let both = over(&middles(&angles), &middles(&places));
-    [over(&middles(&angles), &places), nan_max(over(&angles, &middles(&places)), both)]
+    [over(&middles(&angles), &places), larger(over(&angles, &middles(&places)), both)]
 }
 
 /// Abscissae and weights of Gauss' rule with four points on [0, 1]: exact to the seventh power, and the integrand has the

@@ -2,13 +2,14 @@
 
 use super::{Conoid, KIND, flank, report, sheet};
 use crate::body::part::{Part, point_as_turned};
-use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, stress};
+use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, passing, radius_of, stress};
 use crate::geometry::contour::Vertex;
 use crate::geometry::{CurvePoint, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Jet, Motion, Piece, Reversal};
 use crate::numeric::parallel;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
+use crate::profile::size::rounded_up;
 use crate::profile::{Curves, Worst, extremes};
 use crate::report::sheet::Sheet;
 use crate::report::{Report, Section, Speeds};
@@ -146,22 +147,18 @@ impl Body for Conoid {
     }
 
     /// By the principal curvatures of the pitch surface.
-    fn sharpest(&self) -> Worst {
+    fn least_radius(&self) -> Worst {
         let corner = |z: &f64| {
             let corners = extremes::corners(self.plane_of(&self.slice(*z)));
-            corners.iter().find(|c| c.turn > 0.0).map(|c| Worst { value: f64::INFINITY, at: c.at, z: *z })
+            corners.iter().find(|c| c.turn > 0.0).map(|c| Worst { value: 0.0, at: c.at, z: *z })
         };
-        self.positions.iter().find_map(corner).unwrap_or_else(|| self.sharpest_smooth())
+        self.positions.iter().find_map(corner).unwrap_or_else(|| radius_of(self.sharpest_smooth()))
     }
 
     /// The largest ball that fits into the concave parts of the cam's surface.
     fn hollow(&self) -> Option<Worst> {
         let hollow = self.worst_of_metal(|conoid, piece, angle, z| -conoid.principal_curvatures(piece, angle, z).1);
         (hollow.value > 0.0).then(|| Worst { value: 1.0 / hollow.value + self.roller.radius, ..hollow })
-    }
-
-    fn lost_motion(&self) -> Vec<String> {
-        Vec::new()
     }
 
     fn roller_radius(&self) -> Option<f64> {
@@ -194,14 +191,8 @@ impl Body for Conoid {
         }))
     }
 
-    fn least_closing_force(&self) -> Option<Worst> {
-        let follower = &self.machine.follower;
-        if follower.mass.is_none() && follower.preload.is_none() {
-            return None;
-        }
-        let least =
-            self.worst_of_sections(|section, rpm, _, piece, angle| -self.path_force(section, rpm, piece, angle));
-        Some(Worst { value: -least.value, ..least })
+    fn largest_lifting_force(&self) -> Worst {
+        self.worst_of_sections(|section, rpm, _, piece, angle| -self.path_force(section, rpm, piece, angle))
     }
 
     fn unbalanced(&self, _: usize, _: f64, _: f64, _: Vector2<f64>) -> f64 {
@@ -210,7 +201,7 @@ impl Body for Conoid {
 
     fn remedy(&self) -> Option<String> {
         let base = self.smallest_prime_radius? - self.roller.radius;
-        Some(format!("a base radius of {} mm would pass", (MILLIMETRES * base - 1e-3).ceil()))
+        Some(passing(rounded_up(base)))
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {

@@ -3,8 +3,8 @@
 mod sheet;
 
 use super::part::{Part, point_as_turned};
-use super::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, largest, stress};
-use crate::follower::{Element, Follower};
+use super::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, largest, passing, stress};
+use crate::follower::Follower;
 use crate::geometry::MILLIMETRES;
 use crate::load::{AirBuffer, Load};
 use crate::machine::{Machine, NoPress, Press, Rotation};
@@ -285,13 +285,6 @@ impl Body for Disc {
         Some(&self.worst)
     }
 
-    fn roller_radius(&self) -> Option<f64> {
-        match self.follower.element() {
-            Element::Roller { radius } => Some(radius),
-            Element::Face => None,
-        }
-    }
-
     fn wall(&self) -> Option<(f64, Option<Worst>)> {
         self.machine.cam.bore_reach().map(|bore| (self.base_radius() - bore, None))
     }
@@ -305,14 +298,8 @@ impl Body for Disc {
         stress::of_lines(self, self.curves(), &self.machine)
     }
 
-    fn least_closing_force(&self) -> Option<Worst> {
-        let follower = &self.machine.follower;
-        if follower.mass.is_none() && follower.preload.is_none() {
-            return None;
-        }
-        let away = |piece: usize, at: f64| self.path_force(piece, at).map_or(f64::NAN, |force| -force);
-        let least = largest(self.curves(), away);
-        Some(Worst { value: -least.value, ..least })
+    fn largest_lifting_force(&self) -> Worst {
+        largest(self.curves(), |piece, angle| self.path_force(piece, angle).map_or(f64::NAN, |force| -force))
     }
 
     fn unbalanced(&self, piece: usize, angle: f64, moved: f64, normal: Vector2<f64>) -> f64 {
@@ -322,7 +309,7 @@ impl Body for Disc {
     fn remedy(&self) -> Option<String> {
         // A cam that no drawing holds is no remedy.
         let base = self.passing_base_radius().filter(|base| MILLIMETRES * base < outline::LARGEST_COORDINATE)?;
-        Some(format!("a base radius of {} mm would pass", 1e3 * base))
+        Some(passing(base))
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {

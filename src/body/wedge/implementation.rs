@@ -196,10 +196,6 @@ impl Body for Wedge {
         Some(&self.worst)
     }
 
-    fn roller_radius(&self) -> Option<f64> {
-        Some(self.data.roller_radius)
-    }
-
     fn contact_force(&self, piece: usize, x: f64) -> Option<f64> {
         Some(self.normal_force(piece, x))
     }
@@ -208,13 +204,8 @@ impl Body for Wedge {
         stress::of_lines(self, self.curves(), &self.machine)
     }
 
-    fn least_closing_force(&self) -> Option<Worst> {
-        let follower = &self.machine.follower;
-        if follower.mass.is_none() && follower.preload.is_none() {
-            return None;
-        }
-        let least = largest(self.curves(), |piece, x| -self.path_force(piece, x));
-        Some(Worst { value: -least.value, ..least })
+    fn largest_lifting_force(&self) -> Worst {
+        largest(self.curves(), |piece, x| -self.path_force(piece, x))
     }
 
     /// In the directions in which the forces are to balance. The roller moves on its arm l1, the bottom on l2; the slope is
