@@ -83,6 +83,7 @@ fn kept_of<'a>(groups: impl Iterator<Item = Result<Group<'a>, ReadError>>) -> Re
                 }
             }
             (Within::Header(_) | Within::Entities, TYPE, b"ENDSEC") => {
+                entity.keeps(code, value)?;
                 keep(code, b"ENDSEC");
                 within = Within::LeftOut;
             }
@@ -94,6 +95,8 @@ fn kept_of<'a>(groups: impl Iterator<Item = Result<Group<'a>, ReadError>>) -> Re
                 }
             }
             (Within::Header(true), ..) => keep(code, value),
+            // A name with blanks around it, or in small letters, is the same entity to other readers.
+            (Within::Entities, TYPE, name) if entity.keeps(code, name)? => keep(code, &name.to_ascii_uppercase()),
             (Within::Entities, ..) if entity.keeps(code, value)? => keep(code, value),
             _ => {}
         }
@@ -104,26 +107,37 @@ fn kept_of<'a>(groups: impl Iterator<Item = Result<Group<'a>, ReadError>>) -> Re
 /// What of an entity is open.
 #[derive(Default)]
 struct WithinEntity {
-    /// Depth of application groups.
-    depth: u32,
+    /// An application group.
+    group: bool,
     /// An object embedded in the entity, up to the next entity.
     embedded: bool,
 }
 
 impl WithinEntity {
+    /// Whether the next entity, or the begin or end of an application group, may stand here.
+    fn may_follow(&self, code: i32, value: &[u8]) -> bool {
+        match (code, value) {
+            (APPLICATION_GROUP, b"}") => self.group,
+            (APPLICATION_GROUP, _) => !self.group && value.starts_with(b"{"),
+            _ => !self.group,
+        }
+    }
+
     fn keeps(&mut self, code: i32, value: &[u8]) -> Result<bool, ReadError> {
         match code {
-            // No group that was left open hides the next entity.
-            TYPE => *self = Self::default(),
-            EMBEDDED_OBJECT => self.embedded = true,
-            APPLICATION_GROUP if value.trim_ascii().starts_with(b"{") => self.depth = self.depth.saturating_add(1),
+            // What a group that is not closed belongs to, each reader decides for itself.
+            TYPE | APPLICATION_GROUP if !self.may_follow(code, value) => {
+                return Err(ReadError::NotDxf("an application group (code 102) is not closed, or not opened".into()));
+            }
+            TYPE => self.embedded = false,
+            EMBEDDED_OBJECT => self.embedded |= value.trim_ascii() == b"Embedded Object",
             APPLICATION_GROUP => {
-                self.depth = self.depth.saturating_sub(1);
+                self.group = !self.group;
                 return Ok(false);
             }
             _ => {}
         }
-        let kept = self.depth == 0 && !self.embedded && code != COMMENT && code < EXTENDED_DATA;
+        let kept = !self.group && !self.embedded && code != COMMENT && code < EXTENDED_DATA;
         if kept && matches!(kind(code), Some(Kind::Real)) {
             let number = std::str::from_utf8(value).ok().and_then(|text| text.trim().parse::<f64>().ok());
             if number.is_some_and(|number| number.is_nan() || number.abs() > LARGEST) {
@@ -179,8 +193,13 @@ impl<'a, L: Iterator<Item = &'a [u8]>> Iterator for Text<L> {
         let value = self.lines.next()?;
         self.line += 2;
         let number = std::str::from_utf8(code).ok().and_then(|text| text.trim().parse().ok());
+        let value = value.strip_suffix(b"\r").unwrap_or(value);
+        if value.contains(&b'\r') {
+            // Some readers take it for the end of a line.
+            return Some(Err(ReadError::NotDxf(format!("line {} holds a carriage return within", self.line))));
+        }
         Some(match number {
-            Some(code) => Ok(Group { code, value: value.strip_suffix(b"\r").unwrap_or(value).into() }),
+            Some(code) => Ok(Group { code, value: value.into() }),
             None => Err(ReadError::NotDxf(format!("line {} is not a group code", self.line - 1))),
         })
     }
@@ -262,7 +281,6 @@ mod tests {
     /// What may make a reader of whole drawings fail is gone; what cuts metal is not.
     #[test]
     fn only_what_cuts_is_kept() {
-        let nested = [(102, "{ACAD_XDICTIONARY"); 300];
         let mut groups = vec![
             (0, "SECTION"),
             (2, "HEADER"),
@@ -281,9 +299,11 @@ mod tests {
             (8, "CAM_PROFILE"),
             (1001, "APP"),
             (1002, "{"),
+            (102, "{ACAD_XDICTIONARY"),
+            (10, "nan"),
+            (102, "}"),
         ];
-        groups.extend(nested);
-        groups.extend([(10, "nan"), (0, "LINE"), (999, "a remark"), (10, "1.5"), (0, "ENDSEC"), (0, "EOF")]);
+        groups.extend([(0, " line"), (999, "a remark"), (10, "1.5"), (0, "ENDSEC"), (0, "EOF")]);
         let left = kept(&text(&groups)).expect("groups");
         let expected = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nCAM_PROFILE\n\
                         0\nLINE\n10\n1.5\n0\nENDSEC\n0\nEOF\n";
@@ -298,6 +318,28 @@ mod tests {
         }
         assert!(matches!(kept(b"x\ny\n"), Err(ReadError::NotDxf(_))));
         assert_eq!(kept(&text(&[(0, "SECTION")])), Err(ReadError::CutShort));
+    }
+
+    /// Where readers would differ on what is cut, nothing is read.
+    #[test]
+    fn what_readers_take_differently_is_refused() {
+        let file = |groups: &[(i32, &str)]| {
+            let head = [(0, "SECTION"), (2, "ENTITIES"), (0, "LINE")];
+            text(&[&head, groups, &[(0, "ENDSEC"), (0, "EOF")]].concat())
+        };
+        assert!(kept(&file(&[(102, "{A"), (10, "1"), (102, "}")])).is_ok());
+        for groups in [
+            &[(102, "{A"), (10, "1")][..],
+            &[(102, "{A"), (102, "{B")],
+            &[(102, "}")],
+            &[(102, " {A"), (102, "}")],
+            &[(999, "a\r0\rLINE")],
+        ] {
+            assert!(matches!(kept(&file(groups)), Err(ReadError::NotDxf(_))), "{groups:?}");
+        }
+        // Only an embedded object hides what follows.
+        let left = String::from_utf8(kept(&file(&[(101, "x"), (10, "1")])).expect("groups")).expect("text");
+        assert!(left.contains("10\n1\n"), "{left}");
     }
 
     /// A binary file is the same groups, its numbers to the last bit.
