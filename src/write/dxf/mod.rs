@@ -200,7 +200,7 @@ fn lightweight_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
     tags.real(43, 0.0);
     for vertex in &contour.vertices {
         tags.point(10, vertex.point);
-        tags.real(42, vertex.bulge);
+        tags.bulge(vertex.bulge);
     }
 }
 
@@ -213,7 +213,7 @@ fn old_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
         tags.text(0, "VERTEX");
         tags.text(8, layer.name());
         tags.point_3d(10, vertex.point);
-        tags.real(42, vertex.bulge);
+        tags.bulge(vertex.bulge);
     }
     tags.text(0, "SEQEND");
     tags.text(8, layer.name());
@@ -256,6 +256,25 @@ mod tests {
             assert_eq!(vertices, [(0.0, -10.0, 0.0), (40.0, -10.0, 1.0), (40.0, 10.0, 0.0), (0.0, 10.0, 1.0)]);
             assert!(matches!(&entities[1].specific, dxf::entities::EntityType::Circle(c) if c.radius == 4.5));
             assert_eq!(drawing.header.default_drawing_units, dxf::enums::Units::Millimeters, "{name}");
+        }
+    }
+
+    /// FreeCAD 0.20 takes `42 0.0` for an arc without a radius and drops the edge; without the group it is a line.
+    #[test]
+    fn only_arcs_have_a_bulge() {
+        let (tiny, arc) = (1e-13, 0.414_213_562_373);
+        for (name, version) in Version::ALL {
+            let mut entities = slot();
+            if let Some((_, Entity::Polyline(contour))) = entities.first_mut() {
+                contour.vertices[0].bulge = tiny;
+                contour.vertices[1].bulge = -arc;
+            }
+            let text = String::from_utf8(write(&entities, version)).expect("ASCII");
+            let (_, written) = text.split_once("ENTITIES").expect("a section of entities");
+            let (written, _) = written.split_once("ENDSEC").expect("its end");
+            let lines: Vec<&str> = written.lines().skip(1).collect();
+            let bulges = lines.chunks(2).filter(|pair| pair[0].trim() == "42").map(|pair| pair[1]);
+            assert_eq!(bulges.collect::<Vec<_>>(), ["-0.414213562373", "1.0"], "{name}");
         }
     }
 

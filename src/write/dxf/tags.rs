@@ -63,6 +63,15 @@ impl Tags {
         self.text(code, &plain(value, DECIMALS));
     }
 
+    /// The bulge of a vertex, of an arc only: FreeCAD's importer drops an edge of bulge 0 as a degenerate arc, and a line is what
+    /// every reader takes a vertex without the group for.
+    pub(super) fn bulge(&mut self, value: f64) {
+        let text = plain(value, DECIMALS);
+        if text != "0.0" {
+            self.text(42, &text);
+        }
+    }
+
     pub(super) fn handle(&mut self, code: u16, value: u32) {
         self.text(code, &format!("{value:X}"));
     }
