@@ -171,7 +171,7 @@ fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
     }
 }
 
-/// Every check is reached by some cam or some file, and is found in the order of the list.
+/// Every check is reached by some cam or some file, and is found in the order of the list, the worst verdicts first.
 #[test]
 fn every_check_is_run_for_some_cam() {
     names_are_distinct(CHECKS.iter().map(|check| check.name).collect());
@@ -192,7 +192,13 @@ fn every_check_is_run_for_some_cam() {
     let mut seen: Vec<String> = Vec::new();
     for (what, report) in &reports {
         let mut rest = order.iter();
+        let mut rank = 0;
         for finding in &report.checks {
+            // Failures, then warnings, then the rest, each in the order of the list.
+            if finding.verdict.rank() > rank {
+                (rest, rank) = (order.iter(), finding.verdict.rank());
+            }
+            assert_eq!(finding.verdict.rank(), rank, "{what}: {} is shown too late", finding.check);
             assert!(rest.any(|name| *name == finding.check), "{what}: {} is unknown or out of order", finding.check);
             // Whoever is refused is told why.
             let failed = finding.verdict == Verdict::Fail;

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 const GREEN: &str = "\u{1b}[32m";
 const RED: &str = "\u{1b}[1;31m";
+const YELLOW: &str = "\u{1b}[1;33m";
 const PLAIN: &str = "\u{1b}[0m";
 
 pub(super) fn report(report: &Report, colour: bool) -> String {
@@ -44,6 +45,7 @@ fn check(finding: &Finding, colour: bool) -> String {
     let paint = match finding.verdict {
         Verdict::Pass => GREEN,
         Verdict::Fail => RED,
+        Verdict::Warn => YELLOW,
         _ => PLAIN,
     };
     let word = finding.verdict.word();

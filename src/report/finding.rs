@@ -13,6 +13,8 @@ pub enum Verdict {
     Pass,
     /// The limit is broken.
     Fail,
+    /// Nothing that must be kept is broken, but whoever cuts this cam should know it first.
+    Warn,
     /// There is no limit.
     Info,
 }
@@ -30,7 +32,18 @@ impl Verdict {
         match self {
             Verdict::Pass => "pass",
             Verdict::Fail => "FAIL",
+            Verdict::Warn => "WARN",
             Verdict::Info => "info",
+        }
+    }
+
+    /// Where it stands in a report: failures first, then warnings, then the rest.
+    #[must_use]
+    pub fn rank(self) -> u8 {
+        match self {
+            Verdict::Fail => 0,
+            Verdict::Warn => 1,
+            Verdict::Pass | Verdict::Info => 2,
         }
     }
 }
@@ -101,6 +114,13 @@ pub struct Finding {
     pub note: Option<String>,
 }
 
+/// In the order in which reports show them: failures, warnings, then the rest, each in the order in which they were found.
+#[must_use]
+pub fn worst_first(mut findings: Vec<Finding>) -> Vec<Finding> {
+    findings.sort_by_key(|finding| finding.verdict.rank());
+    findings
+}
+
 /// Whether nothing failed.
 #[must_use]
 pub fn passed(findings: &[Finding]) -> bool {
@@ -120,6 +140,27 @@ fn or_nan<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn finding(check: &'static str, verdict: Verdict) -> Finding {
+        let place = Place::default();
+        Finding { check: check.into(), value: 1.0, limit: None, unit: "1".into(), place, verdict, note: None }
+    }
+
+    /// A warning is shown before what passed and after what failed, and does not refuse the cam.
+    #[test]
+    fn warnings_are_shown_first_and_refuse_nothing() {
+        let all = [("a", Verdict::Pass), ("b", Verdict::Warn), ("c", Verdict::Info), ("d", Verdict::Warn)];
+        let findings: Vec<Finding> = all.into_iter().map(|(check, verdict)| finding(check, verdict)).collect();
+        let names = |findings: Vec<Finding>| findings.iter().map(|f| f.check.to_string()).collect::<String>();
+        assert!(passed(&findings));
+        assert_eq!(names(worst_first(findings.clone())), "bdac");
+        let refused = [findings, vec![finding("e", Verdict::Fail)]].concat();
+        assert!(!passed(&refused));
+        assert_eq!(names(worst_first(refused)), "ebdac");
+        let written = serde_json::to_value(finding("b", Verdict::Warn)).expect("JSON");
+        assert_eq!(written["verdict"], "warn");
+        assert_eq!(serde_json::from_value::<Finding>(written).expect("a finding").verdict, Verdict::Warn);
+    }
 
     #[test]
     fn angles_are_told_within_one_turn() {

@@ -10,7 +10,7 @@ mod rolled;
 pub mod sheet;
 mod values;
 
-pub use finding::{Finding, Place, Verdict, degrees, passed};
+pub use finding::{Finding, Place, Verdict, degrees, passed, worst_first};
 pub use rolled::Rolled;
 pub use values::{
     AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, shown,

@@ -25,7 +25,7 @@ use crate::body::{Body, Drawn};
 use crate::geometry::contour::Contour;
 use crate::profile::Worst;
 use crate::reading::Reading;
-use crate::report::{Finding, Place, Rolled, Verdict};
+use crate::report::{Finding, Place, Rolled, Verdict, worst_first};
 use nalgebra::Vector2;
 
 /// An outline as another program would find it in the written file.
@@ -105,7 +105,7 @@ pub const CHECKS: &[Check] = &[
     balance::CHECK,
 ];
 
-/// Runs every check that applies.
+/// Runs every check that applies: failures first, then warnings, then the rest, each in the order of the list.
 #[must_use]
 pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
     let applies = |check: &&Check| match check.on {
@@ -113,7 +113,7 @@ pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
         On::Outline => !evidence.outlines.is_empty(),
         On::File => evidence.foreign.is_some(),
     };
-    CHECKS.iter().filter(applies).filter_map(|check| (check.run)(evidence)).collect()
+    worst_first(CHECKS.iter().filter(applies).filter_map(|check| (check.run)(evidence)).collect())
 }
 
 impl Check {
