@@ -141,6 +141,14 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "WAY", default_value = "braking")]
     pub(super) balance: Balanced,
 
+    /// Speed of the section of a conoid that a DXF file should hold, one of those of --rpm
+    #[arg(long, value_name = "RPM", value_parser = rpm, allow_hyphen_values = true)]
+    pub(super) section: Option<f64>,
+
+    /// Residual force by which the sections of a conoid were chosen, as given to conoid --rpm A..B
+    #[arg(long, value_name = "FORCE", value_parser = force)]
+    pub(super) residual: Option<f64>,
+
     #[command(flatten)]
     pub(super) common: CommonArgs,
 }
@@ -150,6 +158,7 @@ pub(super) struct CheckArgs {
 pub(super) enum Checked {
     Rotary,
     Translating,
+    Conoid,
     Make,
 }
 

@@ -45,7 +45,7 @@ pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
 
 pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.common.machine()?;
-    let spec = conoid_spec(args, machine)?;
+    let spec = of_conoid(&args.common, machine, args.residual)?;
     cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
 }
 
@@ -69,9 +69,10 @@ pub(super) fn of_program(common: &CommonArgs, machine: Machine) -> Result<Spec, 
     Ok(Spec::of_motion(machine, motion, rpm.or(told)))
 }
 
-fn conoid_spec(args: &ConoidArgs, machine: Machine) -> Result<Spec, Failure> {
-    if let [Speed::Range(from, to)] = args.common.rpm.as_slice() {
-        let Some(limit) = args.residual else {
+/// The conoid of a list of speeds, or of a range of them and the residual force between the sections.
+pub(super) fn of_conoid(common: &CommonArgs, machine: Machine, residual: Option<f64>) -> Result<Spec, Failure> {
+    if let [Speed::Range(from, to)] = common.rpm.as_slice() {
+        let Some(limit) = residual else {
             let why = "a range of speeds needs --residual, the largest residual force between the sections, e.g. 2N";
             return Err(Failure(why.into()));
         };
@@ -81,11 +82,11 @@ fn conoid_spec(args: &ConoidArgs, machine: Machine) -> Result<Spec, Failure> {
         Speed::One(rpm) => Ok(*rpm),
         Speed::Range(..) => Err(Failure("give one range A..B, or a list of speeds".into())),
     };
-    let mut speeds: Vec<f64> = args.common.rpm.iter().map(one).collect::<Result<_, _>>()?;
+    let mut speeds: Vec<f64> = common.rpm.iter().map(one).collect::<Result<_, _>>()?;
     if speeds.is_empty() {
         speeds.push(machine.press().map_err(Failure::new)?.design_rpm);
     }
-    Ok(Spec::conoid(machine, speeds, args.residual))
+    Ok(Spec::conoid(machine, speeds, residual))
 }
 
 impl FileArgs {

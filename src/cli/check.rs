@@ -1,7 +1,7 @@
 //! `camgen check`: the proof for a DXF file that may have been edited or written by another program.
 
 use super::args::{CheckArgs, Checked};
-use super::cams::of_program;
+use super::cams::{of_conoid, of_program};
 use super::{Failure, Outcome, print, text};
 use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::motion::equation_18::Solver;
@@ -28,11 +28,18 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
             let (rpm, solver) = (args.common.one_speed(&machine)?, Solver::Ode { tolerance: LAW_TOLERANCE });
             Spec::translating(machine, rpm, solver, args.balance.exact_on())
         }
+        Checked::Conoid => of_conoid(&args.common, machine, args.residual)?,
     };
     let cam = spec.solve().map_err(Failure::new)?;
     let file = args.file.display().to_string();
-    let mut report = cam.check(&bytes, args.common.tolerance()).map_err(|error| match error {
+    let tolerance = args.common.tolerance();
+    let checked = match args.section {
+        Some(rpm) => cam.check_section(&bytes, rpm, tolerance),
+        None => cam.check(&bytes, tolerance),
+    };
+    let mut report = checked.map_err(|error| match error {
         Error::Read(error) => Failure(format!("`{file}` is {error}")),
+        Error::Section(why) => Failure(format!("{why} (--section RPM)")),
         other => Failure::new(other),
     })?;
     report.sections.insert(0, Section::new("file", &file));

@@ -26,6 +26,9 @@ pub enum Error {
     /// A file to be checked is not a DXF file.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The section to be checked is not told, or there is no such section.
+    #[error("{0}")]
+    Section(String),
     /// Unknown format.
     #[error("no such format `{name}`; one of {known}")]
     NoSuchFormat {

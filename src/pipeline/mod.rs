@@ -4,6 +4,7 @@
 //! [`Drawing::prove`] read back from their own bytes.
 
 mod builder;
+mod check;
 mod error;
 mod file_set;
 mod proven;
@@ -16,11 +17,8 @@ pub use proven::Proven;
 pub use spec::Spec;
 
 use crate::body::{Body, DrawError, Drawn, Kind, Request};
-use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
-use crate::reading;
 use crate::report::{Report, Section};
-use crate::verify::{self, Evidence, WrittenOutline, join_reach, rolling};
 
 /// A solved cam: exact curves, nothing drawn yet.
 #[derive(Debug)]
@@ -47,37 +45,6 @@ impl Cam {
             Err(DrawError::NoOutline(why)) => Ok(Drawing { cam: self, request, drawn: Err(why) }),
             Err(error) => Err(error.into()),
         }
-    }
-
-    /// Whether a DXF file, also one that was edited or written by another program, holds this cam within a tolerance (m).
-    ///
-    /// # Errors
-    /// [`Error::Read`] when the bytes are not a DXF file.
-    pub fn check(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
-        let tolerance_mm = MILLIMETRES * tolerance;
-        let reading = reading::read(bytes, join_reach(tolerance_mm))?;
-        let outlines: Vec<WrittenOutline> = match reading.chains.as_slice() {
-            [chain] if chain.closed => {
-                let found = chain.contour();
-                // The direction in which another program wrote the outline does not change the part.
-                let turns_left = found.area_and_centroid().0 > 0.0;
-                vec![WrittenOutline { z: 0.0, contour: if turns_left { found } else { chain.reversed().contour() } }]
-            }
-            _ => Vec::new(),
-        };
-        let body = self.body();
-        let curves = body.plane().zip(outlines.first());
-        let rolled = curves.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
-        let checks = verify::run(&Evidence {
-            body,
-            drawn: None,
-            outlines: &outlines,
-            rolled: rolled.as_ref(),
-            foreign: Some(&reading),
-            tolerance_mm,
-        });
-        let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
-        Ok(Report { command: "check".into(), ..report(body, sections, checks) })
     }
 }
 

@@ -1,0 +1,104 @@
+//! The proof of a file that was edited, or written by another program.
+
+use super::{Cam, Error, report};
+use crate::geometry::MILLIMETRES;
+use crate::reading;
+use crate::report::{Report, Section};
+use crate::verify::{self, Evidence, WrittenOutline, join_reach, rolling};
+use serde::Serialize;
+
+/// File names tell a speed with six digits: to half of the last of them it is the same speed.
+const SAME_SPEED: f64 = 5e-6;
+
+/// The section of a conoid that a file should hold.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct OfSection {
+    rpm: f64,
+    z_mm: f64,
+    /// The same in metres.
+    #[serde(skip)]
+    z: f64,
+}
+
+impl Cam {
+    /// Whether a DXF file, also one that was edited or written by another program, holds this cam within a tolerance (m). A
+    /// conoid of several sections is cut from several files: see [`Cam::check_section`].
+    ///
+    /// # Errors
+    /// [`Error::Read`] when the bytes are not a DXF file; [`Error::Section`] for a conoid of several sections.
+    pub fn check(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
+        let section = self.section(None)?;
+        self.check_outline(bytes, section, tolerance)
+    }
+
+    /// Whether a DXF file holds the section of this conoid for a speed (rpm, one of those it was solved for, or as a file name
+    /// tells it, to six digits), within a tolerance (m).
+    ///
+    /// # Errors
+    /// [`Error::Read`] when the bytes are not a DXF file; [`Error::Section`] when the cam has no such section.
+    pub fn check_section(&self, bytes: &[u8], rpm: f64, tolerance: f64) -> Result<Report, Error> {
+        let section = self.section(Some(rpm))?;
+        self.check_outline(bytes, section, tolerance)
+    }
+
+    /// The section that is asked for, where there are sections.
+    fn section(&self, asked: Option<f64>) -> Result<Option<OfSection>, Error> {
+        let noun = self.body().kind().noun;
+        let Some(conoid) = self.body().spatial() else {
+            let why =
+                asked.map(|_| Error::Section(format!("a {noun} has one outline for all its height, and no sections")));
+            return why.map_or(Ok(None), Err);
+        };
+        let all: Vec<OfSection> =
+            conoid.cuts().iter().map(|(rpm, z, _)| OfSection { rpm: *rpm, z_mm: MILLIMETRES * z, z: *z }).collect();
+        let known: Vec<String> = all.iter().map(|section| section.rpm.to_string()).collect();
+        let known = known.join(", ");
+        match (asked, all.as_slice()) {
+            (None, [only]) => Ok(Some(*only)),
+            (None, _) => Err(Error::Section(format!(
+                "a {noun} of several sections has a file for each: tell which, one of {known} rpm"
+            ))),
+            (Some(rpm), _) => {
+                let found = all.iter().find(|section| (section.rpm - rpm).abs() <= SAME_SPEED * rpm).copied();
+                found
+                    .map(Some)
+                    .ok_or_else(|| Error::Section(format!("there is no section for {rpm} rpm; one of {known} rpm")))
+            }
+        }
+    }
+
+    fn check_outline(&self, bytes: &[u8], section: Option<OfSection>, tolerance: f64) -> Result<Report, Error> {
+        let tolerance_mm = MILLIMETRES * tolerance;
+        let reading = reading::read(bytes, join_reach(tolerance_mm))?;
+        let z = section.map_or(0.0, |section| section.z);
+        let outlines: Vec<WrittenOutline> = match reading.chains.as_slice() {
+            [chain] if chain.closed => {
+                let found = chain.contour();
+                // The direction in which another program wrote the outline does not change the part.
+                let turns_left = found.area_and_centroid().0 > 0.0;
+                vec![WrittenOutline { z, contour: if turns_left { found } else { chain.reversed().contour() } }]
+            }
+            _ => Vec::new(),
+        };
+        let body = self.body();
+        let curves = body.plane().zip(outlines.first());
+        let rolled = curves.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
+        let checks = verify::run(&Evidence {
+            body,
+            drawn: None,
+            outlines: &outlines,
+            rolled: rolled.as_ref(),
+            foreign: Some(&reading),
+            tolerance_mm,
+        });
+        let mut sections = vec![Section::new("cam", &body.kind().noun)];
+        sections.extend(section.map(|section| Section::new("section", &section)));
+        sections.push(Section::new("rolling", &rolled));
+        let whole = report(body, sections, checks);
+        let noun = match section {
+            Some(section) => format!("section for {} rpm of a {}", section.rpm, whole.noun).into(),
+            None => whole.noun.clone(),
+        };
+        Ok(Report { command: "check".into(), noun, ..whole })
+    }
+}

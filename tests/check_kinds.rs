@@ -1,0 +1,72 @@
+//! `check` of sections of a conoid: each file holds the section for its speed and no other.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::{Run, camgen, camgen_in, report};
+
+/// Checks a file of the directory in which another run left it.
+fn check(run: Run, args: &[&str]) -> Run {
+    camgen_in(run.directory, &[&["check"], args].concat())
+}
+
+#[test]
+fn a_section_of_a_conoid_is_that_of_its_speed_alone() {
+    let ways = [vec![], vec!["--set", "cam.rotation=ccw"], vec!["--set", "conoid.mode=fixed"]];
+    for way in ways {
+        let conoid = [&["--rpm", "20,27.5,35"], &way[..]].concat();
+        let mut run = camgen(&[&["conoid", "--out", ".", "--name", "c", "--format", "dxf"], &conoid[..]].concat());
+        assert_eq!(run.code, 0, "{}", run.err);
+        for (of, asked) in [("20", "20"), ("27.5", "27.5"), ("35", "35"), ("20", "27.5"), ("27.5", "35"), ("35", "20")]
+        {
+            let file = format!("c-{of}rpm.dxf");
+            run = check(run, &[&[&*file, "--cam", "conoid", "--json", "--section", asked], &conoid[..]].concat());
+            let report = report(&run);
+            assert_eq!(run.code, i32::from(of != asked), "{way:?} {of} as {asked}: {report}");
+            assert_eq!(report["section"]["rpm"].as_f64().map(|rpm| rpm.to_string()).as_deref(), Some(asked));
+            let rolling = report["checks"].as_array().expect("checks").iter().find(|c| c["check"] == "rolling");
+            assert_eq!(rolling.expect("rolled")["verdict"], if of == asked { "pass" } else { "fail" }, "{report}");
+        }
+        // Made for other speeds the same section stands elsewhere along the axis, on another flank.
+        let other = ["c-27.5rpm.dxf", "--cam", "conoid", "--section", "27.5", "--rpm", "20,27.5,40"];
+        run = check(run, &[&other, &way[..]].concat());
+        assert_eq!(run.code, 1, "{way:?}: {}", run.out);
+    }
+}
+
+#[test]
+fn a_section_that_is_not_there_is_told() {
+    let mut run = camgen(&["conoid", "--rpm", "20,35", "--out", ".", "--name", "c", "--format", "dxf"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let conoid = ["c-20rpm.dxf", "--cam", "conoid", "--rpm", "20,35"];
+    for (args, told) in [
+        (conoid.to_vec(), "tell which, one of 20, 35 rpm"),
+        ([&conoid[..], &["--section", "26"]].concat(), "no section for 26 rpm; one of 20, 35 rpm"),
+        (vec!["c-20rpm.dxf", "--section", "20"], "has one outline for all its height"),
+        (vec!["c-20rpm.dxf", "--cam", "conoid", "--rpm", "20..35", "--section", "20"], "needs --residual"),
+        ([&conoid[..], &["--section", "twenty"]].concat(), "invalid value"),
+    ] {
+        run = check(run, &args);
+        assert_eq!(run.code, 2, "{args:?}: {}", run.out);
+        assert!(run.err.contains(told), "{args:?}: {}", run.err);
+    }
+    // One speed has one section, which need not be named.
+    let one = camgen(&["conoid", "--rpm", "35", "--out", ".", "--name", "c", "--format", "dxf"]);
+    assert_eq!(check(one, &["c-35rpm.dxf", "--cam", "conoid", "--rpm", "35"]).code, 0);
+}
+
+/// The names of files tell a speed with six digits at the most.
+#[test]
+fn sections_of_a_range_are_found_by_the_speeds_of_their_names() {
+    let range = ["--rpm", "20..35", "--residual", "2N"];
+    let made = camgen(&[&["conoid", "--json", "--out", ".", "--name", "c", "--format", "dxf"], &range[..]].concat());
+    assert_eq!(made.code, 0, "{}", made.err);
+    let written = program::files(made.directory.path());
+    let odd = written.iter().find(|name| name.contains('.') && !name.starts_with("c-20rpm")).expect("sections").clone();
+    let rpm = odd.trim_start_matches("c-").trim_end_matches("rpm.dxf").to_owned();
+    let short: String = rpm.chars().take(7).collect();
+    let run = check(made, &[&[&*odd, "--cam", "conoid", "--section", &short], &range[..]].concat());
+    assert_eq!(run.code, 0, "{odd} {short}: {} {}", run.out, run.err);
+}
