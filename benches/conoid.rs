@@ -39,7 +39,7 @@ fn stages(criterion: &mut Criterion) {
         criterion
             .bench_function(&name("checks, sphere on the flank"), |b| b.iter(|| verify::run(black_box(&evidence))));
         let solid = conical(&drawn.patches, &[], (0.0, 120.0), drawn.volume).expect("a solid");
-        criterion.bench_function(&name("step"), |b| b.iter(|| step::write(black_box(&solid), "conoid")));
+        criterion.bench_function(&name("step"), |b| b.iter(|| step::write(black_box(&solid), "conoid", None)));
         criterion.bench_function(&name("stl"), |b| b.iter(|| stl::write(black_box(&drawn), Some(25.0))));
         criterion.bench_function(&name("table"), |b| b.iter(|| Table::of(&black_box(&conoid).rows(720))));
     }

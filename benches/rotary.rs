@@ -73,7 +73,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("check/10 000 segments", |b| b.iter(|| solved.check(black_box(&chords), 5e-6)));
     criterion.bench_function("drawing/solid", |b| b.iter(|| black_box(part).solid(30.0)));
     let body = part.solid(30.0).expect("a solid");
-    criterion.bench_function("output/step", |b| b.iter(|| step::write(black_box(&body), "cam")));
+    criterion.bench_function("output/step", |b| b.iter(|| step::write(black_box(&body), "cam", None)));
     let table = proven.table(720);
     criterion.bench_function("output/csv", |b| b.iter(|| csv::write(black_box(&table))));
 }

@@ -10,7 +10,8 @@ use camgen::pipeline::{Cam, Spec, Writing};
 use camgen::profile::outline::{Fit, Side};
 use camgen::report::{Report, Speeds};
 use camgen::write::json;
-use camgen::write::number::shortest;
+use camgen::write::number::names;
+use camgen::write::step::LATEST;
 use camgen::write::svg;
 
 /// Stations of the paper's solver by default: its error is then a hundredth of a millimetre.
@@ -113,17 +114,30 @@ fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String
     let command = cam.body().kind().command;
     let speeds = match cam.body().speeds() {
         Speeds::Any(()) => return files.name.clone().unwrap_or_else(|| format!("{machine}-{command}")),
-        Speeds::One(rpm) => shortest(rpm),
+        Speeds::One(rpm) => names(&[rpm]).concat(),
         Speeds::Several(speeds) => {
-            let names: Vec<String> = speeds.iter().map(|rpm| shortest(*rpm)).collect();
-            match (args.rpm.as_slice(), names.as_slice()) {
-                ([Speed::Range(from, to)], _) => format!("{}-{}", shortest(*from), shortest(*to)),
-                (_, [first, .., last]) if names.len() > MOST_NAMED => format!("{first}-{last}"),
-                _ => names.join("-"),
+            let sections = names(&speeds);
+            match (args.rpm.as_slice(), sections.as_slice()) {
+                ([Speed::Range(from, to)], _) => names(&[*from, *to]).join("-"),
+                (_, [first, .., last]) if sections.len() > MOST_NAMED => format!("{first}-{last}"),
+                _ => sections.join("-"),
             }
         }
     };
     files.name.clone().unwrap_or_else(|| format!("{machine}-{command}-{speeds}rpm"))
+}
+
+/// The time that files are to bear, of the environment variable `SOURCE_DATE_EPOCH`: seconds since 1970, UTC. Without it they bear
+/// none, so that the same input gives the same bytes.
+fn source_date() -> Result<Option<u64>, Failure> {
+    let Some(text) = std::env::var_os("SOURCE_DATE_EPOCH").filter(|text| !text.is_empty()) else { return Ok(None) };
+    match text.to_str().and_then(|text| text.parse().ok()).filter(|seconds| *seconds <= LATEST) {
+        Some(seconds) => Ok(Some(seconds)),
+        None => Err(Failure(format!(
+            "SOURCE_DATE_EPOCH is `{}`: it must be a whole number of seconds since 1970, at most {LATEST}",
+            text.display()
+        ))),
+    }
 }
 
 /// Solves, draws, proves, writes and reports.
@@ -136,6 +150,7 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
         formats: files.format.clone(),
         samples: files.samples,
         template,
+        created: source_date()?,
         force: files.force,
     };
     let (formats, left_out) = writing.chosen(cam.body()).map_err(Failure::new)?;

@@ -9,7 +9,7 @@ use camgen::pipeline::{Cam, Spec};
 use camgen::report::chart::{self, Point};
 use camgen::report::sheet::Sheet;
 use camgen::write::files::{Output, write_all};
-use camgen::write::number::shortest;
+use camgen::write::number::{names, shortest};
 use camgen::write::{FORMATS, Rendering};
 use camgen::write::{dxf, json, proof, svg};
 use serde::Serialize;
@@ -87,7 +87,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let inertia = machine.press().map_err(Failure::new)?.bed.largest_inertia(rpm);
     let limit = args.residual.unwrap_or(SHARE * inertia);
     let advice = advice(&rows, limit);
-    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", shortest(rpm)));
+    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
     let title = format!("{}: time against residual force of a {kind} cam at {} rpm", machine.name(), shortest(rpm));
     let picture = svg::write(&picture(&rows, &title), svg::TEMPLATE).map_err(Failure::new)?;
     let outputs = [

@@ -5,7 +5,7 @@ use crate::body::Body;
 use crate::report::Report;
 use crate::write::files::{self, write_all};
 use crate::write::svg;
-use crate::write::{FORMATS, Format, When, by_name};
+use crate::write::{FORMATS, Format, Rendering, When, by_name};
 use std::path::{Path, PathBuf};
 
 pub use files::Output;
@@ -23,6 +23,8 @@ pub struct Writing {
     pub samples: u32,
     /// The SVG template the review sheet is put into.
     pub template: String,
+    /// The time that the files bear, where their format has a place for it, seconds since 1970 UTC; `None` for no time.
+    pub created: Option<u64>,
     /// Write although a check failed.
     pub force: bool,
 }
@@ -39,6 +41,7 @@ impl Writing {
             formats: None,
             samples: SAMPLES,
             template: svg::TEMPLATE.to_owned(),
+            created: None,
             force: false,
         }
     }
@@ -100,6 +103,7 @@ pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, E
     let mut report = proven.report();
     report.files = names.iter().map(|name| writing.directory.join(name).display().to_string()).collect();
     let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
+    let rendering = Rendering { created: writing.created, ..rendering };
     let mut bytes = Vec::with_capacity(names.len());
     for format in formats {
         bytes.extend((format.write)(&rendering)?);

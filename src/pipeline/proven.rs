@@ -137,7 +137,7 @@ impl Proven<'_> {
     ) -> Result<Rendering<'a>, Error> {
         let drawn = self.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
         let (body, cut_files, dxf_version) = (self.cam.body(), &self.cut_files, self.version);
-        Ok(Rendering { body, drawn, cut_files, dxf_version, report, samples, template })
+        Ok(Rendering { body, drawn, cut_files, dxf_version, report, samples, template, created: None })
     }
 
     /// Makes the files in memory.

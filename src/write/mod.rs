@@ -34,6 +34,8 @@ pub struct Rendering<'a> {
     pub samples: u32,
     /// The template of the review sheet.
     pub template: &'a str,
+    /// The time that the files bear, seconds since 1970 UTC.
+    pub created: Option<u64>,
 }
 
 /// Why a format could not be made.

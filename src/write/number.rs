@@ -16,6 +16,28 @@ pub fn shortest(value: f64) -> String {
     }
 }
 
+/// Significant digits of a number in the name of a file.
+const NAME_DIGITS: usize = 6;
+/// As many tell any two numbers apart.
+const ALL_DIGITS: usize = 17;
+
+/// Numbers for names of files: six significant digits, and as many more as it takes to tell them apart.
+#[must_use]
+pub fn names(values: &[f64]) -> Vec<String> {
+    let rounded = |value: f64, digits: usize| {
+        let text = format!("{value:.*e}", digits - 1);
+        text.parse().map_or(text, shortest)
+    };
+    let name = |value: &f64| {
+        let alone = |digits: &usize| {
+            let own = rounded(*value, *digits);
+            values.iter().filter(|other| rounded(**other, *digits) == own).count() == 1
+        };
+        rounded(*value, (NAME_DIGITS..ALL_DIGITS).find(alone).unwrap_or(ALL_DIGITS))
+    };
+    values.iter().map(name).collect()
+}
+
 /// A plain decimal with at most `decimals` places and one at the least, as DXF and SVG readers expect it: no exponent,
 /// no negative zero.
 #[must_use]
@@ -39,6 +61,14 @@ mod tests {
         }
         assert_eq!(shortest(-0.0), "0");
         assert_eq!(shortest(f64::INFINITY), "inf");
+    }
+
+    #[test]
+    fn names_are_short_and_told_apart() {
+        assert_eq!(names(&[40.0 / 3.0, 35.0, 0.001, 1e5]), ["13.3333", "35", "0.001", "100000"]);
+        assert_eq!(names(&[13.333_31, 13.333_32, 20.0]), ["13.33331", "13.33332", "20"]);
+        let next = 35.0_f64.next_up();
+        assert_eq!(names(&[35.0, next]), ["35".to_owned(), next.to_string()]);
     }
 
     #[test]

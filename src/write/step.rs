@@ -17,7 +17,7 @@ pub const FORMAT: Format = Format {
     flank: true,
     unfit: |body| body.height().is_none().then_some("cam.thickness is not given"),
     endings: |_| vec![".step".into()],
-    write: |cam| Ok(vec![write(&solid(cam)?, &cam.report.title())]),
+    write: |cam| Ok(vec![write(&solid(cam)?, &cam.report.title(), cam.created)]),
 };
 
 fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {
@@ -31,8 +31,27 @@ fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {
 
 /// First entity truck writes; the frame takes the numbers below.
 const FIRST: &str = "#16 = ";
-/// A fixed time: the same input gives the same bytes.
-const TIME: &str = "1970-01-01T00:00:00";
+/// The last second of the year 9999: later years have no place in a date of ISO 8601.
+pub const LATEST: u64 = 253_402_300_799;
+
+/// The time stamp of FILE_NAME, by ISO 8601; without a time, or after [`LATEST`], the empty text, which the schema allows
+/// and which says that no time is known.
+fn time_stamp(created: Option<u64>) -> String {
+    let Some(seconds) = created.filter(|seconds| *seconds <= LATEST) else { return String::new() };
+    let (days, second) = (seconds / 86_400, seconds % 86_400);
+    // Days from 1 March of year 0, the first day of a cycle of 400 years; in a year that begins with March the lengths of
+    // the months are those of 153 days for five of them (Hinnant, chrono-compatible low-level date algorithms).
+    let days = days + 719_468;
+    let (cycle, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (month, next) = if month < 10 { (month + 3, 0) } else { (month - 9, 1) };
+    let year = year + 400 * cycle + next;
+    let (hour, minute, second) = (second / 3_600, second / 60 % 60, second % 60);
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}+00:00")
+}
 
 /// A real of a STEP file: shortest, with its decimal point.
 fn real(value: f64) -> String {
@@ -224,9 +243,9 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// The solid under a product name.
+/// The solid under a product name, with the time of its making where it is known (seconds since 1970 UTC, up to [`LATEST`]).
 #[must_use]
-pub fn write(solid: &Solid, product: &str) -> Vec<u8> {
+pub fn write(solid: &Solid, product: &str, created: Option<u64>) -> Vec<u8> {
     let boundary = with_places(&solid.boundary);
     let written = StepModel::from(&boundary).to_string();
     let start = written.find(FIRST).unwrap_or(0);
@@ -235,12 +254,12 @@ pub fn write(solid: &Solid, product: &str) -> Vec<u8> {
     let category = data.lines().filter_map(|line| line.strip_prefix('#')?.split(' ').next()?.parse::<u32>().ok()).max();
     let category = category.unwrap_or(16) + 1;
     let name = escaped(product);
-    let version = env!("CARGO_PKG_VERSION");
+    let (version, time) = (env!("CARGO_PKG_VERSION"), time_stamp(created));
     format!(
         "ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION(('{name}'), '2;1');
-FILE_NAME('{name}', '{TIME}', (''), (''), 'camgen {version}', 'camgen', '');
+FILE_NAME('{name}', '{time}', (''), (''), 'camgen {version}', 'camgen', '');
 FILE_SCHEMA(('AUTOMOTIVE_DESIGN {{ 1 0 10303 214 1 1 1 1 }}'));
 ENDSEC;
 DATA;
@@ -281,6 +300,23 @@ fn with_places(boundary: &Boundary) -> truck_topology::compress::CompressedSolid
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The dates of GNU date for these seconds.
+    #[test]
+    fn the_time_is_the_one_given_or_none() {
+        for (seconds, text) in [
+            (0, "1970-01-01T00:00:00+00:00"),
+            (951_782_400, "2000-02-29T00:00:00+00:00"),
+            (1_795_309_323, "2026-11-22T01:02:03+00:00"),
+            (4_107_542_399, "2100-02-28T23:59:59+00:00"),
+            (4_107_542_400, "2100-03-01T00:00:00+00:00"),
+            (LATEST, "9999-12-31T23:59:59+00:00"),
+        ] {
+            assert_eq!(time_stamp(Some(seconds)), text);
+        }
+        assert_eq!(time_stamp(None), "");
+        assert_eq!(time_stamp(Some(LATEST + 1)), "");
+    }
 
     #[test]
     fn reals_have_a_point_and_texts_are_escaped() {

@@ -8,7 +8,7 @@ mod objects;
 mod tables;
 mod tags;
 
-use super::number::shortest;
+use super::number::names;
 use super::{Format, When, fits_all};
 use crate::body::{Layer, Part};
 use crate::geometry::Entity;
@@ -24,8 +24,13 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |drawn| {
-        let ending = |part: &Part| part.rpm.map_or(".dxf".into(), |rpm| format!("-{}rpm.dxf", shortest(rpm)));
-        drawn.parts.iter().map(ending).collect()
+        let speeds: Vec<f64> = drawn.parts.iter().filter_map(|part| part.rpm).collect();
+        let mut speeds = names(&speeds).into_iter();
+        let mut ending = |part: &Part| match part.rpm.and_then(|_| speeds.next()) {
+            Some(rpm) => format!("-{rpm}rpm.dxf"),
+            None => ".dxf".into(),
+        };
+        drawn.parts.iter().map(&mut ending).collect()
     },
     write: |cam| Ok(cam.cut_files.to_vec()),
 };
