@@ -24,9 +24,9 @@ fn overrides() -> impl Strategy<Value = Vec<String>> {
     let transition = prop_oneof![Just("none"), Just("run-up"), Just("blend")];
     (
         (decades(-4.0, 2.0), 1.0..2.0_f64, column, decades(-1.0, 3.0), decades(0.0, 3.0)),
-        (transition, 0.01..89.0_f64, -0.9..0.9_f64, decades(-1.5, 1.0), 0.05..1.0_f64),
+        (transition, 0.01..89.0_f64, -0.9..0.9_f64, decades(-1.5, 1.0), 1..=8_u32),
     )
-        .prop_map(|((excess, k, column, roller, radius), (kind, width, offset, lever, ratio))| {
+        .prop_map(|((excess, k, column, roller, radius), (kind, width, offset, lever, lobes))| {
             vec![
                 format!("buffer.end_pressure={} at", 1.0 + excess),
                 format!("buffer.polytropic_exponent={k}"),
@@ -37,7 +37,7 @@ fn overrides() -> impl Strategy<Value = Vec<String>> {
                 format!("transition.kind={kind}"),
                 format!("transition.width={width}deg"),
                 format!("cam.lever={lever}"),
-                format!("cam.cam_turns_per_crank_turn={ratio}"),
+                format!("cam.cam_turns_per_crank_turn={}", 1.0 / f64::from(lobes)),
             ]
         })
 }

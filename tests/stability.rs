@@ -180,7 +180,7 @@ fn dot(a: &Plane, b: &Plane) -> Big {
 /// Lift of a balance law and its three derivatives by the cam angle, from (10) or the paper's column, differentiated by
 /// hand: nothing of the code's own forms.
 fn exact_lift(law: &ReversalLaw, buffer: &Sample, column: Column, angle: f64) -> [Big; 4] {
-    let (lever, ratio, r) = (big(law.lever), big(law.ratio), big(buffer.r));
+    let (lever, ratio, r) = (big(law.lever), big(1.0) / big(f64::from(law.lobes)), big(buffer.r));
     let (sin, cos) = (big(angle) / &ratio).sin_cos();
     let (x, x1) = (&r * &sin, &r * &cos);
     let (a, p) = (big(buffer.loading), big(1.0) / big(buffer.k));
@@ -216,19 +216,19 @@ fn geometry_of_random_cams() {
     let mut point = Worst::new("pitch and profile point", "of radius and path");
     let mut bend = Worst::new("curvature of the pitch curve", "of κ + 1/R");
     let mut change = Worst::new("its derivative by the arc length", "of its terms");
-    let mut angle = Worst::new("pressure angle of random cams", "rad");
-    for _ in 0..600 {
+    let mut angle = Worst::new("pressure angle of random cams", "of path/radius");
+    for case in 0..600_u32 {
         let buffer = sample(&mut random);
         let column = if random.next() < 0.5 { Column::Matched } else { Column::Return };
         let bottom_law = BottomLaw::new(buffer.loading, buffer.k, buffer.r, column, 0.0);
-        let (lever, ratio) = (random.log_between(0.05, 20.0), random.log_between(0.2, 1.9));
+        let (lever, lobes) = (random.log_between(0.05, 20.0), 1 + case % 5);
         let motion =
-            Reversal::new(ReversalLaw { bottom_law, lever, ratio, transition: Transition::None }).expect("fits");
+            Reversal::new(ReversalLaw { bottom_law, lever, lobes, transition: Transition::None }).expect("fits");
         let prime = random.log_between(1e-3, 1e3);
         let offset = if random.next() < 0.5 { 0.0 } else { prime * (1.8 * random.next() - 0.9) };
         let roller = prime * random.log_between(1e-3, 0.9);
         let share = if random.next() < 0.5 { random.log_between(1e-12, 1.0) } else { random.next() };
-        let theta = ratio * std::f64::consts::FRAC_PI_2 * share;
+        let theta = std::f64::consts::FRAC_PI_2 / f64::from(lobes) * share;
         let place = || {
             format!("{column:?}, q − 1 = {:.1e}, r {:.1e}, R_p {prime:.1e}, θ {theta:.3e}", buffer.q - 1.0, buffer.r)
         };
@@ -276,7 +276,8 @@ fn geometry_of_random_cams() {
         let (sine, cosine) = big(contact.pressure_angle).sin_cos();
         // From the normal to û, counted with the turn.
         let [x, y] = [dot(&along, &normal), cross(&along, &normal)].map(|value| number(&value));
-        angle.see((number(&sine) + y).abs().max((number(&cosine) - x).abs()), place);
+        // What the path is off turns the normal by its share of the radius.
+        angle.see((number(&sine) + y).abs().max((number(&cosine) - x).abs()) * size / path, place);
     }
     point.told(1e-14);
     bend.told(1e-13);

@@ -58,8 +58,8 @@ impl Material {
 /// The disc of a disc cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CamData {
-    /// Turns of the cam for one turn of the crank.
-    pub turns_per_crank_turn: f64,
+    /// Equal lobes, which is also the crank's turns for one turn of the cam: so it stands right at every reversal.
+    pub lobes: u32,
     /// Roller travel per bottom travel.
     pub lever: f64,
     /// Base radius, m; `None` is `auto`.
@@ -111,7 +111,7 @@ const LENGTH: Bounds = above(0.0, LONGEST);
 
 const TURNS: Field<f64> = Field::number(
     "cam_turns_per_crank_turn",
-    "turns of the cam for one turn of the crank",
+    "turns of the cam per turn of the crank: 1, or 1/n for n lobes",
     Default("1"),
     above(0.0, LARGEST_NUMBER),
 )
@@ -171,6 +171,12 @@ const ROTATION: Field<Rotation> = Field::words(
 )
 .only(TURNING);
 
+/// Most lobes: more would be teeth.
+const MOST_LOBES: f64 = 100.0;
+/// How far a ratio may be from 1/n to be taken for it, as a share: 0.3333 stands for a third, since gears are exact. With a
+/// hair for the rounding of that very number.
+const RATIO_ROUNDING: f64 = 1e-4 * (1.0 + 1e-9);
+
 /// `[cam]`.
 pub(super) const SECTION: Section = Section {
     path: "cam",
@@ -216,9 +222,10 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CamData> {
     let table = reader.table(&SECTION);
     balance_and_bore(&table);
     base_radius_and_bore(&table);
+    let lobes = read_lobes(&table);
     let keyway = reader.find(&KEYWAY).map(|keyway| read_keyway(&keyway, &table));
     Some(CamData {
-        turns_per_crank_turn: table.get(&TURNS)?,
+        lobes: lobes?,
         lever: table.get(&LEVER)?,
         base_radius: table.get(&BASE_RADIUS)?,
         thickness: table.get(&THICKNESS),
@@ -228,6 +235,24 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CamData> {
         balance: table.get(&BALANCE),
         rotation: table.get(&ROTATION)?,
     })
+}
+
+/// The lobes of a cam of 1/n turns for one of the crank.
+fn read_lobes(table: &Table<'_>) -> Option<u32> {
+    let turns = table.get(&TURNS)?;
+    let lobes = (1.0 / turns).round().clamp(1.0, MOST_LOBES);
+    if (turns * lobes - 1.0).abs() > RATIO_ROUNDING {
+        let typed = table.typed(&TURNS);
+        let message = format!(
+            "with {typed} turns of the cam for one turn of the crank the cam would stand wrong at the next reversal; \
+             1, or 1/n with n equal lobes (0.5, 0.3333, 0.25, … 0.01), stands right at each"
+        );
+        let nearest = (1e6 / lobes).round() / 1e6;
+        table.fail(&TURNS, message, Some(format!("the nearest of these is {nearest}")));
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 1 to 100")]
+    Some(lobes as u32)
 }
 
 fn balance_and_bore(table: &Table<'_>) {

@@ -214,7 +214,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("follower.swinging-roller.side", "leading"),
     ("follower.flat.mass", "40 kg"),
     ("follower.flat.preload", "1600 N"),
-    ("cam.cam_turns_per_crank_turn", "2"),
+    ("cam.cam_turns_per_crank_turn", "0.5"),
     ("cam.lever", "2"),
     ("cam.base_radius", "90 mm"),
     ("cam.thickness", "20 mm"),
@@ -347,7 +347,7 @@ fn defaults_are_what_they_were() {
     let roller = RollerData { radius: 0.03, offset: 0.0, crown: Crown::Sphere, width: None };
     assert_eq!(machine.roller().expect("a roller"), &roller);
     assert_eq!((machine.follower.mass, machine.follower.preload), (None, None));
-    assert_eq!((machine.cam.turns_per_crank_turn, machine.cam.lever, machine.cam.base_radius), (1.0, 1.0, None));
+    assert_eq!((machine.cam.lobes, machine.cam.lever, machine.cam.base_radius), (1, 1.0, None));
     assert_eq!((machine.cam.thickness, machine.cam.material, machine.cam.rotation), (None, None, Rotation::Clockwise));
     assert_eq!(machine.transition, Transition::RunUp { width: std::f64::consts::PI / 9.0 });
     let plate = machine.translating.expect("a plate");

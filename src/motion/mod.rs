@@ -110,6 +110,18 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// Equal lobes of a turn, at least 1: so often the motion repeats itself, with as many pieces in each.
+    fn lobes(&self) -> u32 {
+        1
+    }
+
+    /// The pieces of the first lobe: what holds on them holds on all.
+    fn distinct(&self) -> &[Piece] {
+        let pieces = self.pieces();
+        let count = usize::try_from(self.lobes()).ok().and_then(|lobes| pieces.len().checked_div(lobes));
+        count.and_then(|count| pieces.get(..count)).unwrap_or(pieces)
+    }
+
     /// First and last value of the parameter.
     fn range(&self) -> (f64, f64) {
         let pieces = self.pieces();
@@ -158,16 +170,15 @@ mod tests {
         let width = 20.0_f64.to_radians();
         for (q, column) in [(2.0, Column::Matched), (5.0, Column::Return), (2.0, Column::Length(0.2))] {
             for transition in [Transition::None, Transition::RunUp { width }, Transition::Blend { width }] {
-                for ratio in [1.0, 0.5] {
-                    let law = ReversalLaw { bottom_law: bottom_law(q, column, 0.0), lever: 1.5, ratio, transition };
-                    let name = format!("{column:?} {transition:?} ratio {ratio}");
+                for lobes in [1, 2, 3] {
+                    let law = ReversalLaw { bottom_law: bottom_law(q, column, 0.0), lever: 1.5, lobes, transition };
+                    let name = format!("{column:?} {transition:?}, {lobes} lobes");
                     laws.push((name, Box::new(Reversal::new(law).expect("fits into a turn"))));
                 }
             }
         }
         let transition = Transition::RunUp { width };
-        let law =
-            ReversalLaw { bottom_law: bottom_law(2.0, Column::Matched, 0.01), lever: 1.0, ratio: 1.0, transition };
+        let law = ReversalLaw { bottom_law: bottom_law(2.0, Column::Matched, 0.01), lever: 1.0, lobes: 1, transition };
         laws.push(("lead".into(), Box::new(Reversal::new(law).expect("fits"))));
         laws
     }

@@ -1,7 +1,8 @@
 //! The motion of one cam turn: dwell, transition, the press's law of the bottom over the reversal, mirrored transition.
 //!
 //! Everything is described by the crank angle φ of the braking half; the return half is its mirror, φ → π − φ, evaluated
-//! through the same code so that both halves agree to the last bit. With lead, the bottom must retreat together with
+//! through the same code so that both halves agree to the last bit. A cam that turns once in n crank turns carries the
+//! motion n times, in n equal lobes, so that it stands right at every reversal. With lead, the bottom must retreat together with
 //! the piston while x = r φ is still ahead of the reversal, from 0 at φ = −e/r to −e at φ = 0, or the air would be
 //! compressed before; the ramp (key `run-up`) then ends at the start of that retreat.
 
@@ -24,8 +25,8 @@ pub struct ReversalLaw {
     pub bottom_law: BottomLaw,
     /// Roller travel per bottom travel, > 0.
     pub lever: f64,
-    /// Cam turns per crank turn, > 0.
-    pub ratio: f64,
+    /// Equal lobes of the cam, one for each crank turn in a turn of the cam; 0 counts as 1.
+    pub lobes: u32,
     /// How the reversal is joined to the dwell.
     pub transition: Transition,
 }
@@ -35,9 +36,9 @@ pub struct ReversalLaw {
 #[non_exhaustive]
 pub enum MotionError {
     /// The pieces are longer than one turn.
-    #[error("reversal and transitions take {needed_deg:.3} deg of the cam, more than one turn")]
+    #[error("reversal and transitions take {needed_deg:.3} deg of the crank, more than one turn")]
     NoRoom {
-        /// What they take, degrees of cam angle.
+        /// What they take, degrees of crank angle.
         needed_deg: f64,
     },
     /// A blend reaches past the middle of the reversal.
@@ -80,80 +81,81 @@ pub struct State {
 #[derive(Debug, Clone)]
 pub struct Reversal {
     law: ReversalLaw,
+    /// Of all lobes, by the cam angle.
     pieces: Vec<Piece>,
-    /// Shape of each piece and whether it is seen mirrored.
-    shapes: Vec<(Shape, bool)>,
+    /// Of one lobe, by the crank angle.
+    parts: Vec<Part>,
     lowest: f64,
+}
+
+/// A piece of one lobe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Part {
+    /// First and last crank angle, rad.
+    start: f64,
+    end: f64,
+    shape: Shape,
+    /// Whether the shape is seen mirrored.
+    mirrored: bool,
 }
 
 impl Reversal {
     /// Puts the pieces of one turn together.
     ///
     /// # Errors
-    /// [`MotionError`] when they do not fit into the turn or exclude each other.
+    /// [`MotionError`] when they do not fit into a turn of the crank or exclude each other.
     pub fn new(law: ReversalLaw) -> Result<Self, MotionError> {
-        let (bottom_law, ratio) = (&law.bottom_law, law.ratio);
-        let retreat = bottom_law.lead / bottom_law.stroke;
-        let mut before: Vec<(f64, Shape)> = Vec::new();
-        let level;
-        let mut law_start = 0.0;
-        match law.transition {
-            Transition::None => level = 0.0,
-            Transition::RunUp { width } => {
-                let end =
-                    if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { bottom_law_at(bottom_law, 0.0) };
-                let quintic = Quintic::run_up(-retreat - width, width, end);
-                level = quintic.level();
-                before.push((-retreat - width, Shape::Polynomial(quintic)));
-            }
-            Transition::Blend { .. } if retreat > 0.0 => return Err(MotionError::BlendWithLead),
-            Transition::Blend { width } if width > PI => {
-                return Err(MotionError::BlendTooWide { width_deg: width.to_degrees() });
-            }
-            Transition::Blend { width } => {
-                level = 0.0;
-                let half = 0.5 * width;
-                law_start = half;
-                let quintic = Quintic::blend(-half, width, level, bottom_law_at(bottom_law, half));
-                before.push((-half, Shape::Polynomial(quintic)));
-            }
-        }
-        if retreat > 0.0 {
-            before.push((-retreat, Shape::Retreat));
-        }
-        let first = before.first().map_or(0.0, |piece| piece.0);
-        let needed = ratio * (PI - 2.0 * first);
-        if needed > TAU + SAME_ANGLE {
-            return Err(MotionError::NoRoom { needed_deg: needed.to_degrees() });
-        }
-        let ends: Vec<f64> = before.iter().skip(1).map(|piece| piece.0).chain([law_start]).collect();
-        let mut motion = Self { law, pieces: Vec::new(), shapes: Vec::new(), lowest: 0.0 };
-        for ((start, shape), end) in before.iter().zip(&ends) {
-            motion.push(ratio * start, ratio * end, *shape, false);
-        }
-        motion.push(ratio * law_start, ratio * (PI - law_start), Shape::Reversal, false);
-        for ((start, shape), end) in before.iter().zip(&ends).rev() {
-            motion.push(ratio * (PI - end), ratio * (PI - start), *shape, true);
-        }
-        if TAU - needed > SAME_ANGLE {
-            motion.push(ratio * (PI - first), TAU + ratio * first, Shape::Dwell(level), false);
-        } else if let Some(last) = motion.pieces.last_mut() {
-            // No dwell is left: the turn ends where it started.
-            last.end = TAU + ratio * first;
-        }
+        let parts = parts(&law)?;
+        let mut motion = Self { law, pieces: Vec::new(), parts, lowest: 0.0 };
+        motion.pieces = (0..law.lobes.max(1)).flat_map(|lobe| motion.lobe(lobe)).collect();
         motion.lowest = motion.find_lowest();
         Ok(motion)
     }
 
-    fn push(&mut self, start: f64, end: f64, shape: Shape, mirrored: bool) {
-        if end - start > SAME_ANGLE {
-            self.pieces.push(Piece { start, end, dwell: matches!(shape, Shape::Dwell(_)) });
-            self.shapes.push((shape, mirrored));
+    fn count(&self) -> f64 {
+        f64::from(self.law.lobes.max(1))
+    }
+
+    /// Cam angle at which the reversal of a lobe starts, rad.
+    fn origin(&self, lobe: u32) -> f64 {
+        TAU * f64::from(lobe) / self.count()
+    }
+
+    /// The pieces of a lobe by the cam angle; each starts where the one before it ends, also that of the lobe before.
+    fn lobe(&self, lobe: u32) -> Vec<Piece> {
+        let count = self.count();
+        let first = self.parts.first().map_or(0.0, |part| part.start);
+        let last = self.parts.len().saturating_sub(1);
+        let piece = |(index, part): (usize, &Part)| {
+            let place = |lobe: u32, crank: f64| self.origin(lobe) + crank / count;
+            let end = match index == last {
+                true if lobe + 1 < self.law.lobes => place(lobe + 1, first),
+                true => TAU + first / count,
+                false => place(lobe, part.end),
+            };
+            Piece { start: place(lobe, part.start), end, dwell: matches!(part.shape, Shape::Dwell(_)) }
+        };
+        self.parts.iter().enumerate().map(piece).collect()
+    }
+
+    /// The part of a lobe that a piece shows, and the crank angle in it at a cam angle, rad.
+    fn part_at(&self, piece: usize, angle: f64) -> Option<(&Part, f64)> {
+        let part = self.parts.get(piece.checked_rem(self.parts.len())?)?;
+        let span = self.pieces.get(piece)?;
+        // An end of a piece is the same crank angle in every lobe, to the last bit.
+        if angle <= span.start {
+            return Some((part, part.start));
         }
+        if angle >= span.end {
+            return Some((part, part.end));
+        }
+        let lobe = u32::try_from(piece / self.parts.len()).unwrap_or(0);
+        let crank = (angle - self.origin(lobe)) * self.count();
+        Some((part, crank.clamp(part.start, part.end)))
     }
 
     fn find_lowest(&self) -> f64 {
-        let lowest = self.pieces.iter().enumerate().map(|(index, piece)| {
+        let lowest = self.distinct().iter().enumerate().map(|(index, piece)| {
             let value = |angle| -self.bottom(index, angle).s;
             let found =
                 extremum::largest(value, |angle| -self.bottom(index, angle).ds, (piece.start, piece.end), CELLS);
@@ -165,10 +167,9 @@ impl Reversal {
     /// Δx and its derivatives by the cam angle; m.
     #[must_use]
     pub fn bottom(&self, piece: usize, angle: f64) -> Jet {
-        let Some(&(shape, mirrored)) = self.shapes.get(piece) else {
+        let Some((&Part { shape, mirrored, .. }, crank)) = self.part_at(piece, angle) else {
             return Jet::default();
         };
-        let crank = angle / self.law.ratio;
         // The reversal is one smooth piece whose later half is the mirror of the earlier.
         let mirrored = mirrored || (shape == Shape::Reversal && crank > FRAC_PI_2);
         let crank = if mirrored { PI - crank } else { crank };
@@ -180,14 +181,14 @@ impl Reversal {
             }
             Shape::Reversal => bottom_law_at(&self.law.bottom_law, crank),
         };
-        let jet = Jet { s, ds, dds, ddds }.by_angle_times(self.law.ratio);
+        let jet = Jet { s, ds, dds, ddds }.by_angle_times(1.0 / self.count());
         if mirrored { jet.mirrored() } else { jet }
     }
 
     /// The state of bed, bottom and air at a cam angle of a piece.
     #[must_use]
     pub fn state(&self, piece: usize, angle: f64) -> State {
-        let crank = angle / self.law.ratio;
+        let crank = self.part_at(piece, angle).map_or(0.0, |(_, crank)| crank);
         let displacement = self.bottom(piece, angle).s;
         let (overrun, pressure_ratio) = if (0.0..=PI).contains(&crank) {
             let (x, _) = overrun(self.law.bottom_law.stroke, if crank > FRAC_PI_2 { PI - crank } else { crank });
@@ -195,7 +196,7 @@ impl Reversal {
         } else {
             (0.0, 1.0)
         };
-        let turn = if crank < 0.0 { crank + TAU / self.law.ratio } else { crank };
+        let turn = if crank < 0.0 { crank + TAU } else { crank };
         let crank = turn % TAU;
         State { crank, overrun, displacement, pressure_ratio }
     }
@@ -223,6 +224,52 @@ impl Reversal {
     }
 }
 
+/// The parts of one lobe by the crank angle: one turn of it, the dwell last.
+fn parts(law: &ReversalLaw) -> Result<Vec<Part>, MotionError> {
+    let bottom_law = &law.bottom_law;
+    let retreat = bottom_law.lead / bottom_law.stroke;
+    let mut before: Vec<(f64, Shape)> = Vec::new();
+    let level;
+    let mut law_start = 0.0;
+    match law.transition {
+        Transition::None => level = 0.0,
+        Transition::RunUp { width } => {
+            let end = if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { bottom_law_at(bottom_law, 0.0) };
+            let quintic = Quintic::run_up(-retreat - width, width, end);
+            level = quintic.level();
+            before.push((-retreat - width, Shape::Polynomial(quintic)));
+        }
+        Transition::Blend { .. } if retreat > 0.0 => return Err(MotionError::BlendWithLead),
+        Transition::Blend { width } if width > PI => {
+            return Err(MotionError::BlendTooWide { width_deg: width.to_degrees() });
+        }
+        Transition::Blend { width } => {
+            level = 0.0;
+            let half = 0.5 * width;
+            law_start = half;
+            let quintic = Quintic::blend(-half, width, level, bottom_law_at(bottom_law, half));
+            before.push((-half, Shape::Polynomial(quintic)));
+        }
+    }
+    if retreat > 0.0 {
+        before.push((-retreat, Shape::Retreat));
+    }
+    let first = before.first().map_or(0.0, |piece| piece.0);
+    let needed = PI - 2.0 * first;
+    if needed > TAU + SAME_ANGLE {
+        return Err(MotionError::NoRoom { needed_deg: needed.to_degrees() });
+    }
+    let ends: Vec<f64> = before.iter().skip(1).map(|piece| piece.0).chain([law_start]).collect();
+    let rise = before.iter().zip(&ends).map(|(&(start, shape), &end)| Part { start, end, shape, mirrored: false });
+    let reversal = Part { start: law_start, end: PI - law_start, shape: Shape::Reversal, mirrored: false };
+    let mirror = |part: Part| Part { start: PI - part.end, end: PI - part.start, mirrored: true, ..part };
+    let fall: Vec<Part> = rise.clone().rev().map(mirror).collect();
+    let dwell = Part { start: PI - first, end: TAU + first, shape: Shape::Dwell(level), mirrored: false };
+    let mut parts: Vec<Part> = rise.chain([reversal]).chain(fall).chain([dwell]).collect();
+    parts.retain(|part| part.end - part.start > SAME_ANGLE);
+    Ok(parts)
+}
+
 /// x = r sin φ and y = r − x, both to full relative accuracy, for φ in [0, π/2].
 fn overrun(stroke: f64, crank: f64) -> (f64, f64) {
     let half = libm::sin(0.5 * (FRAC_PI_2 - crank));
@@ -247,6 +294,10 @@ impl Motion for Reversal {
         &self.pieces
     }
 
+    fn lobes(&self) -> u32 {
+        self.law.lobes.max(1)
+    }
+
     fn jet(&self, piece: usize, angle: f64) -> Jet {
         let bottom = self.bottom(piece, angle);
         Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.law.lever)
@@ -260,7 +311,7 @@ mod tests {
 
     fn law(column: Column, lead: f64, transition: Transition) -> ReversalLaw {
         let bottom_law = BottomLaw::new(1.0 / 0.18, 1.35, 0.18, column, lead);
-        ReversalLaw { bottom_law, lever: 1.0, ratio: 1.0, transition }
+        ReversalLaw { bottom_law, lever: 1.0, lobes: 1, transition }
     }
 
     #[test]
@@ -310,8 +361,10 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_refused() {
-        let wide = ReversalLaw { ratio: 1.9, ..law(Column::Matched, 0.0, Transition::RunUp { width: 0.3 }) };
-        assert!(matches!(Reversal::new(wide), Err(MotionError::NoRoom { .. })));
+        for lobes in [1, 2, 3] {
+            let wide = ReversalLaw { lobes, ..law(Column::Matched, 0.0, Transition::RunUp { width: 1.6 }) };
+            assert!(matches!(Reversal::new(wide), Err(MotionError::NoRoom { .. })), "{lobes} lobes");
+        }
         assert_eq!(
             Reversal::new(law(Column::Matched, 0.01, Transition::Blend { width: 0.3 })).err(),
             Some(MotionError::BlendWithLead)
@@ -320,9 +373,55 @@ mod tests {
             Reversal::new(law(Column::Matched, 0.0, Transition::Blend { width: 3.2 })),
             Err(MotionError::BlendTooWide { .. })
         ));
-        let whole = ReversalLaw { ratio: 2.0, ..law(Column::Matched, 0.0, Transition::None) };
-        let motion = Reversal::new(whole).expect("a reversal as long as the turn has no dwell");
+        let full = law(Column::Matched, 0.0, Transition::RunUp { width: 0.5 * PI });
+        let motion = Reversal::new(full).expect("transitions as long as the rest of the turn leave no dwell");
         assert!(motion.pieces().iter().all(|p| !p.dwell));
+    }
+
+    /// n lobes are the one lobe n times, each derivative as much larger: an independent look at the angle n θ.
+    #[test]
+    fn n_lobes_repeat_the_motion_of_one() {
+        for transition in [Transition::None, Transition::RunUp { width: 0.35 }, Transition::Blend { width: 0.3 }] {
+            let one = Reversal::new(law(Column::Matched, 0.0, transition)).expect("fits");
+            for lobes in [2_u32, 3, 4, 7, 30] {
+                let n = f64::from(lobes);
+                let many = Reversal::new(ReversalLaw { lobes, ..*one.law() }).expect("fits");
+                assert_eq!(many.pieces().len(), one.pieces().len() * lobes as usize);
+                assert_eq!(many.lowest(), one.lowest());
+                for i in 0..3600 {
+                    // Off the breaks, where either side is right.
+                    let angle = (f64::from(i) + 0.37) * TAU / 3600.0;
+                    let (piece, inside) = many.locate(angle);
+                    let (same, crank) = one.locate((n * angle) % TAU);
+                    let (found, known) = (many.jet(piece, inside), one.jet(same, crank));
+                    // n θ is rounded where θ is not: 2π n ε of crank angle, on jets whose next derivative is at most that
+                    // of a ramp's jerk, below 400 m/rad⁴.
+                    for (found, known) in [
+                        (found.s, known.s),
+                        (found.ds / n, known.ds),
+                        (found.dds / (n * n), known.dds),
+                        (found.ddds / (n * n * n), known.ddds),
+                    ] {
+                        assert!((found - known).abs() < 2e-15 * n * 400.0, "{lobes} at {angle}: {found} {known}");
+                    }
+                    let (state, known) = (many.state(piece, inside), one.state(same, crank));
+                    assert!((state.crank - known.crank).abs() < 2e-15 * n * 4.0, "{state:?} {known:?}");
+                    assert!((state.overrun - known.overrun).abs() < 1e-15 * n);
+                }
+                for (index, piece) in many.pieces().iter().enumerate() {
+                    let of_one = index % one.pieces().len();
+                    for (at, by_one) in
+                        [(piece.start, one.pieces()[of_one].start), (piece.end, one.pieces()[of_one].end)]
+                    {
+                        assert_eq!(
+                            many.bottom(index, at).s.to_bits(),
+                            one.bottom(of_one, by_one).s.to_bits(),
+                            "{lobes}"
+                        );
+                    }
+                }
+            }
+        }
     }
 
     #[test]

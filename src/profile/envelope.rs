@@ -9,6 +9,7 @@ use crate::follower::Element;
 use crate::geometry::CurvePoint;
 use crate::numeric::extremum;
 use nalgebra::{Matrix2, Vector2};
+use std::f64::consts::TAU;
 
 /// Points of a piece at which the parallel curve is tested for running backwards.
 const SEEDS: u32 = 256;
@@ -87,7 +88,9 @@ fn folds(curves: Curves<'_>) -> Vec<(f64, f64)> {
     // A fold narrower than the steps shows at its sharpest place.
     let sharpest = extremes::convex_curvature(curves);
     if sharpest.value * curves.offset() >= 1.0 {
-        folds.push((sharpest.at, sharpest.at));
+        let lobes = curves.motion.lobes();
+        let places = (0..lobes).map(|lobe| sharpest.at + TAU * f64::from(lobe) / f64::from(lobes));
+        folds.extend(places.map(|at| (at, at)));
     }
     folds.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut merged: Vec<(f64, f64)> = Vec::new();

@@ -14,7 +14,7 @@ fn largest(curves: Curves<'_>, quantity: impl Fn(usize, f64) -> (f64, f64)) -> E
         let range = (piece.start, piece.end);
         extremum::largest(|angle| quantity(index, angle).0, |angle| quantity(index, angle).1, range, cells)
     };
-    curves.motion.pieces().iter().enumerate().map(in_piece).fold(
+    curves.motion.distinct().iter().enumerate().map(in_piece).fold(
         Extremum { at: 0.0, value: f64::NEG_INFINITY },
         |best, next| {
             if next.value > best.value || best.value.is_nan() { next } else { best }
@@ -35,7 +35,7 @@ pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f
     };
     curves
         .motion
-        .pieces()
+        .distinct()
         .iter()
         .enumerate()
         .map(of_piece)

@@ -124,7 +124,7 @@ pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
         let top = extremum::largest(|at| jet(at).s, |at| jet(at).ds, range, LIFT_CELLS).value;
         (-extremum::largest(|at| -jet(at).s, |at| -jet(at).ds, range, LIFT_CELLS).value, top)
     };
-    let all = motion.pieces().iter().enumerate().map(of_piece);
+    let all = motion.distinct().iter().enumerate().map(of_piece);
     all.fold((f64::INFINITY, 0.0), |(low, high), (least, top)| (low.min(least), high.max(top)))
 }
 

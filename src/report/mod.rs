@@ -13,7 +13,8 @@ mod values;
 pub use finding::{Finding, Place, Verdict, degrees, passed, worst_first};
 pub use rolled::Rolled;
 pub use values::{
-    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, shown,
+    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, lobes_words,
+    shown,
 };
 
 use serde::de::{Error, MapAccess, Visitor};

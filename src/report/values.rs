@@ -18,6 +18,12 @@ pub fn shown(value: f64) -> String {
     format!("{}", (value * decimals).round() / decimals)
 }
 
+/// What a cam of several lobes is told to be.
+#[must_use]
+pub fn lobes_words(lobes: u32) -> String {
+    format!("{lobes} equal lobes, 1/{lobes} turn per turn of the crank")
+}
+
 /// Measures of a plane cam. What a kind of cam does not have is left out.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]
@@ -37,6 +43,9 @@ pub struct CamMeasures {
     /// The smallest prime radius that keeps every limit, before rounding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub smallest_prime_radius_mm: Option<f64>,
+    /// Equal lobes of a press's cam, one for each turn of the crank in a turn of the cam.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lobes: Option<u32>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plate: Option<PlateMeasures>,
     #[serde(flatten)]
@@ -72,6 +81,8 @@ impl CamMeasures {
     #[must_use]
     pub fn section(&self) -> Section {
         let mut words = vec![self.size()];
+        let lobes = self.lobes.filter(|lobes| *lobes > 1).map(lobes_words);
+        words.extend(lobes.clone());
         if let Some(area) = self.weight.area_mm2 {
             let mass =
                 self.weight.mass_kg.map_or_else(|| "no thickness given".into(), |mass| format!("mass {mass:.3} kg"));
@@ -90,6 +101,7 @@ impl CamMeasures {
             (None, base) => format!("base radius {} mm{of}", rounded(base.unwrap_or(f64::NAN))),
         }];
         figures.push(self.lift());
+        figures.extend(lobes);
         figures.extend(self.weight.mass_kg.map(|mass| format!("mass {mass:.2} kg")));
         Section::new("cam", self).with_words(words).with_figures(figures)
     }

@@ -5,6 +5,7 @@
 
 use crate::motion::Jet;
 use nalgebra::{Vector2, Vector3};
+use std::f64::consts::TAU;
 
 /// What is known at one place of a cam: millimetres, degrees, newtons; derivatives by the parameter in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -164,15 +165,51 @@ impl Table {
     }
 }
 
-/// Crank angle in [0, 360) from the cam angle, without a detour over radians that would lose the round numbers.
+/// Where a row of a turning cam's table stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turned {
+    /// Cam angle, degrees in [0, 360).
+    pub cam_deg: f64,
+    /// The same in radians: at the start of a lobe the very number at which its motion starts.
+    pub angle: f64,
+    /// Crank angle of a cam with a lobe for each turn of the crank, degrees in [0, 360).
+    pub crank_deg: f64,
+}
+
+/// The row `index` of `rows` in a turn of a cam of so many lobes, all at least 1. Whole turns of the crank are taken off as
+/// whole numbers: an angle in degrees would lose the round ones.
 #[must_use]
-pub fn crank_degrees(cam_deg: f64, ratio: f64) -> f64 {
-    (cam_deg / ratio) % 360.0
+pub fn turned(index: u32, rows: u32, lobes: u32) -> Turned {
+    let (rows, lobes) = (rows.max(1), lobes.max(1));
+    let degrees = |index: f64| 360.0 * index / f64::from(rows);
+    let (whole, part) = {
+        let (turns, each) = (u64::from(index) * u64::from(lobes), u64::from(rows));
+        (turns / each, turns % each)
+    };
+    #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 rows and lobes")]
+    let (whole, crank_deg) = (whole as f64, degrees(part as f64));
+    let angle = TAU * whole / f64::from(lobes) + crank_deg.to_radians() / f64::from(lobes);
+    Turned { cam_deg: degrees(f64::from(index)), angle, crank_deg }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rows_of_lobes_count_the_crank_in_whole_turns() {
+        for (rows, lobes) in [(720, 1), (720, 3), (700, 7), (17, 4), (1, 2)] {
+            for index in 0..rows {
+                let at = turned(index, rows, lobes);
+                assert!((0.0..360.0).contains(&at.crank_deg) && (0.0..360.0).contains(&at.cam_deg), "{at:?}");
+                assert!((at.angle - at.cam_deg.to_radians()).abs() < 2e-15, "{at:?}");
+                let turns = (f64::from(lobes) * at.cam_deg - at.crank_deg) / 360.0;
+                assert!((turns - turns.round()).abs() < 1e-14 * f64::from(lobes), "{at:?}");
+            }
+        }
+        let third = turned(240, 720, 3);
+        assert_eq!((third.cam_deg, third.crank_deg, third.angle), (120.0, 0.0, TAU / 3.0));
+    }
 
     /// A name stands twice only for cams that cannot be the same.
     #[test]

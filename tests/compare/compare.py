@@ -93,7 +93,7 @@ KEYS = {
     "follower.roller.preload": quantity(0, 6000, "N", ("kN", 0.001), ("kgf", 0.1)),
     "follower.roller.crown": one_of("sphere", "cylinder"),
     "follower.roller.width": length(4, 40),
-    "cam.cam_turns_per_crank_turn": one_of(1, 1, 1, 0.5, 2, 0.75),
+    "cam.cam_turns_per_crank_turn": one_of(1, 1, 1, 0.5, 0.25, 0.75),
     "cam.lever": number(0.3, 1.6),
     "cam.base_radius": either(one_of("auto"), length(20, 70), length(60, 200), length(100, 600)),
     "cam.thickness": length(4, 60),

@@ -39,7 +39,7 @@ class Cam:
         self.L = {"matched": self.k / self.A, "return": self.r * g / (g - 1)}.get(column) or quantity(column)
         self.lead = quantity(get("buffer", "lead", "0 mm"))
         self.lever = float(get("cam", "lever", 1.0))
-        self.ratio = float(get("cam", "cam_turns_per_crank_turn", 1.0))
+        self.lobes = round(1 / float(get("cam", "cam_turns_per_crank_turn", 1.0)))
         self.roller = quantity(machine["follower"]["roller"]["radius"])
         self.offset = quantity(machine["follower"]["roller"].get("offset", "0 mm"))
         self.ccw = get("cam", "rotation", "cw") == "ccw"
@@ -80,9 +80,8 @@ class Cam:
 
     def bottom(self, theta):
         """Δx at cam angles in [0, 2π)."""
-        turn = 2 * np.pi / self.ratio
-        phi = theta / self.ratio
-        phi = np.where(phi > np.pi / 2 + turn / 2, phi - turn, phi)
+        phi = np.mod(theta * self.lobes, 2 * np.pi)
+        phi = np.where(phi > np.pi / 2 + np.pi, phi - 2 * np.pi, phi)
         phi = np.minimum(phi, np.pi - phi)
         low, high = self.piece
         balance = self.law(np.clip(phi, 0, None))
@@ -117,13 +116,14 @@ def roll(binary, directory, name, overrides, flags, tolerance):
     chain = Chain(vertices)
 
     grid = np.radians(np.arange(0, 360, 0.05))
-    edges = np.array([0.0, *cam.piece, cam.start]) * cam.ratio
-    edges = np.concatenate([edges, np.pi * cam.ratio - edges])
+    edges = np.array([0.0, *cam.piece, cam.start])
+    edges = np.concatenate([edges, np.pi - edges]) / cam.lobes
+    edges = (edges[:, None] + np.arange(cam.lobes) * (2 * np.pi / cam.lobes)).ravel()
     near = (edges[:, None] + np.linspace(-1e-3, 1e-3, 41)).ravel()
     theta = np.mod(np.concatenate([grid, near]), 2 * np.pi)
     bottom = cam.bottom(theta)
     # The least of a fine scan, then of the closed form's own end: the dip of a matched law is at x = r.
-    least = min(cam.bottom(np.radians(np.arange(0, 360, 0.01))).min(), cam.bottom(np.array([np.pi / 2 * cam.ratio])).min())
+    least = min(cam.bottom(np.radians(np.arange(0, 360, 0.01))).min(), cam.bottom(np.array([np.pi / 2 / cam.lobes])).min())
     lift = cam.lever * (bottom - least)
     prime = report["cam"]["prime_radius_mm"]
     height = np.sqrt(prime**2 - cam.offset**2) + lift
@@ -165,7 +165,11 @@ def main():
         ("offset 20 mm", [], ["follower.roller.offset=20mm"], []),
         ("offset −20 mm, ccw", [], ["follower.roller.offset=-20mm", "cam.rotation=ccw"], []),
         ("lever 0.5, roller 12 mm", [], ["cam.lever=0.5", "follower.roller.radius=12mm"], []),
-        ("half turn", [], ["cam.cam_turns_per_crank_turn=0.5"], []),
+        ("two lobes", [], ["cam.cam_turns_per_crank_turn=0.5"], []),
+        ("three lobes, offset, ccw", [], ["cam.cam_turns_per_crank_turn=0.3333", "follower.roller.offset=8mm", "cam.rotation=ccw"], []),
+        ("three lobes, corner", [], ["cam.cam_turns_per_crank_turn=0.3333", "buffer.column=return", "transition.kind=none"], []),
+        ("four lobes, blend", [], ["cam.cam_turns_per_crank_turn=0.25", "transition.kind=blend", "transition.width=30deg"], []),
+        ("four lobes, lead", [], ["cam.cam_turns_per_crank_turn=0.25", "buffer.lead=5mm"], []),
         ("lead 5 mm", [], ["buffer.lead=5mm"], []),
     ]
     print(f"{'cam':26} {'tol/um':>7} {'gap/um':>10} {'lift/um':>10} {'kink/deg':>9} {'arcs':>5}")

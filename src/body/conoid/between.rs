@@ -61,7 +61,7 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual
         let worst = extremum::largest_without_slope(|angle| force(index, angle), range, CELLS, SECTIONS);
         Residual { force: worst.value, rpm, angle: worst.at }
     };
-    let moving = section.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell);
+    let moving = section.distinct().iter().enumerate().filter(|(_, piece)| !piece.dwell);
     let none = Residual { force: 0.0, rpm, angle: 0.0 };
     moving.map(of_piece).fold(none, |best, next| if next.force > best.force { next } else { best })
 }

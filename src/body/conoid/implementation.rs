@@ -13,7 +13,7 @@ use crate::profile::size::rounded_up;
 use crate::profile::{Curves, Worst, extremes};
 use crate::report::sheet::Sheet;
 use crate::report::{Report, Section, Speeds};
-use crate::table::{BedRow, ForceRow, Row, SurfaceRow, crank_degrees};
+use crate::table::{BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
@@ -62,8 +62,8 @@ impl Conoid {
         parallel::map(&self.cuts(), part).into_iter().collect()
     }
 
-    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), plane: Curves<'_>, cam_deg: f64) -> Row {
-        let (piece, angle) = section.locate(cam_deg.to_radians());
+    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), plane: Curves<'_>, at: Turned) -> Row {
+        let (piece, angle) = section.locate(at.angle);
         let (state, lift) = (section.state(piece, angle), self.lift(piece, angle, z));
         let contact = self.contact(piece, angle, z);
         let in_plane = plane.contact(piece, angle);
@@ -73,10 +73,10 @@ impl Conoid {
         let touch = turned(contact.point.xy());
         let nowhere = Vector2::new(f64::NAN, f64::NAN);
         Row {
-            cam_deg: Some(cam_deg),
+            cam_deg: Some(at.cam_deg),
             lift: Some(Jet { s: lift[0][0], ds: lift[1][0], dds: lift[2][0], ddds: lift[3][0] }),
             bed: Some(BedRow {
-                crank_deg: Some(crank_degrees(cam_deg, self.machine.cam.turns_per_crank_turn)),
+                crank_deg: Some(at.crank_deg),
                 x: MILLIMETRES * state.overrun,
                 dx: MILLIMETRES * state.displacement,
             }),
@@ -230,7 +230,7 @@ impl Body for Conoid {
         let rows = |cut: &(f64, f64, &Reversal)| -> Vec<Row> {
             let slice = self.slice(cut.1);
             let plane = self.plane_of(&slice);
-            (0..samples).map(|i| self.row(*cut, plane, 360.0 * f64::from(i) / f64::from(samples))).collect()
+            (0..samples).map(|i| self.row(*cut, plane, turned(i, samples, self.machine.cam.lobes))).collect()
         };
         parallel::map(&self.cuts(), rows).into_iter().flatten().collect()
     }

@@ -207,7 +207,7 @@ impl Conoid {
             Reversal::new(ReversalLaw {
                 bottom_law: bottom_law_at(&press, &data, *rpm),
                 lever: machine.cam.lever,
-                ratio: machine.cam.turns_per_crank_turn,
+                lobes: machine.cam.lobes,
                 transition: machine.transition,
             })
         };
@@ -387,7 +387,7 @@ impl Conoid {
         let (lever, follower) = (self.machine.cam.lever, &self.machine.follower);
         let air = self.cylinder.force(section.state(piece, angle).pressure_ratio) / lever;
         let inertia = follower.mass.map_or(0.0, |mass| {
-            let speed = self.press.bed.crank_speed(rpm) * self.machine.cam.turns_per_crank_turn;
+            let speed = self.press.bed.crank_speed(rpm) / f64::from(self.machine.cam.lobes);
             mass * speed * speed * lever * section.bottom(piece, angle).dds
         });
         air + inertia + follower.preload.unwrap_or(0.0)
@@ -425,6 +425,10 @@ pub struct Slice<'a> {
 impl Motion for Slice<'_> {
     fn pieces(&self) -> &[Piece] {
         self.conoid.pieces()
+    }
+
+    fn lobes(&self) -> u32 {
+        self.conoid.machine.cam.lobes
     }
 
     fn jet(&self, piece: usize, angle: f64) -> Jet {

@@ -9,7 +9,7 @@ use crate::geometry::contour::Vertex;
 use crate::motion::Reversal;
 use crate::numeric::parallel;
 use crate::report::sheet::rounded;
-use crate::report::{Section, degrees, shown};
+use crate::report::{Section, degrees, lobes_words, shown};
 use serde::Serialize;
 
 /// The outlines of all sections together.
@@ -38,6 +38,8 @@ struct Measures {
     /// Largest lift over all sections, from their common lowest point.
     max_lift_mm: f64,
     smallest_prime_radius_mm: Option<f64>,
+    /// Equal lobes, one for each turn of the crank in a turn of the cam.
+    lobes: u32,
     z_min_mm: f64,
     z_max_mm: f64,
     /// Of the metal; `None` when no flank was drawn.
@@ -155,6 +157,7 @@ impl Measures {
             roller_radius_mm: MILLIMETRES * conoid.roller.radius,
             max_lift_mm: MILLIMETRES * conoid.max_lift(),
             smallest_prime_radius_mm: conoid.smallest_prime_radius.map(|radius| MILLIMETRES * radius),
+            lobes: conoid.machine.cam.lobes,
             z_min_mm: MILLIMETRES * low,
             z_max_mm: MILLIMETRES * high,
             volume_mm3: volume,
@@ -184,6 +187,11 @@ impl Measures {
                 rounded(self.z_max_mm)
             ),
         ];
+        if self.lobes > 1 {
+            let lobes = lobes_words(self.lobes);
+            words.push(lobes.clone());
+            figures.push(lobes);
+        }
         if let (Some(volume), Some(mass)) = (self.volume_mm3, self.mass_kg) {
             words.push(format!("volume {volume:.1} mm³, mass {mass:.3} kg"));
             figures.push(format!("mass {mass:.2} kg"));

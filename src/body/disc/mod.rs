@@ -14,7 +14,7 @@ use crate::profile::size::{self, NoRadius, Required, Smallest};
 use crate::profile::{Curves, Worst, lifts};
 use crate::report::sheet::Sheet;
 use crate::report::{CamMeasures, Forces, Report, Section, Speeds};
-use crate::table::{BedRow, ForceRow, Row, crank_degrees};
+use crate::table::{BedRow, ForceRow, Row, Turned, turned};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -81,7 +81,7 @@ impl Disc {
         let reversal = Arc::new(Reversal::new(ReversalLaw {
             bottom_law: press.bottom_law(rpm),
             lever: machine.cam.lever,
-            ratio: machine.cam.turns_per_crank_turn,
+            lobes: machine.cam.lobes,
             transition: machine.transition,
         })?);
         let load: Arc<dyn Load> = Arc::new(AirBuffer::new(press.cylinder(), Arc::clone(&reversal)));
@@ -120,7 +120,7 @@ impl Disc {
 
     /// Angular speed of the cam of a press, rad/s.
     fn speed_of(press: &Press, machine: &Machine, rpm: f64) -> f64 {
-        press.bed.crank_speed(rpm) * machine.cam.turns_per_crank_turn
+        press.bed.crank_speed(rpm) / f64::from(machine.cam.lobes)
     }
 
     fn sized(mut self) -> Result<Self, DiscError> {
@@ -214,15 +214,15 @@ impl Disc {
         })
     }
 
-    fn row(&self, cam_deg: f64) -> Row {
+    fn row(&self, at: Turned) -> Row {
         let curves = self.curves();
-        let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
+        let (piece, angle) = curves.motion.locate(at.angle);
         let contact = curves.contact(piece, angle);
         let profile = contact.curve.offset_inward(curves.offset());
         let bed = self.load.as_ref().map(|load| {
             let state = load.state(piece, angle);
             BedRow {
-                crank_deg: Some(crank_degrees(cam_deg, self.machine.cam.turns_per_crank_turn)),
+                crank_deg: Some(at.crank_deg),
                 x: MILLIMETRES * state.overrun,
                 dx: MILLIMETRES * state.displacement,
             }
@@ -233,7 +233,7 @@ impl Disc {
             contact: Some(force / libm::cos(contact.pressure_angle)),
         });
         Row {
-            cam_deg: Some(cam_deg),
+            cam_deg: Some(at.cam_deg),
             lift: (self.motion.quantity() == Quantity::Length).then_some(contact.lift),
             swing: (self.motion.quantity() == Quantity::Angle).then_some(contact.lift),
             position: self.motion.origin().map(|origin| origin + contact.lift.s),
@@ -332,7 +332,7 @@ impl Body for Disc {
 
     /// At 360 i/samples degrees; at a break of the motion the row belongs to the later piece.
     fn rows(&self, samples: u32) -> Vec<Row> {
-        (0..samples).map(|i| self.row(360.0 * f64::from(i) / f64::from(samples))).collect()
+        (0..samples).map(|i| self.row(turned(i, samples, self.motion.lobes()))).collect()
     }
 
     fn sections(&self, found: &Found<'_>) -> Vec<Section> {
@@ -345,6 +345,7 @@ impl Body for Disc {
             max_lift_mm: lift(Quantity::Length, MILLIMETRES),
             max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
             smallest_prime_radius_mm: self.smallest_prime_radius().map(|radius| MILLIMETRES * radius),
+            lobes: self.load.as_ref().map(|_| self.motion.lobes()),
             plate: None,
             weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
         };
