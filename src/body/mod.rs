@@ -14,10 +14,12 @@ pub use part::{Layer, Part};
 
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
+use crate::geometry::boundary::{Boundary, Stretch};
 use crate::machine::Machine;
 use crate::numeric::extremum;
+use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, Outline, OutlineError};
-use crate::profile::{Curves, Worst, envelope, extremes};
+use crate::profile::{Curves, Worst, boundary, envelope, extremes};
 use crate::report::sheet::Sheet;
 use crate::report::{Place, Report, Rolled, Section, Speeds};
 use crate::table::Row;
@@ -241,6 +243,16 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// motion puts it, touching the cam where its normal is this unit vector out of the metal; 0 without a load.
     fn unbalanced(&self, piece: usize, parameter: f64, moved: f64, normal: Vector2<f64>) -> f64;
 
+    /// The exact outline as it lies in the drawing, mm, of a cut at a place along the axis, m; `None` where there is no cut.
+    ///
+    /// # Errors
+    /// [`NoEnvelope`] when the profile folds over itself.
+    fn boundary(&self, _z: f64) -> Result<Option<Boundary<'_>>, NoEnvelope> {
+        let Some(curves) = self.plane() else { return Ok(None) };
+        let stretches = boundary::stretches(curves, self.least_radius().value <= curves.offset())?;
+        Ok(Some(exact(curves, &if self.mirrored() == [true] { mirrored(&stretches) } else { stretches })))
+    }
+
     /// A change that would keep the limits of pressure angle and curvature.
     fn remedy(&self) -> Option<String> {
         None
@@ -268,6 +280,17 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// # Errors
     /// [`OutlineError`] when a curve for viewing cannot be drawn.
     fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError>;
+}
+
+/// The loop of these stretches of a plane cam, mm.
+fn exact<'a>(curves: Curves<'a>, stretches: &[Stretch]) -> Boundary<'a> {
+    let frame = move |piece: usize, parameter: f64| curves.profile(piece, parameter).scaled(MILLIMETRES);
+    Boundary::new(Box::new(frame), stretches)
+}
+
+/// Mirrored about X and run the other way, so that the metal stays on the left.
+fn mirrored(stretches: &[Stretch]) -> Vec<Stretch> {
+    stretches.iter().rev().map(Stretch::mirrored).collect()
 }
 
 /// Worst places of a plane cam, searched once, on demand.

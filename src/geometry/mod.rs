@@ -3,10 +3,14 @@
 //! Knows nothing of motions, followers or machines. Curves are functions in any unit of length; contours and solids are in
 //! millimetres.
 
+pub mod apart;
 pub mod arcs;
+pub mod boundary;
 pub mod contour;
+mod course;
 mod curve_point;
 mod entity;
+pub mod following;
 pub mod solid;
 pub mod track;
 

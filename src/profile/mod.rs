@@ -4,6 +4,7 @@
 //! and radians. What follows from the follower's touch (profile, pressure angle, undercut, size) is derived here once, for
 //! every follower.
 
+pub mod boundary;
 pub mod envelope;
 pub mod extremes;
 pub mod outline;

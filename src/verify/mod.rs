@@ -11,6 +11,7 @@ mod cutter_radius;
 mod cylinder_contact;
 mod file;
 mod force_closure;
+mod outline;
 mod plate_ends;
 mod pressure_angle;
 pub mod rolling;
@@ -95,6 +96,7 @@ pub const CHECKS: &[Check] = &[
     plate_ends::ROLLER_CLEARANCE,
     plate_ends::ENDS,
     tangency::CHECK,
+    outline::CHECK,
     rolling::CHECK,
     sphere::ROLLING_FLANK,
     shift::AXIAL_REACH,

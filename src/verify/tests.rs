@@ -45,7 +45,7 @@ fn each_check_passes_a_good_cam_and_fails_a_broken_one() {
         assert_eq!(of(&findings("dpi", &bad), check).verdict, Verdict::Fail, "{check}");
     }
     assert_eq!(of(&good, "force_closure").verdict, Verdict::Info);
-    for check in ["tangency", "rolling"] {
+    for check in ["tangency", "outline", "rolling"] {
         assert_eq!(of(&good, check).verdict, Verdict::Pass, "{check}: {good:?}");
     }
 }

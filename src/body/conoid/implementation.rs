@@ -2,35 +2,43 @@
 
 use super::{Conoid, KIND, flank, report, sheet};
 use crate::body::part::{Part, point_as_turned};
-use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, passing, radius_of, stress};
+use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, mirrored, passing, radius_of, stress};
+use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::Vertex;
 use crate::geometry::{CurvePoint, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Jet, Motion, Piece, Reversal};
 use crate::numeric::parallel;
+use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
 use crate::profile::size::rounded_up;
-use crate::profile::{Curves, Worst, extremes};
+use crate::profile::{Curves, Worst, boundary, extremes};
 use crate::report::sheet::Sheet;
 use crate::report::{Report, Section, Speeds};
 use crate::table::{BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
+/// Where the surface folds along the axis a cut has no point.
+const BROKEN: CurvePoint = CurvePoint {
+    point: Vector2::new(f64::NAN, f64::NAN),
+    tangent: Vector2::new(f64::NAN, f64::NAN),
+    speed: f64::NAN,
+    curvature: f64::NAN,
+    curvature_slope: f64::NAN,
+};
+
 impl Conoid {
+    /// Whether the cut at z (m) is a circle over a piece: a dwell that does not lean along the axis.
+    fn is_round(&self, index: usize, piece: &Piece, z: f64) -> bool {
+        piece.dwell && self.lift(index, piece.start, z)[0][1] == 0.0
+    }
+
     /// The cut at z (m) as an outline, of a clockwise cam.
     fn section(&self, z: f64, fit: Fit) -> Result<Outline, OutlineError> {
         let (shift, tolerance) = fit.band();
-        let nowhere = Vector2::new(f64::NAN, f64::NAN);
-        let broken = CurvePoint {
-            point: nowhere,
-            tangent: nowhere,
-            speed: f64::NAN,
-            curvature: f64::NAN,
-            curvature_slope: f64::NAN,
-        };
         let frame = |piece: usize, angle: f64| {
-            self.cut(piece, angle, z).map_or(broken, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
+            self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
         };
         let pieces = self.pieces();
         if let Some(corner) = extremes::corners(self.plane_of(&self.slice(z))).first() {
@@ -41,7 +49,7 @@ impl Conoid {
         let mut outline = Outline::empty();
         for (index, piece) in pieces.iter().enumerate().cycle().skip(first).take(pieces.len()) {
             // A dwell that does not lean along the axis is a circle; one that does is nearly one.
-            let round = piece.dwell && self.lift(index, piece.start, z)[0][1] == 0.0;
+            let round = self.is_round(index, piece, z);
             for range in outline::parts(&Piece { dwell: round, ..*piece }, &[], Some(TAU)) {
                 if round {
                     let bulge = libm::tan(0.25 * (range.1 - range.0));
@@ -202,6 +210,20 @@ impl Body for Conoid {
     fn remedy(&self) -> Option<String> {
         let base = self.smallest_prime_radius? - self.roller.radius;
         Some(passing(rounded_up(base)))
+    }
+
+    /// The cut at z.
+    fn boundary(&self, z: f64) -> Result<Option<Boundary<'_>>, NoEnvelope> {
+        let cut = move |piece: usize, angle: f64| {
+            self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.scaled(MILLIMETRES))
+        };
+        let of_piece = |(index, piece): (usize, &Piece)| {
+            let round = self.is_round(index, piece, z);
+            boundary::cut(index, &Piece { dwell: round, ..*piece }, (piece.start, piece.end), false)
+        };
+        let stretches: Vec<Stretch> = self.pieces().iter().enumerate().flat_map(of_piece).collect();
+        let turned = self.mirrored() == [true];
+        Ok(Some(Boundary::new(Box::new(cut), &if turned { mirrored(&stretches) } else { stretches })))
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {

@@ -2,15 +2,17 @@
 
 use super::{END_WIDTH, KIND, Wedge, sheet};
 use crate::body::part::Part;
-use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, largest, stress};
+use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress};
 use crate::geometry::MILLIMETRES;
+use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Segment, Vertex};
 use crate::load::air_law;
 use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver, Trend, Way};
+use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
-use crate::profile::{Curves, Worst, envelope};
+use crate::profile::{Curves, Worst, boundary, envelope};
 use crate::report::sheet::Sheet;
 use crate::report::{
     AirLaw, Break, CamMeasures, Equation18, Forces, Place, PlateMeasures, Report, ResidualByWay, Section, Speeds,
@@ -244,6 +246,18 @@ impl Body for Wedge {
         let end = self.curves().profile(self.motion.pieces().len().saturating_sub(1), self.stroke()).point;
         let mirror = |p: Vector2<f64>| Vector2::new(p.x, -p.y);
         vec![[start, mirror(start)], [run_out, mirror(run_out)], [end, run_out], [mirror(end), mirror(run_out)]]
+    }
+
+    /// Lower flank, run-out, end, the upper flank as the mirror image of the lower; the other end closes the loop.
+    fn boundary(&self, _z: f64) -> Result<Option<Boundary<'_>>, NoEnvelope> {
+        let curves = self.curves();
+        let mut lower = boundary::stretches(curves, self.least_radius().value <= curves.offset())?;
+        let last = self.motion.pieces().len().saturating_sub(1);
+        let (end, run_out) = (curves.profile(last, self.stroke()).point, self.run_out());
+        let run_out = Segment { start: end * MILLIMETRES, end: run_out * MILLIMETRES, bulge: 0.0 };
+        lower.push(Stretch::of_segment(run_out));
+        let upper = mirrored(&lower);
+        Ok(Some(exact(curves, &[lower, upper].concat())))
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {

@@ -1,0 +1,104 @@
+//! How far two chains lie from each other, whatever their shape: for a chain that cannot be followed.
+
+use super::boundary::Boundary;
+use super::contour::{Contour, Segment, Vertex};
+use super::course::Course;
+use super::following::Deviation;
+use super::track::Track;
+use crate::numeric::extremum;
+use nalgebra::Vector2;
+
+/// Arcs laid through a stretch of the exact outline: with a dozen stretches a piece they lie within a nanometre of it.
+const ARCS: u32 = 48;
+/// A part of a chain is looked at closer while it may lie farther off than the farthest place found by this share.
+const CLOSER: f64 = 0.02;
+/// Parts looked at, at the most.
+const MOST_PARTS: usize = 200_000;
+/// Farthest parts whose farthest place is solved, with golden sections.
+const SOLVED: usize = 8;
+/// Rounding of a distance, mm.
+const ROUNDING: f64 = 1e-12;
+
+/// The largest distance between a chain and an exact outline, either way.
+#[must_use]
+pub fn apart(contour: &Contour, boundary: &Boundary<'_>) -> Deviation {
+    let exact = arcs(boundary);
+    let there = farthest(contour, &Track::new(&exact));
+    let back = farthest(&exact, &Track::new(contour));
+    if back.distance > there.distance { back } else { there }
+}
+
+/// The exact outline as many short arcs.
+fn arcs(boundary: &Boundary<'_>) -> Contour {
+    let mut vertices = Vec::new();
+    for (index, stretch) in boundary.stretches().iter().enumerate() {
+        let at = |step: u32| {
+            boundary.at(index, stretch.from + (stretch.to - stretch.from) * f64::from(step) / f64::from(ARCS))
+        };
+        for (a, b) in (0..ARCS).filter_map(|step| at(step).zip(at(step + 1))) {
+            let turn = libm::atan2(a.tangent.perp(&b.tangent), a.tangent.dot(&b.tangent));
+            vertices.push(Vertex { point: a.point, bulge: libm::tan(0.25 * turn) });
+        }
+    }
+    Contour { vertices }
+}
+
+/// A part of a segment: its length, and how far its ends lie from the other chain.
+struct Part<'a> {
+    course: &'a Course,
+    from: (f64, f64),
+    to: (f64, f64),
+}
+
+impl Part<'_> {
+    /// How far the part may lie from the other chain: a distance changes no faster than the place.
+    fn most(&self) -> f64 {
+        0.5 * (self.from.1 + self.to.1 + self.to.0 - self.from.0)
+    }
+}
+
+/// The place of a chain that lies farthest from another.
+fn farthest(chain: &Contour, other: &Track) -> Deviation {
+    let courses: Vec<Course> = chain.segments().filter_map(|segment: Segment| Course::of(&segment)).collect();
+    let away = |point: Vector2<f64>| other.nearest(point).map_or(f64::INFINITY, |nearest| nearest.left.abs());
+    let mut best = Deviation { distance: -1.0, at: Vector2::zeros() };
+    let mut parts = Vec::new();
+    for course in &courses {
+        let ends = [0.0, course.length].map(|length| (length, away(course.at(length).0)));
+        for (length, distance) in ends {
+            if distance > best.distance {
+                best = Deviation { distance, at: course.at(length).0 };
+            }
+        }
+        parts.push(Part { course, from: ends[0], to: ends[1] });
+    }
+    let mut left = MOST_PARTS;
+    let mut highest: Vec<Part<'_>> = Vec::new();
+    while let Some(part) = parts.pop() {
+        let middle = 0.5 * (part.from.0 + part.to.0);
+        if part.most() <= best.distance * (1.0 + CLOSER) + ROUNDING || left == 0 {
+            if part.most() > best.distance {
+                highest.push(part);
+            }
+            continue;
+        }
+        left -= 1;
+        let at = part.course.at(middle).0;
+        let distance = away(at);
+        if distance > best.distance {
+            best = Deviation { distance, at };
+        }
+        parts.push(Part { course: part.course, from: part.from, to: (middle, distance) });
+        parts.push(Part { course: part.course, from: (middle, distance), to: part.to });
+    }
+    highest.sort_by(|a, b| b.from.1.max(b.to.1).total_cmp(&a.from.1.max(a.to.1)));
+    for part in highest.iter().take(SOLVED) {
+        let value = |length: f64| away(part.course.at(length).0);
+        let range = (part.from.0, part.to.0);
+        let top = extremum::largest_without_slope(value, range, 4, extremum::TO_ROUNDING);
+        if top.value > best.distance {
+            best = Deviation { distance: top.value, at: part.course.at(top.at).0 };
+        }
+    }
+    best
+}

@@ -1,0 +1,146 @@
+//! The exact outline of a cam: a closed loop of smooth stretches, millimetres, the metal on the left.
+//!
+//! A stretch is a range of a curve that is a function of a parameter, or an arc or a line that is exact itself. Between two
+//! stretches the heading is continuous, or the loop has a corner there.
+
+use super::CurvePoint;
+use super::contour::Segment;
+use nalgebra::Vector2;
+
+/// A turn between two stretches beyond this is a corner, rad: far above rounding, far below what a shop sees.
+const LEAST_CORNER: f64 = 1e-6;
+
+/// Ends of two stretches farther apart than this are joined by a straight line, mm: the profile under a face whose velocity
+/// jumps. Crossings of a profile with itself are solved to rounding.
+const LEAST_GAP: f64 = 1e-7;
+
+/// The point of a curve at a parameter of one of its pieces, mm.
+pub type Frame<'a> = dyn Fn(usize, f64) -> CurvePoint + 'a;
+
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    /// A piece of the curve.
+    Curve { piece: usize },
+    /// The mirror image of a piece about X, run the other way: its parameter is that of the piece, negated.
+    Mirrored { piece: usize },
+    /// An arc or a line, by its own length.
+    Segment(Segment),
+}
+
+/// A smooth part of the loop.
+#[derive(Debug, Clone, Copy)]
+pub struct Stretch {
+    kind: Kind,
+    /// First value of its parameter.
+    pub from: f64,
+    /// Last value.
+    pub to: f64,
+}
+
+impl Stretch {
+    /// A range of a piece of the curve.
+    #[must_use]
+    pub fn of_curve(piece: usize, (from, to): (f64, f64)) -> Self {
+        Self { kind: Kind::Curve { piece }, from, to }
+    }
+
+    /// An arc or a line.
+    #[must_use]
+    pub fn of_segment(segment: Segment) -> Self {
+        Self { kind: Kind::Segment(segment), from: 0.0, to: segment.length() }
+    }
+
+    /// Its mirror image about X, run the other way.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
+        match self.kind {
+            Kind::Curve { piece } => Self { kind: Kind::Mirrored { piece }, from: -self.to, to: -self.from },
+            Kind::Mirrored { piece } => Self { kind: Kind::Curve { piece }, from: -self.to, to: -self.from },
+            Kind::Segment(s) => Self::of_segment(Segment { start: flip(s.end), end: flip(s.start), bulge: s.bulge }),
+        }
+    }
+}
+
+/// The loop.
+pub struct Boundary<'a> {
+    frame: Box<Frame<'a>>,
+    stretches: Vec<Stretch>,
+    /// Both ends of each stretch.
+    ends: Vec<[CurvePoint; 2]>,
+}
+
+impl<'a> Boundary<'a> {
+    /// The loop of these stretches, in order; gaps between them are closed by straight lines.
+    #[must_use]
+    pub fn new(frame: Box<Frame<'a>>, stretches: &[Stretch]) -> Self {
+        let mut boundary = Self { frame, stretches: Vec::new(), ends: Vec::new() };
+        let ends: Vec<[CurvePoint; 2]> =
+            stretches.iter().map(|s| [boundary.on(s, s.from), boundary.on(s, s.to)]).collect();
+        let next = ends.iter().skip(1).chain(ends.first());
+        for ((stretch, own), next) in stretches.iter().zip(&ends).zip(next) {
+            boundary.stretches.push(*stretch);
+            boundary.ends.push(*own);
+            let (start, end) = (own[1].point, next[0].point);
+            if (end - start).norm() > LEAST_GAP {
+                let line = Stretch::of_segment(Segment { start, end, bulge: 0.0 });
+                boundary.ends.push([boundary.on(&line, line.from), boundary.on(&line, line.to)]);
+                boundary.stretches.push(line);
+            }
+        }
+        boundary
+    }
+
+    /// Its stretches in order.
+    #[must_use]
+    pub fn stretches(&self) -> &[Stretch] {
+        &self.stretches
+    }
+
+    /// The two ends of a stretch; stretches are counted round and round.
+    #[must_use]
+    pub fn ends(&self, index: usize) -> Option<&[CurvePoint; 2]> {
+        self.ends.get(index % self.ends.len().max(1))
+    }
+
+    /// Whether the loop has a corner where a stretch starts.
+    #[must_use]
+    pub fn starts_at_corner(&self, index: usize) -> bool {
+        let before = self.ends(index + self.ends.len() - 1).map(|ends| ends[1].tangent);
+        let after = self.ends(index).map(|ends| ends[0].tangent);
+        // Of a direction that is no number nothing is known: a corner.
+        !before.zip(after).is_some_and(|(a, b)| a.dot(&b) > 0.0 && a.perp(&b).abs() <= LEAST_CORNER)
+    }
+
+    /// The point of the loop at a parameter of a stretch; stretches are counted round and round.
+    #[must_use]
+    pub fn at(&self, index: usize, parameter: f64) -> Option<CurvePoint> {
+        Some(self.on(self.stretches.get(index % self.stretches.len().max(1))?, parameter))
+    }
+
+    fn on(&self, stretch: &Stretch, parameter: f64) -> CurvePoint {
+        match &stretch.kind {
+            Kind::Curve { piece } => (self.frame)(*piece, parameter),
+            Kind::Mirrored { piece } => {
+                let there = (self.frame)(*piece, -parameter);
+                CurvePoint {
+                    point: Vector2::new(there.point.x, -there.point.y),
+                    tangent: Vector2::new(-there.tangent.x, there.tangent.y),
+                    curvature_slope: -there.curvature_slope,
+                    ..there
+                }
+            }
+            Kind::Segment(segment) => {
+                let (point, tangent) = segment.at(parameter / stretch.to);
+                let curvature = if segment.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
+                CurvePoint { point, tangent, speed: 1.0, curvature, curvature_slope: 0.0 }
+            }
+        }
+    }
+}
+
+impl std::fmt::Debug for Boundary<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Boundary").field("stretches", &self.stretches).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,172 @@
+//! A segment of a chain by its own length: points, and where a normal of another curve meets it.
+
+use super::contour::Segment;
+use nalgebra::Vector2;
+use std::f64::consts::PI;
+
+/// A segment of some length, seen from its start.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    /// Start, mm.
+    pub(super) start: Vector2<f64>,
+    /// Unit tangent there.
+    pub(super) heading: Vector2<f64>,
+    /// Signed curvature, 1/mm, positive where it turns left.
+    pub(super) curvature: f64,
+    /// Length, mm.
+    pub(super) length: f64,
+}
+
+impl Course {
+    /// `None` for a segment without length.
+    #[must_use]
+    pub(super) fn of(segment: &Segment) -> Option<Self> {
+        let chord = (segment.end - segment.start).norm();
+        if !(chord > 0.0) {
+            return None;
+        }
+        let b = segment.bulge;
+        let curvature = 4.0 * b / (chord * (1.0 + b * b));
+        let length = if b == 0.0 { chord } else { (segment.sweep() / curvature).abs() };
+        Some(Self { start: segment.start, heading: segment.start_tangent(), curvature, length })
+    }
+
+    /// Point and unit tangent at a length from the start, mm.
+    #[must_use]
+    pub(super) fn at(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
+        if self.curvature == 0.0 {
+            return (self.start + self.heading * length, self.heading);
+        }
+        // The chord leaves the start turned by half of what the arc sweeps.
+        let half = 0.5 * self.curvature * length;
+        let (sin, cos) = (libm::sin(half), libm::cos(half));
+        let turned = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+        let along = turned(self.heading);
+        (self.start + along * (2.0 * sin / self.curvature), turned(along))
+    }
+
+    /// Where the straight line through a point along a unit vector meets the circle or line of the segment nearest to the
+    /// point: the distance along the vector, and the length from the segment's start (beyond 0 and its length where the
+    /// segment does not reach). `None` where they do not meet.
+    ///
+    /// With x from the start and the left normal N of its heading, the circle is k x²/2 = N·x, also for a line, k = 0.
+    #[must_use]
+    pub(super) fn hit(&self, point: Vector2<f64>, direction: Vector2<f64>) -> Option<(f64, f64)> {
+        let from = point - self.start;
+        let left = Vector2::new(-self.heading.y, self.heading.x);
+        let k = self.curvature;
+        let (a, b) = (0.5 * k, k * from.dot(&direction) - left.dot(&direction));
+        let c = 0.5 * k * from.norm_squared() - left.dot(&from);
+        let root = (b * b - 4.0 * a * c).sqrt();
+        let away = -2.0 * c / (b + root.copysign(b));
+        if !away.is_finite() {
+            return None;
+        }
+        let x = from + direction * away;
+        let (along, across) = (self.heading.dot(&x), self.heading.perp(&x));
+        if k == 0.0 {
+            return Some((away, along));
+        }
+        Some((away, self.along(across, along)))
+    }
+
+    /// The length from the start to a point of the circle, seen from the start: `across` to the left of the heading and
+    /// `along` it. Behind the middle of what the arc leaves of the circle it counts back from the start.
+    fn along(&self, across: f64, along: f64) -> f64 {
+        let bend = self.curvature.abs();
+        // The chord to the point leaves the start turned by half of what the arc sweeps up to there, and is 2 sin(half)/k
+        // long: that near the start, where its direction is rounding.
+        let (sine, round) = (0.5 * bend * libm::hypot(across, along), 2.0 * PI / bend);
+        let length = if sine > 0.5 {
+            2.0 * libm::atan2(across * self.curvature.signum(), along) / bend
+        } else if along >= 0.0 {
+            2.0 * libm::asin(sine) / bend
+        } else {
+            let back = 2.0 * libm::asin(sine) / bend;
+            return if round - back > 0.5 * (self.length + round) { -back } else { round - back };
+        };
+        if length > 0.5 * (self.length + round) { length - round } else { length }
+    }
+
+    /// The length from the start to the place nearest to a point, mm.
+    #[must_use]
+    pub(super) fn nearest(&self, point: Vector2<f64>) -> f64 {
+        let away = point - self.start;
+        let along = if self.curvature == 0.0 {
+            self.heading.dot(&away)
+        } else {
+            let left = Vector2::new(-self.heading.y, self.heading.x);
+            // Seen from the centre, over the radius.
+            let (across, forth) = (1.0 - self.curvature * left.dot(&away), self.curvature * self.heading.dot(&away));
+            let (turn, round) = (libm::atan2(forth, across), 2.0 * PI);
+            let turn = turn * self.curvature.signum();
+            let turn = if turn < 0.0 { turn + round } else { turn };
+            let length = turn / self.curvature.abs();
+            if length > 0.5 * (self.length + round / self.curvature.abs()) { 0.0 } else { length }
+        };
+        along.clamp(0.0, self.length)
+    }
+
+    /// The largest distance from a point between two lengths, mm.
+    #[must_use]
+    pub(super) fn farthest_from(&self, point: Vector2<f64>, (from, to): (f64, f64)) -> f64 {
+        let ends = (self.at(from).0 - point).norm().max((self.at(to).0 - point).norm());
+        if self.curvature == 0.0 {
+            return ends;
+        }
+        let left = Vector2::new(-self.heading.y, self.heading.x);
+        let centre = self.start + left / self.curvature;
+        let away = centre - point;
+        if !(away.norm() > 0.0) {
+            return ends;
+        }
+        // Beyond the centre, seen from the point, when the arc gets there.
+        let top = centre + away.normalize() / self.curvature.abs();
+        let x = top - self.start;
+        let there = self.along(self.heading.perp(&x), self.heading.dot(&x));
+        if (from..=to).contains(&there) { ends.max((top - point).norm()) } else { ends }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn courses() -> Vec<Course> {
+        let at = |x: f64, y: f64| Vector2::new(x, y);
+        let of = |bulge| Course::of(&Segment { start: at(1.0, 2.0), end: at(5.0, 3.0), bulge });
+        [0.0, 1e-9, 1e-4, 0.3, -0.3, 1.5, -1.5].into_iter().filter_map(of).collect()
+    }
+
+    #[test]
+    fn a_normal_of_a_point_beside_it_finds_the_place_again() {
+        for course in courses() {
+            for share in [0.0, 0.1, 0.5, 0.9, 1.0] {
+                let (point, tangent) = course.at(share * course.length);
+                for away in [-0.01, 0.2] {
+                    // Off its own normal by 0.3 rad.
+                    let normal = Vector2::new(tangent.y, -tangent.x);
+                    let slanted = normal * libm::cos(0.3) + tangent * libm::sin(0.3);
+                    let (found, along) = course.hit(point - slanted * away, slanted).expect("a place");
+                    assert!((found - away).abs() < 1e-13, "{course:?} {share}: {found}");
+                    assert!((along - share * course.length).abs() < 1e-11, "{course:?} {share}: {along}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_farthest_place_is_the_farthest_of_many() {
+        for course in courses() {
+            for point in [Vector2::new(0.0, 0.0), Vector2::new(3.0, 2.6), Vector2::new(3.0, 9.0)] {
+                let range = (0.1 * course.length, 0.9 * course.length);
+                let scan = (0..=20_000).map(|i| {
+                    let share = f64::from(i) / 2e4;
+                    (course.at(range.0 + share * (range.1 - range.0)).0 - point).norm()
+                });
+                let scan = scan.fold(0.0, f64::max);
+                assert!((course.farthest_from(point, range) - scan).abs() < 1e-6, "{course:?} {point:?}");
+            }
+        }
+    }
+}

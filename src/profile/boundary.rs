@@ -1,0 +1,60 @@
+//! The exact profile as a closed loop, against which a written outline is proved.
+
+use super::envelope::{self, Loss, NoEnvelope};
+use super::{Curves, extremes, outline};
+use crate::geometry::MILLIMETRES;
+use crate::geometry::boundary::Stretch;
+use crate::geometry::contour::Segment;
+use crate::motion::Piece;
+
+/// Stretches into which a piece of the motion is cut, so that none turns far: a piece turns by half a circle or little more.
+const STRETCHES: u32 = 12;
+/// A dwell turns evenly: stretches of this angle, rad.
+const DWELL_STRETCH: f64 = 0.9;
+
+/// The profile as stretches in millimetres, in the order of the motion, without the loops where it is undercut; `sharp` where
+/// loops are possible at all: a convex radius of the follower's curve is not larger than what the profile lies inside of it.
+///
+/// # Errors
+/// [`NoEnvelope`] when the profile folds over itself without an envelope.
+pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<Stretch>, NoEnvelope> {
+    let losses: Vec<Loss> = if sharp { envelope::losses(curves)? } else { Vec::new() };
+    let (pieces, period) = (curves.motion.pieces(), curves.motion.period());
+    let corners = extremes::corners(curves);
+    let mut all = Vec::new();
+    for (index, piece) in pieces.iter().enumerate() {
+        for range in outline::parts(piece, &losses, period) {
+            all.extend(cut(index, piece, range, period.is_none()));
+        }
+        // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
+        if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
+            && curves.offset() > 0.0
+        {
+            let start = curves.profile(index, piece.end).point * MILLIMETRES;
+            let next = (index + 1) % pieces.len();
+            let end =
+                pieces.get(next).map_or(start, |next_piece| curves.profile(next, next_piece.start).point * MILLIMETRES);
+            all.push(Stretch::of_segment(Segment { start, end, bulge: libm::tan(0.25 * corner.turn) }));
+        }
+    }
+    Ok(all)
+}
+
+/// A range of a piece as stretches; the dwell of a cam that is run over once is straight.
+pub fn cut(
+    index: usize,
+    piece: &Piece,
+    (from, to): (f64, f64),
+    straight: bool,
+) -> impl Iterator<Item = Stretch> + use<> {
+    let count = match (piece.dwell, straight) {
+        (true, true) => 1.0,
+        (true, false) => ((to - from) / DWELL_STRETCH).ceil().max(1.0),
+        (false, _) => f64::from(STRETCHES),
+    };
+    let at =
+        move |step: u32| if f64::from(step) >= count { to } else { from + (to - from) * (f64::from(step) / count) };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a dozen")]
+    let steps = count as u32;
+    (0..steps).map(move |step| Stretch::of_curve(index, (at(step), at(step + 1))))
+}
