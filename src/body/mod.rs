@@ -10,7 +10,7 @@ mod part;
 mod stress;
 pub mod wedge;
 
-pub use part::{Layer, Part};
+pub use part::{Layer, NEGLIGIBLE_MM, Part};
 
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;

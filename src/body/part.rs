@@ -13,6 +13,10 @@ use std::f64::consts::PI;
 /// Grams in a kilogram.
 const GRAMS: f64 = 1e3;
 
+/// A centre of mass nearer to the shaft than this, mm, is on it: far below any grade of balancing, far above what arcs fitted
+/// lobe by lobe differ by.
+pub const NEGLIGIBLE_MM: f64 = 1e-6;
+
 /// Layer of a cut file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Layer {
@@ -69,7 +73,7 @@ impl Part {
         let round = self.bore.as_ref().map(Entity::contour);
         let balancing = machine.cam.balance.map(|(inner, outer)| {
             let band = (MILLIMETRES * inner, MILLIMETRES * outer);
-            balancing::balance(&self.outline.contour, round.as_ref(), band, wall)
+            balancing::balance(&self.outline.contour, round.as_ref(), band, wall, NEGLIGIBLE_MM)
         });
         Self { balancing, ..self }
     }

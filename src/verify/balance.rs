@@ -1,33 +1,62 @@
 //! The static unbalance that the holes of a disc leave.
 
 use super::{Check, Evidence, On};
+use crate::body::NEGLIGIBLE_MM;
+use crate::body::balancing::{MOST_HOLES, Unbalanced, moment};
 use crate::report::{Finding, Verdict};
+use std::f64::consts::PI;
 
 pub(super) const CHECK: Check = Check {
     name: "balance",
     on: On::Cam,
-    about: "The static unbalance of a disc that the holes within cam.balance leave.",
+    about: "The static unbalance of a disc that the holes within cam.balance leave, of the metal as written: outline as read back, \
+            bore with keyway, holes. Holes keep limits.wall, at least a millimetre, to all of them and to each other.",
     run: check,
 };
 
-/// What may be left, over what was there: holes are placed exactly, so only rounding.
-const LEFT_OVER: f64 = 1e-9;
-
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
-    let balancing = evidence.drawn?.parts.first()?.balancing.as_ref()?;
+    let part = evidence.drawn?.parts.first()?;
+    let balancing = part.balancing.as_ref()?;
     let machine = evidence.body.machine();
     // Grams times millimetres of a disc of this thickness, or of one as thick as a millimetre.
     let thickness = machine.cam.thickness.unwrap_or(1e-3);
     let weight = 1e-3 * machine.cam.density() * thickness;
-    let (before, after) = (weight * balancing.before, weight * balancing.after);
-    let limit = LEFT_OVER * before;
-    let kept = after <= limit;
-    let note = match balancing.holes.first() {
-        Some((_, radius)) => {
-            format!("{} holes of radius {radius:.4} mm cancel {before:.0} g·mm", balancing.holes.len())
-        }
-        None if kept => "nothing to balance".into(),
-        None => "no holes in the band of cam.balance cancel it; widen the band".into(),
+    let outline = evidence.outlines.first().map_or(&part.outline.contour, |written| &written.contour);
+    let left = part.holes().iter().fold(moment(outline), |left, hole| left - moment(&hole.contour()));
+    let area = outline.area_and_centroid().0;
+    let (before, after) = (weight * balancing.before, weight * left.norm());
+    let limit = weight * area * NEGLIGIBLE_MM;
+    let note = match (balancing.holes.as_slice(), &balancing.unbalanced) {
+        ([(centre, radius), ..], _) => format!(
+            "{} holes of radius {radius:.4} mm at {:.4} mm from the shaft cancel {before:.0} g·mm",
+            balancing.holes.len(),
+            centre.norm()
+        ),
+        ([], Some(unbalanced)) => words(unbalanced, weight, before),
+        ([], None) => "nothing to balance".into(),
     };
-    Some(Finding { note: Some(note), ..CHECK.found(after, Some(limit), "g·mm", Verdict::of(kept)) })
+    Some(Finding { note: Some(note), ..CHECK.found(after, Some(limit), "g·mm", Verdict::of(after <= limit)) })
+}
+
+fn words(unbalanced: &Unbalanced, weight: f64, before: f64) -> String {
+    let family = format!("1 to {MOST_HOLES} equal holes evenly spaced on a circle about the heavy side");
+    let best = unbalanced.best.map_or_else(
+        || format!("no hole fits into the band of cam.balance; tried: {family}"),
+        |row| {
+            format!(
+                "the band of cam.balance is too narrow: of {family}, none leaves less than {:.0} g·mm; {} of radius {:.2} mm at \
+                 {:.2} mm from the shaft, {:.2}° apart, would leave {:.0} g·mm",
+                weight * unbalanced.least,
+                row.count,
+                row.radius,
+                row.distance,
+                row.apart * 180.0 / PI,
+                before - weight * row.moment()
+            )
+        },
+    );
+    match unbalanced.band {
+        Some((inner, outer)) => format!("{best}; cam.balance = \"{inner} mm .. {outer} mm\" would pass"),
+        None => format!("{best}; no wider band would do"),
+    }
 }

@@ -50,6 +50,30 @@ fn each_check_passes_a_good_cam_and_fails_a_broken_one() {
     }
 }
 
+/// The holes miss bore and keyway, so that the metal left is balanced; a band in which no row does it is told with the least that
+/// is possible, and with a band that does, if any.
+#[test]
+fn holes_balance_the_metal_left() {
+    let light = ["cam.lever=0.15", "cam.base_radius=90mm", "cam.keyway.angle=270deg", "cam.keyway.width=40mm"];
+    let good = [&light[..], &["cam.keyway.depth=30mm", "cam.balance=40mm .. 85mm"]].concat();
+    assert_eq!(of(&findings("dpi", &good), "balance").verdict, Verdict::Pass);
+    let narrow = [&light[..], &["cam.keyway.depth=30mm", "cam.balance=80mm .. 81mm"]].concat();
+    let refused = findings("dpi", &narrow);
+    let note = of(&refused, "balance").note.clone().expect("a note");
+    assert!(note.contains("none leaves less than"), "{note}");
+    let band = note.split("cam.balance = \"").nth(1).and_then(|rest| rest.split('"').next()).expect(&note);
+    let band = format!("cam.balance={band}");
+    let wider = [&light[..], &["cam.keyway.depth=30mm", &band]].concat();
+    assert_eq!(of(&findings("dpi", &wider), "balance").verdict, Verdict::Pass, "{band}");
+    // The lift of the default cam is as large as its base circle: no row of holes balances that.
+    let heavy = findings("dpi", &["cam.balance=40mm .. 85mm"]);
+    let note = of(&heavy, "balance").note.as_deref().expect("a note");
+    assert!(note.ends_with("no wider band would do"), "{note}");
+    // Equal lobes balance each other.
+    let lobes = findings("dpi", &["cam.cam_turns_per_crank_turn=0.3333", "cam.balance=40mm .. 85mm"]);
+    assert_eq!(of(&lobes, "balance").note.as_deref(), Some("nothing to balance"));
+}
+
 #[test]
 fn a_refusal_names_what_would_pass() {
     let refused = findings("dpi-paper", &["cam.base_radius=200mm"]);
