@@ -200,7 +200,10 @@ pub trait Body: std::fmt::Debug + Send + Sync {
                 .iter()
                 .map(|loss| {
                     let [from, to, at] = [loss.from, loss.to, loss.lost_at].map(|place| self.place(place));
-                    format!("motion is lost from {from} to {to}, {:.4} mm at {at}", 1e3 * loss.lost)
+                    let lost = MILLIMETRES * loss.lost;
+                    // Seven digits, as exactly as it is known.
+                    let lost = if lost < 1e-4 { format!("{lost:.6e}") } else { format!("{lost:.6}") };
+                    format!("motion is lost from {from} to {to}, {lost} mm at {at}")
                 })
                 .collect(),
         }

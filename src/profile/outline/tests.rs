@@ -1,6 +1,6 @@
 use super::*;
 use crate::body::disc::Disc;
-use crate::follower::TranslatingRoller;
+use crate::follower::{FlatFace, TranslatingRoller};
 use crate::machine::Machine;
 use crate::motion::EccentricCircle;
 use crate::verify::rolling;
@@ -73,11 +73,24 @@ fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
 
 #[test]
 fn what_cannot_be_drawn_is_told() {
-    let swallowed =
-        rotary(&["cam.base_radius=1mm", "cam.lever=10", "follower.roller.radius=300mm", "cam.bore_radius=0.5mm"]);
-    assert!(matches!(profile(swallowed.curves(), 0.005), Err(OutlineError::Undercut(_))));
+    // A face on a cam smaller than what its law asks for turns back over half of it.
+    let wave = EccentricCircle::new(0.1, 0.01);
+    let swallowed = Curves { motion: &wave, follower: &FlatFace::new(1e-3) };
+    assert!(matches!(profile(swallowed, 0.005), Err(OutlineError::Undercut(_))), "{:?}", profile(swallowed, 0.005));
     let huge = rotary(&["cam.base_radius=1000m"]);
     assert!(matches!(profile(huge.curves(), 0.005), Err(OutlineError::TooLarge { .. })));
     let cam = rotary(&[]);
     assert!(matches!(profile(cam.curves(), 1e-16), Err(OutlineError::Fit(_))));
+}
+
+/// At a concave corner the roller turns in place, its centre in that of the arc: the distance from there is the radius, whatever
+/// the direction rounding gives the nearest point.
+#[test]
+fn a_roller_in_a_corner_of_its_own_radius_touches_it() {
+    for (offset, lead) in [(-28.9924, 7.0), (-28.9924, 3.0), (11.37, 7.0), (0.0, 1.234), (25.0, 12.5)] {
+        let cam = rotary(&[&format!("follower.roller.offset={offset}mm"), &format!("buffer.lead={lead}mm")]);
+        let outline = profile(cam.curves(), 5e-10).expect("an outline");
+        let rolled = rolling::roll(&cam, cam.curves(), &outline.contour, 5e-7);
+        assert!(rolled.gap_mm.abs() <= 5e-7, "{offset} {lead}: {rolled:?}");
+    }
 }

@@ -1,0 +1,96 @@
+//! Where a parallel curve runs backwards.
+
+use super::Parallel;
+use crate::follower::Element;
+use crate::motion::Piece;
+use crate::numeric::root;
+use crate::profile::extremes::{self, Corner};
+
+/// Cells of a piece: its sharpness has a handful of extrema.
+const CELLS: u32 = 256;
+
+/// The corners at which the curve steps backwards.
+pub(super) fn corners(parallel: Parallel<'_>) -> Vec<Corner> {
+    let mut corners = extremes::corners(parallel.curves);
+    corners.retain(|corner| corner.turn * parallel.distance > 0.0);
+    corners
+}
+
+/// Stretches of the parameter in which the curve runs backwards, from cusp to cusp, and corners at which it steps backwards as
+/// stretches without length; in order.
+pub(super) fn folds(parallel: Parallel<'_>) -> Vec<(f64, f64)> {
+    let motion = parallel.curves.motion;
+    let mut folds: Vec<(f64, f64)> = corners(parallel).iter().map(|c| (c.at, c.at)).collect();
+    for (index, piece) in motion.pieces().iter().enumerate() {
+        folds.extend(in_piece(parallel, index, piece));
+    }
+    folds.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut merged: Vec<(f64, f64)> = Vec::new();
+    for fold in folds {
+        match merged.last_mut() {
+            Some(last) if fold.0 <= last.1 => last.1 = last.1.max(fold.1),
+            _ => merged.push(fold),
+        }
+    }
+    // One that reaches over the end of the period is one.
+    if let (Some(period), [first, .., last]) = (motion.period(), merged.as_mut_slice())
+        && (first.0, last.1) == motion.range()
+    {
+        first.0 = last.0 - period;
+        merged.pop();
+    }
+    merged
+}
+
+/// A number with the sign of the curve's speed, and its derivative.
+fn forward(parallel: Parallel<'_>, piece: usize, parameter: f64) -> (f64, f64) {
+    let curve = parallel.curves.touch(piece, parameter).curve;
+    match parallel.curves.element() {
+        // 1 − κ d, and −κ' ℓ d.
+        Element::Roller { .. } => {
+            (1.0 - curve.curvature * parallel.distance, -curve.curvature_slope * curve.speed * parallel.distance)
+        }
+        // Under a face ρ − d with ρ = ℓ = 1/κ, and dρ/dθ = −κ' ℓ/κ².
+        Element::Face => {
+            (curve.speed - parallel.distance, -curve.curvature_slope * curve.speed * curve.speed * curve.speed)
+        }
+    }
+}
+
+/// The folds of a piece, cut off at its ends.
+fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<(f64, f64)> {
+    let at = |parameter: f64| forward(parallel, index, parameter);
+    // Written so that a NaN counts as backwards.
+    let backwards = |(value, _): (f64, f64)| !(value > 0.0);
+    let cusp = |low: f64, high: f64| root::bracketed(|p| at(p).0, low, high, 0.0).unwrap_or(high);
+    let cells = if piece.dwell { 1 } else { CELLS };
+    let place = |cell: u32| {
+        if cell == cells { piece.end } else { piece.start + (piece.end - piece.start) / f64::from(cells) * f64::from(cell) }
+    };
+    let mut folds = Vec::new();
+    let (mut left, mut there) = (piece.start, at(piece.start));
+    let mut from = backwards(there).then_some(left);
+    for cell in 1..=cells {
+        let right = place(cell);
+        let here = at(right);
+        match (from, backwards(here)) {
+            (None, true) => from = Some(cusp(left, right)),
+            (Some(start), false) => {
+                folds.push((start, cusp(left, right)));
+                from = None;
+            }
+            // A fold within a cell shows at its sharpest place.
+            (None, false) if there.1 < 0.0 && here.1 > 0.0 => {
+                if let Ok(sharpest) = root::bracketed(|p| at(p).1, left, right, 0.0)
+                    && backwards(at(sharpest))
+                {
+                    folds.push((cusp(left, sharpest), cusp(sharpest, right)));
+                }
+            }
+            _ => {}
+        }
+        (left, there) = (right, here);
+    }
+    folds.extend(from.map(|start| (start, piece.end)));
+    folds
+}
