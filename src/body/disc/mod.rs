@@ -324,7 +324,7 @@ impl Body for Disc {
         })?;
         let part = Part::turning(&self.machine, outline).balanced(&self.machine);
         let cutter_path = |radius: f64| {
-            let path = outline::cutter_path(curves, radius, request.fit.tolerance)?;
+            let path = outline::cutter_path(curves, radius, request.fit)?;
             Ok::<_, OutlineError>(Part::turning(&self.machine, path).outline)
         };
         Ok(Drawn { parts: vec![part], flank: None, cutter_path: request.cutter.map(cutter_path) })

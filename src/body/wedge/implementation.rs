@@ -12,7 +12,7 @@ use crate::motion::Motion;
 use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver, Trend, Way};
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
-use crate::profile::{Curves, Worst, boundary, envelope};
+use crate::profile::{Curves, Worst, boundary};
 use crate::report::sheet::Sheet;
 use crate::report::{
     AirLaw, Break, CamMeasures, Equation18, Forces, Place, PlateMeasures, Report, ResidualByWay, Section, Speeds,
@@ -20,10 +20,12 @@ use crate::report::{
 use crate::table::{BedRow, PlateRow, Row};
 use nalgebra::Vector2;
 
+/// Readers drop shorter segments, mm.
+const SHORTEST: f64 = 1e-6;
+
 impl Wedge {
     /// The plate as an outline: lower flank, straight run-out, end, the upper flank as its mirror image, other end.
     fn outline(&self, fit: Fit) -> Result<Outline, OutlineError> {
-        let (shift, half) = fit.band();
         if !(self.thinnest > 0.0) {
             return Err(OutlineError::Thin {
                 thinnest_mm: MILLIMETRES * self.thinnest,
@@ -32,14 +34,17 @@ impl Wedge {
             });
         }
         let curves = self.curves();
-        let distance = curves.offset() + shift;
-        let flank = outline::parallel(curves, distance, half, &envelope::losses(curves)?)?.counted_from_exact(shift);
+        let (flank, shift) = outline::profile_within(curves, fit)?;
         let mut lower = flank.contour.vertices;
         let last = self.motion.pieces().len().saturating_sub(1);
         let contact = curves.contact(last, self.stroke()).curve;
-        let end = contact.offset_inward(distance).point * MILLIMETRES;
-        let run_out = self.run_out() * MILLIMETRES - contact.outward() * (MILLIMETRES * shift);
-        lower.extend([end, run_out].map(|point| Vertex { point, bulge: 0.0 }));
+        let (outward, tangent) = (contact.outward(), contact.tangent);
+        let end = contact.offset_inward(curves.offset() + shift).point * MILLIMETRES;
+        // The flank beside the exact one ends on the same end of the plate; a short run-out may end before that one does.
+        let back = outward * shift - tangent * (shift * outward.x / tangent.x);
+        let run_out = self.run_out() * MILLIMETRES - back * MILLIMETRES;
+        let there = (run_out - end).dot(&tangent) > SHORTEST;
+        lower.extend(std::iter::once(end).chain(there.then_some(run_out)).map(|point| Vertex { point, bulge: 0.0 }));
         // Mirrored and run the other way a segment keeps its bulge, which then belongs to its other end.
         let bulges = lower.iter().map(|vertex| vertex.bulge);
         let bulges: Vec<f64> = std::iter::once(0.0).chain(bulges).collect();

@@ -64,3 +64,43 @@ fn the_forces_balance_while_the_bed_is_braked() {
         }
     }
 }
+
+/// Flanks beside the exact ones end on the ends of the plate, and a concave corner keeps its arc, however large the tolerance is
+/// against the roller; before, the ends moved along the flank and counted as kinks.
+#[test]
+fn a_plate_on_either_side_of_a_wide_band_has_its_ends_and_no_kinks() {
+    use crate::body::Request;
+    use crate::pipeline::Spec;
+    use crate::profile::outline::{Fit, Side};
+    use crate::report::Verdict;
+    let corner = ["buffer.column=return", "transition.kind=none"];
+    for (side, tolerance, roller, overrides) in [
+        (Side::Inside, 1e-3, "30mm", &[][..]),
+        (Side::Inside, 1e-3, "0.4mm", &[]),
+        (Side::Inside, 1e-3, "0.4mm", &corner),
+        (Side::Inside, 0.31e-3, "2mm", &corner),
+        (Side::Outside, 1e-3, "30mm", &[]),
+        (Side::Outside, 1e-3, "0.4mm", &[]),
+        (Side::Outside, 1e-3, "0.4mm", &corner),
+        (Side::Outside, 0.7e-3, "0.07mm", &corner),
+        (Side::Outside, 5e-6, "2um", &corner),
+        (Side::Outside, 5e-6, "3um", &["buffer.column=return"]),
+    ] {
+        let name = format!("{side:?} {tolerance} {roller} {overrides:?}");
+        let set: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let set = [set, vec![format!("translating.roller_radius={roller}")]].concat();
+        let machine = Machine::load("dpi", &set).expect("valid").0;
+        let spec = Spec::translating(machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking);
+        let cam = spec.solve().expect("a plate");
+        let proven = cam.draw(Request::within(Fit { tolerance, side })).expect("drawn").prove().expect("proved");
+        for check in ["tangency", "rolling", "ends"] {
+            let found = proven.findings().iter().find(|f| f.check == check).expect("checked");
+            assert_eq!(found.verdict, Verdict::Pass, "{name}: {found:?}");
+        }
+        // The corners of the two ends and nothing else.
+        let outline = &proven.drawn().expect("drawn").parts[0].outline;
+        let kinks = outline.contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-9);
+        assert_eq!(kinks.filter(|turn| *turn > 1.0).count(), 4, "{name}");
+        assert!(outline.deviation <= 1e3 * tolerance, "{name}: {}", outline.deviation);
+    }
+}

@@ -65,7 +65,11 @@ fn in_piece(parallel: Parallel<'_>, index: usize, piece: &Piece) -> Vec<(f64, f6
     let cusp = |low: f64, high: f64| root::bracketed(|p| at(p).0, low, high, 0.0).unwrap_or(high);
     let cells = if piece.dwell { 1 } else { CELLS };
     let place = |cell: u32| {
-        if cell == cells { piece.end } else { piece.start + (piece.end - piece.start) / f64::from(cells) * f64::from(cell) }
+        if cell == cells {
+            piece.end
+        } else {
+            piece.start + (piece.end - piece.start) / f64::from(cells) * f64::from(cell)
+        }
     };
     let mut folds = Vec::new();
     let (mut left, mut there) = (piece.start, at(piece.start));

@@ -2,8 +2,9 @@
 //!
 //! Tolerances are in metres, like everything that comes in; contours and their measures are in millimetres.
 
-use super::envelope::{self, Loss, NoEnvelope};
+use super::envelope::{Approach, Loop, NoEnvelope, Parallel};
 use super::{Curves, extremes};
+use crate::follower::Element;
 use crate::geometry::arcs::{self, FitError};
 use crate::geometry::contour::{Contour, Vertex};
 use crate::geometry::{CurvePoint, MILLIMETRES};
@@ -21,6 +22,9 @@ pub const LARGEST_COORDINATE: f64 = 1e6;
 
 /// Tolerance of the pitch curve on a sheet, which is for viewing only: a fifth of a thin pen, m.
 const PITCH_TOLERANCE: f64 = 0.05e-3;
+
+/// A gap may lie a turn before or after a piece.
+const TURNS: [f64; 3] = [-1.0, 0.0, 1.0];
 
 /// On which side of the exact curve an outline may lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -80,7 +84,7 @@ pub enum OutlineError {
     #[error(transparent)]
     Undercut(#[from] NoEnvelope),
     /// A cutter has no smooth path along the profile.
-    #[error("the cutter cannot follow the profile at {cam_deg:.3} deg: an edge, or a concave part sharper than it")]
+    #[error("the cutter cannot follow the profile at {cam_deg:.3} deg: a concave part is sharper than it")]
     CutterPath {
         /// Cam angle, degrees.
         cam_deg: f64,
@@ -153,28 +157,107 @@ impl Outline {
 /// # Errors
 /// [`OutlineError`] when the loops leave no outline, it is too large, or the tolerance cannot be kept.
 pub fn profile(curves: Curves<'_>, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
-    let (shift, half) = fit.into().band();
-    Ok(parallel(curves, curves.offset() + shift, half, &envelope::losses(curves)?)?.counted_from_exact(shift))
+    Ok(profile_within(curves, fit.into())?.0)
 }
 
-/// The path of the centre of a cutter (radius in m) along the profile, within a tolerance (m): parallel to the follower's
-/// curve at the difference of the radii.
+/// The profile as an outline, and how far inwards of the exact one the middle of its band lies, m.
+pub(crate) fn profile_within(curves: Curves<'_>, fit: Fit) -> Result<(Outline, f64), OutlineError> {
+    // Half the radius is left where a parallel has the smaller one, so that it stays smooth as the profile is.
+    let room = match fit.side {
+        Side::Both => f64::INFINITY,
+        Side::Inside => 0.5 * convex_radius(curves),
+        Side::Outside => 0.5 * concave_radius(curves),
+    };
+    beside(curves, curves.offset(), fit, room)
+}
+
+/// The path of the centre of a cutter (radius in m) along the profile: parallel to the follower's curve at the difference of the
+/// radii, and as far off it, on the same side, as the metal it leaves may be off the profile.
 ///
 /// # Errors
-/// [`OutlineError`] as for [`profile`]; also when the profile is undercut or the cutter does not get into a corner.
-pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, tolerance: f64) -> Result<Outline, OutlineError> {
-    if let Some(loss) = envelope::losses(curves)?.first() {
-        return Err(OutlineError::CutterPath { cam_deg: loss.from.to_degrees() });
+/// [`OutlineError`] as for [`profile`]; also when the cutter does not get into a concave part.
+pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
+    let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
+    if let Some(corner) = corner.filter(|_| cutter_radius > curves.offset()) {
+        return Err(OutlineError::CutterPath { cam_deg: corner.at.to_degrees() });
     }
-    let distance = curves.offset() - cutter_radius;
     let concave = extremes::concave_profile_curvature(curves);
     if concave.value * cutter_radius >= 1.0 {
         return Err(OutlineError::CutterPath { cam_deg: concave.at.to_degrees() });
     }
-    match extremes::corners(curves).first() {
-        Some(corner) if distance <= 0.0 => Err(OutlineError::CutterPath { cam_deg: corner.at.to_degrees() }),
-        _ => parallel(curves, distance, tolerance, &[]),
+    Ok(beside(curves, curves.offset() - cutter_radius, fit.into(), f64::INFINITY)?.0)
+}
+
+/// Least convex radius of the profile, m; infinite where a sharp edge is left of it anyway.
+fn convex_radius(curves: Curves<'_>) -> f64 {
+    let radius = match curves.element() {
+        Element::Roller { radius } => 1.0 / extremes::convex_curvature(curves).value.max(0.0) - radius,
+        Element::Face => extremes::least_radius(curves).value,
+    };
+    if radius > 0.0 && extremes::corners(curves).iter().all(|corner| corner.turn < 0.0) {
+        radius
+    } else {
+        f64::INFINITY
     }
+}
+
+/// Least concave radius of the profile, m.
+fn concave_radius(curves: Curves<'_>) -> f64 {
+    if extremes::corners(curves).iter().any(|corner| corner.turn < 0.0) {
+        return curves.offset();
+    }
+    1.0 / extremes::concave_profile_curvature(curves).value.max(0.0)
+}
+
+/// A parallel of the follower's curve at a distance inwards (m) as an outline within a band, whose middle lies no more than
+/// `room` (m) beside it; with how far inwards it does.
+fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Outline, f64), OutlineError> {
+    let (shift, half) = fit.band();
+    if shift == 0.0 {
+        return Ok((parallel(curves, distance, half, &left_out(curves, distance)?)?, shift));
+    }
+    let shift = shift.clamp(-room, room);
+    // From an edge of turn τ the edge of a parallel is 1/cos(τ/2) times as far as the curves beside it.
+    let sharp = left_out(curves, distance + shift)?.iter().map(|gap| gap.edge).fold(0.0, f64::max);
+    let closer = libm::cos(0.5 * sharp);
+    let shift = shift * closer;
+    let outline = parallel(curves, distance + shift, shift.abs(), &left_out(curves, distance + shift)?)?;
+    let outline = outline.counted_from_exact(shift);
+    let deviation = outline.deviation.max(MILLIMETRES * shift.abs() / closer);
+    Ok((Outline { deviation, ..outline }, shift))
+}
+
+/// A stretch of a parallel curve that is not drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    from: f64,
+    to: f64,
+    /// Turn of the sharp edge that is left, rad.
+    edge: f64,
+    /// Turn of the arc about an edge of the profile, rad: what lies outside an edge is parallel to a point.
+    arc: f64,
+}
+
+/// What is left out of a parallel of the follower's curve at a distance inwards, m.
+fn left_out(curves: Curves<'_>, distance: f64) -> Result<Vec<Gap>, NoEnvelope> {
+    let loops_at = |distance: f64| Parallel { curves, distance }.loops();
+    let (mut edges, mut sharp) = (Vec::new(), Vec::new());
+    if distance < curves.offset() {
+        edges = loops_at(curves.offset())?;
+    }
+    if distance < 0.0 || distance >= curves.offset() {
+        sharp = loops_at(distance)?;
+    }
+    let turn = |found: &Loop| {
+        let tangent = |at, side| Parallel { curves, distance }.at(at, side).tangent;
+        let (before, after) = (tangent(found.from, Approach::Before), tangent(found.to, Approach::After));
+        libm::atan2(before.perp(&after), before.dot(&after))
+    };
+    let rounded = edges.iter().map(|found| Gap { from: found.from, to: found.to, edge: 0.0, arc: turn(found) });
+    let kept = sharp.iter().map(|found| Gap { from: found.from, to: found.to, edge: turn(found).abs(), arc: 0.0 });
+    let mut gaps: Vec<Gap> = rounded.chain(kept).collect();
+    gaps.sort_by(|a, b| a.from.total_cmp(&b.from));
+    Ok(gaps)
 }
 
 /// The follower's curve as an outline for viewing.
@@ -199,13 +282,8 @@ pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> Cur
     if radius_mm <= LARGEST_COORDINATE { Ok(()) } else { Err(OutlineError::TooLarge { radius_mm }) }
 }
 
-/// The parallel of the follower's curve at a distance inwards (m), within a tolerance (m), without the losses.
-pub(crate) fn parallel(
-    curves: Curves<'_>,
-    distance: f64,
-    tolerance: f64,
-    losses: &[Loss],
-) -> Result<Outline, OutlineError> {
+/// The parallel of the follower's curve at a distance inwards (m), within a tolerance (m), without the gaps.
+fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> Result<Outline, OutlineError> {
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
     let frame = |piece: usize, angle: f64| -> CurvePoint {
@@ -218,7 +296,8 @@ pub(crate) fn parallel(
     let mut outline = Outline::empty();
     let in_turn = pieces.iter().enumerate().cycle().skip(first).take(pieces.len());
     for (index, piece) in in_turn {
-        for range in parts(piece, losses, period) {
+        let ranges = parts(piece, gaps, period);
+        for range in ranges.iter().copied() {
             if piece.dwell {
                 // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
@@ -226,10 +305,16 @@ pub(crate) fn parallel(
             } else {
                 outline.lay(|angle| frame(index, angle), range, tolerance)?;
             }
+            if let Some(gap) = gaps.iter().find(|gap| gap.arc != 0.0 && starts_at(gap, range.1, period)) {
+                let bulge = libm::tan(0.25 * gap.arc);
+                outline.contour.vertices.push(Vertex { point: frame(index, range.1).point, bulge });
+            }
         }
+        let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
         if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
             && distance > 0.0
+            && whole
         {
             let bulge = libm::tan(0.25 * corner.turn);
             outline.contour.vertices.push(Vertex { point: frame(index, piece.end).point, bulge });
@@ -238,13 +323,18 @@ pub(crate) fn parallel(
     Ok(outline)
 }
 
-/// What is left of a piece without the losses, halved where it is longer than one arc or one fit may be.
-pub(crate) fn parts(piece: &Piece, losses: &[Loss], period: Option<f64>) -> Vec<(f64, f64)> {
+/// Whether a gap starts at a parameter, by whole turns.
+fn starts_at(gap: &Gap, parameter: f64, period: Option<f64>) -> bool {
+    TURNS.iter().any(|turns| gap.from + turns * period.unwrap_or(0.0) == parameter)
+}
+
+/// What is left of a piece without the gaps, halved where it is longer than one arc or one fit may be.
+pub(crate) fn parts(piece: &Piece, gaps: &[Gap], period: Option<f64>) -> Vec<(f64, f64)> {
     let mut left = vec![(piece.start, piece.end)];
-    for loss in losses {
-        for turns in [-1.0, 0.0, 1.0] {
+    for gap in gaps {
+        for turns in TURNS {
             let turn = turns * period.unwrap_or(0.0);
-            let (from, to) = (loss.from + turn, loss.to + turn);
+            let (from, to) = (gap.from + turn, gap.to + turn);
             left = left
                 .into_iter()
                 .flat_map(|(start, end)| [(start, end.min(from)), (start.max(to), end)])

@@ -3,6 +3,7 @@ use crate::body::disc::Disc;
 use crate::follower::{FlatFace, TranslatingRoller};
 use crate::machine::Machine;
 use crate::motion::EccentricCircle;
+use crate::profile::envelope;
 use crate::verify::rolling;
 
 fn rotary(overrides: &[&str]) -> Disc {
