@@ -134,9 +134,15 @@ fn an_undercut_cam_is_told_what_it_loses() {
     assert!(files(run.directory.path()).is_empty());
     assert_eq!(files(camgen(&[&undercut[..], &["--force"]].concat()).directory.path()).len(), 4);
 
-    let sets = ["cam.base_radius=1mm", "cam.lever=10", "follower.roller.radius=300mm", "cam.bore_radius=0.5mm"];
+    // A slight one has its crossing, too, and the loss with all its digits.
+    let slight = ["rotary", "--force", "--set", "cam.base_radius=32mm", "--set", "follower.roller.radius=67mm"];
+    let run = camgen(&slight);
+    assert!(run.out.contains("0.389°, 1.094124e-5 mm") && files(run.directory.path()).len() == 4, "{}", run.out);
+
+    // Under this plate the branches would meet beyond the end of the stroke.
+    let sets = ["translating.roller_radius=400mm", "translating.plate_height=900mm"];
     let folded: Vec<&str> =
-        ["rotary", "--force"].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
+        ["translating", "--force"].into_iter().chain(sets.iter().flat_map(|set| ["--set", set])).collect();
     let run = camgen(&folded);
     assert_eq!(run.code, 1);
     assert!(run.err.contains("folds over itself") && run.err.contains("--force cannot help"), "{}", run.err);
