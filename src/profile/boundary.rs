@@ -19,11 +19,12 @@ const DWELL_STRETCH: f64 = 0.9;
 /// [`NoEnvelope`] when the profile folds over itself without an envelope.
 pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<Stretch>, NoEnvelope> {
     let losses: Vec<Loss> = if sharp { envelope::losses(curves)? } else { Vec::new() };
+    let gaps: Vec<(f64, f64)> = losses.iter().map(|loss| (loss.from, loss.to)).collect();
     let (pieces, period) = (curves.motion.pieces(), curves.motion.period());
     let corners = extremes::corners(curves);
     let mut all = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
-        for range in outline::parts(piece, &losses, period) {
+        for range in outline::parts(piece, &gaps, period) {
             all.extend(cut(index, piece, range, period.is_none()));
         }
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.

@@ -291,12 +291,13 @@ fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> 
     };
     fits_a_drawing(pieces, frame)?;
     let corners = extremes::corners(curves);
+    let spans: Vec<(f64, f64)> = gaps.iter().map(|gap| (gap.from, gap.to)).collect();
     // A closed outline starts on a dwell.
     let first = period.and_then(|_| pieces.iter().position(|piece| piece.dwell)).unwrap_or(0);
     let mut outline = Outline::empty();
     let in_turn = pieces.iter().enumerate().cycle().skip(first).take(pieces.len());
     for (index, piece) in in_turn {
-        let ranges = parts(piece, gaps, period);
+        let ranges = parts(piece, &spans, period);
         for range in ranges.iter().copied() {
             if piece.dwell {
                 // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
@@ -329,12 +330,12 @@ fn starts_at(gap: &Gap, parameter: f64, period: Option<f64>) -> bool {
 }
 
 /// What is left of a piece without the gaps, halved where it is longer than one arc or one fit may be.
-pub(crate) fn parts(piece: &Piece, gaps: &[Gap], period: Option<f64>) -> Vec<(f64, f64)> {
+pub(crate) fn parts(piece: &Piece, gaps: &[(f64, f64)], period: Option<f64>) -> Vec<(f64, f64)> {
     let mut left = vec![(piece.start, piece.end)];
     for gap in gaps {
         for turns in TURNS {
             let turn = turns * period.unwrap_or(0.0);
-            let (from, to) = (gap.from + turn, gap.to + turn);
+            let (from, to) = (gap.0 + turn, gap.1 + turn);
             left = left
                 .into_iter()
                 .flat_map(|(start, end)| [(start, end.min(from)), (start.max(to), end)])
