@@ -34,6 +34,7 @@ fn stages(criterion: &mut Criterion) {
             outlines: &[],
             rolled: None,
             foreign: None,
+            cutter_path: None,
             tolerance_mm: 0.005,
         };
         criterion

@@ -54,6 +54,7 @@ fn stages(criterion: &mut Criterion) {
         outlines: &outlines,
         rolled: Some(&rolled),
         foreign: None,
+        cutter_path: None,
         tolerance_mm: 0.005,
     };
     criterion.bench_function("checks", |b| b.iter(|| verify::run(black_box(&evidence))));

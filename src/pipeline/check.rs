@@ -89,6 +89,7 @@ impl Cam {
             outlines: &outlines,
             rolled: rolled.as_ref(),
             foreign: Some(&reading),
+            cutter_path: None,
             tolerance_mm,
         });
         let mut sections = vec![Section::new("cam", &body.kind().noun)];

@@ -5,7 +5,7 @@ use crate::body::{Drawn, Found, Request};
 use crate::geometry::MILLIMETRES;
 use crate::report::{Finding, Report, Rolled, passed};
 use crate::table::Table;
-use crate::verify::{self, Evidence, WrittenOutline, rolling};
+use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, rolling};
 use crate::write::Rendering;
 use crate::write::dxf::Version;
 use crate::write::proof;
@@ -49,12 +49,22 @@ impl<'c> Drawing<'c> {
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let plane = body.plane().zip(outlines.first());
         let rolled = plane.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
+        let (middle, _) = self.request.fit.band();
+        let path = self.drawn.as_ref().ok().and_then(|drawn| drawn.cutter_path.as_ref()).zip(self.request.cutter);
+        let cutter_path = path.map(|(outline, radius)| {
+            let contour = match outline {
+                Ok(outline) => proof::cutter_path(outline, version).map_err(|error| error.to_string()),
+                Err(error) => Err(error.to_string()),
+            };
+            WrittenPath { radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour }
+        });
         let findings = verify::run(&Evidence {
             body,
             drawn: self.drawn.as_ref().ok(),
             outlines: &outlines,
             rolled: rolled.as_ref(),
             foreign: None,
+            cutter_path: cutter_path.as_ref(),
             tolerance_mm,
         });
         let (cam, request, drawn) = (self.cam, self.request, self.drawn);

@@ -7,6 +7,7 @@ mod balance;
 mod between_sections;
 mod contact_stress;
 mod curvature;
+mod cutter_path;
 mod cutter_radius;
 mod cylinder_contact;
 mod file;
@@ -20,6 +21,7 @@ mod sphere;
 mod tangency;
 mod wall;
 
+pub use cutter_path::WrittenPath;
 pub use file::join_reach;
 
 use crate::body::{Body, Drawn};
@@ -51,6 +53,8 @@ pub struct Evidence<'a> {
     pub rolled: Option<&'a Rolled>,
     /// What was read from a file that somebody else may have written.
     pub foreign: Option<&'a Reading>,
+    /// The path of a cutter as read back, when one was requested.
+    pub cutter_path: Option<&'a WrittenPath>,
     /// Tolerance of the outline, mm.
     pub tolerance_mm: f64,
 }
@@ -92,6 +96,7 @@ pub const CHECKS: &[Check] = &[
     curvature::UNDERCUT,
     curvature::MIN_CONVEX_RADIUS,
     cutter_radius::CHECK,
+    cutter_path::CHECK,
     wall::CHECK,
     plate_ends::ROLLER_CLEARANCE,
     plate_ends::ENDS,

@@ -1,8 +1,9 @@
 //! The cut file in memory, as it would be on disk, and the outline read back from its bytes.
 
 use super::dxf::{self, Version};
-use crate::body::Part;
+use crate::body::{Layer, Part};
 use crate::geometry::contour::Contour;
+use crate::profile::outline::Outline;
 use crate::reading::{self, ReadError};
 
 /// Ends nearer than this are one, mm: far above twelve decimals, far below any segment.
@@ -39,6 +40,21 @@ pub fn write(part: &Part, version: Version) -> Result<Written, ProofError> {
     let clean = reading.duplicates.is_empty() && reading.points.is_empty() && reading.unreadable.is_empty();
     match reading.chains.as_slice() {
         [chain] if chain.closed && clean => Ok(Written { bytes, outline: chain.contour() }),
+        _ => Err(ProofError::NotOneOutline),
+    }
+}
+
+/// The path of a cutter as another program would find it in its file.
+///
+/// # Errors
+/// [`ProofError`] when what was written is not what was drawn.
+pub fn cutter_path(outline: &Outline, version: Version) -> Result<Contour, ProofError> {
+    let bytes = dxf::cutter_path(outline, version);
+    // The reader takes the layer of the outline for what is cut.
+    let text = String::from_utf8_lossy(&bytes).replace(Layer::CutterPath.name(), Layer::CamProfile.name());
+    let reading = reading::read(text.as_bytes(), JOIN)?;
+    match reading.chains.as_slice() {
+        [chain] if chain.closed && reading.duplicates.is_empty() && reading.points.is_empty() => Ok(chain.contour()),
         _ => Err(ProofError::NotOneOutline),
     }
 }

@@ -44,14 +44,18 @@ pub const CUTTER_PATH: Format = Format {
     endings: |drawn| drawn.cutter_path.iter().map(|_| "-cutter.dxf".into()).collect(),
     write: |cam| {
         let path = |outline: &Result<Outline, OutlineError>| match outline {
-            Ok(outline) => {
-                Ok(write(&[(Layer::CutterPath, Entity::Polyline(outline.contour.clone()))], cam.dxf_version))
-            }
+            Ok(outline) => Ok(cutter_path(outline, cam.dxf_version)),
             Err(error) => Err((*error).into()),
         };
         cam.drawn.cutter_path.iter().map(path).collect()
     },
 };
+
+/// The file of a cutter's path.
+#[must_use]
+pub fn cutter_path(outline: &Outline, version: Version) -> Vec<u8> {
+    write(&[(Layer::CutterPath, Entity::Polyline(outline.contour.clone()))], version)
+}
 
 /// Version of a DXF file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
