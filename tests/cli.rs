@@ -156,7 +156,7 @@ fn a_cutter_gets_its_own_file_or_is_told_where_it_does_not_get_in() {
     assert_eq!(files(run.directory.path()), ["dpi-rotary-35rpm-cutter.dxf", "dpi-rotary-35rpm.dxf"]);
     let path = fs::read_to_string(run.directory.path().join("output/dpi-rotary-35rpm-cutter.dxf")).expect("the file");
     assert!(path.contains("CUTTER_PATH") && !path.contains("CAM_PROFILE"));
-    let run = camgen(&["rotary", "--cutter", "400mm"]);
+    let run = camgen(&["rotary", "--cutter", "400mm", "--set", "cam.base_radius=69mm"]);
     assert_eq!(run.code, 1);
     assert!(run.out.contains("FAIL  cutter_radius") && files(run.directory.path()).is_empty(), "{}", run.out);
     assert_eq!(camgen(&["rotary", "--cutter", "8"]).code, 2);

@@ -256,7 +256,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         Ok(Some(exact(curves, &if self.mirrored() == [true] { mirrored(&stretches) } else { stretches })))
     }
 
-    /// A change that would keep the limits of pressure angle and curvature.
+    /// A change with which every limit that depends on the size is kept, tried before it is told; or why there is none.
     fn remedy(&self) -> Option<String> {
         None
     }
@@ -324,6 +324,45 @@ impl WorstPlaces {
             }
         };
         *self.least_radius.get_or_init(search)
+    }
+}
+
+/// The first limit depending on the base radius that a turning cam breaks, as `limits` of the machine file calls it. Checks judge;
+/// this is how a radius is found that they will pass.
+fn broken_limit(body: &dyn Body) -> Option<&'static str> {
+    let limits = body.machine().limits;
+    let (least, roller) = (body.least_radius().value, body.roller_radius().unwrap_or(0.0));
+    // A surface searched for its sharpest place is sized to a billionth.
+    let convex = limits.min_convex_pitch_radius_over_roller * roller * (1.0 - SIZED_TO);
+    let kept = |limit: Option<f64>, keeps: &dyn Fn(f64) -> bool| limit.is_none_or(keeps);
+    let checks: [(&'static str, &dyn Fn() -> bool); 6] = [
+        ("pressure_angle", &|| body.pressure_angle().value <= limits.pressure_angle * (1.0 + 1e-12)),
+        ("undercut", &|| least > roller),
+        ("min_convex_pitch_radius_over_roller", &|| least >= convex),
+        ("wall", &|| body.wall().is_none_or(|(wall, _)| wall > 0.0 && wall >= limits.wall * (1.0 - SIZED_TO))),
+        ("cutter_radius", &|| {
+            kept(limits.cutter_radius, &|limit| body.hollow().is_none_or(|hollow| limit <= hollow.value))
+        }),
+        ("contact_stress", &|| {
+            kept(limits.contact_stress, &|limit| body.contact_stress().is_none_or(|stress| stress.value <= limit))
+        }),
+    ];
+    checks.iter().find(|(_, keeps)| !keeps()).map(|(name, _)| *name)
+}
+
+/// How exactly a size keeps a limit that it was solved for, as a share.
+const SIZED_TO: f64 = 1e-9;
+
+/// What is said where no base radius keeps every limit, with the one that a huge cam still breaks.
+fn no_radius(binding: Option<&'static str>) -> String {
+    match binding {
+        Some("undercut") => {
+            "no base radius would pass: the motion has a corner, which transition.kind = \"run-up\" or \
+                             \"blend\" rounds"
+                .into()
+        }
+        Some(limit) => format!("no base radius would pass: limits.{limit} is broken at any"),
+        None => "no base radius that would pass was found".into(),
     }
 }
 

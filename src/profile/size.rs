@@ -56,6 +56,8 @@ const DOUBLINGS: u32 = 50;
 
 /// Growth from one radius to the next under a follower of limited reach: a range of radii may pass between two that do not.
 const GROWTH_IN_REACH: f64 = 1.01;
+/// Where the reach of a follower ends below this, m, steps are small.
+const FAR: f64 = 1e3;
 /// Halvings of the search for the lower end of a range that passes.
 const HALVINGS: u32 = 60;
 /// Finer steps, of a tenth each, in which a base radius is rounded where the whole millimetre does not pass: to 1 nm.
@@ -202,6 +204,21 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
         }
         (before, here) = (here, next);
     }
+}
+
+/// The first radius above one that does not keep the limits at which they are kept, growing as far as `largest` (m); `None`
+/// when none is found.
+pub fn first_that_keeps(failing: f64, largest: f64, keeps: impl Fn(f64) -> bool) -> Option<f64> {
+    let growth = if largest < FAR { GROWTH_IN_REACH } else { 2.0 };
+    let mut below = failing;
+    while below < largest {
+        let next = (growth * below).min(largest);
+        if keeps(next) {
+            return Some(first_passing(below, next, keeps));
+        }
+        below = next;
+    }
+    None
 }
 
 /// The first radius that passes between one that does not, or is the same, and one that does.

@@ -18,7 +18,10 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let verdict = limit.map_or(Verdict::Info, |limit| Verdict::of(limit <= radius));
     let found = CHECK.found(1e3 * radius, limit.map(|limit| 1e3 * limit), "mm", verdict);
     Some(match hollow {
-        Some(hollow) => at(body, &hollow, found, None),
+        Some(hollow) => {
+            let remedy = (found.verdict == Verdict::Fail).then(|| body.remedy()).flatten();
+            at(body, &hollow, found, remedy)
+        }
         None => Finding { note: Some("nothing is concave".into()), ..found },
     })
 }

@@ -24,7 +24,7 @@ fn each_check_passes_a_good_cam_and_fails_a_broken_one() {
         ("pressure_angle", vec!["cam.base_radius=60mm"]),
         ("undercut", vec!["cam.base_radius=30mm", "follower.roller.radius=80mm"]),
         ("min_convex_radius", vec!["cam.base_radius=30mm"]),
-        ("cutter_radius", vec!["buffer.column=return", "limits.cutter_radius=900mm"]),
+        ("cutter_radius", vec!["buffer.column=return", "cam.base_radius=100mm", "limits.cutter_radius=900mm"]),
         ("wall", vec!["cam.base_radius=69mm", "cam.bore_radius=65mm"]),
     ] {
         assert_eq!(of(&good, check).verdict, Verdict::Pass, "{check}");
@@ -33,7 +33,12 @@ fn each_check_passes_a_good_cam_and_fails_a_broken_one() {
         assert!(!passed(&broken));
     }
     // Checks that are run when their keys are given.
-    let pressed = vec!["follower.roller.mass=40kg", "follower.roller.preload=1600N", "limits.contact_stress=2000MPa"];
+    let pressed = vec![
+        "cam.base_radius=69mm",
+        "follower.roller.mass=40kg",
+        "follower.roller.preload=1600N",
+        "limits.contact_stress=2000MPa",
+    ];
     let light = ["cam.lever=0.15", "cam.base_radius=90mm", "cam.balance=40mm .. 85mm"];
     for (check, good, bad) in [
         ("force_closure", pressed.clone(), "follower.roller.preload=1500N"),

@@ -19,8 +19,9 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let limit = body.machine().limits.wall;
     let kept = wall > 0.0 && wall >= limit * (1.0 - ROUNDING);
     let found = CHECK.found(1e3 * wall, Some(1e3 * limit), "mm", Verdict::of(kept));
+    let remedy = if kept { None } else { body.remedy() };
     Some(match place {
-        Some(worst) => at(body, &worst, found, None),
-        None => found,
+        Some(worst) => at(body, &worst, found, remedy),
+        None => Finding { note: remedy, ..found },
     })
 }

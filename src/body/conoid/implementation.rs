@@ -2,7 +2,9 @@
 
 use super::{Conoid, KIND, flank, report, sheet};
 use crate::body::part::{Part, point_as_turned};
-use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, mirrored, passing, radius_of, stress};
+use crate::body::{
+    Body, DrawError, Drawn, Found, Kind, Request, broken_limit, mirrored, no_radius, passing, radius_of, stress,
+};
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::Vertex;
 use crate::geometry::{CurvePoint, MILLIMETRES};
@@ -208,8 +210,10 @@ impl Body for Conoid {
     }
 
     fn remedy(&self) -> Option<String> {
-        let base = self.smallest_prime_radius? - self.roller.radius;
-        Some(passing(rounded_up(base)))
+        let base = rounded_up(self.smallest_prime_radius? - self.roller.radius);
+        let mut other = self.clone();
+        other.resize(base + self.roller.radius);
+        Some(if broken_limit(&other).is_none() { passing(base) } else { no_radius(None) })
     }
 
     /// The cut at z.

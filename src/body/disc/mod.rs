@@ -3,7 +3,9 @@
 mod sheet;
 
 use super::part::{Part, point_as_turned};
-use super::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, largest, passing, stress};
+use super::{
+    Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, broken_limit, largest, no_radius, passing, stress,
+};
 use crate::follower::Follower;
 use crate::geometry::MILLIMETRES;
 use crate::load::{AirBuffer, Load};
@@ -23,6 +25,9 @@ pub const ROTARY: Kind = Kind { command: "rotary", noun: "rotary cam" };
 
 /// The disc cam of any motion.
 pub const GENERAL: Kind = Kind { command: "make", noun: "disc cam" };
+
+/// Largest base radius that is tried, m: what a drawing holds.
+const LARGEST_BASE: f64 = outline::LARGEST_COORDINATE / MILLIMETRES;
 
 /// A disc cam.
 #[derive(Debug, Clone)]
@@ -130,16 +135,42 @@ impl Disc {
         }
         let offset = self.follower.element().offset();
         let required = Required::of(&self.machine.limits, &self.machine.cam, &*self.follower);
-        let smallest = size::smallest(&*self.motion, &*self.follower, &required);
-        let base = match self.machine.cam.base_radius {
-            Some(base) => base,
-            None => smallest?.base_radius,
+        let by_shape = size::smallest(&*self.motion, &*self.follower, &required);
+        let smallest = by_shape.ok().and_then(|smallest| self.keeping_all(smallest));
+        let base = match (self.machine.cam.base_radius, smallest) {
+            (Some(base), _) => base,
+            (None, Some(smallest)) => smallest.base_radius,
+            // A limit that no radius keeps: its check says so.
+            (None, None) => by_shape?.base_radius,
         };
         let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
         let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
         self.follower = sized.ok_or(DiscError::OutOfReach { base_radius_mm: MILLIMETRES * base })?.into();
-        self.smallest = smallest.ok();
+        self.smallest = smallest;
         Ok(self)
+    }
+
+    /// The same cam on another base radius (m), if the follower reaches it.
+    fn on(&self, base_radius: f64) -> Option<Self> {
+        let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
+        let follower = self.follower.sized(base_radius + self.follower.element().offset())?;
+        let reached = top <= follower.reach().1;
+        reached.then(|| Self { follower: follower.into(), worst: WorstPlaces::default(), ..self.clone() })
+    }
+
+    /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each
+    /// as its check measures it; `None` when no size in reach does.
+    fn keeping_all(&self, smallest: Smallest) -> Option<Smallest> {
+        let offset = self.follower.element().offset();
+        let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
+        if keeps(smallest.base_radius) {
+            return Some(smallest);
+        }
+        let largest = (self.follower.prime_radii().1 - offset).min(LARGEST_BASE);
+        let prime_radius = size::first_that_keeps(smallest.base_radius, largest, keeps)? + offset;
+        let rounded = size::rounded_up(prime_radius - offset);
+        let base_radius = if keeps(rounded) { rounded } else { prime_radius - offset };
+        Some(Smallest { prime_radius, base_radius })
     }
 
     /// Motion and follower.
@@ -307,9 +338,12 @@ impl Body for Disc {
     }
 
     fn remedy(&self) -> Option<String> {
+        let Some(base) = self.passing_base_radius() else {
+            let largest = (self.follower.prime_radii().1 - self.curves().offset()).min(LARGEST_BASE);
+            return Some(no_radius(self.on(largest).and_then(|disc| broken_limit(&disc))));
+        };
         // A cam that no drawing holds is no remedy.
-        let base = self.passing_base_radius().filter(|base| MILLIMETRES * base < outline::LARGEST_COORDINATE)?;
-        Some(passing(base))
+        (MILLIMETRES * base < outline::LARGEST_COORDINATE).then(|| passing(base))
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
