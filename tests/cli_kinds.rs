@@ -121,7 +121,7 @@ fn the_mesh_of_a_conoid_is_closed() {
             }
         }
         assert!(edges.iter().all(|((a, b), n)| *n == 1 && edges.get(&(*b, *a)) == Some(&1)));
-        assert!((volume / 6.3e6 - 1.0).abs() < 0.01, "{volume}");
+        assert!((volume / 6.61e6 - 1.0).abs() < 0.01, "{volume}");
     }
 }
 
@@ -154,6 +154,36 @@ fn what_makes_no_conoid_is_told() {
     let report = report(&found);
     assert_eq!(report["rpm"], serde_json::json!([20.0, 25.0, 30.0, 35.0]));
     assert!(report["between"]["residual_max_n"].as_f64().is_some_and(|force| force < 2.0), "{report}");
+}
+
+/// The sphere never rides on an edge: the overhang is found by itself, and one too short fails with a length that does.
+#[test]
+fn a_conoid_is_as_long_as_the_contact_needs() {
+    let conoid = |set: &[&str]| {
+        let args = ["conoid", "--rpm", "20,25,30,35", "--json", "--format", "csv"];
+        let sets = set.iter().flat_map(|set| ["--set", set]);
+        camgen(&args.into_iter().chain(sets).collect::<Vec<_>>())
+    };
+    let reach = |run: &Run| {
+        let report = report(run);
+        let findings = report["checks"].as_array().expect("checks").clone();
+        (report, findings.into_iter().find(|finding| finding["check"] == "axial_reach").expect("axial_reach"))
+    };
+    let run = conoid(&[]);
+    let (auto, finding) = reach(&run);
+    assert_eq!((run.code, finding["verdict"].as_str(), finding["value"].as_f64()), (0, Some("pass"), Some(0.0)));
+    assert_eq!(auto["cam"]["overhang_mm"], 3.0);
+    assert_eq!((&auto["cam"]["z_min_mm"], &auto["cam"]["z_max_mm"]), (&(-3.0).into(), &123.0.into()));
+    assert_eq!((&auto["sections"][0]["z_mm"], &auto["sections"][3]["z_mm"]), (&0.0.into(), &120.0.into()));
+    for short in ["0mm", "2mm"] {
+        let run = conoid(&[&format!("conoid.overhang={short}")]);
+        let (_, finding) = reach(&run);
+        assert_eq!((run.code, finding["verdict"].as_str()), (1, Some("fail")), "{short}: {finding}");
+        let note = finding["note"].as_str().expect("a remedy");
+        let named = note.split('"').nth(1).expect("a length");
+        let remedied = conoid(&[&format!("conoid.overhang={named}")]);
+        assert_eq!((named, remedied.code), ("3 mm", 0), "{note}: {}", remedied.err);
+    }
 }
 
 /// The ladder gets finer from row to row: less is left, more arcs are laid; the advice keeps the limit.

@@ -141,8 +141,8 @@ impl Part {
     #[must_use]
     pub fn measures(&self, tolerance_mm: f64, is_corner: impl Fn(Vector2<f64>) -> bool) -> OutlineMeasures {
         let outline = &self.outline;
-        let lines = outline.contour.vertices.iter().filter(|vertex| vertex.bulge == 0.0).count();
-        let arcs = outline.contour.vertices.len() - lines;
+        let arcs = outline.contour.arcs();
+        let lines = outline.contour.vertices.len() - arcs;
         let breaks = outline.contour.tangent_breaks().into_iter().zip(&outline.contour.vertices);
         let smooth = breaks.filter(|(_, vertex)| !is_corner(vertex.point));
         let worst_break = smooth.map(|(turn, _)| turn.abs()).fold(0.0, f64::max);

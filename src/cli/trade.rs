@@ -142,7 +142,6 @@ fn measure(cam: &Cam, setting: String, (law_us, law_error): (f64, f64), toleranc
     let report = proven.report();
     let rendering = proven.rendering(&report, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
     let ([svg_us, step_us, csv_us], sizes) = formats(&rendering)?;
-    let outlines = proven.outlines().iter().flat_map(|outline| &outline.contour.vertices);
     let bytes: usize = proven.cut_files().iter().map(Vec::len).sum();
     Ok(Row {
         setting,
@@ -154,7 +153,7 @@ fn measure(cam: &Cam, setting: String, (law_us, law_error): (f64, f64), toleranc
         step_us,
         csv_us: csv_us.unwrap_or(0.0),
         total_us: law_us + outline_us + proof_us + [svg_us, step_us, csv_us].into_iter().flatten().sum::<f64>(),
-        arcs: outlines.filter(|vertex| vertex.bulge != 0.0).count(),
+        arcs: proven.outlines().iter().map(|outline| outline.contour.arcs()).sum(),
         bytes: bytes + sizes,
         law_error_mm: law_error,
         deviation_mm: parts.iter().map(|part| part.outline.deviation).fold(0.0, f64::max),

@@ -257,6 +257,12 @@ impl Contour {
         self.vertices.iter().zip(ends).map(|(a, b)| Segment { start: a.point, end: b.point, bulge: a.bulge })
     }
 
+    /// How many of its segments are arcs.
+    #[must_use]
+    pub fn arcs(&self) -> usize {
+        self.vertices.iter().filter(|vertex| vertex.bulge != 0.0).count()
+    }
+
     /// Enclosed area, mm², positive counter-clockwise, and its centroid, mm.
     #[must_use]
     pub fn area_and_centroid(&self) -> (f64, Vector2<f64>) {

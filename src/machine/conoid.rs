@@ -33,8 +33,8 @@ pub struct ConoidData {
     pub mode: ConoidMode,
     /// How the cam shifts.
     pub shift: Shift,
-    /// By how much the cam is extended at either end, m.
-    pub overhang: f64,
+    /// By how much the cam is extended at either end, m; `None` is `auto`, what the contact of the roller needs.
+    pub overhang: Option<f64>,
 }
 
 const AXIAL_TRAVEL: Field<f64> = Field::quantity(
@@ -58,12 +58,12 @@ const SHIFT: Field<Shift> = Field::words(
     &["linear", "square"],
     &[Shift::Linear, Shift::Square],
 );
-const OVERHANG: Field<f64> = Field::quantity(
+const OVERHANG: Field<Option<f64>> = Field::words_or_quantity(
     "overhang",
-    "what the cam is longer at either end, so that the contact does not leave it",
-    Default("0 mm"),
-    Length,
-    within(0.0, LONGEST),
+    "extra length at either end: \"auto\", as long as the contact needs, or a length",
+    Default("auto"),
+    (&["auto"], &[None]),
+    (Length, within(0.0, LONGEST), Some),
 );
 
 /// `[conoid]`.

@@ -354,7 +354,7 @@ fn defaults_are_what_they_were() {
     assert_eq!((plate.friction_angle, plate.efficiency, plate.roller_radius), (0.0, 1.0, 0.03));
     assert_eq!((plate.efficiency_model, plate.plate_height), (EfficiencyModel::Consistent, None));
     let conoid = machine.conoid.expect("a conoid");
-    assert_eq!((conoid.mode, conoid.shift, conoid.overhang), (ConoidMode::Adjusted, Shift::Linear, 0.0));
+    assert_eq!((conoid.mode, conoid.shift, conoid.overhang), (ConoidMode::Adjusted, Shift::Linear, None));
     let limits = machine.limits;
     assert_eq!(limits.pressure_angle, std::f64::consts::PI / 6.0);
     assert_eq!((limits.min_convex_pitch_radius_over_roller, limits.wall), (2.0, 0.0));

@@ -18,10 +18,10 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let conoid = evidence.body.spatial()?;
     let roller = conoid.roller();
     let width = (roller.crown == Crown::Cylinder).then_some(roller.width)??;
-    let gap = conoid.worst(|conoid, piece, angle, z| {
-        let slice = conoid.slice(z);
-        let cosine = libm::cos(conoid.plane_of(&slice).contact(piece, angle).pressure_angle);
-        let lifts = PLACES.map(|share| conoid.lift(piece, angle, z + share * width)[0][0] * cosine);
+    let gap = conoid.worst(|conoid, place| {
+        let (height, slope) = conoid.height_and_slope(&place.partials);
+        let cosine = height / libm::hypot(height, slope);
+        let lifts = PLACES.map(|share| conoid.lift(place.piece, place.angle, place.z + share * width)[0][0] * cosine);
         let (least, most) = lifts.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)));
         1e3 * (most - least)
     });

@@ -146,14 +146,12 @@ impl Body for Conoid {
         }
     }
 
-    /// The angle between the roller's path and the normal of the section, over every slice.
+    /// The angle between the roller's path and the normal of the section, over every place where the roller may stand.
     fn pressure_angle(&self) -> Worst {
-        let in_slice = |z: &f64| {
-            let worst = extremes::pressure_angle(self.plane_of(&self.slice(*z)));
-            Worst { value: worst.value, at: worst.at, z: *z }
-        };
-        let all: Vec<Worst> = parallel::map(&self.slices(), in_slice);
-        all.into_iter().fold(Worst::NONE, Worst::or_larger)
+        self.worst(|conoid, place| {
+            let (height, slope) = conoid.height_and_slope(&place.partials);
+            libm::atan2(slope, height).abs()
+        })
     }
 
     /// By the principal curvatures of the pitch surface.
@@ -167,7 +165,7 @@ impl Body for Conoid {
 
     /// The largest ball that fits into the concave parts of the cam's surface.
     fn hollow(&self) -> Option<Worst> {
-        let hollow = self.worst_of_metal(|conoid, piece, angle, z| -conoid.principal_curvatures(piece, angle, z).1);
+        let hollow = self.worst_of_metal(|conoid, partials| -conoid.curvatures_of(partials).1);
         (hollow.value > 0.0).then(|| Worst { value: 1.0 / hollow.value + self.roller.radius, ..hollow })
     }
 

@@ -17,13 +17,15 @@ pub mod flank;
 mod implementation;
 pub mod mesh;
 mod report;
+mod search;
 mod sheet;
 mod surface;
 mod worst;
 
+pub use search::Place;
 pub use surface::SpatialContact;
 
-use super::Kind;
+use super::{Body, Kind};
 use crate::buffer::Cylinder;
 use crate::buffer::bottom_law::{BottomLaw, Column, column_for};
 use crate::follower::{Follower, TranslatingRoller};
@@ -48,6 +50,12 @@ const BISECTIONS: u32 = 14;
 /// Growth of the prime radius while the surface is too sharp along its axis, and how often it is tried.
 const GROWTH: f64 = 1.01;
 const GROWTHS: usize = 700;
+/// Share of a limit that is rounding.
+const SLACK: f64 = 1e-9;
+/// How often the overhang is lengthened for a radius that was enlarged for it, before the longest is taken.
+const OVERHANGS: usize = 16;
+/// Rounding of a place along the axis, m.
+pub const ROUNDING: f64 = 1e-12;
 
 /// Lift and its derivatives: `[m][n]` by θ m times and by z n times, up to order three in all.
 pub type Partials = [[f64; 4]; 4];
@@ -80,6 +88,8 @@ pub struct Conoid {
     /// Smallest prime radius that keeps every limit over the whole surface, m.
     smallest_prime_radius: Option<f64>,
     weights: Vec<Spline>,
+    /// By how much the cam is longer than its axial travel at either end, m.
+    overhang: f64,
     /// Δx at lift 0: the least of all sections, m.
     lowest: f64,
     /// Largest residual force allowed between the sections, N.
@@ -90,6 +100,7 @@ pub struct Conoid {
 /// What both checks and report need of the surface, searched once, on demand.
 #[derive(Debug, Clone, Default)]
 struct Searched {
+    nodes: OnceLock<Vec<search::Node>>,
     sharpest: OnceLock<Worst>,
     wander: OnceLock<Worst>,
     axial_force: OnceLock<Worst>,
@@ -163,17 +174,47 @@ impl Conoid {
     /// # Errors
     /// [`ConoidError`] when the machine has no conoid, the speeds make none, or no radius keeps the limits.
     pub fn solve(machine: &Machine, speeds: &[f64]) -> Result<Self, ConoidError> {
-        let mut conoid = Self::unsized_of(machine, speeds)?;
-        let radius = conoid.roller.radius;
-        let required = Required::of(&machine.limits, &machine.cam, &conoid.follower);
-        let smallest = conoid.size(&required);
-        let base = match machine.cam.base_radius {
+        Self::unsized_of(machine, speeds)?.sized()
+    }
+
+    /// With its prime radius, and its overhang where that is found by itself.
+    fn sized(mut self) -> Result<Self, ConoidError> {
+        let radius = self.roller.radius;
+        let smallest = self.smallest();
+        let base = match self.machine.cam.base_radius {
             Some(base) => base,
             None => rounded_up(smallest? - radius),
         };
-        conoid.smallest_prime_radius = smallest.ok();
-        conoid.resize(base + radius);
-        Ok(conoid)
+        self.smallest_prime_radius = smallest.ok();
+        self.resize(base + radius);
+        self.overhang = self.data.overhang.unwrap_or_else(|| self.needed_overhang());
+        self.resize(base + radius);
+        Ok(self)
+    }
+
+    /// The smallest prime radius that keeps the limits, with the overhang that its base radius in whole millimetres needs.
+    ///
+    /// The contact wanders farther on a larger cam, and a longer overhang may need a larger one: both grow until they agree.
+    fn smallest(&mut self) -> Result<f64, NoRadius> {
+        let required = Required::of(&self.machine.limits, &self.machine.cam, &self.follower);
+        let in_slices = self.smallest_of_slices(&required)?;
+        for _ in 0..OVERHANGS {
+            let smallest = self.size(&required, in_slices)?;
+            self.resize(rounded_up(smallest - self.roller.radius) + self.roller.radius);
+            if self.data.overhang.is_some() || self.needed_overhang() <= self.overhang {
+                return Ok(smallest);
+            }
+            self.overhang = self.needed_overhang();
+        }
+        // No contact wanders farther than the radius of the sphere.
+        self.overhang = whole_millimetres(self.roller.radius);
+        self.size(&required, in_slices)
+    }
+
+    /// The overhang in whole millimetres on which the contact stays while the roller stands anywhere on the axial travel, m.
+    #[must_use]
+    pub fn needed_overhang(&self) -> f64 {
+        whole_millimetres(self.reach().value)
     }
 
     /// With a limit for the residual force at the speeds between the sections, N.
@@ -191,8 +232,8 @@ impl Conoid {
     /// On another prime radius; values found on the old surface are dropped, except those that do not depend on the radius.
     fn resize(&mut self, prime_radius: f64) {
         self.follower = TranslatingRoller::new(prime_radius, self.roller.offset, self.roller.radius);
-        let between = std::mem::take(&mut self.found.between);
-        self.found = Searched { between, ..Searched::default() };
+        let found = std::mem::take(&mut self.found);
+        self.found = Searched { between: found.between, nodes: found.nodes, ..Searched::default() };
     }
 
     /// The laws of the sections and their interpolation, on a prime radius of a metre.
@@ -232,21 +273,35 @@ impl Conoid {
             follower: TranslatingRoller::new(1.0, roller.offset, roller.radius),
             smallest_prime_radius: None,
             weights,
+            overhang: data.overhang.unwrap_or(0.0),
             lowest,
             residual_limit: None,
             found: Searched::default(),
         })
     }
 
-    /// The smallest prime radius that keeps the limits in every slice, and the curvature across them.
-    fn size(&mut self, required: &Required) -> Result<f64, NoRadius> {
+    /// The smallest prime radius that keeps the limits in every slice where the roller may stand.
+    fn smallest_of_slices(&self, required: &Required) -> Result<f64, NoRadius> {
         let of_slice =
             |z: &f64| size::smallest(&self.slice(*z), &self.follower, required).map(|smallest| smallest.prime_radius);
         let radii: Result<Vec<f64>, _> = parallel::map(&self.slices(), of_slice).into_iter().collect();
-        let mut radius = radii?.into_iter().fold(required.least, f64::max);
-        let keeps = |conoid: &mut Self, radius: f64| {
+        Ok(radii?.into_iter().fold(required.least, f64::max))
+    }
+
+    /// From the one that keeps the limits in every slice on: the smallest that keeps those of the whole surface.
+    fn size(&mut self, required: &Required, in_slices: f64) -> Result<f64, NoRadius> {
+        let mut radius = in_slices;
+        // Where one radius was too sharp, the next one mostly is.
+        let mut too_sharp: Option<Worst> = None;
+        let mut keeps = |conoid: &mut Self, radius: f64| {
             conoid.resize(radius);
-            conoid.sharpest_smooth().value * required.convex_radius <= 1.0 + 1e-9
+            let kept = |place: &Worst| place.value * required.convex_radius <= 1.0 + SLACK;
+            if too_sharp.is_some_and(|place| !kept(&Worst { value: conoid.sharpness(place.at, place.z), ..place })) {
+                return false;
+            }
+            let sharpest = conoid.sharpest_smooth();
+            too_sharp = (!kept(&sharpest)).then_some(sharpest);
+            too_sharp.is_none() && conoid.pressure_angle().value <= required.pressure_angle * (1.0 + SLACK)
         };
         if !keeps(self, radius) {
             let mut failing = radius;
@@ -270,7 +325,13 @@ impl Conoid {
     /// Ends of the cam along its axis, m.
     #[must_use]
     pub fn ends(&self) -> (f64, f64) {
-        (0.0 - self.data.overhang, self.data.axial_travel + self.data.overhang)
+        (0.0 - self.overhang, self.data.axial_travel + self.overhang)
+    }
+
+    /// By how much the cam is longer than its axial travel at either end, m.
+    #[must_use]
+    pub fn overhang(&self) -> f64 {
+        self.overhang
     }
 
     /// Prime radius, common to all sections, m.
@@ -332,10 +393,9 @@ impl Conoid {
         self.sections.iter().map(lift).collect()
     }
 
-    fn partials(&self, lifts: &[Jet], z: f64) -> Partials {
+    fn partials(lifts: &[Jet], weights: &[[f64; 4]]) -> Partials {
         let mut partials = [[0.0; 4]; 4];
-        for (lift, weight) in lifts.iter().zip(&self.weights) {
-            let weight = weight.at(z);
+        for (lift, weight) in lifts.iter().zip(weights) {
             for (row, derivative) in partials.iter_mut().zip([lift.s, lift.ds, lift.dds, lift.ddds]) {
                 for (slot, w) in row.iter_mut().zip(weight) {
                     *slot += w * derivative;
@@ -348,7 +408,7 @@ impl Conoid {
     /// Lift at a cam angle of a piece and a place along the axis (m), with its derivatives.
     #[must_use]
     pub fn lift(&self, piece: usize, angle: f64, z: f64) -> Partials {
-        self.partials(&self.lifts(piece, angle), z)
+        Self::partials(&self.lifts(piece, angle), &self.weights_at(z))
     }
 
     /// Δx of the bottom, m, when a section z (m) of the surface is under the roller.
@@ -440,6 +500,11 @@ impl Motion for Slice<'_> {
             ddds: sum.ddds + weight * lift.ddds,
         })
     }
+}
+
+/// A length that is not negative in whole millimetres, m: the next but for rounding.
+fn whole_millimetres(length: f64) -> f64 {
+    (1e3 * (length - ROUNDING)).ceil().max(0.0) / 1e3
 }
 
 /// The speeds in their order; a single one makes a prism of two equal sections.

@@ -5,7 +5,6 @@ use super::{Conoid, Interpolation};
 use crate::body::part::{Part, bore};
 use crate::body::{Found, flank_of};
 use crate::geometry::MILLIMETRES;
-use crate::geometry::contour::Vertex;
 use crate::motion::Reversal;
 use crate::numeric::parallel;
 use crate::report::sheet::rounded;
@@ -42,6 +41,8 @@ struct Measures {
     lobes: u32,
     z_min_mm: f64,
     z_max_mm: f64,
+    /// What it is longer than its axial travel at either end.
+    overhang_mm: f64,
     /// Of the metal; `None` when no flank was drawn.
     volume_mm3: Option<f64>,
     mass_kg: Option<f64>,
@@ -123,7 +124,7 @@ impl SectionMeasures {
             dx_max_mm: MILLIMETRES * dx_max,
             dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
             inertia_max_n: conoid.cylinder.largest_load(&law),
-            arcs: part.map(|part| part.outline.contour.vertices.len()),
+            arcs: part.map(|part| part.outline.contour.arcs()),
             area_mm2: part.map(|part| part.area_and_moment().0),
             deviation_max_mm: part.map(|part| part.outline.deviation),
             plane_offset_error_mm: MILLIMETRES * error,
@@ -160,6 +161,7 @@ impl Measures {
             lobes: conoid.machine.cam.lobes,
             z_min_mm: MILLIMETRES * low,
             z_max_mm: MILLIMETRES * high,
+            overhang_mm: MILLIMETRES * conoid.overhang(),
             volume_mm3: volume,
             mass_kg: volume.map(|volume| 1e-9 * volume * conoid.machine.cam.density()),
         }
@@ -170,13 +172,15 @@ impl Measures {
             .smallest_prime_radius_mm
             .map_or_else(|| "no radius keeps the limits".into(), |radius| format!("smallest possible {radius:.3} mm"));
         let mut words = vec![format!(
-            "base radius {} mm, roller {} mm, prime radius {} mm ({smallest}), lift {:.3} mm, z {} to {} mm",
+            "base radius {} mm, roller {} mm, prime radius {} mm ({smallest}), lift {:.3} mm, z {} to {} mm \
+             (overhang {} mm)",
             shown(self.base_radius_mm),
             shown(self.roller_radius_mm),
             shown(self.prime_radius_mm),
             self.max_lift_mm,
             shown(self.z_min_mm),
-            shown(self.z_max_mm)
+            shown(self.z_max_mm),
+            shown(self.overhang_mm)
         )];
         let mut figures = vec![
             format!("base radius {} mm, roller {} mm", rounded(self.base_radius_mm), rounded(self.roller_radius_mm)),
@@ -186,6 +190,7 @@ impl Measures {
                 rounded(self.z_min_mm),
                 rounded(self.z_max_mm)
             ),
+            format!("overhang {} mm at either end", rounded(self.overhang_mm)),
         ];
         if self.lobes > 1 {
             let lobes = lobes_words(self.lobes);
@@ -266,12 +271,14 @@ impl Forces {
 
 impl Outlines {
     fn new(parts: &[Part]) -> Self {
-        let vertices = parts.iter().flat_map(|part| &part.outline.contour.vertices);
-        let (lines, arcs): (Vec<&Vertex>, Vec<&Vertex>) = vertices.partition(|vertex| vertex.bulge == 0.0);
+        let (segments, arcs) = parts.iter().fold((0, 0), |(segments, arcs), part| {
+            let contour = &part.outline.contour;
+            (segments + contour.vertices.len(), arcs + contour.arcs())
+        });
         let breaks = parts.iter().flat_map(|part| part.outline.contour.tangent_breaks());
         Self {
-            arcs: arcs.len(),
-            lines: lines.len(),
+            arcs,
+            lines: segments - arcs,
             deviation_max_mm: parts.iter().map(|part| part.outline.deviation).fold(0.0, f64::max),
             tangent_break_max_deg: breaks.map(f64::abs).fold(0.0, f64::max).to_degrees(),
         }

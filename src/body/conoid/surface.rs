@@ -2,6 +2,7 @@
 
 use super::{Conoid, Partials};
 use crate::geometry::CurvePoint;
+use crate::motion::Jet;
 use crate::numeric::series::Series;
 use nalgebra::{Vector2, Vector3};
 
@@ -13,8 +14,12 @@ impl Conoid {
     /// metal, the point of contact.
     #[must_use]
     pub fn contact(&self, piece: usize, angle: f64, z: f64) -> SpatialContact {
-        let partials = self.lift(piece, angle, z);
-        let (u, a) = self.height_and_slope(&partials);
+        self.contact_of(&self.lift(piece, angle, z), angle, z)
+    }
+
+    /// The same by lift and derivatives there.
+    pub(super) fn contact_of(&self, partials: &Partials, angle: f64, z: f64) -> SpatialContact {
+        let (u, a) = self.height_and_slope(partials);
         let axes = Axes::new(angle);
         let length = libm::hypot(a, u);
         let normal = axes.along * (u / length) - axes.across * (a / length);
@@ -26,7 +31,8 @@ impl Conoid {
         SpatialContact { centre, normal, point: centre - normal * self.roller.radius, slope: partials[0][1] }
     }
 
-    pub(super) fn height_and_slope(&self, partials: &Partials) -> (f64, f64) {
+    #[must_use]
+    pub fn height_and_slope(&self, partials: &Partials) -> (f64, f64) {
         let (offset, prime) = (self.roller.offset, self.prime_radius());
         (((prime - offset) * (prime + offset)).sqrt() + partials[0][0], partials[1][0] - offset)
     }
@@ -34,9 +40,14 @@ impl Conoid {
     /// Largest and smallest principal curvature of the pitch surface, 1/m, convex positive.
     #[must_use]
     pub fn principal_curvatures(&self, piece: usize, angle: f64, z: f64) -> (f64, f64) {
-        let p = self.lift(piece, angle, z);
+        self.curvatures_of(&self.lift(piece, angle, z))
+    }
+
+    /// The same by lift and derivatives there.
+    #[must_use]
+    pub fn curvatures_of(&self, p: &Partials) -> (f64, f64) {
         let offset = self.roller.offset;
-        let (u, a) = self.height_and_slope(&p);
+        let (u, a) = self.height_and_slope(p);
         // In the basis along, across, axis.
         let normal = Vector3::new(u, -a, -u * p[0][1]);
         let by_angle = Vector3::new(a, u, 0.0);
@@ -61,21 +72,7 @@ impl Conoid {
     /// surface folds along the axis.
     #[must_use]
     pub fn cut(&self, piece: usize, angle: f64, z: f64) -> Option<(CurvePoint, f64)> {
-        let lifts = self.lifts(piece, angle);
-        let mut zeta = z;
-        for _ in 0..CUT_STEPS {
-            let (wander, slope) = self.wander(&self.partials(&lifts, zeta));
-            // A surface that folds back along the axis has no single roller for the cut.
-            if !(1.0 + slope > 0.0) {
-                return None;
-            }
-            let step = (zeta + wander - z) / (1.0 + slope);
-            zeta -= step;
-            if step.abs() <= 1e-15 * (1.0 + z.abs()) {
-                break;
-            }
-        }
-        let partials = self.partials(&lifts, zeta);
+        let (partials, zeta) = self.roller_of_cut(&self.lifts(piece, angle), z)?;
         let axial = |first: f64, second: f64| self.along(&partials, angle, Series([zeta, first, second])).axial.0;
         // Each coefficient of ζ enters the coefficient of its power linearly.
         let (without, with) = (axial(0.0, 0.0)[1], axial(1.0, 0.0)[1]);
@@ -97,6 +94,25 @@ impl Conoid {
             curvature_slope: (2.0 * turn2 * speed - turn * speed1) / (speed * speed * speed),
         };
         Some((frame, zeta))
+    }
+
+    /// The roller that touches the cut at z (m) at the cam angle of these lifts of the sections: lift and derivatives there,
+    /// and its place ζ. `None` where the surface folds along the axis.
+    pub(super) fn roller_of_cut(&self, lifts: &[Jet], z: f64) -> Option<(Partials, f64)> {
+        let mut zeta = z;
+        for _ in 0..CUT_STEPS {
+            let (wander, slope) = self.wander(&Self::partials(lifts, &self.weights_at(zeta)));
+            // A surface that folds back along the axis has no single roller for the cut.
+            if !(1.0 + slope > 0.0) {
+                return None;
+            }
+            let step = (zeta + wander - z) / (1.0 + slope);
+            zeta -= step;
+            if step.abs() <= 1e-15 * (1.0 + z.abs()) {
+                break;
+            }
+        }
+        Some((Self::partials(lifts, &self.weights_at(zeta)), zeta))
     }
 
     /// What follows from the lift along θ ↦ (θ, ζ(θ)), as series in θ.

@@ -118,3 +118,34 @@ fn the_adjusted_sections_end_where_the_design_does() {
         assert!((section.law().bottom_law.start_slope + 1.0 - slope).abs() < 5e-4);
     }
 }
+
+/// Wherever the roller stands it touches the flank and not its edge, and a whole millimetre less would not do.
+#[test]
+fn the_contact_stays_on_the_flank() {
+    for (speeds, overrides, expected) in [
+        (&[20.0, 25.0, 30.0, 35.0][..], &[][..], Some(0.003)),
+        (&[35.0], &[], Some(0.0)),
+        (&[20.0, 35.0], &["conoid.mode=fixed", "conoid.axial_travel=40mm"], None),
+        (&[20.0, 27.0, 35.0], &["conoid.shift=square", "follower.roller.offset=20mm", "cam.base_radius=150mm"], None),
+        (&[10.0, 20.0, 35.0, 45.0], &["conoid.axial_travel=60mm", "transition.kind=blend"], None),
+    ] {
+        let cam = conoid(speeds, overrides);
+        let (low, high) = cam.ends();
+        let mut beyond = f64::NEG_INFINITY;
+        for (piece, span) in cam.pieces().iter().enumerate() {
+            for i in 0..=2000 {
+                let angle = span.start + (span.end - span.start) * f64::from(i) / 2000.0;
+                for z in [0.0, cam.data.axial_travel] {
+                    let touching = cam.contact(piece, angle, z).point.z;
+                    assert!((low..=high).contains(&touching), "{overrides:?}: {touching} at {angle}");
+                    beyond = beyond.max(touching - cam.data.axial_travel).max(-touching);
+                }
+            }
+        }
+        assert!(cam.overhang() < beyond.max(0.0) + 1.001e-3, "{overrides:?}: {} for {beyond}", cam.overhang());
+        assert!(expected.is_none_or(|expected| cam.overhang() == expected), "{}", cam.overhang());
+        // What is told is the largest there is: a dense grid finds nothing above it, and hardly less.
+        let above = cam.reach().value - beyond;
+        assert!((-1e-15..1e-5 * beyond.abs().max(1e-3)).contains(&above), "{:?} {beyond}", cam.reach());
+    }
+}

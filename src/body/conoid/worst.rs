@@ -1,8 +1,7 @@
 //! The worst places of a conoid: over every turn of slices along its axis, and over its sections.
 
-use super::{Conoid, SLICES};
-use crate::motion::Reversal;
-use crate::numeric::parallel;
+use super::{Conoid, Partials, Place, SLICES};
+use crate::motion::{Motion, Reversal};
 use crate::profile::{Worst, extremes};
 
 impl Conoid {
@@ -25,46 +24,44 @@ impl Conoid {
         all
     }
 
-    /// The same with places as far beyond the ends as the contact wanders: spheres there make the metal at the ends, though
-    /// no roller ever stands there.
-    pub(super) fn slices_of_metal(&self) -> Vec<f64> {
-        let mut all = self.slices_and_ends();
-        let wander =
-            self.worst_of(&all, |conoid, piece, angle, z| conoid.wander(&conoid.lift(piece, angle, z)).0.abs());
-        let ((low, high), reach) = (self.ends(), wander.value);
-        if reach > 0.0 {
-            all.extend([low - reach, low - 0.5 * reach, high + 0.5 * reach, high + reach]);
-        }
-        all
-    }
-
     /// The sharpest convex place of the pitch surface but for corners: the curvature, 1/m.
     pub(super) fn sharpest_smooth(&self) -> Worst {
-        let search = || self.worst_of_metal(|conoid, piece, angle, z| conoid.principal_curvatures(piece, angle, z).0);
+        let search = || self.worst_of_metal(|conoid, partials| conoid.curvatures_of(partials).0);
         *self.found.sharpest.get_or_init(search)
     }
 
-    /// The largest value of something over all spheres that make the metal.
-    #[must_use]
-    pub fn worst_of_metal(&self, value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
-        self.worst_of(&self.slices_of_metal(), value)
+    /// The larger principal curvature of the pitch surface where the roller stands that touches the cut at z (m) at a cam
+    /// angle, 1/m; infinite where the surface folds along the axis.
+    pub(super) fn sharpness(&self, angle: f64, z: f64) -> f64 {
+        let (piece, angle) = self.slice(z).locate(angle);
+        let touching = self.roller_of_cut(&self.lifts(piece, angle), z);
+        touching.map_or(f64::INFINITY, |(partials, _)| self.curvatures_of(&partials).0)
     }
 
-    /// The largest value of something over the surface: over every turn of the slices.
+    /// The largest value of something, by lift and derivatives where the roller stands, over all the spheres that make the
+    /// metal: those that touch a cut between the ends of the cam. Infinite where the surface folds along the axis.
     #[must_use]
-    pub fn worst(&self, value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
-        self.worst_of(&self.slices(), value)
+    pub fn worst_of_metal(&self, value: impl Fn(&Self, &Partials) -> f64 + Sync) -> Worst {
+        self.worst_over(&self.slices_and_ends(), |conoid, place| {
+            let touching = conoid.roller_of_cut(place.lifts, place.z);
+            touching.map_or(f64::INFINITY, |(partials, _)| value(conoid, &partials))
+        })
     }
 
-    pub(super) fn worst_of(&self, slices: &[f64], value: impl Fn(&Self, usize, f64, f64) -> f64 + Sync) -> Worst {
-        let in_slice = |z: &f64| {
-            let slice = self.slice(*z);
-            let found =
-                extremes::largest_without_slope(self.plane_of(&slice), |piece, angle| value(self, piece, angle, *z));
-            Worst { value: found.value, at: found.at, z: *z }
-        };
-        let all: Vec<Worst> = parallel::map(slices, in_slice);
-        all.into_iter().fold(Worst::NONE, Worst::or_larger)
+    /// The largest value of something over the surface on which the roller may stand.
+    #[must_use]
+    pub fn worst(&self, value: impl Fn(&Self, &Place<'_>) -> f64 + Sync) -> Worst {
+        self.worst_over(&self.slices(), value)
+    }
+
+    /// How far beyond the axial travel the roller touches at the most while it stands within it, m, and where the roller
+    /// stands then: not positive where the contact always stays within.
+    #[must_use]
+    pub fn reach(&self) -> Worst {
+        let travel = self.data.axial_travel;
+        let contact = |conoid: &Self, place: &Place<'_>| place.z + conoid.wander(&place.partials).0;
+        let above = self.worst(|conoid, place| contact(conoid, place) - travel);
+        above.or_larger(self.worst(|conoid, place| -contact(conoid, place)))
     }
 
     /// The largest and the smallest of something over the turns of the sections, each at its own speed.
@@ -123,16 +120,22 @@ impl Conoid {
     /// Largest distance of the contact from the roller's plane along the axis, m.
     #[must_use]
     pub fn largest_wander(&self) -> Worst {
-        let search = || self.worst(|conoid, piece, angle, z| conoid.wander(&conoid.lift(piece, angle, z)).0.abs());
+        let search = || self.worst(|conoid, place| conoid.wander(&place.partials).0.abs());
         *self.found.wander.get_or_init(search)
+    }
+
+    /// The largest angle by which the normal leans along the axis, rad.
+    #[must_use]
+    pub fn largest_lean(&self) -> f64 {
+        libm::asin(self.largest_wander().value / self.roller.radius)
     }
 
     /// The smallest radius of the cam about its axis, m, and where it is.
     #[must_use]
     pub fn smallest_radius(&self) -> Worst {
-        let within = self.slices_and_ends();
-        let worst = self.worst_of(&within, |conoid, piece, angle, z| {
-            conoid.cut(piece, angle, z).map_or(0.0, |(frame, _)| -frame.point.norm())
+        let worst = self.worst_over(&self.slices_and_ends(), |conoid, place| {
+            let touching = conoid.roller_of_cut(place.lifts, place.z);
+            touching.map_or(0.0, |(partials, zeta)| -conoid.contact_of(&partials, place.angle, zeta).point.xy().norm())
         });
         Worst { value: -worst.value, ..worst }
     }
