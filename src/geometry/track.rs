@@ -82,7 +82,15 @@ impl Track {
     /// How far the outline reaches in a direction (a unit vector) from the origin, exact; `None` for an empty outline.
     #[must_use]
     pub fn farthest(&self, direction: Vector2<f64>) -> Option<f64> {
-        self.segments.iter().map(|segment| segment.farthest(direction)).max_by(f64::total_cmp)
+        // No box reaches farther than its corner, and the tree is left where none can win.
+        let corner = |low: f64, high: f64, along: f64| if along > 0.0 { high * along } else { low * along };
+        let of_box = |node: &BvhNode, _: f64| {
+            let (low, high) = (node.aabb().mins, node.aabb().maxs);
+            -corner(low.x, high.x, direction.x) - corner(low.y, high.y, direction.y)
+        };
+        let reach = |leaf: u32, _: f64| Some(-self.segments.get(leaf as usize)?.farthest(direction));
+        let (_, least) = self.tree.find_best(f64::MAX, of_box, reach)?;
+        Some(-least)
     }
 
     /// In how many separate places the outline comes within `reach` of a point. Neighbouring segments are one place.

@@ -24,17 +24,23 @@ pub(super) const CHECK: Check = Check {
     run: check,
 };
 
-/// Even places beside those at which the roller touches the segments: half a degree of a turn shows the widest fault.
-const EVEN_PLACES: u32 = 720;
+/// Even places beside those at which the roller touches the segments.
+const EVEN_PLACES: u32 = 360;
 /// Places spread over the segments, at the least one on each.
-const SEGMENT_PLACES: usize = 320;
-/// Distance to either side of a break of the law at which the roller is put as well, as a share of the cam.
-const BESIDE_BREAK: f64 = 1.6e-5;
-/// Worst places that are looked at closer, and golden sections there: an angle step shrinks to a thousandth.
-const CLOSER_LOOKS: usize = 6;
-const CLOSER_SECTIONS: u32 = 14;
-/// parry measures as well at one angle of so many.
-const PARRY_EVERY: usize = 4;
+const SEGMENT_PLACES: usize = 144;
+/// Between two places a maximum is looked for while it may exceed what was found by more than this, mm.
+const SLACK: f64 = 1e-10;
+/// By so much of what a cubic rises above its ends a maximum may be higher than the cubic.
+const DOUBT: f64 = 0.25;
+/// Halvings between two places, and places in all that are looked at closer.
+const DEEPEST: u32 = 30;
+const MOST_CLOSER: usize = 4000;
+/// Worst places of a value without slope that are looked at closer, and golden sections there: the value at a maximum is right
+/// to the square of what is left of the step, 1e-8.
+const CLOSER_LOOKS: usize = 4;
+const CLOSER_SECTIONS: u32 = 19;
+/// Places at which parry measures as well, and two contacts at once are looked for.
+const PARRY_PLACES: usize = 240;
 /// Chords for parry lie within this share of the tolerance.
 const CHORD_SHARE: f64 = 0.02;
 /// Newton steps along the path, and the cosine below which the roller slides off rather than touches.
@@ -42,15 +48,22 @@ const TOUCH_STEPS: usize = 12;
 const LEAST_COSINE: f64 = 0.05;
 /// A roller touches when it is that near, mm.
 const TOUCHING: f64 = 1e-10;
+/// A step of Newton's method to the place over a point of the outline that is longer, rad or m, is none.
+const LONGEST_STEP: f64 = 0.01;
 /// Rounding of a distance between points of a drawing, over its size.
 const ROUNDING: f64 = 1e-14;
 
 /// The roller at one place.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
+    piece: usize,
     parameter: f64,
     gap: f64,
+    /// Derivative of the gap by the parameter, mm; NaN under a face.
+    gap_slope: f64,
     lift_error: Option<f64>,
+    /// Its derivative.
+    lift_slope: f64,
     residual: f64,
     /// How far parry's distance is from the exact one, where it was measured.
     difference: f64,
@@ -67,19 +80,21 @@ struct Roll<'a> {
 }
 
 impl Roll<'_> {
-    /// The place of the follower by the motion.
-    fn contact(&self, parameter: f64) -> Touch {
-        let (piece, inside) = self.curves.motion.locate(parameter);
-        self.curves.touch(piece, inside)
-    }
-
     /// Gap between the outline and the element with the point of its curve at a place (mm), and the outward normal where they
     /// are nearest.
     fn clearance(&self, contact: &Touch, centre: Vector2<f64>) -> Option<(f64, Vector2<f64>)> {
         match self.curves.element() {
             Element::Roller { .. } => {
                 let nearest = self.track.nearest(centre)?;
-                Some((-nearest.left - self.radius, Vector2::new(nearest.tangent.y, -nearest.tangent.x)))
+                // From a vertex the normal is that of the roller.
+                let away = centre - nearest.foot;
+                let distance = away.norm();
+                let normal = if distance > TOUCHING {
+                    away * (-nearest.left.signum() / distance)
+                } else {
+                    Vector2::new(nearest.tangent.y, -nearest.tangent.x)
+                };
+                Some((-nearest.left - self.radius, normal))
             }
             // A face touches with the point of the outline that lies farthest along its normal.
             Element::Face => {
@@ -89,107 +104,208 @@ impl Roll<'_> {
         }
     }
 
-    fn gap(&self, parameter: f64) -> f64 {
-        let contact = self.contact(parameter);
-        self.clearance(&contact, contact.curve.point * 1e3).map_or(f64::INFINITY, |(gap, _)| gap)
-    }
-
-    /// How far along its path the roller stands from its place by the motion, mm.
-    fn lift_error(&self, contact: &Touch) -> Option<f64> {
+    /// How far along its path the roller stands from its place by the motion, mm, and the normal where it touches.
+    fn lift_error(&self, contact: &Touch, first: (f64, Vector2<f64>)) -> Option<(f64, Vector2<f64>)> {
         let (centre, drive) = (contact.curve.point * 1e3, contact.drive);
-        let mut moved = 0.0;
+        let (mut moved, (mut gap, mut normal)) = (0.0, first);
         for _ in 0..TOUCH_STEPS {
-            let (gap, normal) = self.clearance(contact, centre + drive * moved)?;
             if gap.abs() <= TOUCHING {
-                return Some(moved);
+                return Some((moved, normal));
             }
             let cosine = drive.dot(&normal);
             if cosine < LEAST_COSINE {
                 return None;
             }
             moved -= gap / cosine;
+            (gap, normal) = self.clearance(contact, centre + drive * moved)?;
         }
-        None
+        (gap.abs() <= TOUCHING).then_some((moved, normal))
     }
 
-    fn sample(&self, parameter: f64) -> Sample {
-        let (piece, inside) = self.curves.motion.locate(parameter);
-        let contact = self.curves.touch(piece, inside);
+    fn gap(&self, piece: usize, parameter: f64) -> f64 {
+        let contact = self.curves.touch(piece, parameter);
+        self.clearance(&contact, contact.curve.point * 1e3).map_or(f64::INFINITY, |(gap, _)| gap)
+    }
+
+    fn sample(&self, piece: usize, parameter: f64) -> Sample {
+        let contact = self.curves.touch(piece, parameter);
         let clearance = self.clearance(&contact, contact.curve.point * 1e3);
         let (gap, normal) = clearance.unwrap_or((f64::INFINITY, contact.drive));
-        let lift_error = self.lift_error(&contact);
-        let residual = self.body.unbalanced(piece, inside, 1e-3 * lift_error.unwrap_or(gap), normal);
+        let touching = self.lift_error(&contact, (gap, normal));
+        let lift_error = touching.map(|(moved, _)| moved);
+        let residual = self.body.unbalanced(piece, parameter, 1e-3 * lift_error.unwrap_or(gap), normal);
         // A bottom so far off that no air is left gives no force.
         let residual = if residual.is_nan() { f64::INFINITY } else { residual };
-        Sample { parameter, gap, lift_error, residual, difference: 0.0, double: false }
+        let rolls = matches!(self.curves.element(), Element::Roller { .. });
+        // The centre moves, and the direction of its path turns; the distance from the outline changes with what lies along
+        // the normal.
+        let moves = contact.curve.tangent * (1e3 * contact.curve.speed);
+        let turns = Vector2::new(-contact.drive.y, contact.drive.x) * contact.drive_turn;
+        let lift_slope = touching
+            .map_or(f64::NAN, |(moved, normal)| -normal.dot(&(moves + turns * moved)) / normal.dot(&contact.drive));
+        Sample {
+            piece,
+            parameter,
+            gap,
+            gap_slope: if rolls { normal.dot(&moves) } else { f64::NAN },
+            lift_error,
+            lift_slope: if rolls { lift_slope } else { f64::NAN },
+            residual,
+            difference: 0.0,
+            double: false,
+        }
     }
 
-    /// Even places, both sides of every break, and those at which the roller touches the segments.
-    fn places(&self) -> Vec<f64> {
+    /// The parameter at which the roller, placed by the motion, is nearest to a place of the outline with this outward normal.
+    fn parameter_over(&self, point: Vector2<f64>, outward: Vector2<f64>) -> f64 {
+        let near = self.curves.follower.parameter_of((point + outward * self.radius) * 1e-3, outward);
+        if !near.is_finite() || matches!(self.curves.element(), Element::Face) {
+            return near;
+        }
+        let (piece, inside) = self.curves.motion.locate(near);
+        let curve = self.curves.touch(piece, inside).curve;
+        let away = curve.point * 1e3 - point;
+        // (P − v)·P' = 0 by a step of Newton's method: the distance from a vertex is least or largest there.
+        let run = curve.speed * (1e3 - curve.curvature * away.dot(&curve.outward()));
+        let step = away.dot(&curve.tangent) / run;
+        if step.abs() < LONGEST_STEP { near - step } else { near }
+    }
+
+    /// Even places, both ends of every piece, and those at which the roller touches the segments; by piece.
+    fn places(&self) -> Vec<(usize, f64)> {
         let (first, last) = self.curves.motion.range();
         let period = self.curves.motion.period();
-        let even = (0..=EVEN_PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(EVEN_PLACES));
-        let beside = BESIDE_BREAK * (last - first);
-        let breaks = self.curves.motion.pieces().iter().flat_map(|p| [p.start - beside, p.start, p.start + beside]);
-        let count = (SEGMENT_PLACES / self.track.segments().len().max(1)).clamp(1, 8);
+        let even = (0..EVEN_PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(EVEN_PLACES));
+        let count = (SEGMENT_PLACES / self.track.segments().len().max(1)).clamp(1, 4);
         let touching = self.track.segments().iter().flat_map(|segment| {
             (0..count).map(|step| {
-                #[expect(clippy::cast_precision_loss, reason = "at most eight")]
+                #[expect(clippy::cast_precision_loss, reason = "at most four")]
                 let share = step as f64 / count as f64;
                 let (point, tangent) = segment.at(share);
-                let outward = Vector2::new(tangent.y, -tangent.x);
-                self.curves.follower.parameter_of((point + outward * self.radius) * 1e-3, outward)
+                self.parameter_over(point, Vector2::new(tangent.y, -tangent.x))
             })
         });
-        let inside = |parameter: f64| match period {
-            Some(period) => first + (parameter - first).rem_euclid(period),
-            None => parameter,
-        };
-        let all = even.chain(breaks).chain(touching).map(inside);
-        let mut places: Vec<f64> = all.filter(|p| (first..=last).contains(p)).collect();
-        places.sort_by(f64::total_cmp);
+        let within =
+            |parameter: &f64| parameter.is_finite() && (period.is_some() || (first..=last).contains(parameter));
+        let located = even.chain(touching).filter(within).map(|parameter| self.curves.motion.locate(parameter));
+        let pieces = self.curves.motion.pieces().iter().enumerate();
+        let ends = pieces.flat_map(|(index, piece)| [(index, piece.start), (index, piece.end)]);
+        let mut places: Vec<(usize, f64)> = located.chain(ends).collect();
+        places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        places.dedup();
         places
     }
 
-    /// The samples about the worst gaps, looked at closer.
-    fn closer(&self, samples: &[Sample]) -> Vec<Sample> {
-        let n = samples.len();
-        let (first, last) = self.curves.motion.range();
-        let turn = self.curves.motion.period();
-        let size = |index: usize| samples.get(index % n).map_or(0.0, |s| s.gap.abs());
-        let mut peaks: Vec<usize> = (0..n).filter(|&i| size(i) >= size(i + n - 1) && size(i) >= size(i + 1)).collect();
-        peaks.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
-        peaks.truncate(CLOSER_LOOKS);
-        let at = |index: usize| samples.get(index).map_or(first, |s| s.parameter);
-        let look = |&peak: &usize| {
-            let low = if peak > 0 { at(peak - 1) } else { turn.map_or(first, |turn| at(n - 1) - turn) };
-            let high = if peak + 1 < n { at(peak + 1) } else { turn.map_or(last, |turn| at(0) + turn) };
-            let worst = extremum::largest_without_slope(|p| self.gap(p).abs(), (low, high), 2, CLOSER_SECTIONS);
-            self.sample(worst.at)
-        };
-        peaks.iter().map(look).collect()
+    /// The largest gap and lift error between the places: the samples that lie higher than those of the places, each where the
+    /// cubic through two neighbours and their slopes is highest.
+    fn solved(&self, samples: &[Sample]) -> Vec<Sample> {
+        let gap = |s: &Sample| (s.gap, s.gap_slope);
+        let lift = |s: &Sample| (s.lift_error.unwrap_or(f64::NAN), s.lift_slope);
+        let mut found = Vec::new();
+        for value in [&gap as &dyn Fn(&Sample) -> (f64, f64), &lift] {
+            let mut best = samples.iter().map(|s| value(s).0.abs()).fold(0.0, f64::max);
+            let pairs = samples.windows(2).filter_map(|pair| match pair {
+                [a, b] if a.piece == b.piece => Some((*a, *b, DEEPEST)),
+                _ => None,
+            });
+            let mut cells: Vec<(f64, Cell)> = pairs.filter_map(|cell| Some((promise(&cell, value)?.0, cell))).collect();
+            // The most promising last, where they are taken from.
+            cells.retain(|(promise, _)| *promise > best + SLACK);
+            cells.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let mut left = MOST_CLOSER;
+            while let Some((promised, cell)) = cells.pop() {
+                let Some((_, at)) = promise(&cell, value).filter(|_| promised > best + SLACK && left > 0) else {
+                    continue;
+                };
+                left -= 1;
+                let (a, b, depth) = cell;
+                let between = self.sample(a.piece, at);
+                best = best.max(value(&between).0.abs());
+                found.push(between);
+                if depth > 0 {
+                    let halves = [(a, between, depth - 1), (between, b, depth - 1)];
+                    cells.extend(halves.into_iter().filter_map(|cell| Some((promise(&cell, value)?.0, cell))));
+                }
+            }
+        }
+        found
     }
 
-    /// Every sample of this flank, the even ones first and the closer looks after them.
-    fn samples(&self, chords: &Chords, tolerance: f64) -> (Vec<Sample>, usize) {
-        let mut samples: Vec<Sample> = self.places().into_iter().map(|place| self.sample(place)).collect();
-        let even = samples.len();
-        samples.extend(self.closer(&samples));
+    /// The samples about the worst of a value that has no slope, looked at closer.
+    fn closer(
+        &self,
+        samples: &[Sample],
+        value: impl Fn(&Sample) -> f64,
+        between: impl Fn(usize, f64) -> f64,
+    ) -> Vec<Sample> {
+        let n = samples.len();
+        let size = |index: usize| samples.get(index % n).map_or(0.0, &value);
+        let mut peaks: Vec<usize> =
+            (0..n).filter(|&i| size(i) > 0.0 && size(i) >= size(i + n - 1) && size(i) >= size(i + 1)).collect();
+        peaks.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
+        peaks.truncate(CLOSER_LOOKS);
+        let look = |&peak: &usize| {
+            let own = samples.get(peak)?;
+            // Within its own piece.
+            let at = |other: Option<&Sample>| {
+                other.filter(|other| other.piece == own.piece).map_or(own.parameter, |o| o.parameter)
+            };
+            let range = (at(peak.checked_sub(1).and_then(|before| samples.get(before))), at(samples.get(peak + 1)));
+            let worst = extremum::largest_without_slope(|p| between(own.piece, p), range, 2, CLOSER_SECTIONS);
+            Some(self.sample(own.piece, worst.at))
+        };
+        peaks.iter().filter_map(look).collect()
+    }
+
+    /// Every sample of this flank.
+    fn samples(&self, chords: &Chords, tolerance: f64) -> Vec<Sample> {
+        let mut samples: Vec<Sample> =
+            self.places().into_iter().map(|(piece, parameter)| self.sample(piece, parameter)).collect();
+        let rolls = matches!(self.curves.element(), Element::Roller { .. });
+        let mut more = self.solved(&samples);
+        if !rolls {
+            more.extend(self.closer(&samples, |s| s.gap.abs(), |piece, at| self.gap(piece, at).abs()));
+        }
+        samples.extend(more);
+        samples.sort_by(|a, b| a.piece.cmp(&b.piece).then(a.parameter.total_cmp(&b.parameter)));
+        let residual = self.closer(&samples, |s| s.residual, |piece, at| self.sample(piece, at).residual);
+        samples.extend(residual);
+        let thinned = (samples.len() / PARRY_PLACES).max(1);
         for (index, sample) in samples.iter_mut().enumerate() {
-            let contact = self.contact(sample.parameter);
-            let centre = contact.curve.point * 1e3;
-            let rolls = matches!(self.curves.element(), Element::Roller { .. });
-            if index % PARRY_EVERY == 0 {
-                let normal = contact.curve.outward();
-                let by_chords =
-                    if rolls { chords.distance(centre) } else { centre.dot(&normal) - chords.farthest(normal) };
-                sample.difference = (by_chords - (sample.gap + self.radius)).abs();
+            if index % thinned != 0 {
+                continue;
             }
+            let contact = self.curves.touch(sample.piece, sample.parameter);
+            let centre = contact.curve.point * 1e3;
+            let normal = contact.curve.outward();
+            let by_chords = if rolls { chords.distance(centre) } else { centre.dot(&normal) - chords.farthest(normal) };
+            sample.difference = (by_chords - (sample.gap + self.radius)).abs();
             sample.double =
                 rolls && sample.gap.abs() <= tolerance && self.track.places_within(centre, self.radius + tolerance) > 1;
         }
-        (samples, even)
+        samples
     }
+}
+
+/// Two neighbouring samples, and how often what lies between may still be halved.
+type Cell = (Sample, Sample, u32);
+
+/// How high the size of a value may rise between two samples, and where: by the cubic through its values and slopes, with room
+/// for what is no cubic; `None` where it does not rise above them.
+fn promise((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
+    let width = b.parameter - a.parameter;
+    let ((low, rise), (high, fall)) = (value(a), value(b));
+    let (rise, fall) = (rise * width, fall * width);
+    // v(x) = low + rise x + c x² + d x³, x from 0 to 1; its slope is 0 where rise + 2 c x + 3 d x² = 0.
+    let (c, d) = (3.0 * (high - low) - 2.0 * rise - fall, rise + fall - 2.0 * (high - low));
+    let root = (c * c - 3.0 * d * rise).sqrt();
+    let turn = -(c + root.copysign(c));
+    let ends = low.abs().max(high.abs());
+    let of = |x: f64| (x > 0.0 && x < 1.0).then(|| ((low + x * (rise + x * (c + x * d))).abs(), x));
+    let tops = [turn / (3.0 * d), rise / turn].into_iter().filter_map(of);
+    let (top, x) = tops.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let at = a.parameter + x * width;
+    (at > a.parameter && at < b.parameter).then_some((top + DOUBT * (top - ends).max(0.0), at))
 }
 
 /// Rolls the follower of a plane cam on an outline that lies as it was written, against the law; tolerance in mm.
@@ -202,9 +318,9 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         let contour = if *mirrored { contour.mirrored_about_x() } else { contour.clone() };
         let roll = Roll { body, curves, track: Track::new(&contour), radius: 1e3 * curves.offset() };
         let chords = Chords::new(&contour, CHORD_SHARE * tolerance);
-        let (found, even) = roll.samples(&chords, tolerance);
-        let lifts: Vec<f64> = found.iter().take(even).filter_map(|s| s.lift_error).map(f64::abs).collect();
-        touches &= lifts.len() == even;
+        let found = roll.samples(&chords, tolerance);
+        let lifts: Vec<f64> = found.iter().filter_map(|s| s.lift_error).map(f64::abs).collect();
+        touches &= lifts.len() == found.len();
         errors.extend(lifts);
         samples.extend(found);
         (chord_count, sagitta) = (chord_count + chords.count, sagitta.max(chords.sagitta));

@@ -1,0 +1,261 @@
+//! Outlines that a roller does not feel, or that lie right only where somebody looks: told by the distance both ways.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+#[path = "common/random.rs"]
+#[allow(dead_code, unreachable_pub, reason = "shared by several tests")]
+mod random;
+
+use camgen::body::Layer;
+use camgen::geometry::contour::{Contour, Vertex};
+use camgen::geometry::{CurvePoint, Entity};
+use camgen::machine::Machine;
+use camgen::pipeline::{Cam, Spec};
+use camgen::report::{Finding, Report, Verdict};
+use camgen::write::dxf::{self, Version};
+use nalgebra::Vector2;
+use std::f64::consts::{PI, TAU};
+
+fn cam(overrides: &[&str]) -> Cam {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let machine = Machine::load("dpi", &overrides).expect("valid").0;
+    Spec::rotary(machine, 35.0).solve().expect("a cam")
+}
+
+/// The file of an outline with the bore of the default cam.
+fn file(vertices: Vec<Vertex>) -> Vec<u8> {
+    let outline = (Layer::CamProfile, Entity::Polyline(Contour { vertices }));
+    dxf::write(&[outline, (Layer::Bore, Entity::Circle(Vector2::zeros(), 25.0))], Version::R2000)
+}
+
+fn written(cam: &Cam, tolerance: f64) -> Vec<Vertex> {
+    let proven = cam.draw(tolerance).expect("drawn").prove().expect("proved");
+    proven.outlines()[0].contour.vertices.clone()
+}
+
+fn found(report: &Report, check: &str) -> Finding {
+    let finding = report.checks.iter().find(|finding| finding.check == check);
+    finding.unwrap_or_else(|| panic!("no {check}: {:?}", report.checks)).clone()
+}
+
+fn outline(cam: &Cam, vertices: Vec<Vertex>, tolerance: f64) -> Finding {
+    found(&cam.check(&file(vertices), tolerance).expect("a DXF file"), "outline")
+}
+
+/// The exact profile at a cam angle, mm.
+fn exact(cam: &Cam, angle: f64) -> CurvePoint {
+    let curves = cam.body().plane().expect("a plane cam");
+    let (piece, inside) = curves.motion.locate(angle);
+    curves.profile(piece, inside).scaled(1e3)
+}
+
+/// A chain through the profile moved outwards by `away` (mm) of the cam angle: lines, or arcs by the headings of the profile.
+fn chain(cam: &Cam, count: u32, arcs: bool, from: f64, away: impl Fn(f64) -> f64) -> Vec<Vertex> {
+    let at = |i: u32| {
+        let angle = from + TAU * f64::from(i) / f64::from(count);
+        let curve = exact(cam, angle);
+        (curve.point + curve.outward() * away(angle), curve.tangent)
+    };
+    let vertex = |i: u32| {
+        let ((point, heading), (_, next)) = (at(i), at(i + 1));
+        let turn = heading.perp(&next).atan2(heading.dot(&next));
+        Vertex { point, bulge: if arcs { (0.25 * turn).tan() } else { 0.0 } }
+    };
+    (0..count).map(vertex).collect()
+}
+
+/// A smooth hump of a height and width about a place.
+fn hump(height: f64, at: f64, width: f64) -> impl Fn(f64) -> f64 {
+    move |angle| {
+        let away = (angle - at + PI).rem_euclid(TAU) - PI;
+        if away.abs() < width { height * (0.5 * PI * away / width).cos().powi(2) } else { 0.0 }
+    }
+}
+
+/// A slot 0.7 mm wide through the shaft: the roller bridges its mouth.
+#[test]
+fn a_slot_is_no_cam_although_a_roller_does_not_feel_it() {
+    let cam = cam(&[]);
+    let vertices = written(&cam, 5e-6);
+    let longest = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
+    let contour = Contour { vertices: vertices.clone() };
+    let lengths = contour.segments().map(|segment| segment.length()).enumerate();
+    let (dwell, _) = lengths.max_by(longest).expect("segments");
+    let segment = contour.segments().nth(dwell).expect("a segment");
+    let (centre, radius, sweep) = (segment.centre(), segment.radius(), segment.sweep());
+    let begin = (segment.start - centre).y.atan2((segment.start - centre).x);
+    let polar = |angle: f64, r: f64| centre + Vector2::new(angle.cos(), angle.sin()) * r;
+    let half = 0.35 / radius;
+    let (left, right) = (begin + 0.5 * sweep - half, begin + 0.5 * sweep + half);
+    let arc = |angle: f64| (0.25 * angle).tan();
+    let deep = Vector2::new((begin + 0.5 * sweep).cos(), (begin + 0.5 * sweep).sin()) * -175.0;
+    let slot = [
+        Vertex { point: segment.start, bulge: arc(left - begin) },
+        Vertex { point: polar(left, radius), bulge: 0.0 },
+        Vertex { point: polar(left, radius) + deep, bulge: 0.0 },
+        Vertex { point: polar(right, radius) + deep, bulge: 0.0 },
+        Vertex { point: polar(right, radius), bulge: arc(begin + sweep - right) },
+    ];
+    let mut sawn = vertices;
+    sawn.splice(dwell..=dwell, slot);
+    let report = cam.check(&file(sawn), 5e-6).expect("a DXF file");
+    assert_eq!(found(&report, "rolling").verdict, Verdict::Pass, "the roller does not feel it");
+    let finding = found(&report, "outline");
+    assert_eq!(finding.verdict, Verdict::Fail, "{finding:?}");
+    // The bottom of the slot lies 175 mm below one side of the dwell, nearer to the other side of the cam.
+    assert!((20.0..175.0).contains(&finding.value), "{finding:?}");
+    assert!(finding.note.as_deref().is_some_and(|note| note.contains("turns back")), "{finding:?}");
+}
+
+/// Whiskers, spurs, teeth and loops, out of the metal and into it.
+#[test]
+fn spurs_teeth_and_loops_are_told() {
+    let cam = cam(&[]);
+    let whole = chain(&cam, 1440, true, 0.0, |_| 0.0);
+    assert_eq!(outline(&cam, whole.clone(), 5e-6).verdict, Verdict::Pass);
+    for at in [3_usize, 270, 700, 1100, 1439] {
+        let (here, next) = (whole[at], whole[(at + 1) % whole.len()]);
+        let along = (next.point - here.point).normalize();
+        let out = Vector2::new(along.y, -along.x);
+        let v = |along_by: f64, out_by: f64| Vertex { point: here.point + along * along_by + out * out_by, bulge: 0.0 };
+        for (what, detour, least) in [
+            ("whisker", vec![v(0.0, 0.0), v(0.0, 0.3), v(0.001, 0.0)], 0.299),
+            ("spur inwards", vec![v(0.0, 0.0), v(0.05, -0.4), v(0.1, 0.0)], 0.39),
+            ("tooth", vec![v(0.0, 0.0), v(0.02, 0.02), v(0.06, -0.02), v(0.08, 0.0)], 0.0199),
+            ("loop", vec![v(0.0, 0.0), v(0.1, 0.02), v(0.05, 0.04), v(0.05, -0.02)], 0.039),
+            ("step back", vec![v(0.0, 0.0), v(0.2, 0.0), v(0.1, 0.0)], 0.0),
+        ] {
+            let mut edited = whole.clone();
+            edited.splice(at..=at, detour);
+            let finding = outline(&cam, edited, 5e-6);
+            assert_eq!(finding.verdict, Verdict::Fail, "{what} at {at}: {finding:?}");
+            assert!(finding.value >= least && finding.value < least + 0.02, "{what} at {at}: {finding:?}");
+        }
+    }
+}
+
+/// A hump half as high again as the tolerance, for any number of segments and at any place: told as high as it is.
+#[test]
+fn a_hump_between_the_places_is_told() {
+    for (overrides, tolerance_um, height_um) in
+        [(vec![], 5.0, 7.5), (vec![], 0.5, 2.0), (vec!["cam.base_radius=200mm", "buffer.column=return"], 5.0, 40.0)]
+    {
+        let cam = cam(&overrides);
+        for count in [120, 330, 721, 10_000] {
+            for at in [270.25_f64, 0.1, 91.0, 137.77, 359.99] {
+                for sign in [1.0, -1.0] {
+                    let away = hump(sign * 1e-3 * height_um, at.to_radians(), 3.0 * TAU / f64::from(count));
+                    let on_vertex = at.to_radians() - TAU;
+                    let finding = outline(&cam, chain(&cam, count, true, on_vertex, away), 1e-6 * tolerance_um);
+                    assert_eq!(finding.verdict, Verdict::Fail, "{count} {at} {sign}: {finding:?}");
+                    // A vertex stands on its top, where a chain of arcs also bulges a little beyond or not.
+                    assert!(finding.value > 1e-3 * height_um - 1e-9, "{count} {at} {sign}: {finding:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Chains within the tolerance pass, whichever way they are written.
+#[test]
+fn right_outlines_pass_in_every_dress() {
+    let cam = cam(&[]);
+    let rounded = |vertices: Vec<Vertex>, decimals: i32| -> Vec<Vertex> {
+        let unit = 10_f64.powi(decimals);
+        let round = |value: f64| (value * unit).round() / unit;
+        vertices.into_iter().map(|v| Vertex { point: v.point.map(round), bulge: v.bulge }).collect()
+    };
+    for count in [700, 2000, 9000, 50_000] {
+        for arcs in [true, false] {
+            for (from, decimals) in [(0.0, 12), (1.0, 6), (4.7, 5)] {
+                let vertices = rounded(chain(&cam, count, arcs, from, |angle| 2e-3 * (3.0 * angle).sin()), decimals);
+                let finding = outline(&cam, vertices, 5e-6);
+                assert_eq!(finding.verdict, Verdict::Pass, "{count} {arcs} {from}: {finding:?}");
+                // The chords of the dwell sag by R (2π/n)²/8.
+                let sag = if arcs { 2e-5 } else { 185.0 * (TAU / f64::from(count)).powi(2) / 8.0 };
+                assert!((finding.value - 2e-3).abs() < 1.5e-5 + sag, "{count} {arcs} {from}: {finding:?}");
+            }
+        }
+    }
+}
+
+/// The distance of a point from the profile by brute force: chords of a thousandth of a degree, 4 nm from it at the most.
+struct Dense(Vec<(f64, Vector2<f64>)>);
+
+impl Dense {
+    fn new(cam: &Cam) -> Self {
+        let mut points: Vec<(f64, Vector2<f64>)> = (0..360_000)
+            .map(|i| exact(cam, f64::from(i) * TAU / 360_000.0).point)
+            .map(|point| (point.y.atan2(point.x), point))
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self(points)
+    }
+
+    fn distance(&self, point: Vector2<f64>) -> f64 {
+        let (n, polar) = (self.0.len(), point.y.atan2(point.x));
+        let nearest = self.0.partition_point(|(angle, _)| *angle < polar);
+        let at = |i: usize| self.0[(i + n) % n].1;
+        let chord = |i: usize| {
+            let (a, b) = (at(i), at(i + 1));
+            let share = ((point - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+            (point - a - (b - a) * share).norm()
+        };
+        (nearest + n - 60..nearest + n + 60).map(chord).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Random chains with humps, steps, waves and kinks: what is told is what a dense measurement finds.
+#[test]
+fn the_told_distance_is_that_of_a_dense_measurement() {
+    let cam = cam(&[]);
+    let dense = Dense::new(&cam);
+    let mut draw = random::Random(13);
+    for case in 0..60 {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below a thousand")]
+        let count = draw.between(40.0, 940.0) as u32;
+        let (height, at, width) = (0.02 * draw.next() - 0.01, TAU * draw.next(), 0.01 + 0.2 * draw.next());
+        let (wave, waves) = (0.004 * draw.next(), 1.0 + 60.0 * draw.next());
+        let local = hump(height, at, width);
+        let step = 0.003 * draw.next();
+        let away = |angle: f64| local(angle) + wave * (waves * angle).sin() + if angle > at { step } else { 0.0 };
+        let vertices = chain(&cam, count, case % 3 != 0, 0.0, away);
+        let contour = Contour { vertices: vertices.clone() };
+        let points = contour.segments().flat_map(|segment| (0..200).map(move |i| segment.at(f64::from(i) / 200.0).0));
+        let most = points.map(|point| dense.distance(point)).fold(0.0, f64::max);
+        let finding = outline(&cam, vertices, 5e-6);
+        // 200 places of a segment miss a maximum by d'' h²/8: less than a thousandth of what it rises.
+        assert!(finding.value > most - 5e-6 && finding.value < most * 1.001 + 1e-5, "case {case}: {most} {finding:?}");
+    }
+}
+
+/// Largest gap and lift error are those of the roller put at 60 000 places.
+#[test]
+fn rolling_tells_its_maxima() {
+    use camgen::geometry::track::Track;
+    for (overrides, tolerance) in [(vec![], 5e-6), (vec!["follower.roller.offset=20mm"], 5e-5), (vec![], 5e-8)] {
+        let cam = cam(&overrides);
+        let proven = cam.draw(tolerance).expect("drawn").prove().expect("proved");
+        let rolled = proven.rolled().expect("rolled");
+        let track = Track::new(&proven.outlines()[0].contour);
+        let curves = cam.body().plane().expect("plane");
+        let (mut gap, mut lift) = (0.0_f64, 0.0_f64);
+        for i in 0..60_000 {
+            let (piece, angle) = curves.motion.locate(f64::from(i) * TAU / 60_000.0);
+            let touch = curves.touch(piece, angle);
+            let centre = touch.curve.point * 1e3;
+            let clear = |moved: f64| -track.nearest(centre + touch.drive * moved).expect("finite").left - 30.0;
+            gap = gap.max(clear(0.0).abs());
+            let cosine = touch.drive.dot(&touch.curve.outward());
+            let mut moved = 0.0;
+            for _ in 0..4 {
+                moved -= clear(moved) / cosine;
+            }
+            lift = lift.max(moved.abs());
+        }
+        let told = rolled.lift_error_max_mm.expect("it touches");
+        // Between two of 60 000 places a maximum rises by (h/l)², an arc l being 200 times as long as their step h at the least.
+        assert!((-1e-9..3e-5 * gap).contains(&(rolled.gap_mm.abs() - gap)), "{overrides:?}: {rolled:?} {gap}");
+        assert!((-1e-9..3e-5 * lift).contains(&(told - lift)), "{overrides:?}: {rolled:?} {lift}");
+    }
+}
