@@ -8,8 +8,8 @@ use super::track::Track;
 use crate::numeric::extremum;
 use nalgebra::Vector2;
 
-/// Arcs laid through a stretch of the exact outline: with a dozen stretches a piece they lie within a nanometre of it.
-const ARCS: u32 = 48;
+/// Arcs laid through a stretch of the exact outline: with eight stretches a piece they lie within a nanometre of it.
+const ARCS: u32 = 64;
 /// A part of a chain is looked at closer while it may lie farther off than the farthest place found by this share.
 const CLOSER: f64 = 0.02;
 /// Parts looked at, at the most.

@@ -50,6 +50,16 @@ impl Stretch {
         Self { kind: Kind::Segment(segment), from: 0.0, to: segment.length() }
     }
 
+    /// Whether the next one is the same piece of the curve, from where this one ends.
+    fn goes_on(&self, next: &Self) -> bool {
+        let same = match (&self.kind, &next.kind) {
+            (Kind::Curve { piece: a }, Kind::Curve { piece: b }) => a == b,
+            (Kind::Mirrored { piece: a }, Kind::Mirrored { piece: b }) => a == b,
+            _ => false,
+        };
+        same && self.to == next.from
+    }
+
     /// Its mirror image about X, run the other way.
     #[must_use]
     pub fn mirrored(&self) -> Self {
@@ -75,8 +85,17 @@ impl<'a> Boundary<'a> {
     #[must_use]
     pub fn new(frame: Box<Frame<'a>>, stretches: &[Stretch]) -> Self {
         let mut boundary = Self { frame, stretches: Vec::new(), ends: Vec::new() };
-        let ends: Vec<[CurvePoint; 2]> =
-            stretches.iter().map(|s| [boundary.on(s, s.from), boundary.on(s, s.to)]).collect();
+        let mut ends: Vec<[CurvePoint; 2]> = Vec::new();
+        let mut before: Option<&Stretch> = None;
+        for stretch in stretches {
+            // A range that goes on where the one before ended starts with the same point.
+            let start = match (before.filter(|before| before.goes_on(stretch)), ends.last()) {
+                (Some(_), Some(last)) => last[1],
+                _ => boundary.on(stretch, stretch.from),
+            };
+            ends.push([start, boundary.on(stretch, stretch.to)]);
+            before = Some(stretch);
+        }
         let next = ends.iter().skip(1).chain(ends.first());
         for ((stretch, own), next) in stretches.iter().zip(&ends).zip(next) {
             boundary.stretches.push(*stretch);

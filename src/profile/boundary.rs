@@ -8,7 +8,7 @@ use crate::geometry::contour::Segment;
 use crate::motion::Piece;
 
 /// Stretches into which a piece of the motion is cut, so that none turns far: a piece turns by half a circle or little more.
-const STRETCHES: u32 = 12;
+const STRETCHES: u32 = 8;
 /// A dwell turns evenly: stretches of this angle, rad.
 const DWELL_STRETCH: f64 = 0.9;
 

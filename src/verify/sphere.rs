@@ -8,7 +8,7 @@ use crate::geometry::solid::SplineSurface;
 use crate::geometry::track::Track;
 use crate::machine::Rotation;
 use crate::motion::Motion;
-use crate::numeric::parallel;
+use crate::numeric::{extremum, parallel};
 use crate::profile::Worst;
 use crate::report::{Finding, Verdict};
 use nalgebra::Vector3;
@@ -22,7 +22,10 @@ pub(super) const ROLLING_FLANK: Check = Check {
 };
 
 /// Cam angles at which the sphere is put on a written section, and on a slice of the flank.
-const ANGLES: u32 = 720;
+const ANGLES: u32 = 360;
+/// The worst of them on a section are looked at closer, with so many golden sections between their neighbours.
+const CLOSER_LOOKS: usize = 3;
+const CLOSER_SECTIONS: u32 = 19;
 const FLANK_ANGLES: u32 = 180;
 
 /// Whether the drawing is mirrored.
@@ -58,9 +61,16 @@ pub(super) fn on_sections(evidence: &Evidence<'_>, conoid: &Conoid, check: &Chec
         };
         let (first, last) = slice.range();
         let place = |i: u32| first + (last - first) * (f64::from(i) + 0.5) / f64::from(ANGLES);
-        let all =
-            (0..ANGLES).map(|i| Worst { value: gap(place(i)).unwrap_or(f64::INFINITY), at: place(i), z: section.z });
-        all.fold(none(first, section.z), or_farther)
+        let at = |at: f64| Worst { value: gap(at).unwrap_or(f64::INFINITY), at, z: section.z };
+        let mut all: Vec<Worst> = (0..ANGLES).map(|i| at(place(i))).collect();
+        all.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
+        let step = (last - first) / f64::from(ANGLES);
+        let closer = |worst: &Worst| {
+            let size = |angle: f64| gap(angle).unwrap_or(f64::INFINITY).abs();
+            at(extremum::largest_without_slope(size, (worst.at - step, worst.at + step), 2, CLOSER_SECTIONS).at)
+        };
+        let looked: Vec<Worst> = all.iter().take(CLOSER_LOOKS).map(closer).collect();
+        all.into_iter().chain(looked).fold(none(first, section.z), or_farther)
     };
     let all: Vec<Worst> = parallel::map(evidence.outlines, of_section);
     let worst = all.into_iter().reduce(or_farther)?;
