@@ -39,6 +39,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     };
     let mut report = checked.map_err(|error| match error {
         Error::Read(error) => Failure(format!("`{file}` is {error}")),
+        Error::Step(error) => Failure(format!("`{file}` is {error}")),
         Error::Section(why) => Failure(format!("{why} (--section RPM)")),
         other => Failure::new(other),
     })?;

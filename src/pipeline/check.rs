@@ -2,9 +2,10 @@
 
 use super::{Cam, Error, report};
 use crate::geometry::MILLIMETRES;
-use crate::reading;
+use crate::reading::step::Loop;
+use crate::reading::{self, step};
 use crate::report::{Report, Section};
-use crate::verify::{self, Evidence, WrittenOutline, join_reach, rolling};
+use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
 use serde::Serialize;
 
 /// File names tell a speed with six digits: to half of the last of them it is the same speed.
@@ -21,12 +22,17 @@ struct OfSection {
 }
 
 impl Cam {
-    /// Whether a DXF file, also one that was edited or written by another program, holds this cam within a tolerance (m). A
-    /// conoid of several sections is cut from several files: see [`Cam::check_section`].
+    /// Whether a DXF file, also one that was edited or written by another program, holds the outline of this cam within a
+    /// tolerance (m), or a STEP file its solid. A conoid of several sections is cut from several DXF files: see
+    /// [`Cam::check_section`].
     ///
     /// # Errors
-    /// [`Error::Read`] when the bytes are not a DXF file; [`Error::Section`] for a conoid of several sections.
+    /// [`Error::Read`] when the bytes are not a DXF file, [`Error::Step`] when they begin as a STEP file and are none;
+    /// [`Error::Section`] for a DXF file and a conoid of several sections.
     pub fn check(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
+        if step::is_step(bytes) {
+            return self.check_solid(bytes, tolerance);
+        }
         let section = self.section(None)?;
         self.check_outline(bytes, section, tolerance)
     }
@@ -38,6 +44,9 @@ impl Cam {
     /// [`Error::Read`] when the bytes are not a DXF file; [`Error::Section`] when the cam has no such section.
     pub fn check_section(&self, bytes: &[u8], rpm: f64, tolerance: f64) -> Result<Report, Error> {
         let section = self.section(Some(rpm))?;
+        if step::is_step(bytes) {
+            return Err(Error::Section("a STEP file holds the solid of all sections".into()));
+        }
         self.check_outline(bytes, section, tolerance)
     }
 
@@ -90,6 +99,7 @@ impl Cam {
             rolled: rolled.as_ref(),
             foreign: Some(&reading),
             cutter_path: None,
+            solid: None,
             tolerance_mm,
         });
         let mut sections = vec![Section::new("cam", &body.kind().noun)];
@@ -100,6 +110,37 @@ impl Cam {
             Some(section) => format!("section for {} rpm of a {}", section.rpm, whole.noun).into(),
             None => whole.noun.clone(),
         };
+        Ok(Report { command: "check".into(), noun, ..whole })
+    }
+
+    fn check_solid(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
+        let tolerance_mm = MILLIMETRES * tolerance;
+        let file = step::read(bytes)?;
+        let form = step::form(&file.boundary, shell_reach(tolerance_mm));
+        let body = self.body();
+        let outer = |run: &Loop| match run {
+            Loop::Contour(contour) if contour.area_and_centroid().0 > 0.0 => Some(contour.clone()),
+            _ => None,
+        };
+        let outlines: Vec<WrittenOutline> = match form.under.iter().filter_map(outer).collect::<Vec<_>>().as_slice() {
+            [contour] if body.plane().is_some() => vec![WrittenOutline { z: 0.0, contour: contour.clone() }],
+            _ => Vec::new(),
+        };
+        let curves = body.plane().zip(outlines.first());
+        let rolled = curves.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
+        let solid = WrittenSolid { file, form };
+        let checks = verify::run(&Evidence {
+            body,
+            drawn: None,
+            outlines: &outlines,
+            rolled: rolled.as_ref(),
+            foreign: None,
+            solid: Some(&solid),
+            tolerance_mm,
+        });
+        let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
+        let whole = report(body, sections, checks);
+        let noun = format!("solid of a {}", whole.noun).into();
         Ok(Report { command: "check".into(), noun, ..whole })
     }
 }

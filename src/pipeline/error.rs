@@ -3,6 +3,7 @@
 use crate::body::{DrawError, SolveError};
 use crate::machine::MachineError;
 use crate::reading::ReadError;
+use crate::reading::step::StepError;
 use crate::write::FormatError;
 use crate::write::files::FilesError;
 use crate::write::proof::ProofError;
@@ -23,9 +24,12 @@ pub enum Error {
     /// The cut file as written does not hold what was drawn: a fault of camgen.
     #[error(transparent)]
     Proof(#[from] ProofError),
-    /// A file to be checked is not a DXF file.
+    /// A file to be checked is neither a DXF nor a STEP file.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// A file to be checked begins as a STEP file and is none.
+    #[error(transparent)]
+    Step(#[from] StepError),
     /// The section to be checked is not told, or there is no such section.
     #[error("{0}")]
     Section(String),

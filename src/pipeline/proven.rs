@@ -65,6 +65,7 @@ impl<'c> Drawing<'c> {
             rolled: rolled.as_ref(),
             foreign: None,
             cutter_path: cutter_path.as_ref(),
+            solid: None,
             tolerance_mm,
         });
         let (cam, request, drawn) = (self.cam, self.request, self.drawn);

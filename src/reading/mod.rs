@@ -7,6 +7,7 @@
 mod groups;
 mod join;
 mod spline;
+pub mod step;
 
 pub use join::Chain;
 

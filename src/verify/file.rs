@@ -14,8 +14,10 @@ pub(super) const LAYER: Check = file_check(
     |evidence| Some(layer(evidence.foreign?)),
 );
 
-pub(super) const UNITS: Check =
-    file_check("units", "Whether the file is in millimetres.", |evidence| Some(unit(evidence.foreign?)));
+pub(super) const UNITS: Check = file_check("units", "Whether the file is in millimetres.", |evidence| {
+    let told = evidence.foreign.map(|reading| reading.unit).or(evidence.solid.map(|solid| solid.file.unit))?;
+    Some(unit(told))
+});
 
 pub(super) const READABLE: Check = file_check(
     "readable",
@@ -58,11 +60,11 @@ fn layer(reading: &Reading) -> Finding {
     count(&LAYER, usize::from(there), 1, there, note)
 }
 
-fn unit(reading: &Reading) -> Finding {
-    let (verdict, note) = match reading.unit {
+fn unit(told: Unit) -> Finding {
+    let (verdict, note) = match told {
         Unit::Millimetres => (Verdict::Pass, None),
         Unit::Untold => (Verdict::Info, Some("the file states no unit; read as millimetres".to_owned())),
-        Unit::Other(name) => (Verdict::Fail, Some(format!("the file is in {name}, not in millimetres ($INSUNITS)"))),
+        Unit::Other(name) => (Verdict::Fail, Some(format!("the file is in {name}, not in millimetres"))),
     };
     Finding { note, ..UNITS.found(1.0, None, "mm", verdict) }
 }

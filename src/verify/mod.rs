@@ -11,18 +11,21 @@ mod cutter_path;
 mod cutter_radius;
 mod cylinder_contact;
 mod file;
+mod flank;
 mod force_closure;
 mod outline;
 mod plate_ends;
 mod pressure_angle;
 pub mod rolling;
 mod shift;
+mod solid;
 mod sphere;
 mod tangency;
 mod wall;
 
 pub use cutter_path::WrittenPath;
 pub use file::join_reach;
+pub use solid::{WrittenSolid, shell_reach};
 
 use crate::body::{Body, Drawn};
 use crate::geometry::contour::Contour;
@@ -55,6 +58,8 @@ pub struct Evidence<'a> {
     pub foreign: Option<&'a Reading>,
     /// The path of a cutter as read back, when one was requested.
     pub cutter_path: Option<&'a WrittenPath>,
+    /// What was read from a STEP file that somebody else may have written.
+    pub solid: Option<&'a WrittenSolid>,
     /// Tolerance of the outline, mm.
     pub tolerance_mm: f64,
 }
@@ -91,6 +96,12 @@ pub const CHECKS: &[Check] = &[
     file::DUPLICATES,
     file::CONTOURS,
     file::CLOSED,
+    solid::SOLIDS,
+    solid::SHELL,
+    solid::WALLS,
+    solid::THICKNESS,
+    solid::VOLUME,
+    solid::HOLES,
     pressure_angle::CHECK,
     shift::AXIAL_FORCE,
     curvature::UNDERCUT,
@@ -104,6 +115,7 @@ pub const CHECKS: &[Check] = &[
     outline::CHECK,
     rolling::CHECK,
     sphere::ROLLING_FLANK,
+    flank::CHECK,
     shift::AXIAL_REACH,
     cylinder_contact::CHECK,
     force_closure::CHECK,
@@ -116,9 +128,9 @@ pub const CHECKS: &[Check] = &[
 #[must_use]
 pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
     let applies = |check: &&Check| match check.on {
-        On::Cam => evidence.foreign.is_none(),
+        On::Cam => evidence.foreign.is_none() && evidence.solid.is_none(),
         On::Outline => !evidence.outlines.is_empty(),
-        On::File => evidence.foreign.is_some(),
+        On::File => evidence.foreign.is_some() || evidence.solid.is_some(),
     };
     worst_first(CHECKS.iter().filter(applies).filter_map(|check| (check.run)(evidence)).collect())
 }

@@ -1,0 +1,269 @@
+//! B-spline curves and surfaces of any degree, rational or not, as other programs write them (L. Piegl, W. Tiller, The NURBS
+//! Book, 1997, A2.1–A2.3, A4.1).
+
+use nalgebra::{Vector3, Vector4};
+
+/// Highest degree that is evaluated: programs write up to about 9.
+pub const HIGHEST_DEGREE: usize = 25;
+
+/// A knot vector with its degree.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Knots {
+    /// Degree of the pieces.
+    pub degree: usize,
+    /// The knots, each as often as its multiplicity says.
+    pub values: Vec<f64>,
+}
+
+impl Knots {
+    /// Whether they carry so many control points: enough of them, finite, never falling, and with a span at all.
+    #[must_use]
+    pub fn carry(&self, controls: usize) -> bool {
+        let rising =
+            self.values.windows(2).all(|pair| matches!(pair, [a, b] if a <= b && b.is_finite() && a.is_finite()));
+        let (first, last) = self.range();
+        (1..=HIGHEST_DEGREE).contains(&self.degree)
+            && controls > self.degree
+            && self.values.len() == controls + self.degree + 1
+            && rising
+            && first < last
+    }
+
+    /// First and last value of the parameter.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        let at = |index: usize| self.values.get(index).copied().unwrap_or(f64::NAN);
+        (at(self.degree), at(self.values.len().saturating_sub(self.degree + 1)))
+    }
+
+    /// The stretches on which it is one polynomial.
+    #[must_use]
+    pub fn spans(&self) -> Vec<(f64, f64)> {
+        let (first, last) = self.range();
+        let pairs = self.values.iter().zip(self.values.iter().skip(1));
+        pairs.filter(|(a, b)| a < b && **a >= first && **b <= last).map(|(a, b)| (*a, *b)).collect()
+    }
+
+    /// The functions that do not vanish at `x`, their slopes, and the index of the first.
+    fn basis(&self, x: f64) -> (usize, [f64; HIGHEST_DEGREE + 1], [f64; HIGHEST_DEGREE + 1]) {
+        let at = |index: usize| self.values.get(index).copied().unwrap_or(f64::NAN);
+        let last = self.values.len().saturating_sub(self.degree + 2).max(self.degree);
+        let mut span = self.values.partition_point(|knot| *knot <= x).saturating_sub(1).clamp(self.degree, last);
+        // The end of the range belongs to the last span that has a width.
+        while span > self.degree && at(span) == at(span + 1) {
+            span -= 1;
+        }
+        let (left, right) = (|j: usize| x - at(span + 1 - j), |j: usize| at(span + j) - x);
+        let (mut basis, mut slopes) = ([0.0; HIGHEST_DEGREE + 1], [0.0; HIGHEST_DEGREE + 1]);
+        basis[0] = 1.0;
+        for degree in 1..=self.degree.min(HIGHEST_DEGREE) {
+            let (mut saved, mut lower) = (0.0, 0.0);
+            #[expect(clippy::cast_precision_loss, reason = "at most 25")]
+            let factor = degree as f64;
+            for r in 0..degree {
+                let value = basis.get(r).copied().unwrap_or(0.0) / (right(r + 1) + left(degree - r));
+                if let (Some(function), Some(slope)) = (basis.get_mut(r), slopes.get_mut(r)) {
+                    *slope = factor * (lower - value);
+                    *function = saved + right(r + 1) * value;
+                }
+                lower = value;
+                saved = left(degree - r) * value;
+            }
+            if let (Some(function), Some(slope)) = (basis.get_mut(degree), slopes.get_mut(degree)) {
+                *slope = factor * lower;
+                *function = saved;
+            }
+        }
+        (span - self.degree, basis, slopes)
+    }
+}
+
+/// Control points times their weights, and the weights.
+type Weighted = Vector4<f64>;
+
+/// A point with a weight.
+#[must_use]
+pub fn weighted(point: Vector3<f64>, weight: f64) -> Vector4<f64> {
+    Vector4::new(point.x * weight, point.y * weight, point.z * weight, weight)
+}
+
+/// Point and derivative of what has these homogeneous ones.
+fn projected(sum: Weighted, slope: Weighted) -> (Vector3<f64>, Vector3<f64>) {
+    let point = sum.xyz() / sum.w;
+    (point, (slope.xyz() - point * slope.w) / sum.w)
+}
+
+/// A B-spline curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Its knots.
+    pub knots: Knots,
+    /// Its weighted control points.
+    pub controls: Vec<Vector4<f64>>,
+}
+
+impl Curve {
+    /// Point and derivative.
+    #[must_use]
+    pub fn at(&self, t: f64) -> (Vector3<f64>, Vector3<f64>) {
+        let (first, basis, slopes) = self.knots.basis(t);
+        let mut sums = [Weighted::zeros(); 2];
+        for (control, (b, d)) in
+            self.controls.iter().skip(first).zip(basis.iter().zip(slopes)).take(self.knots.degree + 1)
+        {
+            let [sum, slope] = &mut sums;
+            *sum += control * *b;
+            *slope += control * d;
+        }
+        projected(sums[0], sums[1])
+    }
+
+    /// The same curve run the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let values = self.knots.values.iter().rev().map(|knot| -knot).collect();
+        let controls = self.controls.iter().rev().copied().collect();
+        Self { knots: Knots { degree: self.knots.degree, values }, controls }
+    }
+
+    /// How far it can be from another curve at most (mm), share of its range for share of the other's: where both have one
+    /// degree, knots and weights, no farther than their control points.
+    #[must_use]
+    pub fn farthest(&self, other: &Self) -> f64 {
+        let (mine, others) = (self.knots.range(), other.knots.range());
+        let share = |knot: f64, range: (f64, f64)| (knot - range.0) / (range.1 - range.0);
+        let pairs = self.knots.values.iter().zip(&other.knots.values);
+        // Rounding of a knot moves a point by as little.
+        let alike = self.knots.degree == other.knots.degree
+            && self.knots.values.len() == other.knots.values.len()
+            && pairs.clone().all(|(a, b)| (share(*a, mine) - share(*b, others)).abs() <= SAME_KNOT);
+        let weights = self.controls.iter().chain(&other.controls).map(|control| control.w);
+        let plain = weights.clone().all(|weight| weight == 1.0);
+        if alike && plain {
+            let apart = self.controls.iter().zip(&other.controls).map(|(a, b)| (a - b).norm());
+            return apart.fold(0.0, f64::max);
+        }
+        let at = |range: (f64, f64), share: f64| range.0 + (range.1 - range.0) * share;
+        let steps =
+            SAMPLES * u32::try_from(self.controls.len().max(other.controls.len())).unwrap_or(u32::MAX).min(4096);
+        let apart = (0..=steps).map(|i| {
+            let share = f64::from(i) / f64::from(steps);
+            (self.at(at(mine, share)).0 - other.at(at(others, share)).0).norm()
+        });
+        apart.fold(0.0, |most, next| if next <= most { most } else { next })
+    }
+}
+
+/// Knots that differ by less, as shares of the range, are one.
+const SAME_KNOT: f64 = 1e-9;
+/// Samples for each control point where two curves are compared point by point.
+const SAMPLES: u32 = 8;
+
+/// A B-spline surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// Knots of its first parameter.
+    pub u: Knots,
+    /// Knots of its second parameter.
+    pub v: Knots,
+    /// Weighted control points, a row for each of the first parameter.
+    pub controls: Vec<Vec<Vector4<f64>>>,
+}
+
+impl Surface {
+    /// Point and derivatives by both parameters.
+    #[must_use]
+    pub fn at(&self, u: f64, v: f64) -> [Vector3<f64>; 3] {
+        let (first_u, basis_u, slopes_u) = self.u.basis(u);
+        let (first_v, basis_v, slopes_v) = self.v.basis(v);
+        let mut sums = [Weighted::zeros(); 3];
+        let rows = self.controls.iter().skip(first_u).zip(basis_u.iter().zip(slopes_u)).take(self.u.degree + 1);
+        for (row, (bu, du)) in rows {
+            let columns = row.iter().skip(first_v).zip(basis_v.iter().zip(slopes_v)).take(self.v.degree + 1);
+            for (p, (bv, dv)) in columns {
+                let [point, by_u, by_v] = &mut sums;
+                *point += p * (bu * bv);
+                *by_u += p * (du * bv);
+                *by_v += p * (bu * dv);
+            }
+        }
+        let (point, by_u) = projected(sums[0], sums[1]);
+        [point, by_u, projected(sums[0], sums[2]).1]
+    }
+
+    /// Its four edges, each run with the surface on its left as its normal sees it: along u at the first v, along v at the
+    /// last u, against u at the last v, against v at the first u.
+    #[must_use]
+    pub fn boundary(&self) -> Option<[Curve; 4]> {
+        if !clamped(&self.u) || !clamped(&self.v) {
+            return None;
+        }
+        let column = |end: fn(&[Vector4<f64>]) -> Option<&Vector4<f64>>| Curve {
+            knots: self.u.clone(),
+            controls: self.controls.iter().filter_map(|row| end(row).copied()).collect(),
+        };
+        let row = |controls: Option<&Vec<Vector4<f64>>>| Curve {
+            knots: self.v.clone(),
+            controls: controls.cloned().unwrap_or_default(),
+        };
+        let (low, high) = (column(<[_]>::first), column(<[_]>::last));
+        let (first, last) = (row(self.controls.first()), row(self.controls.last()));
+        Some([low, last, high.reversed(), first.reversed()])
+    }
+}
+
+/// Whether the ends are knots of full multiplicity, so that the outer control points are the edge.
+fn clamped(knots: &Knots) -> bool {
+    let (first, last) = knots.range();
+    knots.values.first() == Some(&first) && knots.values.last() == Some(&last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::solid::SplineSurface;
+    use truck_modeling::Point3;
+
+    /// Against the bicubic surface of our own solids, and against an exact quarter of a cylinder.
+    #[test]
+    fn surfaces_are_those_of_the_book() {
+        let knots = |values: &[f64]| Knots { degree: 3, values: values.to_vec() };
+        let (u, v) = ([0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0, 0.0, 2.0, 2.0, 2.0, 2.0]);
+        let place = |i: u32, j: u32| Vector3::new(f64::from(i), f64::from(j * j), f64::from(i * j) - f64::from(i * i));
+        let rows: Vec<Vec<Vector3<f64>>> = (0..5).map(|i| (0..4).map(|j| place(i, j)).collect()).collect();
+        let plain = |row: &Vec<Vector3<f64>>| row.iter().map(|p| Point3::new(p.x, p.y, p.z)).collect();
+        let ours = SplineSurface { u: u.to_vec(), v: v.to_vec(), controls: rows.iter().map(plain).collect() };
+        let controls = rows.iter().map(|row| row.iter().map(|p| weighted(*p, 1.0)).collect()).collect();
+        let surface = Surface { u: knots(&u), v: knots(&v), controls };
+        assert!(surface.u.carry(5) && surface.v.carry(4) && !surface.v.carry(5));
+        assert_eq!(surface.u.spans(), [(0.0, 0.4), (0.4, 1.0)]);
+        for i in 0..=10 {
+            for j in 0..=10 {
+                let (a, b) = (f64::from(i) / 10.0, f64::from(j) / 5.0);
+                for (found, expected) in surface.at(a, b).iter().zip(ours.at(a, b)) {
+                    // The book's slope at the very end is taken from the left; ours as well.
+                    assert!((found - expected).norm() < 1e-12, "{a} {b}: {found} {expected}");
+                }
+            }
+        }
+        let [low, last, high, first] = surface.boundary().expect("clamped");
+        assert!((low.at(0.3).0 - surface.at(0.3, 0.0)[0]).norm() < 1e-12);
+        assert!((last.at(0.3).0 - surface.at(1.0, 0.3)[0]).norm() < 1e-12);
+        assert!((high.at(-0.3).0 - surface.at(0.3, 2.0)[0]).norm() < 1e-12);
+        assert!((first.at(-0.3).0 - surface.at(0.0, 0.3)[0]).norm() < 1e-12);
+        assert_eq!(low.farthest(&low), 0.0);
+        assert!((low.farthest(&high.reversed()) - 0.0).abs() > 1.0);
+
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let quarter = Curve {
+            knots: Knots { degree: 2, values: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0] },
+            controls: [(1.0, 0.0, 1.0), (1.0, 1.0, half), (0.0, 1.0, 1.0)]
+                .map(|(x, y, w)| weighted(Vector3::new(x, y, 0.0), w))
+                .to_vec(),
+        };
+        for i in 0..=10 {
+            let (point, slope) = quarter.at(f64::from(i) / 10.0);
+            assert!((point.norm() - 1.0).abs() < 1e-15 && point.dot(&slope).abs() < 1e-14, "{point} {slope}");
+        }
+    }
+}

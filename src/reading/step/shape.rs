@@ -1,0 +1,378 @@
+//! Instances by what they mean: places, directions, curves, surfaces, edges, faces (ISO 10303-42), in millimetres.
+
+use super::exchange::{Exchange, Instance, Value};
+use super::{Curve, Edge, Face, Surface};
+use crate::geometry::nurbs::{self, Knots, weighted};
+use nalgebra::{Vector3, Vector4};
+use std::collections::BTreeMap;
+
+/// Why an instance is not what it should be, with the line where it stands.
+pub(super) type Fault = String;
+
+/// Where a plane, cylinder or circle stands, and its axis.
+pub(super) struct Placement {
+    pub(super) origin: Vector3<f64>,
+    pub(super) axis: Vector3<f64>,
+}
+
+/// A control net with its knots: of a curve a single row.
+struct Net {
+    degrees: Vec<usize>,
+    rows: Vec<Vec<Vector3<f64>>>,
+    knots: Vec<Vec<f64>>,
+    weights: Option<Vec<Vec<f64>>>,
+}
+
+/// Reads shapes out of a file's instances.
+pub(super) struct Shapes<'a> {
+    pub(super) exchange: &'a Exchange,
+    /// Millimetres in the file's unit of length.
+    pub(super) scale: f64,
+    vertices: BTreeMap<u64, usize>,
+    edges: BTreeMap<u64, usize>,
+    pub(super) places: Vec<Vector3<f64>>,
+    pub(super) run: Vec<Edge>,
+}
+
+/// More knots than these are no cam; a multiplicity must not fill the memory.
+const MOST_KNOTS: usize = 1_000_000;
+
+fn list(value: Option<&Value>) -> Option<&[Value]> {
+    match value {
+        Some(Value::List(values)) => Some(values),
+        _ => None,
+    }
+}
+
+pub(super) fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(value) => Some(*value),
+        Value::Typed(_, values) => match values.as_slice() {
+            [Value::Number(value)] => Some(*value),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn numbers(value: Option<&Value>) -> Option<Vec<f64>> {
+    list(value)?.iter().map(number).collect()
+}
+
+/// A count or a degree.
+fn whole(value: f64) -> Option<usize> {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be small and whole")]
+    let found = ((0.0..=1e6).contains(&value) && value.fract() == 0.0).then_some(value as usize);
+    found
+}
+
+pub(super) fn references(value: Option<&Value>) -> Option<Vec<u64>> {
+    let one = |value: &Value| match value {
+        Value::Reference(number) => Some(*number),
+        _ => None,
+    };
+    list(value)?.iter().map(one).collect()
+}
+
+pub(super) fn truth(value: Option<&Value>) -> Option<bool> {
+    match value {
+        Some(Value::Name(name)) if name == "T" => Some(true),
+        Some(Value::Name(name)) if name == "F" => Some(false),
+        _ => None,
+    }
+}
+
+/// A reference among the parameters.
+fn referred(instance: &Instance, values: &[Value], index: usize) -> Result<u64, Fault> {
+    match values.get(index) {
+        Some(Value::Reference(number)) => Ok(*number),
+        _ => Err(instance.fault(&format!("without a reference as its parameter {}", index + 1))),
+    }
+}
+
+impl Instance {
+    /// The parameters of a part.
+    pub(super) fn part(&self, keyword: &str) -> Option<&[Value]> {
+        self.parts.iter().find(|(found, _)| found == keyword).map(|(_, values)| values.as_slice())
+    }
+
+    /// What it is, for a person.
+    pub(super) fn kind(&self) -> String {
+        self.parts.iter().map(|(keyword, _)| keyword.as_str()).collect::<Vec<_>>().join(" ")
+    }
+
+    /// A fault of this instance.
+    pub(super) fn fault(&self, what: &str) -> Fault {
+        format!("line {}: {} {what}", self.line, self.kind())
+    }
+}
+
+impl<'a> Shapes<'a> {
+    pub(super) fn new(exchange: &'a Exchange, scale: f64) -> Self {
+        let (vertices, edges) = (BTreeMap::new(), BTreeMap::new());
+        Self { exchange, scale, vertices, edges, places: Vec::new(), run: Vec::new() }
+    }
+
+    pub(super) fn instance(&self, number: u64) -> Result<&'a Instance, Fault> {
+        self.exchange.instances.get(&number).ok_or_else(|| format!("#{number} is referred to but not there"))
+    }
+
+    /// The parameters of an instance of a kind, and the instance.
+    fn of(&self, number: u64, keyword: &str) -> Result<(&'a Instance, &'a [Value]), Fault> {
+        let instance = self.instance(number)?;
+        let values = instance.part(keyword).ok_or_else(|| instance.fault(&format!("where {keyword} is due")))?;
+        Ok((instance, values))
+    }
+
+    fn triple(&self, number: u64, keyword: &str) -> Result<Vector3<f64>, Fault> {
+        let (instance, values) = self.of(number, keyword)?;
+        match numbers(values.get(1)).as_deref() {
+            Some([x, y, z]) => Ok(Vector3::new(*x, *y, *z)),
+            _ => Err(instance.fault("without three coordinates")),
+        }
+    }
+
+    pub(super) fn point(&self, number: u64) -> Result<Vector3<f64>, Fault> {
+        Ok(self.triple(number, "CARTESIAN_POINT")? * self.scale)
+    }
+
+    fn direction(&self, number: u64) -> Result<Vector3<f64>, Fault> {
+        let found = self.triple(number, "DIRECTION")?;
+        if found.norm() > 0.0 && found.norm().is_finite() {
+            Ok(found.normalize())
+        } else {
+            Err(self.instance(number)?.fault("without a length"))
+        }
+    }
+
+    pub(super) fn placement(&self, number: u64) -> Result<Placement, Fault> {
+        let (instance, values) = self.of(number, "AXIS2_PLACEMENT_3D")?;
+        let Some(Value::Reference(origin)) = values.get(1) else { return Err(instance.fault("without a place")) };
+        let axis = match values.get(2) {
+            Some(Value::Reference(axis)) => self.direction(*axis)?,
+            _ => Vector3::z(),
+        };
+        Ok(Placement { origin: self.point(*origin)?, axis })
+    }
+
+    /// Whether two placements are one.
+    pub(super) fn alike(&self, first: u64, second: u64) -> bool {
+        let frame = |number: u64| {
+            let (_, values) = self.of(number, "AXIS2_PLACEMENT_3D")?;
+            let along = match values.get(3) {
+                Some(Value::Reference(along)) => self.direction(*along)?,
+                _ => Vector3::x(),
+            };
+            self.placement(number).map(|found| [found.origin, found.axis, along])
+        };
+        matches!((frame(first), frame(second)), (Ok(a), Ok(b)) if a == b)
+    }
+
+    fn length(&self, instance: &Instance, values: &[Value], index: usize) -> Result<f64, Fault> {
+        let found = values.get(index).and_then(number).map(|length| length * self.scale);
+        found.filter(|length| *length > 0.0).ok_or_else(|| instance.fault("without a length above 0"))
+    }
+
+    pub(super) fn surface(&self, number: u64) -> Result<Surface, Fault> {
+        let instance = self.instance(number)?;
+        if let Some(values) = instance.part("PLANE") {
+            let Placement { origin, axis } = self.placement(referred(instance, values, 1)?)?;
+            return Ok(Surface::Plane { origin, normal: axis });
+        }
+        if let Some(values) = instance.part("CYLINDRICAL_SURFACE") {
+            let Placement { origin, axis } = self.placement(referred(instance, values, 1)?)?;
+            return Ok(Surface::Cylinder { origin, axis, radius: self.length(instance, values, 2)? });
+        }
+        if instance.parts.iter().any(|(keyword, _)| keyword.starts_with("B_SPLINE_SURFACE")) {
+            return self.spline_surface(instance).map(Surface::Spline);
+        }
+        Ok(Surface::Other(format!("line {}: {}", instance.line, instance.kind())))
+    }
+
+    /// The basic curve of an edge: what a curve on a surface or a seam says besides is left out.
+    fn curve(&self, number: u64, depth: usize) -> Result<Curve, Fault> {
+        let instance = self.instance(number)?;
+        for wrapped in ["SURFACE_CURVE", "SEAM_CURVE", "INTERSECTION_CURVE"] {
+            if let Some(values) = instance.part(wrapped).filter(|_| depth < 4) {
+                return self.curve(referred(instance, values, 1)?, depth + 1);
+            }
+        }
+        if let Some(values) = instance.part("LINE") {
+            let (origin, vector) = (referred(instance, values, 1)?, referred(instance, values, 2)?);
+            let (of, values) = self.of(vector, "VECTOR")?;
+            let direction = self.direction(referred(of, values, 1)?)?;
+            return Ok(Curve::Line { origin: self.point(origin)?, direction });
+        }
+        if let Some(values) = instance.part("CIRCLE") {
+            let Placement { origin, axis } = self.placement(referred(instance, values, 1)?)?;
+            return Ok(Curve::Circle { centre: origin, axis, radius: self.length(instance, values, 2)? });
+        }
+        if instance.parts.iter().any(|(keyword, _)| keyword.starts_with("B_SPLINE_CURVE")) {
+            let net = self.net(instance, "B_SPLINE_CURVE", false)?;
+            let curve = Self::spline_curve(&net);
+            return curve.map(straight).ok_or_else(|| instance.fault("whose knots do not fit its points"));
+        }
+        Ok(Curve::Other(format!("line {}: {}", instance.line, instance.kind())))
+    }
+
+    /// The net of a B-spline: in one entity, or in the parts of a complex one, with weights where it is rational.
+    fn net(&self, instance: &Instance, base: &str, surface: bool) -> Result<Net, Fault> {
+        let bad = || instance.fault("that is not complete");
+        let count = if surface { 2 } else { 1 };
+        let with_knots = format!("{base}_WITH_KNOTS");
+        let knotted = instance.part(&with_knots).ok_or_else(|| instance.fault("without knots is not read"))?;
+        // In a simple entity a name and the parameters of the base come first.
+        let split = if surface { 8 } else { 6 };
+        let (own, knotted) = if let Some(own) = instance.part(base) {
+            (own, knotted)
+        } else {
+            (knotted.get(1..split).ok_or_else(bad)?, knotted.get(split..).ok_or_else(bad)?)
+        };
+        let degrees: Option<Vec<usize>> = own.iter().take(count).map(|value| number(value).and_then(whole)).collect();
+        let row = |value: &Value| -> Result<Vec<Vector3<f64>>, Fault> {
+            let single = references(Some(value)).ok_or_else(bad)?;
+            single.iter().map(|number| self.point(*number)).collect()
+        };
+        let points = own.get(count).ok_or_else(bad)?;
+        let rows = if surface {
+            list(Some(points)).ok_or_else(bad)?.iter().map(row).collect::<Result<Vec<_>, _>>()?
+        } else {
+            vec![row(points)?]
+        };
+        let mut knots = Vec::new();
+        for index in 0..count {
+            let (counts, values) = (numbers(knotted.get(index)), numbers(knotted.get(count + index)));
+            knots.push(full(&counts.ok_or_else(bad)?, &values.ok_or_else(bad)?).ok_or_else(bad)?);
+        }
+        let rational = format!("RATIONAL_{base}");
+        let weights = match instance.part(&rational) {
+            None => None,
+            Some(values) if surface => {
+                let rows = list(values.first()).ok_or_else(bad)?.iter().map(|row| numbers(Some(row)));
+                Some(rows.collect::<Option<Vec<_>>>().ok_or_else(bad)?)
+            }
+            Some(values) => Some(vec![numbers(values.first()).ok_or_else(bad)?]),
+        };
+        let above = |weights: &Vec<Vec<f64>>| weights.iter().flatten().all(|weight| *weight > 0.0);
+        if weights.as_ref().is_some_and(|weights| !above(weights)) {
+            return Err(instance.fault("with a weight that is not above 0"));
+        }
+        Ok(Net { degrees: degrees.ok_or_else(bad)?, rows, knots, weights })
+    }
+
+    fn spline_curve(net: &Net) -> Option<nurbs::Curve> {
+        let controls = net.weighted()?.into_iter().next()?;
+        let knots = Knots { degree: *net.degrees.first()?, values: net.knots.first()?.clone() };
+        knots.carry(controls.len()).then_some(nurbs::Curve { knots, controls })
+    }
+
+    fn spline_surface(&self, instance: &Instance) -> Result<nurbs::Surface, Fault> {
+        let net = self.net(instance, "B_SPLINE_SURFACE", true)?;
+        let misfit = || instance.fault("whose knots do not fit its points");
+        let controls = net.weighted().ok_or_else(misfit)?;
+        let (mut degrees, mut knots) = (net.degrees.into_iter(), net.knots.into_iter());
+        let mut next = || Some(Knots { degree: degrees.next()?, values: knots.next()? });
+        let (Some(u), Some(v)) = (next(), next()) else { return Err(misfit()) };
+        if u.carry(controls.len()) && controls.iter().all(|row| v.carry(row.len())) {
+            Ok(nurbs::Surface { u, v, controls })
+        } else {
+            Err(misfit())
+        }
+    }
+
+    fn vertex(&mut self, number: u64) -> Result<usize, Fault> {
+        if let Some(index) = self.vertices.get(&number) {
+            return Ok(*index);
+        }
+        let (instance, values) = self.of(number, "VERTEX_POINT")?;
+        let place = self.point(referred(instance, values, 1)?)?;
+        self.places.push(place);
+        self.vertices.insert(number, self.places.len() - 1);
+        Ok(self.places.len() - 1)
+    }
+
+    fn edge(&mut self, number: u64) -> Result<usize, Fault> {
+        if let Some(index) = self.edges.get(&number) {
+            return Ok(*index);
+        }
+        let (instance, values) = self.of(number, "EDGE_CURVE")?;
+        let ends = (referred(instance, values, 1)?, referred(instance, values, 2)?);
+        let curve = self.curve(referred(instance, values, 3)?, 0)?;
+        let forward = truth(values.get(4)).ok_or_else(|| instance.fault("without a sense"))?;
+        let edge = Edge { start: self.vertex(ends.0)?, end: self.vertex(ends.1)?, curve, forward, line: instance.line };
+        self.run.push(edge);
+        self.edges.insert(number, self.run.len() - 1);
+        Ok(self.run.len() - 1)
+    }
+
+    /// The edges of a bound in the order in which they are run, each with its sense.
+    fn bound(&mut self, number: u64) -> Result<Vec<(usize, bool)>, Fault> {
+        let instance = self.instance(number)?;
+        let values = instance.part("FACE_OUTER_BOUND").or(instance.part("FACE_BOUND"));
+        let values = values.ok_or_else(|| instance.fault("where FACE_BOUND is due"))?;
+        let along = truth(values.get(2)).ok_or_else(|| instance.fault("without a sense"))?;
+        let (round, values) = self.of(referred(instance, values, 1)?, "EDGE_LOOP")?;
+        let mut edges = Vec::new();
+        for number in references(values.get(1)).ok_or_else(|| round.fault("without edges"))? {
+            let (instance, values) = self.of(number, "ORIENTED_EDGE")?;
+            let forward = truth(values.get(4)).ok_or_else(|| instance.fault("without a sense"))?;
+            edges.push((self.edge(referred(instance, values, 3)?)?, forward == along));
+        }
+        if !along {
+            edges.reverse();
+        }
+        Ok(edges)
+    }
+
+    pub(super) fn face(&mut self, number: u64) -> Result<Face, Fault> {
+        let instance = self.instance(number)?;
+        let values = instance.part("ADVANCED_FACE").or(instance.part("FACE_SURFACE"));
+        let values = values.ok_or_else(|| instance.fault("where ADVANCED_FACE is due"))?;
+        let mut loops = Vec::new();
+        for bound in references(values.get(1)).ok_or_else(|| instance.fault("without bounds"))? {
+            loops.push(self.bound(bound)?);
+        }
+        let surface = self.surface(referred(instance, values, 2)?)?;
+        let same_sense = truth(values.get(3)).ok_or_else(|| instance.fault("without a sense"))?;
+        Ok(Face { surface, same_sense, loops, line: instance.line })
+    }
+}
+
+impl Net {
+    /// The points with their weights; `None` where their counts differ.
+    fn weighted(&self) -> Option<Vec<Vec<Vector4<f64>>>> {
+        let Some(weights) = &self.weights else {
+            return Some(self.rows.iter().map(|row| row.iter().map(|point| weighted(*point, 1.0)).collect()).collect());
+        };
+        let fits =
+            weights.len() == self.rows.len() && weights.iter().zip(&self.rows).all(|(w, row)| w.len() == row.len());
+        let row = |(row, weights): (&Vec<Vector3<f64>>, &Vec<f64>)| {
+            row.iter().zip(weights).map(|(point, weight)| weighted(*point, *weight)).collect()
+        };
+        fits.then(|| self.rows.iter().zip(weights).map(row).collect())
+    }
+}
+
+/// A spline of the first degree between two points is a line: so some programs write edges that they have divided.
+fn straight(curve: nurbs::Curve) -> Curve {
+    match curve.controls.as_slice() {
+        [first, last] if (last.xyz() / last.w - first.xyz() / first.w).norm() > 0.0 => {
+            let (first, last) = (first.xyz() / first.w, last.xyz() / last.w);
+            Curve::Line { origin: first, direction: (last - first).normalize() }
+        }
+        _ => Curve::Spline(curve),
+    }
+}
+
+/// A knot vector from values and multiplicities.
+fn full(counts: &[f64], values: &[f64]) -> Option<Vec<f64>> {
+    if counts.len() != values.len() {
+        return None;
+    }
+    let mut knots = Vec::new();
+    for (count, value) in counts.iter().zip(values) {
+        let count = whole(*count).filter(|count| count + knots.len() <= MOST_KNOTS)?;
+        knots.extend(std::iter::repeat_n(*value, count));
+    }
+    Some(knots)
+}

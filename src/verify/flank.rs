@@ -1,0 +1,267 @@
+//! The flank of a conoid's solid as read from a file, against the exact surface: how far every patch is from it, and that the
+//! patches go round once.
+//!
+//! The exact surface is the pitch surface offset by the roller. From a point of a patch the nearest place of the pitch surface is
+//! found by Newton's method with exact derivatives; its distance less the roller's radius is the distance from the flank, since
+//! the two lie on one normal. Nothing of what made the patches is used, nor how they are parametrised.
+//!
+//! Between the samples a bound holds. On a cell, a share of a knot span of 15 mm at the most, the deviation is a polynomial of the
+//! patch's degrees less a surface so smooth there that one degree more holds it. A polynomial of degree m is nowhere larger than
+//! 1/cos(m π/2n) times its largest size at the n Chebyshev places (H. Ehlich, K. Zeller, Schwankung von Polynomen zwischen
+//! Gitterpunkten, 1964). The places are doubled until the bound keeps the limit, or a sample breaks it.
+
+use super::{Check, Evidence, On, at};
+use crate::body::Body;
+use crate::body::conoid::Conoid;
+use crate::geometry::MILLIMETRES;
+use crate::geometry::nurbs::Surface;
+use crate::machine::Rotation;
+use crate::motion::Motion;
+use crate::numeric::parallel;
+use crate::profile::Worst;
+use crate::report::{Finding, Verdict};
+use nalgebra::{Vector2, Vector3};
+use std::f64::consts::{PI, TAU};
+
+pub(super) const CHECK: Check = Check {
+    name: "flank",
+    on: On::File,
+    about: "The largest distance of the flank of a conoid's solid, as read from a STEP file, from the exact surface, wherever on its \
+            patches.",
+    run: check,
+};
+
+/// Longest side of a cell, mm: on a tenth of a radian and less the exact surface is as smooth as its splines.
+const CELL: f64 = 15.0;
+/// Most cells along a span.
+const MOST_CELLS: f64 = 1000.0;
+/// Places along a cell at first, and how often they are doubled.
+const PLACES: u32 = 8;
+const DOUBLINGS: u32 = 3;
+/// The bound may exceed the tolerance by this factor, that of the finest places.
+const SLACK: f64 = 1.01;
+/// Newton steps to the nearest place of the pitch surface, and the step (m) at which they end.
+const STEPS: usize = 12;
+const AT_REST: f64 = 1e-10;
+/// Least cosine between the normal of a patch and that of the exact surface: within a tolerance of it nothing folds.
+const SAME_SIDE: f64 = 0.9;
+/// Points on each side of a patch by which the patches are counted round the axis, and how near one turn they must be.
+const AROUND: u32 = 256;
+const ONE_TURN: f64 = 1e-3;
+
+/// The exact surface, seen from a point.
+struct Exact<'a> {
+    conoid: &'a Conoid,
+    turned: bool,
+}
+
+/// What was found of a cell or of the whole flank.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    worst: Worst,
+    bound: f64,
+    samples: usize,
+    folded: bool,
+}
+
+impl Found {
+    const NONE: Self = Self { worst: Worst { value: 0.0, at: 0.0, z: 0.0 }, bound: 0.0, samples: 0, folded: false };
+
+    fn with(self, other: Self) -> Self {
+        // Of a deviation that is no number nothing may be larger.
+        let larger = !(other.worst.value.abs() <= self.worst.value.abs());
+        Self {
+            worst: if larger { other.worst } else { self.worst },
+            bound: if other.bound <= self.bound { self.bound } else { other.bound },
+            samples: self.samples + other.samples,
+            folded: self.folded || other.folded,
+        }
+    }
+}
+
+impl Exact<'_> {
+    /// The deviation of a point (mm) of a patch with this normal, positive where metal is missing, with the cam angle and the
+    /// place along the axis of the sphere that touches there; and the cosine between the normals.
+    fn deviation(&self, slice: &dyn Motion, point: Vector3<f64>, normal: Vector3<f64>) -> (Worst, f64) {
+        let sense = if self.turned { -1.0 } else { 1.0 };
+        let mirrored = |v: Vector3<f64>| Vector3::new(v.x, sense * v.y, v.z);
+        let (point, normal) = (mirrored(point) / MILLIMETRES, mirrored(normal));
+        let roller = self.conoid.roller();
+        // The centre of a sphere that touches the patch.
+        let centre = point + normal * roller.radius;
+        let across = centre.xy();
+        let height = (across.norm_squared() - roller.offset * roller.offset).max(0.0).sqrt();
+        let mut angle = libm::atan2(across.y, across.x) - libm::atan2(roller.offset, height);
+        let mut z = centre.z;
+        let mut away = Vector3::repeat(f64::NAN);
+        let mut rests = false;
+        for _ in 0..STEPS {
+            let (piece, inside) = slice.locate(angle);
+            let (place, [by_angle, by_z], [twice_angle, mixed, twice_z]) = self.pitch(piece, inside, z);
+            away = point - place;
+            let (a, b) = (away.dot(&by_angle), away.dot(&by_z));
+            let e = by_angle.norm_squared() - away.dot(&twice_angle);
+            let f = by_angle.dot(&by_z) - away.dot(&mixed);
+            let g = by_z.norm_squared() - away.dot(&twice_z);
+            let determinant = e * g - f * f;
+            let step = Vector2::new((g * a - f * b) / determinant, (e * b - f * a) / determinant);
+            angle += step.x;
+            z += step.y;
+            rests = step.x.abs() * height + step.y.abs() <= AT_REST;
+            if rests {
+                break;
+            }
+        }
+        let outward = -away.normalize();
+        // Where the steps do not come to rest, the place is not the nearest.
+        let value = if rests { MILLIMETRES * (away.norm() - roller.radius) } else { f64::INFINITY };
+        (Worst { value, at: slice.locate(angle).1, z }, outward.dot(&normal))
+    }
+
+    /// The pitch surface: place, first and second derivatives by the angle and along the axis, m.
+    fn pitch(&self, piece: usize, angle: f64, z: f64) -> (Vector3<f64>, [Vector3<f64>; 2], [Vector3<f64>; 3]) {
+        let lift = self.conoid.lift(piece, angle, z);
+        let offset = self.conoid.roller().offset;
+        let prime = self.conoid.prime_radius();
+        let height = ((prime - offset) * (prime + offset)).sqrt() + lift[0][0];
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let frame = |along: f64, across: f64, axial: f64| {
+            Vector3::new(along * cos - across * sin, along * sin + across * cos, axial)
+        };
+        let slope = lift[1][0] - offset;
+        (
+            frame(height, offset, z),
+            [frame(slope, height, 0.0), frame(lift[0][1], 0.0, 1.0)],
+            [
+                frame(lift[2][0] - height, lift[1][0] + slope, 0.0),
+                frame(lift[1][1], lift[0][1], 0.0),
+                frame(lift[0][2], 0.0, 0.0),
+            ],
+        )
+    }
+}
+
+/// A share of a knot span in both directions.
+struct Cell<'a> {
+    patch: &'a Surface,
+    /// The patch's own normal points out of the metal.
+    outward: bool,
+    u: (f64, f64),
+    v: (f64, f64),
+}
+
+impl Cell<'_> {
+    /// The deviation at n by n Chebyshev places, with the bound for what lies between.
+    fn at_places(&self, exact: &Exact<'_>, slice: &dyn Motion, n: u32) -> Found {
+        let place = |range: (f64, f64), i: u32| {
+            let share = 0.5 - 0.5 * libm::cos(PI * (f64::from(i) + 0.5) / f64::from(n));
+            range.0 + (range.1 - range.0) * share
+        };
+        let sense = if self.outward { 1.0 } else { -1.0 };
+        let mut found = Found::NONE;
+        for i in 0..n {
+            for j in 0..n {
+                let [point, by_u, by_v] = self.patch.at(place(self.u, i), place(self.v, j));
+                let normal = by_u.cross(&by_v).normalize() * sense;
+                let (worst, cosine) = exact.deviation(slice, point, normal);
+                let folded = !(cosine >= SAME_SIDE);
+                found = found.with(Found { worst, bound: 0.0, samples: 1, folded });
+            }
+        }
+        let growth = |degree: usize| {
+            #[expect(clippy::cast_precision_loss, reason = "a degree of at most 25")]
+            let angle = PI * (degree + 1) as f64 / (2.0 * f64::from(n));
+            if angle < 0.5 * PI { 1.0 / libm::cos(angle) } else { f64::INFINITY }
+        };
+        let bound = found.worst.value.abs() * growth(self.patch.u.degree) * growth(self.patch.v.degree);
+        Found { bound, ..found }
+    }
+
+    /// As many places as it takes to decide.
+    fn found(&self, exact: &Exact<'_>, slice: &dyn Motion, tolerance: f64) -> Found {
+        let mut found = self.at_places(exact, slice, PLACES);
+        for doubling in 1..=DOUBLINGS {
+            let decided = found.bound <= tolerance || !(found.worst.value.abs() <= tolerance);
+            if decided || found.folded {
+                break;
+            }
+            let samples = found.samples;
+            found = self.at_places(exact, slice, PLACES << doubling);
+            found.samples += samples;
+        }
+        found
+    }
+}
+
+/// The cells of a patch.
+fn cells(patch: &Surface, outward: bool) -> Vec<Cell<'_>> {
+    let mut cells = Vec::new();
+    for u in patch.u.spans() {
+        for v in patch.v.spans() {
+            let corner = |a: f64, b: f64| patch.at(a, b)[0];
+            let [a, b, c, d] = [corner(u.0, v.0), corner(u.1, v.0), corner(u.0, v.1), corner(u.1, v.1)];
+            let count = |first: f64, second: f64| (first.max(second) / CELL).ceil().clamp(1.0, MOST_CELLS);
+            let (along, across) = (count((b - a).norm(), (d - c).norm()), count((c - a).norm(), (d - b).norm()));
+            let part = |range: (f64, f64), of: f64, i: f64| {
+                let place = |share: f64| range.0 + (range.1 - range.0) * share;
+                (place(i / of), place((i + 1.0) / of))
+            };
+            let (mut i, mut j) = (0.0, 0.0);
+            while i < along {
+                cells.push(Cell { patch, outward, u: part(u, along, i), v: part(v, across, j) });
+                j += 1.0;
+                if j >= across {
+                    (i, j) = (i + 1.0, 0.0);
+                }
+            }
+        }
+    }
+    cells
+}
+
+/// Area of a patch in polar angle and height, rad mm, by its sides: all patches together go round once where their sum is a turn
+/// times the height.
+fn around(patch: &Surface, outward: bool) -> f64 {
+    let mut area = 0.0;
+    for side in patch.boundary().into_iter().flatten() {
+        let (first, last) = side.knots.range();
+        let at = |i: u32| side.at(first + (last - first) * f64::from(i) / f64::from(AROUND)).0;
+        for i in 0..AROUND {
+            let (a, b) = (at(i), at(i + 1));
+            let turn = libm::atan2(a.xy().perp(&b.xy()), a.xy().dot(&b.xy()));
+            area -= 0.5 * (a.z + b.z) * turn;
+        }
+    }
+    if outward { area } else { -area }
+}
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let (conoid, solid) = (evidence.body.spatial()?, evidence.solid?);
+    let patches = &solid.form.patches;
+    let turned = conoid.machine().cam.rotation == Rotation::CounterClockwise;
+    let (exact, slice) = (Exact { conoid, turned }, conoid.slice(0.0));
+    let limit = evidence.tolerance_mm;
+    let cells: Vec<Cell<'_>> = patches.iter().flat_map(|(patch, outward)| cells(patch, *outward)).collect();
+    let all: Vec<Found> = parallel::map(&cells, |cell| cell.found(&exact, &slice, limit));
+    let found = all.into_iter().fold(Found::NONE, Found::with);
+    let (low, high) = conoid.ends();
+    let round: f64 = patches.iter().map(|(patch, outward)| around(patch, *outward)).sum();
+    let turns = round / (TAU * MILLIMETRES * (high - low));
+    let once = (turns - 1.0).abs() <= ONE_TURN;
+    let size = if patches.is_empty() { f64::INFINITY } else { found.worst.value.abs() };
+    let kept = once && !found.folded && size <= limit && found.bound <= SLACK * limit;
+    let mut words = vec![format!(
+        "{} patches as read from the file, at {} places, at most {:.6} mm between them",
+        patches.len(),
+        found.samples,
+        found.bound
+    )];
+    if !once {
+        words.push(format!("the patches go {turns:.4} times round the axis from end to end, not once"));
+    }
+    if found.folded {
+        words.push("a patch is folded or turned inside out".to_owned());
+    }
+    let finding = CHECK.found(size, Some(limit), "mm", Verdict::of(kept));
+    Some(at(evidence.body, &found.worst, finding, Some(words.join("; "))))
+}
