@@ -47,7 +47,7 @@ fn stages(criterion: &mut Criterion) {
     let roll = |outline: &Contour| rolling::roll(&cam, cam.curves(), outline, 0.005);
     let rolled = roll(&written.outline);
     criterion.bench_function("checks/rolling", |b| b.iter(|| roll(black_box(&written.outline))));
-    let outlines = [verify::WrittenOutline { z: 0.0, contour: written.outline }];
+    let outlines = [verify::WrittenOutline { z: 0.0, contour: written.outline, beside: written.beside }];
     let evidence = Evidence {
         body: &cam,
         drawn: Some(&drawn),

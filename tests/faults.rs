@@ -79,8 +79,13 @@ fn vertices(dxf: &str) -> Vec<Vertex> {
     found.expect("a polyline").iter().map(vertex).collect()
 }
 
+/// The bore of the default cam.
+fn bore() -> (Layer, Entity) {
+    (Layer::Bore, Entity::Circle(Vector2::zeros(), 25.0))
+}
+
 fn file(vertices: Vec<Vertex>) -> Vec<u8> {
-    dxf::write(&[(Layer::CamProfile, Entity::Polyline(Contour { vertices }))], Version::R2000)
+    dxf::write(&[(Layer::CamProfile, Entity::Polyline(Contour { vertices })), bore()], Version::R2000)
 }
 
 fn polar(point: Vector2<f64>) -> f64 {
@@ -127,6 +132,8 @@ fn the_file_as_written_passes_and_so_do_harmless_edits() {
         entity.common.layer = "CAM_PROFILE".into();
         drawing.add_entity(entity);
     }
+    let circle = ::dxf::entities::Circle::new(::dxf::Point::origin(), 25.0);
+    drawing.add_entity(::dxf::entities::Entity::new(::dxf::entities::EntityType::Circle(circle)));
     let mut bytes = Vec::new();
     drawing.save(&mut bytes).expect("saved");
     let (code, report) = bench.check(&bytes, &[]);
@@ -264,6 +271,7 @@ fn opened_doubled_and_misplaced() {
         &[
             (Layer::CamProfile, Entity::Polyline(Contour { vertices: v.clone() })),
             (Layer::CamProfile, Entity::Polyline(arc)),
+            bore(),
         ],
         Version::R2000,
     );
@@ -301,7 +309,7 @@ fn cut_twice() {
 
     let again = |layer| {
         let line = || Entity::Polyline(Contour { vertices: original.clone() });
-        dxf::write(&[(Layer::CamProfile, line()), (layer, line())], Version::R2000)
+        dxf::write(&[(Layer::CamProfile, line()), (layer, line()), bore()], Version::R2000)
     };
     let (code, report) = bench.check(&again(Layer::Bore), &[]);
     assert_eq!((code, failed(&report)), (1, vec!["duplicates".to_owned()]), "{report}");

@@ -13,8 +13,9 @@ pub mod wedge;
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
 
 use crate::follower::Element;
-use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
+use crate::geometry::contour::Contour;
+use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Machine;
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
@@ -144,6 +145,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// Where a worst place lies along the axis, for a reader, where that is informative.
     fn along_axis(&self, _z: f64) -> Option<String> {
         None
+    }
+
+    /// What is cut beside an outline (mm): bore and balance holes, counter-clockwise.
+    fn holes_within(&self, _outline: &Contour) -> Vec<Entity> {
+        Vec::new()
     }
 
     /// The parameter at which a point of the drawing (m) lies.

@@ -78,6 +78,12 @@ impl Part {
         Self { balancing, ..self }
     }
 
+    /// What is cut beside an outline (mm) of a machine's turning cam: bore and balance holes, counter-clockwise.
+    pub(super) fn holes_within(machine: &Machine, contour: &Contour) -> Vec<Entity> {
+        let outline = Outline { contour: contour.clone(), deviation: 0.0, best_possible: 0.0 };
+        Self { bore: bore(machine), ..Self::solid_plate(outline) }.balanced(machine).holes()
+    }
+
     /// What is cut, layer by layer; holes clockwise.
     #[must_use]
     pub fn entities(&self) -> Vec<(Layer, Entity)> {

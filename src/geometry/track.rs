@@ -49,14 +49,21 @@ impl Track {
     /// The nearest point of the outline, exact; `None` for a point that is not finite.
     #[must_use]
     pub fn nearest(&self, point: Vector2<f64>) -> Option<Nearest> {
+        let (leaf, nearest) = self.nearest_segment(point)?;
+        Some(self.at_vertex(point, leaf, nearest))
+    }
+
+    /// The segment nearest to a point, with its own nearest point; `None` for a point that is not finite.
+    #[must_use]
+    pub fn nearest_segment(&self, point: Vector2<f64>) -> Option<(usize, Nearest)> {
         let from = parry(point);
         let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
         let distance = |leaf: u32, _: f64| {
             let nearest = self.segments.get(leaf as usize)?.nearest(point);
             Some((nearest.left.abs(), (leaf as usize, nearest)))
         };
-        let (_, (_, (leaf, nearest))) = self.tree.find_best(f64::MAX, distance_to_box, distance)?;
-        Some(self.at_vertex(point, leaf, nearest))
+        let (_, (_, found)) = self.tree.find_best(f64::MAX, distance_to_box, distance)?;
+        Some(found)
     }
 
     /// The nearest point seen from both segments where it is their common vertex: on which side the point lies follows from

@@ -85,7 +85,8 @@ impl Cam {
                 let found = chain.contour();
                 // The direction in which another program wrote the outline does not change the part.
                 let turns_left = found.area_and_centroid().0 > 0.0;
-                vec![WrittenOutline { z, contour: if turns_left { found } else { chain.reversed().contour() } }]
+                let contour = if turns_left { found } else { chain.reversed().contour() };
+                vec![WrittenOutline { z, contour, beside: reading.beside.clone() }]
             }
             _ => Vec::new(),
         };

@@ -44,7 +44,7 @@ impl<'c> Drawing<'c> {
             // The proof is of the bytes that would be cut, not of the drawing they were made from.
             let written = proof::write(part, version)?;
             cut_files.push(written.bytes);
-            outlines.push(WrittenOutline { z: part.z, contour: written.outline });
+            outlines.push(WrittenOutline { z: part.z, contour: written.outline, beside: written.beside });
         }
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let plane = body.plane().zip(outlines.first());

@@ -1,104 +1,146 @@
-//! The group codes of a DXF file, text or binary: what an outline can be made of is kept, before anything is made of it.
+//! The group codes of a DXF file, text or binary: what can be cut is kept, before anything is made of it.
 //!
-//! Kept are the version and the unit of the header and the entities without extended data and application groups. What is left
-//! out cannot cut metal, and a reader of whole drawings can be made to fail by it: dates that do not exist, groups nested
-//! without end.
+//! Kept are the version and the unit of the header, the table of layers, and the blocks and entities without extended data and
+//! application groups. What is left out cannot cut metal, and a reader of whole drawings can be made to fail by it: dates that
+//! do not exist, groups nested without end.
 
 use super::ReadError;
-use std::borrow::Cow;
 
 /// First words of a binary file, with what stands between them and the first group.
 const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
-/// Variables of the header that are kept.
-const VARIABLES: [&[u8]; 2] = [b"$ACADVER", b"$INSUNITS"];
+/// What some editors put before a text.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// Largest number an entity may hold, beyond every drawing: products of several of them are still finite.
 const LARGEST: f64 = 1e15;
 
 /// Group codes with a meaning here.
-const TYPE: i32 = 0;
+pub(super) const TYPE: i32 = 0;
 const SECTION_NAME: i32 = 2;
-const VARIABLE: i32 = 9;
 const EMBEDDED_OBJECT: i32 = 101;
 const APPLICATION_GROUP: i32 = 102;
 const COMMENT: i32 = 999;
 const EXTENDED_DATA: i32 = 1000;
 
-/// A code with its value, as the text of a DXF file has it.
-struct Group<'a> {
-    code: i32,
-    value: Cow<'a, [u8]>,
+/// A value: as text in a text file, of its kind in a binary one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Value<'a> {
+    Text(&'a [u8]),
+    Real(f64),
+    Whole(i64),
 }
 
-/// The section that is being read.
-#[derive(Clone, Copy)]
-enum Within {
-    /// None, or one that is left out.
-    LeftOut,
-    /// `SECTION` was read, its name was not.
-    Unnamed,
-    /// The header; whether the variable is kept.
-    Header(bool),
-    /// The entities.
-    Entities,
-}
+impl<'a> Value<'a> {
+    /// As text, without blanks around it; a number is none.
+    pub(super) fn text(self) -> &'a [u8] {
+        self.as_it_stands().trim_ascii()
+    }
 
-/// The text of a DXF file with only what is kept of the file.
-///
-/// # Errors
-/// [`ReadError`] where the file does not consist of groups, or a number of an entity is not finite.
-pub(super) fn kept(bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
-    match bytes.strip_prefix(BINARY) {
-        Some(rest) => kept_of(Binary { rest, wide: rest.starts_with(&[0, 0]) }),
-        None => kept_of(Text { lines: bytes.split(|byte| *byte == b'\n'), line: 0 }),
+    fn as_it_stands(self) -> &'a [u8] {
+        match self {
+            Value::Text(text) => text,
+            _ => b"",
+        }
+    }
+
+    /// As a number that a drawing can hold.
+    pub(super) fn real(self) -> Result<f64, ReadError> {
+        let number = match self {
+            Value::Real(number) => number,
+            #[expect(clippy::cast_precision_loss, reason = "compared with the largest number below")]
+            Value::Whole(number) => number as f64,
+            Value::Text(text) => {
+                let text = std::str::from_utf8(text.trim_ascii()).ok();
+                text.and_then(|text| text.parse().ok()).ok_or_else(|| not_a_number(self))?
+            }
+        };
+        // NaN is not below anything.
+        if number.abs() <= LARGEST { Ok(number) } else { Err(ReadError::NotFinite) }
+    }
+
+    /// As a whole number.
+    pub(super) fn whole(self) -> Result<i64, ReadError> {
+        let number = self.real()?;
+        #[expect(clippy::cast_possible_truncation, reason = "it is whole and not beyond the largest number")]
+        if number.fract() == 0.0 { Ok(number as i64) } else { Err(not_a_number(self)) }
     }
 }
 
-fn kept_of<'a>(groups: impl Iterator<Item = Result<Group<'a>, ReadError>>) -> Result<Vec<u8>, ReadError> {
-    let mut text = Vec::new();
-    let mut keep = |code: i32, value: &[u8]| {
-        text.extend_from_slice(code.to_string().as_bytes());
-        text.push(b'\n');
-        text.extend_from_slice(value);
-        text.push(b'\n');
-    };
-    let (mut within, mut entity) = (Within::LeftOut, WithinEntity::default());
+fn not_a_number(value: Value<'_>) -> ReadError {
+    ReadError::NotDxf(format!("`{}` stands where a number belongs", String::from_utf8_lossy(value.text())))
+}
+
+/// A code with its value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Group<'a> {
+    pub(super) code: i32,
+    pub(super) value: Value<'a>,
+}
+
+/// A section of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Section {
+    Header,
+    Tables,
+    Blocks,
+    Entities,
+}
+
+/// What is kept of a file: for each of its sections that matter, the groups between its name and its end.
+#[derive(Debug, Default)]
+pub(super) struct Kept<'a> {
+    pub(super) sections: Vec<(Section, Vec<Group<'a>>)>,
+}
+
+/// What is kept of a DXF file.
+///
+/// # Errors
+/// [`ReadError`] where the file does not consist of groups.
+pub(super) fn kept(bytes: &[u8]) -> Result<Kept<'_>, ReadError> {
+    if let Some(rest) = bytes.strip_prefix(BINARY) {
+        return kept_of(Binary { rest, wide: rest.starts_with(&[0, 0]) });
+    }
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    // A file of the old Macintosh ends its lines with carriage returns alone.
+    let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
+    kept_of(Text { lines: bytes.split(move |byte| *byte == end), line: 0 })
+}
+
+fn kept_of<'a>(groups: impl Iterator<Item = Result<Group<'a>, ReadError>>) -> Result<Kept<'a>, ReadError> {
+    let (mut kept, mut entity) = (Kept::default(), WithinEntity::default());
+    // `SECTION` was read, its name was not.
+    let mut unnamed = false;
+    let mut within = None;
     for group in groups {
         let Group { code, value } = group?;
-        let value: &[u8] = &value;
-        match (within, code, value.trim_ascii()) {
-            (_, TYPE, b"EOF") => {
-                keep(code, b"EOF");
-                return Ok(text);
+        match (code, value.text()) {
+            (TYPE, b"EOF") => return entity.keeps(TYPE, b"EOF").map(|_| kept),
+            (TYPE, b"SECTION") => {
+                entity.keeps(TYPE, b"SECTION")?;
+                (unnamed, within) = (true, None);
             }
-            (_, TYPE, b"SECTION") => within = Within::Unnamed,
-            (Within::Unnamed, SECTION_NAME, name) => {
+            (SECTION_NAME, name) if unnamed => {
+                unnamed = false;
                 within = match name {
-                    b"HEADER" => Within::Header(false),
-                    b"ENTITIES" => Within::Entities,
-                    _ => Within::LeftOut,
+                    b"HEADER" => Some(Section::Header),
+                    b"TABLES" => Some(Section::Tables),
+                    b"BLOCKS" => Some(Section::Blocks),
+                    b"ENTITIES" => Some(Section::Entities),
+                    _ => None,
                 };
-                if !matches!(within, Within::LeftOut) {
-                    keep(TYPE, b"SECTION");
-                    keep(SECTION_NAME, name);
+                kept.sections.extend(within.map(|section| (section, Vec::new())));
+            }
+            (TYPE, b"ENDSEC") => {
+                entity.keeps(TYPE, b"ENDSEC")?;
+                within = None;
+            }
+            _ => {
+                let cuts = matches!(within, Some(Section::Blocks | Section::Entities));
+                if (within.is_some() && !cuts || cuts && entity.keeps(code, value.as_it_stands())?)
+                    && let Some((_, groups)) = kept.sections.last_mut()
+                {
+                    groups.push(Group { code, value });
                 }
             }
-            (Within::Header(_) | Within::Entities, TYPE, b"ENDSEC") => {
-                entity.keeps(code, value)?;
-                keep(code, b"ENDSEC");
-                within = Within::LeftOut;
-            }
-            (Within::Header(_), VARIABLE, name) => {
-                let kept = VARIABLES.contains(&name);
-                within = Within::Header(kept);
-                if kept {
-                    keep(code, name);
-                }
-            }
-            (Within::Header(true), ..) => keep(code, value),
-            // A name with blanks around it, or in small letters, is the same entity to other readers.
-            (Within::Entities, TYPE, name) if entity.keeps(code, name)? => keep(code, &name.to_ascii_uppercase()),
-            (Within::Entities, ..) if entity.keeps(code, value)? => keep(code, value),
-            _ => {}
         }
     }
     Err(ReadError::CutShort)
@@ -137,14 +179,8 @@ impl WithinEntity {
             }
             _ => {}
         }
-        let kept = !self.group && !self.embedded && code != COMMENT && code < EXTENDED_DATA;
-        if kept && matches!(kind(code), Some(Kind::Real)) {
-            let number = std::str::from_utf8(value).ok().and_then(|text| text.trim().parse::<f64>().ok());
-            if number.is_some_and(|number| number.is_nan() || number.abs() > LARGEST) {
-                return Err(ReadError::NotFinite);
-            }
-        }
-        Ok(kept)
+        // Codes below zero are programs' own: comments, as 999 is.
+        Ok(!self.group && !self.embedded && code != COMMENT && (0..EXTENDED_DATA).contains(&code))
     }
 }
 
@@ -199,7 +235,7 @@ impl<'a, L: Iterator<Item = &'a [u8]>> Iterator for Text<L> {
             return Some(Err(ReadError::NotDxf(format!("line {} holds a carriage return within", self.line))));
         }
         Some(match number {
-            Some(code) => Ok(Group { code, value: value.into() }),
+            Some(code) => Ok(Group { code, value: Value::Text(value) }),
             None => Err(ReadError::NotDxf(format!("line {} is not a group code", self.line - 1))),
         })
     }
@@ -232,27 +268,24 @@ impl<'a> Binary<'a> {
         Some(i16::from_le_bytes(bytes).into())
     }
 
-    /// A value as the text of a DXF file would have it.
-    fn value(&mut self, kind: Kind) -> Option<Cow<'a, [u8]>> {
+    fn value(&mut self, kind: Kind) -> Option<Value<'a>> {
         Some(match kind {
             Kind::Text => {
                 let end = self.rest.iter().position(|byte| *byte == 0)?;
                 let text = self.take(end)?;
                 self.byte()?;
-                text.into()
+                Value::Text(text)
             }
-            Kind::Whole(2) => i16::from_le_bytes(self.take(2)?.try_into().ok()?).to_string().into_bytes().into(),
-            Kind::Whole(4) => i32::from_le_bytes(self.take(4)?.try_into().ok()?).to_string().into_bytes().into(),
-            Kind::Whole(_) => i64::from_le_bytes(self.take(8)?.try_into().ok()?).to_string().into_bytes().into(),
-            Kind::Truth if self.wide => self.byte()?.to_string().into_bytes().into(),
-            Kind::Truth => i16::from_le_bytes(self.take(2)?.try_into().ok()?).to_string().into_bytes().into(),
-            // The shortest text that is read back as the same number.
-            Kind::Real => format!("{:?}", f64::from_le_bytes(self.take(8)?.try_into().ok()?)).into_bytes().into(),
+            Kind::Whole(2) => Value::Whole(i16::from_le_bytes(self.take(2)?.try_into().ok()?).into()),
+            Kind::Whole(4) => Value::Whole(i32::from_le_bytes(self.take(4)?.try_into().ok()?).into()),
+            Kind::Whole(_) => Value::Whole(i64::from_le_bytes(self.take(8)?.try_into().ok()?)),
+            Kind::Truth if self.wide => Value::Whole(self.byte()?.into()),
+            Kind::Truth => Value::Whole(i16::from_le_bytes(self.take(2)?.try_into().ok()?).into()),
+            Kind::Real => Value::Real(f64::from_le_bytes(self.take(8)?.try_into().ok()?)),
             Kind::Chunk => {
                 // A preview or another program's data.
                 let length = self.byte()?.into();
-                self.take(length)?;
-                Cow::default()
+                Value::Text(self.take(length)?)
             }
         })
     }
@@ -304,20 +337,42 @@ mod tests {
             (102, "}"),
         ];
         groups.extend([(0, " line"), (999, "a remark"), (10, "1.5"), (0, "ENDSEC"), (0, "EOF")]);
-        let left = kept(&text(&groups)).expect("groups");
-        let expected = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nCAM_PROFILE\n\
-                        0\nLINE\n10\n1.5\n0\nENDSEC\n0\nEOF\n";
-        assert_eq!(String::from_utf8(left).expect("text"), expected);
+        let bytes = text(&groups);
+        let left = kept(&bytes).expect("groups");
+        let kinds: Vec<Section> = left.sections.iter().map(|(section, _)| *section).collect();
+        assert_eq!(kinds, [Section::Header, Section::Entities]);
+        let entities: Vec<(i32, &[u8])> =
+            left.sections[1].1.iter().map(|group| (group.code, group.value.text())).collect();
+        let expected: [(i32, &[u8]); 4] = [(0, b"LINE"), (8, b"CAM_PROFILE"), (0, b"line"), (10, b"1.5")];
+        assert_eq!(entities, expected);
     }
 
     #[test]
     fn a_number_beyond_every_drawing_is_told() {
         for value in ["nan", "inf", "-1e300"] {
-            let bytes = text(&[(0, "SECTION"), (2, "ENTITIES"), (0, "LINE"), (10, value), (0, "ENDSEC"), (0, "EOF")]);
-            assert_eq!(kept(&bytes), Err(ReadError::NotFinite), "{value}");
+            assert_eq!(Value::Text(value.as_bytes()).real(), Err(ReadError::NotFinite), "{value}");
         }
+        assert_eq!(Value::Real(f64::NAN).real(), Err(ReadError::NotFinite));
+        assert!(matches!(Value::Text(b"1,5").real(), Err(ReadError::NotDxf(_))));
+        assert!(matches!(Value::Text(b"1.5").whole(), Err(ReadError::NotDxf(_))));
+        assert_eq!(Value::Text(b"  -7 ").whole(), Ok(-7));
         assert!(matches!(kept(b"x\ny\n"), Err(ReadError::NotDxf(_))));
-        assert_eq!(kept(&text(&[(0, "SECTION")])), Err(ReadError::CutShort));
+        assert!(matches!(kept(&text(&[(0, "SECTION")])), Err(ReadError::CutShort)));
+    }
+
+    /// Line ends of the old Macintosh, a byte order mark, other programs' comments, and whatever follows the end.
+    #[test]
+    fn harmless_dress_is_taken_off() {
+        let groups = [(0, "SECTION"), (2, "ENTITIES"), (-666, "x"), (0, "LINE"), (999, "x"), (0, "ENDSEC"), (0, "EOF")];
+        let plain = text(&groups);
+        let returns: Vec<u8> = plain.iter().copied().filter(|byte| *byte != b'\n').collect();
+        let marked = [BYTE_ORDER_MARK, &plain].concat();
+        for bytes in [plain.clone(), returns, marked, [&plain[..], b"\x1a"].concat(), [&plain[..], b"\0\0bye"].concat()]
+        {
+            let left = kept(&bytes).expect("groups");
+            assert_eq!(left.sections.len(), 1);
+            assert_eq!(left.sections[0].1.len(), 1, "the line alone");
+        }
     }
 
     /// Where readers would differ on what is cut, nothing is read.
@@ -338,8 +393,9 @@ mod tests {
             assert!(matches!(kept(&file(groups)), Err(ReadError::NotDxf(_))), "{groups:?}");
         }
         // Only an embedded object hides what follows.
-        let left = String::from_utf8(kept(&file(&[(101, "x"), (10, "1")])).expect("groups")).expect("text");
-        assert!(left.contains("10\n1\n"), "{left}");
+        let bytes = file(&[(101, "x"), (10, "1")]);
+        let left = kept(&bytes).expect("groups");
+        assert!(left.sections[0].1.iter().any(|group| group.code == 10), "{left:?}");
     }
 
     /// A binary file is the same groups, its numbers to the last bit.
@@ -363,10 +419,9 @@ mod tests {
             add(10, &f64::to_le_bytes(number));
             add(0, b"ENDSEC\0");
             add(0, b"EOF\0");
-            let left = String::from_utf8(kept(&bytes).expect("groups")).expect("text");
-            let expected =
-                format!("0\nSECTION\n2\nENTITIES\n0\nLINE\n70\n5\n90\n7\n10\n{number:?}\n0\nENDSEC\n0\nEOF\n");
-            assert_eq!(left, expected, "{wide}");
+            let left = kept(&bytes).expect("groups");
+            let values: Vec<Value<'_>> = left.sections[0].1.iter().map(|group| group.value).collect();
+            assert_eq!(values, [Value::Text(b"LINE"), Value::Whole(5), Value::Whole(7), Value::Real(number)], "{wide}");
         }
     }
 }

@@ -1,8 +1,10 @@
 //! Loose segments joined end to end into chains.
 
+use super::Source;
+use super::walk::Cut;
 use crate::geometry::contour::{Contour, Segment, Vertex};
 use nalgebra::Vector2;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Segments, each starting where the one before ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +13,8 @@ pub struct Chain {
     pub segments: Vec<Segment>,
     /// The last ends where the first starts.
     pub closed: bool,
+    /// What it is made of.
+    pub sources: Vec<Source>,
 }
 
 impl Chain {
@@ -33,13 +37,24 @@ impl Chain {
     #[must_use]
     pub fn reversed(&self) -> Self {
         let segments = self.segments.iter().rev().map(|segment| reversed(*segment)).collect();
-        Self { segments, closed: self.closed }
+        Self { segments, closed: self.closed, sources: self.sources.clone() }
+    }
+
+    /// What it is made of and where, for a message: "CIRCLE on layer BORE".
+    #[must_use]
+    pub fn names(&self) -> String {
+        let names: Vec<String> = self.sources.iter().take(MOST_NAMES).map(ToString::to_string).collect();
+        let more = if self.sources.len() > MOST_NAMES { " and more" } else { "" };
+        format!("{}{more}", names.join(", "))
     }
 }
 
 fn reversed(segment: Segment) -> Segment {
     Segment { start: segment.end, end: segment.start, bulge: -segment.bulge }
 }
+
+/// Sources of a chain that a message names.
+const MOST_NAMES: usize = 3;
 
 /// A segment no longer than this has no length, mm: readers drop it, whatever reach its ends are joined with.
 const NO_LENGTH: f64 = 1e-6;
@@ -48,25 +63,34 @@ const NO_LENGTH: f64 = 1e-6;
 const SAME_SHARE: f64 = 0.1;
 
 pub(super) struct Joined {
-    pub(super) chains: Vec<Chain>,
+    /// The chains on the layer of the outline.
+    pub(super) outline: Vec<Chain>,
+    /// The chains on all other layers.
+    pub(super) beside: Vec<Chain>,
     pub(super) duplicates: Vec<Vector2<f64>>,
     pub(super) points: Vec<Vector2<f64>>,
 }
 
-/// Places seen through a grid whose cells are wider than the reach, so that only neighbouring cells are looked at.
+/// Width of a cell of the grid over the reach.
+const CELL: f64 = 4.0;
+/// So many segments about a middle are looked at before one looks for fewer.
+const FEW: usize = 8;
+
+/// Places seen through a grid whose cells are wider than the reach, so that at most four of them are looked at.
 struct Grid {
-    cell: f64,
+    reach: f64,
     places: BTreeMap<(i64, i64), Vec<usize>>,
 }
 
 impl Grid {
     fn new(reach: f64) -> Self {
-        Self { cell: 2.0 * reach, places: BTreeMap::new() }
+        Self { reach, places: BTreeMap::new() }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "a saturated cell still finds its own")]
     fn cell(&self, place: Vector2<f64>) -> (i64, i64) {
-        ((place.x / self.cell).floor() as i64, (place.y / self.cell).floor() as i64)
+        let cell = CELL * self.reach;
+        ((place.x / cell).floor() as i64, (place.y / cell).floor() as i64)
     }
 
     fn insert(&mut self, place: Vector2<f64>, index: usize) {
@@ -74,53 +98,156 @@ impl Grid {
         self.places.entry(cell).or_default().push(index);
     }
 
-    fn near(&self, place: Vector2<f64>) -> impl Iterator<Item = usize> + '_ {
-        let (x, y) = self.cell(place);
-        (-1..=1)
-            .flat_map(move |dx| (-1..=1).map(move |dy| (x.saturating_add(dx), y.saturating_add(dy))))
-            .filter_map(|cell| self.places.get(&cell))
-            .flatten()
-            .copied()
+    /// The cells that come within reach of a place.
+    fn about(&self, place: Vector2<f64>) -> impl Iterator<Item = (i64, i64)> + use<> {
+        let corner = Vector2::new(self.reach, self.reach);
+        let (low, high) = (self.cell(place - corner), self.cell(place + corner));
+        (low.0..=high.0).flat_map(move |x| (low.1..=high.1).map(move |y| (x, y)))
+    }
+
+    /// The lists of the cells about a place, and how long they are together.
+    fn near(&self, place: Vector2<f64>) -> (Vec<&[usize]>, usize) {
+        let lists: Vec<&[usize]> =
+            self.about(place).filter_map(|cell| self.places.get(&cell)).map(Vec::as_slice).collect();
+        let count = lists.iter().map(|list| list.len()).sum();
+        (lists, count)
+    }
+
+    /// Takes out and gives back what is near a place and fits; what is gone is left out for good.
+    fn take(
+        &mut self,
+        place: Vector2<f64>,
+        gone: impl Fn(usize) -> bool,
+        fits: impl Fn(usize) -> bool,
+    ) -> Option<usize> {
+        for cell in self.about(place) {
+            let Some(list) = self.places.get_mut(&cell) else { continue };
+            let mut index = 0;
+            while let Some(candidate) = list.get(index).copied() {
+                if gone(candidate) {
+                    list.swap_remove(index);
+                } else if fits(candidate) {
+                    return Some(candidate);
+                } else {
+                    index += 1;
+                }
+            }
+        }
+        None
     }
 }
 
-/// Takes out segments without length and segments that lie on another, then joins the pieces end to end.
-pub(super) fn join(pieces: Vec<Vec<Segment>>, others: &[Segment], reach: f64) -> Joined {
+/// Segments that were kept, found by their ends and middles: of many with one of them in common few have another.
+struct Known {
+    segments: Vec<Segment>,
+    by_place: [Grid; 3],
+    reach: f64,
+}
+
+impl Known {
+    fn new(reach: f64) -> Self {
+        Self { segments: Vec::new(), by_place: std::array::from_fn(|_| Grid::new(reach)), reach }
+    }
+
+    /// Start and end in an order that does not depend on the direction, and middle.
+    fn places(segment: &Segment) -> [Vector2<f64>; 3] {
+        [segment.middle(), segment.start, segment.end]
+    }
+
+    fn has(&self, segment: &Segment) -> bool {
+        let [by_middle, by_start, by_end] = &self.by_place;
+        let [middle, start, end] = Self::places(segment);
+        let middles = by_middle.near(middle);
+        let found = |lists: &[&[usize]]| {
+            let mut all = lists.iter().flat_map(|list| list.iter()).filter_map(|index| self.segments.get(*index));
+            all.any(|other| same(segment, other, self.reach))
+        };
+        if middles.1 <= FEW {
+            return found(&middles.0);
+        }
+        // A segment that is the same starts where this one starts or ends.
+        let (there, back) = (by_start.near(start), by_end.near(start));
+        if middles.1 <= there.1 + back.1 {
+            return found(&middles.0);
+        }
+        let (forth, round) = (by_end.near(end), by_start.near(end));
+        if there.1 + back.1 <= forth.1 + round.1 {
+            found(&there.0) || found(&back.0)
+        } else {
+            found(&forth.0) || found(&round.0)
+        }
+    }
+
+    fn add(&mut self, segment: Segment) {
+        for (grid, place) in self.by_place.iter_mut().zip(Self::places(&segment)) {
+            grid.insert(place, self.segments.len());
+        }
+        self.segments.push(segment);
+    }
+}
+
+/// Segments in a row with the indices of their sources.
+struct Link {
+    segments: Vec<Segment>,
+    sources: BTreeSet<usize>,
+}
+
+impl Link {
+    fn of(segments: Vec<Segment>, source: usize) -> Option<Self> {
+        (!segments.is_empty()).then(|| Self { segments, sources: BTreeSet::from([source]) })
+    }
+
+    fn ends(&self) -> Option<(Vector2<f64>, Vector2<f64>)> {
+        Some((self.segments.first()?.start, self.segments.last()?.end))
+    }
+
+    fn open(&self, reach: f64) -> bool {
+        self.ends().is_some_and(|(start, end)| !((end - start).norm() <= reach && self.segments.len() > 1))
+    }
+
+    fn reverse(&mut self) {
+        self.segments.reverse();
+        for segment in &mut self.segments {
+            *segment = reversed(*segment);
+        }
+    }
+}
+
+/// Takes out segments without length and segments that lie on another, then joins what is left end to end: the outline, and
+/// what lies beside it.
+pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64) -> Joined {
     let (mut duplicates, mut points) = (Vec::new(), Vec::new());
-    let mut kept: Vec<Segment> = Vec::new();
-    let mut by_middle = Grid::new(reach);
-    let mut chains: Vec<Chain> = Vec::new();
-    for piece in pieces {
-        let mut segments: Vec<Segment> = Vec::new();
-        for segment in piece {
-            if (segment.end - segment.start).norm() <= reach.min(NO_LENGTH) {
-                points.push(segment.start);
-                continue;
+    let mut known = Known::new(reach);
+    let (mut outline, mut beside) = (Vec::new(), Vec::new());
+    let on_outline = |cut: &Cut| sources.get(cut.source).is_some_and(Source::on_outline);
+    // The outline first: what repeats it lies beside it.
+    let (first, then): (Vec<Cut>, Vec<Cut>) = cuts.into_iter().partition(on_outline);
+    for (cuts, links) in [(first, &mut outline), (then, &mut beside)] {
+        for Cut { segments: all, source, .. } in cuts {
+            let mut segments: Vec<Segment> = Vec::with_capacity(all.len());
+            for segment in all {
+                if (segment.end - segment.start).norm() <= reach.min(NO_LENGTH) {
+                    points.push(segment.start);
+                } else if known.has(&segment) {
+                    duplicates.push(segment.middle());
+                    // What follows is no longer joined to what was before.
+                    links.extend(Link::of(std::mem::take(&mut segments), source));
+                } else {
+                    known.add(segment);
+                    segments.push(segment);
+                }
             }
-            let middle = segment.middle();
-            if by_middle.near(middle).filter_map(|index| kept.get(index)).any(|other| same(&segment, other, reach)) {
-                duplicates.push(middle);
-                // What follows is no longer joined to what was before.
-                chains.extend(started(std::mem::take(&mut segments)));
-                continue;
-            }
-            by_middle.insert(middle, kept.len());
-            kept.push(segment);
-            segments.push(segment);
-        }
-        chains.extend(started(segments));
-    }
-    // The outline must not be repeated elsewhere.
-    for other in others {
-        if by_middle.near(other.middle()).filter_map(|index| kept.get(index)).any(|s| same(s, other, reach)) {
-            duplicates.push(other.middle());
+            links.extend(Link::of(segments, source));
         }
     }
-    let mut chains = joined(chains, reach);
-    for chain in &mut chains {
-        chain.closed = chain.gap() <= reach && (chain.segments.len() > 1);
-    }
-    Joined { chains, duplicates, points }
+    let chains = |links| joined(links, reach).into_iter().map(|link| chain(link, sources, reach)).collect();
+    Joined { outline: chains(outline), beside: chains(beside), duplicates, points }
+}
+
+fn chain(link: Link, sources: &[Source], reach: f64) -> Chain {
+    let closed = !link.open(reach);
+    let sources = link.sources.iter().filter_map(|index| sources.get(*index)).cloned().collect();
+    Chain { segments: link.segments, closed, sources }
 }
 
 /// Whether two segments are one, within the reach but never beyond a tenth of their length.
@@ -131,40 +258,41 @@ fn same(a: &Segment, b: &Segment, reach: f64) -> bool {
         && (close(a.start, b.start) && close(a.end, b.end) || close(a.start, b.end) && close(a.end, b.start))
 }
 
-fn started(segments: Vec<Segment>) -> Option<Chain> {
-    (!segments.is_empty()).then_some(Chain { segments, closed: false })
-}
-
-/// Joins chains as long as an end of one meets an end of another that is still free.
-fn joined(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
+/// Joins links as long as an end of one meets an end of another that is still free.
+fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
     let mut by_end = Grid::new(reach);
-    for (index, chain) in chains.iter().enumerate() {
-        if let (Some(first), Some(last)) = (chain.segments.first(), chain.segments.last()) {
-            by_end.insert(first.start, index);
-            by_end.insert(last.end, index);
+    for (index, link) in links.iter().enumerate() {
+        // One that is closed by itself is joined to nothing.
+        if let Some((start, end)) = link.ends().filter(|_| link.open(reach)) {
+            by_end.insert(start, index);
+            by_end.insert(end, index);
         }
     }
-    let mut free: Vec<Option<Chain>> = chains.into_iter().map(Some).collect();
+    let ends: Vec<Option<(Vector2<f64>, Vector2<f64>)>> = links.iter().map(Link::ends).collect();
+    let mut free: Vec<Option<Link>> = links.into_iter().map(Some).collect();
+    let near = |a: Vector2<f64>, b: Vector2<f64>| (a - b).norm() <= reach;
     let mut found = Vec::new();
     for index in 0..free.len() {
-        let Some(mut chain) = free.get_mut(index).and_then(Option::take) else { continue };
+        let Some(mut link) = free.get_mut(index).and_then(Option::take) else { continue };
         // Forwards as far as it goes, then the other way round, once.
         for _ in 0..2 {
-            while chain.gap() > reach {
-                let Some(end) = chain.segments.last().map(|s| s.end) else { break };
-                let next = by_end.near(end).find_map(|other| {
-                    let candidate = free.get(other)?.as_ref()?;
-                    let starts = candidate.segments.first().is_some_and(|s| (s.start - end).norm() <= reach);
-                    let ends = candidate.segments.last().is_some_and(|s| (s.end - end).norm() <= reach);
-                    (starts || ends).then_some((other, starts))
-                });
-                let Some((other, forwards)) = next else { break };
-                let Some(taken) = free.get_mut(other).and_then(Option::take) else { break };
-                chain.segments.extend(if forwards { taken.segments } else { taken.reversed().segments });
+            while link.open(reach) {
+                let Some((_, end)) = link.ends() else { break };
+                let gone = |other: usize| free.get(other).is_none_or(Option::is_none);
+                let meets = |other: usize| {
+                    ends.get(other).copied().flatten().is_some_and(|(a, b)| near(a, end) || near(b, end))
+                };
+                let Some(other) = by_end.take(end, gone, meets) else { break };
+                let Some(mut taken) = free.get_mut(other).and_then(Option::take) else { break };
+                if !taken.ends().is_some_and(|(start, _)| near(start, end)) {
+                    taken.reverse();
+                }
+                link.segments.extend(taken.segments);
+                link.sources.extend(taken.sources);
             }
-            chain = chain.reversed();
+            link.reverse();
         }
-        found.push(chain);
+        found.push(link);
     }
     found
 }

@@ -1,26 +1,32 @@
-//! Reads a DXF file back into chains of arcs and lines: what `write` wrote, or what another program made of it.
+//! Reads a DXF file back into all that would be cut of it: what `write` wrote, or what another program made of it.
 //!
-//! The entities of layer `CAM_PROFILE` are taken for the outline, joined end to end; what does not fit a single closed
-//! outline is kept and reported, not repaired. LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE are read exactly, SPLINE as chords
-//! that turn by less than a shop's kink.
+//! Cut are LINE, ARC, CIRCLE, ELLIPSE, SPLINE, LWPOLYLINE and POLYLINE in model space, those of inserted blocks among them, on
+//! layers that are on. Those of layer `CAM_PROFILE` are the outline, the others lie beside it; either are joined end to end.
+//! What does not fit is kept and reported, not repaired. Texts, dimensions, points and the like are information. Arcs and lines
+//! are read exactly, curves as tangent arcs within a share of the reach.
 
+mod contents;
+mod curve;
 mod groups;
 mod join;
+mod placement;
+mod record;
+mod shape;
 mod spline;
 pub mod step;
+mod walk;
 
 pub use join::Chain;
 
-use crate::geometry::contour::{Contour, Segment, Vertex};
-use dxf::entities::{Entity, EntityType};
-use dxf::enums::Units;
+use contents::Contents;
 use nalgebra::Vector2;
+use walk::Walk;
 
 /// Layer of the outline.
 pub const OUTLINE_LAYER: &str = "CAM_PROFILE";
 
-/// Largest tilt of an entity's plane: rounding of a unit vector.
-const TILT: f64 = 1e-9;
+/// How near arcs keep to the curves they are read from, over the reach of [`read`].
+const CURVE_SHARE: f64 = 0.05;
 
 /// The unit a file states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +39,52 @@ pub enum Unit {
     Other(&'static str),
 }
 
+/// Of what kind an entity is, and on which layer it is cut.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Source {
+    /// As the file calls it: `LINE`.
+    pub kind: String,
+    /// The layer, that of the insertion for what a block has on layer 0.
+    pub layer: String,
+}
+
+impl Source {
+    /// Whether it belongs to the outline.
+    #[must_use]
+    pub fn on_outline(&self) -> bool {
+        self.layer.eq_ignore_ascii_case(OUTLINE_LAYER)
+    }
+}
+
+/// `LINE on layer 0`.
+impl std::fmt::Display for Source {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} on layer {}", self.kind, self.layer)
+    }
+}
+
+/// An entity that is not what it should be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stray {
+    /// As the file calls it: `REGION`.
+    pub kind: String,
+    /// What is wrong, in words that follow its name; empty where nothing is.
+    pub why: String,
+    /// Its layer.
+    pub layer: String,
+    /// Where it lies, mm.
+    pub place: Vector2<f64>,
+}
+
+/// `REGION on layer 0 at (1.000, 2.000) mm is …`.
+impl std::fmt::Display for Stray {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { kind, why, layer, place } = self;
+        write!(formatter, "{kind} on layer {layer} at ({:.3}, {:.3}) mm", place.x, place.y)?;
+        if why.is_empty() { Ok(()) } else { write!(formatter, " {why}") }
+    }
+}
+
 /// What was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
@@ -40,15 +92,23 @@ pub struct Reading {
     pub unit: Unit,
     /// The chains on the layer of the outline, joined; one closed one is what it should be.
     pub chains: Vec<Chain>,
+    /// The chains on all other layers, joined: bore, holes, and whatever else would be cut.
+    pub beside: Vec<Chain>,
     /// Middles of segments that lie on another one, mm.
     pub duplicates: Vec<Vector2<f64>>,
     /// Places of segments without length, mm.
     pub points: Vec<Vector2<f64>>,
-    /// Kinds of entities on that layer that cannot be read as arcs and lines.
-    pub unreadable: Vec<String>,
-    /// Names of the layers that are not empty.
+    /// Entities that would be cut, or may be, and are not lines of no width in the plane of the drawing.
+    pub unreadable: Vec<Stray>,
+    /// Entities on the layer of the outline that cut nothing.
+    pub information: Vec<Stray>,
+    /// What else a reader should know, a sentence each.
+    pub remarks: Vec<String>,
+    /// Names of the layers on which something is seen.
     pub layers: Vec<String>,
-    /// Number of splines, which are read as chords.
+    /// Names of the layers on which something is not seen.
+    pub hidden: Vec<String>,
+    /// Number of curves, which are read as arcs.
     pub splines: usize,
 }
 
@@ -67,168 +127,39 @@ pub enum ReadError {
     NotFinite,
 }
 
-/// Reads a DXF file; ends nearer than `join` (mm) are one.
+/// Reads a DXF file; ends nearer than `join` (mm) are one, and arcs keep to curves within a twentieth of it.
 ///
 /// # Errors
 /// [`ReadError`] when the bytes are not a DXF file.
 pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
-    let binary = bytes.starts_with(b"AutoCAD Binary DXF");
-    if !binary && !bytes.trim_ascii_end().ends_with(b"EOF") {
-        return Err(ReadError::CutShort);
-    }
     let kept = groups::kept(bytes)?;
-    let drawing = dxf::Drawing::load(&mut kept.as_slice()).map_err(|error| ReadError::NotDxf(error.to_string()))?;
-    let unit = match drawing.header.default_drawing_units {
-        Units::Millimeters => Unit::Millimetres,
-        Units::Unitless => Unit::Untold,
-        Units::Inches => Unit::Other("inches"),
-        Units::Centimeters => Unit::Other("centimetres"),
-        Units::Meters => Unit::Other("metres"),
-        _ => Unit::Other("another unit than millimetres"),
-    };
-    // What lies in paper space is not cut.
-    let model = || drawing.entities().filter(|entity| !entity.common.is_in_paper_space);
-    let on_outline = |entity: &&Entity| entity.common.layer.eq_ignore_ascii_case(OUTLINE_LAYER);
-    let mut layers: Vec<String> = model().map(|entity| entity.common.layer.clone()).collect();
-    layers.sort();
-    layers.dedup();
-    let mut raw = Raw::default();
-    for entity in model().filter(on_outline) {
-        raw.add(entity);
+    let contents = Contents::of(&kept)?;
+    let mut walk = Walk::over(&contents, CURVE_SHARE * join)?;
+    let height = walk.heights(join);
+    if height.abs() > join {
+        walk.remarks.push(format!("everything lies at a height of {height} mm"));
     }
-    // Entities on other layers are cut as well, and must not repeat the outline.
-    let mut others = Raw::default();
-    for entity in model().filter(|entity| !on_outline(entity)) {
-        others.add(entity);
-    }
-    if raw
-        .pieces
-        .iter()
-        .flatten()
-        .any(|s| ![s.start.x, s.start.y, s.end.x, s.end.y, s.bulge].iter().all(|v| v.is_finite()))
-    {
-        return Err(ReadError::NotFinite);
-    }
-    let joined = join::join(raw.pieces, &others.pieces.concat(), join);
+    let joined = join::join(walk.cuts, &walk.sources, join);
     Ok(Reading {
-        unit,
-        chains: joined.chains,
+        unit: contents.unit,
+        chains: joined.outline,
+        beside: joined.beside,
         duplicates: joined.duplicates,
         points: joined.points,
-        unreadable: raw.unreadable,
-        layers,
-        splines: raw.splines,
+        unreadable: walk.unreadable,
+        information: walk.information,
+        remarks: walk.remarks,
+        layers: walk.layers.into_iter().collect(),
+        hidden: walk.hidden.into_iter().collect(),
+        splines: walk.curves,
     })
-}
-
-/// Segments as they stand in the file: each piece is one entity.
-#[derive(Default)]
-struct Raw {
-    pieces: Vec<Vec<Segment>>,
-    unreadable: Vec<String>,
-    splines: usize,
-}
-
-impl Raw {
-    fn add(&mut self, entity: &Entity) {
-        let normal = match &entity.specific {
-            EntityType::LwPolyline(line) => line.extrusion_direction.clone(),
-            EntityType::Polyline(line) => line.normal.clone(),
-            EntityType::Arc(arc) => arc.normal.clone(),
-            EntityType::Circle(circle) => circle.normal.clone(),
-            _ => dxf::Vector::z_axis(),
-        };
-        if normal.x.abs() + normal.y.abs() > TILT * normal.z.abs() {
-            self.unreadable.push("an entity that does not lie in the plane of the drawing".into());
-            return;
-        }
-        let mut segments = match (exact(&entity.specific), &entity.specific) {
-            (Some(segments), _) => segments,
-            (None, EntityType::Spline(line)) => {
-                let Some(segments) = spline::chords(line) else {
-                    self.unreadable.push("SPLINE without control points".into());
-                    return;
-                };
-                self.splines += 1;
-                segments
-            }
-            // Text and points cut nothing, but on the layer of the outline they are unexpected.
-            (None, other) => {
-                let name = format!("{other:?}");
-                let kind: String = name.chars().take_while(char::is_ascii_alphanumeric).collect();
-                self.unreadable.push(kind.to_uppercase());
-                return;
-            }
-        };
-        if let EntityType::Polyline(line) = &entity.specific {
-            // A mesh or a fitted curve has vertices that are not on the outline.
-            if line.flags & !0b1000_0001 != 0 {
-                self.unreadable.push("POLYLINE that is a mesh or a fitted curve".into());
-                segments.clear();
-            }
-        }
-        self.pieces.push(segments);
-    }
-}
-
-/// The segments of an entity that is made of arcs and lines; `None` of any other.
-fn exact(entity: &EntityType) -> Option<Vec<Segment>> {
-    Some(match entity {
-        EntityType::LwPolyline(line) => {
-            let vertices = line.vertices.iter().map(|v| (v.x, v.y, v.bulge));
-            mirrored(chain(vertices, line.is_closed()), line.extrusion_direction.z)
-        }
-        EntityType::Polyline(line) => {
-            let vertices = line.vertices().map(|v| (v.location.x, v.location.y, v.bulge));
-            mirrored(chain(vertices, line.is_closed()), line.normal.z)
-        }
-        EntityType::Line(line) => {
-            vec![Segment {
-                start: Vector2::new(line.p1.x, line.p1.y),
-                end: Vector2::new(line.p2.x, line.p2.y),
-                bulge: 0.0,
-            }]
-        }
-        EntityType::Arc(arc) => {
-            let centre = Vector2::new(arc.center.x, arc.center.y);
-            let sweep = (arc.end_angle - arc.start_angle).rem_euclid(360.0).to_radians();
-            let on = |degrees: f64| {
-                let angle = degrees.to_radians();
-                centre + Vector2::new(libm::cos(angle), libm::sin(angle)) * arc.radius
-            };
-            let segment =
-                Segment { start: on(arc.start_angle), end: on(arc.end_angle), bulge: libm::tan(0.25 * sweep) };
-            mirrored(vec![segment], arc.normal.z)
-        }
-        EntityType::Circle(circle) => {
-            let centre = Vector2::new(circle.center.x, circle.center.y);
-            mirrored(Contour::circle(centre, circle.radius).segments().collect(), circle.normal.z)
-        }
-        _ => return None,
-    })
-}
-
-fn chain(vertices: impl Iterator<Item = (f64, f64, f64)>, closed: bool) -> Vec<Segment> {
-    let vertices: Vec<Vertex> = vertices.map(|(x, y, bulge)| Vertex { point: Vector2::new(x, y), bulge }).collect();
-    let mut segments: Vec<Segment> = Contour { vertices }.segments().collect();
-    if !closed {
-        segments.pop();
-    }
-    segments
-}
-
-/// Seen from behind (extrusion along −Z, as mirroring leaves it) x and the sense of every arc are reversed.
-fn mirrored(segments: Vec<Segment>, normal_z: f64) -> Vec<Segment> {
-    if normal_z >= 0.0 {
-        return segments;
-    }
-    let flip = |point: Vector2<f64>| Vector2::new(-point.x, point.y);
-    segments.into_iter().map(|s| Segment { start: flip(s.start), end: flip(s.end), bulge: -s.bulge }).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use dxf::entities::{Entity, EntityType};
+    use dxf::enums::Units;
 
     fn drawing(entities: Vec<(&str, EntityType)>, unit: Units) -> Vec<u8> {
         let mut drawing = dxf::Drawing::new();
@@ -291,12 +222,13 @@ mod tests {
         two.push(("CAM_PROFILE", EntityType::Text(dxf::entities::Text::default())));
         two.push(("BORE", EntityType::Circle(dxf::entities::Circle::new(point(20.0, 0.0), 3.0))));
         let reading = read(&drawing(two, Units::Millimeters), 1e-6).expect("read");
-        assert_eq!((reading.chains.len(), reading.unreadable.as_slice()), (2, ["TEXT".to_owned()].as_slice()));
+        assert_eq!((reading.chains.len(), reading.unreadable.len(), reading.duplicates.len()), (2, 0, 2));
+        assert_eq!(reading.information[0].kind, "TEXT");
         assert_eq!(reading.layers, ["BORE", "CAM_PROFILE"]);
     }
 
     #[test]
-    fn a_spline_is_read_as_chords() {
+    fn a_spline_is_read_as_arcs() {
         let mut spline = dxf::entities::Spline { degree_of_curve: 2, ..Default::default() };
         // A circle as a rational spline of second degree.
         let w = std::f64::consts::FRAC_1_SQRT_2;
@@ -322,7 +254,7 @@ mod tests {
         let spline = |far: f64, weight: f64| {
             let control_points = vec![point(0.0, 0.0), point(far, -far), point(-far, far)];
             let knot_values = vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
-            let weight_values = vec![1.0, weight, 1e-300];
+            let weight_values = vec![1.0, weight, 1.0];
             dxf::entities::Spline {
                 degree_of_curve: 2,
                 control_points,
@@ -335,9 +267,11 @@ mod tests {
         for (far, weight) in [(1e300, 1.0), (f64::NAN, 1.0), (1.0, 1e300), (1.0, f64::NAN)] {
             assert_eq!(read(spline(far, weight)), Err(ReadError::NotFinite), "{far} {weight}");
         }
-        // The last point has no weight to speak of and stands where no number can.
-        let reading = read(spline(1e15, 1e-300)).expect("numbers");
-        assert!(reading.chains.iter().all(|chain| chain.segments.iter().all(|segment| segment.end.norm().is_finite())));
+        for (far, weight) in [(1.0, -1.0), (1.0, 0.0)] {
+            let reading = read(spline(far, weight)).expect("numbers");
+            assert!(reading.unreadable[0].why.contains("weights"), "{reading:?}");
+        }
+        let _ = read(spline(1e15, 1e-300)).expect("numbers");
     }
 
     #[test]

@@ -1,84 +1,226 @@
-//! A SPLINE entity as chords.
+//! SPLINE and ELLIPSE as rational Bézier curves.
 
-use crate::geometry::contour::Segment;
-use dxf::entities::Spline;
-use nalgebra::Vector2;
+use super::curve::{Bezier, HIGHEST_DEGREE};
+use super::record::{Fault, Record, fault};
+use nalgebra::{Vector2, Vector3};
 
-/// Turn of a chord against the next, degrees: well below the kink a shop tolerates.
-const TURN: f64 = 0.02;
-/// Chords of a knot span, at the least and at the most.
-const CHORDS: (f64, f64) = (4.0, 5_000.0);
-/// Shortest chord that is made, mm: a spline that turns within less has a corner there.
-const SHORTEST_CHORD: f64 = 1e-3;
-/// Chords from which the turn of a span is guessed.
-const GUESS: u32 = 16;
+/// Bits of the flags (70) of a SPLINE.
+const CLOSED: i64 = 1;
+const PERIODIC: i64 = 2;
+/// Ends of two curves that are one lie nearer than this share of their size: rounding.
+const SAME: f64 = 1e-9;
+/// Parameters of an ellipse nearer to a whole turn than this are one: they are written with some fifteen digits, rad.
+const WHOLE_TURN: f64 = 1e-9;
 
-/// The spline as chords; `None` when it has no consistent control points and knots.
-pub(super) fn chords(spline: &Spline) -> Option<Vec<Segment>> {
-    let degree = usize::try_from(spline.degree_of_curve).ok().filter(|degree| (1..=11).contains(degree))?;
-    let points = &spline.control_points;
-    let knots = &spline.knot_values;
-    let weight = |i: usize| spline.weight_values.get(i).copied().filter(|w| *w > 0.0).unwrap_or(1.0);
-    if points.len() <= degree || knots.len() != points.len() + degree + 1 || !knots.is_sorted() {
-        return None;
-    }
-    // Homogeneous control points.
-    let poles: Vec<[f64; 3]> =
-        points.iter().enumerate().map(|(i, p)| [p.x * weight(i), p.y * weight(i), weight(i)]).collect();
-    let mut places = Vec::new();
-    for span in degree..points.len() {
-        let (low, high) = (*knots.get(span)?, *knots.get(span + 1)?);
-        if high <= low {
-            continue;
-        }
-        let at = |share: f64| de_boor(degree, span, knots, &poles, low + (high - low) * share);
-        let guess: Option<Vec<_>> = (0..=GUESS).map(|i| at(f64::from(i) / f64::from(GUESS))).collect();
-        let sides: Vec<Vector2<f64>> = guess?
-            .windows(2)
-            .map(|pair| match pair {
-                [a, b] => b - a,
-                _ => Vector2::zeros(),
-            })
-            .collect();
-        let turn = |pair: &[Vector2<f64>]| match pair {
-            [a, b] => libm::atan2(a.perp(b), a.dot(b)).abs().to_degrees(),
-            _ => 0.0,
-        };
-        let sharpest = sides.windows(2).map(turn).fold(0.0, f64::max);
-        let length: f64 = sides.iter().map(nalgebra::Matrix::norm).sum();
-        if !length.is_finite() {
-            return None;
-        }
-        let most = (length / SHORTEST_CHORD).clamp(CHORDS.0, CHORDS.1);
-        let count = (f64::from(GUESS) * sharpest / TURN).clamp(CHORDS.0, most).ceil();
-        let mut step = if places.is_empty() { 0.0 } else { 1.0 };
-        while step <= count {
-            places.push(at(step / count)?);
-            step += 1.0;
-        }
-    }
-    let segment = |pair: &[Vector2<f64>]| match pair {
-        [start, end] => Some(Segment { start: *start, end: *end, bulge: 0.0 }),
-        _ => None,
-    };
-    places.windows(2).map(segment).collect()
+/// A SPLINE, with the heights of its points: by its control points where it has them, else through its fit points.
+pub(super) fn spline(record: &Record<'_>) -> Result<(Vec<Bezier>, Vec<f64>), Fault> {
+    let controls = record.points(10)?;
+    let points = if controls.is_empty() { record.points(11)? } else { controls.clone() };
+    let heights = points.iter().map(|point| point.z).collect();
+    let flat: Vec<Vector2<f64>> = points.iter().map(Vector3::xy).collect();
+    let curves = if controls.is_empty() { through(record, flat)? } else { by_controls(record, &flat)? };
+    let apart = curves.iter().zip(curves.iter().skip(1)).map(|(a, b)| {
+        let (end, start) = (a.end(), b.start());
+        (start - end).norm() > SAME * (1.0 + start.norm())
+    });
+    if apart.into_iter().any(|jumps| jumps) { fault("jumps from one place to another") } else { Ok((curves, heights)) }
 }
 
-/// De Boor's algorithm in homogeneous coordinates.
-fn de_boor(degree: usize, span: usize, knots: &[f64], poles: &[[f64; 3]], t: f64) -> Option<Vector2<f64>> {
-    let mut d: Vec<[f64; 3]> = poles.get(span - degree..=span)?.to_vec();
+/// The curves between the knots.
+fn by_controls(record: &Record<'_>, points: &[Vector2<f64>]) -> Result<Vec<Bezier>, Fault> {
+    let degree = usize::try_from(record.whole(71, 3)?).ok().filter(|degree| (1..=HIGHEST_DEGREE).contains(degree));
+    let Some(degree) = degree else { return fault(format!("is of a degree that is not 1 to {HIGHEST_DEGREE}")) };
+    let (knots, weights) = (record.reals(40)?, record.reals(41)?);
+    if points.len() <= degree || knots.len() != points.len() + degree + 1 || !knots.is_sorted() {
+        return fault("has knots that do not fit its control points");
+    }
+    if !(weights.is_empty() || weights.len() == points.len() && weights.iter().all(|weight| *weight > 0.0)) {
+        return fault("has weights that do not fit its control points, or are not above 0");
+    }
+    let weights = weights.into_iter().chain(std::iter::repeat(1.0));
+    let poles: Vec<[f64; 3]> = points.iter().zip(weights).map(|(p, w)| [p.x * w, p.y * w, w]).collect();
+    let mut curves = Vec::new();
+    for span in degree..points.len() {
+        let (Some(&low), Some(&high)) = (knots.get(span), knots.get(span + 1)) else { continue };
+        if high > low {
+            let poles: Option<Vec<[f64; 3]>> =
+                (0..=degree).map(|at_high| blossom(degree, span, &knots, &poles, (low, high, at_high))).collect();
+            curves.extend(poles.map(|poles| Bezier { poles }));
+        }
+    }
+    if curves.is_empty() { fault("has no length") } else { Ok(curves) }
+}
+
+/// The blossom of a span at its high knot so many times and at its low one else: a pole of its Bézier curve (L. Ramshaw, 1987),
+/// by de Boor's algorithm in homogeneous coordinates.
+fn blossom(
+    degree: usize,
+    span: usize,
+    knots: &[f64],
+    poles: &[[f64; 3]],
+    (low_knot, high_knot, at_high): (f64, f64, usize),
+) -> Option<[f64; 3]> {
+    let mut row = [[0.0; 3]; HIGHEST_DEGREE + 1];
+    for (place, pole) in row.iter_mut().zip(poles.get(span - degree..=span)?) {
+        *place = *pole;
+    }
     for level in 1..=degree {
+        let t = if level <= at_high { high_knot } else { low_knot };
         for j in (level..=degree).rev() {
             let (low, high) = (*knots.get(span - degree + j)?, *knots.get(span + j - level + 1)?);
-            let share = if high > low { (t - low) / (high - low) } else { 0.0 };
-            let (before, here) = (*d.get(j - 1)?, *d.get(j)?);
-            let mixed = std::array::from_fn(|k| match (before.get(k), here.get(k)) {
+            let share = (t - low) / (high - low);
+            let (before, here) = (*row.get(j - 1)?, *row.get(j)?);
+            *row.get_mut(j)? = std::array::from_fn(|k| match (before.get(k), here.get(k)) {
                 (Some(a), Some(b)) => a * (1.0 - share) + b * share,
                 _ => 0.0,
             });
-            *d.get_mut(j)? = mixed;
         }
     }
-    let [x, y, w] = *d.get(degree)?;
-    Some(Vector2::new(x / w, y / w))
+    row.get(degree).copied()
+}
+
+/// The cubic spline through fit points, with continuous second derivative by the length of chord.
+///
+/// As CAD programs draw a SPLINE that has no control points: the end tangents as given (12 and 13), and where they are not, no
+/// curvature there; a closed one goes round smoothly.
+fn through(record: &Record<'_>, mut points: Vec<Vector2<f64>>) -> Result<Vec<Bezier>, Fault> {
+    points.dedup();
+    let closed = record.whole(70, 0)? & (CLOSED | PERIODIC) != 0;
+    if closed
+        && let (Some(first), Some(last)) = (points.first().copied(), points.last().copied())
+        && first != last
+    {
+        points.push(first);
+    }
+    if points.len() < 2 {
+        return fault("has neither control points nor fit points");
+    }
+    let tangent = |code: i32| -> Result<Option<Vector2<f64>>, Fault> {
+        if record.one(code)?.is_none() {
+            return Ok(None);
+        }
+        let tangent = record.point(code)?.xy();
+        Ok((tangent.norm() > 0.0).then(|| tangent.normalize()))
+    };
+    let (start, end) = (tangent(12)?, tangent(13)?);
+    let ends = if closed && points.len() > 3 && start.is_none() && end.is_none() {
+        Ends::Periodic
+    } else {
+        Ends::Open(start, end)
+    };
+    let slopes = slopes(&points, ends);
+    let hermite: Vec<Hermite> = points.into_iter().zip(slopes).collect();
+    let curve = |((p, d), (q, e)): (&Hermite, &Hermite)| {
+        let third = (q - p).norm() / 3.0;
+        Bezier::polynomial(&[*p, p + d * third, q - e * third, *q])
+    };
+    Ok(hermite.iter().zip(hermite.iter().skip(1)).map(curve).collect())
+}
+
+/// A point and the derivative there.
+type Hermite = (Vector2<f64>, Vector2<f64>);
+
+/// What is asked of a spline at its ends.
+#[derive(Clone, Copy)]
+enum Ends {
+    /// A derivative by the length of chord, or none: then the second is 0.
+    Open(Option<Vector2<f64>>, Option<Vector2<f64>>),
+    /// The last point is the first.
+    Periodic,
+}
+
+/// Row of a tridiagonal system: what stands below, on and above the diagonal, and on the right.
+type Row = (f64, f64, f64, Vector2<f64>);
+
+/// Derivatives by the length of chord at the points of the spline with a continuous second derivative.
+fn slopes(points: &[Vector2<f64>], ends: Ends) -> Vec<Vector2<f64>> {
+    let sides: Vec<Vector2<f64>> = points.iter().zip(points.iter().skip(1)).map(|(a, b)| b - a).collect();
+    // d₋/h₋ + 2 d (1/h₋ + 1/h₊) + d₊/h₊ = 3 (Δ₋/h₋² + Δ₊/h₊²).
+    let inner = |before: &Vector2<f64>, after: &Vector2<f64>| -> Row {
+        let (g, h) = (1.0 / before.norm(), 1.0 / after.norm());
+        (g, 2.0 * (g + h), h, (before * (g * g) + after * (h * h)) * 3.0)
+    };
+    let between = sides.iter().zip(sides.iter().skip(1)).map(|(before, after)| inner(before, after));
+    let (Some(first), Some(last)) = (sides.first(), sides.last()) else { return Vec::new() };
+    match ends {
+        Ends::Open(start, end) => {
+            let at_end = |given: Option<Vector2<f64>>, side: &Vector2<f64>| match given {
+                Some(slope) => (0.0, 1.0, 0.0, slope),
+                None => (1.0, 2.0, 1.0, side * (3.0 / side.norm())),
+            };
+            let (a, b) = (at_end(start, first), at_end(end, last));
+            let rows: Vec<Row> =
+                std::iter::once((0.0, a.1, a.2, a.3)).chain(between).chain([(b.0, b.1, 0.0, b.3)]).collect();
+            tridiagonal(&rows)
+        }
+        Ends::Periodic => {
+            // The last point is the first: the cyclic system by Sherman and Morrison.
+            let mut rows: Vec<Row> = std::iter::once(inner(last, first)).chain(between).collect();
+            let corner = 1.0 / last.norm();
+            let gamma = -rows.first().map_or(1.0, |row| row.1);
+            let count = rows.len();
+            if let Some(row) = rows.first_mut() {
+                row.1 -= gamma;
+            }
+            if let Some(row) = rows.last_mut() {
+                row.1 -= corner * corner / gamma;
+            }
+            let unit = |index: usize| match index {
+                0 => Vector2::new(gamma, 0.0),
+                index if index + 1 == count => Vector2::new(corner, 0.0),
+                _ => Vector2::zeros(),
+            };
+            let aside: Vec<Row> =
+                rows.iter().enumerate().map(|(index, row)| (row.0, row.1, row.2, unit(index))).collect();
+            let (found, aside) = (tridiagonal(&rows), tridiagonal(&aside));
+            let ends = |list: &[Vector2<f64>]| match (list.first(), list.last()) {
+                (Some(first), Some(last)) => first + last * (corner / gamma),
+                _ => Vector2::zeros(),
+            };
+            let factor = ends(&found) / (1.0 + ends(&aside).x);
+            let mut slopes: Vec<Vector2<f64>> = found.iter().zip(&aside).map(|(d, z)| d - factor * z.x).collect();
+            slopes.extend(slopes.first().copied());
+            slopes
+        }
+    }
+}
+
+/// Thomas' algorithm; the rows are dominated by their diagonals.
+fn tridiagonal(rows: &[Row]) -> Vec<Vector2<f64>> {
+    let (mut above, mut right) = (0.0, Vector2::zeros());
+    let forward: Vec<(f64, Vector2<f64>)> = rows
+        .iter()
+        .map(|(low, middle, high, value)| {
+            let pivot = middle - low * above;
+            (above, right) = (high / pivot, (value - right * *low) / pivot);
+            (above, right)
+        })
+        .collect();
+    let mut next = Vector2::zeros();
+    let mut found: Vec<Vector2<f64>> = forward
+        .iter()
+        .rev()
+        .map(|(above, right)| {
+            next = right - next * *above;
+            next
+        })
+        .collect();
+    found.reverse();
+    found
+}
+
+/// An ELLIPSE, with the heights of its points.
+pub(super) fn ellipse(record: &Record<'_>) -> Result<(Vec<Bezier>, Vec<f64>), Fault> {
+    let (centre, major, ratio) = (record.point(10)?, record.point(11)?, record.needed(40)?);
+    let up = if record.is_seen_from_behind()? { -1.0 } else { 1.0 };
+    let a = major.xy();
+    if a.norm() == 0.0 || ratio == 0.0 {
+        return fault("has no axes");
+    }
+    let b = Vector2::new(-a.y, a.x) * (up * ratio);
+    let (from, to) = (record.real(41, 0.0)?, record.real(42, std::f64::consts::TAU)?);
+    let swept = (to - from).rem_euclid(std::f64::consts::TAU);
+    let whole = swept < WHOLE_TURN || std::f64::consts::TAU - swept < WHOLE_TURN;
+    let to = from + if whole { std::f64::consts::TAU } else { swept };
+    Ok((Bezier::ellipse(centre.xy(), (a, b), (from, to)), vec![centre.z, centre.z + major.z]))
 }

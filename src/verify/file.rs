@@ -1,7 +1,7 @@
 //! What a DXF file must be before it can be rolled on: one closed outline in millimetres, on its layer, readable, once.
 
 use super::{Check, Evidence, On, place};
-use crate::reading::{OUTLINE_LAYER, Reading, Unit};
+use crate::reading::{OUTLINE_LAYER, Reading, Stray, Unit};
 use crate::report::{Finding, Verdict};
 
 const fn file_check(name: &'static str, about: &'static str, run: fn(&Evidence<'_>) -> Option<Finding>) -> Check {
@@ -21,8 +21,8 @@ pub(super) const UNITS: Check = file_check("units", "Whether the file is in mill
 
 pub(super) const READABLE: Check = file_check(
     "readable",
-    "How many entities on the layer of the outline are neither arcs nor lines nor splines.",
-    |evidence| Some(readable(evidence.foreign?)),
+    "How many entities would be cut, or may be, and are not lines of no width in one plane.",
+    |evidence| Some(readable(evidence, evidence.foreign?)),
 );
 
 pub(super) const DUPLICATES: Check =
@@ -38,6 +38,9 @@ pub(super) const CONTOURS: Check = file_check(
 
 pub(super) const CLOSED: Check =
     file_check("closed", "How far apart the ends of the outline are.", |evidence| closed(evidence, evidence.foreign?));
+
+/// Entities that are told one by one.
+const MOST_TOLD: usize = 5;
 
 /// Ends nearer than this share of the tolerance are one: programs round coordinates to four to six decimals.
 const JOIN_SHARE: f64 = 0.1;
@@ -69,16 +72,31 @@ fn unit(told: Unit) -> Finding {
     Finding { note, ..UNITS.found(1.0, None, "mm", verdict) }
 }
 
-fn readable(reading: &Reading) -> Finding {
-    let found = &reading.unreadable;
-    let mut notes = Vec::new();
-    if !found.is_empty() {
-        notes.push(format!("on the layer of the outline, neither arc nor line: {}", found.join(", ")));
+fn readable(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
+    let (found, information) = (&reading.unreadable, &reading.information);
+    let mut notes = told(found);
+    if !information.is_empty() {
+        notes.push(format!("on the layer of the outline, cutting nothing: {}", told(information).join("; ")));
     }
+    notes.extend_from_slice(&reading.remarks);
     if reading.splines > 0 {
-        notes.push(format!("{} splines were read as chords", reading.splines));
+        notes.push(format!("{} curves were read as arcs", reading.splines));
     }
-    count(&READABLE, found.len(), 0, found.is_empty(), (!notes.is_empty()).then(|| notes.join("; ")))
+    if !reading.hidden.is_empty() {
+        notes.push(format!("not seen, so not cut: what is hidden on layer {}", reading.hidden.join(", ")));
+    }
+    let finding = count(&READABLE, found.len(), 0, found.is_empty(), (!notes.is_empty()).then(|| notes.join("; ")));
+    let doubtful = found.is_empty() && !information.is_empty();
+    let verdict = if doubtful { Verdict::Warn } else { finding.verdict };
+    let place = found.first().or(information.first()).map(|stray| place(evidence.body, stray.place));
+    Finding { verdict, place: place.unwrap_or_default(), ..finding }
+}
+
+/// Each entity in words, the first of many.
+fn told(strays: &[Stray]) -> Vec<String> {
+    let mut words: Vec<String> = strays.iter().take(MOST_TOLD).map(ToString::to_string).collect();
+    words.extend((strays.len() > MOST_TOLD).then(|| format!("and {} more", strays.len() - MOST_TOLD)));
+    words
 }
 
 fn duplicates(evidence: &Evidence<'_>, reading: &Reading) -> Finding {

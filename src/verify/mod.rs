@@ -5,6 +5,7 @@
 
 mod balance;
 mod between_sections;
+mod bore;
 mod contact_stress;
 mod curvature;
 mod cutter_path;
@@ -30,7 +31,7 @@ pub use solid::{WrittenSolid, shell_reach};
 use crate::body::{Body, Drawn};
 use crate::geometry::contour::Contour;
 use crate::profile::Worst;
-use crate::reading::Reading;
+use crate::reading::{Chain, Reading};
 use crate::report::{Finding, Place, Rolled, Verdict, worst_first};
 use nalgebra::Vector2;
 
@@ -41,6 +42,8 @@ pub struct WrittenOutline {
     pub z: f64,
     /// The outline, counter-clockwise, mm.
     pub contour: Contour,
+    /// What else is cut in the same file, joined.
+    pub beside: Vec<Chain>,
 }
 
 /// What is known of a cam when it is checked.
@@ -114,6 +117,7 @@ pub const CHECKS: &[Check] = &[
     tangency::CHECK,
     outline::CHECK,
     rolling::CHECK,
+    bore::CHECK,
     sphere::ROLLING_FLANK,
     flank::CHECK,
     shift::AXIAL_REACH,

@@ -4,7 +4,7 @@ use super::dxf::{self, Version};
 use crate::body::{Layer, Part};
 use crate::geometry::contour::Contour;
 use crate::profile::outline::Outline;
-use crate::reading::{self, ReadError};
+use crate::reading::{self, Chain, ReadError};
 
 /// Ends nearer than this are one, mm: far above twelve decimals, far below any segment.
 const JOIN: f64 = 1e-9;
@@ -16,6 +16,8 @@ pub struct Written {
     pub bytes: Vec<u8>,
     /// The outline another program would find in them.
     pub outline: Contour,
+    /// What else it would find to be cut.
+    pub beside: Vec<Chain>,
 }
 
 /// The bytes do not hold the outline that was put in: a fault of camgen.
@@ -39,7 +41,7 @@ pub fn write(part: &Part, version: Version) -> Result<Written, ProofError> {
     let reading = reading::read(&bytes, JOIN)?;
     let clean = reading.duplicates.is_empty() && reading.points.is_empty() && reading.unreadable.is_empty();
     match reading.chains.as_slice() {
-        [chain] if chain.closed && clean => Ok(Written { bytes, outline: chain.contour() }),
+        [chain] if chain.closed && clean => Ok(Written { bytes, outline: chain.contour(), beside: reading.beside }),
         _ => Err(ProofError::NotOneOutline),
     }
 }

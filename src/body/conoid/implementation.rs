@@ -1,13 +1,13 @@
 //! The conoid as a [`Body`]: what checks, drawings, tables and reports use of it.
 
 use super::{Conoid, KIND, flank, report, sheet};
-use crate::body::part::{Part, point_as_turned};
+use crate::body::part::{self, Part, point_as_turned};
 use crate::body::{
     Body, DrawError, Drawn, Found, Kind, Request, broken_limit, mirrored, no_radius, passing, radius_of, stress,
 };
 use crate::geometry::boundary::{Boundary, Stretch};
-use crate::geometry::contour::Vertex;
-use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::geometry::contour::{Contour, Vertex};
+use crate::geometry::{CurvePoint, Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Jet, Motion, Piece, Reversal};
 use crate::numeric::parallel;
@@ -133,6 +133,11 @@ impl Body for Conoid {
 
     fn along_axis(&self, z: f64) -> Option<String> {
         (self.speeds.first() != self.speeds.last()).then(|| format!("at z = {:.3} mm", MILLIMETRES * z))
+    }
+
+    fn holes_within(&self, _outline: &Contour) -> Vec<Entity> {
+        // Its sections are not balanced one by one.
+        part::bore(&self.machine).into_iter().collect()
     }
 
     fn parameter_at(&self, point: Vector2<f64>) -> f64 {

@@ -7,7 +7,8 @@ use super::{
     Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, broken_limit, largest, no_radius, passing, stress,
 };
 use crate::follower::Follower;
-use crate::geometry::MILLIMETRES;
+use crate::geometry::contour::Contour;
+use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load};
 use crate::machine::{Machine, NoPress, Press, Rotation};
 use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw};
@@ -295,6 +296,10 @@ impl Body for Disc {
 
     fn plane(&self) -> Option<Curves<'_>> {
         Some(self.curves())
+    }
+
+    fn holes_within(&self, outline: &Contour) -> Vec<Entity> {
+        Part::holes_within(&self.machine, outline)
     }
 
     fn parameter_at(&self, point: Vector2<f64>) -> f64 {

@@ -1,0 +1,145 @@
+//! How far apart two closed chains are, exactly: both are arcs and lines.
+//!
+//! A piece of one is compared with the segment of the other that is nearest to its middle. Where the piece runs beside that
+//! segment, the distance is largest at an end of the piece or where the two are parallel, in closed form; everywhere else it
+//! is bounded by the distance of the middle and half the length, and the piece is halved.
+
+use super::contour::{Contour, Segment};
+use super::track::Track;
+use nalgebra::Vector2;
+
+/// Steeper than this, as a cosine, a piece does not run beside a segment.
+const BESIDE: f64 = 0.9;
+/// Largest sweep of a piece that is compared as a whole, rad.
+const WIDEST: f64 = 0.5;
+/// The bound is that near to what is found.
+const NEAR: f64 = 1e-6;
+/// Rounding of a distance, over the size of the drawing.
+const ROUNDING: f64 = 1e-14;
+/// Pieces that are looked at: far more than any chain needs.
+const MOST_PIECES: usize = 20_000_000;
+
+/// The place of a chain that is farthest from another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Farthest {
+    /// Its distance, mm: not below the true one, and above it by less than a millionth or by `fine`.
+    pub distance: f64,
+    /// The place.
+    pub place: Vector2<f64>,
+}
+
+/// The place of a chain farthest from another chain; differences below `fine` (mm) are not told apart.
+#[must_use]
+pub fn farthest(chain: &Contour, from: &Contour, fine: f64) -> Farthest {
+    let track = Track::new(from);
+    let beyond = Farthest { distance: f64::INFINITY, place: Vector2::zeros() };
+    let extents = chain.extents().with(&from.extents());
+    let rounding = ROUNDING * (extents.least.norm() + extents.largest.norm());
+    let (mut found, mut bound) = (Farthest { distance: 0.0, ..beyond }, 0.0_f64);
+    let mut open: Vec<Segment> = chain.segments().filter(|segment| segment.start != segment.end).collect();
+    let mut looked = 0;
+    while let Some(piece) = open.pop() {
+        let middle = piece.middle();
+        let Some((index, nearest)) = track.nearest_segment(middle) else { return beyond };
+        let (distance, Some(beside)) = (nearest.left.abs(), track.segments().get(index)) else { return beyond };
+        if distance > found.distance {
+            found = Farthest { distance, place: middle };
+        }
+        looked += 1;
+        if looked > MOST_PIECES {
+            return beyond;
+        }
+        let half = 0.5 * piece.length();
+        let most = alongside(&piece, beside, rounding).unwrap_or(f64::INFINITY).min(distance + half);
+        if most <= found.distance * (1.0 + NEAR) + fine.max(rounding) {
+            bound = bound.max(most);
+        } else {
+            let bulge = piece.bulge / (1.0 + (1.0 + piece.bulge * piece.bulge).sqrt());
+            open.push(Segment { start: middle, end: piece.end, bulge });
+            open.push(Segment { start: piece.start, end: middle, bulge });
+        }
+    }
+    Farthest { distance: found.distance.max(bound), place: found.place }
+}
+
+/// Largest distance of a piece from a segment that it runs beside all its length; `None` where it does not.
+fn alongside(piece: &Segment, segment: &Segment, rounding: f64) -> Option<f64> {
+    let middle = 0.5 * (piece.end - piece.start);
+    let direction = middle.normalize();
+    if !(piece.sweep().abs() < WIDEST) {
+        return None;
+    }
+    let mut most = 0.0_f64;
+    for end in [piece.start, piece.end] {
+        let nearest = segment.nearest(end);
+        // The foot lies within the segment, so that the nearest point of its whole circle or line is no nearer.
+        let square = (end - nearest.foot).dot(&nearest.tangent).abs() <= rounding.max(1e-9 * nearest.left.abs());
+        if !square || nearest.tangent.dot(&direction).abs() < BESIDE {
+            return None;
+        }
+        most = most.max(nearest.left.abs());
+    }
+    if segment.bulge == 0.0 {
+        let along = segment.start_tangent();
+        let normal = Vector2::new(-along.y, along.x);
+        let offset = segment.start.dot(&normal);
+        let (high, low) = (piece.farthest(normal) - offset, -piece.farthest(-normal) - offset);
+        return Some(most.max(high.abs()).max(low.abs()));
+    }
+    let (centre, radius) = (segment.centre(), segment.radius().abs());
+    if piece.bulge == 0.0 {
+        let least = piece.nearest(centre).left.abs();
+        return Some(most.max((radius - least).abs()));
+    }
+    // Two circles are parallel on the line through their centres.
+    let between = piece.centre() - centre;
+    if between.norm() > rounding {
+        let across = between.normalize() * piece.radius().abs();
+        for place in [piece.centre() + across, piece.centre() - across] {
+            let on_piece = (piece.end - piece.start).perp(&(place - piece.start)) * piece.bulge < 0.0;
+            if on_piece {
+                most = most.max(((place - centre).norm() - radius).abs());
+            }
+        }
+    }
+    Some(most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::contour::Vertex;
+
+    fn at(x: f64, y: f64, bulge: f64) -> Vertex {
+        Vertex { point: Vector2::new(x, y), bulge }
+    }
+
+    fn sampled(chain: &Contour, from: &Contour) -> f64 {
+        let places = chain.segments().flat_map(|s| (0..=2_000).map(move |i| s.at(f64::from(i) / 2e3).0));
+        let nearest = |p| from.segments().map(|s| s.nearest(p).left.abs()).fold(f64::INFINITY, f64::min);
+        places.map(nearest).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn distances_are_those_of_many_points() {
+        let slot =
+            Contour { vertices: vec![at(0.0, -1.0, 0.0), at(4.0, -1.0, 1.0), at(4.0, 1.0, -0.2), at(0.0, 1.0, 1.0)] };
+        let square = Contour {
+            vertices: vec![at(-1.0, -1.0, 0.0), at(5.0, -1.2, 0.01), at(5.0, 1.0, 0.0), at(-1.0, 1.0, -1e-4)],
+        };
+        let circle = Contour::circle(Vector2::new(2.0, 0.1), 2.5);
+        let moved = Contour::circle(Vector2::new(2.003, 0.1), 2.5);
+        for (a, b) in [(&slot, &square), (&square, &slot), (&slot, &circle), (&circle, &slot), (&moved, &circle)] {
+            let (exact, many) = (farthest(a, b, 1e-9).distance, sampled(a, b));
+            // The points lie at most 2e-3 apart, and a distance grows by no more than the way.
+            assert!(exact >= many - 1e-12 && exact <= many + 2e-3, "{exact} {many}");
+        }
+        let off = farthest(&moved, &circle, 1e-12);
+        assert!((off.distance - 0.003).abs() < 1e-8, "{off:?}");
+        assert!(farthest(&circle, &circle, 1e-12).distance < 1e-12);
+        // A spike on one side only.
+        let spiked =
+            Contour { vertices: vec![at(4.5, 0.1, 1.0), at(-0.5, 0.1, 0.99), at(4.49, 0.0, 0.0), at(0.0, 0.05, 0.0)] };
+        assert!(farthest(&circle, &spiked, 1e-9).distance < 0.1 && farthest(&spiked, &circle, 1e-9).distance > 0.4);
+    }
+}
