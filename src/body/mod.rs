@@ -389,7 +389,10 @@ fn plane(found: extremum::Extremum) -> Worst {
     Worst { value: found.value, at: found.at, z: 0.0 }
 }
 
-/// The largest value over a motion of something without a derivative at hand.
+/// Of the largest inertia, the residual force that is rounding: it need not be told to its last digit.
+const ROUNDING_OF_BALANCE: f64 = 1e-12;
+
+/// The largest value over a motion of something that is smooth on its pieces.
 fn largest(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Worst {
-    plane(extremes::largest_without_slope(curves, value))
+    plane(extremes::largest_smooth(curves, (&[], 0.0), value))
 }

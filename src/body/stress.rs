@@ -3,6 +3,7 @@
 use super::Body;
 use crate::machine::{Machine, Material};
 use crate::numeric::root;
+use crate::profile::extremes::{self, Acting};
 use crate::profile::{Curves, Worst};
 use std::f64::consts::PI;
 
@@ -13,7 +14,7 @@ fn contact_modulus(material: Material) -> f64 {
 
 /// The largest pressure in the line of contact: p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative.
 /// The roller is of steel and as wide as the cam is thick (K. L. Johnson, Contact Mechanics, 1985, §4.2).
-pub(super) fn of_lines(body: &dyn Body, curves: Curves<'_>, machine: &Machine) -> Option<Worst> {
+pub(super) fn of_lines(body: &dyn Body, (curves, acting): (Curves<'_>, &[Acting]), machine: &Machine) -> Option<Worst> {
     let (width, modulus) = (machine.cam.thickness?, contact_modulus(machine.cam.material?));
     let bend = body.roller_radius().map_or(0.0, |radius| 1.0 / radius);
     let square = |piece: usize, at: f64| {
@@ -24,7 +25,7 @@ pub(super) fn of_lines(body: &dyn Body, curves: Curves<'_>, machine: &Machine) -
     };
     let (piece, start) = curves.motion.locate(curves.motion.range().0);
     body.contact_force(piece, start)?;
-    let worst = super::largest(curves, square);
+    let worst = super::plane(extremes::largest_smooth(curves, (acting, 0.0), square));
     Some(Worst { value: worst.value.max(0.0).sqrt(), ..worst })
 }
 

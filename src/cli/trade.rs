@@ -193,7 +193,7 @@ fn translating(machine: &Machine, rpm: f64) -> Result<Vec<Row>, Failure> {
         let plate = solve(solver)?;
         let row = measure(&cam, name, (law_us, 1e3 * apart(&truth, &plate)), tolerance)?;
         // The residual force of the law itself does not depend on the outline.
-        Ok(Row { residual_n: row.residual_n.max(plate.residual_max(Way::Braking).0), ..row })
+        Ok(Row { residual_n: row.residual_n.max(plate.residual_max(Way::Braking).value), ..row })
     };
     let ladder =
         TOLERANCES.iter().map(|(name, tolerance)| of((*name).into(), Solver::Ode { tolerance: finest }, *tolerance));

@@ -6,8 +6,10 @@ use crate::buffer::Cylinder;
 use crate::buffer::bottom_law::BottomLaw;
 use crate::geometry::MILLIMETRES;
 use crate::motion::{Reversal, State};
+use crate::profile::extremes::Acting;
 use crate::report::{AirLaw, Section};
 use nalgebra::Vector2;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// The pair of cylinders whose bottom the cam moves.
@@ -45,21 +47,29 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &BottomLaw, (dx_max_at_x, dx_max
 }
 
 impl Load for AirBuffer {
+    /// The reversal. A blend moves the bottom before: the column then is closed from the start of the blend on, but the
+    /// inertia that it is to balance begins with the reversal.
+    fn acting(&self) -> Vec<Acting> {
+        vec![(0.0, self.reversal.law().ratio * PI)]
+    }
+
     /// 2 (p − p0) F / lever.
     fn pressing(&self, piece: usize, at: f64) -> f64 {
         self.cylinder.force(self.state(piece, at).pressure_ratio) / self.reversal.law().lever
     }
 
-    /// 0 outside the reversal.
+    /// Inertia less air; 0 outside the reversal, at its ends what it is inside.
     fn residual(&self, piece: usize, at: f64, moved: f64, _: Vector2<f64>) -> f64 {
         let state = self.state(piece, at);
-        if state.overrun == 0.0 {
+        if state.crank > PI {
             return 0.0;
         }
         let law = self.bottom_law();
         let bottom = state.displacement + moved / self.reversal.law().lever;
         let air = law.pressure_ratio(state.overrun, bottom) - 1.0;
-        self.cylinder.unit_force() * (law.loading * state.overrun - air).abs()
+        let left = law.loading * state.overrun - air;
+        // A bottom that is beyond the piston leaves no air.
+        if left.is_nan() { f64::NEG_INFINITY } else { self.cylinder.unit_force() * left }
     }
 
     fn state(&self, piece: usize, at: f64) -> State {

@@ -6,16 +6,20 @@ pub use air_buffer::AirBuffer;
 pub(crate) use air_buffer::air_law;
 
 use crate::motion::State;
+use crate::profile::extremes::Acting;
 use crate::report::Section;
 use nalgebra::Vector2;
 
 /// A load on the follower of a disc cam. Parameters are those of the motion it belongs to.
 pub trait Load: std::fmt::Debug + Send + Sync {
+    /// The closed ranges of the parameter in which it acts: at their ends it may jump, to what it is inside.
+    fn acting(&self) -> Vec<Acting>;
+
     /// Force that presses the follower onto the cam along its path, N; spring, weight and inertia of the follower itself
     /// come on top.
     fn pressing(&self, piece: usize, at: f64) -> f64;
 
-    /// Size of the residual force that the force balance leaves, N, with the follower `moved` (m) along its path from where
+    /// The residual force that the force balance leaves, inertia less air, N, with the follower `moved` (m) along its path from where
     /// the motion puts it and touching where the cam's normal (a unit vector out of the metal) is.
     fn residual(&self, piece: usize, at: f64, moved: f64, normal: Vector2<f64>) -> f64;
 

@@ -2,6 +2,7 @@
 
 use super::Curves;
 use crate::motion::Piece;
+use crate::numeric::chebyshev;
 use crate::numeric::extremum::{self, Extremum};
 
 /// Cells a piece is cut into: pressure angle and curvature of a piece have a handful of extrema.
@@ -40,6 +41,72 @@ pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f
         .enumerate()
         .map(of_piece)
         .fold(NOTHING, |best, next| if next.value > best.value || best.value.is_nan() { next } else { best })
+}
+
+/// A closed range of the motion's parameter at whose ends a quantity may jump, to what it is inside.
+pub type Acting = (f64, f64);
+
+/// How far beside such an end the outside begins, as a share of the piece.
+const BESIDE: f64 = 1e-12;
+
+/// The stretches of a piece on which a quantity is smooth that may jump at the ends of these ranges.
+fn stretches(piece: &Piece, acting: &[Acting]) -> Vec<(f64, f64)> {
+    let beside = (BESIDE * (piece.end - piece.start)).max(4.0 * f64::EPSILON * piece.end.abs().max(piece.start.abs()));
+    let mut stretches = Vec::new();
+    let mut from = piece.start;
+    for &(start, end) in acting {
+        if from < start && start < piece.end {
+            stretches.push((from, start - beside));
+            from = start;
+        }
+        if from < end && end < piece.end {
+            stretches.push((from, end));
+            from = end + beside;
+        }
+    }
+    stretches.push((from, piece.end));
+    stretches
+}
+
+/// Largest value, or size, over the turn of something that is smooth on each piece but for the ends of the ranges `acting`.
+fn of_smooth(
+    curves: Curves<'_>,
+    acting: &[Acting],
+    value: impl Fn(usize, f64) -> f64,
+    search: impl Fn(&dyn Fn(f64) -> f64, (f64, f64)) -> Extremum,
+) -> Extremum {
+    let mut best = NOTHING;
+    let mut consider = |next: Extremum| {
+        if next.value > best.value {
+            best = next;
+        }
+    };
+    // Where the follower rests a force may change still.
+    for (index, piece) in curves.motion.pieces().iter().enumerate() {
+        for range in stretches(piece, acting) {
+            consider(search(&|at| value(index, at), range));
+        }
+    }
+    best
+}
+
+/// Largest value over the turn of something that is smooth on each piece but for the ends of the ranges `acting`; differences
+/// below `negligible` do not matter.
+pub fn largest_smooth(
+    curves: Curves<'_>,
+    (acting, negligible): (&[Acting], f64),
+    value: impl Fn(usize, f64) -> f64,
+) -> Extremum {
+    of_smooth(curves, acting, value, |value, range| chebyshev::largest(value, range, negligible))
+}
+
+/// The same for the size of something that has a sign.
+pub fn largest_size(
+    curves: Curves<'_>,
+    (acting, negligible): (&[Acting], f64),
+    value: impl Fn(usize, f64) -> f64,
+) -> Extremum {
+    of_smooth(curves, acting, value, |value, range| chebyshev::largest_size(value, range, negligible))
 }
 
 const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };

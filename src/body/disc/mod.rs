@@ -4,7 +4,7 @@ mod sheet;
 
 use super::part::{Part, point_as_turned};
 use super::{
-    Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, broken_limit, largest, no_radius, passing, stress,
+    Body, DrawError, Drawn, Found, Kind, ROUNDING_OF_BALANCE, Request, WorstPlaces, broken_limit, no_radius, passing, plane, stress,
 };
 use crate::follower::Follower;
 use crate::geometry::contour::Contour;
@@ -12,6 +12,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load};
 use crate::machine::{Machine, NoPress, Press, Rotation};
 use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw};
+use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
 use crate::profile::{Curves, Worst, lifts};
@@ -224,25 +225,47 @@ impl Disc {
         Some(load + preload + mass * speed * speed * self.motion.jet(piece, angle).dds)
     }
 
-    /// Largest residual force of the motion itself, N: rounding, or the cost of a blend; 0 without a load.
+    /// The ranges at whose ends forces may jump.
+    fn acting(&self) -> Vec<Acting> {
+        self.load.as_ref().map_or_else(Vec::new, |load| load.acting())
+    }
+
+    /// The largest of something that is smooth but for the ends of the load.
+    fn largest_force(&self, value: impl Fn(usize, f64) -> f64) -> Worst {
+        plane(extremes::largest_smooth(self.curves(), (&self.acting(), 0.0), value))
+    }
+
+    /// Largest residual force of the motion itself, N, and where: rounding, or the cost of a blend; 0 without a load.
     #[must_use]
-    pub fn residual_max(&self) -> f64 {
-        let Some(load) = &self.load else { return 0.0 };
-        largest(self.curves(), |piece, angle| load.residual(piece, angle, 0.0, Vector2::zeros())).value
+    pub fn residual_max(&self) -> Worst {
+        let Some(load) = &self.load else { return Worst { value: 0.0, ..Worst::NONE } };
+        let limits = (load.acting(), ROUNDING_OF_BALANCE * load.largest());
+        let left = |piece: usize, angle: f64| load.residual(piece, angle, 0.0, Vector2::zeros());
+        plane(extremes::largest_size(self.curves(), (&limits.0, limits.1), left))
+    }
+
+    /// Largest |torque| on the camshaft, N·m, and where; `None` where no force is known.
+    #[must_use]
+    pub fn torque_max(&self) -> Option<Worst> {
+        let (piece, start) = self.motion.locate(self.motion.range().0);
+        self.path_force(piece, start)?;
+        let torque = |piece: usize, angle: f64| {
+            self.path_force(piece, angle).unwrap_or(f64::NAN) * self.motion.jet(piece, angle).ds
+        };
+        Some(plane(extremes::largest_size(self.curves(), (&self.acting(), 0.0), torque)))
     }
 
     fn forces(&self, residual_max_n: f64) -> Option<Forces> {
         let load = self.load.as_ref()?;
         let force = |piece: usize, angle: f64| self.path_force(piece, angle).unwrap_or(f64::NAN);
-        let torque = |piece: usize, angle: f64| force(piece, angle) * self.motion.jet(piece, angle).ds;
         Some(Forces {
             inertia_max_n: load.largest(),
             residual_max_n,
             residual_share: residual_max_n / load.largest(),
             residual_fixed_bottom_max_n: load.left_without_cam(),
             by_way: None,
-            roller_force_max_n: largest(self.curves(), force).value,
-            torque_max_nm: Some(largest(self.curves(), |piece, angle| torque(piece, angle).abs()).value),
+            roller_force_max_n: self.largest_force(force).value,
+            torque_max_nm: self.torque_max().map(|torque| torque.value),
         })
     }
 
@@ -331,15 +354,15 @@ impl Body for Disc {
     }
 
     fn contact_stress(&self) -> Option<Worst> {
-        stress::of_lines(self, self.curves(), &self.machine)
+        stress::of_lines(self, (self.curves(), &self.acting()), &self.machine)
     }
 
     fn largest_lifting_force(&self) -> Worst {
-        largest(self.curves(), |piece, angle| self.path_force(piece, angle).map_or(f64::NAN, |force| -force))
+        self.largest_force(|piece, angle| self.path_force(piece, angle).map_or(f64::NAN, |force| -force))
     }
 
     fn unbalanced(&self, piece: usize, angle: f64, moved: f64, normal: Vector2<f64>) -> f64 {
-        self.load.as_ref().map_or(0.0, |load| load.residual(piece, angle, moved, normal))
+        self.load.as_ref().map_or(0.0, |load| load.residual(piece, angle, moved, normal).abs())
     }
 
     fn remedy(&self) -> Option<String> {
@@ -389,7 +412,7 @@ impl Body for Disc {
             weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
         };
         let outline = part.map(|part| part.measures(found.tolerance_mm, |_| false));
-        let residual = found.rolled.map_or_else(|| self.residual_max(), |rolled| rolled.residual_max_n);
+        let residual = found.rolled.map_or_else(|| self.residual_max().value, |rolled| rolled.residual_max_n);
         let mut sections = vec![cam.section()];
         sections.extend(self.load.as_ref().map(|load| load.section()));
         sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
@@ -406,7 +429,6 @@ impl Body for Disc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::profile::extremes;
 
     fn disc(name: &str, overrides: &[&str]) -> Disc {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
@@ -463,10 +485,10 @@ mod tests {
     fn a_run_up_leaves_no_residual_and_a_blend_its_own() {
         let inertia = |disc: &Disc| disc.load.as_ref().expect("a press").largest();
         let exact = disc("dpi", &[]);
-        assert!(exact.residual_max() < 1e-13 * inertia(&exact), "{}", exact.residual_max());
+        assert!(exact.residual_max().value < 1e-13 * inertia(&exact), "{:?}", exact.residual_max());
         assert!((exact.load.as_ref().expect("a press").left_without_cam() / inertia(&exact) - 0.150).abs() < 5e-4);
         let blend = disc("dpi", &["transition.kind=blend", "transition.width=30deg"]);
-        let share = blend.residual_max() / inertia(&blend);
+        let share = blend.residual_max().value / inertia(&blend);
         assert!((share - 0.002_094_2).abs() < 1e-6, "{share}");
     }
 }

@@ -118,9 +118,15 @@ impl Wedge {
     }
 
     fn forces(&self, rolled: Option<f64>) -> Forces {
-        let ((braking, _), (back, back_at)) = (self.residual_max(Way::Braking), self.residual_max(Way::Return));
+        let [braking, back] = [Way::Braking, Way::Return].map(|way| self.residual_max(way));
         let inertia = self.inertia_max();
-        let of_law = if self.balanced_ways() == [Way::Return] { back } else { braking };
+        let back_at = back.at;
+        let (braking, back) = (braking.value, back.value);
+        let of_law = match self.mechanism().exact_on {
+            ExactOn::Braking => braking,
+            ExactOn::Return => back,
+            ExactOn::Mean => braking.max(back),
+        };
         let residual_max_n = rolled.unwrap_or(of_law);
         Forces {
             inertia_max_n: inertia,
@@ -208,17 +214,17 @@ impl Body for Wedge {
     }
 
     fn contact_stress(&self) -> Option<Worst> {
-        stress::of_lines(self, self.curves(), &self.machine)
+        stress::of_lines(self, (self.curves(), &self.acting()), &self.machine)
     }
 
     fn largest_lifting_force(&self) -> Worst {
-        largest(self.curves(), |piece, x| -self.path_force(piece, x))
+        self.largest_force(|piece, x| -self.path_force(piece, x))
     }
 
     /// In the directions in which the forces are to balance. The roller moves on its arm l1, the bottom on l2; the slope is
     /// that of the flank where the roller touches, dΔx/dx = C σ with tan α of the normal.
     fn unbalanced(&self, piece: usize, x: f64, moved: f64, normal: Vector2<f64>) -> f64 {
-        if x <= 0.0 {
+        if x < 0.0 {
             return 0.0;
         }
         let law = self.motion.bottom(piece, x);

@@ -3,14 +3,15 @@
 mod implementation;
 mod sheet;
 
-use super::{Kind, WorstPlaces, largest};
+use super::{Kind, ROUNDING_OF_BALANCE, WorstPlaces, largest, plane};
 use crate::buffer::Cylinder;
 use crate::follower::BellCrank;
 use crate::machine::{Machine, NoPress, TranslatingData};
 use crate::motion::equation_18::{ExactOn, Mechanism, Solver, Way, WedgeMotionError};
 use crate::motion::{Motion, WedgeMotion};
-use crate::numeric::extremum;
-use crate::profile::Curves;
+use crate::numeric::chebyshev;
+use crate::profile::extremes::{self, Acting};
+use crate::profile::{Curves, Worst};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -186,9 +187,16 @@ impl Wedge {
     #[must_use]
     pub fn largest_displacement(&self) -> (f64, f64) {
         let motion = self.motion.motion();
-        let size = |x: f64| motion.at(x, false)[0].abs();
-        let worst = extremum::largest_without_slope(size, (0.0, self.stroke()), 256, extremum::TO_ROUNDING);
-        (worst.at, motion.at(worst.at, false)[0])
+        let breaks = motion.breaks().iter().map(|b| b.x).chain([self.stroke()]);
+        let ranges = breaks.scan(0.0, |from, to| Some((std::mem::replace(from, to), to)));
+        let of = |range| chebyshev::largest_size(|x| motion.at(x, false)[0], range, 0.0);
+        let worst = ranges.map(of).fold(
+            (0.0, 0.0),
+            |best: (f64, f64), next| {
+                if next.value > best.1 { (next.at, next.value) } else { best }
+            },
+        );
+        (worst.0, motion.at(worst.0, false)[0])
     }
 
     /// Inertia force of the bed at its largest, N.
@@ -203,11 +211,22 @@ impl Wedge {
         self.cylinder.unit_force() * self.motion.residual(piece, x, way)
     }
 
+    /// The range at whose start forces may jump: the reversal.
+    pub(super) fn acting(&self) -> [Acting; 1] {
+        [(0.0, self.stroke())]
+    }
+
     /// Residual of largest size in a direction of the bed, N, and the overrun where it is, m.
     #[must_use]
-    pub fn residual_max(&self, way: Way) -> (f64, f64) {
-        let worst = largest(self.curves(), |piece, x| self.residual(piece, x, way).abs());
-        (worst.value, worst.at)
+    pub fn residual_max(&self, way: Way) -> Worst {
+        let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
+        let left = |piece: usize, x: f64| self.residual(piece, x, way);
+        plane(extremes::largest_size(self.curves(), (&self.acting(), negligible), left))
+    }
+
+    /// The largest of something that is smooth but at the start of the reversal.
+    pub(super) fn largest_force(&self, value: impl Fn(usize, f64) -> f64) -> Worst {
+        plane(extremes::largest_smooth(self.curves(), (&self.acting(), 0.0), value))
     }
 
     /// Residual force of a plain buffer with fixed bottom and column by (7) at this speed, N.
@@ -219,7 +238,7 @@ impl Wedge {
     /// Normal force of one roller on its flank in a direction of the bed, N, equation (17); 0 before the reversal.
     #[must_use]
     pub fn roller_force(&self, piece: usize, x: f64, way: Way) -> f64 {
-        if x <= 0.0 {
+        if x < 0.0 {
             return 0.0;
         }
         let bottom = self.motion.bottom(piece, x);
@@ -230,7 +249,8 @@ impl Wedge {
     /// Largest of these in either direction, N.
     #[must_use]
     pub fn roller_force_max(&self) -> f64 {
-        largest(self.curves(), |piece, x| self.normal_force(piece, x)).value
+        let of = |way: Way| self.largest_force(|piece, x| self.roller_force(piece, x, way)).value;
+        of(Way::Braking).max(of(Way::Return)).max(0.0)
     }
 
     /// The direction in which the forces are to balance, or both.
@@ -263,7 +283,7 @@ impl Wedge {
         let (r, over) = (self.stroke(), x.max(0.0));
         let (speed_squared, slowing) = (omega * omega * (r - over) * (r + over), omega * omega * over);
         let inertia = follower.mass.unwrap_or(0.0) * self.data.roller_arm * (second * speed_squared - first * slowing);
-        let air = if x > 0.0 { self.mechanism().air(x, bottom.s) } else { 0.0 };
+        let air = if x >= 0.0 { self.mechanism().air(x, bottom.s) } else { 0.0 };
         let by_air = 0.5 * self.cylinder.unit_force() * air * self.mechanism().arm_ratio * cosine;
         by_air + follower.preload.unwrap_or(0.0) + inertia
     }

@@ -45,8 +45,8 @@ fn the_plate_has_its_height() {
 #[test]
 fn the_forces_balance_while_the_bed_is_braked() {
     let plate = plate(&["buffer.column=return"]);
-    assert!(plate.residual_max(Way::Braking).0 < 1e-9 * plate.inertia_max());
-    assert!(plate.residual_max(Way::Return).0 > 0.01 * plate.inertia_max());
+    assert!(plate.residual_max(Way::Braking).value < 1e-9 * plate.inertia_max());
+    assert!(plate.residual_max(Way::Return).value > 0.01 * plate.inertia_max());
     for i in 1..=18 {
         let (piece, x) = plate.motion.locate(0.01 * f64::from(i));
         let normal = plate.curves().contact(piece, x).curve.outward();

@@ -246,7 +246,7 @@ impl WedgeMotion {
     /// Left side less right side of (18) over 2 p0 F in a direction of the bed; 0 before the reversal.
     #[must_use]
     pub fn residual(&self, piece: usize, x: f64, way: Way) -> f64 {
-        if x <= 0.0 {
+        if x < 0.0 {
             return 0.0;
         }
         let bottom = self.bottom(piece, x);

@@ -1,0 +1,300 @@
+//! The largest value of a function that is smooth on an interval, without its derivative: the function is replaced by the
+//! polynomial through Chebyshev points that agrees with it to rounding, and the roots of that polynomial's derivative are tried.
+//!
+//! L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM 2013, chapters 3 (points and coefficients), 8 (they
+//! fall geometrically where the function is analytic) and 18 (roots). Where the coefficients of a cell do not fall to
+//! [`RESOLVED`] with the highest degree, the cell is halved, unless nothing in it can exceed the largest value known. So a narrow
+//! hump cannot hide between two samples: it is what keeps the coefficients from falling.
+//!
+//! What is returned is a value of the function itself, so it never exceeds the largest; it falls short of it by twice the
+//! distance of polynomial and function, since at the top of the one the other is that near.
+
+use super::extremum::Extremum;
+use super::root;
+use std::f64::consts::PI;
+
+/// Lowest and highest degree of a polynomial: between them the degree is doubled, and the samples are used again.
+const LEAST_DEGREE: usize = 16;
+const MOST_DEGREE: usize = 64;
+/// Of the largest value known, how large the last coefficients of a resolved cell may be.
+const RESOLVED: f64 = 1e-11;
+/// The same of the largest size sampled: below it is rounding.
+const ROUNDING: f64 = 1e-13;
+/// So many of the last coefficients must be small: an odd or even function has zeros among them.
+const LAST: usize = 4;
+/// Cells that are looked at, at the most: a function that is not smooth where its caller says so costs no more than this.
+const MOST_CELLS: usize = 256;
+/// A cell is not halved below this share of the interval.
+const LEAST_CELL: f64 = 1e-9;
+/// How far a polynomial of half the degree can exceed its samples, over their range: 1/cos(π/4) − 1 on either side of the
+/// middle (Ehlich & Zeller 1964).
+const BETWEEN_SAMPLES: f64 = 0.21;
+
+/// The fourth quarter of the coefficients over the third where the rest is known to be smaller than both.
+const FALLING: f64 = 0.25;
+
+/// A function on a cell: its values at the Chebyshev points from the upper end to the lower, and its coefficients.
+struct Cell {
+    low: f64,
+    high: f64,
+    values: Vec<f64>,
+    coefficients: Vec<f64>,
+}
+
+/// The search: the goal is what is to be largest, the value or its size.
+struct Search<V, G> {
+    value: V,
+    goal: G,
+    best: Extremum,
+    /// Largest size sampled.
+    scale: f64,
+    /// What is smaller than this need not be resolved.
+    negligible: f64,
+}
+
+/// The largest value of `value` on `[low, high]`, where it is smooth; differences below `negligible` do not matter. Infinite
+/// where the function is somewhere.
+pub fn largest(value: impl FnMut(f64) -> f64, range: (f64, f64), negligible: f64) -> Extremum {
+    search(value, |value| value, range, negligible)
+}
+
+/// The largest size |value| on `[low, high]`, where `value`, with its sign, is smooth; as [`largest`].
+pub fn largest_size(value: impl FnMut(f64) -> f64, range: (f64, f64), negligible: f64) -> Extremum {
+    search(value, f64::abs, range, negligible)
+}
+
+fn search(
+    value: impl FnMut(f64) -> f64,
+    goal: impl Fn(f64) -> f64,
+    (low, high): (f64, f64),
+    negligible: f64,
+) -> Extremum {
+    let best = Extremum { at: low, value: f64::NEG_INFINITY };
+    let mut search = Search { value, goal, best, scale: 0.0, negligible };
+    let mut cells = vec![(low, high)];
+    let mut looked_at = 0;
+    search.sample(high);
+    while let Some((a, b)) = cells.pop() {
+        looked_at += 1;
+        let unresolved = search.look_at(a, b);
+        if search.best.value == f64::INFINITY {
+            break;
+        }
+        if unresolved && looked_at < MOST_CELLS && b - a > LEAST_CELL * (high - low) {
+            let middle = 0.5 * (a + b);
+            cells.extend([(a, middle), (middle, b)]);
+        }
+    }
+    search.best
+}
+
+impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
+    fn sample(&mut self, at: f64) -> f64 {
+        let value = (self.value)(at);
+        let goal = (self.goal)(value);
+        self.scale = self.scale.max(value.abs());
+        if goal > self.best.value {
+            self.best = Extremum { at, value: goal };
+        }
+        value
+    }
+
+    /// Looks at a cell; whether it has to be halved.
+    fn look_at(&mut self, low: f64, high: f64) -> bool {
+        let mut cell = Cell { low, high, values: Vec::new(), coefficients: Vec::new() };
+        let mut degree = LEAST_DEGREE;
+        loop {
+            let before = std::mem::take(&mut cell.values);
+            for index in 0..=degree {
+                let known = if index % 2 == 0 { before.get(index / 2).copied() } else { None };
+                let at = cell.place(point(index, degree));
+                cell.values.push(match known {
+                    Some(value) => value,
+                    None => self.sample(at),
+                });
+            }
+            if !cell.values.iter().all(|value| value.is_finite()) {
+                return true;
+            }
+            cell.coefficients = coefficients(&cell.values);
+            let varies: f64 = cell.coefficients.iter().skip(1).map(|c| c.abs()).sum();
+            if varies <= self.negligible || self.cannot_exceed(&cell) {
+                return false;
+            }
+            let last = cell.coefficients.iter().rev().take(LAST).fold(0.0_f64, |most, c| most.max(c.abs()));
+            if last <= self.negligible.max(RESOLVED * self.best.value.abs()).max(ROUNDING * self.scale) {
+                self.try_stationary_points(&cell);
+                return false;
+            }
+            if degree >= MOST_DEGREE {
+                return true;
+            }
+            degree *= 2;
+        }
+    }
+
+    /// Whether nothing in the cell can exceed the largest value known: by its samples, and by the upper half of its coefficients,
+    /// where these fall so that what follows them is smaller still.
+    fn cannot_exceed(&self, cell: &Cell) -> bool {
+        let count = cell.coefficients.len();
+        let sum = |from: usize, to: usize| -> f64 {
+            cell.coefficients.iter().skip(from).take(to - from).map(|c| c.abs()).sum()
+        };
+        let (third, fourth) = (sum(count / 2, 3 * count / 4), sum(3 * count / 4, count));
+        let falling = fourth <= FALLING * third || fourth <= self.negligible;
+        let goals = cell.values.iter().map(|value| (self.goal)(*value));
+        let (least, most) = goals.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+        falling && most + BETWEEN_SAMPLES * (most - least) + 4.0 * (third + fourth) < self.best.value
+    }
+
+    /// Tries the function where the derivative of the cell's polynomial vanishes.
+    fn try_stationary_points(&mut self, cell: &Cell) {
+        let first = derivative(&cell.coefficients);
+        let second = derivative(&first);
+        let slope = |t: f64| series(&first, t);
+        let bend = |t: f64| series(&second, t);
+        let count = 2 * cell.values.len();
+        let (mut left, mut left_slope, mut left_bend) = (-1.0, slope(-1.0), bend(-1.0));
+        for index in 1..=count {
+            let right = point(count - index, count);
+            let (right_slope, right_bend) = (slope(right), bend(right));
+            // Two stationary points within a cell of the grid: the slope has an extremum between them.
+            let turns =
+                left_slope * right_slope > 0.0 && left_bend * left_slope < 0.0 && right_bend * right_slope > 0.0;
+            let split = if turns { root::bracketed(bend, left, right, 0.0).ok() } else { None };
+            let ends = [(left, split.unwrap_or(right)), (split.unwrap_or(right), right)];
+            for (a, b) in ends.into_iter().take(if split.is_some() { 2 } else { 1 }) {
+                if slope(a) * slope(b) < 0.0
+                    && let Ok(t) = root::bracketed(slope, a, b, 0.0)
+                {
+                    self.sample(cell.place(t));
+                }
+            }
+            (left, left_slope, left_bend) = (right, right_slope, right_bend);
+        }
+    }
+}
+
+impl Cell {
+    /// The argument at t in [−1, 1].
+    fn place(&self, t: f64) -> f64 {
+        if t >= 1.0 {
+            self.high
+        } else if t <= -1.0 {
+            self.low
+        } else {
+            0.5 * ((1.0 - t) * self.low + (1.0 + t) * self.high)
+        }
+    }
+}
+
+/// The Chebyshev point cos(π i/n); exactly −1, 0 and 1 at the ends and in the middle.
+fn point(index: usize, degree: usize) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+    let (i, n) = (index as f64, degree as f64);
+    libm::sin(0.5 * PI * ((n - 2.0 * i) / n))
+}
+
+/// Coefficients of the polynomial through values at the Chebyshev points, from the upper end to the lower:
+/// cₖ = (2/n) Σ″ fⱼ cos(π j k/n), the first and the last halved.
+fn coefficients(values: &[f64]) -> Vec<f64> {
+    let n = values.len().saturating_sub(1);
+    let cosines: Vec<f64> = (0..2 * n).map(|i| point(i, n)).collect();
+    #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+    let share = 2.0 / n as f64;
+    let coefficient = |k: usize| {
+        let term = |(j, value): (usize, &f64)| {
+            let whole = value * cosines.get((j * k) % (2 * n)).copied().unwrap_or(0.0);
+            if j == 0 || j == n { 0.5 * whole } else { whole }
+        };
+        let sum: f64 = values.iter().enumerate().map(term).sum();
+        share * if k == 0 || k == n { 0.5 * sum } else { sum }
+    };
+    (0..=n).map(coefficient).collect()
+}
+
+/// Coefficients of the derivative: c′ₖ₋₁ = c′ₖ₊₁ + 2 k cₖ, the first halved.
+fn derivative(coefficients: &[f64]) -> Vec<f64> {
+    let mut slopes = vec![0.0; coefficients.len() + 1];
+    for k in (1..coefficients.len()).rev() {
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+        let own = 2.0 * k as f64 * coefficients.get(k).copied().unwrap_or(0.0);
+        let above = slopes.get(k + 1).copied().unwrap_or(0.0);
+        if let Some(slope) = slopes.get_mut(k - 1) {
+            *slope = above + own;
+        }
+    }
+    if let Some(first) = slopes.first_mut() {
+        *first *= 0.5;
+    }
+    slopes.truncate(coefficients.len().saturating_sub(1).max(1));
+    slopes
+}
+
+/// Σ cₖ Tₖ(t) by Clenshaw's recurrence.
+fn series(coefficients: &[f64], t: f64) -> f64 {
+    let (mut next, mut after) = (0.0, 0.0);
+    for coefficient in coefficients.iter().skip(1).rev() {
+        (next, after) = (2.0 * t * next - after + coefficient, next);
+    }
+    t * next - after + coefficients.first().copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Places and values in closed form: several humps, a narrow one, one at an end, poles just outside, a corner at zero.
+    #[test]
+    fn the_largest_is_found_to_rounding() {
+        type Case = (&'static str, fn(f64) -> f64, (f64, f64), f64);
+        let cases: &[Case] = &[
+            ("humps", |x| libm::sin(40.0 * x) + 1e-3 * libm::sin(0.5 * PI * x), (0.0, 1.0), f64::NAN),
+            // A Lorentz line of width 1e-4 whose top is 1.
+            ("narrow", |x| 1.0 / (1.0 + ((x - 0.371_828) / 1e-4).powi(2)), (0.0, 1.0), 1.0),
+            ("at an end", |x| x * x, (-1.0, 2.0), 4.0),
+            // x/(x² + a²) has 1/(2 a) at x = a: the pole lies 1e-3 beside the end.
+            ("pole beside", |x| x / (x * x + 1e-6), (0.0, 3.0), 500.0),
+            ("flat", |_| 7.0, (0.0, 1.0), 7.0),
+            // √x is not smooth at 0, where it is small.
+            ("root", |x| x.sqrt() * libm::exp(-x), (0.0, 9.0), 0.5_f64.sqrt() * 0.606_530_659_712_633_4),
+        ];
+        for (name, value, range, expected) in cases {
+            let mut calls = 0;
+            let counted = |x: f64| {
+                calls += 1;
+                value(x)
+            };
+            let found = largest(counted, *range, 0.0);
+            let scan = (0..=2_000_000).map(|i| value(range.0 + (range.1 - range.0) * f64::from(i) / 2e6));
+            let scan = scan.fold(f64::NEG_INFINITY, f64::max);
+            assert!(found.value >= scan * (1.0 - 1e-12), "{name}: {found:?} but {scan}");
+            assert!(expected.is_nan() || (found.value / expected - 1.0).abs() < 1e-13, "{name}: {found:?}");
+            assert!(calls < 3000, "{name}: {calls} calls");
+        }
+    }
+
+    #[test]
+    fn sizes_and_what_is_infinite_or_undefined() {
+        let fall = largest_size(|x| 0.5 - x * x, (0.0, 2.0), 0.0);
+        assert_eq!(fall, Extremum { at: 2.0, value: 3.5 });
+        let inner = largest_size(|x| x * x * x - 3.0 * x, (-0.5, 1.5), 0.0);
+        assert!((inner.at - 1.0).abs() < 1e-7 && (inner.value - 2.0).abs() < 1e-15, "{inner:?}");
+        assert_eq!(largest(|x| 1.0 / (x - 0.5).max(0.0), (0.0, 1.0), 0.0).value, f64::INFINITY);
+        // Undefined on one side: the other side still has its largest value.
+        let half = largest(|x| if x < 0.3 { f64::NAN } else { 1.0 - x }, (0.0, 1.0), 0.0);
+        assert!((half.value - 0.7).abs() < 1e-9, "{half:?}");
+    }
+
+    /// Noise of rounding is not resolved, and costs a few samples only.
+    #[test]
+    fn what_is_negligible_costs_nothing() {
+        let mut calls = 0;
+        let noise = |x: f64| {
+            calls += 1;
+            1e-15 * libm::sin(1e9 * x)
+        };
+        assert!(largest_size(noise, (0.0, 1.0), 1e-12).value <= 1e-15);
+        assert_eq!(calls, LEAST_DEGREE + 2);
+    }
+}
