@@ -3,6 +3,7 @@
 //!
 //! A new body is a folder here with `impl Body`, one line in [`KINDS`] and its command.
 
+mod balance;
 pub mod balancing;
 pub mod conoid;
 pub mod disc;
@@ -10,12 +11,14 @@ mod part;
 mod stress;
 pub mod wedge;
 
+pub use balance::{AsCut, Balance, USEFUL};
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
 
 use crate::follower::Element;
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
+use crate::load::RunUp;
 use crate::machine::Machine;
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
@@ -260,6 +263,47 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         let Some(curves) = self.plane() else { return Ok(None) };
         let stretches = boundary::stretches(curves, self.least_radius().value <= curves.offset())?;
         Ok(Some(exact(curves, &if self.mirrored() == [true] { mirrored(&stretches) } else { stretches })))
+    }
+
+    /// The force balance that the cam is made for; `None` without a load.
+    fn balance(&self) -> Option<Balance> {
+        None
+    }
+
+    /// Largest residual force of the motion itself, N, as if it were cut without error, in the directions in which the forces
+    /// are to balance.
+    fn residual_of_motion(&self) -> Worst {
+        Worst { value: 0.0, ..Worst::NONE }
+    }
+
+    /// The same in the direction of the bed in which the forces are not to balance; `None` where they are in all.
+    fn residual_unbalanced_way(&self) -> Option<Worst> {
+        None
+    }
+
+    /// Changes, each of which alone brings the residual force of that direction below what is left without a cam.
+    fn remedies_unbalanced_way(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// What would keep the bottom off the piston where an outline within a tolerance (m) may miss the motion.
+    fn as_cut(&self, _tolerance: f64) -> Option<AsCut> {
+        None
+    }
+
+    /// Least air between piston and bottom while the bottom moves, m; `None` without air.
+    fn least_air(&self) -> Option<Worst> {
+        None
+    }
+
+    /// How much lift the run-up adds; `None` without one.
+    fn run_up(&self) -> Option<RunUp> {
+        None
+    }
+
+    /// Changes, each of which alone keeps the pressure between roller and cam below a limit (Pa) that it exceeds by `largest`.
+    fn stress_remedies(&self, _largest: f64, _limit: f64) -> Vec<String> {
+        Vec::new()
     }
 
     /// A change with which every limit that depends on the size is kept, tried before it is told; or why there is none.

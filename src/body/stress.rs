@@ -1,6 +1,8 @@
 //! Pressure between roller and cam, after Hertz.
 
 use super::Body;
+use crate::document::range::LONGEST;
+use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, Material};
 use crate::numeric::root;
 use crate::profile::extremes::{self, Acting};
@@ -27,6 +29,14 @@ pub(super) fn of_lines(body: &dyn Body, (curves, acting): (Curves<'_>, &[Acting]
     body.contact_force(piece, start)?;
     let worst = super::plane(extremes::largest_smooth(curves, (acting, 0.0), square));
     Some(Worst { value: worst.value.max(0.0).sqrt(), ..worst })
+}
+
+/// The thickness at which a line of contact keeps a limit that it exceeds, as a key of the machine file: the pressure goes with
+/// 1/√b. `None` where no thickness that is accepted would.
+pub(super) fn thickness_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
+    let over = largest / limit;
+    let thickness = (MILLIMETRES * machine.cam.thickness? * over * over).ceil();
+    (thickness < MILLIMETRES * LONGEST).then(|| format!("cam.thickness = \"{thickness} mm\""))
 }
 
 /// Pressure in the middle of the ellipse where a steel sphere of a radius (m) is pressed with a force (N) onto a surface of a

@@ -1,15 +1,16 @@
 //! The air buffers of a press under a disc cam: the air presses the roller on, and its
 //! force is to equal the inertia force of the bed.
 
-use super::Load;
+use super::{Load, RunUp};
 use crate::buffer::Cylinder;
 use crate::buffer::bottom_law::BottomLaw;
 use crate::geometry::MILLIMETRES;
-use crate::motion::{Reversal, State};
-use crate::profile::extremes::Acting;
+use crate::motion::{Motion, Reversal, State, Transition};
+use crate::profile::Worst;
+use crate::profile::extremes::{self, Acting};
 use crate::report::{AirLaw, Section};
 use nalgebra::Vector2;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// The pair of cylinders whose bottom the cam moves.
@@ -42,15 +43,24 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &BottomLaw, (dx_max_at_x, dx_max
         bore_mm: MILLIMETRES * cylinder.bore(),
         start_slope: law.start_slope,
         velocity_jump_mm_per_rad: 0.0,
+        column_closed_at_crank_deg: None,
         equation_18: None,
     }
 }
 
+/// Crank angle at which a blend closes the column, degrees.
+pub(crate) fn closed_at(transition: Transition) -> Option<f64> {
+    match transition {
+        Transition::Blend { width } => Some(-0.5 * width.to_degrees()),
+        Transition::None | Transition::RunUp { .. } => None,
+    }
+}
+
 impl Load for AirBuffer {
-    /// The reversal. A blend moves the bottom before: the column then is closed from the start of the blend on, but the
+    /// The reversal of the first lobe. A blend moves the bottom before: the column then is closed from the start of the blend on, but the
     /// inertia that it is to balance begins with the reversal.
     fn acting(&self) -> Vec<Acting> {
-        vec![(0.0, self.reversal.law().ratio * PI)]
+        vec![(0.0, PI / f64::from(self.reversal.law().lobes.max(1)))]
     }
 
     /// 2 (p − p0) F / lever.
@@ -85,10 +95,44 @@ impl Load for AirBuffer {
         self.cylinder.residual_fixed_bottom(self.bottom_law())
     }
 
+    /// In the reversal as a distance from the exact law's, whose air is L (1 + A x)^(−1/k); before it the bed runs at constant
+    /// speed.
+    fn least_air(&self) -> Option<Worst> {
+        let law = self.bottom_law();
+        let air = |piece: usize, at: f64| {
+            // The piston is farther off while the bottom rests; nearest where the dwell begins and ends.
+            let dwell = self.reversal.pieces().get(piece).filter(|piece| piece.dwell);
+            let state = self.state(piece, dwell.map_or(at, |dwell| dwell.start));
+            if state.crank <= PI {
+                let x = state.overrun;
+                let balanced = law.column * libm::exp(-libm::log1p(law.loading * x) / law.exponent);
+                return balanced - (state.displacement - law.displacement(x));
+            }
+            let before = if state.crank > 1.5 * PI { state.crank - TAU } else { PI - state.crank };
+            law.column - law.lead - law.stroke * before - state.displacement
+        };
+        let least = extremes::largest_of_motion(&*self.reversal, (&self.acting(), 0.0), |piece, at| -air(piece, at));
+        Some(Worst { value: -least.value, at: least.at, z: 0.0 })
+    }
+
+    fn run_up(&self) -> Option<RunUp> {
+        let law = self.bottom_law();
+        let Transition::RunUp { width } = self.reversal.law().transition else { return None };
+        let start = law.bottom(0.0, law.stroke);
+        // By the crank angle, x' = r and x'' = 0 at the start of the reversal; a lead ends with the bed's own speed.
+        let end = if law.lead > 0.0 {
+            [-law.stroke, 0.0]
+        } else {
+            [start.slope * law.stroke, start.second * law.stroke * law.stroke]
+        };
+        Some(RunUp::new(law.stroke, width, end))
+    }
+
     fn section(&self) -> Section {
         let law = self.bottom_law();
         AirLaw {
             velocity_jump_mm_per_rad: MILLIMETRES * self.reversal.velocity_jump(),
+            column_closed_at_crank_deg: closed_at(self.reversal.law().transition),
             ..air_law(&self.cylinder, law, law.largest_displacement())
         }
         .section()

@@ -3,16 +3,39 @@
 mod air_buffer;
 
 pub use air_buffer::AirBuffer;
-pub(crate) use air_buffer::air_law;
+pub(crate) use air_buffer::{air_law, closed_at};
 
 use crate::motion::State;
+use crate::numeric::root;
+use crate::profile::Worst;
 use crate::profile::extremes::Acting;
 use crate::report::Section;
 use nalgebra::Vector2;
 
+/// The lift that a run-up adds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunUp {
+    /// Travel of the bottom between dwell and start of the reversal, m.
+    pub travel: f64,
+    /// Stroke of the bed, m.
+    pub stroke: f64,
+    /// A width of the run-up whose travel is no longer than the stroke, rad of crank angle.
+    pub width: f64,
+}
+
+impl RunUp {
+    /// Of a width before a law that starts with this slope and curvature by the crank angle, m: the travel of the quintic is
+    /// |0.4 v w − a w²/20| (see `motion`).
+    pub(crate) fn new(stroke: f64, width: f64, [slope, curvature]: [f64; 2]) -> Self {
+        let travel = |width: f64| (0.4 * slope * width - curvature * width * width / 20.0).abs();
+        let beyond = |width: f64| travel(width) - stroke;
+        Self { travel: travel(width), stroke, width: root::bracketed(beyond, 0.0, width, 0.0).unwrap_or(width) }
+    }
+}
+
 /// A load on the follower of a disc cam. Parameters are those of the motion it belongs to.
 pub trait Load: std::fmt::Debug + Send + Sync {
-    /// The closed ranges of the parameter in which it acts: at their ends it may jump, to what it is inside.
+    /// The closed ranges of the parameter in which it acts on the first lobe: at their ends it may jump, to what it is inside.
     fn acting(&self) -> Vec<Acting>;
 
     /// Force that presses the follower onto the cam along its path, N; spring, weight and inertia of the follower itself
@@ -31,6 +54,12 @@ pub trait Load: std::fmt::Debug + Send + Sync {
 
     /// Residual force without a cam, N.
     fn left_without_cam(&self) -> f64;
+
+    /// Least air between piston and bottom while the bottom moves, m; `None` without air.
+    fn least_air(&self) -> Option<Worst>;
+
+    /// The lift that a run-up before the load begins adds; `None` without one.
+    fn run_up(&self) -> Option<RunUp>;
 
     /// What the load contributes to the report.
     fn section(&self) -> Section;

@@ -1,6 +1,8 @@
 //! The limits of a cam.
 
+use super::disc::Material;
 use crate::document::Presence::{Default, Optional};
+use crate::document::cams::OF_A_PRESS;
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Angle, Length, Pressure};
@@ -8,6 +10,39 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Highest limit of contact pressure that is accepted, Pa: a hundred times what steel withstands.
 const HIGHEST_STRESS: f64 = 1e12;
+
+/// Customary largest pressures in a line of contact with a steel roller, Pa: hardened steel, grey cast iron, tin bronze, a
+/// wrought aluminium alloy.
+const LINE_STEEL: f64 = 1500e6;
+const LINE_CAST_IRON: f64 = 700e6;
+const LINE_BRONZE: f64 = 500e6;
+const LINE_ALUMINIUM: f64 = 250e6;
+/// How much more is customary in a point of contact, whose material is held from all sides: 4200 MPa for steel.
+const POINT_OVER_LINE: (f64, f64) = (14.0, 5.0);
+
+/// How roller and cam touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Touching {
+    /// A cylinder along a line.
+    Line,
+    /// A sphere in an ellipse about a point.
+    Point,
+}
+
+/// The customary largest pressure between a steel roller and a cam of a material, Pa.
+#[must_use]
+pub fn customary_stress(material: Material, touching: Touching) -> f64 {
+    let line = match material {
+        Material::Steel => LINE_STEEL,
+        Material::CastIron => LINE_CAST_IRON,
+        Material::Bronze => LINE_BRONZE,
+        Material::Aluminium => LINE_ALUMINIUM,
+    };
+    match touching {
+        Touching::Line => line,
+        Touching::Point => line * POINT_OVER_LINE.0 / POINT_OVER_LINE.1,
+    }
+}
 
 /// The limits of a cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,8 +55,10 @@ pub struct Limits {
     pub cutter_radius: Option<f64>,
     /// Least metal between bore and profile, m.
     pub wall: f64,
-    /// Largest pressure in the contact of roller and cam, Pa.
+    /// Largest pressure in the contact of roller and cam, Pa; where it is absent the customary one of the material holds.
     pub contact_stress: Option<f64>,
+    /// Largest residual force over the largest inertia force; where it is absent it must stay below a fixed bottom's.
+    pub residual_share: Option<f64>,
 }
 
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
@@ -53,11 +90,18 @@ const WALL: Field<f64> = Field::quantity(
 );
 const CONTACT_STRESS: Field<f64> = Field::quantity(
     "contact_stress",
-    "largest pressure between roller and cam (Hertz)",
+    "largest pressure between roller and cam (Hertz); the customary one of the material when absent",
     Optional("1200 MPa"),
     Pressure,
     above(0.0, HIGHEST_STRESS),
 );
+const RESIDUAL_SHARE: Field<f64> = Field::number(
+    "residual_share",
+    "largest residual force over the largest inertia; when absent, less than a fixed bottom leaves",
+    Optional("0.01"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(OF_A_PRESS);
 
 /// `[limits]`.
 pub(super) const SECTION: Section = Section {
@@ -65,7 +109,7 @@ pub(super) const SECTION: Section = Section {
     about: "what a cam must keep",
     occurs: Occurs::Once,
     cams: &[],
-    keys: &[PRESSURE_ANGLE.key, MIN_CONVEX.key, CUTTER_RADIUS.key, WALL.key, CONTACT_STRESS.key],
+    keys: &[PRESSURE_ANGLE.key, MIN_CONVEX.key, CUTTER_RADIUS.key, WALL.key, CONTACT_STRESS.key, RESIDUAL_SHARE.key],
 };
 
 pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
@@ -76,5 +120,6 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
         cutter_radius: table.get(&CUTTER_RADIUS),
         wall: table.get(&WALL)?,
         contact_stress: table.get(&CONTACT_STRESS),
+        residual_share: table.get(&RESIDUAL_SHARE),
     })
 }

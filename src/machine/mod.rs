@@ -20,7 +20,7 @@ pub use crate::follower::{Crown, FollowerData, RollerData};
 pub use conoid::{ConoidData, ConoidMode, Shift};
 pub use disc::{CamData, Keyway, Material, Rotation};
 pub use embedded::{EMBEDDED, Embedded};
-pub use limits::Limits;
+pub use limits::{Limits, Touching, customary_stress};
 pub use press::{NoPress, NoRoller, Press};
 pub use translating::TranslatingData;
 

@@ -244,6 +244,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.cutter_radius", "9 mm"),
     ("limits.wall", "4 mm"),
     ("limits.contact_stress", "1200 MPa"),
+    ("limits.residual_share", "0.02"),
 ];
 
 /// A motion program behind a press, so that a file has every table that can stand in it.

@@ -1,7 +1,7 @@
 //! The worst places of a disc cam, solved from exact derivatives.
 
 use super::Curves;
-use crate::motion::Piece;
+use crate::motion::{Motion, Piece};
 use crate::numeric::chebyshev;
 use crate::numeric::extremum::{self, Extremum};
 
@@ -70,7 +70,7 @@ fn stretches(piece: &Piece, acting: &[Acting]) -> Vec<(f64, f64)> {
 
 /// Largest value, or size, over the turn of something that is smooth on each piece but for the ends of the ranges `acting`.
 fn of_smooth(
-    curves: Curves<'_>,
+    motion: &dyn Motion,
     acting: &[Acting],
     value: impl Fn(usize, f64) -> f64,
     search: impl Fn(&dyn Fn(f64) -> f64, (f64, f64)) -> Extremum,
@@ -82,7 +82,7 @@ fn of_smooth(
         }
     };
     // Where the follower rests a force may change still.
-    for (index, piece) in curves.motion.pieces().iter().enumerate() {
+    for (index, piece) in motion.distinct().iter().enumerate() {
         for range in stretches(piece, acting) {
             consider(search(&|at| value(index, at), range));
         }
@@ -97,7 +97,16 @@ pub fn largest_smooth(
     (acting, negligible): (&[Acting], f64),
     value: impl Fn(usize, f64) -> f64,
 ) -> Extremum {
-    of_smooth(curves, acting, value, |value, range| chebyshev::largest(value, range, negligible))
+    largest_of_motion(curves.motion, (acting, negligible), value)
+}
+
+/// The same of something that does not depend on the follower.
+pub fn largest_of_motion(
+    motion: &dyn Motion,
+    (acting, negligible): (&[Acting], f64),
+    value: impl Fn(usize, f64) -> f64,
+) -> Extremum {
+    of_smooth(motion, acting, value, |value, range| chebyshev::largest(value, range, negligible))
 }
 
 /// The same for the size of something that has a sign.
@@ -106,7 +115,16 @@ pub fn largest_size(
     (acting, negligible): (&[Acting], f64),
     value: impl Fn(usize, f64) -> f64,
 ) -> Extremum {
-    of_smooth(curves, acting, value, |value, range| chebyshev::largest_size(value, range, negligible))
+    largest_size_of_motion(curves.motion, (acting, negligible), value)
+}
+
+/// The same of something that does not depend on the follower.
+pub fn largest_size_of_motion(
+    motion: &dyn Motion,
+    (acting, negligible): (&[Acting], f64),
+    value: impl Fn(usize, f64) -> f64,
+) -> Extremum {
+    of_smooth(motion, acting, value, |value, range| chebyshev::largest_size(value, range, negligible))
 }
 
 const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };

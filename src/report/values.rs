@@ -151,6 +151,9 @@ pub struct AirLaw {
     pub start_slope: f64,
     /// Jump of the bottom's velocity at the start of the reversal.
     pub velocity_jump_mm_per_rad: f64,
+    /// Where a blend closes the air column at ambient pressure: the crank angle at which it starts to move the bottom.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub column_closed_at_crank_deg: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub equation_18: Option<Equation18>,
 }
@@ -195,6 +198,12 @@ impl AirLaw {
             words.push(format!(
                 "its velocity jumps by {:.2} mm/rad of crank at the start of the reversal",
                 self.velocity_jump_mm_per_rad
+            ));
+        }
+        if let Some(degrees) = self.column_closed_at_crank_deg {
+            words.push(format!(
+                "the air column is taken as closed at ambient pressure where the blend starts, {}° of the crank",
+                shown(degrees)
             ));
         }
         if let Some(solved) = &self.equation_18 {

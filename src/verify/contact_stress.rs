@@ -1,13 +1,14 @@
 //! Pressure in the contact of roller and cam, after Hertz.
 
 use super::{Check, Evidence, On, at};
+use crate::machine::{Material, Touching, customary_stress};
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
     name: "contact_stress",
     on: On::Cam,
     about: "The largest pressure between roller and cam after Hertz: in a line under a straight roller, in an ellipse under the \
-            sphere of a three-dimensional cam.",
+            sphere of a three-dimensional cam. Without limits.contact_stress the customary limit of the material holds.",
     run: check,
 };
 
@@ -23,8 +24,34 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         };
         return Some(CHECK.not_run("MPa", needs));
     };
-    let stress = 1e-6 * worst.value;
-    let limit = body.machine().limits.contact_stress.map(|limit| 1e-6 * limit);
-    let verdict = limit.map_or(Verdict::Info, |limit| Verdict::of(stress <= limit));
-    Some(at(body, &worst, CHECK.found(stress, limit, "MPa", verdict), None))
+    let touching = if body.spatial().is_some() { Touching::Point } else { Touching::Line };
+    let machine = body.machine();
+    let customary = machine.cam.material.map(|material| customary_stress(material, touching));
+    let Some(limit) = machine.limits.contact_stress.or(customary) else {
+        return Some(CHECK.not_run("MPa", "cam.material is not given"));
+    };
+    let kept = worst.value <= limit;
+    let told = match (machine.limits.contact_stress, machine.cam.material) {
+        (None, Some(material)) => Some(format!("the limit is customary of {}", words(material, touching))),
+        _ => None,
+    };
+    let remedies = if kept { Vec::new() } else { body.stress_remedies(worst.value, limit) };
+    let remedy = (!remedies.is_empty()).then(|| format!("{} would keep it", remedies.join(" or ")));
+    let notes: Vec<String> = told.into_iter().chain(remedy).collect();
+    let note = (!notes.is_empty()).then(|| notes.join("; "));
+    Some(at(body, &worst, CHECK.found(1e-6 * worst.value, Some(1e-6 * limit), "MPa", Verdict::of(kept)), note))
+}
+
+/// What a customary limit is for.
+fn words(material: Material, touching: Touching) -> String {
+    let name = match material {
+        Material::Steel => "hardened steel",
+        Material::CastIron => "cast iron",
+        Material::Bronze => "bronze",
+        Material::Aluminium => "aluminium",
+    };
+    match touching {
+        Touching::Line => format!("{name} along a line"),
+        Touching::Point => format!("{name} under a sphere"),
+    }
 }

@@ -3,6 +3,7 @@
 //! A check takes what is known and gives value, limit and place, also when it passes. A new check is one file and one line in
 //! [`CHECKS`].
 
+mod air;
 mod balance;
 mod between_sections;
 mod bore;
@@ -17,7 +18,9 @@ mod force_closure;
 mod outline;
 mod plate_ends;
 mod pressure_angle;
+mod residual;
 pub mod rolling;
+mod run_up;
 mod shift;
 mod solid;
 mod sphere;
@@ -74,6 +77,8 @@ pub enum On {
     Cam,
     /// The written outline: ours, or that of any file.
     Outline,
+    /// The cam as it was solved, and the written outline of any file.
+    Motion,
     /// A file that somebody else may have written.
     File,
 }
@@ -124,6 +129,9 @@ pub const CHECKS: &[Check] = &[
     cylinder_contact::CHECK,
     force_closure::CHECK,
     contact_stress::CHECK,
+    residual::CHECK,
+    air::CHECK,
+    run_up::CHECK,
     between_sections::CHECK,
     balance::CHECK,
 ];
@@ -134,6 +142,7 @@ pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
     let applies = |check: &&Check| match check.on {
         On::Cam => evidence.foreign.is_none() && evidence.solid.is_none(),
         On::Outline => !evidence.outlines.is_empty(),
+        On::Motion => evidence.foreign.is_none() || evidence.rolled.is_some(),
         On::File => evidence.foreign.is_some() || evidence.solid.is_some(),
     };
     worst_first(CHECKS.iter().filter(applies).filter_map(|check| (check.run)(evidence)).collect())

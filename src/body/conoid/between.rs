@@ -1,16 +1,16 @@
 //! The residual force of a conoid at the speeds between its sections, and the fewest sections that keep it under a limit.
 
 use super::{Conoid, ConoidError, Interpolation, bottom_law_at};
+use crate::body::ROUNDING_OF_BALANCE;
 use crate::machine::Machine;
-use crate::motion::Motion;
 use crate::numeric::{extremum, parallel};
+use crate::profile::extremes;
+use std::f64::consts::PI;
 
-/// Speeds looked at between two sections, cells of a reversal, and golden sections at the worst of either: the residual
-/// of a strip is a smooth hump or two across it, and has a few humps over the reversal.
+/// Speeds looked at between two sections, and golden sections at the worst: the residual of a strip is a smooth hump or two
+/// across it, whose top is told to 1e-9 when its place is known to a millionth of the strip.
 const SPEEDS: u32 = 12;
-const SPEED_SECTIONS: u32 = 10;
-const CELLS: u32 = 48;
-const SECTIONS: u32 = 24;
+const SPEED_SECTIONS: u32 = 24;
 
 /// Most sections that are tried.
 pub const MOST_SECTIONS: u32 = 65;
@@ -47,23 +47,47 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual
     let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
     let z = conoid.position(rpm);
     let Some(section) = conoid.sections.first() else { return Residual { force: f64::NAN, rpm, angle: 0.0 } };
-    let force = |piece: usize, angle: f64| {
-        let overrun = section.state(piece, angle).overrun;
-        if overrun == 0.0 {
+    let unit = conoid.cylinder.unit_force();
+    let left = |piece: usize, angle: f64| {
+        let state = section.state(piece, angle);
+        if state.crank > PI {
             return 0.0;
         }
         let bottom = conoid.displacement(piece, angle, z, interpolation);
-        let air = bottom_law.pressure_ratio(overrun, bottom) - 1.0;
-        conoid.cylinder.unit_force() * (bottom_law.loading * overrun - air).abs()
+        let left = bottom_law.loading * state.overrun - (bottom_law.pressure_ratio(state.overrun, bottom) - 1.0);
+        // A bottom that is beyond the piston leaves no air.
+        if left.is_nan() { f64::NEG_INFINITY } else { unit * left }
     };
-    let of_piece = |(index, piece): (usize, &crate::motion::Piece)| {
-        let range = (piece.start, piece.end);
-        let worst = extremum::largest_without_slope(|angle| force(index, angle), range, CELLS, SECTIONS);
-        Residual { force: worst.value, rpm, angle: worst.at }
+    let negligible = ROUNDING_OF_BALANCE * unit * bottom_law.loading * bottom_law.stroke;
+    let worst = extremes::largest_size_of_motion(section, (&conoid.acting(), negligible), left);
+    Residual { force: worst.value.max(0.0), rpm, angle: worst.at }
+}
+
+/// The largest residual of the sections at their own speeds.
+pub(super) fn at_sections(conoid: &Conoid) -> Residual {
+    let all = parallel::map(&conoid.speeds, |rpm| at_speed(conoid, *rpm, Interpolation::Smooth));
+    let none = Residual { force: 0.0, rpm: conoid.speeds.first().copied().unwrap_or(0.0), angle: 0.0 };
+    all.into_iter().fold(none, |best, next| if next.force > best.force { next } else { best })
+}
+
+/// Least air at one speed, m, and the cam angle where it is.
+pub(super) fn air_at(conoid: &Conoid, rpm: f64) -> (f64, f64) {
+    let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
+    let z = conoid.position(rpm);
+    let Some(section) = conoid.sections.first() else { return (f64::NAN, 0.0) };
+    let used = |piece: usize, angle: f64| {
+        let state = section.state(piece, angle);
+        let bottom = conoid.displacement(piece, angle, z, Interpolation::Smooth);
+        if state.crank > PI {
+            // The piston is no nearer than at the start of the stroke.
+            return bottom - bottom_law.column;
+        }
+        let balanced =
+            bottom_law.column * libm::exp(-libm::log1p(bottom_law.loading * state.overrun) / bottom_law.exponent);
+        bottom - bottom_law.displacement(state.overrun) - balanced
     };
-    let moving = section.distinct().iter().enumerate().filter(|(_, piece)| !piece.dwell);
-    let none = Residual { force: 0.0, rpm, angle: 0.0 };
-    moving.map(of_piece).fold(none, |best, next| if next.force > best.force { next } else { best })
+    let least = extremes::largest_of_motion(section, (&conoid.acting(), 0.0), used);
+    (-least.value, least.at)
 }
 
 /// The conoid with the fewest evenly spaced speeds between two that leaves no more than a residual force

@@ -1,6 +1,7 @@
 //! The conoid as a [`Body`]: what checks, drawings, tables and reports use of it.
 
 use super::{Conoid, KIND, flank, report, sheet};
+use crate::body::balance::Balance;
 use crate::body::part::{self, Part, point_as_turned};
 use crate::body::{
     Body, DrawError, Drawn, Found, Kind, Request, broken_limit, mirrored, no_radius, passing, radius_of, stress,
@@ -8,6 +9,7 @@ use crate::body::{
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Vertex};
 use crate::geometry::{CurvePoint, Entity, MILLIMETRES};
+use crate::load::RunUp;
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Jet, Motion, Piece, Reversal};
 use crate::numeric::parallel;
@@ -193,15 +195,18 @@ impl Body for Conoid {
     fn contact_stress(&self) -> Option<Worst> {
         let material = self.machine.cam.material?;
         let radius = self.roller.radius;
-        Some(self.worst_of_sections(|section, rpm, z, piece, angle| {
+        // The cube of the pressure is smooth where the force vanishes.
+        let cubed = self.worst_of_sections(|section, rpm, z, piece, angle| {
             let contact = self.contact(piece, angle, z);
             let path = contact.normal.x * libm::cos(angle) + contact.normal.y * libm::sin(angle);
             let force = self.path_force(section, rpm, piece, angle).max(0.0) / path;
             // The cam's own surface lies a roller's radius inside the pitch surface.
             let (first, second) = self.principal_curvatures(piece, angle, z);
             let inside = |curvature: f64| curvature / (1.0 - curvature * radius);
-            stress::of_sphere(force, radius, (inside(first), inside(second)), material)
-        }))
+            let stress = stress::of_sphere(force, radius, (inside(first), inside(second)), material);
+            stress * stress * stress
+        });
+        Some(Worst { value: libm::cbrt(cubed.value), ..cubed })
     }
 
     fn largest_lifting_force(&self) -> Worst {
@@ -210,6 +215,27 @@ impl Body for Conoid {
 
     fn unbalanced(&self, _: usize, _: f64, _: f64, _: Vector2<f64>) -> f64 {
         0.0
+    }
+
+    fn balance(&self) -> Option<Balance> {
+        Some(self.forces_balanced())
+    }
+
+    fn residual_of_motion(&self) -> Worst {
+        let left = self.left();
+        Worst { value: left.force, at: left.angle, z: self.position(left.rpm) }
+    }
+
+    fn least_air(&self) -> Option<Worst> {
+        Some(self.air())
+    }
+
+    fn run_up(&self) -> Option<RunUp> {
+        self.ramp()
+    }
+
+    fn stress_remedies(&self, _: f64, limit: f64) -> Vec<String> {
+        self.roller_for_stress(limit).into_iter().collect()
     }
 
     fn remedy(&self) -> Option<String> {

@@ -12,6 +12,7 @@
 //! n the normal of the plane pitch curve. A cut at z₀ is touched by the rollers at ζ(θ) with ζ + r τ/√(1+τ²) = z₀; its
 //! tangent is that of the plane pitch curve at ζ, since the section of a surface lies across its normal.
 
+mod balance;
 pub mod between;
 pub mod flank;
 mod implementation;

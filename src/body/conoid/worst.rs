@@ -2,7 +2,10 @@
 
 use super::{Conoid, Partials, Place, SLICES};
 use crate::motion::{Motion, Reversal};
-use crate::profile::{Worst, extremes};
+use crate::profile::extremes::{self, Acting};
+use crate::profile::Worst;
+use crate::numeric::parallel;
+use std::f64::consts::PI;
 
 impl Conoid {
     /// Places along the axis at which the roller may stand and the surface is looked at, m: the sections and some between
@@ -64,12 +67,17 @@ impl Conoid {
         above.or_larger(self.worst(|conoid, place| -contact(conoid, place)))
     }
 
-    /// The largest and the smallest of something over the turns of the sections, each at its own speed.
+    /// The range at whose ends forces may jump: the reversal of the first lobe.
+    pub(super) fn acting(&self) -> [Acting; 1] {
+        [(0.0, PI / f64::from(self.machine.cam.lobes.max(1)))]
+    }
+
+    /// The largest of something over the turns of the sections, each at its own speed; smooth but for the ends of the reversal.
     #[must_use]
     pub fn worst_of_sections(&self, value: impl Fn(&Reversal, f64, f64, usize, f64) -> f64 + Sync) -> Worst {
         let of_section = |((section, rpm), z): ((&Reversal, &f64), &f64)| {
             let slice = self.slice(*z);
-            let found = extremes::largest_without_slope(self.plane_of(&slice), |piece, angle| {
+            let found = extremes::largest_of_motion(&slice, (&self.acting(), 0.0), |piece, angle| {
                 value(section, *rpm, *z, piece, angle)
             });
             Worst { value: found.value, at: found.at, z: *z }
@@ -83,9 +91,15 @@ impl Conoid {
     #[must_use]
     pub fn axial_force(&self) -> Worst {
         let force = |section: &Reversal, rpm: f64, z: f64, piece: usize, angle: f64| {
-            (self.path_force(section, rpm, piece, angle) * self.lift(piece, angle, z)[0][1]).abs()
+            // The square of its size is smooth where it vanishes.
+            let axial = self.path_force(section, rpm, piece, angle) * self.lift(piece, angle, z)[0][1];
+            axial * axial
         };
-        *self.found.axial_force.get_or_init(|| self.worst_of_sections(force))
+        let search = || {
+            let square = self.worst_of_sections(force);
+            Worst { value: square.value.max(0.0).sqrt(), ..square }
+        };
+        *self.found.axial_force.get_or_init(search)
     }
 
     /// Largest lift over all sections, m.

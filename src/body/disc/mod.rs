@@ -1,7 +1,9 @@
 //! The disc cam: one section for one speed, under any follower.
 
+mod balance;
 mod sheet;
 
+use super::balance::{AsCut, Balance};
 use super::part::{Part, point_as_turned};
 use super::{
     Body, DrawError, Drawn, Found, Kind, ROUNDING_OF_BALANCE, Request, WorstPlaces, broken_limit, no_radius, passing, plane, stress,
@@ -9,7 +11,7 @@ use super::{
 use crate::follower::Follower;
 use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
-use crate::load::{AirBuffer, Load};
+use crate::load::{AirBuffer, Load, RunUp};
 use crate::machine::{Machine, NoPress, Press, Rotation};
 use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw};
 use crate::profile::extremes::{self, Acting};
@@ -363,6 +365,31 @@ impl Body for Disc {
 
     fn unbalanced(&self, piece: usize, angle: f64, moved: f64, normal: Vector2<f64>) -> f64 {
         self.load.as_ref().map_or(0.0, |load| load.residual(piece, angle, moved, normal).abs())
+    }
+
+    fn balance(&self) -> Option<Balance> {
+        let load = self.load.as_ref()?;
+        Some(Balance { inertia: load.largest(), without_cam: load.left_without_cam(), mean: false })
+    }
+
+    fn residual_of_motion(&self) -> Worst {
+        self.residual_max()
+    }
+
+    fn as_cut(&self, tolerance: f64) -> Option<AsCut> {
+        self.fitting(tolerance)
+    }
+
+    fn least_air(&self) -> Option<Worst> {
+        self.air()
+    }
+
+    fn run_up(&self) -> Option<RunUp> {
+        self.ramp()
+    }
+
+    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
+        self.keeping_stress(largest, limit)
     }
 
     fn remedy(&self) -> Option<String> {

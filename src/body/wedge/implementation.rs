@@ -1,12 +1,13 @@
 //! The plate on the bed as a [`Body`]: what checks, drawings, tables and reports use of it.
 
 use super::{END_WIDTH, KIND, Wedge, sheet};
+use crate::body::balance::Balance;
 use crate::body::part::Part;
 use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Segment, Vertex};
-use crate::load::air_law;
+use crate::load::{RunUp, air_law, closed_at};
 use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver, Trend, Way};
@@ -74,6 +75,7 @@ impl Wedge {
         AirLaw {
             start_slope: self.motion.motion().at(0.0, false)[1],
             velocity_jump_mm_per_rad: MILLIMETRES * self.stroke() * self.motion.slope_jump(),
+            column_closed_at_crank_deg: closed_at(self.machine.transition),
             equation_18: Some(self.solved()),
             ..air_law(&self.cylinder, &mechanism.bottom_law, self.largest_displacement())
         }
@@ -240,6 +242,36 @@ impl Body for Wedge {
         let (side, slope) = (self.motion.trend(piece, x), mechanism.arm_ratio * cos_psi * sigma);
         let of = |way: &Way| (self.cylinder.unit_force() * mechanism.residual_on(side, x, bottom, slope, *way)).abs();
         self.balanced_ways().iter().map(of).fold(0.0, f64::max)
+    }
+
+    fn balance(&self) -> Option<Balance> {
+        let mean = self.mechanism().exact_on == ExactOn::Mean;
+        Some(Balance { inertia: self.inertia_max(), without_cam: self.residual_fixed_bottom(), mean })
+    }
+
+    fn residual_of_motion(&self) -> Worst {
+        let of = |way: &Way| self.residual_max(*way);
+        self.balanced_ways().iter().map(of).fold(Worst::NONE, Worst::or_larger)
+    }
+
+    fn residual_unbalanced_way(&self) -> Option<Worst> {
+        self.other_way().map(|way| self.residual_max(way))
+    }
+
+    fn remedies_unbalanced_way(&self) -> Vec<String> {
+        self.worth_while()
+    }
+
+    fn least_air(&self) -> Option<Worst> {
+        Some(self.air())
+    }
+
+    fn run_up(&self) -> Option<RunUp> {
+        self.ramp()
+    }
+
+    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
+        stress::thickness_for(&self.machine, largest, limit).into_iter().collect()
     }
 
     fn wall(&self) -> Option<(f64, Option<Worst>)> {

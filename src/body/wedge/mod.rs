@@ -1,5 +1,6 @@
 //! The wedge cam of the press (a linear cam): the plate that rides on the bed, for one speed.
 
+mod balance;
 mod implementation;
 mod sheet;
 

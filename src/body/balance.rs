@@ -1,0 +1,97 @@
+//! What a cam of a press is for: that the air balances the inertia of the bed. The measures on which its verdicts rest.
+
+use crate::buffer::Cylinder;
+use crate::buffer::bottom_law::BottomLaw;
+use crate::numeric::root;
+
+/// The force balance a cam is made for, N.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// Largest inertia force of the bed.
+    pub inertia: f64,
+    /// Residual force of a plain buffer with fixed bottom: without a cam.
+    pub without_cam: f64,
+    /// The forces are to balance in neither direction of the bed, but to miss by the same in both.
+    pub mean: bool,
+}
+
+/// Where an outline would leave the bottom off the piston, and the residual below half of what is left without a cam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AsCut {
+    /// Up to this speed of the main shaft, rpm; `None` where no lower one is enough.
+    pub speed: Option<f64>,
+    /// Within this tolerance, m.
+    pub tolerance: f64,
+}
+
+/// Share of what a fixed bottom leaves that a useful cam stays below.
+pub const USEFUL: f64 = 0.5;
+
+/// Of all air at the end of the stroke, the least share that an error of the bottom may take so that the residual stays below
+/// a share of the largest inertia.
+///
+/// With air a under the piston an error e of the bottom changes the force (1 + A x) by its multiple (1 − e/a)^(−k) − 1, which
+/// grows with x; over the inertia A r it is largest at the end of the stroke.
+fn share_of_air(law: &BottomLaw, share: f64) -> f64 {
+    let end = law.loading * law.stroke;
+    -libm::expm1(-libm::log1p(share * end / (1.0 + end)) / law.exponent)
+}
+
+/// Air at the end of the stroke where the forces balance, m: L (1 + A r)^(−1/k).
+fn air_at_end(law: &BottomLaw) -> f64 {
+    law.column * libm::exp(-libm::log1p(law.loading * law.stroke) / law.exponent)
+}
+
+/// By how much the bottom may miss a law, m, so that the residual stays a useful one.
+pub(super) fn allowed_error(cylinder: &Cylinder, law: &BottomLaw) -> f64 {
+    let share = USEFUL * cylinder.residual_fixed_bottom(law) / cylinder.largest_load(law);
+    air_at_end(law) * share_of_air(law, share)
+}
+
+/// Ratio of the speeds that are tried downwards, and how many.
+const SLOWER: f64 = 0.8;
+const SPEEDS: usize = 60;
+
+/// The highest speed below `from` (rpm) at which an error may be as large as `error` (m); three digits.
+pub(super) fn fitting_speed(allowed: impl Fn(f64) -> f64, from: f64, error: f64) -> Option<f64> {
+    let excess = |rpm: f64| allowed(rpm) - error;
+    let mut tried = std::iter::successors(Some(from), |rpm| Some(SLOWER * rpm)).take(SPEEDS);
+    let slow = tried.find(|rpm| excess(*rpm) > 0.0)?;
+    let speed = root::bracketed(excess, slow, slow / SLOWER, 0.0).unwrap_or(slow);
+    let rounded = three_digits_down(speed);
+    (excess(rounded) >= 0.0).then_some(rounded)
+}
+
+/// The next number of three digits that is not larger.
+pub(super) fn three_digits_down(value: f64) -> f64 {
+    let digit = libm::pow(10.0, 2.0 - libm::log10(value).floor());
+    (value * digit).floor() / digit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::buffer::bottom_law::Column;
+    use crate::machine::Machine;
+
+    /// By equation (8) itself: with the bottom as far off as allowed, half of what a fixed bottom leaves is left at the end of
+    /// the stroke, and less before.
+    #[test]
+    fn an_allowed_error_leaves_half_of_a_fixed_bottom() {
+        let cylinder = Machine::load("dpi", &[]).expect("valid").0.press().expect("a press").cylinder();
+        for (rpm, column) in [(35.0, Column::Matched), (350.0, Column::Matched), (35.0, Column::Return)] {
+            let law = BottomLaw::new(cylinder.loading(rpm), 1.35, 0.18, column, 0.0);
+            let error = allowed_error(&cylinder, &law);
+            let left = |x: f64| {
+                let air = law.column - x - law.displacement(x) - error;
+                cylinder.unit_force() * (libm::pow(law.column / air, 1.35) - 1.0 - law.loading * x)
+            };
+            let half = 0.5 * cylinder.residual_fixed_bottom(&law);
+            // The air is a difference of lengths up to ten thousand times as long.
+            assert!((left(0.18) / half - 1.0).abs() < 1e-8, "{rpm} rpm: {} {half}", left(0.18));
+            assert!(left(0.09) < half);
+        }
+        assert_eq!(three_digits_down(612.9), 612.0);
+        assert_eq!(three_digits_down(0.012_39), 0.0123);
+    }
+}

@@ -1,0 +1,100 @@
+//! What the verdicts on a plate rest on: air, run-up, and what would make it worth while on the way back.
+
+use super::Wedge;
+use crate::load::RunUp;
+use crate::machine::Machine;
+use crate::motion::Transition;
+use crate::motion::equation_18::{ExactOn, Way};
+use crate::profile::{Worst, extremes};
+
+/// Steps in which friction angle (rad), efficiency and roller arm (m) are told.
+const ANGLE_STEP: f64 = 0.1;
+const EFFICIENCY_STEPS: f64 = 100.0;
+const ARM_STEP_MM: f64 = 10.0;
+/// A roller arm so many times as long is looked at.
+const LONGEST_ARM: f64 = 4.0;
+
+impl Wedge {
+    /// The direction of the bed in which the forces are not to balance; `None` where they are in both.
+    pub(super) fn other_way(&self) -> Option<Way> {
+        match self.mechanism().exact_on {
+            ExactOn::Braking => Some(Way::Return),
+            ExactOn::Return => Some(Way::Braking),
+            ExactOn::Mean => None,
+        }
+    }
+
+    /// Least air: as [`crate::body::Body::least_air`]. Before the reversal the bed runs at constant speed, x from below 0.
+    pub(super) fn air(&self) -> Worst {
+        let column = self.mechanism().bottom_law.column;
+        let used = |piece: usize, x: f64| x + self.motion.bottom(piece, x).s - column;
+        let least = extremes::largest_of_motion(&self.motion, (&self.acting(), 0.0), used);
+        Worst { value: -least.value, at: least.at, z: 0.0 }
+    }
+
+    /// The run-up before the reversal.
+    pub(super) fn ramp(&self) -> Option<RunUp> {
+        let Transition::RunUp { width } = self.machine.transition else { return None };
+        let (stroke, [_, slope, second, _]) = (self.stroke(), self.motion.motion().at(0.0, false));
+        Some(RunUp::new(stroke, width, [slope * stroke, second * stroke * stroke]))
+    }
+
+    /// Friction angle, efficiency and roller arm, each of which alone brings the residual force on the way in which the forces
+    /// are not to balance below what a fixed bottom leaves.
+    pub(super) fn worth_while(&self) -> Vec<String> {
+        let data = self.data;
+        let with = |change: &dyn Fn(&mut Machine)| {
+            let mut machine = (*self.machine).clone();
+            change(&mut machine);
+            let exact_on = self.mechanism().exact_on;
+            let plate = Self::solve(&machine, self.rpm, self.solver, exact_on).ok();
+            let left = plate.and_then(|plate| Some(plate.residual_max(plate.other_way()?).value));
+            left.is_some_and(|left| left < self.residual_fixed_bottom())
+        };
+        let degrees = |steps: f64| (steps * ANGLE_STEP * 1e6).round() / 1e6;
+        let friction = |steps: f64| {
+            with(&|machine| {
+                if let Some(data) = &mut machine.translating {
+                    data.friction_angle = degrees(steps).to_radians();
+                }
+            })
+        };
+        let efficiency = |steps: f64| {
+            with(&|machine| {
+                if let Some(data) = &mut machine.translating {
+                    data.efficiency = steps / EFFICIENCY_STEPS;
+                }
+            })
+        };
+        let arm = |steps: f64| {
+            with(&|machine| {
+                if let Some(data) = &mut machine.translating {
+                    data.roller_arm = 1e-3 * (steps * ARM_STEP_MM);
+                }
+            })
+        };
+        let angle = first_passing(0.0, (data.friction_angle.to_degrees() / ANGLE_STEP).ceil(), friction);
+        let share = first_passing(EFFICIENCY_STEPS, (data.efficiency * EFFICIENCY_STEPS).floor(), efficiency);
+        let from = (1e3 * data.roller_arm / ARM_STEP_MM).floor();
+        let longer = first_passing((LONGEST_ARM * from).ceil(), from, arm);
+        let told = [
+            angle.map(|steps| format!("translating.friction_angle = \"{} deg\"", degrees(steps))),
+            share.map(|steps| format!("translating.efficiency = {}", steps / EFFICIENCY_STEPS)),
+            longer.map(|steps| format!("translating.roller_arm = \"{} mm\"", steps * ARM_STEP_MM)),
+        ];
+        told.into_iter().flatten().collect()
+    }
+}
+
+/// The whole number nearest to `failing` that passes, if `best` does.
+fn first_passing(best: f64, mut failing: f64, passes: impl Fn(f64) -> bool) -> Option<f64> {
+    let mut passing = best;
+    if passing == failing || !passes(passing) {
+        return None;
+    }
+    while (passing - failing).abs() > 1.0 {
+        let middle = (0.5 * (passing + failing)).floor();
+        *(if passes(middle) { &mut passing } else { &mut failing }) = middle;
+    }
+    Some(passing)
+}

@@ -1,0 +1,29 @@
+//! The lift that a run-up adds: it grows with the square of the speed.
+
+use super::{Check, Evidence, On};
+use crate::report::{Finding, Verdict};
+
+pub(super) const CHECK: Check = Check {
+    name: "run_up",
+    on: On::Cam,
+    about: "How far the run-up moves the bottom before the reversal begins. It grows with the square of the speed and of the \
+            width; beyond the stroke of the bed the cam is larger than the machine it is for.",
+    run: check,
+};
+
+/// Widths are told in tenths of a degree, or with two digits where they are smaller.
+fn told(width: f64) -> f64 {
+    let degrees = width.to_degrees();
+    let digits = if degrees >= 1.0 { 10.0 } else { libm::pow(10.0, 1.0 - libm::log10(degrees).floor()) };
+    (degrees * digits).floor() / digits
+}
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let run_up = evidence.body.run_up()?;
+    let beyond = run_up.travel > run_up.stroke;
+    let note = beyond.then(|| {
+        format!("run-up lift exceeds the stroke; transition.width = \"{} deg\" would not", told(run_up.width))
+    });
+    let verdict = if beyond { Verdict::Warn } else { Verdict::Pass };
+    Some(Finding { note, ..CHECK.found(1e3 * run_up.travel, Some(1e3 * run_up.stroke), "mm", verdict) })
+}
