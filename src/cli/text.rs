@@ -17,7 +17,8 @@ pub(super) fn report(report: &Report, colour: bool) -> String {
 /// The report of a checked file: one plain sentence, then the checks.
 pub(super) fn check_report(file: &str, report: &Report, colour: bool) -> String {
     let verdict = if report.passed() { "is this cam" } else { "is NOT this cam" };
-    let lines = vec![format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.rpm)];
+    let mut lines = vec![format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.rpm)];
+    lines.extend(report.sections.iter().flat_map(section));
     ended(lines, report, colour)
 }
 

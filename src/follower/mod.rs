@@ -59,6 +59,16 @@ impl FollowerData {
         let own = FOLLOWERS.iter().find(|kind| kind.section.path == self.path);
         own.is_some_and(|kind| kind.section.keys.iter().any(|key| key.name == PRELOAD.key.name))
     }
+
+    /// A translating roller with its path on the other side of the shaft; `None` for others, and where the path goes through the
+    /// shaft.
+    #[must_use]
+    pub fn with_opposite_offset(&self) -> Option<Self> {
+        let roller = self.roller.filter(|roller| roller.offset != 0.0)?;
+        let roller = RollerData { offset: -roller.offset, ..roller };
+        let shape = Arc::new(TranslatingRoller::new(1.0 + roller.offset.abs(), roller.offset, roller.radius));
+        Some(Self { shape, roller: Some(roller), ..self.clone() })
+    }
 }
 
 /// Mass of a follower on a straight path, a key of its table.

@@ -11,6 +11,7 @@ mod course;
 mod curve_point;
 mod entity;
 pub mod following;
+pub mod likeness;
 pub mod mismatch;
 pub mod nurbs;
 pub mod solid;

@@ -170,6 +170,12 @@ impl Machine {
         })
     }
 
+    /// The machine with the path of its roller on the other side of the shaft; `None` where the path goes through the shaft.
+    #[must_use]
+    pub fn with_opposite_offset(&self) -> Option<Self> {
+        Some(Self { follower: self.follower.with_opposite_offset()?, ..self.clone() })
+    }
+
     /// What reports call it.
     #[must_use]
     pub fn name(&self) -> &str {

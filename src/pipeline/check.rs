@@ -1,6 +1,6 @@
 //! The proof of a file that was edited, or written by another program.
 
-use super::{Cam, Error, report};
+use super::{Cam, Error, diagnosis, report};
 use crate::geometry::MILLIMETRES;
 use crate::reading::step::Loop;
 use crate::reading::{self, step};
@@ -106,6 +106,8 @@ impl Cam {
         let mut sections = vec![Section::new("cam", &body.kind().noun)];
         sections.extend(section.map(|section| Section::new("section", &section)));
         sections.push(Section::new("rolling", &rolled));
+        let found = outlines.first().map(|outline| &outline.contour);
+        sections.extend(diagnosis::of(self, section.map(|section| section.rpm), found, (&checks, tolerance)));
         let whole = report(body, sections, checks);
         let noun = match section {
             Some(section) => format!("section for {} rpm of a {}", section.rpm, whole.noun).into(),

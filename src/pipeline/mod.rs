@@ -5,6 +5,7 @@
 
 mod builder;
 mod check;
+mod diagnosis;
 mod error;
 mod file_set;
 mod proven;
@@ -24,6 +25,8 @@ use crate::report::{Report, Section};
 #[derive(Debug)]
 pub struct Cam {
     body: Box<dyn Body>,
+    /// The same for another speed, where it is made for one.
+    again: Option<diagnosis::Again>,
 }
 
 impl Cam {

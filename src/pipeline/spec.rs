@@ -1,5 +1,6 @@
 //! The cam to be made: a machine, and how the body is solved from it.
 
+use super::diagnosis::Again;
 use super::{Builder, Cam, Error};
 use crate::body::conoid::{Conoid, between};
 use crate::body::disc::Disc;
@@ -17,6 +18,7 @@ type Solve = dyn FnOnce(&Machine) -> Result<Box<dyn Body>, SolveError>;
 pub struct Spec {
     machine: Machine,
     solve: Box<Solve>,
+    again: Option<Again>,
 }
 
 impl fmt::Debug for Spec {
@@ -36,19 +38,29 @@ impl Spec {
             Ok(body) => Ok(Box::new(body) as Box<dyn Body>),
             Err(error) => Err(error.into()),
         };
-        Self { machine, solve: Box::new(solve) }
+        Self { machine, solve: Box::new(solve), again: None }
+    }
+
+    /// How the cam is solved for other speeds: a check that fails tells for which it would be the cam.
+    fn for_other_speeds<B, E>(self, solve: impl Fn(&Machine, f64) -> Result<B, E> + 'static) -> Self
+    where
+        B: Body + 'static,
+    {
+        let solve = move |machine: &Machine, rpm| Some(Box::new(solve(machine, rpm).ok()?) as Box<dyn Body>);
+        Self { again: Some(Again(Box::new(solve))), ..self }
     }
 
     /// The disc cam of a press for a speed of its main shaft, rpm.
     #[must_use]
     pub fn rotary(machine: Machine, rpm: f64) -> Self {
-        Self::new(machine, move |machine| Disc::solve(machine, rpm))
+        Self::new(machine, move |machine| Disc::solve(machine, rpm)).for_other_speeds(Disc::solve)
     }
 
     /// The wedge cam of a press (a linear cam, the plate on the bed) for a speed of its main shaft, rpm.
     #[must_use]
     pub fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
-        Self::new(machine, move |machine| Wedge::solve(machine, rpm, solver, exact_on))
+        let solve = move |machine: &Machine, rpm| Wedge::solve(machine, rpm, solver, exact_on);
+        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve)
     }
 
     /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the residual force
@@ -89,6 +101,6 @@ impl Spec {
     /// # Errors
     /// [`Error::Solve`] when there is no such cam.
     pub fn solve(self) -> Result<Cam, Error> {
-        Ok(Cam { body: (self.solve)(&self.machine)? })
+        Ok(Cam { body: (self.solve)(&self.machine)?, again: self.again })
     }
 }
