@@ -206,6 +206,25 @@ fn trade_measures_a_ladder_and_advises() {
     assert_eq!(camgen(&["trade", "conoid"]).code, 2);
 }
 
+/// A limit that no setting keeps: the tolerance matters all the same, and the setting that leaves least is named.
+#[test]
+fn trade_says_how_near_it_comes_and_how_sure_it_is() {
+    let run = camgen(&["trade", "--json", "--residual", "1e-9N"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let report = report(&run);
+    let rows = report["rows"].as_array().expect("rows");
+    let of = |row: &Value, key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
+    let least = rows.iter().min_by(|a, b| of(a, "residual_n").total_cmp(&of(b, "residual_n"))).expect("a row");
+    let advice = report["advice"].as_str().expect("an advice");
+    assert!(advice.contains("leaves least") && !advice.contains("does not depend"), "{advice}");
+    assert!(advice.contains(least["setting"].as_str().expect("a name")), "{advice}");
+    for row in rows {
+        let [low, middle, high] = ["total_low_us", "total_us", "total_high_us"].map(|key| of(row, key));
+        assert!(0.0 < low && low <= middle && middle <= high, "{row}");
+    }
+    assert!(report["rounds"].as_u64().is_some_and(|rounds| rounds >= 7) && report["ranking_stable"].is_boolean());
+}
+
 #[test]
 fn sides_and_named_accuracies() {
     let arcs = |args: &[&str]| {
