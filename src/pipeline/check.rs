@@ -3,7 +3,7 @@
 use super::{Cam, Error, diagnosis, report};
 use crate::geometry::MILLIMETRES;
 use crate::reading::step::Loop;
-use crate::reading::{self, step};
+use crate::reading::{self, Chain, step};
 use crate::report::{Report, Section};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
 use serde::Serialize;
@@ -125,8 +125,15 @@ impl Cam {
             Loop::Contour(contour) if contour.area_and_centroid().0 > 0.0 => Some(contour.clone()),
             _ => None,
         };
+        let hole = |run: &Loop| match run {
+            Loop::Contour(contour) if !(contour.area_and_centroid().0 > 0.0) => Some(Chain::of(&contour.reversed())),
+            _ => None,
+        };
         let outlines: Vec<WrittenOutline> = match form.under.iter().filter_map(outer).collect::<Vec<_>>().as_slice() {
-            [contour] if body.plane().is_some() => vec![WrittenOutline { z: 0.0, contour: contour.clone() }],
+            [contour] if body.plane().is_some() => {
+                let beside = form.under.iter().filter_map(hole).collect();
+                vec![WrittenOutline { z: 0.0, contour: contour.clone(), beside }]
+            }
             _ => Vec::new(),
         };
         let curves = body.plane().zip(outlines.first());
@@ -139,6 +146,7 @@ impl Cam {
             rolled: rolled.as_ref(),
             foreign: None,
             solid: Some(&solid),
+            cutter_path: None,
             tolerance_mm,
         });
         let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];

@@ -39,7 +39,7 @@ const HALF_TURN: f64 = 1e-6;
 pub(super) struct Again(pub(super) Box<Resolve>);
 
 /// `None` where there is no such cam.
-type Resolve = dyn Fn(&Machine, f64) -> Option<Box<dyn Body>>;
+type Resolve = dyn Fn(&Machine, f64) -> Option<Box<dyn Body>> + Send + Sync;
 
 impl fmt::Debug for Again {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -42,7 +42,7 @@ impl Spec {
     }
 
     /// How the cam is solved for other speeds: a check that fails tells for which it would be the cam.
-    fn for_other_speeds<B, E>(self, solve: impl Fn(&Machine, f64) -> Result<B, E> + 'static) -> Self
+    fn for_other_speeds<B, E>(self, solve: impl Fn(&Machine, f64) -> Result<B, E> + Send + Sync + 'static) -> Self
     where
         B: Body + 'static,
     {

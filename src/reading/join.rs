@@ -18,6 +18,12 @@ pub struct Chain {
 }
 
 impl Chain {
+    /// A closed contour as a chain of nothing in particular.
+    #[must_use]
+    pub fn of(contour: &Contour) -> Self {
+        Self { segments: contour.segments().collect(), closed: true, sources: Vec::new() }
+    }
+
     /// The chain as a contour, for a closed one.
     #[must_use]
     pub fn contour(&self) -> Contour {

@@ -171,6 +171,7 @@ mod tests {
                 outlines: &[],
                 rolled: None,
                 foreign: None,
+                solid: None,
                 cutter_path: Some(&path),
                 tolerance_mm: 5e-3,
             };

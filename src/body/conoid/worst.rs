@@ -2,9 +2,8 @@
 
 use super::{Conoid, Partials, Place, SLICES};
 use crate::motion::{Motion, Reversal};
-use crate::profile::extremes::{self, Acting};
 use crate::profile::Worst;
-use crate::numeric::parallel;
+use crate::profile::extremes::{self, Acting};
 use std::f64::consts::PI;
 
 impl Conoid {

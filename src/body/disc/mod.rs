@@ -6,7 +6,8 @@ mod sheet;
 use super::balance::{AsCut, Balance};
 use super::part::{Part, point_as_turned};
 use super::{
-    Body, DrawError, Drawn, Found, Kind, ROUNDING_OF_BALANCE, Request, WorstPlaces, broken_limit, no_radius, passing, plane, stress,
+    Body, DrawError, Drawn, Found, Kind, ROUNDING_OF_BALANCE, Request, WorstPlaces, broken_limit, no_radius, passing,
+    plane, stress,
 };
 use crate::follower::Follower;
 use crate::geometry::contour::Contour;
