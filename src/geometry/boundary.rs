@@ -53,8 +53,8 @@ impl Stretch {
     /// Whether the next one is the same piece of the curve, from where this one ends.
     fn goes_on(&self, next: &Self) -> bool {
         let same = match (&self.kind, &next.kind) {
-            (Kind::Curve { piece: a }, Kind::Curve { piece: b }) => a == b,
-            (Kind::Mirrored { piece: a }, Kind::Mirrored { piece: b }) => a == b,
+            (Kind::Curve { piece: a }, Kind::Curve { piece: b })
+            | (Kind::Mirrored { piece: a }, Kind::Mirrored { piece: b }) => a == b,
             _ => false,
         };
         same && self.to == next.from

@@ -37,7 +37,7 @@ const DEEPEST: u32 = 30;
 const MOST_CLOSER: usize = 4000;
 /// Worst places of a value without slope that are looked at closer, and golden sections there: the value at a maximum is right
 /// to the square of what is left of the step, 1e-8.
-const CLOSER_LOOKS: usize = 4;
+const CLOSER_LOOKS: usize = 8;
 const CLOSER_SECTIONS: u32 = 19;
 /// Places at which parry measures as well, and two contacts at once are looked for.
 const PARRY_PLACES: usize = 240;
@@ -266,10 +266,9 @@ impl Roll<'_> {
         if !rolls {
             more.extend(self.closer(&samples, |s| s.gap.abs(), |piece, at| self.gap(piece, at).abs()));
         }
+        // Beside the even places, before others crowd about the largest gap.
+        more.extend(self.closer(&samples, |s| s.residual, |piece, at| self.sample(piece, at).residual));
         samples.extend(more);
-        samples.sort_by(|a, b| a.piece.cmp(&b.piece).then(a.parameter.total_cmp(&b.parameter)));
-        let residual = self.closer(&samples, |s| s.residual, |piece, at| self.sample(piece, at).residual);
-        samples.extend(residual);
         let thinned = (samples.len() / PARRY_PLACES).max(1);
         for (index, sample) in samples.iter_mut().enumerate() {
             if index % thinned != 0 {
