@@ -188,6 +188,19 @@ fn every_check_is_run_for_some_cam() {
             assert!(report.passed(), "{}: {report:?}", kind.noun);
             reports.push((format!("{} as a file", kind.noun), report));
         }
+        let made = cam_of(kind, &[]);
+        if kind.command == "rotary" {
+            let request = camgen::Request { cutter: Some(0.01), ..camgen::Request::within(TOLERANCE) };
+            let proven = made.draw(request).expect("drawn").prove().expect("a proof");
+            reports.push((format!("{} with the path of a cutter", kind.noun), proven.report()));
+        }
+        let request = camgen::Request { flank: true, ..camgen::Request::within(TOLERANCE) };
+        let proven = made.draw(request).expect("drawn").prove().expect("a proof");
+        let writing = camgen::Writing { force: true, ..camgen::Writing::to("nowhere", "cam").formats(&["step"]) };
+        let set = proven.files(&writing).expect("a solid");
+        let report = made.check(set.bytes("step").expect("a solid"), TOLERANCE).expect("a STEP file");
+        assert!(report.passed(), "{}: {report:?}", kind.noun);
+        reports.push((format!("solid of a {} as a file", kind.noun), report));
     }
     let mut seen: Vec<String> = Vec::new();
     for (what, report) in &reports {

@@ -33,8 +33,8 @@ pub(super) const CHECK: Check = Check {
 
 /// Longest side of a cell, mm: on a tenth of a radian and less the exact surface is as smooth as its splines.
 const CELL: f64 = 15.0;
-/// Most cells along a span.
-const MOST_CELLS: f64 = 1000.0;
+/// Most cells along a span: a span of a metre is none of a cam.
+const MOST_CELLS: f64 = 64.0;
 /// Places along a cell at first, and how often they are doubled.
 const PLACES: u32 = 8;
 const DOUBLINGS: u32 = 3;
@@ -193,30 +193,39 @@ impl Cell<'_> {
     }
 }
 
-/// The cells of a patch.
-fn cells(patch: &Surface, outward: bool) -> Vec<Cell<'_>> {
-    let mut cells = Vec::new();
-    for u in patch.u.spans() {
-        for v in patch.v.spans() {
-            let corner = |a: f64, b: f64| patch.at(a, b)[0];
-            let [a, b, c, d] = [corner(u.0, v.0), corner(u.1, v.0), corner(u.0, v.1), corner(u.1, v.1)];
-            let count = |first: f64, second: f64| (first.max(second) / CELL).ceil().clamp(1.0, MOST_CELLS);
-            let (along, across) = (count((b - a).norm(), (d - c).norm()), count((c - a).norm(), (d - b).norm()));
-            let part = |range: (f64, f64), of: f64, i: f64| {
-                let place = |share: f64| range.0 + (range.1 - range.0) * share;
-                (place(i / of), place((i + 1.0) / of))
-            };
-            let (mut i, mut j) = (0.0, 0.0);
-            while i < along {
-                cells.push(Cell { patch, outward, u: part(u, along, i), v: part(v, across, j) });
-                j += 1.0;
-                if j >= across {
-                    (i, j) = (i + 1.0, 0.0);
-                }
-            }
+/// The knot spans of a patch.
+fn spans(patch: &Surface, outward: bool) -> Vec<Cell<'_>> {
+    let across = patch.v.spans();
+    let with = |u: (f64, f64)| across.iter().map(move |v| Cell { patch, outward, u, v: *v });
+    patch.u.spans().into_iter().flat_map(with).collect()
+}
+
+/// What is found of a knot span, cell by cell; one that is off at its first places is off.
+fn of_span(span: &Cell<'_>, exact: &Exact<'_>, slice: &dyn Motion, tolerance: f64) -> Found {
+    let whole = span.at_places(exact, slice, PLACES);
+    if whole.folded || !(whole.worst.value.abs() <= tolerance) {
+        return whole;
+    }
+    let (u, v) = (span.u, span.v);
+    let corner = |a: f64, b: f64| span.patch.at(a, b)[0];
+    let [a, b, c, d] = [corner(u.0, v.0), corner(u.1, v.0), corner(u.0, v.1), corner(u.1, v.1)];
+    let count = |first: f64, second: f64| (first.max(second) / CELL).ceil().clamp(1.0, MOST_CELLS);
+    let (along, across) = (count((b - a).norm(), (d - c).norm()), count((c - a).norm(), (d - b).norm()));
+    let part = |range: (f64, f64), of: f64, i: f64| {
+        let place = |share: f64| range.0 + (range.1 - range.0) * share;
+        (place(i / of), place((i + 1.0) / of))
+    };
+    let mut found = Found::NONE;
+    let (mut i, mut j) = (0.0, 0.0);
+    while i < along {
+        let cell = Cell { u: part(u, along, i), v: part(v, across, j), ..*span };
+        found = found.with(cell.found(exact, slice, tolerance));
+        j += 1.0;
+        if j >= across {
+            (i, j) = (i + 1.0, 0.0);
         }
     }
-    cells
+    found
 }
 
 /// Area of a patch in polar angle and height, rad mm, by its sides: all patches together go round once where their sum is a turn
@@ -241,8 +250,8 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let turned = conoid.machine().cam.rotation == Rotation::CounterClockwise;
     let (exact, slice) = (Exact { conoid, turned }, conoid.slice(0.0));
     let limit = evidence.tolerance_mm;
-    let cells: Vec<Cell<'_>> = patches.iter().flat_map(|(patch, outward)| cells(patch, *outward)).collect();
-    let all: Vec<Found> = parallel::map(&cells, |cell| cell.found(&exact, &slice, limit));
+    let spans: Vec<Cell<'_>> = patches.iter().flat_map(|(patch, outward)| spans(patch, *outward)).collect();
+    let all: Vec<Found> = parallel::map(&spans, |span| of_span(span, &exact, &slice, limit));
     let found = all.into_iter().fold(Found::NONE, Found::with);
     let (low, high) = conoid.ends();
     let round: f64 = patches.iter().map(|(patch, outward)| around(patch, *outward)).sum();
