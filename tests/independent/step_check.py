@@ -92,8 +92,9 @@ def main():
     up = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1))
     count = 0
     for name, (command, args) in CAMS.items():
-        made = [binary, command, *args, "--quiet", "--format", "step", "--name", f"check-{name}", "--out", directory]
-        subprocess.run(made, check=True)
+        made = [binary, command, *args, "--force", "--quiet", "--format", "step", "--name", f"check-{name}", "--out", directory]
+        # Whether the cam is a good one does not matter here: a solid that keeps to it is asked for.
+        assert subprocess.run(made).returncode in (0, 1), made
         solid = read(directory / f"check-{name}.step")
         same = {
             **{f"{schema}-{pcurves}": (solid, {"schema": schema, "pcurves": pcurves})
