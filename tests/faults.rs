@@ -238,7 +238,9 @@ fn mirrored_rotated_and_scaled() {
         ("in inches by mistake", mapped(&|p| p / 25.4)),
     ] {
         let (code, report) = bench.check(&file(edited), &[]);
-        assert_eq!((code, failed(&report)), (1, vec!["outline".to_owned(), "rolling".to_owned()]), "{what}: {report}");
+        // So far off, the force is not balanced either.
+        let beside: Vec<String> = failed(&report).into_iter().filter(|check| check != "residual").collect();
+        assert_eq!((code, beside), (1, vec!["outline".to_owned(), "rolling".to_owned()]), "{what}: {report}");
     }
     // The default cam is symmetric about Y, so that mirror image is the cam itself.
     let n = original.len();

@@ -17,12 +17,11 @@ pub(super) const CHECK: Check = Check {
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let balance = body.balance()?;
-    let (force, place, z) = match evidence.rolled {
-        Some(rolled) => (rolled.residual_max_n, rolled.residual_at, 0.0),
-        None => {
-            let Worst { value, at, z } = body.residual_of_motion();
-            (value, body.place(at), z)
-        }
+    let (force, place, z) = if let Some(rolled) = evidence.rolled {
+        (rolled.residual_max_n, rolled.residual_at, 0.0)
+    } else {
+        let Worst { value, at, z } = body.residual_of_motion();
+        (value, body.place(at), z)
     };
     let (share, without_cam) = (force / balance.inertia, balance.without_cam / balance.inertia);
     let given = body.machine().limits.residual_share;
