@@ -23,6 +23,9 @@ pub const LARGEST_COORDINATE: f64 = 1e6;
 /// Tolerance of the pitch curve on a sheet, which is for viewing only: a fifth of a thin pen, m.
 const PITCH_TOLERANCE: f64 = 0.05e-3;
 
+/// An arc about an edge is left out when it is shorter, mm: the ends it would join are then one to a reader.
+const SHORTEST_ARC: f64 = 1e-5;
+
 /// A gap may lie a turn before or after a piece.
 const TURNS: [f64; 3] = [-1.0, 0.0, 1.0];
 
@@ -306,7 +309,9 @@ fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> 
             } else {
                 outline.lay(|angle| frame(index, angle), range, tolerance)?;
             }
-            if let Some(gap) = gaps.iter().find(|gap| gap.arc != 0.0 && starts_at(gap, range.1, period)) {
+            // Readers drop a shorter arc.
+            let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
+            if let Some(gap) = gaps.iter().find(|gap| long(gap) && starts_at(gap, range.1, period)) {
                 let bulge = libm::tan(0.25 * gap.arc);
                 outline.contour.vertices.push(Vertex { point: frame(index, range.1).point, bulge });
             }

@@ -95,3 +95,16 @@ fn a_roller_in_a_corner_of_its_own_radius_touches_it() {
         assert!(rolled.gap_mm.abs() <= 5e-7, "{offset} {lead}: {rolled:?}");
     }
 }
+
+/// Outside of an edge that hardly turns the arc about it would be too short for a reader.
+#[test]
+fn no_arc_about_an_edge_is_too_short_to_be_read() {
+    for beyond in [1e-11, 1e-8, 1e-5, 1e-2] {
+        let roller = 66.523_885_130_629_4 + beyond;
+        let cam =
+            rotary(&[&format!("follower.roller.radius={roller}mm"), &format!("cam.base_radius={}mm", 99.0 - roller)]);
+        let outline = profile(cam.curves(), Fit { tolerance: 1.4e-7, side: Side::Outside }).expect("an outline");
+        let shortest = outline.contour.segments().map(|s| s.length()).fold(f64::INFINITY, f64::min);
+        assert!(shortest > 5e-6, "{beyond}: {shortest:e}");
+    }
+}
