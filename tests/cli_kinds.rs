@@ -156,6 +156,28 @@ fn what_makes_no_conoid_is_told() {
     assert!(report["between"]["residual_max_n"].as_f64().is_some_and(|force| force < 2.0), "{report}");
 }
 
+/// What is refused is refused for its own reason, and the remedy works.
+#[test]
+fn a_conoid_that_cannot_be_drawn_is_told_why() {
+    let steep = ["conoid", "--tolerance", "0.911561mm", "--rpm", "22.71,42.15,52.89", "--format", "csv"];
+    let sets = ["transition.width=57.7189deg", "cam.lever=426.31", "limits.pressure_angle=73.06deg"];
+    let with = |more: &[&str]| {
+        let all = sets.iter().chain(more).flat_map(|set| ["--set", set]);
+        camgen(&steep.into_iter().chain(all).collect::<Vec<_>>())
+    };
+    let run = with(&[]);
+    assert!(run.code == 1 && run.err.contains("leans 89.9"), "{}", run.err);
+    let travel = run.err.split('"').nth(1).expect("a travel").replace(' ', "");
+    let remedied = with(&[&format!("conoid.axial_travel={travel}")]);
+    assert!(!remedied.err.contains("no section can be laid"), "{}", remedied.err);
+    let fine = camgen(&["conoid", "--tolerance", "1e-8mm", "--format", "step"]);
+    assert!(fine.code == 2 && fine.err.contains("a tolerance of "), "{}", fine.err);
+    let named =
+        fine.err.split("a tolerance of ").nth(1).and_then(|rest| rest.split(" mm").next()).expect("a tolerance");
+    let run = camgen(&["conoid", "--tolerance", &format!("{named}mm"), "--format", "step"]);
+    assert_eq!(run.code, 0, "{named}: {}", run.err);
+}
+
 /// The sphere never rides on an edge: the overhang is found by itself, and one too short fails with a length that does.
 #[test]
 fn a_conoid_is_as_long_as_the_contact_needs() {

@@ -3,6 +3,7 @@
 use super::{Conoid, ConoidError, Interpolation, bottom_law_at};
 use crate::body::ROUNDING_OF_BALANCE;
 use crate::machine::Machine;
+use crate::motion::Motion;
 use crate::numeric::{extremum, parallel};
 use crate::profile::extremes;
 use std::f64::consts::PI;
@@ -90,22 +91,82 @@ pub(super) fn air_at(conoid: &Conoid, rpm: f64) -> (f64, f64) {
     (-least.value, least.at)
 }
 
+/// Angles of a reversal at which the middle of a strip is tried before its largest residual is searched.
+const TRIED: u32 = 16;
+/// What the transition itself leaves at the speed of a section no number of sections mends: how much more is taken for the same.
+const NEARLY: f64 = 1.05;
+
+/// Whether more than a residual force (N) is found in the middle of a strip: a look that mostly spares the search.
+fn exceeds(conoid: &Conoid, limit: f64) -> bool {
+    let Some(section) = conoid.sections.first() else { return false };
+    let pairs = conoid.speeds.iter().zip(conoid.speeds.iter().skip(1));
+    let too_much = |(low, high): (&f64, &f64)| {
+        let rpm = 0.5 * (low + high);
+        let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
+        let z = conoid.position(rpm);
+        (1..TRIED).any(|i| {
+            let crank = std::f64::consts::PI * f64::from(i) / f64::from(TRIED);
+            let (piece, angle) = section.locate(crank / f64::from(conoid.machine.cam.lobes));
+            let overrun = section.state(piece, angle).overrun;
+            let bottom = conoid.displacement(piece, angle, z, Interpolation::Smooth);
+            let air = bottom_law.pressure_ratio(overrun, bottom) - 1.0;
+            conoid.cylinder.unit_force() * (bottom_law.loading * overrun - air).abs() > limit
+        })
+    };
+    // The strips at the ends are mostly the worst.
+    pairs.rev().any(too_much)
+}
+
+/// The conoid, its size not yet found, with the fewest speeds out of `spaced` between two that leaves no more than a residual
+/// force (N), or, when even [`MOST_SECTIONS`] leave more, the one with that many; and whether it leaves no more.
+fn with_fewest(machine: &Machine, limit: f64, spaced: impl Fn(u32) -> Vec<f64>) -> Result<(Conoid, bool), ConoidError> {
+    let ends = Conoid::unsized_of(machine, &spaced(2))?;
+    let own = ends.speeds.iter().map(|rpm| at_speed(&ends, *rpm, Interpolation::Smooth).force).fold(0.0, f64::max);
+    let reachable = if own > limit { own * NEARLY } else { limit };
+    for count in 2..=MOST_SECTIONS {
+        // The size does not change the law: it is found once, when the count is known.
+        let conoid = Conoid::unsized_of(machine, &spaced(count))?;
+        if !exceeds(&conoid, reachable) && conoid.left_between().force <= reachable {
+            return Ok((conoid, own <= limit));
+        }
+    }
+    Ok((Conoid::unsized_of(machine, &spaced(MOST_SECTIONS))?, false))
+}
+
+/// Evenly spaced speeds from one to another, `count` of them.
+fn evenly((first, last): (f64, f64), count: u32) -> Vec<f64> {
+    let step = |i: u32| first + (last - first) * (f64::from(i) / f64::from(count - 1));
+    (0..count).map(|i| if i + 1 == count { last } else { step(i) }).collect()
+}
+
 /// The conoid with the fewest evenly spaced speeds between two that leaves no more than a residual force
-/// (N), or, when even [`MOST_SECTIONS`] leave more, the one with that many.
+/// (N), or, when no number of them does, the one that comes nearest with fewest.
 ///
 /// # Errors
 /// [`ConoidError`] when a conoid cannot be made.
-pub fn fewest(machine: &Machine, (first, last): (f64, f64), limit: f64) -> Result<Conoid, ConoidError> {
-    let mut count = 2;
-    loop {
-        let step = |i: u32| first + (last - first) * (f64::from(i) / f64::from(count - 1));
-        let speeds: Vec<f64> = (0..count).map(|i| if i + 1 == count { last } else { step(i) }).collect();
-        // The size does not change the law: it is solved once, when the count is known.
-        let conoid = Conoid::unsized_of(machine, &speeds)?;
-        if conoid.left_between().force <= limit || count >= MOST_SECTIONS {
-            return Conoid::solve(machine, &speeds);
-        }
-        count += 1;
+pub fn fewest(machine: &Machine, range: (f64, f64), limit: f64) -> Result<Conoid, ConoidError> {
+    with_fewest(machine, limit, |count| evenly(range, count))?.0.interpolated()
+}
+
+/// Thousandths of a rpm: no shop sets a speed more finely.
+const PER_RPM: f64 = 1e3;
+
+impl Conoid {
+    /// The fewest evenly spaced speeds from the slowest to the fastest, rounded to be typed, that leave no more than a residual
+    /// force (N) between them; `None` when no number of sections does.
+    #[must_use]
+    pub fn speeds_within(&self, limit: f64) -> Option<Vec<f64>> {
+        let range = (*self.speeds.first()?, *self.speeds.last()?);
+        let spaced = |count: u32| {
+            let inner = |rpm: f64| (PER_RPM * rpm).round() / PER_RPM;
+            let mut speeds: Vec<f64> = evenly(range, count).into_iter().map(inner).collect();
+            if let [first, .., last] = speeds.as_mut_slice() {
+                (*first, *last) = range;
+            }
+            speeds
+        };
+        let (conoid, kept) = with_fewest(&self.machine, limit, spaced).ok()?;
+        kept.then_some(conoid.speeds)
     }
 }
 

@@ -24,6 +24,8 @@ const LONGEST: f64 = std::f64::consts::PI / 6.0;
 const SPANS: u32 = 4;
 const STATIONS: u32 = 2;
 const DOUBLINGS: u32 = 6;
+/// The most spans of a patch.
+const LARGEST: u32 = SPANS << (DOUBLINGS - 1);
 /// Share of the tolerance the splines may take at the points where they are compared, the middles of the spans: between
 /// those the error of a cubic interpolant is no more than a quarter larger.
 const SHARE: f64 = 0.6;
@@ -43,7 +45,11 @@ pub struct Flank {
 
 /// The splines would need more control points than is reasonable.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("the flank cannot be drawn as splines to {tolerance} mm, {SHARE} of the tolerance: {found:.6} mm were reached")]
+#[error(
+    "the solid's flank would need more than {LARGEST} spline spans between two breaks or sections: they keep {found:.2e} mm where \
+     {tolerance:e} mm are wanted; a tolerance of {:.1e} mm can be kept, and a finer one without the solid (--format dxf,csv)",
+    2.0 * found / SHARE
+)]
 pub struct FlankError {
     /// Allowed deviation, mm.
     pub tolerance: f64,

@@ -23,6 +23,9 @@ use crate::table::{BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
+/// A normal that leans more than this along the axis, rad, makes sections that arcs can hardly follow: 89°.
+const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
+
 /// Where the surface folds along the axis a cut has no point.
 const BROKEN: CurvePoint = CurvePoint {
     point: Vector2::new(f64::NAN, f64::NAN),
@@ -64,6 +67,21 @@ impl Conoid {
             }
         }
         Ok(outline.counted_from_exact(shift))
+    }
+
+    /// Why a section cannot be laid where the surface is nearly across the axis: there its cuts jump from one side of the
+    /// sphere to the other within a hair of the cam angle.
+    fn too_steep(&self) -> String {
+        let lean = self.largest_lean();
+        // The slope along the axis falls as the travel grows.
+        let travel = self.data.axial_travel * libm::tan(lean) / libm::tan(STEEPEST);
+        format!(
+            "no section can be laid, since the normal leans {:.3}° along the axis and no arcs follow a section where it leans more \
+             than {:.0}°: conoid.axial_travel = \"{:.0} mm\" would make it less, or a smaller cam.lever",
+            lean.to_degrees(),
+            STEEPEST.to_degrees(),
+            (MILLIMETRES * travel).ceil()
+        )
     }
 
     fn draw_parts(&self, fit: Fit) -> Result<Vec<Part>, OutlineError> {
@@ -268,6 +286,7 @@ impl Body for Conoid {
                     "the surface folds over itself: the roller is larger than the pitch surface's radius of curvature";
                 DrawError::NoOutline(why.to_owned())
             }
+            OutlineError::Fit(_) if self.largest_lean() > STEEPEST => DrawError::NoOutline(self.too_steep()),
             other => DrawError::Outline(other),
         })?;
         let tolerance = MILLIMETRES * request.fit.tolerance;

@@ -16,6 +16,7 @@ mod balance;
 pub mod between;
 pub mod flank;
 mod implementation;
+mod interpolation;
 pub mod mesh;
 mod report;
 mod search;
@@ -33,10 +34,10 @@ use crate::follower::{Follower, TranslatingRoller};
 use crate::machine::{ConoidData, ConoidMode, Machine, NoPress, NoRoller, Press, RollerData, Shift};
 use crate::motion::{Jet, Motion, MotionError, Piece, Reversal, ReversalLaw};
 use crate::numeric::parallel;
-use crate::numeric::spline::Spline;
 use crate::profile::size::{self, NoRadius, Required, rounded_up};
 use crate::profile::{Curves, Worst};
 use between::Residual;
+use interpolation::{Variable, Weights};
 use std::sync::{Arc, OnceLock};
 
 /// The cam for many speeds.
@@ -88,7 +89,7 @@ pub struct Conoid {
     follower: TranslatingRoller,
     /// Smallest prime radius that keeps every limit over the whole surface, m.
     smallest_prime_radius: Option<f64>,
-    weights: Vec<Spline>,
+    weights: Weights,
     /// By how much the cam is longer than its axial travel at either end, m.
     overhang: f64,
     /// Δx at lift 0: the least of all sections, m.
@@ -106,6 +107,7 @@ struct Searched {
     wander: OnceLock<Worst>,
     axial_force: OnceLock<Worst>,
     between: OnceLock<Residual>,
+    strips: OnceLock<Residual>,
 }
 
 /// Why there is no conoid.
@@ -175,7 +177,7 @@ impl Conoid {
     /// # Errors
     /// [`ConoidError`] when the machine has no conoid, the speeds make none, or no radius keeps the limits.
     pub fn solve(machine: &Machine, speeds: &[f64]) -> Result<Self, ConoidError> {
-        Self::unsized_of(machine, speeds)?.sized()
+        Self::unsized_of(machine, speeds)?.interpolated()
     }
 
     /// With its prime radius, and its overhang where that is found by itself.
@@ -234,7 +236,8 @@ impl Conoid {
     fn resize(&mut self, prime_radius: f64) {
         self.follower = TranslatingRoller::new(prime_radius, self.roller.offset, self.roller.radius);
         let found = std::mem::take(&mut self.found);
-        self.found = Searched { between: found.between, nodes: found.nodes, ..Searched::default() };
+        let (between, strips, nodes) = (found.between, found.strips, found.nodes);
+        self.found = Searched { nodes, between, strips, ..Searched::default() };
     }
 
     /// The laws of the sections and their interpolation, on a prime radius of a metre.
@@ -256,11 +259,7 @@ impl Conoid {
         let sections: Result<Vec<Reversal>, MotionError> = speeds.iter().map(law).collect();
         let sections = sections?;
         let positions = positions(&data, &speeds)?;
-        let unit = |index: usize| {
-            let values: Vec<f64> = (0..speeds.len()).map(|other| f64::from(u8::from(other == index))).collect();
-            Spline::not_a_knot(&positions, &values)
-        };
-        let weights = (0..speeds.len()).map(unit).collect();
+        let weights = Weights::new(&positions, Variable::Place);
         let lowest = sections.iter().map(Reversal::lowest).fold(f64::INFINITY, f64::min);
         Ok(Self {
             machine: Arc::new(machine.clone()),
@@ -382,7 +381,7 @@ impl Conoid {
 
     /// Weights of the sections at z and their first three derivatives.
     fn weights_at(&self, z: f64) -> Vec<[f64; 4]> {
-        self.weights.iter().map(|weight| weight.at(z)).collect()
+        self.weights.at(z)
     }
 
     /// Lifts of the sections at a cam angle, counted from the common lowest point.
@@ -467,6 +466,12 @@ impl Conoid {
     #[must_use]
     pub fn section_count(&self) -> usize {
         self.speeds.len()
+    }
+
+    /// The residual force at the speeds between the sections that straight strips from section to section would leave.
+    #[must_use]
+    pub fn left_by_strips(&self) -> Residual {
+        *self.found.strips.get_or_init(|| between::residual(self, Interpolation::Straight))
     }
 
     /// The residual force at the speeds between the sections.

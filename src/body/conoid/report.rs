@@ -1,7 +1,7 @@
 //! What a conoid contributes to its report.
 
-use super::between::{self, Residual};
-use super::{Conoid, Interpolation};
+use super::Conoid;
+use super::between::Residual;
 use crate::body::part::{Part, bore};
 use crate::body::{Found, flank_of};
 use crate::geometry::MILLIMETRES;
@@ -87,6 +87,8 @@ struct Between {
     cam_deg: f64,
     /// What straight strips from section to section would leave.
     residual_straight_strips_max_n: f64,
+    /// In what the splines along the axis are cubic: "place" or "speed".
+    splines_in: &'static str,
 }
 
 /// The sections of the report.
@@ -99,14 +101,14 @@ pub(super) fn sections(conoid: &Conoid, found: &Found<'_>) -> Vec<Section> {
         SectionMeasures::new(conoid, *cut, part, *error)
     };
     let all: Vec<SectionMeasures> = cuts.iter().zip(&errors).enumerate().map(section).collect();
-    let (left, straight) = (conoid.left_between(), between::residual(conoid, Interpolation::Straight));
+    let (left, straight) = (conoid.left_between(), conoid.left_by_strips());
     let words = all.iter().map(SectionMeasures::words).collect();
     let outlines = parts.map(Outlines::new);
     vec![
         Measures::new(conoid, found).section(),
         Section::new("sections", &all).with_words(words),
         SurfaceMeasures::new(conoid, found, &errors).section(),
-        Between::new(left, straight).section(),
+        Between::new(left, straight, conoid.interpolates_speed()).section(),
         Section::new("outline", &outlines),
         Section::new("force", &Forces::new(conoid, left)),
     ]
@@ -237,21 +239,23 @@ impl SurfaceMeasures {
 }
 
 impl Between {
-    fn new(left: Residual, straight: Residual) -> Self {
+    fn new(left: Residual, straight: Residual, by_speed: bool) -> Self {
         Self {
             residual_max_n: left.force,
             rpm: left.rpm,
             cam_deg: degrees(left.angle),
             residual_straight_strips_max_n: straight.force,
+            splines_in: if by_speed { "speed" } else { "place" },
         }
     }
 
     fn section(&self) -> Section {
         let words = vec![format!(
-            "{} N left at {:.3} rpm, {:.2}°; straight strips would leave {} N",
+            "{} N left at {:.3} rpm, {:.2}°, by splines in the {}; straight strips would leave {} N",
             shown(self.residual_max_n),
             self.rpm,
             self.cam_deg,
+            self.splines_in,
             shown(self.residual_straight_strips_max_n)
         )];
         let figure = format!("between sections {:.2} N at {:.2} rpm", self.residual_max_n, self.rpm);

@@ -149,3 +149,37 @@ fn the_contact_stays_on_the_flank() {
         assert!((-1e-15..1e-5 * beyond.abs().max(1e-3)).contains(&above), "{:?} {beyond}", cam.reach());
     }
 }
+
+/// Speeds far apart: splines in the place along the axis leave 1815 N, straight strips 1626 N, splines in the speed less than
+/// either; and the named speeds keep the limit when they are applied.
+#[test]
+fn no_surface_is_worse_than_straight_strips() {
+    let speeds = [5.0, 10.0, 20.0, 40.0, 80.0];
+    let machine = Machine::load("dpi", &[]).expect("valid").0;
+    let by_place = Conoid::unsized_of(&machine, &speeds).expect("a conoid");
+    assert!(by_place.is_worse_than_strips() && by_place.left_between().force > 1800.0);
+    let cam = conoid(&speeds, &[]);
+    assert!(cam.interpolates_speed() && cam.left_between().force < 0.5 * cam.left_by_strips().force);
+    assert!(cam.smallest_prime_radius.is_some());
+    for limit in [200.0, 20.0] {
+        let named = cam.speeds_within(limit).expect("speeds");
+        assert!(conoid(&named, &[]).left_between().force <= limit, "{named:?}");
+    }
+}
+
+/// The weights of splines in the speed have the derivatives they say they have, also beyond the ends.
+#[test]
+fn weights_in_the_speed_have_their_derivatives() {
+    let cam = conoid(&[5.0, 10.0, 20.0, 40.0, 80.0], &[]);
+    let h = 1e-5;
+    for z in [-0.007, 0.003, 0.019, 0.1, 0.127] {
+        let (before, here, after) = (cam.weights_at(z - h), cam.weights_at(z), cam.weights_at(z + h));
+        for ((before, here), after) in before.iter().zip(&here).zip(&after) {
+            for order in 0..3 {
+                let slope = (after[order] - before[order]) / (2.0 * h);
+                // Central differences miss by h²/6 of the derivative three orders up, which grows by 1/(4 mm) an order.
+                assert!((slope - here[order + 1]).abs() < 1e-4 * (1.0 + here[order + 1].abs()), "{z} {order}");
+            }
+        }
+    }
+}

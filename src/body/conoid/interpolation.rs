@@ -1,0 +1,127 @@
+//! How the law is interpolated along the axis: cubic splines through the sections, in the place along the axis or in a
+//! function of the speed that belongs to it.
+//!
+//! Splines in the place z swing between sections whose speeds lie far apart: the law changes with the ratio of two speeds
+//! rather than with their difference. In t = asinh(v/c), v being the speed n, or n² where the shift is linear in that, the
+//! speeds that grow by a factor lie evenly, and at v ≪ c, and beyond the ends of the cam, t is smooth in z all the same. A
+//! crowned roller needs that: straight strips from section to section would have a ridge at each section.
+
+use super::{Conoid, ConoidError};
+use crate::machine::Shift;
+use crate::numeric::spline::Spline;
+use std::sync::OnceLock;
+
+/// The values c that are tried, as shares of the largest v.
+const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
+/// Share of a force that is rounding, and of the largest one: a force that small is nothing.
+const ROUNDING: f64 = 1e-9;
+
+/// The variable in which the splines are cubic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Variable {
+    /// The place along the axis.
+    Place,
+    /// asinh(a + b z), z in m: a, b.
+    Speed(f64, f64),
+}
+
+impl Variable {
+    /// The variable at a place along the axis, m, and its first three derivatives by it.
+    fn at(self, z: f64) -> [f64; 4] {
+        match self {
+            Self::Place => [z, 1.0, 0.0, 0.0],
+            Self::Speed(a, b) => {
+                let y = a + b * z;
+                let square = 1.0 + y * y;
+                let root = square.sqrt();
+                [
+                    libm::asinh(y),
+                    b / root,
+                    -b * b * y / (square * root),
+                    b * b * b * (2.0 * y * y - 1.0) / (square * square * root),
+                ]
+            }
+        }
+    }
+}
+
+/// The share of each section in the law at a place along the axis.
+#[derive(Debug, Clone)]
+pub(super) struct Weights {
+    splines: Vec<Spline>,
+    variable: Variable,
+}
+
+impl Weights {
+    /// Of sections at these places along the axis, m.
+    pub(super) fn new(positions: &[f64], variable: Variable) -> Self {
+        let knots: Vec<f64> = positions.iter().map(|z| variable.at(*z)[0]).collect();
+        let unit = |index: usize| {
+            let values: Vec<f64> = (0..knots.len()).map(|other| f64::from(u8::from(other == index))).collect();
+            Spline::not_a_knot(&knots, &values)
+        };
+        Self { splines: (0..knots.len()).map(unit).collect(), variable }
+    }
+
+    /// The weights at a place along the axis, m, and their first three derivatives by it.
+    pub(super) fn at(&self, z: f64) -> Vec<[f64; 4]> {
+        let [t, t1, t2, t3] = self.variable.at(z);
+        let by_place = |spline: &Spline| {
+            let [w, w1, w2, w3] = spline.at(t);
+            // Faà di Bruno's rule.
+            [w, w1 * t1, w2 * t1 * t1 + w1 * t2, w3 * t1 * t1 * t1 + 3.0 * w2 * t1 * t2 + w1 * t3]
+        };
+        self.splines.iter().map(by_place).collect()
+    }
+
+    /// Whether the splines are cubic in the place along the axis itself.
+    pub(super) fn are_in_place(&self) -> bool {
+        self.variable == Variable::Place
+    }
+}
+
+impl Conoid {
+    /// Sized, with the splines along the axis that leave the least between the sections of those that some radius lets keep
+    /// the limits, where the splines in the place along it leave more than straight strips.
+    pub(super) fn interpolated(self) -> Result<Self, ConoidError> {
+        if self.speeds.len() < 3 || !self.is_worse_than_strips() {
+            return self.sized();
+        }
+        let with = |weights: Weights| {
+            let mut conoid = Self { weights, ..self.clone() };
+            conoid.found.between = OnceLock::new();
+            conoid
+        };
+        let mut all: Vec<Self> = SHARES.iter().filter_map(|share| self.by_speed(*share)).map(with).collect();
+        all.retain(|conoid| conoid.left_between().force < self.left_between().force);
+        all.sort_by(|a, b| a.left_between().force.total_cmp(&b.left_between().force));
+        let sized = all.into_iter().filter_map(|conoid| conoid.sized().ok());
+        let kept = sized.into_iter().find(|conoid| conoid.smallest_prime_radius.is_some());
+        kept.map_or_else(|| self.sized(), Ok)
+    }
+
+    /// Splines in asinh(v/c) with c a share of the largest v.
+    fn by_speed(&self, share: f64) -> Option<Weights> {
+        let square = |rpm: &f64| match self.data.shift {
+            Shift::Linear => *rpm,
+            Shift::Square => rpm * rpm,
+        };
+        let (first, last) = (self.speeds.first().map(square)?, self.speeds.last().map(square)?);
+        let scale = share * last;
+        let variable = Variable::Speed(first / scale, (last - first) / (self.data.axial_travel * scale));
+        (last > first).then(|| Weights::new(&self.positions, variable))
+    }
+
+    /// Whether straight strips from section to section would leave less between the sections.
+    #[must_use]
+    pub fn is_worse_than_strips(&self) -> bool {
+        let inertia = self.press.bed.largest_inertia(self.speeds.last().copied().unwrap_or(0.0));
+        self.left_between().force > self.left_by_strips().force * (1.0 + ROUNDING) + ROUNDING * inertia
+    }
+
+    /// Whether the law is interpolated by the speed instead of the place along the axis.
+    #[must_use]
+    pub fn interpolates_speed(&self) -> bool {
+        !self.weights.are_in_place()
+    }
+}
