@@ -12,10 +12,11 @@
 use super::extremum::Extremum;
 use super::root;
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
-/// Lowest and highest degree of a polynomial: between them the degree is doubled, and the samples are used again.
+/// Lowest degree of a polynomial, and how many degrees are tried: each is twice the one before, and the samples are used again.
 const LEAST_DEGREE: usize = 16;
-const MOST_DEGREE: usize = 64;
+const DEGREES: usize = 3;
 /// Of the largest value known, how large the last coefficients of a resolved cell may be.
 const RESOLVED: f64 = 1e-11;
 /// The same of the largest size sampled: below it is rounding.
@@ -102,12 +103,12 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
     /// Looks at a cell; whether it has to be halved.
     fn look_at(&mut self, low: f64, high: f64) -> bool {
         let mut cell = Cell { low, high, values: Vec::new(), coefficients: Vec::new() };
-        let mut degree = LEAST_DEGREE;
-        loop {
+        let all = Points::all();
+        for (points, grid) in all.of_degree.iter().zip(&all.of_grid) {
             let before = std::mem::take(&mut cell.values);
-            for index in 0..=degree {
+            for (index, point) in points.iter().enumerate() {
                 let known = if index % 2 == 0 { before.get(index / 2).copied() } else { None };
-                let at = cell.place(point(index, degree));
+                let at = cell.place(*point);
                 cell.values.push(match known {
                     Some(value) => value,
                     None => self.sample(at),
@@ -116,21 +117,18 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
             if !cell.values.iter().all(|value| value.is_finite()) {
                 return true;
             }
-            cell.coefficients = coefficients(&cell.values);
+            cell.coefficients = coefficients(&cell.values, points);
             let varies: f64 = cell.coefficients.iter().skip(1).map(|c| c.abs()).sum();
             if varies <= self.negligible || self.cannot_exceed(&cell) {
                 return false;
             }
             let last = cell.coefficients.iter().rev().take(LAST).fold(0.0_f64, |most, c| most.max(c.abs()));
             if last <= self.negligible.max(RESOLVED * self.best.value.abs()).max(ROUNDING * self.scale) {
-                self.try_stationary_points(&cell);
+                self.try_stationary_points(&cell, grid);
                 return false;
             }
-            if degree >= MOST_DEGREE {
-                return true;
-            }
-            degree *= 2;
         }
+        true
     }
 
     /// Whether nothing in the cell can exceed the largest value known: by its samples, and by the upper half of its coefficients,
@@ -148,15 +146,13 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
     }
 
     /// Tries the function where the derivative of the cell's polynomial vanishes.
-    fn try_stationary_points(&mut self, cell: &Cell) {
+    fn try_stationary_points(&mut self, cell: &Cell, grid: &[f64]) {
         let first = derivative(&cell.coefficients);
         let second = derivative(&first);
         let slope = |t: f64| series(&first, t);
         let bend = |t: f64| series(&second, t);
-        let count = 2 * cell.values.len();
         let (mut left, mut left_slope, mut left_bend) = (-1.0, slope(-1.0), bend(-1.0));
-        for index in 1..=count {
-            let right = point(count - index, count);
+        for &right in grid.iter().rev().skip(1) {
             let (right_slope, right_bend) = (slope(right), bend(right));
             // Two stationary points within a cell of the grid: the slope has an extremum between them.
             let turns =
@@ -188,18 +184,41 @@ impl Cell {
     }
 }
 
-/// The Chebyshev point cos(π i/n); exactly −1, 0 and 1 at the ends and in the middle.
-fn point(index: usize, degree: usize) -> f64 {
+/// The Chebyshev points cos(π i/n), i = 0…n; exactly −1, 0 and 1 at the ends and in the middle.
+fn points(degree: usize) -> Vec<f64> {
     #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
-    let (i, n) = (index as f64, degree as f64);
-    libm::sin(0.5 * PI * ((n - 2.0 * i) / n))
+    let point = |index: usize| {
+        let (i, n) = (index as f64, degree as f64);
+        libm::sin(0.5 * PI * ((n - 2.0 * i) / n))
+    };
+    (0..=degree).map(point).collect()
+}
+
+/// The points of every degree that is used, and of the grids on which slopes are looked at, made once.
+struct Points {
+    of_degree: Vec<Vec<f64>>,
+    of_grid: Vec<Vec<f64>>,
+}
+
+impl Points {
+    fn all() -> &'static Self {
+        static ALL: OnceLock<Points> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let degrees: Vec<usize> =
+                std::iter::successors(Some(LEAST_DEGREE), |degree| Some(2 * degree)).take(DEGREES).collect();
+            Self {
+                of_degree: degrees.iter().map(|degree| points(*degree)).collect(),
+                of_grid: degrees.iter().map(|degree| points(2 * degree)).collect(),
+            }
+        })
+    }
 }
 
 /// Coefficients of the polynomial through values at the Chebyshev points, from the upper end to the lower:
 /// cₖ = (2/n) Σ″ fⱼ cos(π j k/n), the first and the last halved.
-fn coefficients(values: &[f64]) -> Vec<f64> {
+fn coefficients(values: &[f64], points: &[f64]) -> Vec<f64> {
     let n = values.len().saturating_sub(1);
-    let cosines: Vec<f64> = (0..2 * n).map(|i| point(i, n)).collect();
+    let cosines: Vec<f64> = points.iter().chain(points.iter().rev().skip(1)).copied().collect();
     #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
     let share = 2.0 / n as f64;
     let coefficient = |k: usize| {

@@ -48,13 +48,16 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual
     let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
     let z = conoid.position(rpm);
     let Some(section) = conoid.sections.first() else { return Residual { force: f64::NAN, rpm, angle: 0.0 } };
-    let unit = conoid.cylinder.unit_force();
+    let (unit, slice) = (conoid.cylinder.unit_force(), conoid.slice(z));
     let left = |piece: usize, angle: f64| {
         let state = section.state(piece, angle);
         if state.crank > PI {
             return 0.0;
         }
-        let bottom = conoid.displacement(piece, angle, z, interpolation);
+        let bottom = match interpolation {
+            Interpolation::Smooth => slice.bottom(piece, angle),
+            Interpolation::Straight => conoid.displacement(piece, angle, z, interpolation),
+        };
         let left = bottom_law.loading * state.overrun - (bottom_law.pressure_ratio(state.overrun, bottom) - 1.0);
         // A bottom that is beyond the piston leaves no air.
         if left.is_nan() { f64::NEG_INFINITY } else { unit * left }

@@ -488,6 +488,14 @@ pub struct Slice<'a> {
     weights: Vec<f64>,
 }
 
+impl Slice<'_> {
+    /// Δx of the bottom, m, with this section of the surface under the roller.
+    fn bottom(&self, piece: usize, angle: f64) -> f64 {
+        let bottoms = self.conoid.sections.iter().map(|section| section.bottom(piece, angle).s);
+        bottoms.zip(&self.weights).map(|(bottom, weight)| bottom * weight).sum()
+    }
+}
+
 impl Motion for Slice<'_> {
     fn pieces(&self) -> &[Piece] {
         self.conoid.pieces()

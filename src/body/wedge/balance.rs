@@ -1,10 +1,10 @@
 //! What the verdicts on a plate rest on: air, run-up, and what would make it worth while on the way back.
 
 use super::Wedge;
+use crate::body::ROUNDING_OF_BALANCE;
 use crate::load::RunUp;
-use crate::machine::Machine;
-use crate::motion::Transition;
-use crate::motion::equation_18::{ExactOn, Way};
+use crate::motion::equation_18::{ExactOn, Mechanism, Way};
+use crate::motion::{Transition, WedgeMotion};
 use crate::profile::{Worst, extremes};
 
 /// Steps in which friction angle (rad), efficiency and roller arm (m) are told.
@@ -43,36 +43,25 @@ impl Wedge {
     /// are not to balance below what a fixed bottom leaves.
     pub(super) fn worth_while(&self) -> Vec<String> {
         let data = self.data;
-        let with = |change: &dyn Fn(&mut Machine)| {
-            let mut machine = (*self.machine).clone();
-            change(&mut machine);
-            let exact_on = self.mechanism().exact_on;
-            let plate = Self::solve(&machine, self.rpm, self.solver, exact_on).ok();
-            let left = plate.and_then(|plate| Some(plate.residual_max(plate.other_way()?).value));
-            left.is_some_and(|left| left < self.residual_fixed_bottom())
+        let Some(way) = self.other_way() else { return Vec::new() };
+        let (unit, limit) = (self.cylinder.unit_force(), self.residual_fixed_bottom());
+        // The law alone is solved: the outline does not change what it leaves.
+        let with = |change: &dyn Fn(&mut Mechanism)| {
+            let mut mechanism = *self.mechanism();
+            change(&mut mechanism);
+            let Ok(motion) = WedgeMotion::new(mechanism, self.solver, self.machine.transition, self.data.roller_radius)
+            else {
+                return false;
+            };
+            let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
+            let left = |piece: usize, x: f64| unit * motion.residual(piece, x, way);
+            extremes::largest_size_of_motion(&motion, (&self.acting(), negligible), left).value < limit
         };
         let degrees = |steps: f64| (steps * ANGLE_STEP * 1e6).round() / 1e6;
-        let friction = |steps: f64| {
-            with(&|machine| {
-                if let Some(data) = &mut machine.translating {
-                    data.friction_angle = degrees(steps).to_radians();
-                }
-            })
-        };
-        let efficiency = |steps: f64| {
-            with(&|machine| {
-                if let Some(data) = &mut machine.translating {
-                    data.efficiency = steps / EFFICIENCY_STEPS;
-                }
-            })
-        };
-        let arm = |steps: f64| {
-            with(&|machine| {
-                if let Some(data) = &mut machine.translating {
-                    data.roller_arm = 1e-3 * (steps * ARM_STEP_MM);
-                }
-            })
-        };
+        let friction = |steps: f64| with(&|mechanism| mechanism.friction_angle = degrees(steps).to_radians());
+        let efficiency = |steps: f64| with(&|mechanism| mechanism.efficiency = steps / EFFICIENCY_STEPS);
+        let arm =
+            |steps: f64| with(&|mechanism| mechanism.arm_ratio = data.bottom_arm / (1e-3 * (steps * ARM_STEP_MM)));
         let angle = first_passing(0.0, (data.friction_angle.to_degrees() / ANGLE_STEP).ceil(), friction);
         let share = first_passing(EFFICIENCY_STEPS, (data.efficiency * EFFICIENCY_STEPS).floor(), efficiency);
         let from = (1e3 * data.roller_arm / ARM_STEP_MM).floor();
