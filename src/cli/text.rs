@@ -52,7 +52,8 @@ fn check(finding: &Finding, colour: bool) -> String {
     let word = finding.verdict.word();
     let verdict = if colour { format!("{paint}{word}{PLAIN}") } else { word.into() };
     let value = if finding.value.is_finite() { shown(finding.value) } else { "–".into() };
-    let with_unit = |value: String| if finding.unit.is_empty() { value } else { format!("{value} {}", finding.unit) };
+    let with_unit =
+        |value: String| if ["", "1"].contains(&&*finding.unit) { value } else { format!("{value} {}", finding.unit) };
     let mut line = format!("    {verdict}  {:<18} {}", finding.check, with_unit(value));
     if let Some(limit) = finding.limit {
         let _ = write!(line, ", limit {}", with_unit(shown(limit)));

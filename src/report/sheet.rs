@@ -199,7 +199,8 @@ fn check_words(finding: &Finding) -> String {
         return format!("{verdict}  {}  –", finding.check);
     }
     let limit = finding.limit.map_or(String::new(), |limit| format!(", limit {}", rounded(limit)));
-    format!("{verdict}  {}  {} {}{limit}", finding.check, rounded(finding.value), finding.unit)
+    let unit = if finding.unit == "1" { String::new() } else { format!(" {}", finding.unit) };
+    format!("{verdict}  {}  {}{unit}{limit}", finding.check, rounded(finding.value))
 }
 
 /// A number for a person: three decimals at the most, no trailing zeros.

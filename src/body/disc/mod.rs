@@ -519,4 +519,39 @@ mod tests {
         let share = blend.residual_max().value / inertia(&blend);
         assert!((share - 0.002_094_2).abs() < 1e-6, "{share}");
     }
+
+    /// What a narrow blend leaves, on both sides of the start of the reversal, against a hundred thousand places of the blend: told
+    /// is at least as much, and no more than a scan that fine can miss.
+    #[test]
+    fn a_narrow_blend_is_told_to_rounding() {
+        for width in [0.05_f64, 1.0, 30.0] {
+            for column in ["return", "matched", "200 mm", "400 mm"] {
+                for pressure in [1.2, 2.0, 5.0] {
+                    let blend = disc(
+                        "dpi",
+                        &[
+                            "transition.kind=blend",
+                            &format!("transition.width={width}deg"),
+                            &format!("buffer.column={column}"),
+                            &format!("buffer.end_pressure={pressure}at"),
+                            "cam.base_radius=1500mm",
+                        ],
+                    );
+                    let load = blend.load.as_ref().expect("a press");
+                    let half = 0.5 * width.to_radians();
+                    let left = |i: u32| {
+                        let (piece, angle) = blend.motion.locate(half * f64::from(i) / 1e5);
+                        load.residual(piece, angle, 0.0, Vector2::zeros()).abs()
+                    };
+                    let scan = (0..=100_000).map(left).fold(0.0, f64::max);
+                    let told = blend.residual_max().value;
+                    let what = format!("{width}° {column} {pressure} at: {told} {scan}");
+                    // Between places the top rises by the square of 1e-5 of the blend; the rest is rounding of the inertia.
+                    let rounding = ROUNDING_OF_BALANCE * load.largest();
+                    let bounds = scan * (1.0 - 1e-9) - rounding..=scan * (1.0 + 1e-7) + rounding;
+                    assert!(bounds.contains(&told), "{what}");
+                }
+            }
+        }
+    }
 }
