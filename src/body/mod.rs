@@ -32,6 +32,10 @@ use conoid::flank::{Flank, FlankError};
 use nalgebra::Vector2;
 use std::sync::OnceLock;
 
+/// Corners that are intended are looked for that many tolerances about their exact places: a drawing within the tolerance cuts
+/// an acute one off by up to a few.
+pub const CORNER_REACH: f64 = 4.0;
+
 /// A kind of body.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Kind {
@@ -158,8 +162,8 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// The parameter at which a point of the drawing (m) lies.
     fn parameter_at(&self, point: Vector2<f64>) -> f64;
 
-    /// Whether a point of the drawing (m) lies on an end of the cam, where its outline has corners.
-    fn ends_at(&self, _point: Vector2<f64>) -> bool {
+    /// Whether a point of the drawing lies within reach (both m) of a corner that its outline is meant to have.
+    fn corner_within(&self, _point: Vector2<f64>, _reach: f64) -> bool {
         false
     }
 

@@ -45,9 +45,9 @@ impl Course {
         (self.start + along * (2.0 * sin / self.curvature), turned(along))
     }
 
-    /// Where the straight line through a point along a unit vector meets the circle or line of the segment nearest to the
-    /// point: the distance along the vector, and the length from the segment's start (beyond 0 and its length where the
-    /// segment does not reach). `None` where they do not meet.
+    /// Where the circle or line of the segment crosses the straight line through a point along a unit vector from its right to
+    /// its left, seen along the vector: the distance along it, and the length from the segment's start (beyond 0 and its
+    /// length where the segment does not reach). `None` where they do not cross.
     ///
     /// With x from the start and the left normal N of its heading, the circle is k x²/2 = N·x, also for a line, k = 0.
     #[must_use]
@@ -58,7 +58,9 @@ impl Course {
         let (a, b) = (0.5 * k, k * from.dot(&direction) - left.dot(&direction));
         let c = 0.5 * k * from.norm_squared() - left.dot(&from);
         let root = (b * b - 4.0 * a * c).sqrt();
-        let away = -2.0 * c / (b + root.copysign(b));
+        // Of the two places that where the segment passes to the left of the vector, b + k away = root: behind the centre of
+        // an arc smaller than the distance it is the far one.
+        let away = if b < 0.0 { (root - b) / k } else { -2.0 * c / (b + root) };
         if !away.is_finite() {
             return None;
         }

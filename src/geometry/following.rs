@@ -42,7 +42,10 @@ const LONGEST_STEP: f64 = 0.8;
 /// Where the foot is that near to a corner, mm, a chain that turns across the outline, with a cosine below this, has got to it.
 const CORNER_REACH: f64 = 0.1;
 const ACROSS: f64 = 0.1;
-/// Halvings of a cell at the most, and Newton steps to a foot.
+/// A cell is cut where d' is 0 to first order if both parts keep this share of it at the least: cut near its end again and again
+/// it would not grow shorter.
+const LEAST_SHARE: f64 = 0.02;
+/// Cuts of a cell at the most, every other one in its middle, and Newton steps to a foot.
 const DEEPEST: u32 = 48;
 const FOOT_STEPS: u32 = 64;
 /// How far a cubic overshoots its ends, over its length and the sum of its slopes there: 4/27.
@@ -150,7 +153,8 @@ impl Walk<'_, '_> {
     fn node(&mut self, course: &Course, length: f64, foot: CurvePoint, parameter: f64) -> Result<Node, Lost> {
         let (point, tangent) = course.at(length);
         let off = (point - foot.point).dot(&foot.outward());
-        if !(foot.tangent.dot(&tangent) > 0.0) {
+        // A segment that short has any direction where its ends were rounded.
+        if !(foot.tangent.dot(&tangent) > 0.0) && course.length > NEAR {
             return Err(Lost { why: Astray::Back, at: point });
         }
         if !(1.0 + foot.curvature * off > 0.0) {
@@ -236,6 +240,10 @@ impl Walk<'_, '_> {
     fn cell(&mut self, course: &Course, a: &Node, b: &Node, depth: u32) -> Result<(), Lost> {
         let length = b.length - a.length;
         if length <= NEAR {
+            // d' is a sine: it changes by no more than the two curves turn.
+            let turn = length * (course.curvature.abs() + 1.25 * a.foot.curvature.abs().max(b.foot.curvature.abs()));
+            let slope = (a.sine.abs().max(b.sine.abs()) + turn).min(1.0);
+            self.record(a.off.abs().max(b.off.abs()) + 0.5 * length.max(0.0) * slope, b.point);
             return Ok(());
         }
         if let Some(bend) = bend(course.curvature, a, b, length)
@@ -244,9 +252,11 @@ impl Walk<'_, '_> {
         {
             return Ok(());
         }
-        // Where d' is 0 if it changes its sign, else the middle.
-        let turns = a.sine * b.sine < 0.0;
-        let share = if turns { (a.sine / (a.sine - b.sine)).clamp(0.02, 0.98) } else { 0.5 };
+        // Where d' is 0 if it changes its sign, else the middle; the middle every other time, so that no rounding of d' where
+        // the two curves run together takes all cuts to one end.
+        let root = a.sine / (a.sine - b.sine);
+        let turns = depth % 2 == 0 && (LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&root);
+        let share = if turns { root } else { 0.5 };
         let parameter = a.parameter + share * (b.parameter - a.parameter);
         if !(a.parameter < parameter && parameter < b.parameter) {
             return Ok(());
@@ -265,10 +275,8 @@ impl Walk<'_, '_> {
         let Some(first) = courses.first() else {
             return Err(Lost { why: Astray::Turns, at: self.worst.at });
         };
-        self.begin(first.start)?;
+        let (foot, parameter) = self.begin(first.start)?;
         let started = self.index;
-        let (start, parameter) = (self.ends(first.start)?[0], self.parameters().0);
-        let (foot, parameter) = self.foot(start, parameter, first.start)?;
         let mut place = (foot, parameter);
         for course in courses {
             let mut node = self.node(course, 0.0, place.0, place.1)?;
@@ -282,18 +290,24 @@ impl Walk<'_, '_> {
         if closes { Ok(()) } else { Err(Lost { why: Astray::Turns, at: first.start }) }
     }
 
-    /// Takes the stretch nearest to a point among those whose normals pass on either side of it.
-    fn begin(&mut self, point: Vector2<f64>) -> Result<(), Lost> {
-        let near = |index: &usize| -> Option<(f64, usize)> {
-            let [start, end] = self.boundary.ends(*index)?;
+    /// Takes the stretch nearest to a point among those whose normals pass on either side of it, and gives its foot there.
+    fn begin(&mut self, point: Vector2<f64>) -> Result<(CurvePoint, f64), Lost> {
+        let mut nearest: Option<(f64, usize, (CurvePoint, f64))> = None;
+        for index in 0..self.boundary.stretches().len() {
+            self.index = index;
+            let [start, end] = self.ends(point)?;
             let (from, to) = (point - start.point, point - end.point);
-            let between = from.dot(&start.tangent) >= -NEAR && to.dot(&end.tangent) <= NEAR;
-            between.then(|| (from.norm().min(to.norm()), *index))
-        };
-        let all = (0..self.boundary.stretches().len()).filter_map(|index| near(&index));
-        let nearest = all.min_by(|a, b| a.0.total_cmp(&b.0));
-        self.index = nearest.ok_or(Lost { why: Astray::Away, at: point })?.1;
-        Ok(())
+            if from.dot(&start.tangent) >= -NEAR && to.dot(&end.tangent) <= NEAR {
+                let place = self.foot(start, self.parameters().0, point)?;
+                let away = (point - place.0.point).norm();
+                if nearest.is_none_or(|(least, ..)| away < least) {
+                    nearest = Some((away, index, place));
+                }
+            }
+        }
+        let (_, index, place) = nearest.ok_or(Lost { why: Astray::Away, at: point })?;
+        self.index = index;
+        Ok(place)
     }
 
     /// From corner to corner.

@@ -65,7 +65,7 @@ const MOST_NAMES: usize = 3;
 /// A segment no longer than this has no length, mm: readers drop it, whatever reach its ends are joined with.
 const NO_LENGTH: f64 = 1e-6;
 
-/// Ends of two segments that are one lie nearer than this share of the segment.
+/// Ends of two segments that are one, and the ends of a chain that is closed, lie nearer than this share of its length.
 const SAME_SHARE: f64 = 0.1;
 
 pub(super) struct Joined {
@@ -79,6 +79,8 @@ pub(super) struct Joined {
 
 /// Width of a cell of the grid over the reach.
 const CELL: f64 = 4.0;
+/// Ends about an end beyond which no nearer one is looked for.
+const MANY: usize = 1000;
 /// So many segments about a middle are looked at before one looks for fewer.
 const FEW: usize = 8;
 
@@ -119,27 +121,39 @@ impl Grid {
         (lists, count)
     }
 
-    /// Takes out and gives back what is near a place and fits; what is gone is left out for good.
-    fn take(
+    /// What lies nearest to a place among what is in it, no farther off than the reach, and how far; places no farther off than
+    /// [`NO_LENGTH`] are equally near. What is gone is left out for good.
+    fn nearest(
         &mut self,
         place: Vector2<f64>,
         gone: impl Fn(usize) -> bool,
-        fits: impl Fn(usize) -> bool,
-    ) -> Option<usize> {
+        away: impl Fn(usize) -> f64,
+    ) -> Option<(f64, usize)> {
+        let mut nearest: Option<(f64, usize)> = None;
+        let mut met = 0;
         for cell in self.about(place) {
             let Some(list) = self.places.get_mut(&cell) else { continue };
             let mut index = 0;
             while let Some(candidate) = list.get(index).copied() {
                 if gone(candidate) {
                     list.swap_remove(index);
-                } else if fits(candidate) {
-                    return Some(candidate);
-                } else {
-                    index += 1;
+                    continue;
+                }
+                index += 1;
+                let distance = away(candidate);
+                if distance > self.reach {
+                    continue;
+                }
+                if nearest.is_none_or(|(least, _)| distance < least) {
+                    nearest = Some((distance, candidate));
+                }
+                met += 1;
+                if distance <= NO_LENGTH || met >= MANY {
+                    return nearest;
                 }
             }
         }
-        None
+        nearest
     }
 }
 
@@ -192,23 +206,32 @@ impl Known {
     }
 }
 
-/// Segments in a row with the indices of their sources.
+/// Segments in a row with the indices of their sources, and how long they are together, mm.
 struct Link {
     segments: Vec<Segment>,
     sources: BTreeSet<usize>,
+    length: f64,
 }
 
 impl Link {
     fn of(segments: Vec<Segment>, source: usize) -> Option<Self> {
-        (!segments.is_empty()).then(|| Self { segments, sources: BTreeSet::from([source]) })
+        let length = segments.iter().map(Segment::length).sum();
+        (!segments.is_empty()).then(|| Self { segments, sources: BTreeSet::from([source]), length })
     }
 
     fn ends(&self) -> Option<(Vector2<f64>, Vector2<f64>)> {
         Some((self.segments.first()?.start, self.segments.last()?.end))
     }
 
+    /// The distance of its ends where it may be closed by itself: a few short segments within the reach are no loop.
+    fn gap(&self, reach: f64) -> Option<f64> {
+        let (start, end) = self.ends().filter(|_| self.segments.len() > 1)?;
+        let gap = (end - start).norm();
+        (gap <= reach.min(SAME_SHARE * self.length)).then_some(gap)
+    }
+
     fn open(&self, reach: f64) -> bool {
-        self.ends().is_some_and(|(start, end)| !((end - start).norm() <= reach && self.segments.len() > 1))
+        self.gap(reach).is_none()
     }
 
     fn reverse(&mut self) {
@@ -264,35 +287,47 @@ fn same(a: &Segment, b: &Segment, reach: f64) -> bool {
         && (close(a.start, b.start) && close(a.end, b.end) || close(a.start, b.end) && close(a.end, b.start))
 }
 
-/// Joins links as long as an end of one meets an end of another that is still free.
+/// Joins links as long as an end of one meets an end of another that is still free, the nearest first: among segments shorter
+/// than the reach it is the one that follows. A chain whose ends meet goes on where a free end is nearer than its own.
 fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
-    let mut by_end = Grid::new(reach);
+    // Ends that are the same are found at once, however many others are within reach.
+    let mut by_end = [Grid::new(reach.min(NO_LENGTH)), Grid::new(reach)];
     for (index, link) in links.iter().enumerate() {
         // One that is closed by itself is joined to nothing.
         if let Some((start, end)) = link.ends().filter(|_| link.open(reach)) {
-            by_end.insert(start, index);
-            by_end.insert(end, index);
+            for grid in &mut by_end {
+                grid.insert(start, index);
+                grid.insert(end, index);
+            }
         }
     }
     let ends: Vec<Option<(Vector2<f64>, Vector2<f64>)>> = links.iter().map(Link::ends).collect();
     let mut free: Vec<Option<Link>> = links.into_iter().map(Some).collect();
-    let near = |a: Vector2<f64>, b: Vector2<f64>| (a - b).norm() <= reach;
     let mut found = Vec::new();
     for index in 0..free.len() {
         let Some(mut link) = free.get_mut(index).and_then(Option::take) else { continue };
+        let alone = !link.open(reach);
         // Forwards as far as it goes, then the other way round, once.
         for _ in 0..2 {
-            while link.open(reach) {
-                let Some((_, end)) = link.ends() else { break };
+            while let Some((_, end)) = link.ends().filter(|_| !alone) {
+                let gap = link.gap(reach);
+                if gap.is_some_and(|gap| gap <= NO_LENGTH) {
+                    break;
+                }
                 let gone = |other: usize| free.get(other).is_none_or(Option::is_none);
-                let meets = |other: usize| {
-                    ends.get(other).copied().flatten().is_some_and(|(a, b)| near(a, end) || near(b, end))
+                let away = |other: usize| {
+                    let ends = ends.get(other).copied().flatten();
+                    ends.map_or(f64::INFINITY, |(a, b)| (a - end).norm().min((b - end).norm()))
                 };
-                let Some(other) = by_end.take(end, gone, meets) else { break };
+                let nearest = by_end.iter_mut().find_map(|grid| grid.nearest(end, gone, away));
+                let Some((_, other)) = nearest.filter(|(distance, _)| gap.is_none_or(|gap| *distance < gap)) else {
+                    break;
+                };
                 let Some(mut taken) = free.get_mut(other).and_then(Option::take) else { break };
-                if !taken.ends().is_some_and(|(start, _)| near(start, end)) {
+                if taken.ends().is_some_and(|(start, last)| (last - end).norm() < (start - end).norm()) {
                     taken.reverse();
                 }
+                link.length += taken.length;
                 link.segments.extend(taken.segments);
                 link.sources.extend(taken.sources);
             }

@@ -1,6 +1,8 @@
-//! Kinks between the segments of the outline. The corners of a plate's ends do not count.
+//! Kinks between the segments of the outline. The corners of a plate's ends do not count: joints within a few tolerances of where
+//! they are meant to be.
 
 use super::{Check, Evidence, On, WrittenOutline, place};
+use crate::body::CORNER_REACH;
 use crate::geometry::contour::Vertex;
 use crate::report::{Finding, Place, Verdict};
 
@@ -17,9 +19,10 @@ const LIMIT: f64 = 0.05;
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
+    let reach = CORNER_REACH * 1e-3 * evidence.tolerance_mm;
     let of = |written: &WrittenOutline| -> Option<(f64, Vertex, f64)> {
         let breaks = written.contour.tangent_breaks();
-        let smooth = |(_, vertex): &(&f64, &Vertex)| !body.ends_at(vertex.point * 1e-3);
+        let smooth = |(_, vertex): &(&f64, &Vertex)| !body.corner_within(vertex.point * 1e-3, reach);
         let joints = breaks.iter().zip(&written.contour.vertices).filter(smooth);
         let (turn, vertex) = joints.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
         Some((*turn, *vertex, written.z))

@@ -1,9 +1,9 @@
 //! The plate on the bed as a [`Body`]: what checks, drawings, tables and reports use of it.
 
-use super::{END_WIDTH, KIND, Wedge, sheet};
+use super::{KIND, Wedge, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::Part;
-use crate::body::{Body, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress};
+use crate::body::{Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Segment, Vertex};
@@ -199,8 +199,11 @@ impl Body for Wedge {
         point.x
     }
 
-    fn ends_at(&self, point: Vector2<f64>) -> bool {
-        point.x < self.start().x + END_WIDTH || point.x > self.run_out().x - END_WIDTH
+    /// Those of its two straight ends.
+    fn corner_within(&self, point: Vector2<f64>, reach: f64) -> bool {
+        // The upper flank is the mirror image of the lower.
+        let from = |corner: Vector2<f64>| libm::hypot(point.x - corner.x, point.y.abs() - corner.y.abs());
+        [self.start(), self.run_out()].into_iter().any(|corner| from(corner) <= reach)
     }
 
     fn mirrored(&self) -> &'static [bool] {
@@ -337,8 +340,9 @@ impl Body for Wedge {
             ..CamMeasures::default()
         };
         // The corners of a plate's ends are intended.
-        let outline =
-            part.map(|part| part.measures(found.tolerance_mm, |point| self.ends_at(point / MILLIMETRES)).section());
+        let reach = CORNER_REACH * found.tolerance_mm / MILLIMETRES;
+        let corner = |point: Vector2<f64>| self.corner_within(point / MILLIMETRES, reach);
+        let outline = part.map(|part| part.measures(found.tolerance_mm, corner).section());
         vec![
             cam.section(),
             self.law().section(),

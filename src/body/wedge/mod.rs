@@ -28,9 +28,6 @@ pub const LAW_TOLERANCE: f64 = 1e-15;
 const FLAT_OVER_ROLLER: f64 = 1.0;
 const RUN_OUT_OVER_ROLLER: f64 = 0.1;
 
-/// A point nearer to an end of the plate than this is on the end, m.
-const END_WIDTH: f64 = 1e-4;
-
 /// Whole millimetres a height that was not given is rounded up to, m.
 const HEIGHT_STEP: f64 = 1e-3;
 
