@@ -255,7 +255,7 @@ impl Walk<'_, '_> {
         // Where d' is 0 if it changes its sign, else the middle; the middle every other time, so that no rounding of d' where
         // the two curves run together takes all cuts to one end.
         let root = a.sine / (a.sine - b.sine);
-        let turns = depth % 2 == 0 && (LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&root);
+        let turns = depth.is_multiple_of(2) && (LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&root);
         let share = if turns { root } else { 0.5 };
         let parameter = a.parameter + share * (b.parameter - a.parameter);
         if !(a.parameter < parameter && parameter < b.parameter) {

@@ -337,3 +337,37 @@ fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A round of segments, some of them far shorter than the reach, in any order and either direction.
+    #[test]
+    fn segments_shorter_than_the_reach_are_joined_in_a_row() {
+        let lengths = |i: u32| if i % 50 < 20 { 1e-3 } else { 0.05 };
+        let total: f64 = (0..1000).map(lengths).sum();
+        let mut place = 0.0;
+        let mut ring: Vec<Segment> = Vec::new();
+        let at = |along: f64| {
+            let angle = std::f64::consts::TAU * along / total;
+            Vector2::new(9.0 * libm::cos(angle), 9.0 * libm::sin(angle))
+        };
+        for i in 0..1000 {
+            // Ends that were rounded.
+            let rounding = 1e-9 * f64::from(i % 3);
+            ring.push(Segment { start: at(place), end: at(place + lengths(i)).add_scalar(rounding), bulge: 0.0 });
+            place += lengths(i);
+        }
+        // 389 has no factor in common with 1000.
+        let mixed = (0..1000).map(|i| (i * 389 + 7) % 1000).filter_map(|i| ring.get(i).copied());
+        let turned = mixed.enumerate().map(|(i, s)| if i % 3 == 0 { reversed(s) } else { s });
+        let links = || turned.clone().filter_map(|segment| Link::of(vec![segment], 0)).collect::<Vec<_>>();
+        let found = joined(links(), 4e-3);
+        assert_eq!(found.len(), 1);
+        assert!(found.iter().all(|link| !link.open(4e-3) && link.segments.len() == 1000));
+        for (a, b) in found.iter().flat_map(|link| link.segments.iter().zip(link.segments.iter().skip(1))) {
+            assert!((b.start - a.end).norm() < 1e-8, "{a:?} {b:?}");
+        }
+    }
+}

@@ -3,7 +3,9 @@
 use super::{KIND, Wedge, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::Part;
-use crate::body::{Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress};
+use crate::body::{
+    Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress,
+};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Segment, Vertex};
