@@ -310,6 +310,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Parameters at which the residual force may jump: where the air closes and opens.
+    fn force_jumps(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
     /// A change with which every limit that depends on the size is kept, tried before it is told; or why there is none.
     fn remedy(&self) -> Option<String> {
         None

@@ -26,12 +26,18 @@ pub(super) const CHECK: Check = Check {
 
 /// Even places beside those at which the roller touches the segments.
 const EVEN_PLACES: u32 = 360;
+/// Parts into which every piece of the motion is cut at the least.
+const PIECE_PLACES: u32 = 8;
+/// How far from a jump of the force its sides are, rad or m.
+const BESIDE: f64 = 1e-12;
 /// Places spread over the segments, at the least one on each.
 const SEGMENT_PLACES: usize = 144;
 /// Between two places a maximum is looked for while it may exceed what was found by more than this, mm.
 const SLACK: f64 = 1e-10;
 /// By so much of what a cubic rises above its ends a maximum may be higher than the cubic.
 const DOUBT: f64 = 0.25;
+/// The foot jumps where it moves so much farther than the roller's centre.
+const JUMP: f64 = 4.0;
 /// Halvings between two places, and places in all that are looked at closer.
 const DEEPEST: u32 = 30;
 const MOST_CLOSER: usize = 4000;
@@ -39,10 +45,15 @@ const MOST_CLOSER: usize = 4000;
 /// to the square of what is left of the step, 1e-8.
 const CLOSER_LOOKS: usize = 8;
 const CLOSER_SECTIONS: u32 = 19;
+/// Parabolas to the top of a peak of the residual force, and the least step, over the width of what is left.
+const PEAK_STEPS: u32 = 12;
+/// Pairs of places whose larger force is nearly the largest have one more between them.
+const NEARLY: f64 = 0.1;
+const LEAST_STEP: f64 = 1e-6;
 /// Places at which parry measures as well, and two contacts at once are looked for.
 const PARRY_PLACES: usize = 240;
 /// Chords for parry lie within this share of the tolerance.
-const CHORD_SHARE: f64 = 0.02;
+const CHORD_SHARE: f64 = 0.1;
 /// Newton steps along the path, and the cosine below which the roller slides off rather than touches.
 const TOUCH_STEPS: usize = 12;
 const LEAST_COSINE: f64 = 0.05;
@@ -65,6 +76,9 @@ struct Sample {
     /// Its derivative.
     lift_slope: f64,
     residual: f64,
+    /// Where the roller, placed by the motion, is nearest to the outline, and its centre, mm.
+    foot: Vector2<f64>,
+    centre: Vector2<f64>,
     /// How far parry's distance is from the exact one, where it was measured.
     difference: f64,
     double: bool,
@@ -151,6 +165,8 @@ impl Roll<'_> {
             lift_error,
             lift_slope: if rolls { lift_slope } else { f64::NAN },
             residual,
+            foot: contact.curve.point * 1e3 - normal * (self.radius + gap),
+            centre: contact.curve.point * 1e3,
             difference: 0.0,
             double: false,
         }
@@ -190,7 +206,18 @@ impl Roll<'_> {
         let located = even.chain(touching).filter(within).map(|parameter| self.curves.motion.locate(parameter));
         let pieces = self.curves.motion.pieces().iter().enumerate();
         let ends = pieces.flat_map(|(index, piece)| [(index, piece.start), (index, piece.end)]);
-        let mut places: Vec<(usize, f64)> = located.chain(ends).collect();
+        // Where the air closes and opens the residual force jumps, also in the middle of a piece: both sides of it.
+        let jumps = self.body.force_jumps().into_iter().flat_map(|at| [at - BESIDE, at, at + BESIDE]);
+        let jumps = jumps.filter(within).map(|parameter| self.curves.motion.locate(parameter));
+        // However short a piece is, it has its own places.
+        let own = self.curves.motion.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell);
+        let own = own.flat_map(|(index, piece)| {
+            (1..PIECE_PLACES).map(move |i| {
+                let share = f64::from(i) / f64::from(PIECE_PLACES);
+                (index, piece.start + (piece.end - piece.start) * share)
+            })
+        });
+        let mut places: Vec<(usize, f64)> = located.chain(ends).chain(jumps).chain(own).collect();
         places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         places.dedup();
         places
@@ -208,13 +235,19 @@ impl Roll<'_> {
                 [a, b] if a.piece == b.piece => Some((*a, *b, DEEPEST)),
                 _ => None,
             });
-            let mut cells: Vec<(f64, Cell)> = pairs.filter_map(|cell| Some((promise(&cell, value)?.0, cell))).collect();
+            let promise = |cell: &Cell| {
+                [promise_of(cell, value), promise_of_jump(cell, value)]
+                    .into_iter()
+                    .flatten()
+                    .max_by(|a, b| a.0.total_cmp(&b.0))
+            };
+            let mut cells: Vec<(f64, Cell)> = pairs.filter_map(|cell| Some((promise(&cell)?.0, cell))).collect();
             // The most promising last, where they are taken from.
             cells.retain(|(promise, _)| *promise > best + SLACK);
             cells.sort_by(|a, b| a.0.total_cmp(&b.0));
             let mut left = MOST_CLOSER;
             while let Some((promised, cell)) = cells.pop() {
-                let Some((_, at)) = promise(&cell, value).filter(|_| promised > best + SLACK && left > 0) else {
+                let Some((_, at)) = promise(&cell).filter(|_| promised > best + SLACK && left > 0) else {
                     continue;
                 };
                 left -= 1;
@@ -224,7 +257,7 @@ impl Roll<'_> {
                 found.push(between);
                 if depth > 0 {
                     let halves = [(a, between, depth - 1), (between, b, depth - 1)];
-                    cells.extend(halves.into_iter().filter_map(|cell| Some((promise(&cell, value)?.0, cell))));
+                    cells.extend(halves.into_iter().filter_map(|cell| Some((promise(&cell)?.0, cell))));
                 }
             }
         }
@@ -257,6 +290,65 @@ impl Roll<'_> {
         peaks.iter().filter_map(look).collect()
     }
 
+    /// The largest residual force between the places: every local maximum of the samples that may exceed the largest found, as
+    /// far as the parabola through it and its neighbours tells, is solved by parabolas.
+    fn worst_residual(&self, samples: &[Sample]) -> Vec<Sample> {
+        let mut best = samples.iter().map(|s| s.residual).fold(0.0, f64::max);
+        let highest =
+            |[a, b, c]: &[Sample; 3]| a.piece == c.piece && b.residual >= a.residual && b.residual >= c.residual;
+        let inner = samples.windows(3).filter_map(|three| <[Sample; 3]>::try_from(three).ok());
+        // Beside an end of a piece, or a jump, the highest place may lie between the last two: one is put there.
+        let beside = samples.windows(2).filter_map(|pair| {
+            let [a, b] = pair else { return None };
+            let near = a.piece == b.piece && a.residual.max(b.residual) >= (1.0 - NEARLY) * best;
+            let width = b.parameter - a.parameter;
+            (near && width > 4.0 * BESIDE).then(|| [*a, self.sample(a.piece, a.parameter + 0.5 * width), *b])
+        });
+        let all = inner.filter(highest).chain(beside.filter(highest));
+        let mut peaks: Vec<(f64, [Sample; 3])> = all.map(|three| (top_of(&three).1, three)).collect();
+        peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut found = Vec::new();
+        for (top, three) in peaks {
+            let [_, middle, _] = three;
+            if top + DOUBT * (top - middle.residual) <= best {
+                continue;
+            }
+            let solved = self.peak(three);
+            best = best.max(solved.residual);
+            found.push(solved);
+        }
+        found
+    }
+
+    /// The top of a local maximum of the residual force within its neighbours.
+    fn peak(&self, mut three: [Sample; 3]) -> Sample {
+        for _ in 0..PEAK_STEPS {
+            let [a, b, c] = three;
+            let (at, _) = top_of(&three);
+            let reach = c.parameter - a.parameter;
+            // Where the parabola has nothing to say the longer side is halved.
+            let halved = if b.parameter - a.parameter > c.parameter - b.parameter { a } else { c };
+            let at = if (at - b.parameter).abs() > LEAST_STEP * reach && at > a.parameter && at < c.parameter {
+                at
+            } else {
+                b.parameter + 0.1 * (halved.parameter - b.parameter)
+            };
+            let new = self.sample(b.piece, at);
+            let gain = (new.residual - b.residual).abs();
+            three = match (new.residual > b.residual, at < b.parameter) {
+                (true, true) => [a, new, b],
+                (true, false) => [b, new, c],
+                (false, true) => [new, b, c],
+                (false, false) => [a, b, new],
+            };
+            if gain <= ROUNDING * b.residual {
+                break;
+            }
+        }
+        let [_, top, _] = three;
+        top
+    }
+
     /// Every sample of this flank.
     fn samples(&self, chords: &Chords, tolerance: f64) -> Vec<Sample> {
         let mut samples: Vec<Sample> =
@@ -267,7 +359,7 @@ impl Roll<'_> {
             more.extend(self.closer(&samples, |s| s.gap.abs(), |piece, at| self.gap(piece, at).abs()));
         }
         // Beside the even places, before others crowd about the largest gap.
-        more.extend(self.closer(&samples, |s| s.residual, |piece, at| self.sample(piece, at).residual));
+        more.extend(self.worst_residual(&samples));
         samples.extend(more);
         let thinned = (samples.len() / PARRY_PLACES).max(1);
         for (index, sample) in samples.iter_mut().enumerate() {
@@ -286,12 +378,27 @@ impl Roll<'_> {
     }
 }
 
+/// Where the parabola through the residual forces of three samples is highest, and how high; the middle one where it has no top.
+fn top_of([a, b, c]: &[Sample; 3]) -> (f64, f64) {
+    let (left, right) = (a.parameter - b.parameter, c.parameter - b.parameter);
+    let (fall, rise) = ((a.residual - b.residual) / left, (c.residual - b.residual) / right);
+    // r(x) = b + s x + k x², x from the middle one.
+    let bend = (rise - fall) / (right - left);
+    let slope = fall - bend * left;
+    let x = -0.5 * slope / bend;
+    if bend < 0.0 && x > left && x < right {
+        (b.parameter + x, b.residual - 0.25 * slope * slope / bend)
+    } else {
+        (b.parameter, b.residual)
+    }
+}
+
 /// Two neighbouring samples, and how often what lies between may still be halved.
 type Cell = (Sample, Sample, u32);
 
 /// How high the size of a value may rise between two samples, and where: by the cubic through its values and slopes, with room
 /// for what is no cubic; `None` where it does not rise above them.
-fn promise((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
+fn promise_of((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
     let width = b.parameter - a.parameter;
     let ((low, rise), (high, fall)) = (value(a), value(b));
     let (rise, fall) = (rise * width, fall * width);
@@ -305,6 +412,21 @@ fn promise((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f
     let (top, x) = tops.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let at = a.parameter + x * width;
     (at > a.parameter && at < b.parameter).then_some((top + DOUBT * (top - ends).max(0.0), at))
+}
+
+/// The same where the foot jumps from one part of the outline to another, as it does where motion is lost: up to there the value
+/// follows one part, from there on the other, and it may be as high as the tangents of both where they cross.
+fn promise_of_jump((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
+    if (a.foot - b.foot).norm() <= JUMP * (a.centre - b.centre).norm() {
+        return None;
+    }
+    let width = b.parameter - a.parameter;
+    let ((low, rise), (high, fall)) = (value(a), value(b));
+    let sense = if low + high < 0.0 { -1.0 } else { 1.0 };
+    let x = (high - low - fall * width) / (rise - fall);
+    let top = sense * (low + rise * x);
+    let at = a.parameter + x.clamp(0.1 * width, 0.9 * width);
+    (x > 0.0 && x < width && at > a.parameter && at < b.parameter).then_some((top, at))
 }
 
 /// Rolls the follower of a plane cam on an outline that lies as it was written, against the law; tolerance in mm.

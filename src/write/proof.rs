@@ -1,13 +1,20 @@
 //! The cut file in memory, as it would be on disk, and the outline read back from its bytes.
+//!
+//! Two readers that share nothing read it: `reading`, whose outline is proved, and the dxf crate, which must find the entities
+//! that were drawn and no others.
 
 use super::dxf::{self, Version};
 use crate::body::{Layer, Part};
+use crate::geometry::Entity;
 use crate::geometry::contour::Contour;
 use crate::profile::outline::Outline;
 use crate::reading::{self, Chain, ReadError};
+use ::dxf::entities::EntityType;
 
 /// Ends nearer than this are one, mm: far above twelve decimals, far below any segment.
 const JOIN: f64 = 1e-9;
+/// Rounding of a coordinate to twelve decimals, and of a bulge, mm.
+const ROUNDING: f64 = 1e-11;
 
 /// A written cut file.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +34,9 @@ pub enum ProofError {
     /// The file cannot be read.
     #[error("the DXF file as written cannot be read back: {0}")]
     Unreadable(#[from] ReadError),
+    /// The dxf crate finds other entities in it than were drawn.
+    #[error("the DXF file as written holds other entities than were drawn; please report this")]
+    OtherEntities,
     /// It does not hold one closed outline.
     #[error("the DXF file as written does not hold one closed outline; please report this")]
     NotOneOutline,
@@ -37,7 +47,11 @@ pub enum ProofError {
 /// # Errors
 /// [`ProofError`] when what was written is not what was drawn.
 pub fn write(part: &Part, version: Version) -> Result<Written, ProofError> {
-    let bytes = dxf::write(&part.entities(), version);
+    let entities = part.entities();
+    let bytes = dxf::write(&entities, version);
+    if !holds(&bytes, &entities) {
+        return Err(ProofError::OtherEntities);
+    }
     let reading = reading::read(&bytes, JOIN)?;
     let clean = reading.duplicates.is_empty() && reading.points.is_empty() && reading.unreadable.is_empty();
     match reading.chains.as_slice() {
@@ -58,5 +72,64 @@ pub fn cutter_path(outline: &Outline, version: Version) -> Result<Contour, Proof
     match reading.chains.as_slice() {
         [chain] if chain.closed && reading.duplicates.is_empty() && reading.points.is_empty() => Ok(chain.contour()),
         _ => Err(ProofError::NotOneOutline),
+    }
+}
+
+/// Whether the dxf crate finds these entities in the bytes, in their order and on their layers, and no others.
+fn holds(bytes: &[u8], drawn: &[(Layer, Entity)]) -> bool {
+    let Ok(drawing) = ::dxf::Drawing::load(&mut &*bytes) else { return false };
+    let near = |a: f64, b: f64| (a - b).abs() <= ROUNDING;
+    let same_chain = |contour: &Contour, closed: bool, found: &mut dyn Iterator<Item = [f64; 3]>| {
+        let all = contour.vertices.iter().all(|v| {
+            let vertex = found.next();
+            vertex.is_some_and(|[x, y, bulge]| near(v.point.x, x) && near(v.point.y, y) && near(v.bulge, bulge))
+        });
+        all && closed && found.next().is_none()
+    };
+    let same = |(layer, entity): &(Layer, Entity), found: &::dxf::entities::Entity| {
+        found.common.layer == layer.name()
+            && match (entity, &found.specific) {
+                (Entity::Polyline(contour), EntityType::LwPolyline(line)) => {
+                    same_chain(contour, line.is_closed(), &mut line.vertices.iter().map(|v| [v.x, v.y, v.bulge]))
+                }
+                (Entity::Polyline(contour), EntityType::Polyline(line)) => {
+                    let mut vertices = line.vertices().map(|v| [v.location.x, v.location.y, v.bulge]);
+                    same_chain(contour, line.is_closed(), &mut vertices)
+                }
+                (Entity::Circle(centre, radius), EntityType::Circle(circle)) => {
+                    let [x, y] = [circle.center.x, circle.center.y];
+                    near(centre.x, x) && near(centre.y, y) && near(*radius, circle.radius)
+                }
+                _ => false,
+            }
+    };
+    let mut found = drawing.entities();
+    drawn.iter().all(|entity| found.next().is_some_and(|other| same(entity, other))) && found.next().is_none()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector2;
+
+    #[test]
+    fn the_second_reader_misses_nothing_and_finds_nothing_more() {
+        let drawn = [
+            (Layer::CamProfile, Entity::Polyline(Contour::circle(Vector2::new(3.0, 4.0), 50.0))),
+            (Layer::Bore, Entity::Circle(Vector2::new(1.0, 2.0), 5.0)),
+        ];
+        for (name, version) in Version::ALL {
+            let bytes = dxf::write(&drawn, version);
+            assert!(holds(&bytes, &drawn), "{name}");
+            assert!(!holds(&bytes, &drawn[..1]), "{name}: one more than drawn");
+            let mut moved = drawn.clone();
+            moved[1].1 = Entity::Circle(Vector2::new(1.0, 2.0 + 1e-10), 5.0);
+            assert!(!holds(&bytes, &moved), "{name}: moved");
+            moved[1] = (Layer::CutterPath, drawn[1].1.clone());
+            assert!(!holds(&bytes, &moved), "{name}: another layer");
+            let Entity::Polyline(mut chain) = drawn[0].1.clone() else { unreachable!("a polyline") };
+            chain.vertices[0].bulge += 1e-9;
+            assert!(!holds(&bytes, &[(Layer::CamProfile, Entity::Polyline(chain)), drawn[1].clone()]), "{name}: bent");
+        }
     }
 }

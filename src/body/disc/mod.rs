@@ -368,6 +368,10 @@ impl Body for Disc {
         self.load.as_ref().map_or(0.0, |load| load.residual(piece, angle, moved, normal).abs())
     }
 
+    fn force_jumps(&self) -> Vec<f64> {
+        self.load.iter().flat_map(|load| load.acting()).flat_map(|(from, to)| [from, to]).collect()
+    }
+
     fn balance(&self) -> Option<Balance> {
         let load = self.load.as_ref()?;
         Some(Balance { inertia: load.largest(), without_cam: load.left_without_cam(), mean: false })
