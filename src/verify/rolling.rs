@@ -30,8 +30,8 @@ const EVEN_PLACES: u32 = 360;
 const PIECE_PLACES: u32 = 8;
 /// How far from a jump of the force its sides are, rad or m.
 const BESIDE: f64 = 1e-12;
-/// Places spread over the segments, at the least one on each.
-const SEGMENT_PLACES: usize = 144;
+/// Up to so many segments each has four places, beyond that one.
+const FEW_SEGMENTS: usize = 1000;
 /// Between two places a maximum is looked for while it may exceed what was found by more than this, mm.
 const SLACK: f64 = 1e-10;
 /// By so much of what a cubic rises above its ends a maximum may be higher than the cubic.
@@ -192,7 +192,8 @@ impl Roll<'_> {
         let (first, last) = self.curves.motion.range();
         let period = self.curves.motion.period();
         let even = (0..EVEN_PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(EVEN_PLACES));
-        let count = (SEGMENT_PLACES / self.track.segments().len().max(1)).clamp(1, 4);
+        // An arc near the least possible number of them misses the curve three times, to either side.
+        let count = if self.track.segments().len() <= FEW_SEGMENTS { 4 } else { 1 };
         let touching = self.track.segments().iter().flat_map(|segment| {
             (0..count).map(|step| {
                 #[expect(clippy::cast_precision_loss, reason = "at most four")]
