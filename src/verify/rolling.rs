@@ -47,6 +47,9 @@ const CLOSER_LOOKS: usize = 8;
 const CLOSER_SECTIONS: u32 = 19;
 /// Parabolas to the top of a peak of the residual force, and the least step, over the width of what is left.
 const PEAK_STEPS: u32 = 12;
+/// Peaks that come that close to the largest are solved whatever the parabola says, so many at the most.
+const CLOSE: f64 = 0.95;
+const MOST_PEAKS: usize = 32;
 /// Pairs of places whose larger force is nearly the largest have one more between them.
 const NEARLY: f64 = 0.1;
 const LEAST_STEP: f64 = 1e-6;
@@ -311,7 +314,8 @@ impl Roll<'_> {
         let mut found = Vec::new();
         for (top, three) in peaks {
             let [_, middle, _] = three;
-            if top + DOUBT * (top - middle.residual) <= best {
+            // Between places that are far apart a parabola says little.
+            if top + DOUBT * (top - middle.residual) <= best && (top <= CLOSE * best || found.len() > MOST_PEAKS) {
                 continue;
             }
             let solved = self.peak(three);
