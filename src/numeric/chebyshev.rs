@@ -3,7 +3,7 @@
 //!
 //! L. N. Trefethen, Approximation Theory and Approximation Practice, SIAM 2013, chapters 3 (points and coefficients), 8 (they
 //! fall geometrically where the function is analytic) and 18 (roots). Where the coefficients of a cell do not fall to
-//! [`RESOLVED`] with the highest degree, the cell is halved, unless nothing in it can exceed the largest value known. So a narrow
+//! `RESOLVED` with the highest degree, the cell is halved, unless nothing in it can exceed the largest value known. So a narrow
 //! hump cannot hide between two samples: it is what keeps the coefficients from falling.
 //!
 //! What is returned is a value of the function itself, so it never exceeds the largest; it falls short of it by twice the
