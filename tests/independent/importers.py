@@ -30,7 +30,8 @@ import numpy as np
 
 VERSIONS = ["r12", "r2000", "r2010", "r2013"]
 KEYWAY = ["--set", "cam.keyway.width=14mm", "--set", "cam.keyway.depth=3.8mm", "--set", "cam.keyway.angle=30deg"]
-HOLES = ["--set", "cam.lever=0.15", "--set", "cam.base_radius=90mm", "--set", "cam.balance=40mm .. 85mm"]
+HOLES = ["--set", "cam.lever=0.15", "--set", "cam.base_radius=90mm", "--set", "cam.balance=40mm .. 85mm", "--set",
+             "limits.contact_stress=3000MPa"]
 CASES = {
     "plate": ["translating"],
     "keyway": ["rotary", *KEYWAY],

@@ -110,7 +110,8 @@ def gate(binary, directory, name, args):
 def main():
     binary, directory = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     keyway = ["--set", "cam.keyway.width=8mm", "--set", "cam.keyway.depth=3.3mm", "--set", "cam.keyway.angle=90deg"]
-    holes = ["--set", "cam.lever=0.15", "--set", "cam.base_radius=90mm", "--set", "cam.balance=40mm .. 85mm"]
+    holes = ["--set", "cam.lever=0.15", "--set", "cam.base_radius=90mm", "--set", "cam.balance=40mm .. 85mm", "--set",
+             "limits.contact_stress=3000MPa"]
     cases = {
         "plain": [],
         "fine": ["--tolerance", "0.05um"],
