@@ -4,9 +4,9 @@ Shares nothing with camgen but the machine file. Disc cams: the law is equation 
 found by linear systems, pitch curve, curvature and pressure angle come from their textbook formulas, forces from the air law;
 every maximum is searched here on each smooth piece by itself. The written outline is read by ezdxf and rolled on. Plates: the
 table must satisfy equation (18) and be the integral of its own slope; maxima are taken along it. Conoids: the surface of
-conoid.py through any number of sections.
+camoid.py through any number of sections, by its fundamental forms.
 
-usage: machines.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
+usage: machines.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N] [--only KIND]
 """
 import argparse
 import json
@@ -19,6 +19,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+from camoid import SHARES, Camoid
 from disc import CUSTOMARY, MODULI, Disc, roll
 from outline import Chain, polyline
 
@@ -324,6 +325,98 @@ def translating(binary, directory, number, rng):
     return "cam" if run.returncode == 0 else "refused", wrong, " ".join(command[1:])
 
 
+def conoid(binary, directory, number, rng):
+    m, _ = machine(rng)
+    m["lead"] = 0.0
+    m["width"] = math.radians(rng.uniform(8, 40))
+    if rng.random() < 0.6:
+        # One that may be made.
+        m.update(mass=rng.uniform(20, 300), material="steel", base=None, stress=None, share=None, cutter=0.004, wall=0.001, preload=None)
+    m["column"] = rng.choice(["matched", "return"])
+    m.update(travel=rng.uniform(0.06, 0.3), mode=rng.choice(["adjusted", "fixed"]), shift=rng.choice(["linear", "square"]))
+    overhang = rng.choice(["auto", "auto", "auto", rng.uniform(0, 0.01)])
+    slowest = rng.uniform(15, 30)
+    count = rng.choice([2, 3, 4, 5])
+    speeds = [slowest + (rng.uniform(35, 45) - slowest) * i / (count - 1) for i in range(count)]
+    if any(b - a < 1 for a, b in zip(speeds, speeds[1:])):
+        speeds = np.linspace(slowest, 40.0, count).tolist()
+    sets = [f"conoid.axial_travel={m['travel'] * 1e3!r}mm", f"conoid.mode={m['mode']}", f"conoid.shift={m['shift']}",
+            f"conoid.overhang={overhang if overhang == 'auto' else repr(overhang * 1e3) + 'mm'}"]
+    name, tolerance = f"c{number}", rng.choice([0.005, 0.05])
+    command = [binary, "conoid", "--rpm", ",".join(map(repr, speeds)), *settings(m), *(w for s in sets for w in ("--set", s)),
+               "--json", "--format", "dxf", "--out", str(directory), "--name", name, "--tolerance", f"{tolerance * 1e3}um",
+               "--force"]
+    run = subprocess.run(command, capture_output=True, text=True)
+    if run.returncode == 2:
+        return "not a cam", [], run.stderr.strip()
+    report = json.loads(run.stdout)
+    checks = {c["check"]: c for c in report["checks"]}
+    told = lambda check: checks[check]["value"]
+    cam, wrong = report["cam"], []
+    prime = cam["prime_radius_mm"] * 1e-3
+    shares = [None] if report["between"]["splines_in"] == "place" else SHARES
+    all = [Camoid(m, speeds, prime, share) for share in shares]
+    surface = min(all, key=lambda s: abs(s.residual() - told_force(report)))
+    f = surface.figures()
+    law = surface.laws[-1]
+    inertia = law.unit * law.A * law.r
+    close(cam["max_lift_mm"], 1e3 * f["max_lift"], "max_lift", wrong)
+    close(told("pressure_angle"), f["pressure_angle"], "pressure_angle", wrong)
+    close(told("axial_force"), f["axial"], "axial_force", wrong)
+    close(report["between"]["residual_max_n"], f["residual"], "residual between", wrong, absolute=1e-9 * inertia)
+    close(report["force"]["inertia_max_n"], inertia, "inertia", wrong)
+    if m["preload"] is not None:
+        close(told("force_closure"), f["least"], "force_closure", wrong, absolute=1e-6 * inertia)
+    convex, hollow, radius = surface.of_metal(cam["overhang_mm"] * 1e-3)
+    left = 1e3 * (convex - surface.rf)
+    wall = radius - m["bore"]
+    if left > 0:
+        close(told("min_convex_radius"), 1e3 * convex, "min_convex_radius", wrong)
+        close(told("undercut"), left, "undercut", wrong, absolute=1e-6 * 1e3 * convex)
+        close(told("cutter_radius"), 1e3 * hollow, "cutter_radius", wrong)
+        close(told("wall"), 1e3 * wall, "wall", wrong, absolute=1e-6)
+        stress = surface.stress()
+        close(told("contact_stress"), stress, "contact_stress", wrong)
+    off = 0.0
+    if report["files"] and left > 0:
+        for i, path in enumerate(p for p in report["files"] if p.endswith(".dxf")):
+            _, vertices = polyline(path)
+            points = surface.section(i) * [1.0, -1.0 if m["ccw"] else 1.0]
+            off = max(off, np.abs(Chain(vertices).distance(points)).max())
+        if off > tolerance + 2e-9:
+            wrong.append(f"a section is off by {off} mm, with the verdict {checks['outline']['verdict']}")
+    reach = f["reach"] - cam["overhang_mm"] * 1e-3
+    stress_limit = m["stress"] or CUSTOMARY[m["material"]] * 4200 / 1500
+    # What no cam leaves, at the speed at which most is left with it.
+    A = law.A * (report["between"]["rpm"] / speeds[-1]) ** 2
+    g = (1 + A * law.r) ** (1 / law.k)
+    fixed = law.r * g / (g - 1)
+    x = np.linspace(0, law.r, 20001)[1:-1]
+    share = m["share"] or peak(law.unit * np.abs(A * x - ((fixed / (fixed - x)) ** law.k - 1)))[0] / inertia
+    limits = {
+        "pressure_angle": f["pressure_angle"] / m["pressure_angle"], "undercut": surface.rf / convex,
+        "min_convex_radius": m["ratio"] * surface.rf / convex, "cutter_radius": m["cutter"] / hollow,
+        "wall": m["wall"] / wall if wall > 0 else 2.0, "residual": told("residual") / share,
+        "axial_reach": 1 + reach / surface.rf, "force_closure": 0.0 if m["preload"] is None or f["least"] > 0 else 2.0,
+    }
+    if left > 0:
+        limits["contact_stress"] = stress / stress_limit
+    broken = {check for check, ratio in limits.items() if ratio > 1 + 1e-6}
+    doubtful = {check for check, ratio in limits.items() if abs(ratio - 1) <= 1e-6}
+    failing = {c["check"] for c in report["checks"] if c["verdict"] == "fail"} - ({"contact_stress"} if left <= 0 else set())
+    if (broken ^ failing) - doubtful and not (left <= 0 and broken <= failing):
+        wrong.append(f"broken here {sorted(broken)}, there {sorted(failing)}")
+    if not doubtful and (run.returncode == 0) != (not broken and not failing):
+        wrong.append(f"exit {run.returncode}, broken {sorted(broken)}")
+    for path in report["files"]:
+        Path(path).unlink()
+    return "conoid" if run.returncode == 0 else "conoid refused", wrong, " ".join(command[1:])
+
+
+def told_force(report):
+    return report["between"]["residual_max_n"]
+
+
 def force_of(report, key):
     return report["force"][key]
 
@@ -333,6 +426,7 @@ def main():
     parser.add_argument("binary"), parser.add_argument("directory")
     parser.add_argument("--count", type=int, default=150)
     parser.add_argument("--seed", default="1"), parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--only", choices=["rotary", "translating", "conoid"])
     given = parser.parse_args()
     binary, directory = str(Path(given.binary).resolve()), Path(given.directory) / "machines"
     directory.mkdir(parents=True, exist_ok=True)
@@ -340,7 +434,9 @@ def main():
 
     def task(number):
         rng = random.Random(f"{given.seed}-{number}")
-        return number, (translating if number % 4 == 3 else rotary)(binary, directory, number, rng)
+        kind = {"rotary": rotary, "translating": translating, "conoid": conoid}.get(
+            given.only, conoid if number % 24 == 5 else translating if number % 4 == 3 else rotary)
+        return number, kind(binary, directory, number, rng)
 
     with ThreadPoolExecutor(given.jobs) as pool:
         for number, (state, wrong, command) in pool.map(task, range(given.count)):
