@@ -3,6 +3,7 @@
 //! Knows nothing of motions, followers or machines. Curves are functions in any unit of length; contours and solids are in
 //! millimetres.
 
+mod allowed;
 pub mod apart;
 pub mod arcs;
 pub mod boundary;
@@ -17,6 +18,7 @@ pub mod nurbs;
 pub mod solid;
 pub mod track;
 
+pub use allowed::Allowed;
 pub use curve_point::CurvePoint;
 pub use entity::Entity;
 
