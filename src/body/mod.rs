@@ -22,6 +22,7 @@ use crate::load::RunUp;
 use crate::machine::Machine;
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
+use crate::profile::followed::Pace;
 use crate::profile::outline::{Fit, Outline, OutlineError};
 use crate::profile::{Curves, Worst, boundary, envelope, extremes};
 use crate::report::sheet::Sheet;
@@ -157,6 +158,17 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// What is cut beside an outline (mm): bore and balance holes, counter-clockwise.
     fn holes_within(&self, _outline: &Contour) -> Vec<Entity> {
         Vec::new()
+    }
+
+    /// First and second derivative of the motion's parameter by the angle of the shaft that gives the time: the cam's own, or
+    /// the crank's of a plate on the bed.
+    fn pace(&self, _parameter: f64) -> Pace {
+        (1.0, 0.0)
+    }
+
+    /// Angular speed of that shaft, rad/s, where it is known.
+    fn shaft_speed(&self) -> Option<f64> {
+        None
     }
 
     /// The parameter at which a point of the drawing (m) lies.

@@ -59,6 +59,9 @@ pub struct Limits {
     pub contact_stress: Option<f64>,
     /// Largest residual force over the largest inertia force; where it is absent it must stay below a fixed bottom's.
     pub residual_share: Option<f64>,
+    /// Largest error of the follower's acceleration as cut over the largest acceleration of the motion; where it is absent a
+    /// tenth is told.
+    pub acceleration_share: Option<f64>,
 }
 
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
@@ -102,6 +105,12 @@ const RESIDUAL_SHARE: Field<f64> = Field::number(
     above(0.0, LARGEST_NUMBER),
 )
 .only(OF_A_PRESS);
+const ACCELERATION_SHARE: Field<f64> = Field::number(
+    "acceleration_share",
+    "largest error of the acceleration as cut over the largest of the motion; when absent, 0.1 only warns",
+    Optional("0.05"),
+    above(0.0, LARGEST_NUMBER),
+);
 
 /// `[limits]`.
 pub(super) const SECTION: Section = Section {
@@ -109,7 +118,15 @@ pub(super) const SECTION: Section = Section {
     about: "what a cam must keep",
     occurs: Occurs::Once,
     cams: &[],
-    keys: &[PRESSURE_ANGLE.key, MIN_CONVEX.key, CUTTER_RADIUS.key, WALL.key, CONTACT_STRESS.key, RESIDUAL_SHARE.key],
+    keys: &[
+        PRESSURE_ANGLE.key,
+        MIN_CONVEX.key,
+        CUTTER_RADIUS.key,
+        WALL.key,
+        CONTACT_STRESS.key,
+        RESIDUAL_SHARE.key,
+        ACCELERATION_SHARE.key,
+    ],
 };
 
 pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
@@ -121,5 +138,6 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
         wall: table.get(&WALL)?,
         contact_stress: table.get(&CONTACT_STRESS),
         residual_share: table.get(&RESIDUAL_SHARE),
+        acceleration_share: table.get(&ACCELERATION_SHARE),
     })
 }

@@ -7,6 +7,7 @@
 pub mod boundary;
 pub mod envelope;
 pub mod extremes;
+pub mod followed;
 pub mod outline;
 pub mod size;
 

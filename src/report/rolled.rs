@@ -1,6 +1,6 @@
 //! What rolling the follower on a written outline has shown.
 
-use super::Place;
+use super::{Felt, Place};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -36,6 +36,9 @@ pub struct Rolled {
     /// Where it is.
     #[serde(flatten, serialize_with = "residual_place")]
     pub residual_at: Place,
+    /// Velocity and acceleration as cut; `None` where the follower is nowhere in touch.
+    #[serde(flatten)]
+    pub felt: Option<Felt>,
 }
 
 /// A place under names of its own: `gap_cam_deg` of a disc, `gap_x_mm` of a plate.

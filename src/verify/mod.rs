@@ -12,6 +12,7 @@ mod curvature;
 mod cutter_path;
 mod cutter_radius;
 mod cylinder_contact;
+mod felt;
 mod file;
 mod flank;
 mod force_closure;
@@ -122,6 +123,7 @@ pub const CHECKS: &[Check] = &[
     tangency::CHECK,
     outline::CHECK,
     rolling::CHECK,
+    felt::CHECK,
     bore::CHECK,
     sphere::ROLLING_FLANK,
     flank::CHECK,

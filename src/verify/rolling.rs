@@ -6,7 +6,7 @@
 //! lift the residual force it really leaves. Normals, offsets, curvatures and arc fitting, by which the outline was made, are
 //! not used; the same distances are measured a second time by parry2d on chords.
 
-use super::{Check, Evidence, On, sphere};
+use super::{Check, Evidence, On, felt, sphere};
 use crate::body::Body;
 use crate::follower::{Element, Touch};
 use crate::geometry::contour::Contour;
@@ -439,6 +439,7 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
     let (mut samples, mut errors) = (Vec::new(), Vec::new());
     let (mut chord_count, mut sagitta) = (0, 0.0_f64);
     let mut touches = true;
+    let mut tracks = Vec::new();
     for mirrored in body.mirrored() {
         let contour = if *mirrored { contour.mirrored_about_x() } else { contour.clone() };
         let roll = Roll { body, curves, track: Track::new(&contour), radius: 1e3 * curves.offset() };
@@ -449,6 +450,7 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         errors.extend(lifts);
         samples.extend(found);
         (chord_count, sagitta) = (chord_count + chords.count, sagitta.max(chords.sagitta));
+        tracks.push(roll.track);
     }
     errors.sort_by(f64::total_cmp);
     let q99 = errors.get((errors.len() * 99 / 100).min(errors.len().saturating_sub(1))).copied();
@@ -470,6 +472,7 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         chord_difference_mm: samples.iter().map(|s| s.difference).fold(0.0, f64::max),
         residual_max_n: residual.map_or(0.0, |s| s.residual),
         residual_at: residual.map_or_else(Place::default, |s| body.place(s.parameter)),
+        felt: felt::felt(body, curves, tracks.iter().map(Track::segments)),
     }
 }
 

@@ -328,6 +328,10 @@ impl Body for Disc {
         Part::holes_within(&self.machine, outline)
     }
 
+    fn shaft_speed(&self) -> Option<f64> {
+        self.speed
+    }
+
     fn parameter_at(&self, point: Vector2<f64>) -> f64 {
         let angle = libm::atan2(point.y, point.x);
         match self.machine.cam.rotation {

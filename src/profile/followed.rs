@@ -1,0 +1,354 @@
+//! A follower on a chain of arcs and lines: lift, velocity and acceleration as cut, in closed form.
+//!
+//! While the contact runs along an arc, the centre of the roller runs on a circle about the centre of the arc; along a line, on
+//! a line. Lift, velocity and acceleration follow one after the other from the point of the follower's curve C being on that
+//! circle of radius ρ about M, n the unit vector from M to C:
+//!
+//! ```text
+//! |C − M| = ρ,   n·C' = 0,   n·C'' = −|C'|²/ρ
+//! ```
+//!
+//! C depends on the lift, C' is linear in its first derivative, C'' in its second, whatever the follower. A flat face touches
+//! an arc where its normal d is that of the arc: h = M·d + R is its distance from the shaft, and h' and h'' follow.
+
+use super::{Curves, Worst};
+use crate::follower::Element;
+use crate::geometry::MILLIMETRES;
+use crate::geometry::contour::Segment;
+use crate::motion::{Jet, Motion};
+use crate::numeric::{chebyshev, extremum};
+use nalgebra::Vector2;
+
+/// Stretches of the motion shorter than this, rad or m, are the rounding of a joint: the direction of an arc is known to 1e-9.
+const HAIR: f64 = 1e-8;
+/// Steps of the secant to the lift: two are mostly enough.
+const LIFT_STEPS: u32 = 8;
+/// Roundings of a length at which the roller touches.
+const TOUCHING: f64 = 2.0 * f64::EPSILON;
+/// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
+const CHANGE: f64 = 0.1;
+/// Parts into which a stretch is cut to find its largest error, and golden sections there.
+const CELLS: u32 = 4;
+const SECTIONS: u32 = 22;
+/// Only stretches whose ends come that near to the largest error are looked at closer.
+const NEAR: f64 = 0.5;
+
+/// What the follower's curve follows while the contact runs along a segment.
+#[derive(Debug, Clone, Copy)]
+enum Guide {
+    /// The centre of a roller, or the shaft's distance of a face, by a circle: its centre, m, and its radius, m; signed under a
+    /// face, where a hollow arc has a negative one.
+    Circle(Vector2<f64>, f64),
+    /// The centre of a roller by a line: a point of it, m, and its unit normal.
+    Line(Vector2<f64>, Vector2<f64>),
+}
+
+/// A stretch of the motion over which the contact stays on one segment and the motion on one piece.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    from: f64,
+    to: f64,
+    piece: usize,
+    /// From the running parameter to that of the piece.
+    shift: f64,
+    guide: Guide,
+}
+
+/// Derivatives of the motion's parameter by the angle of the shaft that gives the time: 1 and 0 where the parameter is that angle.
+pub type Pace = (f64, f64);
+
+/// The largest errors of what the follower does on a chain, by the angle of the shaft: m or rad per rad, and per rad².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// Of the velocity.
+    pub velocity: Worst,
+    /// Of the acceleration.
+    pub acceleration: Worst,
+    /// The largest step of the acceleration as cut.
+    pub step: Worst,
+}
+
+impl Errors {
+    /// No error at all.
+    pub const NONE: Self = Self { velocity: Worst::NONE, acceleration: Worst::NONE, step: Worst::NONE };
+
+    /// The larger of each.
+    #[must_use]
+    pub fn or_larger(self, next: Self) -> Self {
+        Self {
+            velocity: self.velocity.or_larger(next.velocity),
+            acceleration: self.acceleration.or_larger(next.acceleration),
+            step: self.step.or_larger(next.step),
+        }
+    }
+}
+
+/// A follower on a chain.
+#[derive(Debug)]
+pub struct Followed<'a> {
+    curves: Curves<'a>,
+    stretches: Vec<Stretch>,
+}
+
+/// The outward unit normal at a tangent of an outline that runs counter-clockwise.
+fn outward(tangent: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(tangent.y, -tangent.x)
+}
+
+impl<'a> Followed<'a> {
+    /// On segments in their order (mm), the metal on their left.
+    #[must_use]
+    pub fn new(curves: Curves<'a>, segments: &[Segment]) -> Self {
+        let reach = MILLIMETRES * curves.offset();
+        let face = curves.element() == Element::Face;
+        // NaN where the follower, placed by the motion, is nowhere near: on the end or the other flank of a plate.
+        let parameter = |point: Vector2<f64>, tangent: Vector2<f64>| {
+            let normal = outward(tangent);
+            let centre = (point + normal * reach) / MILLIMETRES;
+            let parameter = curves.follower.parameter_of(centre, normal);
+            let (piece, inside) = curves.motion.locate(parameter);
+            let touch = curves.touch(piece, inside);
+            let near = face || (centre - touch.curve.point).norm() < curves.offset();
+            if near && normal.dot(&touch.drive) > 0.0 { parameter } else { f64::NAN }
+        };
+        let period = curves.motion.period();
+        // Every segment, and what lies between it and the one before: an edge about which the follower turns.
+        let mut runs: Vec<(f64, f64, Guide)> = Vec::with_capacity(segments.len());
+        let mut last: Option<f64> = None;
+        let mut first: Option<(f64, Vector2<f64>)> = None;
+        let corner = |from: f64, to: f64, point: Vector2<f64>| {
+            let radius = if face { 0.0 } else { curves.offset() };
+            (from, to, Guide::Circle(point / MILLIMETRES, radius))
+        };
+        for segment in segments {
+            let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
+            let from = parameter(segment.start, segment.start_tangent());
+            let to = parameter(segment.end, segment.end_tangent());
+            let from = last.map_or(from, |last| near(from, last));
+            let to = near(to, from);
+            if !(from.is_finite() && to.is_finite()) {
+                last = None;
+                continue;
+            }
+            first = first.or(Some((from, segment.start)));
+            join(&mut runs, last, from, &corner, segment.start);
+            // Where two runs overlap the contact jumps from one to the other between their ends.
+            let from = runs.last().map_or(from, |run| if last.is_some() { run.1.max(from) } else { from });
+            if let Some(guide) = guide(segment, curves.offset(), face).filter(|_| to > from) {
+                runs.push((from, to, guide));
+            }
+            last = Some(last.filter(|last| *last > to).unwrap_or(to));
+        }
+        if let (Some(period), Some(last), Some((start, point))) = (period, last, first)
+            && start + period - last < 0.5 * period
+        {
+            join(&mut runs, Some(last), start + period, &corner, point);
+        }
+        let stretches = runs.into_iter().flat_map(|run| on_pieces(curves.motion, run)).collect();
+        Self { curves, stretches }
+    }
+
+    /// Lift, velocity and acceleration as cut at a place of a stretch; the third derivative is that of the motion.
+    fn cut(&self, stretch: &Stretch, parameter: f64) -> Option<(Jet, Jet)> {
+        let piece = self.curves.motion.pieces().get(stretch.piece)?;
+        let inside = (parameter + stretch.shift).clamp(piece.start, piece.end);
+        let law = self.curves.motion.jet(stretch.piece, inside);
+        let cut = match self.curves.element() {
+            Element::Roller { .. } => rolled(self.curves, inside, law, stretch.guide),
+            Element::Face => under_face(self.curves, inside, law, stretch.guide),
+        };
+        cut.map(|cut| (cut, law))
+    }
+
+    /// Lift, velocity and acceleration as cut at a value of the motion's parameter, by that parameter; `None` where the chain
+    /// is not touched.
+    #[must_use]
+    pub fn at(&self, parameter: f64) -> Option<Jet> {
+        let (first, _) = self.stretches.first().map(|stretch| (stretch.from, stretch.to))?;
+        let wanted = match self.curves.motion.period() {
+            Some(period) => parameter + period * ((first - parameter) / period).ceil(),
+            None => parameter,
+        };
+        let index = self.stretches.partition_point(|stretch| stretch.to < wanted);
+        let stretch = self.stretches.get(index).or(self.stretches.last())?;
+        let reached = wanted >= stretch.from - HAIR && wanted <= stretch.to + HAIR;
+        self.cut(stretch, wanted).filter(|_| reached).map(|(cut, _)| cut)
+    }
+
+    /// The largest errors, by the angle of a shaft to which the parameter keeps this pace.
+    #[must_use]
+    pub fn errors(&self, pace: impl Fn(f64) -> Pace) -> Errors {
+        // Velocity and acceleration errors, and the acceleration itself, at a place of a stretch.
+        let at = |stretch: &Stretch, parameter: f64| {
+            let inside = parameter + stretch.shift;
+            let (first, second) = pace(inside);
+            self.cut(stretch, parameter).map(|(cut, law)| {
+                let velocity = (cut.ds - law.ds) * first;
+                let acceleration = (cut.dds - law.dds) * first * first + (cut.ds - law.ds) * second;
+                [velocity.abs(), acceleration.abs(), cut.dds * first * first + cut.ds * second]
+            })
+        };
+        let ends: Vec<_> = self
+            .stretches
+            .iter()
+            .map(|stretch| (stretch, [stretch.from, stretch.to].map(|place| at(stretch, place))))
+            .collect();
+        let place = |stretch: &Stretch, parameter: f64, value: f64| Worst { value, at: parameter + stretch.shift, z: 0.0 };
+        let mut errors = Errors::NONE;
+        for (stretch, both) in &ends {
+            for (parameter, found) in [stretch.from, stretch.to].into_iter().zip(both) {
+                if let Some([velocity, acceleration, _]) = found {
+                    errors.velocity = errors.velocity.or_larger(place(stretch, parameter, *velocity));
+                    errors.acceleration = errors.acceleration.or_larger(place(stretch, parameter, *acceleration));
+                }
+            }
+        }
+        let pairs = ends.iter().zip(ends.iter().cycle().skip(1)).take(match self.curves.motion.period() {
+            Some(_) => ends.len(),
+            None => ends.len().saturating_sub(1),
+        });
+        for ((before, [_, left]), (_, [right, _])) in pairs {
+            if let (Some([.., left]), Some([.., right])) = (left, right) {
+                errors.step = errors.step.or_larger(place(before, before.to, (right - left).abs()));
+            }
+        }
+        for (stretch, _) in &ends {
+            let middle = at(stretch, 0.5 * (stretch.from + stretch.to));
+            let quantity = |index: usize| move |found: Option<[f64; 3]>| found.and_then(|found| found.get(index).copied());
+            for (index, worst) in [&mut errors.velocity, &mut errors.acceleration].into_iter().enumerate() {
+                let value = |parameter: f64| quantity(index)(at(stretch, parameter)).unwrap_or(0.0);
+                // The error of the velocity is largest within an arc, that of the acceleration mostly at its ends.
+                if quantity(index)(middle).is_some_and(|middle| middle > NEAR * worst.value)
+                    || (index == 1 && value(stretch.from).max(value(stretch.to)) > 2.0 * NEAR * worst.value)
+                {
+                    let found = extremum::largest_without_slope(value, (stretch.from, stretch.to), CELLS, SECTIONS);
+                    *worst = worst.or_larger(place(stretch, found.at, found.value));
+                }
+            }
+        }
+        errors
+    }
+}
+
+/// Adds what lies between the end of the last run and the start of the next: a run about the edge between them, or, where they
+/// overlap, a common end in the middle.
+fn join(
+    runs: &mut Vec<(f64, f64, Guide)>,
+    last: Option<f64>,
+    from: f64,
+    corner: &impl Fn(f64, f64, Vector2<f64>) -> (f64, f64, Guide),
+    point: Vector2<f64>,
+) {
+    let Some(last) = last else { return };
+    if from > last {
+        runs.push(corner(last, from, point));
+    } else if let Some(run) = runs.last_mut() {
+        run.1 = (0.5 * (last + from)).max(run.0);
+    }
+}
+
+/// A parameter by whole periods as near as can be to another.
+fn nearest(parameter: f64, to: f64, period: f64) -> f64 {
+    parameter + period * ((to - parameter) / period).round()
+}
+
+/// What the follower's curve follows along a segment; `None` under a face where no run of the motion belongs to it.
+fn guide(segment: &Segment, offset: f64, face: bool) -> Option<Guide> {
+    if segment.bulge == 0.0 {
+        let normal = outward(segment.start_tangent());
+        return (!face).then(|| Guide::Line(segment.start / MILLIMETRES + normal * offset, normal));
+    }
+    let radius = segment.radius() / MILLIMETRES;
+    let centre = segment.centre() / MILLIMETRES;
+    Some(Guide::Circle(centre, if face { radius } else { (radius + offset).abs() }))
+}
+
+/// The parts of a run that lie on the pieces of the motion.
+fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> Vec<Stretch> {
+    let (first, last) = motion.range();
+    let (from, to) = if motion.period().is_some() { (from, to) } else { (from.max(first), to.min(last)) };
+    let mut stretches = Vec::new();
+    let mut at = from;
+    while to - at > HAIR {
+        let (piece, inside) = motion.locate(at + HAIR);
+        let Some(end) = motion.pieces().get(piece).map(|piece| piece.end) else { break };
+        let shift = inside - (at + HAIR);
+        let until = (end - shift).max(at + HAIR);
+        // What is left of a piece, or of a run, may be a hair.
+        let until = if to - until > HAIR { until } else { to };
+        stretches.push(Stretch { from: at, to: until, piece, shift, guide });
+        at = until;
+    }
+    stretches
+}
+
+/// The jet of a roller whose centre follows a guide.
+fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
+    let touch = |jet: Jet| curves.follower.touch(parameter, &jet);
+    // How far a point is off the guide, and the normal of the guide there.
+    let off = |point: Vector2<f64>| match guide {
+        Guide::Circle(centre, radius) => {
+            let away = point - centre;
+            let distance = away.norm();
+            (distance - radius, away / distance)
+        }
+        Guide::Line(on, normal) => ((point - on).dot(&normal), normal),
+    };
+    let start = touch(law);
+    let size = start.curve.point.norm();
+    let (mut before, (mut gap_before, normal)) = (law.s, off(start.curve.point));
+    let mut lift = law.s - gap_before / normal.dot(&start.drive);
+    for _ in 0..LIFT_STEPS {
+        let gap = off(touch(Jet { s: lift, ..law }).curve.point).0;
+        let step = gap * (lift - before) / (gap - gap_before);
+        (before, gap_before) = (lift, gap);
+        if gap.abs() <= TOUCHING * size || !step.is_finite() {
+            break;
+        }
+        lift -= step;
+    }
+    let law = Jet { s: lift, ..law };
+    let normal = off(touch(law).curve.point).1;
+    let along = |ds: f64| {
+        let curve = touch(Jet { ds, ..law }).curve;
+        normal.dot(&(curve.tangent * curve.speed))
+    };
+    let ds = law.ds - CHANGE * along(law.ds) / (along(law.ds + CHANGE) - along(law.ds));
+    let law = Jet { ds, ..law };
+    // C'' along the normal: κ ℓ² to the left of the tangent.
+    let bend = |dds: f64| {
+        let curve = touch(Jet { dds, ..law }).curve;
+        let square = curve.speed * curve.speed;
+        (-curve.outward().dot(&normal) * curve.curvature * square, square)
+    };
+    let (own, square) = bend(law.dds);
+    let wanted = match guide {
+        Guide::Circle(_, radius) => -square / radius,
+        Guide::Line(..) => 0.0,
+    };
+    let dds = law.dds + CHANGE * (wanted - own) / (bend(law.dds + CHANGE).0 - own);
+    (lift.is_finite() && ds.is_finite() && dds.is_finite()).then_some(Jet { dds, ..law })
+}
+
+/// The jet of a flat face on an arc.
+fn under_face(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
+    let Guide::Circle(centre, radius) = guide else { return None };
+    let touch = curves.follower.touch(parameter, &law);
+    let across = Vector2::new(-touch.drive.y, touch.drive.x) * touch.drive_turn;
+    let turn = touch.drive_turn * touch.drive_turn;
+    let lift = law.s + (centre - touch.curve.point).dot(&touch.drive) + radius;
+    Some(Jet { s: lift, ds: centre.dot(&across), dds: -turn * centre.dot(&touch.drive), ..law })
+}
+
+/// The largest size of the acceleration of a motion, by the angle of a shaft to which its parameter keeps this pace.
+#[must_use]
+pub fn largest_acceleration(motion: &dyn Motion, pace: impl Fn(f64) -> Pace) -> f64 {
+    let of_piece = |(index, piece): (usize, &crate::motion::Piece)| {
+        let size = |at: f64| {
+            let (jet, (first, second)) = (motion.jet(index, at), pace(at));
+            jet.dds * first * first + jet.ds * second
+        };
+        if piece.dwell { 0.0 } else { chebyshev::largest_size(size, (piece.start, piece.end), 0.0).value }
+    };
+    motion.distinct().iter().enumerate().map(of_piece).fold(0.0, f64::max)
+}

@@ -1,0 +1,84 @@
+//! What the follower feels: velocity and acceleration on the outline as it is in the file.
+
+use super::{Check, Evidence, On};
+use crate::body::Body;
+use crate::geometry::MILLIMETRES;
+use crate::geometry::contour::Segment;
+use crate::motion::Quantity;
+use crate::profile::followed::{Errors, Followed, largest_acceleration};
+use crate::profile::{Curves, Worst};
+use crate::report::{Felt, Finding, Verdict, shown};
+
+pub(super) const CHECK: Check = Check {
+    name: "acceleration",
+    on: On::Outline,
+    about: "The largest error of the follower's acceleration on the outline as it is in the file, over the largest acceleration of \
+            the motion. Arcs give the acceleration in steps, however small their distance from the exact curve.",
+    run: check,
+};
+
+/// Warns beyond this share when no limit is given.
+const CUSTOMARY: f64 = 0.1;
+
+/// What the follower feels on the flanks of a written outline, each a list of segments that lies as the follower meets it;
+/// `None` where it is nowhere in touch.
+pub(super) fn felt<'s>(
+    body: &dyn Body,
+    curves: Curves<'_>,
+    flanks: impl Iterator<Item = &'s [Segment]>,
+) -> Option<Felt> {
+    let pace = |parameter: f64| body.pace(parameter);
+    let errors = flanks.map(|segments| Followed::new(curves, segments).errors(pace));
+    let errors = errors.fold(Errors::NONE, Errors::or_larger);
+    if errors.acceleration == Worst::NONE {
+        return None;
+    }
+    let swings = curves.motion.quantity() == Quantity::Angle;
+    let unit = if swings { 1.0 } else { MILLIMETRES };
+    let told = |worst: Worst| (unit * worst.value.max(0.0), body.place(worst.at));
+    Some(Felt {
+        swings,
+        velocity_error: told(errors.velocity),
+        acceleration_error: told(errors.acceleration),
+        acceleration_step: told(errors.step),
+        acceleration_of_motion: unit * largest_acceleration(curves.motion, pace),
+        shaft_speed: body.shaft_speed(),
+        mass: body.machine().follower.mass.filter(|_| body.pace(0.0) == (1.0, 0.0)),
+    })
+}
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let felt = evidence.rolled?.felt.as_ref()?;
+    let share = felt.acceleration_share()?;
+    let given = evidence.body.machine().limits.acceleration_share;
+    let verdict = match given {
+        Some(limit) => Verdict::of(share <= limit),
+        None if share > CUSTOMARY => Verdict::Warn,
+        None => Verdict::Pass,
+    };
+    let found = CHECK.found(share, Some(given.unwrap_or(CUSTOMARY)), "1", verdict);
+    Some(Finding { place: felt.acceleration_error.1, note: Some(words(felt)), ..found })
+}
+
+fn words(felt: &Felt) -> String {
+    let [velocity, acceleration] = felt.units();
+    let mut words = format!(
+        "off by {} {acceleration} of the motion's {}, in steps of up to {} at {}; the velocity by {} {velocity} at {}",
+        shown(felt.acceleration_error.0),
+        shown(felt.acceleration_of_motion),
+        shown(felt.acceleration_step.0),
+        felt.acceleration_step.1,
+        shown(felt.velocity_error.0),
+        felt.velocity_error.1,
+    );
+    let unit = if felt.swings { "rad/s²" } else { "m/s²" };
+    if let (Some(error), Some(motion)) =
+        (felt.acceleration(felt.acceleration_error.0), felt.acceleration(felt.acceleration_of_motion))
+    {
+        words += &format!("; at this speed {} of {} {unit}", shown(error), shown(motion));
+    }
+    if let Some(force) = felt.force() {
+        words += &format!(", {} N of the follower's own mass", shown(force));
+    }
+    words
+}
