@@ -20,11 +20,11 @@ use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::RunUp;
 use crate::machine::Machine;
+use crate::motion::Quantity;
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
-use crate::profile::followed::Pace;
-use crate::profile::outline::{Fit, Outline, OutlineError};
-use crate::profile::{Curves, Worst, boundary, envelope, extremes};
+use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
+use crate::profile::{Curves, Worst, boundary, envelope, extremes, followed};
 use crate::report::sheet::Sheet;
 use crate::report::{Place, Report, Rolled, Section, Speeds};
 use crate::table::Row;
@@ -49,6 +49,66 @@ pub struct Kind {
 /// Every kind of body.
 pub const KINDS: &[&Kind] = &[&disc::ROTARY, &disc::GENERAL, &wedge::KIND, &conoid::KIND];
 
+/// A largest error of velocity or acceleration, as it is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RateTolerance {
+    /// Over the largest of the motion.
+    Share(f64),
+    /// A quantity: m or rad per rad of the shaft or per second, squared where it is an acceleration.
+    Rate {
+        /// The number.
+        value: f64,
+        /// In radians, of a follower that swings; else in metres.
+        swing: bool,
+        /// Per second; else per radian of the shaft.
+        by_time: bool,
+    },
+}
+
+/// Why a tolerance of the motion cannot be applied.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RateError {
+    /// Per second, and there is no speed.
+    #[error("a tolerance per second needs the speed of the cam: give --rpm, or a tolerance per rad or as a share")]
+    NoSpeed,
+    /// Metres for a follower that swings, or the other way round.
+    #[error("the follower {follower}: the tolerance of its {rate} must be a share or in {unit}")]
+    WrongUnit {
+        /// What it does.
+        follower: &'static str,
+        /// "velocity" or "acceleration".
+        rate: &'static str,
+        /// The unit by the angle.
+        unit: &'static str,
+    },
+}
+
+impl RateTolerance {
+    /// By the angle of the shaft, m or rad, of the velocity (order 1) or the acceleration (order 2) of a body.
+    fn by_angle(self, body: &dyn Body, order: usize) -> Result<f64, RateError> {
+        let swings = body.plane().is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
+        match self {
+            Self::Share(share) => Ok(share * body.largest_rates().get(order - 1).copied().unwrap_or(0.0)),
+            Self::Rate { swing, .. } if swing != swings => Err(RateError::WrongUnit {
+                follower: if swings { "swings" } else { "does not swing" },
+                rate: if order == 1 { "velocity" } else { "acceleration" },
+                unit: match (swings, order) {
+                    (true, 1) => "rad/rad",
+                    (true, _) => "rad/rad2",
+                    (false, 1) => "mm/rad",
+                    (false, _) => "mm/rad2",
+                },
+            }),
+            Self::Rate { value, by_time: false, .. } => Ok(value),
+            Self::Rate { value, by_time: true, .. } => {
+                let speed = body.shaft_speed().ok_or(RateError::NoSpeed)?;
+                Ok(if order == 1 { value / speed } else { value / (speed * speed) })
+            }
+        }
+    }
+}
+
 /// What a drawing must contain, and how exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
@@ -58,13 +118,35 @@ pub struct Request {
     pub flank: bool,
     /// Radius of a cutter whose path is needed, m.
     pub cutter: Option<f64>,
+    /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
+    pub rates: [Option<RateTolerance>; 2],
+    /// Refuse a cam whose follower feels more; else it is told.
+    pub strict: bool,
 }
 
 impl Request {
     /// Outlines within a tolerance (m), nothing else.
     #[must_use]
     pub fn within(fit: impl Into<Fit>) -> Self {
-        Self { fit: fit.into(), flank: false, cutter: None }
+        Self { fit: fit.into(), flank: false, cutter: None, rates: [None; 2], strict: true }
+    }
+
+    /// With the tolerances of the motion as numbers for a body.
+    ///
+    /// # Errors
+    /// [`RateError`] when they do not fit its follower, or need a speed.
+    pub fn resolved(self, body: &dyn Body) -> Result<Self, RateError> {
+        let [velocity, acceleration] = self.rates;
+        let number = |rate: Option<RateTolerance>, order: usize, own: f64| match rate {
+            Some(rate) => rate.by_angle(body, order).map(|rate| if rate > 0.0 { rate } else { f64::INFINITY }),
+            None => Ok(own),
+        };
+        let own = self.fit.motion;
+        let motion = MotionTolerance {
+            velocity: number(velocity, 1, own.velocity)?,
+            acceleration: number(acceleration, 2, own.acceleration)?,
+        };
+        Ok(Self { fit: Fit { motion, ..self.fit }, ..self })
     }
 }
 
@@ -160,15 +242,14 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// First and second derivative of the motion's parameter by the angle of the shaft that gives the time: the cam's own, or
-    /// the crank's of a plate on the bed.
-    fn pace(&self, _parameter: f64) -> Pace {
-        (1.0, 0.0)
-    }
-
-    /// Angular speed of that shaft, rad/s, where it is known.
+    /// Angular speed of the shaft that gives the time, rad/s, where it is known: of the cam, or of the crank of a plate.
     fn shaft_speed(&self) -> Option<f64> {
         None
+    }
+
+    /// Largest velocity and acceleration of the motion by the angle of that shaft, m or rad per rad and rad².
+    fn largest_rates(&self) -> [f64; 2] {
+        self.plane().map_or([0.0; 2], |curves| followed::largest_rates(curves.motion))
     }
 
     /// The parameter at which a point of the drawing (m) lies.

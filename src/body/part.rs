@@ -80,7 +80,7 @@ impl Part {
 
     /// What is cut beside an outline (mm) of a machine's turning cam: bore and balance holes, counter-clockwise.
     pub(super) fn holes_within(machine: &Machine, contour: &Contour) -> Vec<Entity> {
-        let outline = Outline { contour: contour.clone(), deviation: 0.0, best_possible: 0.0 };
+        let outline = Outline { contour: contour.clone(), deviation: 0.0, best_possible: 0.0, best_for: [0.0; 2] };
         Self { bore: bore(machine), ..Self::solid_plate(outline) }.balanced(machine).holes()
     }
 
@@ -153,6 +153,7 @@ impl Part {
         let smooth = breaks.filter(|(_, vertex)| !is_corner(vertex.point));
         let worst_break = smooth.map(|(turn, _)| turn.abs()).fold(0.0, f64::max);
         #[expect(clippy::cast_precision_loss, reason = "a few thousand arcs")]
+        let [best_for_velocity, best_for_acceleration] = outline.best_for;
         let ratio = (outline.best_possible > 0.0).then(|| arcs as f64 / outline.best_possible);
         OutlineMeasures {
             arcs,
@@ -162,6 +163,8 @@ impl Part {
             tolerance_mm,
             arcs_best_possible: outline.best_possible,
             arcs_over_best_possible: ratio,
+            arcs_best_possible_velocity: Some(best_for_velocity).filter(|best| *best > 0.0),
+            arcs_best_possible_acceleration: Some(best_for_acceleration).filter(|best| *best > 0.0),
             length_mm: outline.contour.length(),
         }
     }

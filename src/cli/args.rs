@@ -1,6 +1,7 @@
 //! What the user typed.
 
 use super::Failure;
+use camgen::body::RateTolerance;
 use camgen::machine::{Machine, valid_rpm};
 use camgen::motion::equation_18::ExactOn;
 use camgen::units::{self, Dimension};
@@ -75,9 +76,20 @@ pub(super) struct CommonArgs {
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true, conflicts_with = "accuracy")]
     pub(super) tolerance: Option<f64>,
 
-    /// A named tolerance: draft (50 µm), standard (5 µm) or fine (0.5 µm); `camgen trade` measures what each costs
+    /// Named tolerances: draft (50 µm), standard (5 µm and 5 % of the acceleration) or fine (0.5 µm and 1 %); `camgen trade`
+    /// measures what each costs
     #[arg(long, value_name = "NAME")]
     pub(super) accuracy: Option<Accuracy>,
+
+    /// Largest error of the follower's velocity as cut: a share of the motion's largest (2%), a quantity (mm/rad, mm/s, m/s,
+    /// rad/rad, rad/s), or none [default: none]
+    #[arg(long, value_name = "ERROR", value_parser = velocity_error, allow_hyphen_values = true)]
+    pub(super) tolerance_velocity: Option<Rate>,
+
+    /// Largest error of the follower's acceleration as cut: a share of the motion's largest (5%), a quantity (mm/rad2, m/s2,
+    /// rad/rad2, rad/s2), or none [default: 5%]
+    #[arg(long, value_name = "ERROR", value_parser = acceleration_error, allow_hyphen_values = true)]
+    pub(super) tolerance_acceleration: Option<Rate>,
 
     /// Overrides one key of the machine file, e.g. --set follower.roller.radius=25mm; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
@@ -120,6 +132,23 @@ impl CommonArgs {
             (None, None | Some(Accuracy::Standard)) => 5e-6,
             (None, Some(Accuracy::Fine)) => 0.5e-6,
         }
+    }
+
+    /// Tolerances of velocity and acceleration, and whether a cam that does not keep them is refused: the default ones are told
+    /// only.
+    pub(super) fn rates(&self) -> ([Option<RateTolerance>; 2], bool) {
+        let named = match self.accuracy {
+            Some(Accuracy::Draft) => None,
+            None | Some(Accuracy::Standard) => Some(RateTolerance::Share(0.05)),
+            Some(Accuracy::Fine) => Some(RateTolerance::Share(0.01)),
+        };
+        let asked = |rate: Option<Rate>, default| match rate {
+            Some(Rate::Any) => None,
+            Some(Rate::Within(rate)) => Some(rate),
+            None => default,
+        };
+        let strict = self.tolerance_velocity.is_some() || self.tolerance_acceleration.is_some();
+        ([asked(self.tolerance_velocity, None), asked(self.tolerance_acceleration, named)], strict)
     }
 
     /// Whether the report may be coloured.
@@ -251,9 +280,9 @@ pub(super) enum SideOf {
 pub(super) enum Accuracy {
     /// 50 µm: for a first look.
     Draft,
-    /// 5 µm: for milling.
+    /// 5 µm and 5 % of the acceleration: for milling.
     Standard,
-    /// 0.5 µm: for grinding.
+    /// 0.5 µm and 1 % of the acceleration: for grinding.
     Fine,
 }
 
@@ -331,6 +360,69 @@ pub(super) enum MachinesCommand {
         /// Its name
         name: String,
     },
+}
+
+/// A tolerance of velocity or acceleration, or that there is none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Rate {
+    Any,
+    Within(RateTolerance),
+}
+
+/// A unit of velocity or acceleration: its name, whether it is of a swing, whether it is by the time, and its size in m or rad.
+type RateUnit = (&'static str, bool, bool, f64);
+
+const VELOCITIES: [RateUnit; 5] = [
+    ("mm/rad", false, false, 1e-3),
+    ("mm/s", false, true, 1e-3),
+    ("m/s", false, true, 1.0),
+    ("rad/rad", true, false, 1.0),
+    ("rad/s", true, true, 1.0),
+];
+const ACCELERATIONS: [RateUnit; 5] = [
+    ("mm/rad2", false, false, 1e-3),
+    ("mm/s2", false, true, 1e-3),
+    ("m/s2", false, true, 1.0),
+    ("rad/rad2", true, false, 1.0),
+    ("rad/s2", true, true, 1.0),
+];
+
+fn velocity_error(text: &str) -> Result<Rate, String> {
+    rate(text, &VELOCITIES)
+}
+
+fn acceleration_error(text: &str) -> Result<Rate, String> {
+    rate(text, &ACCELERATIONS)
+}
+
+fn rate(text: &str, units: &[RateUnit]) -> Result<Rate, String> {
+    if text.trim() == "none" {
+        return Ok(Rate::Any);
+    }
+    let text = text.trim().replace('²', "2").replace('^', "");
+    let end = text.find(|c: char| c == '%' || c == 'm' || c == 'r').unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    let known: Vec<&str> = units.iter().map(|(name, ..)| *name).collect();
+    let known = known.join(", ");
+    let value = units::parse_bare(number.trim()).map_err(|error| format!("{error}; e.g. 5%, none, or {known}"))?;
+    if !(value > 0.0) {
+        return Err("must be above 0".into());
+    }
+    let unit = unit.trim();
+    if unit == "%" {
+        return if value <= 100.0 {
+            Ok(Rate::Within(RateTolerance::Share(value / 100.0)))
+        } else {
+            Err("must be at most 100%".into())
+        };
+    }
+    match units.iter().find(|(name, ..)| *name == unit) {
+        Some((_, swing, by_time, size)) => {
+            Ok(Rate::Within(RateTolerance::Rate { value: value * size, swing: *swing, by_time: *by_time }))
+        }
+        None if unit.is_empty() => Err(format!("has no unit; it is a share (5%), none, or in one of {known}")),
+        None => Err(format!("unknown unit `{unit}`; it is a share (5%), none, or in one of {known}")),
+    }
 }
 
 /// A speed, or `A..B` from one to another.

@@ -97,7 +97,8 @@ impl FileArgs {
             SideOf::Inside => Side::Inside,
             SideOf::Outside => Side::Outside,
         };
-        Request::within(Fit { tolerance: common.tolerance(), side })
+        let (rates, strict) = common.rates();
+        Request { rates, strict, ..Request::within(Fit { side, ..Fit::from(common.tolerance()) }) }
     }
 
     fn template(&self) -> Result<String, Failure> {

@@ -67,6 +67,12 @@ impl Follower for BellCrank {
         Touch { curve, drive: Vector2::new(cos, -sin), drive_turn: -first }
     }
 
+    fn leverage(&self, lift: &Jet) -> f64 {
+        let s = (self.lowest + lift.s) / self.bottom_arm;
+        // dψ/dΔx = 1/(l2 cos ψ).
+        self.roller_arm / (self.bottom_arm * ((1.0 - s) * (1.0 + s)).sqrt())
+    }
+
     fn parameter_of(&self, centre: Vector2<f64>, _: Vector2<f64>) -> f64 {
         let up = -centre.y - self.axis_distance;
         let theta = libm::acos(libm::cos(self.delta) - up / self.roller_arm);

@@ -165,6 +165,11 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// Travel of the point of its curve along the drive for a unit of lift, m/m or m/rad.
+    fn leverage(&self, _lift: &Jet) -> f64 {
+        1.0
+    }
+
     /// The same follower on a cam with another prime radius, m; `None` where it cannot reach.
     fn sized(&self, _prime_radius: f64) -> Option<Box<dyn Follower>> {
         None

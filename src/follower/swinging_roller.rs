@@ -110,6 +110,10 @@ impl Follower for SwingingRoller {
         Touch { curve, drive: in_plane(Vector2::new(sp, -t * cp)), drive_turn: 1.0 + t * d1 }
     }
 
+    fn leverage(&self, _: &Jet) -> f64 {
+        self.arm
+    }
+
     fn parameter_of(&self, point: Vector2<f64>, _: Vector2<f64>) -> f64 {
         let (a, l) = (self.pivot_distance, self.arm);
         let cosine = (a * a + l * l - point.norm_squared()) / (2.0 * a * l);

@@ -105,6 +105,12 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         Some(TAU)
     }
 
+    /// First and second derivative of the parameter by the angle of the shaft that gives the time: the cam's own, or the crank's
+    /// of a plate on the bed.
+    fn pace(&self, _parameter: f64) -> (f64, f64) {
+        (1.0, 0.0)
+    }
+
     /// The position where the lift is 0, in the coordinate in which the motion was specified, m or rad.
     fn origin(&self) -> Option<f64> {
         None

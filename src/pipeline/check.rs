@@ -5,6 +5,7 @@ use crate::geometry::MILLIMETRES;
 use crate::reading::step::Loop;
 use crate::reading::{self, Chain, step};
 use crate::report::{Report, Section};
+use crate::profile::outline::MotionTolerance;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
 use serde::Serialize;
 
@@ -102,6 +103,8 @@ impl Cam {
             cutter_path: None,
             solid: None,
             tolerance_mm,
+            motion: MotionTolerance::ANY,
+            strict: false,
         });
         let mut sections = vec![Section::new("cam", &body.kind().noun)];
         sections.extend(section.map(|section| Section::new("section", &section)));
@@ -148,6 +151,8 @@ impl Cam {
             solid: Some(&solid),
             cutter_path: None,
             tolerance_mm,
+            motion: MotionTolerance::ANY,
+            strict: false,
         });
         let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
         let whole = report(body, sections, checks);

@@ -1,6 +1,6 @@
 //! Everything that can go wrong on the way from a machine file to the files of a cam.
 
-use crate::body::{DrawError, SolveError};
+use crate::body::{DrawError, RateError, SolveError};
 use crate::machine::MachineError;
 use crate::reading::ReadError;
 use crate::reading::step::StepError;
@@ -18,6 +18,9 @@ pub enum Error {
     /// No cam can be solved.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// A tolerance of velocity or acceleration that does not fit the cam.
+    #[error(transparent)]
+    Rate(#[from] RateError),
     /// The outline or the flank cannot be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),

@@ -42,7 +42,7 @@ impl Cam {
     /// [`Error::Draw`] when the outline cannot be drawn. A cam that has no outline at all, because it is undercut too
     /// far, gives a drawing without one: its checks say why, and it cannot be written.
     pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
-        let request = request.into();
+        let request = request.into().resolved(&*self.body)?;
         match self.body.draw(&request) {
             Ok(drawn) => Ok(Drawing { cam: self, request, drawn: Ok(drawn) }),
             Err(DrawError::NoOutline(why)) => Ok(Drawing { cam: self, request, drawn: Err(why) }),

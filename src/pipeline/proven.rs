@@ -67,6 +67,8 @@ impl<'c> Drawing<'c> {
             cutter_path: cutter_path.as_ref(),
             solid: None,
             tolerance_mm,
+            motion: self.request.fit.motion,
+            strict: self.request.strict,
         });
         let (cam, request, drawn) = (self.cam, self.request, self.drawn);
         Ok(Proven { cam, request, drawn, cut_files, version, outlines, rolled, findings })

@@ -15,7 +15,7 @@ use super::{Curves, Worst};
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Segment;
-use crate::motion::{Jet, Motion};
+use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::{chebyshev, extremum};
 use nalgebra::Vector2;
 
@@ -54,9 +54,6 @@ struct Stretch {
     guide: Guide,
 }
 
-/// Derivatives of the motion's parameter by the angle of the shaft that gives the time: 1 and 0 where the parameter is that angle.
-pub type Pace = (f64, f64);
-
 /// The largest errors of what the follower does on a chain, by the angle of the shaft: m or rad per rad, and per rad².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
@@ -88,6 +85,8 @@ impl Errors {
 pub struct Followed<'a> {
     curves: Curves<'a>,
     stretches: Vec<Stretch>,
+    /// Whether the end of the chain is its start.
+    closed: bool,
 }
 
 /// The outward unit normal at a tangent of an outline that runs counter-clockwise.
@@ -139,13 +138,15 @@ impl<'a> Followed<'a> {
             }
             last = Some(last.filter(|last| *last > to).unwrap_or(to));
         }
-        if let (Some(period), Some(last), Some((start, point))) = (period, last, first)
-            && start + period - last < 0.5 * period
-        {
+        let closed = match (segments.first(), segments.last()) {
+            (Some(first), Some(last)) => period.is_some() && first.start == last.end,
+            _ => false,
+        };
+        if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
             join(&mut runs, Some(last), start + period, &corner, point);
         }
         let stretches = runs.into_iter().flat_map(|run| on_pieces(curves.motion, run)).collect();
-        Self { curves, stretches }
+        Self { curves, stretches, closed }
     }
 
     /// Lift, velocity and acceleration as cut at a place of a stretch; the third derivative is that of the motion.
@@ -175,9 +176,10 @@ impl<'a> Followed<'a> {
         self.cut(stretch, wanted).filter(|_| reached).map(|(cut, _)| cut)
     }
 
-    /// The largest errors, by the angle of a shaft to which the parameter keeps this pace.
+    /// The largest errors, by the angle of the shaft that gives the time.
     #[must_use]
-    pub fn errors(&self, pace: impl Fn(f64) -> Pace) -> Errors {
+    pub fn errors(&self) -> Errors {
+        let pace = |parameter: f64| self.curves.motion.pace(parameter);
         // Velocity and acceleration errors, and the acceleration itself, at a place of a stretch.
         let at = |stretch: &Stretch, parameter: f64| {
             let inside = parameter + stretch.shift;
@@ -203,10 +205,7 @@ impl<'a> Followed<'a> {
                 }
             }
         }
-        let pairs = ends.iter().zip(ends.iter().cycle().skip(1)).take(match self.curves.motion.period() {
-            Some(_) => ends.len(),
-            None => ends.len().saturating_sub(1),
-        });
+        let pairs = ends.iter().zip(ends.iter().cycle().skip(1)).take(ends.len().saturating_sub(usize::from(!self.closed)));
         for ((before, [_, left]), (_, [right, _])) in pairs {
             if let (Some([.., left]), Some([.., right])) = (left, right) {
                 errors.step = errors.step.or_larger(place(before, before.to, (right - left).abs()));
@@ -297,7 +296,7 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
     let start = touch(law);
     let size = start.curve.point.norm();
     let (mut before, (mut gap_before, normal)) = (law.s, off(start.curve.point));
-    let mut lift = law.s - gap_before / normal.dot(&start.drive);
+    let mut lift = law.s - gap_before / (normal.dot(&start.drive) * curves.follower.leverage(&law));
     for _ in 0..LIFT_STEPS {
         let gap = off(touch(Jet { s: lift, ..law }).curve.point).0;
         let step = gap * (lift - before) / (gap - gap_before);
@@ -340,15 +339,24 @@ fn under_face(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Opt
     Some(Jet { s: lift, ds: centre.dot(&across), dds: -turn * centre.dot(&touch.drive), ..law })
 }
 
-/// The largest size of the acceleration of a motion, by the angle of a shaft to which its parameter keeps this pace.
+/// The largest sizes of velocity and acceleration of a motion, by the angle of the shaft that gives the time.
 #[must_use]
-pub fn largest_acceleration(motion: &dyn Motion, pace: impl Fn(f64) -> Pace) -> f64 {
-    let of_piece = |(index, piece): (usize, &crate::motion::Piece)| {
-        let size = |at: f64| {
-            let (jet, (first, second)) = (motion.jet(index, at), pace(at));
+pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
+    let of_piece = |(index, piece): (usize, &Piece)| {
+        if piece.dwell {
+            return [0.0; 2];
+        }
+        let range = (piece.start, piece.end);
+        let velocity = |at: f64| motion.jet(index, at).ds * motion.pace(at).0;
+        let acceleration = |at: f64| {
+            let (jet, (first, second)) = (motion.jet(index, at), motion.pace(at));
             jet.dds * first * first + jet.ds * second
         };
-        if piece.dwell { 0.0 } else { chebyshev::largest_size(size, (piece.start, piece.end), 0.0).value }
+        [
+            chebyshev::largest_size(velocity, range, 0.0).value,
+            chebyshev::largest_size(acceleration, range, 0.0).value,
+        ]
     };
-    motion.distinct().iter().enumerate().map(of_piece).fold(0.0, f64::max)
+    let larger = |[v, a]: [f64; 2], [w, b]: [f64; 2]| [v.max(w), a.max(b)];
+    motion.distinct().iter().enumerate().map(of_piece).fold([0.0; 2], larger)
 }

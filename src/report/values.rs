@@ -249,6 +249,12 @@ pub struct OutlineMeasures {
     /// N*, the least possible number of tangent arcs, dwells not counted.
     pub arcs_best_possible: f64,
     pub arcs_over_best_possible: Option<f64>,
+    /// The same for the velocity alone, where it has a tolerance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arcs_best_possible_velocity: Option<f64>,
+    /// The same for the acceleration alone, where it has a tolerance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arcs_best_possible_acceleration: Option<f64>,
     pub length_mm: f64,
 }
 
@@ -257,8 +263,11 @@ impl OutlineMeasures {
     #[must_use]
     pub fn section(&self) -> Section {
         let ratio = self.arcs_over_best_possible.map_or(String::new(), |ratio| format!(" × {ratio:.2}"));
+        let also = |what: &str, best: Option<f64>| best.map_or(String::new(), |best| format!(", {best:.1} for the {what}"));
+        let also = also("velocity", self.arcs_best_possible_velocity)
+            + &also("acceleration", self.arcs_best_possible_acceleration);
         let words = vec![format!(
-            "{} arcs and {} lines (best possible {:.1}{ratio}), {:.4} µm from the exact curve, tolerance {} µm",
+            "{} arcs and {} lines (best possible {:.1}{ratio}{also}), {:.4} µm from the exact curve, tolerance {} µm",
             self.arcs,
             self.lines,
             self.arcs_best_possible,

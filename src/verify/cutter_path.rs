@@ -100,6 +100,7 @@ fn moved_inwards(path: &Contour, radius: f64) -> Contour {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::profile::outline::MotionTolerance;
     use crate::body::Request;
     use crate::geometry::track::Track;
     use crate::machine::Machine;
@@ -123,7 +124,7 @@ mod tests {
             {
                 let name = format!("{overrides:?} {cutter} {side:?} {tolerance}");
                 let cam = cam(overrides);
-                let fit = Fit { tolerance, side };
+                let fit = Fit { side, ..Fit::from(tolerance) };
                 let request = Request { cutter: Some(1e-3 * cutter), ..Request::within(fit) };
                 let proven = cam.draw(request).expect("drawn").prove().expect("proved");
                 let found = proven.findings().iter().find(|f| f.check == "cutter_path").expect("checked");
@@ -174,6 +175,8 @@ mod tests {
                 solid: None,
                 cutter_path: Some(&path),
                 tolerance_mm: 5e-3,
+                motion: MotionTolerance::ANY,
+                strict: true,
             };
             check(&evidence).expect("checked").verdict
         };

@@ -5,9 +5,9 @@ use crate::body::Body;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Segment;
 use crate::motion::Quantity;
-use crate::profile::followed::{Errors, Followed, largest_acceleration};
+use crate::profile::followed::{Errors, Followed};
 use crate::profile::{Curves, Worst};
-use crate::report::{Felt, Finding, Verdict, shown};
+use crate::report::{Felt, Finding, Place, Verdict, shown};
 
 pub(super) const CHECK: Check = Check {
     name: "acceleration",
@@ -17,6 +17,8 @@ pub(super) const CHECK: Check = Check {
     run: check,
 };
 
+/// A tolerance may be exceeded by the rounding of the solved error.
+const ROUNDING: f64 = 1e-6;
 /// Warns beyond this share when no limit is given.
 const CUSTOMARY: f64 = 0.1;
 
@@ -27,37 +29,50 @@ pub(super) fn felt<'s>(
     curves: Curves<'_>,
     flanks: impl Iterator<Item = &'s [Segment]>,
 ) -> Option<Felt> {
-    let pace = |parameter: f64| body.pace(parameter);
-    let errors = flanks.map(|segments| Followed::new(curves, segments).errors(pace));
+    let errors = flanks.map(|segments| Followed::new(curves, segments).errors());
     let errors = errors.fold(Errors::NONE, Errors::or_larger);
     if errors.acceleration == Worst::NONE {
         return None;
     }
     let swings = curves.motion.quantity() == Quantity::Angle;
     let unit = if swings { 1.0 } else { MILLIMETRES };
+    let [_, acceleration] = body.largest_rates();
     let told = |worst: Worst| (unit * worst.value.max(0.0), body.place(worst.at));
     Some(Felt {
         swings,
         velocity_error: told(errors.velocity),
         acceleration_error: told(errors.acceleration),
         acceleration_step: told(errors.step),
-        acceleration_of_motion: unit * largest_acceleration(curves.motion, pace),
+        acceleration_of_motion: unit * acceleration,
         shaft_speed: body.shaft_speed(),
-        mass: body.machine().follower.mass.filter(|_| body.pace(0.0) == (1.0, 0.0)),
+        // The mass of a plate's follower moves along another path than the bottom.
+        mass: body.machine().follower.mass.filter(|_| curves.motion.period().is_some()),
     })
 }
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let felt = evidence.rolled?.felt.as_ref()?;
     let share = felt.acceleration_share()?;
+    let unit = if felt.swings { 1.0 } else { MILLIMETRES };
+    let over = |(error, _): (f64, Place), asked: f64| error > unit * asked * (1.0 + ROUNDING);
+    let too_fast = over(felt.velocity_error, evidence.motion.velocity);
+    let too_much = over(felt.acceleration_error, evidence.motion.acceleration);
     let given = evidence.body.machine().limits.acceleration_share;
+    let asked = unit * evidence.motion.acceleration / felt.acceleration_of_motion;
+    let limit = given.unwrap_or(CUSTOMARY).min(asked);
     let verdict = match given {
-        Some(limit) => Verdict::of(share <= limit),
+        Some(limit) if share > limit => Verdict::Fail,
+        _ if too_fast || too_much => if evidence.strict { Verdict::Fail } else { Verdict::Warn },
         None if share > CUSTOMARY => Verdict::Warn,
-        None => Verdict::Pass,
+        _ => Verdict::Pass,
     };
-    let found = CHECK.found(share, Some(given.unwrap_or(CUSTOMARY)), "1", verdict);
-    Some(Finding { place: felt.acceleration_error.1, note: Some(words(felt)), ..found })
+    let found = CHECK.found(share, Some(limit), "1", verdict);
+    let mut note = words(felt);
+    if too_fast {
+        let [velocity, _] = felt.units();
+        note = format!("the velocity exceeds the {} {velocity} asked for; {note}", shown(unit * evidence.motion.velocity));
+    }
+    Some(Finding { place: felt.acceleration_error.1, note: Some(note), ..found })
 }
 
 fn words(felt: &Felt) -> String {

@@ -35,6 +35,7 @@ pub use solid::{WrittenSolid, shell_reach};
 use crate::body::{Body, Drawn};
 use crate::geometry::contour::Contour;
 use crate::profile::Worst;
+use crate::profile::outline::MotionTolerance;
 use crate::reading::{Chain, Reading};
 use crate::report::{Finding, Place, Rolled, Verdict, worst_first};
 use nalgebra::Vector2;
@@ -69,6 +70,10 @@ pub struct Evidence<'a> {
     pub solid: Option<&'a WrittenSolid>,
     /// Tolerance of the outline, mm.
     pub tolerance_mm: f64,
+    /// What the follower may feel of it.
+    pub motion: MotionTolerance,
+    /// Whether a cam whose follower feels more is refused.
+    pub strict: bool,
 }
 
 /// What a check looks at.

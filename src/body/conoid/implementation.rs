@@ -8,15 +8,15 @@ use crate::body::{
 };
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Vertex};
-use crate::geometry::{CurvePoint, Entity, MILLIMETRES};
+use crate::geometry::{Allowed, CurvePoint, Entity, MILLIMETRES};
 use crate::load::RunUp;
 use crate::machine::{Machine, Rotation};
 use crate::motion::{Jet, Motion, Piece, Reversal};
 use crate::numeric::parallel;
 use crate::profile::envelope::NoEnvelope;
-use crate::profile::outline::{self, Fit, Outline, OutlineError};
+use crate::profile::outline::{self, Fit, MotionTolerance, Outline, OutlineError};
 use crate::profile::size::rounded_up;
-use crate::profile::{Curves, Worst, boundary, extremes};
+use crate::profile::{Curves, Worst, boundary, extremes, followed};
 use crate::report::sheet::Sheet;
 use crate::report::{Report, Section, Speeds};
 use crate::table::{BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
@@ -62,11 +62,24 @@ impl Conoid {
                     let bulge = libm::tan(0.25 * (range.1 - range.0));
                     outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
                 } else {
-                    outline.lay(|angle| frame(index, angle), range, tolerance)?;
+                    match fit.motion {
+                        MotionTolerance::ANY => outline.lay(|angle| frame(index, angle), range, tolerance)?,
+                        motion => {
+                            let within = |angle| self.cut_within(frame(index, angle), angle, motion);
+                            outline.lay_allowed(within, range, tolerance)?;
+                        }
+                    }
                 }
             }
         }
         Ok(outline.counted_from_exact(shift))
+    }
+
+    /// A cut beside the exact one with what its heading and curvature may miss, as those of a plane outline: the sphere's path
+    /// makes the same angle with the normal of the cut.
+    fn cut_within(&self, frame: CurvePoint, angle: f64, motion: MotionTolerance) -> (CurvePoint, Allowed) {
+        let path = Vector2::new(libm::cos(angle), libm::sin(angle));
+        (frame, outline::allowed(&frame, frame.outward().dot(&path), 1.0, motion))
     }
 
     /// Why a section cannot be laid where the surface is nearly across the axis: there its cuts jump from one side of the
@@ -233,6 +246,11 @@ impl Body for Conoid {
 
     fn unbalanced(&self, _: usize, _: f64, _: f64, _: Vector2<f64>) -> f64 {
         0.0
+    }
+
+    fn largest_rates(&self) -> [f64; 2] {
+        let larger = |[v, a]: [f64; 2], [w, b]: [f64; 2]| [v.max(w), a.max(b)];
+        self.sections.iter().map(|section| followed::largest_rates(section)).fold([0.0; 2], larger)
     }
 
     fn balance(&self) -> Option<Balance> {

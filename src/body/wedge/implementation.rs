@@ -14,7 +14,6 @@ use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver, Trend, Way};
 use crate::profile::envelope::NoEnvelope;
-use crate::profile::followed::Pace;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
 use crate::profile::{Curves, Worst, boundary};
 use crate::report::sheet::Sheet;
@@ -60,6 +59,7 @@ impl Wedge {
             contour: Contour { vertices: lower },
             deviation: flank.deviation,
             best_possible: 2.0 * flank.best_possible,
+            best_for: flank.best_for.map(|best| 2.0 * best),
         })
     }
 
@@ -196,12 +196,6 @@ impl Body for Wedge {
 
     fn place(&self, x: f64) -> Place {
         Place::at_overrun(x)
-    }
-
-    /// x = r sin φ over the reversal; before it the bed runs at the constant speed r.
-    fn pace(&self, x: f64) -> Pace {
-        let r = self.stroke();
-        if x <= 0.0 { (r, 0.0) } else { (((r - x) * (r + x)).max(0.0).sqrt(), -x) }
     }
 
     fn shaft_speed(&self) -> Option<f64> {

@@ -13,10 +13,9 @@
 //! is taken. Where there is none the dual value, a lower bound once its own conditions are met, shows it before the
 //! steps run out; it only saves time.
 
-use super::Joint;
 use super::nodes::Node;
-use super::trial::{Link, Place, Step, Trial};
-use crate::geometry::CurvePoint;
+use super::trial::{Link, Place, Step, Trial, place_of};
+use super::{Joint, Target};
 use crate::numeric::banded::Banded;
 use crate::numeric::extremum::larger;
 use nalgebra::{Matrix4, Vector2, Vector4};
@@ -40,12 +39,25 @@ const CLOSING: f64 = 0.1;
 /// The dual value is trusted once the chain is open by less: wider, it says little about chains that are closed.
 const TELLING: f64 = 2.0;
 
+/// What is compared at a node, with what is allowed of it.
+#[derive(Debug, Clone, Copy)]
+enum Kept {
+    /// The distance.
+    Distance,
+    /// The heading, with the tangent of the curve, rad.
+    Heading(Vector2<f64>, f64),
+    /// The curvature.
+    Curvature(f64, f64),
+}
+
 /// A node with what the method keeps about it.
 #[derive(Debug)]
 struct Sample {
     point: Vector2<f64>,
     parameter: f64,
-    /// 1, a, b, a² + b², see [`crate::geometry::arcs::nodes::Arc::seen_from`].
+    kept: Kept,
+    /// 1, a, b, a² + b², see [`crate::geometry::arcs::nodes::Arc::seen_from`], or what these become by the length or in the
+    /// curvature.
     basis: Vector4<f64>,
     /// Deviation in tolerances.
     off: f64,
@@ -62,15 +74,24 @@ struct Slack {
     change: f64,
 }
 
-/// The samples of a piece, and the tolerance.
+/// The curvature that is kept at a joint of an arc.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    off: f64,
+    off_by: [f64; 6],
+    sides: [Slack; 2],
+}
+
+/// The samples of a piece, the joints of every arc where its curvature is kept, and the tolerance.
 struct Program {
     samples: Vec<Sample>,
+    ends: Vec<[End; 2]>,
     tolerance: f64,
 }
 
 /// Joints of a chain within `tolerance` at the nodes, from a first guess; `None` when none was found.
 pub(super) fn relax(
-    curve: &impl Fn(f64) -> CurvePoint,
+    target: &impl Target,
     nodes: &[Node],
     tolerance: f64,
     mut places: Vec<Place>,
@@ -78,13 +99,13 @@ pub(super) fn relax(
     let mut program = Program::new(nodes, places.len() - 1, tolerance);
     let mut level = None;
     for _ in 0..MOST_STEPS {
-        let trial = Trial::new(curve, &places, tolerance)?;
+        let trial = Trial::new(target, &places, tolerance)?;
         let (worst, open) = (program.measure(&trial), trial.open());
         if !worst.is_finite() {
             return None;
         }
         if worst + CLOSING * open <= 1.0
-            && let Some(closed) = trial.closed(curve, tolerance)
+            && let Some(closed) = trial.closed(target, tolerance)
         {
             if program.measure(&closed) <= 1.0 {
                 return Some(closed.joints());
@@ -99,7 +120,8 @@ pub(super) fn relax(
         let (step, rise) = program.direction(&trial, aim);
         let (primal, dual) = program.shares(&trial, &step, rise, aim);
         let primal = primal.min(trial.careful(&step, LONGEST_STEP));
-        for side in program.samples.iter_mut().flat_map(|sample| &mut sample.sides) {
+        let ends = program.ends.iter_mut().flatten().flat_map(|end| &mut end.sides);
+        for side in program.samples.iter_mut().flat_map(|sample| &mut sample.sides).chain(ends) {
             side.multiplier += dual * side.change;
         }
         places = trial.moved(&step, primal, tolerance);
@@ -110,17 +132,26 @@ pub(super) fn relax(
 
 impl Program {
     fn new(nodes: &[Node], arcs: usize, tolerance: f64) -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
-        let multiplier = 0.5 * arcs as f64 / nodes.len() as f64;
-        let sides = [Slack { distance: 0.0, multiplier, change: 0.0 }; 2];
-        let sample = |node: &Node| Sample {
-            point: node.point,
-            parameter: node.parameter,
-            basis: Vector4::zeros(),
-            off: 0.0,
-            sides,
+        let kept = |(index, &node): (usize, &Node)| {
+            // Between the joints the curvature is farthest off where that of the curve turns back.
+            let other = index.checked_sub(1).and_then(|before| nodes.get(before)).or(nodes.get(index + 1));
+            let turns = other.is_some_and(|other| other.best_heading.signum() != node.best_heading.signum());
+            let heading = node.allowed.heading.is_finite().then(|| Kept::Heading(node.tangent, node.allowed.heading));
+            let curvature = (turns && node.allowed.curvature.is_finite())
+                .then(|| Kept::Curvature(node.curvature, node.allowed.curvature));
+            let all = [Some(Kept::Distance), heading, curvature];
+            all.into_iter().flatten().map(move |kept| (node.point, node.parameter, kept))
         };
-        Self { samples: nodes.iter().map(sample).collect(), tolerance }
+        let all: Vec<(Vector2<f64>, f64, Kept)> = nodes.iter().enumerate().flat_map(kept).collect();
+        let bent = nodes.iter().any(|node| node.allowed.curvature.is_finite());
+        let ends = if bent { arcs } else { 0 };
+        #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
+        let multiplier = 0.5 * arcs as f64 / (all.len() + 2 * ends) as f64;
+        let sides = [Slack { distance: 0.0, multiplier, change: 0.0 }; 2];
+        let sample =
+            |(point, parameter, kept)| Sample { point, parameter, kept, basis: Vector4::zeros(), off: 0.0, sides };
+        let end = End { off: 0.0, off_by: [0.0; 6], sides };
+        Self { samples: all.into_iter().map(sample).collect(), ends: vec![[end; 2]; ends], tolerance }
     }
 
     /// Every arc with its samples, up to the foot of its end.
@@ -142,9 +173,14 @@ impl Program {
         let mut worst = 0.0_f64;
         for (link, samples) in self.by_arc(trial) {
             for sample in samples {
-                (sample.basis, sample.off) = link.arc.seen_from(sample.point);
-                sample.off /= tolerance;
+                sample.measure(link, tolerance);
                 worst = larger(worst, sample.off.abs());
+            }
+        }
+        for (index, ends) in self.ends.iter_mut().enumerate() {
+            for (end, bend) in ends.iter_mut().zip(trial.bends(index, tolerance).into_iter().flatten()) {
+                (end.off, end.off_by) = (bend.off, bend.off_by);
+                worst = larger(worst, end.off.abs());
             }
         }
         worst
@@ -154,14 +190,15 @@ impl Program {
     /// multiplier to aim at.
     fn slacks(&mut self, level: f64, arcs: usize) -> (f64, f64) {
         let mut product = 0.0;
-        for sample in &mut self.samples {
-            for (side, distance) in sample.sides.iter_mut().zip([level - sample.off, level + sample.off]) {
+        let ends = self.ends.iter_mut().flatten().map(|end| (end.off, &mut end.sides));
+        for (off, sides) in self.samples.iter_mut().map(|sample| (sample.off, &mut sample.sides)).chain(ends) {
+            for (side, distance) in sides.iter_mut().zip([level - off, level + off]) {
                 side.distance = distance;
                 product += distance * side.multiplier;
             }
         }
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
-        let (arcs, count) = (arcs as f64, 2.0 * self.samples.len() as f64);
+        let (arcs, count) = (arcs as f64, 2.0 * (self.samples.len() + 2 * self.ends.len()) as f64);
         (product / arcs, CENTRE * product / count)
     }
 
@@ -210,6 +247,24 @@ impl Program {
                 *value = -link.open;
             }
         }
+        for (index, end) in self.ends.iter().enumerate().flat_map(|(index, ends)| ends.iter().map(move |end| (index, end))) {
+            let [(force, stiff), (back, stiff_back)] =
+                end.sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
+            corner += stiff + stiff_back;
+            excess += force + back;
+            let freedoms = end.off_by.iter().enumerate();
+            let freedoms = freedoms.filter_map(|(freedom, by)| Some((place_of(freedom, index, arcs)?, *by)));
+            for (row, by) in freedoms.clone() {
+                for (column, other) in freedoms.clone().filter(|(column, _)| *column >= row) {
+                    matrix.add(row, column, (stiff + stiff_back) * by * other);
+                }
+                for (value, amount) in [(&mut right, (force - back) * by), (&mut border, (stiff - stiff_back) * by)] {
+                    if let Some(value) = value.get_mut(row) {
+                        *value -= amount;
+                    }
+                }
+            }
+        }
         let factors = matrix.factored();
         let edge = border.clone();
         factors.solve(&mut right);
@@ -222,21 +277,54 @@ impl Program {
     /// Shares of a step that slacks and multipliers allow; the changes of the multipliers are kept with the samples.
     fn shares(&mut self, trial: &Trial, step: &Step, rise: f64, aim: f64) -> (f64, f64) {
         let (mut primal, mut dual) = (1.0_f64, 1.0_f64);
+        let mut allow = |sides: &mut [Slack; 2], off: f64| {
+            for (side, moved) in sides.iter_mut().zip([rise - off, rise + off]) {
+                side.change = (aim - side.multiplier * moved) / side.distance - side.multiplier;
+                if moved < 0.0 {
+                    primal = primal.min(-BOUNDARY * side.distance / moved);
+                }
+                if side.change < 0.0 {
+                    dual = dual.min(-BOUNDARY * side.multiplier / side.change);
+                }
+            }
+        };
         for (index, (_, samples)) in self.by_arc(trial).enumerate() {
             let change = trial.change(index, step);
             for sample in samples {
-                let off = sample.basis.dot(&change);
-                for (side, moved) in sample.sides.iter_mut().zip([rise - off, rise + off]) {
-                    side.change = (aim - side.multiplier * moved) / side.distance - side.multiplier;
-                    if moved < 0.0 {
-                        primal = primal.min(-BOUNDARY * side.distance / moved);
-                    }
-                    if side.change < 0.0 {
-                        dual = dual.min(-BOUNDARY * side.multiplier / side.change);
-                    }
-                }
+                allow(&mut sample.sides, sample.basis.dot(&change));
+            }
+        }
+        let arcs = trial.links.len();
+        for (index, ends) in self.ends.iter_mut().enumerate() {
+            for end in ends {
+                let by = end.off_by.iter().enumerate();
+                let moved = |(freedom, by): (usize, &f64)| Some(by * step.0.get(place_of(freedom, index, arcs)?)?);
+                allow(&mut end.sides, by.filter_map(moved).sum());
             }
         }
         (primal, dual)
+    }
+}
+
+impl Sample {
+    /// Computes what is kept, in what is allowed of it, and its basis.
+    fn measure(&mut self, link: &Link, tolerance: f64) {
+        let (basis, distance) = link.arc.seen_from(self.point);
+        (self.basis, self.off) = match self.kept {
+            Kept::Distance => (basis, distance / tolerance),
+            Kept::Heading(tangent, allowed) => {
+                let arc = &link.arc;
+                let (along, across) = (arc.heading.dot(&tangent), arc.heading.perp(&tangent));
+                let [_, a, b, square] = basis.data.0[0];
+                // The gradient of the distance along the curve's tangent is the sine between the two.
+                let gradient = (1.0 - arc.curvature * (2.0 * b - arc.curvature * square)).max(f64::MIN_POSITIVE).sqrt();
+                let off = (across - arc.curvature * (a * along + b * across)) / gradient;
+                let basis = Vector4::new(0.0, along, across, 2.0 * (a * along + b * across)) * (tolerance / allowed);
+                (basis, off / allowed)
+            }
+            Kept::Curvature(curvature, allowed) => {
+                (Vector4::new(0.0, 0.0, 0.0, -2.0 * tolerance / allowed), (link.arc.curvature - curvature) / allowed)
+            }
+        };
     }
 }

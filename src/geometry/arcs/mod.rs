@@ -27,8 +27,8 @@ mod nodes;
 mod spacing;
 mod trial;
 
-use crate::geometry::CurvePoint;
 use crate::geometry::contour::Segment;
+use crate::geometry::{Allowed, CurvePoint};
 use crate::numeric::extremum::larger;
 use nalgebra::Vector2;
 use nodes::{Arc, Node, sample};
@@ -38,6 +38,7 @@ use spacing::Spacing;
 const SEEN: f64 = 0.992;
 /// Points per arc at which the finished chain is checked.
 const CHECKS_PER_ARC: u32 = 64;
+const FEWER_CHECKS: u32 = 16;
 /// Further nodes beyond which less is taken as well.
 const MANY: usize = 200;
 /// Share of the tolerance that may lie unseen between two of them, twice what a lobe leaves, and how often a stretch is
@@ -49,6 +50,10 @@ const TRIES: u32 = 12;
 /// Most arcs that are tried, over the first number: far beyond any that was ever needed.
 const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
+/// A distance so many times that of the best chain for heading and curvature is as good as none.
+const ROOMY: f64 = 30.0;
+/// That many roundings of a coordinate at the least.
+const LEAST_ROOM: f64 = 1e5;
 /// One arc in so many does not matter: a fifth of a percent.
 const FEW: u32 = 500;
 /// A piece of a smaller share may be a circle, which its headings show; one with a feature between them has more.
@@ -74,8 +79,31 @@ pub struct Chain {
     pub joints: Vec<Joint>,
     /// Largest distance between chain and curve, checked between the nodes, with a bound for what lies between.
     pub deviation: f64,
-    /// Best possible number of arcs N*; 0 for a circle.
+    /// Best possible number of arcs N* for the distance; 0 for a circle.
     pub best_possible: f64,
+    /// The same for heading and curvature: ∫ (|κ'|/(12 ε))^(1/2) ds and ∫ |κ'|/(2 ε) ds; 0 where they do not matter.
+    pub best_for: [f64; 2],
+}
+
+impl Chain {
+    /// Its arcs, the last of which ends at a point.
+    #[must_use]
+    pub fn segments(&self, end: Vector2<f64>) -> Vec<Segment> {
+        let ends = self.joints.iter().skip(1).map(|joint| joint.point).chain([end]);
+        let segment = |(joint, end): (&Joint, Vector2<f64>)| Segment { start: joint.point, end, bulge: joint.bulge };
+        self.joints.iter().zip(ends).map(segment).collect()
+    }
+}
+
+/// A curve by its parameter, and what a chain may miss of it beside the distance.
+trait Target {
+    fn at(&self, parameter: f64) -> (CurvePoint, Allowed);
+}
+
+impl<F: Fn(f64) -> (CurvePoint, Allowed)> Target for F {
+    fn at(&self, parameter: f64) -> (CurvePoint, Allowed) {
+        self(parameter)
+    }
 }
 
 /// Why a piece cannot be fitted.
@@ -104,6 +132,29 @@ pub enum FitError {
 /// # Errors
 /// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
 pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Result<Chain, FitError> {
+    let anything = |parameter: f64| (curve(parameter), Allowed::ANY);
+    fit_within(&anything, &curve, range, tolerance)
+}
+
+/// As [`fit`], of a curve that also tells what the chain may miss beside the distance at a parameter. The curvature is kept at
+/// the joints and the extrema of the curve's, between which it is monotonic, the heading at all nodes.
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_allowed(
+    curve: impl Fn(f64) -> (CurvePoint, Allowed),
+    range: (f64, f64),
+    tolerance: f64,
+) -> Result<Chain, FitError> {
+    fit_within(&curve, &|parameter| curve(parameter).0, range, tolerance)
+}
+
+fn fit_within(
+    target: &impl Target,
+    curve: &impl Fn(f64) -> CurvePoint,
+    range: (f64, f64),
+    tolerance: f64,
+) -> Result<Chain, FitError> {
     let (start, end) = (curve(range.0), curve(range.1));
     let size = start.point.norm().max(end.point.norm());
     if !(tolerance > 64.0 * f64::EPSILON * size) {
@@ -112,19 +163,28 @@ pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64)
     let mut seen = SEEN * tolerance;
     let mut missed = Vec::new();
     for _ in 0..TRIES {
-        let (mut nodes, best_possible) = sample(&curve, range, tolerance, seen)?;
-        if best_possible < CIRCLE
-            && let Some(chain) = one_arc(&curve, range, tolerance)
+        let (mut nodes, counts) = sample(target, range, tolerance, seen)?;
+        let limited = nodes.iter().any(|node| node.allowed != Allowed::ANY);
+        if counts.all < CIRCLE
+            && let Some(chain) = one_arc(curve, range, tolerance)
         {
             return Ok(chain);
         }
-        nodes::insert(&mut nodes, &curve, &missed, seen);
-        let Some(joints) = fewest(&curve, &nodes, seen) else {
+        nodes::insert(&mut nodes, target, &missed, seen);
+        // Where heading or curvature ask for shorter arcs these miss the curve by less; a tolerance far above that would only
+        // make the numbers of the method unlike each other.
+        let share = counts.distance / counts.all.max(f64::MIN_POSITIVE);
+        let roomy = (ROOMY * seen * share * share * share).max(LEAST_ROOM * f64::EPSILON * size);
+        let within = if limited { seen.min(roomy) } else { seen };
+        let Some(joints) = fewest(target, &nodes, within) else {
             return Err(FitError::ToleranceTooFine { tolerance });
         };
-        let (deviation, mut beyond) = check(&curve, &joints, (range.1, end.point), tolerance);
+        // Arcs that are shorter than the distance asks for miss it by little, and less is looked for there.
+        let checks = if limited { FEWER_CHECKS } else { CHECKS_PER_ARC };
+        let (deviation, mut beyond) = check(curve, &joints, (range.1, end.point), tolerance, checks);
         if deviation <= tolerance {
-            return Ok(Chain { joints, deviation, best_possible });
+            let best_for = [counts.heading, counts.curvature];
+            return Ok(Chain { joints, deviation, best_possible: counts.distance, best_for });
         }
         if beyond.is_empty() || missed.len() > MANY {
             seen *= (tolerance / deviation).clamp(0.5, 0.995);
@@ -135,11 +195,11 @@ pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64)
 }
 
 /// The first chain that the minimax finds, from the least number of arcs that may do.
-fn fewest(curve: &impl Fn(f64) -> CurvePoint, nodes: &[Node], seen: f64) -> Option<Vec<Joint>> {
+fn fewest(target: &impl Target, nodes: &[Node], seen: f64) -> Option<Vec<Joint>> {
     let mut spacing = Spacing::new(nodes);
     let first = spacing.arcs();
     while spacing.arcs() <= MOST_TIMES * first + MOST_MORE {
-        if let Some(joints) = minimax::relax(curve, nodes, seen, spacing.places(nodes)) {
+        if let Some(joints) = minimax::relax(target, nodes, seen, spacing.places(nodes)) {
             return Some(joints);
         }
         // One by one where a chain must be near, faster where one among thousands does not matter or the curve is not what
@@ -159,14 +219,14 @@ fn one_arc(curve: &impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64
         return None;
     }
     let joints = vec![Joint { point: start.point, parameter: range.0, bulge: arc.bulge }];
-    let (deviation, _) = check(curve, &joints, (range.1, end.point), tolerance);
-    (deviation <= tolerance).then_some(Chain { joints, deviation, best_possible: 0.0 })
+    let (deviation, _) = check(curve, &joints, (range.1, end.point), tolerance, CHECKS_PER_ARC);
+    (deviation <= tolerance).then_some(Chain { joints, deviation, best_possible: 0.0, best_for: [0.0; 2] })
 }
 
 /// Largest distance between the chain and the curve, and the parameters where it exceeds the tolerance.
 ///
 /// Each arc, as its two points and its bulge give it, is compared with its stretch of the curve at
-/// [`CHECKS_PER_ARC`] + 1 points. Between two of them the distance cannot exceed the larger by more than
+/// so many points and one more. Between two of them the distance cannot exceed the larger by more than
 /// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points. Where that is not small against the
 /// tolerance the stretch is halved. A NaN anywhere is the result.
 fn check(
@@ -174,6 +234,7 @@ fn check(
     joints: &[Joint],
     end: (f64, Vector2<f64>),
     tolerance: f64,
+    checks: u32,
 ) -> (f64, Vec<f64>) {
     let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
     let (mut worst, mut beyond) = (0.0, Vec::new());
@@ -189,9 +250,9 @@ fn check(
             }
             Checked { place, distance, bend: frame.speed * frame.speed / 8.0 * (curvature - frame.curvature).abs() }
         };
-        let step = (parameter - joint.parameter) / f64::from(CHECKS_PER_ARC);
+        let step = (parameter - joint.parameter) / f64::from(checks);
         let mut before = at(joint.parameter);
-        for check in 1..=CHECKS_PER_ARC {
+        for check in 1..=checks {
             let after = at(joint.parameter + step * f64::from(check));
             worst = larger(worst, between(&mut at, before, after, tolerance, HALVINGS));
             before = after;

@@ -1,7 +1,8 @@
 //! A piece of curve sampled at nodes of equal share of I₃, and the arcs that are held against them.
 
-use super::{FitError, SAME_HEADING};
-use crate::geometry::CurvePoint;
+use super::{FitError, SAME_HEADING, Target};
+use crate::geometry::{Allowed, CurvePoint};
+use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
 
 /// Nodes per best possible arc: they see the lobes to 0.9 %.
@@ -25,18 +26,42 @@ const CHAIN: f64 = 124.707_658_144_958_9;
 pub(super) struct Node {
     pub(super) point: Vector2<f64>,
     pub(super) tangent: Vector2<f64>,
+    pub(super) curvature: f64,
     pub(super) parameter: f64,
+    /// What the chain may miss here beside the distance.
+    pub(super) allowed: Allowed,
     /// I₃ up to here over (K tol)^(1/3): position in best possible arcs.
     pub(super) share: f64,
     /// The heading of the best chain against the tangent, rad.
     pub(super) best_heading: f64,
+    /// I₃ per length, or what takes its place where heading or curvature asks for shorter arcs.
+    density: f64,
+}
+
+/// Arcs of the best chain per length, over (K tol)^(-1/3) = 1/`size`: |κ'|^(1/3) of the distance; an arc of length h is off
+/// by κ'h²/12 in its heading at the joints, and by κ'h/2 in its curvature.
+fn density(frame: &CurvePoint, allowed: Allowed, size: f64) -> [f64; 3] {
+    let slope = frame.curvature_slope.abs();
+    [libm::cbrt(slope), size * (slope / (12.0 * allowed.heading)).sqrt(), size * slope / (2.0 * allowed.curvature)]
+}
+
+/// The largest of three densities, or a NaN among them.
+fn densest([distance, heading, curvature]: [f64; 3]) -> f64 {
+    larger(distance, larger(heading, curvature))
 }
 
 impl Node {
-    fn new(frame: &CurvePoint, parameter: f64, share: f64, seen: f64) -> Self {
+    fn new((frame, allowed): (CurvePoint, Allowed), parameter: f64, share: f64, seen: f64) -> Self {
         let size = libm::cbrt(CHAIN * seen);
-        let best_heading = -libm::cbrt(frame.curvature_slope) * size * size / 12.0;
-        Self { point: frame.point, tangent: frame.tangent, parameter, share, best_heading }
+        let density = densest(density(&frame, allowed, size));
+        // −κ' h²/12, h = size/density.
+        let best_heading = if allowed == Allowed::ANY {
+            -libm::cbrt(frame.curvature_slope) * size * size / 12.0
+        } else {
+            -frame.curvature_slope * size * size / (12.0 * density * density).max(f64::MIN_POSITIVE)
+        };
+        let CurvePoint { point, tangent, curvature, .. } = frame;
+        Self { point, tangent, curvature, parameter, allowed, share, best_heading, density }
     }
 }
 
@@ -82,37 +107,58 @@ impl Arc {
     }
 }
 
+/// The best possible number of arcs for the distance, the heading and the curvature alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Counts {
+    pub(super) distance: f64,
+    pub(super) heading: f64,
+    pub(super) curvature: f64,
+    /// For all together.
+    pub(super) all: f64,
+}
+
 /// Samples the curve at nodes of equal share, so many to an arc within `seen`, and returns N* for the whole tolerance.
 ///
 /// I₃ is summed up in cells, and again along the nodes; where the two do not agree a feature is narrower than the cells,
 /// and the nodes, which lie closer there, are the next cells.
 pub(super) fn sample(
-    curve: &impl Fn(f64) -> CurvePoint,
+    target: &impl Target,
     range: (f64, f64),
     tolerance: f64,
     seen: f64,
-) -> Result<(Vec<Node>, f64), FitError> {
+) -> Result<(Vec<Node>, Counts), FitError> {
     let step = (range.1 - range.0) / f64::from(SHARE_CELLS);
     let inner = (1..SHARE_CELLS).map(|cell| range.0 + step * f64::from(cell));
     let mut bounds: Vec<f64> = std::iter::once(range.0).chain(inner).chain([range.1]).collect();
     let mut round = 0;
     loop {
-        let mesh = Mesh::new(curve, &bounds)?;
-        let nodes = mesh.nodes(curve, seen).ok_or(FitError::ToleranceTooFine { tolerance })?;
+        let mesh = Mesh::new(target, &bounds, seen)?;
+        let nodes = mesh.nodes(target, seen).ok_or(FitError::ToleranceTooFine { tolerance })?;
         let pairs = nodes.iter().zip(nodes.iter().skip(1));
-        let along: f64 =
-            pairs.map(|(a, b)| 6.0 * (a.best_heading.abs() + b.best_heading.abs()) * (b.point - a.point).norm()).sum();
+        let along: f64 = pairs.map(|(a, b)| 0.5 * (a.density + b.density) * (b.point - a.point).norm()).sum();
         round += 1;
-        let size = libm::cbrt(CHAIN * seen);
-        if round == MOST_ROUNDS || (along / (size * size) - mesh.total).abs() <= AGREEMENT * mesh.total {
-            return Ok((nodes, mesh.total / libm::cbrt(CHAIN * tolerance)));
+        if round == MOST_ROUNDS || (along - mesh.total).abs() <= AGREEMENT * mesh.total {
+            let [distance, heading, curvature] = mesh.each;
+            let (size, whole) = (libm::cbrt(CHAIN * seen), libm::cbrt(CHAIN * tolerance));
+            let counts = Counts {
+                distance: distance / whole,
+                heading: heading / size,
+                curvature: curvature / size,
+                all: mesh.total / whole,
+            };
+            return Ok((nodes, counts));
         }
         bounds = nodes.iter().map(|node| node.parameter).collect();
     }
 }
 
 /// Adds nodes at more places, with their shares in between.
-pub(super) fn insert(nodes: &mut Vec<Node>, curve: &impl Fn(f64) -> CurvePoint, parameters: &[f64], seen: f64) {
+pub(super) fn insert(
+    nodes: &mut Vec<Node>,
+    target: &impl Target,
+    parameters: &[f64],
+    seen: f64,
+) {
     for &parameter in parameters {
         let next = nodes.partition_point(|node| node.parameter < parameter);
         let (Some(before), Some(after)) = (next.checked_sub(1).and_then(|at| nodes.get(at)), nodes.get(next)) else {
@@ -123,8 +169,7 @@ pub(super) fn insert(nodes: &mut Vec<Node>, curve: &impl Fn(f64) -> CurvePoint, 
         }
         let part = (parameter - before.parameter) / (after.parameter - before.parameter);
         let share = before.share + part * (after.share - before.share);
-        let node = Node::new(&curve(parameter), parameter, share, seen);
-        nodes.insert(next, node);
+        nodes.insert(next, Node::new(target.at(parameter), parameter, share, seen));
     }
 }
 
@@ -133,28 +178,39 @@ struct Mesh {
     /// Ends of the cells: parameter and I₃ up to there.
     bounds: Vec<(f64, f64)>,
     total: f64,
+    /// The same for distance, heading and curvature alone.
+    each: [f64; 3],
 }
 
 impl Mesh {
-    fn new(curve: &impl Fn(f64) -> CurvePoint, parameters: &[f64]) -> Result<Self, FitError> {
-        let mut total = 0.0;
+    fn new(
+        target: &impl Target,
+        parameters: &[f64],
+        seen: f64,
+    ) -> Result<Self, FitError> {
+        let size = libm::cbrt(CHAIN * seen);
+        let (mut total, mut each) = (0.0, [0.0; 3]);
         let mut bounds: Vec<(f64, f64)> = parameters.iter().take(1).map(|start| (*start, 0.0)).collect();
         for (start, end) in parameters.iter().zip(parameters.iter().skip(1)) {
             let parameter = 0.5 * (start + end);
-            let frame = curve(parameter);
-            let share = libm::cbrt(frame.curvature_slope.abs()) * frame.speed * (end - start);
+            let (frame, allowed) = target.at(parameter);
+            let densities = density(&frame, allowed, size);
+            let share = densest(densities) * frame.speed * (end - start);
             // Written so that a NaN is refused too.
             if !(frame.speed > 0.0 && share.is_finite() && frame.point.iter().all(|at| at.is_finite())) {
                 return Err(FitError::NotSmooth { parameter });
             }
             total += share;
+            for (sum, density) in each.iter_mut().zip(densities) {
+                *sum += density * frame.speed * (end - start);
+            }
             bounds.push((*end, total));
         }
-        Ok(Self { bounds, total })
+        Ok(Self { bounds, total, each })
     }
 
     /// Nodes of equal share, with a little spread evenly; `None` when they are too many.
-    fn nodes(&self, curve: &impl Fn(f64) -> CurvePoint, seen: f64) -> Option<Vec<Node>> {
+    fn nodes(&self, target: &impl Target, seen: f64) -> Option<Vec<Node>> {
         let size = libm::cbrt(CHAIN * seen);
         let count = (NODES_PER_ARC * self.total / size).ceil() + LEAST_NODES;
         if count > MOST_NODES {
@@ -180,10 +236,10 @@ impl Mesh {
             let within = ((wanted - position(low)) / (position(high) - position(low))).clamp(0.0, 1.0);
             let between = |a: f64, b: f64| a + within * (b - a);
             let parameter = if index == count { *last } else { between(low.0, high.0) };
-            let frame = curve(parameter);
+            let here = target.at(parameter);
             // A circle has no I₃; its nodes count as one arc.
             let share = if self.total > 0.0 { between(low.1, high.1) / size } else { wanted };
-            nodes.push(Node::new(&frame, parameter, share, seen));
+            nodes.push(Node::new(here, parameter, share, seen));
             index += 1.0;
         }
         Some(nodes)

@@ -3,9 +3,9 @@
 //! A joint is free in three ways: along the curve, across it, and in its heading. An arc is given by both of its points and
 //! the heading at its start; the chain is tangent when its other heading has the same angle with the chord.
 
-use super::Joint;
 use super::nodes::{Arc, Node};
-use crate::geometry::CurvePoint;
+use super::{Joint, Target};
+use crate::geometry::{Allowed, CurvePoint};
 use crate::numeric::banded::Banded;
 use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
@@ -41,16 +41,17 @@ struct Stand {
     frame: CurvePoint,
     point: Vector2<f64>,
     heading: Vector2<f64>,
+    allowed: Allowed,
     /// Half the sum of the chords beside it, the length its freedoms are measured by.
     length: f64,
 }
 
 impl Stand {
-    fn new(curve: &impl Fn(f64) -> CurvePoint, place: Place) -> Self {
-        let frame = curve(place.parameter);
+    fn new(target: &impl Target, place: Place) -> Self {
+        let (frame, allowed) = target.at(place.parameter);
         let left = -frame.outward();
         let heading = (frame.tangent + left * place.slope).normalize();
-        Self { place, frame, point: frame.point + left * place.offset, heading, length: 0.0 }
+        Self { place, frame, point: frame.point + left * place.offset, heading, allowed, length: 0.0 }
     }
 
     /// Change of the point and of the angle of the heading with the three freedoms: along the curve by the length, across
@@ -127,14 +128,26 @@ impl Link {
         index: usize,
         arcs: usize,
     ) -> impl Iterator<Item = (usize, f64, &Vector4<f64>)> + Clone {
-        let place = move |freedom: usize| {
-            let at_end = freedom > 2;
-            let free = if at_end { index + 1 < arcs } else { index > 0 };
-            free.then(|| if at_end { 4 * index + freedom - 3 } else { 4 * index + freedom - 4 })
-        };
+        let place = move |freedom| place_of(freedom, index, arcs);
         let derivatives = self.open_by.iter().zip(&self.off_by).enumerate();
         derivatives.filter_map(move |(freedom, (open_by, off_by))| Some((place(freedom)?, *open_by, off_by)))
     }
+}
+
+/// Where one of the six freedoms of both joints of the arc number `index` of `arcs` stands in a [`Step`]; the ends of the piece
+/// have none.
+pub(super) fn place_of(freedom: usize, index: usize, arcs: usize) -> Option<usize> {
+    let at_end = freedom > 2;
+    let free = if at_end { index + 1 < arcs } else { index > 0 };
+    free.then(|| if at_end { 4 * index + freedom - 3 } else { 4 * index + freedom - 4 })
+}
+
+/// How much an arc misses the curvature of the curve at one of its joints, in what is allowed, and its derivatives by the six
+/// freedoms.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bend {
+    pub(super) off: f64,
+    pub(super) off_by: [f64; 6],
 }
 
 /// A step of every freedom of a chain: four numbers an arc, three for the joint at its end and the multiplier of its opening.
@@ -150,11 +163,15 @@ pub(super) struct Trial {
 
 impl Trial {
     /// `None` when the joints are out of order or an arc is longer than a half circle.
-    pub(super) fn new(curve: &impl Fn(f64) -> CurvePoint, places: &[Place], tolerance: f64) -> Option<Self> {
+    pub(super) fn new(
+        target: &impl Target,
+        places: &[Place],
+        tolerance: f64,
+    ) -> Option<Self> {
         if !places.is_sorted_by(|a, b| a.parameter < b.parameter) {
             return None;
         }
-        let mut stands: Vec<Stand> = places.iter().map(|place| Stand::new(curve, *place)).collect();
+        let mut stands: Vec<Stand> = places.iter().map(|place| Stand::new(target, *place)).collect();
         let pairs = stands.iter().zip(stands.iter().skip(1));
         let chords: Vec<f64> = pairs.map(|(a, b)| (b.point - a.point).norm()).collect();
         let before = chords.iter().take(1).chain(&chords);
@@ -165,6 +182,21 @@ impl Trial {
         let pairs = stands.iter().zip(stands.iter().skip(1));
         let links = pairs.map(|(start, end)| Link::new(start, end, tolerance)).collect::<Option<Vec<Link>>>()?;
         Some(Self { stands, links })
+    }
+
+    /// Misses of the curvature at both joints of an arc.
+    pub(super) fn bends(&self, index: usize, tolerance: f64) -> Option<[Bend; 2]> {
+        let (link, start, end) = (self.links.get(index)?, self.stands.get(index)?, self.stands.get(index + 1)?);
+        let bend = |stand: &Stand, along: usize| {
+            let allowed = stand.allowed.curvature;
+            let mut off_by = link.off_by.map(|by| -2.0 * tolerance * by.w / allowed);
+            // The joint moves along the curve, whose curvature changes.
+            if let Some(by) = off_by.get_mut(along) {
+                *by -= stand.frame.curvature_slope * stand.length / allowed;
+            }
+            Bend { off: (link.arc.curvature - stand.frame.curvature) / allowed, off_by }
+        };
+        Some([bend(start, 0), bend(end, 3)])
     }
 
     /// Widest opening, in tolerances over the chord.
@@ -214,8 +246,12 @@ impl Trial {
     }
 
     /// The chain made tangent by the least change of its freedoms; `None` when it cannot be.
-    pub(super) fn closed(&self, curve: &impl Fn(f64) -> CurvePoint, tolerance: f64) -> Option<Self> {
-        let close = |trial: &Self| Self::new(curve, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
+    pub(super) fn closed(
+        &self,
+        target: &impl Target,
+        tolerance: f64,
+    ) -> Option<Self> {
+        let close = |trial: &Self| Self::new(target, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
         let off = |trial: &Self| {
             // A chord that is short against its coordinates has no more digits in its heading.
             let rounding = |link: &Link| ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
@@ -280,18 +316,19 @@ mod tests {
     #[test]
     fn the_derivatives_are_those_of_the_chain() {
         let tolerance = 1e-3;
+        let target = |t: f64| (curve(t), Allowed::ANY);
         let place = |parameter, offset, slope| Place { parameter, offset, slope };
         let places = [place(1.0, 0.0, 0.0), place(3.0, 4e-4, -1e-4), place(4.5, -3e-4, 2e-4), place(7.0, 0.0, 0.0)];
-        let open = Trial::new(&curve, &places, tolerance).expect("in order");
-        let trial = open.closed(&curve, tolerance).expect("a chain");
+        let open = Trial::new(&target, &places, tolerance).expect("in order");
+        let trial = open.closed(&target, tolerance).expect("a chain");
         let point = curve(3.9).point;
         let of = |trial: &Trial| (trial.links[1].open, trial.links[1].arc.seen_from(point).1 / tolerance);
         for freedom in 0..6 {
             let small = 1e-6;
             let mut step = Step(vec![0.0; 12]);
             step.0[freedom + freedom / 3] = small;
-            let there = Trial::new(&curve, &trial.moved(&step, 1.0, tolerance), tolerance).expect("in order");
-            let back = Trial::new(&curve, &trial.moved(&step, -1.0, tolerance), tolerance).expect("in order");
+            let there = Trial::new(&target, &trial.moved(&step, 1.0, tolerance), tolerance).expect("in order");
+            let back = Trial::new(&target, &trial.moved(&step, -1.0, tolerance), tolerance).expect("in order");
             let ((open, off), (open_back, off_back)) = (of(&there), of(&back));
             let basis = trial.links[1].arc.seen_from(point).0;
             let (by, wanted) = (trial.links[1].open_by[freedom], (open - open_back) / (2.0 * small));

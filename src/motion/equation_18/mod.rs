@@ -267,4 +267,10 @@ impl Motion for WedgeMotion {
     fn period(&self) -> Option<f64> {
         None
     }
+
+    /// x = r sin φ over the reversal; before it the bed runs at the constant speed r.
+    fn pace(&self, x: f64) -> (f64, f64) {
+        let r = self.mechanism.bottom_law.stroke;
+        if x <= 0.0 { (r, 0.0) } else { (((r - x) * (r + x)).max(0.0).sqrt(), -x) }
+    }
 }
