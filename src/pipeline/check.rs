@@ -2,10 +2,10 @@
 
 use super::{Cam, Error, diagnosis, report};
 use crate::geometry::MILLIMETRES;
+use crate::profile::outline::MotionTolerance;
 use crate::reading::step::Loop;
 use crate::reading::{self, Chain, step};
 use crate::report::{Report, Section};
-use crate::profile::outline::MotionTolerance;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
 use serde::Serialize;
 

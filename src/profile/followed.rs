@@ -195,7 +195,8 @@ impl<'a> Followed<'a> {
             .iter()
             .map(|stretch| (stretch, [stretch.from, stretch.to].map(|place| at(stretch, place))))
             .collect();
-        let place = |stretch: &Stretch, parameter: f64, value: f64| Worst { value, at: parameter + stretch.shift, z: 0.0 };
+        let place =
+            |stretch: &Stretch, parameter: f64, value: f64| Worst { value, at: parameter + stretch.shift, z: 0.0 };
         let mut errors = Errors::NONE;
         for (stretch, both) in &ends {
             for (parameter, found) in [stretch.from, stretch.to].into_iter().zip(both) {
@@ -205,7 +206,8 @@ impl<'a> Followed<'a> {
                 }
             }
         }
-        let pairs = ends.iter().zip(ends.iter().cycle().skip(1)).take(ends.len().saturating_sub(usize::from(!self.closed)));
+        let pairs =
+            ends.iter().zip(ends.iter().cycle().skip(1)).take(ends.len().saturating_sub(usize::from(!self.closed)));
         for ((before, [_, left]), (_, [right, _])) in pairs {
             if let (Some([.., left]), Some([.., right])) = (left, right) {
                 errors.step = errors.step.or_larger(place(before, before.to, (right - left).abs()));
@@ -213,7 +215,8 @@ impl<'a> Followed<'a> {
         }
         for (stretch, _) in &ends {
             let middle = at(stretch, 0.5 * (stretch.from + stretch.to));
-            let quantity = |index: usize| move |found: Option<[f64; 3]>| found.and_then(|found| found.get(index).copied());
+            let quantity =
+                |index: usize| move |found: Option<[f64; 3]>| found.and_then(|found| found.get(index).copied());
             for (index, worst) in [&mut errors.velocity, &mut errors.acceleration].into_iter().enumerate() {
                 let value = |parameter: f64| quantity(index)(at(stretch, parameter)).unwrap_or(0.0);
                 // The error of the velocity is largest within an arc, that of the acceleration mostly at its ends.
@@ -352,10 +355,7 @@ pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
             let (jet, (first, second)) = (motion.jet(index, at), motion.pace(at));
             jet.dds * first * first + jet.ds * second
         };
-        [
-            chebyshev::largest_size(velocity, range, 0.0).value,
-            chebyshev::largest_size(acceleration, range, 0.0).value,
-        ]
+        [chebyshev::largest_size(velocity, range, 0.0).value, chebyshev::largest_size(acceleration, range, 0.0).value]
     };
     let larger = |[v, a]: [f64; 2], [w, b]: [f64; 2]| [v.max(w), a.max(b)];
     motion.distinct().iter().enumerate().map(of_piece).fold([0.0; 2], larger)

@@ -5,14 +5,14 @@
 //! on a kind of cam.
 
 pub mod chart;
-mod finding;
 mod felt;
+mod finding;
 mod rolled;
 pub mod sheet;
 mod values;
 
-pub use finding::{Finding, Place, Verdict, degrees, passed, worst_first};
 pub use felt::Felt;
+pub use finding::{Finding, Place, Verdict, degrees, passed, worst_first};
 pub use rolled::Rolled;
 pub use values::{
     AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, lobes_words,

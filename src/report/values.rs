@@ -263,7 +263,8 @@ impl OutlineMeasures {
     #[must_use]
     pub fn section(&self) -> Section {
         let ratio = self.arcs_over_best_possible.map_or(String::new(), |ratio| format!(" × {ratio:.2}"));
-        let also = |what: &str, best: Option<f64>| best.map_or(String::new(), |best| format!(", {best:.1} for the {what}"));
+        let also =
+            |what: &str, best: Option<f64>| best.map_or(String::new(), |best| format!(", {best:.1} for the {what}"));
         let also = also("velocity", self.arcs_best_possible_velocity)
             + &also("acceleration", self.arcs_best_possible_acceleration);
         let words = vec![format!(

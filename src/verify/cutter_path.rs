@@ -100,11 +100,11 @@ fn moved_inwards(path: &Contour, radius: f64) -> Contour {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::profile::outline::MotionTolerance;
     use crate::body::Request;
     use crate::geometry::track::Track;
     use crate::machine::Machine;
     use crate::pipeline::Spec;
+    use crate::profile::outline::MotionTolerance;
     use crate::profile::outline::{Fit, Side};
 
     fn cam(overrides: &[&str]) -> crate::pipeline::Cam {

@@ -62,7 +62,13 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let limit = given.unwrap_or(CUSTOMARY).min(asked);
     let verdict = match given {
         Some(limit) if share > limit => Verdict::Fail,
-        _ if too_fast || too_much => if evidence.strict { Verdict::Fail } else { Verdict::Warn },
+        _ if too_fast || too_much => {
+            if evidence.strict {
+                Verdict::Fail
+            } else {
+                Verdict::Warn
+            }
+        }
         None if share > CUSTOMARY => Verdict::Warn,
         _ => Verdict::Pass,
     };
@@ -70,7 +76,8 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let mut note = words(felt);
     if too_fast {
         let [velocity, _] = felt.units();
-        note = format!("the velocity exceeds the {} {velocity} asked for; {note}", shown(unit * evidence.motion.velocity));
+        note =
+            format!("the velocity exceeds the {} {velocity} asked for; {note}", shown(unit * evidence.motion.velocity));
     }
     Some(Finding { place: felt.acceleration_error.1, note: Some(note), ..found })
 }

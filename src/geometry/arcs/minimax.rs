@@ -247,7 +247,9 @@ impl Program {
                 *value = -link.open;
             }
         }
-        for (index, end) in self.ends.iter().enumerate().flat_map(|(index, ends)| ends.iter().map(move |end| (index, end))) {
+        for (index, end) in
+            self.ends.iter().enumerate().flat_map(|(index, ends)| ends.iter().map(move |end| (index, end)))
+        {
             let [(force, stiff), (back, stiff_back)] =
                 end.sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
             corner += stiff + stiff_back;

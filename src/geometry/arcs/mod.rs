@@ -51,7 +51,7 @@ const TRIES: u32 = 12;
 const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
 /// A distance so many times that of the best chain for heading and curvature is as good as none.
-const ROOMY: f64 = 30.0;
+const ROOMY: f64 = 10.0;
 /// That many roundings of a coordinate at the least.
 const LEAST_ROOM: f64 = 1e5;
 /// One arc in so many does not matter: a fifth of a percent.
@@ -173,9 +173,12 @@ fn fit_within(
         nodes::insert(&mut nodes, target, &missed, seen);
         // Where heading or curvature ask for shorter arcs these miss the curve by less; a tolerance far above that would only
         // make the numbers of the method unlike each other.
-        let share = counts.distance / counts.all.max(f64::MIN_POSITIVE);
-        let roomy = (ROOMY * seen * share * share * share).max(LEAST_ROOM * f64::EPSILON * size);
-        let within = if limited { seen.min(roomy) } else { seen };
+        let within = if limited {
+            let farthest = nodes::farthest_lobe(&nodes);
+            seen.min((ROOMY * farthest).max(LEAST_ROOM * f64::EPSILON * size))
+        } else {
+            seen
+        };
         let Some(joints) = fewest(target, &nodes, within) else {
             return Err(FitError::ToleranceTooFine { tolerance });
         };

@@ -7,6 +7,9 @@ use nalgebra::{Vector2, Vector4};
 
 /// Nodes per best possible arc: they see the lobes to 0.9 %.
 const NODES_PER_ARC: f64 = 24.0;
+/// Nodes for every arc more that heading or curvature ask for: the distances of short arcs are no limit, and the curvature is
+/// kept at the joints.
+const NODES_PER_SHORT_ARC: f64 = 6.0;
 /// Nodes a piece has at the least, so that a short piece or a nearly circular one is seen at all.
 const LEAST_NODES: f64 = 96.0;
 /// Cells in which I₃ is summed up first; the integrand has cusps where κ' changes sign, seen to 1e-3 of I₃ with 256.
@@ -63,6 +66,25 @@ impl Node {
         let CurvePoint { point, tangent, curvature, .. } = frame;
         Self { point, tangent, curvature, parameter, allowed, share, best_heading, density }
     }
+}
+
+/// How far the farthest of the best arcs is off where heading or curvature limit it: κ'h³/K with κ'h²/12 or κ'h/2 as allowed, h
+/// from a node to the one that lies an arc ahead.
+pub(super) fn farthest_lobe(nodes: &[Node]) -> f64 {
+    let mut ahead = nodes.iter().peekable();
+    let mut farthest = 0.0;
+    for node in nodes {
+        while ahead.peek().is_some_and(|other| other.share < node.share + 1.0) {
+            ahead.next();
+        }
+        let Some(other) = ahead.peek().copied().or(nodes.last()) else { break };
+        let length = (other.point - node.point).norm();
+        let (by_heading, by_curvature) = (12.0 * node.allowed.heading, 2.0 * node.allowed.curvature * length);
+        let lobe = by_heading.min(by_curvature) * length / CHAIN;
+        // Where nothing limits them, the distance does.
+        farthest = if lobe.is_finite() { lobe.max(farthest) } else { farthest };
+    }
+    farthest
 }
 
 /// An arc that leaves a point with a heading.
@@ -153,12 +175,7 @@ pub(super) fn sample(
 }
 
 /// Adds nodes at more places, with their shares in between.
-pub(super) fn insert(
-    nodes: &mut Vec<Node>,
-    target: &impl Target,
-    parameters: &[f64],
-    seen: f64,
-) {
+pub(super) fn insert(nodes: &mut Vec<Node>, target: &impl Target, parameters: &[f64], seen: f64) {
     for &parameter in parameters {
         let next = nodes.partition_point(|node| node.parameter < parameter);
         let (Some(before), Some(after)) = (next.checked_sub(1).and_then(|at| nodes.get(at)), nodes.get(next)) else {
@@ -183,11 +200,7 @@ struct Mesh {
 }
 
 impl Mesh {
-    fn new(
-        target: &impl Target,
-        parameters: &[f64],
-        seen: f64,
-    ) -> Result<Self, FitError> {
+    fn new(target: &impl Target, parameters: &[f64], seen: f64) -> Result<Self, FitError> {
         let size = libm::cbrt(CHAIN * seen);
         let (mut total, mut each) = (0.0, [0.0; 3]);
         let mut bounds: Vec<(f64, f64)> = parameters.iter().take(1).map(|start| (*start, 0.0)).collect();
@@ -212,7 +225,9 @@ impl Mesh {
     /// Nodes of equal share, with a little spread evenly; `None` when they are too many.
     fn nodes(&self, target: &impl Target, seen: f64) -> Option<Vec<Node>> {
         let size = libm::cbrt(CHAIN * seen);
-        let count = (NODES_PER_ARC * self.total / size).ceil() + LEAST_NODES;
+        let [for_distance, ..] = self.each;
+        let shorter = (self.total - for_distance).max(0.0);
+        let count = ((NODES_PER_ARC * for_distance + NODES_PER_SHORT_ARC * shorter) / size).ceil() + LEAST_NODES;
         if count > MOST_NODES {
             return None;
         }

@@ -163,11 +163,7 @@ pub(super) struct Trial {
 
 impl Trial {
     /// `None` when the joints are out of order or an arc is longer than a half circle.
-    pub(super) fn new(
-        target: &impl Target,
-        places: &[Place],
-        tolerance: f64,
-    ) -> Option<Self> {
+    pub(super) fn new(target: &impl Target, places: &[Place], tolerance: f64) -> Option<Self> {
         if !places.is_sorted_by(|a, b| a.parameter < b.parameter) {
             return None;
         }
@@ -246,11 +242,7 @@ impl Trial {
     }
 
     /// The chain made tangent by the least change of its freedoms; `None` when it cannot be.
-    pub(super) fn closed(
-        &self,
-        target: &impl Target,
-        tolerance: f64,
-    ) -> Option<Self> {
+    pub(super) fn closed(&self, target: &impl Target, tolerance: f64) -> Option<Self> {
         let close = |trial: &Self| Self::new(target, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
         let off = |trial: &Self| {
             // A chord that is short against its coordinates has no more digits in its heading.
