@@ -48,6 +48,10 @@ const LEAST_SHARE: f64 = 0.02;
 /// Cuts of a cell at the most, every other one in its middle, and Newton steps to a foot.
 const DEEPEST: u32 = 48;
 const FOOT_STEPS: u32 = 64;
+/// Cells that are cut at the most, and more for every segment and stretch. A chain near an outline needs a few for each; along the
+/// centres of curvature of one there is no bound, and all would be cut to nothing.
+const MOST_CELLS: usize = 100_000;
+const MOST_PER_SEGMENT: usize = 500;
 /// How far a cubic overshoots its ends, over its length and the sum of its slopes there: 4/27.
 const OVERSHOOT: f64 = 4.0 / 27.0;
 /// Rounds of the bound, which feeds on itself, and the least 1 + κ d it is made for.
@@ -90,7 +94,8 @@ pub struct Lost {
 pub fn follow(contour: &Contour, boundary: &Boundary<'_>) -> Result<Deviation, Lost> {
     let courses: Vec<Course> = contour.segments().filter_map(|segment| Course::of(&segment)).collect();
     let origin = courses.first().map_or_else(Vector2::zeros, |course| course.start);
-    let mut walk = Walk { boundary, index: 0, worst: Deviation { distance: 0.0, at: origin } };
+    let cells = MOST_CELLS + MOST_PER_SEGMENT * (courses.len() + boundary.stretches().len());
+    let mut walk = Walk { boundary, index: 0, cells, worst: Deviation { distance: 0.0, at: origin } };
     let count = boundary.stretches().len();
     let corners: Vec<usize> = (0..count).filter(|index| boundary.starts_at_corner(*index)).collect();
     if corners.is_empty() {
@@ -130,6 +135,8 @@ struct Walk<'b, 'a> {
     boundary: &'b Boundary<'a>,
     /// The stretch of the foot, counted on round and round.
     index: usize,
+    /// Cells that may still be looked at.
+    cells: usize,
     worst: Deviation,
 }
 
@@ -261,7 +268,8 @@ impl Walk<'_, '_> {
         if !(a.parameter < parameter && parameter < b.parameter) {
             return Ok(());
         }
-        if depth == 0 {
+        self.cells = self.cells.saturating_sub(1);
+        if depth == 0 || self.cells == 0 {
             return Err(Lost { why: Astray::Away, at: a.point });
         }
         let foot = self.boundary.at(self.index, parameter).ok_or(Lost { why: Astray::Away, at: a.point })?;

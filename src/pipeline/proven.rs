@@ -7,6 +7,7 @@ use crate::report::{Finding, Report, Rolled, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, rolling};
 use crate::write::Rendering;
+use crate::write::csv;
 use crate::write::dxf::Version;
 use crate::write::proof;
 
@@ -135,7 +136,7 @@ impl Proven<'_> {
     /// The point table with so many rows over a turn of the cam, or steps over the stroke of a plate.
     #[must_use]
     pub fn table(&self, samples: u32) -> Table {
-        Table::of(&self.cam.body().rows(samples))
+        csv::table(self.cam.body(), &self.outlines, samples)
     }
 
     /// The cam as the formats see it, with a report and the template of the sheet.
@@ -150,7 +151,8 @@ impl Proven<'_> {
     ) -> Result<Rendering<'a>, Error> {
         let drawn = self.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
         let (body, cut_files, dxf_version) = (self.cam.body(), &self.cut_files, self.version);
-        Ok(Rendering { body, drawn, cut_files, dxf_version, report, samples, template, created: None })
+        let outlines = &self.outlines;
+        Ok(Rendering { body, drawn, outlines, cut_files, dxf_version, report, samples, template, created: None })
     }
 
     /// Makes the files in memory.

@@ -14,7 +14,7 @@
 use super::{Curves, Worst};
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
-use crate::geometry::contour::Segment;
+use crate::geometry::contour::{Contour, Segment};
 use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::{chebyshev, extremum};
 use nalgebra::Vector2;
@@ -147,6 +147,14 @@ impl<'a> Followed<'a> {
         }
         let stretches = runs.into_iter().flat_map(|run| on_pieces(curves.motion, run)).collect();
         Self { curves, stretches, closed }
+    }
+
+    /// On a whole outline (mm) as it lies in the drawing, on the first of the flanks that the follower meets as `mirrored` says.
+    #[must_use]
+    pub fn on(curves: Curves<'a>, contour: &Contour, mirrored: &[bool]) -> Self {
+        let turned = mirrored.first().copied().unwrap_or(false).then(|| contour.mirrored_about_x());
+        let segments: Vec<Segment> = turned.as_ref().unwrap_or(contour).segments().collect();
+        Self::new(curves, &segments)
     }
 
     /// Lift, velocity and acceleration as cut at a place of a stretch; the third derivative is that of the motion.

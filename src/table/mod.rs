@@ -36,6 +36,11 @@ pub struct Row {
     pub plate: Option<PlateRow>,
     /// What only a body has whose sections differ.
     pub surface: Option<SurfaceRow>,
+    /// Velocity and acceleration of the follower on the written outline, by the angle of the shaft; NaN where it is not in
+    /// touch.
+    pub cut: Option<[f64; 2]>,
+    /// Whether the follower swings.
+    pub swings: bool,
 }
 
 /// The press at a place.
@@ -142,6 +147,10 @@ pub const COLUMNS: &[Column] = &[
     ("axial_angle_deg", |row| Some(row.surface?.axial_angle_deg)),
     ("principal_curvature_radius_mm", |row| Some(row.surface?.principal_radius)),
     ("axial_force_n", |row| Some(row.surface?.axial_force)),
+    ("velocity_cut_mm_per_rad", |row| row.cut.filter(|_| !row.swings).map(|[velocity, _]| 1e3 * velocity)),
+    ("acceleration_cut_mm_per_rad2", |row| row.cut.filter(|_| !row.swings).map(|[_, acceleration]| 1e3 * acceleration)),
+    ("velocity_cut_rad_per_rad", |row| row.cut.filter(|_| row.swings).map(|[velocity, _]| velocity)),
+    ("acceleration_cut_rad_per_rad2", |row| row.cut.filter(|_| row.swings).map(|[_, acceleration]| acceleration)),
 ];
 
 /// A table of numbers.

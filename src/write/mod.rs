@@ -16,6 +16,7 @@ use crate::body::{Body, Drawn};
 use crate::geometry::solid::SolidError;
 use crate::profile::outline::OutlineError;
 use crate::report::Report;
+use crate::verify::WrittenOutline;
 
 /// A proven cam as the formats see it.
 #[derive(Clone, Copy)]
@@ -24,6 +25,8 @@ pub struct Rendering<'a> {
     pub body: &'a dyn Body,
     /// Its drawing.
     pub drawn: &'a Drawn,
+    /// The outlines as read back from them.
+    pub outlines: &'a [WrittenOutline],
     /// The cut files, written and proved, one for each part of the drawing.
     pub cut_files: &'a [Vec<u8>],
     /// Version of the cut files.

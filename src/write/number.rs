@@ -7,12 +7,33 @@ const LARGEST_PLAIN: f64 = 1e17;
 /// The shortest text that reads back as the same `f64`; `inf`, `-inf`, `NaN` as such, no negative zero.
 #[must_use]
 pub fn shortest(value: f64) -> String {
+    let mut text = String::new();
+    push_shortest(&mut text, value);
+    text
+}
+
+/// Adds the same to a text.
+pub fn push_shortest(text: &mut String, value: f64) {
     let size = value.abs();
-    // Very large or small numbers would fill a line with zeros.
-    if size != 0.0 && size.is_finite() && !(LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
-        format!("{value:e}")
+    if !size.is_finite() {
+        text.push_str(if value.is_nan() {
+            "NaN"
+        } else if value > 0.0 {
+            "inf"
+        } else {
+            "-inf"
+        });
+        return;
+    }
+    let mut buffer = zmij::Buffer::new();
+    let digits = buffer.format_finite(value + 0.0);
+    if !digits.contains('e') {
+        text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
+    } else if size != 0.0 && !(LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
+        // Very large or small numbers would fill a line with zeros.
+        text.push_str(&format!("{value:e}"));
     } else {
-        format!("{}", value + 0.0)
+        text.push_str(&format!("{value}"));
     }
 }
 
@@ -60,6 +81,16 @@ mod tests {
             assert!(text.len() < 26, "{text}");
         }
         assert_eq!(shortest(-0.0), "0");
+        // As the standard library has it, over all sizes.
+        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        for _ in 0..200_000 {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let exponent = 1023 - 70 + (bits >> 40) % 140;
+            let value = f64::from_bits(exponent << 52 | bits & 0x000f_ffff_ffff_ffff);
+            let size = value.abs();
+            let plain = (LEAST_PLAIN..LARGEST_PLAIN).contains(&size);
+            assert_eq!(shortest(value), if plain { format!("{value}") } else { format!("{value:e}") });
+        }
         assert_eq!(shortest(f64::INFINITY), "inf");
     }
 
