@@ -8,6 +8,7 @@ pub mod balancing;
 pub mod conoid;
 pub mod disc;
 mod part;
+pub mod points;
 mod stress;
 pub mod wedge;
 
@@ -57,13 +58,15 @@ pub struct Request {
     pub flank: bool,
     /// Radius of a cutter whose path is needed, m.
     pub cutter: Option<f64>,
+    /// The table of points that is needed.
+    pub points: Option<points::Points>,
 }
 
 impl Request {
     /// Outlines within a tolerance (m), nothing else.
     #[must_use]
     pub fn within(fit: impl Into<Fit>) -> Self {
-        Self { fit: fit.into(), flank: false, cutter: None }
+        Self { fit: fit.into(), flank: false, cutter: None, points: None }
     }
 }
 
@@ -92,6 +95,9 @@ pub enum DrawError {
     /// The flank cannot be drawn.
     #[error(transparent)]
     Flank(#[from] FlankError),
+    /// There is no such table of points.
+    #[error("no table of points: {0}")]
+    Points(#[from] points::TableError),
 }
 
 /// Why there is no cam.

@@ -100,6 +100,7 @@ impl Cam {
             rolled: rolled.as_ref(),
             foreign: Some(&reading),
             cutter_path: None,
+            points: None,
             solid: None,
             tolerance_mm,
         });
@@ -147,6 +148,7 @@ impl Cam {
             foreign: None,
             solid: Some(&solid),
             cutter_path: None,
+            points: None,
             tolerance_mm,
         });
         let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];

@@ -173,6 +173,7 @@ mod tests {
                 foreign: None,
                 solid: None,
                 cutter_path: Some(&path),
+                points: None,
                 tolerance_mm: 5e-3,
             };
             check(&evidence).expect("checked").verdict

@@ -17,6 +17,7 @@ mod flank;
 mod force_closure;
 mod outline;
 mod plate_ends;
+mod points;
 mod pressure_angle;
 mod residual;
 pub mod rolling;
@@ -29,6 +30,7 @@ mod wall;
 
 pub use cutter_path::WrittenPath;
 pub use file::join_reach;
+pub use points::WrittenPoints;
 pub use solid::{WrittenSolid, shell_reach};
 
 use crate::body::{Body, Drawn};
@@ -64,6 +66,8 @@ pub struct Evidence<'a> {
     pub foreign: Option<&'a Reading>,
     /// The path of a cutter as read back, when one was requested.
     pub cutter_path: Option<&'a WrittenPath>,
+    /// The tables of points as read back, when they were requested, or why there are none.
+    pub points: Option<&'a Result<Vec<WrittenPoints>, String>>,
     /// What was read from a STEP file that somebody else may have written.
     pub solid: Option<&'a WrittenSolid>,
     /// Tolerance of the outline, mm.
@@ -116,6 +120,7 @@ pub const CHECKS: &[Check] = &[
     curvature::MIN_CONVEX_RADIUS,
     cutter_radius::CHECK,
     cutter_path::CHECK,
+    points::CHECK,
     wall::CHECK,
     plate_ends::ROLLER_CLEARANCE,
     plate_ends::ENDS,
