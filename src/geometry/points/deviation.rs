@@ -43,7 +43,8 @@ const LEAST_CORNER: f64 = 1e-6;
 const BOUND_ROUNDS: u32 = 4;
 
 /// Bounds of the distance between the interpolated curve and the exact one, one for each interval, mm, with the places of the
-/// rows on the exact curve as lengths from its start. What lies below `negligible` (mm) need not be told closer.
+/// rows on the exact curve as lengths from its start. What lies below `negligible` (mm) need not be told closer, and nothing is
+/// told of the intervals behind one whose bound is above `limit` (mm).
 ///
 /// # Errors
 /// [`PointsError::Astray`] where the one does not follow the other.
@@ -51,11 +52,18 @@ pub fn deviations(
     path: &Path<'_>,
     curve: &Interpolant,
     places: &[f64],
-    negligible: f64,
+    (negligible, limit): (f64, f64),
 ) -> Result<Vec<f64>, PointsError> {
-    let intervals = places.iter().zip(places.iter().skip(1)).enumerate();
     let walk = Walk { path, curve, negligible };
-    intervals.map(|(interval, (from, to))| walk.interval(interval, (*from, *to))).collect()
+    let mut bounds = Vec::with_capacity(places.len());
+    for (interval, (from, to)) in places.iter().zip(places.iter().skip(1)).enumerate() {
+        let bound = walk.interval(interval, (*from, *to))?;
+        bounds.push(bound);
+        if !(bound <= limit) {
+            break;
+        }
+    }
+    Ok(bounds)
 }
 
 /// A point of G with its foot.

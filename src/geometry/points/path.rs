@@ -15,6 +15,9 @@ const LOOKED_AT: u32 = 8;
 /// circle about the shaft.
 const ROUND: f64 = 1e-11;
 
+/// Curvatures that differ by more than this share of the larger jump.
+const JUMP: f64 = 1e-6;
+
 /// A stretch with the length at which it starts.
 #[derive(Debug, Clone, Copy)]
 struct Part {
@@ -124,8 +127,9 @@ impl<'a> Path<'a> {
         })
     }
 
-    /// The lengths at which it has a corner, and those at which a circle about the shaft begins or ends, mm.
-    pub(super) fn joints(&self) -> (Vec<f64>, Vec<f64>) {
+    /// The lengths at which it has a corner, and those at which a circle about the shaft begins or ends or, if they are asked for,
+    /// the curvature jumps, mm.
+    pub(super) fn joints(&self, jumps: bool) -> (Vec<f64>, Vec<f64>) {
         let round: Vec<bool> = self.parts.iter().map(|part| self.is_round(part)).collect();
         let (mut corners, mut changes) = (Vec::new(), Vec::new());
         let before = round.iter().cycle().skip(round.len().saturating_sub(1));
@@ -135,11 +139,19 @@ impl<'a> Path<'a> {
             }
             if self.boundary.starts_at_corner(part.index) {
                 corners.push(part.start);
-            } else if round != before {
+            } else if round != before || (jumps && self.jumps_at(part.index)) {
                 changes.push(part.start);
             }
         }
         (corners, changes)
+    }
+
+    /// Whether the curvature jumps where a stretch of the boundary starts.
+    fn jumps_at(&self, index: usize) -> bool {
+        let count = self.boundary.stretches().len();
+        let before = self.boundary.ends(index + count - 1).map(|ends| ends[1].curvature);
+        let after = self.boundary.ends(index).map(|ends| ends[0].curvature);
+        !before.zip(after).is_some_and(|(a, b)| (a - b).abs() <= JUMP * a.abs().max(b.abs()))
     }
 
     fn is_round(&self, part: &Part) -> bool {

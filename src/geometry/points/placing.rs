@@ -3,12 +3,13 @@
 //!
 //! **Equal angles.** The error falls with the square (linear) or the fourth power (cubic) of the number of points, so that each
 //! trial says how many are missing or too many; the last trials halve what is left between too few and enough. A corner is no
-//! multiple of the step: it gets a row of its own.
+//! multiple of the step: it gets a row of its own. Where the curvature jumps the error depends on how near an even place happens to
+//! lie: where few points are enough, all smaller numbers are tried, too.
 //!
 //! **Equal error.** The curve is cut at its corners and where circles about the shaft begin and end. In each section the error of
 //! an interval, taken to the power 1/2 or 1/4, is a measure that adds up, and equal parts of it have equal errors: points are put
 //! at equal parts of what the trial before measured, so many that each part is that of the tolerance (C. de Boor, Good
-//! approximation by splines with variable knots II, 1973).
+//! approximation by splines with variable knots II, 1973). Where that does not settle, intervals that err too much are halved.
 
 use super::deviation::deviations;
 use super::{Between, Form, Interpolant, Path, PointsError, Rows, Step, Wish};
@@ -28,9 +29,12 @@ const NEGLIGIBLE: f64 = 0.02;
 const DECIMALS: f64 = 1e12;
 /// An even place nearer to a corner than this share of the step is the corner.
 const AT_CORNER: f64 = 1e-3;
-/// Rounds in which points are moved, and from which on more are added where the error does not settle.
-const ROUNDS: u32 = 60;
-const SETTLED: u32 = 8;
+/// All numbers of points up to this are tried.
+const ALL_TRIED: usize = 256;
+/// Rounds in which points are moved; then their number grows by a share each round; then intervals are halved; rounds in all.
+const SETTLED: u32 = 6;
+const GROWN: u32 = 40;
+const ROUNDS: u32 = 70;
 /// Share of the mean density of points that is kept everywhere, so that no interval spans what was never looked at.
 const LEAST_DENSITY: f64 = 0.01;
 /// Intervals with which a section that is no circle begins.
@@ -66,7 +70,7 @@ struct Trial {
 
 impl Trial {
     /// Tolerances of more than the distance would be measured here, each as a share of its own limit.
-    fn of(path: &Path<'_>, wish: &Wish, spots: &[Spot]) -> Result<Self, PointsError> {
+    fn of(path: &Path<'_>, wish: &Wish, spots: &[Spot], limit: f64) -> Result<Self, PointsError> {
         let twice = wish.between == Between::Cubic;
         let (mut rows, mut places) = (Vec::with_capacity(spots.len()), Vec::with_capacity(spots.len()));
         let mut corners = 0;
@@ -79,7 +83,7 @@ impl Trial {
             places.extend(std::iter::repeat_n(place, times));
         }
         let curve = Interpolant::new(&rows, wish.form, wish.between, path.is_closed());
-        let errors = deviations(path, &curve, &places, NEGLIGIBLE * wish.tolerance)?;
+        let errors = deviations(path, &curve, &places, (NEGLIGIBLE * wish.tolerance, limit))?;
         Ok(Self { rows, places, corners, errors })
     }
 
@@ -135,7 +139,7 @@ fn around(angle: f64) -> f64 {
 
 /// The corners of a closed curve beyond a place, in order: lengths and angles.
 fn corners_from(path: &Path<'_>, start: f64) -> Vec<Spot> {
-    let (corners, _) = path.joints();
+    let (corners, _) = path.joints(false);
     let spot = |place: f64| {
         let place = if place < start { place + path.length() } else { place };
         let point = path.point(path.place(place)).map_or([f64::NAN; 2], |point| point.point.into());
@@ -181,15 +185,15 @@ fn by_angle(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
     let too_many = PointsError::TooMany { tolerance_mm: wish.tolerance, most: MOST_POINTS };
     let start = path.on_ray(0.0).ok_or(PointsError::NotAround { polar_deg: 0.0 })?.0;
     let corners = corners_from(path, start);
-    let trial = |count: usize| {
+    let trial = |count: usize, limit: f64| {
         let spots = even(path, count, &corners).ok_or(PointsError::NotAround { polar_deg: 0.0 })?;
-        Trial::of(path, wish, &spots)
+        Trial::of(path, wish, &spots, limit)
     };
     let (mut too_few, mut enough): (usize, Option<(usize, Trial)>) = (FEWEST - 1, None);
     let mut count = FIRST;
     loop {
         // A curve that goes astray tells nothing of how many points it lacks.
-        let tried = trial(count).ok();
+        let tried = trial(count, f64::INFINITY).ok();
         let worst = tried.as_ref().map_or(f64::INFINITY, Trial::worst);
         let missing = missing(worst, wish);
         match tried {
@@ -211,7 +215,10 @@ fn by_angle(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
             None => scaled(count, missing.clamp(1.02, 16.0)).clamp(count + 1, MOST_POINTS),
         };
     }
-    enough.map(|(_, trial)| trial.into_rows()).ok_or(too_many)
+    let (count, found) = enough.ok_or(too_many)?;
+    let keeps = |count: usize| trial(count, wish.tolerance).ok().filter(|trial| trial.worst() <= wish.tolerance);
+    let fewer = if count <= ALL_TRIED { (FEWEST..count).find_map(keeps) } else { None };
+    Ok(fewer.unwrap_or(found).into_rows())
 }
 
 /// What the number of points is to be multiplied by where this is the error, mm.
@@ -248,6 +255,21 @@ impl Section {
         self.inner = (1..count).map(|index| self.from.place + length * ratio(index, count)).collect();
     }
 
+    /// Halves the intervals whose errors are above a limit.
+    fn halve(&mut self, errors: &[f64], limit: f64) {
+        let ends = self.inner.iter().copied().chain([self.to.place]);
+        let (mut inner, mut from) = (Vec::with_capacity(2 * errors.len()), self.from.place);
+        for (to, error) in ends.zip(errors) {
+            if !(*error <= limit) {
+                inner.push(0.5 * (from + to));
+            }
+            inner.push(to);
+            from = to;
+        }
+        inner.pop();
+        self.inner = inner;
+    }
+
     /// Puts so many intervals at equal parts of a measure, given for the present ones.
     fn by_parts(&mut self, measure: &[f64], count: usize) {
         let knots: Vec<f64> =
@@ -279,7 +301,7 @@ fn sections(path: &Path<'_>, wish: &Wish) -> Vec<Section> {
     let beyond = |place: f64| if place < start { place + path.length() } else { place };
     let mut spots = vec![Spot { degrees: 0.0, ..any(start) }];
     spots.extend(corners_from(path, start));
-    spots.extend(path.joints().1.into_iter().map(beyond).map(any));
+    spots.extend(path.joints(wish.between == Between::Cubic).1.into_iter().map(beyond).map(any));
     spots.push(Spot { degrees: 360.0, ..any(end) });
     spots.sort_by(|a, b| a.place.total_cmp(&b.place));
     // A joint at the start is the start.
@@ -308,7 +330,6 @@ fn sections(path: &Path<'_>, wish: &Wish) -> Vec<Section> {
 fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
     let mut sections = sections(path, wish);
     let order = 1.0 / wish.between.order();
-    let allowed = libm::pow(wish.tolerance, order);
     let mut best: Option<Trial> = None;
     let mut last = PointsError::TooMany { tolerance_mm: wish.tolerance, most: MOST_POINTS };
     let mut more = 1.0;
@@ -317,7 +338,7 @@ fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
         if total > MOST_POINTS {
             break;
         }
-        let trial = match Trial::of(path, wish, &spots(&sections)) {
+        let trial = match Trial::of(path, wish, &spots(&sections), f64::INFINITY) {
             Ok(trial) => trial,
             Err(astray) => {
                 last = astray;
@@ -328,24 +349,25 @@ fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
             }
         };
         let kept = trial.worst() <= wish.tolerance;
-        if kept && best.as_ref().is_some_and(|best| best.rows.len() <= trial.rows.len()) {
-            break;
-        }
-        if !kept && round >= SETTLED {
-            more *= 1.0 + NEARLY;
-        }
+        let fewer = best.as_ref().is_none_or(|best| trial.rows.len() < best.rows.len());
         let mut errors = measured(&trial);
-        if kept {
+        if kept && fewer {
             best = Some(trial);
-        } else if best.is_some() && round > 2 * SETTLED {
+        } else if kept || (best.is_some() && round >= SETTLED) {
             break;
         }
+        more *= if round >= SETTLED { 1.0 + NEARLY } else { 1.0 };
         let mut changed = false;
         for section in &mut sections {
             let present = section.inner.len() + 1;
-            let parts: Vec<f64> = errors.by_ref().take(present).map(|error| libm::pow(error, order)).collect();
-            let total: f64 = parts.iter().sum();
-            let wanted = scaled(1, more * total / allowed).max(section.fewest).min(8 * present);
+            let own: Vec<f64> = errors.by_ref().take(present).collect();
+            if round >= GROWN && !kept {
+                section.halve(&own, wish.tolerance);
+                changed = true;
+                continue;
+            }
+            let parts: Vec<f64> = own.iter().map(|error| libm::pow(error / wish.tolerance, order)).collect();
+            let wanted = scaled(1, more * parts.iter().sum::<f64>()).max(section.fewest).min(8 * present);
             changed |= wanted != present || !kept;
             section.by_parts(&with_least(section, &parts, wish.between), wanted);
         }
@@ -353,10 +375,7 @@ fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
             break;
         }
     }
-    best.map(Trial::into_rows).ok_or(match last {
-        PointsError::Astray { .. } => last,
-        _ => PointsError::TooMany { tolerance_mm: wish.tolerance, most: MOST_POINTS },
-    })
+    best.map(Trial::into_rows).ok_or(last)
 }
 
 /// The errors of the intervals that have a length, in order.
