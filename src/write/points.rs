@@ -35,8 +35,6 @@ const CLOSED: &str = "# closed: yes";
 pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
     let mut text = String::new();
     for (key, value) in head(body, table) {
-        // A line break in a name would end the comment.
-        let value: String = value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         text.push_str(&format!("# {key}: {value}\n"));
     }
     text.push_str(if table.wish.form == Form::Polar { POLAR } else { PLANE });

@@ -209,7 +209,7 @@ fn by_angle(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
                 // The law of the error first; then halves, so that each trial leaves no more than half.
                 if (most - too_few) > most / 16 { wanted } else { middle }
             }
-            None if count >= MOST_POINTS || missing > 8.0 * ratio(MOST_POINTS, count) && missing.is_finite() => {
+            None if count >= MOST_POINTS || missing > doubt(count) * ratio(MOST_POINTS, count) => {
                 return Err(too_many);
             }
             None => scaled(count, missing.clamp(1.02, 16.0)).clamp(count + 1, MOST_POINTS),
@@ -219,6 +219,11 @@ fn by_angle(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
     let keeps = |count: usize| trial(count, wish.tolerance).ok().filter(|trial| trial.worst() <= wish.tolerance);
     let fewer = if count <= ALL_TRIED { (FEWEST..count).find_map(keeps) } else { None };
     Ok(fewer.unwrap_or(found).into_rows())
+}
+
+/// How far above the truth an estimate from so many points may be: few points see less of the law of the error.
+fn doubt(count: usize) -> f64 {
+    if count < EXACTLY { 8.0 } else { 1.1 }
 }
 
 /// What the number of points is to be multiplied by where this is the error, mm.
