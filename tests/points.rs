@@ -130,7 +130,8 @@ fn rows_stand_on_the_exact_curve() {
                 let off = (b - a).perp(&(point - a)).abs() / (b - a).norm();
                 assert!(off < 1e-7, "{points:?} row {index}: {off}");
                 if (points.form, points.step) == (Some(Form::Polar), Some(Step::Angle)) {
-                    let even = 360.0 * index as f64 / (rows.len() - 1) as f64;
+                    let number = |count: usize| f64::from(u32::try_from(count).expect("few"));
+                    let even = 360.0 * number(index) / number(rows.len() - 1);
                     assert!((row[0] - even).abs() <= 1e-12, "row {index}");
                 }
             }

@@ -44,6 +44,7 @@ pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<Stretch>, NoEnve
 }
 
 /// The follower's own curve as stretches in millimetres: the path of a roller's centre.
+#[must_use]
 pub fn of_centre(curves: Curves<'_>) -> Vec<Stretch> {
     let period = curves.motion.period();
     let of_piece = |(index, piece): (usize, &Piece)| {
