@@ -77,6 +77,10 @@ impl Trial {
         let last = spots.len().saturating_sub(1);
         for (index, spot) in spots.iter().enumerate() {
             let (row, place) = spot.row(path, wish.form);
+            // A corner where the table starts is a row already.
+            if !twice && rows.last() == Some(&row) {
+                continue;
+            }
             corners += usize::from(spot.corner);
             let times = if spot.corner && twice && index > 0 && index < last { 2 } else { 1 };
             rows.extend(std::iter::repeat_n(row, times));
