@@ -35,6 +35,7 @@ fn stages(criterion: &mut Criterion) {
             rolled: None,
             foreign: None,
             cutter_path: None,
+            points: None,
             solid: None,
             tolerance_mm: 0.005,
         };

@@ -55,6 +55,7 @@ fn stages(criterion: &mut Criterion) {
         rolled: Some(&rolled),
         foreign: None,
         cutter_path: None,
+        points: None,
         solid: None,
         tolerance_mm: 0.005,
     };

@@ -190,9 +190,10 @@ fn every_check_is_run_for_some_cam() {
         }
         let made = cam_of(kind, &[]);
         if kind.command == "rotary" {
-            let request = camgen::Request { cutter: Some(0.01), ..camgen::Request::within(TOLERANCE) };
+            let points = Some(camgen::body::points::Points::default());
+            let request = camgen::Request { cutter: Some(0.01), points, ..camgen::Request::within(TOLERANCE) };
             let proven = made.draw(request).expect("drawn").prove().expect("a proof");
-            reports.push((format!("{} with the path of a cutter", kind.noun), proven.report()));
+            reports.push((format!("{} with the path of a cutter and points", kind.noun), proven.report()));
         }
         let request = camgen::Request { flank: true, ..camgen::Request::within(TOLERANCE) };
         let proven = made.draw(request).expect("drawn").prove().expect("a proof");

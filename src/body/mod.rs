@@ -8,6 +8,7 @@ pub mod balancing;
 pub mod conoid;
 pub mod disc;
 mod part;
+pub mod points;
 mod stress;
 pub mod wedge;
 
@@ -122,13 +123,15 @@ pub struct Request {
     pub rates: [Option<RateTolerance>; 2],
     /// Refuse a cam whose follower feels more; else it is told.
     pub strict: bool,
+    /// The table of points that is needed.
+    pub points: Option<points::Points>,
 }
 
 impl Request {
     /// Outlines within a tolerance (m), nothing else.
     #[must_use]
     pub fn within(fit: impl Into<Fit>) -> Self {
-        Self { fit: fit.into(), flank: false, cutter: None, rates: [None; 2], strict: true }
+        Self { fit: fit.into(), flank: false, cutter: None, points: None, rates: [None; 2], strict: true }
     }
 
     /// With the tolerances of the motion as numbers for a body.
@@ -175,6 +178,9 @@ pub enum DrawError {
     /// The flank cannot be drawn.
     #[error(transparent)]
     Flank(#[from] FlankError),
+    /// There is no such table of points.
+    #[error("no table of points: {0}")]
+    Points(#[from] points::TableError),
 }
 
 /// Why there is no cam.

@@ -59,6 +59,17 @@ pub(super) struct MakeArgs {
 
     #[command(flatten)]
     pub(super) files: FileArgs,
+
+    #[command(flatten)]
+    pub(super) cutter: CutterArgs,
+}
+
+/// The cutter of a disc cam.
+#[derive(Debug, Args)]
+pub(super) struct CutterArgs {
+    /// Also writes the path of the centre of a cutter of this radius, as STEM-cutter.dxf
+    #[arg(long, value_name = "RADIUS", value_parser = cutter)]
+    pub(super) cutter: Option<f64>,
 }
 
 /// Flags of every command about a cam.
@@ -206,9 +217,8 @@ pub(super) struct RotaryArgs {
     #[command(flatten)]
     pub(super) files: FileArgs,
 
-    /// Also writes the path of the centre of a cutter of this radius, as STEM-cutter.dxf
-    #[arg(long, value_name = "RADIUS", value_parser = cutter)]
-    pub(super) cutter: Option<f64>,
+    #[command(flatten)]
+    pub(super) cutter: CutterArgs,
 }
 
 #[derive(Debug, Args)]
@@ -312,7 +322,7 @@ impl Balanced {
 /// What is written, where, and how.
 #[derive(Debug, Args)]
 pub(super) struct FileArgs {
-    /// What to write: dxf, svg, step, csv, json, and stl of a conoid [default: dxf,svg,step,csv]
+    /// What to write: dxf, svg, step, csv, json, points, and stl of a conoid [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(super) format: Option<Vec<String>>,
 
@@ -343,6 +353,57 @@ pub(super) struct FileArgs {
     /// Write the files although a check failed (the exit code stays 1)
     #[arg(long)]
     pub(super) force: bool,
+
+    #[command(flatten)]
+    pub(super) points: PointsArgs,
+}
+
+/// The table of --format points, STEM-points.csv: as many points as it takes to keep --tolerance between them.
+#[derive(Debug, Args)]
+pub(super) struct PointsArgs {
+    /// Curve of --format points: profile, centre (of the roller), or cutter (the centre of the cutter or wheel of --cutter)
+    /// [default: profile]
+    #[arg(long, value_name = "CURVE", help_heading = "Points")]
+    pub(super) points_of: Option<PointsOf>,
+
+    /// Its coordinates: polar (angle about the shaft, radius) or xy [default: polar; xy of a plate]
+    #[arg(long, value_name = "FORM", help_heading = "Points")]
+    pub(super) points_as: Option<PointsAs>,
+
+    /// Its places: angle (equal angles about the shaft) or chord (the same error in every interval, fewer points) [default: angle;
+    /// chord on a plate]
+    #[arg(long, value_name = "STEP", help_heading = "Points")]
+    pub(super) points_step: Option<PointsStep>,
+
+    /// How the control interpolates between two points: linear (polar: the radius linear in the angle; xy: a straight line) or
+    /// cubic (the cubic spline of the radius over the angle, or of x and y over the sum of the chords) [default: linear]
+    #[arg(long, value_name = "WAY", help_heading = "Points")]
+    pub(super) points_between: Option<PointsBetween>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum PointsOf {
+    Profile,
+    Centre,
+    Cutter,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum PointsAs {
+    Polar,
+    Xy,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum PointsStep {
+    Angle,
+    Chord,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum PointsBetween {
+    Linear,
+    Cubic,
 }
 
 #[derive(Debug, Args)]

@@ -1,9 +1,14 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
-use super::args::{CommonArgs, ConoidArgs, FileArgs, MakeArgs, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs};
+use super::args::{
+    CommonArgs, ConoidArgs, CutterArgs, FileArgs, MakeArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep,
+    RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs,
+};
 use super::{Failure, Outcome, print, tell, text};
 use camgen::body::Request;
+use camgen::body::points::{Given, Points};
 use camgen::body::wedge::LAW_TOLERANCE;
+use camgen::geometry::points::{Between, Form, Step};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::Solver;
 use camgen::pipeline::{Cam, Spec, Writing};
@@ -11,6 +16,7 @@ use camgen::profile::outline::{Fit, Side};
 use camgen::report::{Report, Speeds};
 use camgen::write::json;
 use camgen::write::number::names;
+use camgen::write::points;
 use camgen::write::step::LATEST;
 use camgen::write::svg;
 
@@ -22,11 +28,7 @@ const MOST_NAMED: usize = 6;
 pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let (mut machine, name) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
-    if let Some(radius) = args.cutter {
-        // The cutter of the path is the one that has to fit.
-        machine.ask_for_cutter(radius);
-    }
-    let request = Request { cutter: args.cutter, ..args.files.request(&args.common) };
+    let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     cut(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
 }
 
@@ -41,20 +43,21 @@ pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
         }
     };
     let spec = Spec::translating(machine, rpm, solver, args.balance.exact_on());
-    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+    cut(spec, args.files.request(&args.common)?, &args.common, &args.files, &name)
 }
 
 pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.common.machine()?;
     let spec = of_conoid(&args.common, machine, args.residual)?;
-    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+    cut(spec, args.files.request(&args.common)?, &args.common, &args.files, &name)
 }
 
 /// The cam of a motion program.
 pub(super) fn make(args: &MakeArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = args.common.machine()?;
+    let (mut machine, name) = args.common.machine()?;
+    let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     let spec = of_program(&args.common, machine)?;
-    cut(spec, args.files.request(&args.common), &args.common, &args.files, &name)
+    cut(spec, request, &args.common, &args.files, &name)
 }
 
 /// The disc cam of the motion program of a file.
@@ -90,15 +93,64 @@ pub(super) fn of_conoid(common: &CommonArgs, machine: Machine, residual: Option<
     Ok(Spec::conoid(machine, speeds, residual))
 }
 
+impl CutterArgs {
+    /// The request with the path of the cutter, which then has to fit.
+    fn request(&self, machine: &mut Machine, request: Request) -> Request {
+        if let Some(radius) = self.cutter {
+            machine.ask_for_cutter(radius);
+        }
+        Request { cutter: self.cutter, ..request }
+    }
+}
+
+impl PointsArgs {
+    /// The table that was asked for, if one was.
+    fn asked(&self, formats: Option<&[String]>) -> Result<Option<Points>, Failure> {
+        if !formats.is_some_and(|formats| formats.iter().any(|format| format == points::FORMAT.name)) {
+            let told = [
+                self.points_of.is_some(),
+                self.points_as.is_some(),
+                self.points_step.is_some(),
+                self.points_between.is_some(),
+            ];
+            if told.contains(&true) {
+                return Err(Failure("the flags --points-… belong to --format points".into()));
+            }
+            return Ok(None);
+        }
+        Ok(Some(Points {
+            given: match self.points_of {
+                None | Some(PointsOf::Profile) => Given::Profile,
+                Some(PointsOf::Centre) => Given::Centre,
+                Some(PointsOf::Cutter) => Given::Cutter,
+            },
+            form: self.points_as.map(|form| match form {
+                PointsAs::Polar => Form::Polar,
+                PointsAs::Xy => Form::Plane,
+            }),
+            step: self.points_step.map(|step| match step {
+                PointsStep::Angle => Step::Angle,
+                PointsStep::Chord => Step::Chord,
+            }),
+            between: match self.points_between {
+                None | Some(PointsBetween::Linear) => Between::Linear,
+                Some(PointsBetween::Cubic) => Between::Cubic,
+            },
+        }))
+    }
+}
+
 impl FileArgs {
-    fn request(&self, common: &CommonArgs) -> Request {
+    fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
         let side = match self.side {
             SideOf::Both => Side::Both,
             SideOf::Inside => Side::Inside,
             SideOf::Outside => Side::Outside,
         };
+        let points = self.points.asked(self.format.as_deref())?;
         let (rates, strict) = common.rates();
-        Request { rates, strict, ..Request::within(Fit { side, ..Fit::from(common.tolerance()) }) }
+        let fit = Fit { side, ..Fit::from(common.tolerance()) };
+        Ok(Request { points, rates, strict, ..Request::within(fit) })
     }
 
     fn template(&self) -> Result<String, Failure> {

@@ -84,6 +84,16 @@ impl<'a> Boundary<'a> {
     /// The loop of these stretches, in order; gaps between them are closed by straight lines.
     #[must_use]
     pub fn new(frame: Box<Frame<'a>>, stretches: &[Stretch]) -> Self {
+        Self::joined(frame, stretches, true)
+    }
+
+    /// The same as a path that does not close: from the first stretch to the last.
+    #[must_use]
+    pub fn open(frame: Box<Frame<'a>>, stretches: &[Stretch]) -> Self {
+        Self::joined(frame, stretches, false)
+    }
+
+    fn joined(frame: Box<Frame<'a>>, stretches: &[Stretch], closed: bool) -> Self {
         let mut boundary = Self { frame, stretches: Vec::new(), ends: Vec::new() };
         let mut ends: Vec<[CurvePoint; 2]> = Vec::new();
         let mut before: Option<&Stretch> = None;
@@ -97,11 +107,12 @@ impl<'a> Boundary<'a> {
             before = Some(stretch);
         }
         let next = ends.iter().skip(1).chain(ends.first());
-        for ((stretch, own), next) in stretches.iter().zip(&ends).zip(next) {
+        for (index, ((stretch, own), next)) in stretches.iter().zip(&ends).zip(next).enumerate() {
             boundary.stretches.push(*stretch);
             boundary.ends.push(*own);
             let (start, end) = (own[1].point, next[0].point);
-            if (end - start).norm() > LEAST_GAP {
+            let last = index + 1 == stretches.len();
+            if (closed || !last) && (end - start).norm() > LEAST_GAP {
                 let line = Stretch::of_segment(Segment { start, end, bulge: 0.0 });
                 boundary.ends.push([boundary.on(&line, line.from), boundary.on(&line, line.to)]);
                 boundary.stretches.push(line);

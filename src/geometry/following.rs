@@ -53,7 +53,7 @@ const FOOT_STEPS: u32 = 64;
 const MOST_CELLS: usize = 100_000;
 const MOST_PER_SEGMENT: usize = 500;
 /// How far a cubic overshoots its ends, over its length and the sum of its slopes there: 4/27.
-const OVERSHOOT: f64 = 4.0 / 27.0;
+pub(super) const OVERSHOOT: f64 = 4.0 / 27.0;
 /// Rounds of the bound, which feeds on itself, and the least 1 + κ d it is made for.
 const BOUND_ROUNDS: u32 = 4;
 const LEAST_SHRINK: f64 = 0.05;
@@ -473,7 +473,7 @@ fn bend(curvature: f64, a: &Node, b: &Node, length: f64) -> Option<(f64, f64)> {
 
 /// The highest value that a function can have over a length, with these values and slopes at its ends and a second derivative
 /// not above `bend`: that of the lower of two parabolas, which cross once.
-fn highest((a, rise): (f64, f64), (b, fall): (f64, f64), length: f64, bend: f64) -> f64 {
+pub(super) fn highest((a, rise): (f64, f64), (b, fall): (f64, f64), length: f64, bend: f64) -> f64 {
     let from_a = |x: f64| a + x * (rise + 0.5 * bend * x);
     let from_b = |y: f64| b - y * (fall - 0.5 * bend * y);
     let gain = fall - rise - bend * length;

@@ -15,6 +15,7 @@ pub mod following;
 pub mod likeness;
 pub mod mismatch;
 pub mod nurbs;
+pub mod points;
 pub mod solid;
 pub mod track;
 

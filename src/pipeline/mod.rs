@@ -17,6 +17,7 @@ pub use file_set::{FileSet, Output, Writing};
 pub use proven::Proven;
 pub use spec::Spec;
 
+use crate::body::points::{self, PointTable, TableError};
 use crate::body::{Body, DrawError, Drawn, Kind, Request};
 use crate::machine::Machine;
 use crate::report::{Report, Section};
@@ -43,11 +44,19 @@ impl Cam {
     /// far, gives a drawing without one: its checks say why, and it cannot be written.
     pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
         let request = request.into().resolved(&*self.body)?;
-        match self.body.draw(&request) {
-            Ok(drawn) => Ok(Drawing { cam: self, request, drawn: Ok(drawn) }),
-            Err(DrawError::NoOutline(why)) => Ok(Drawing { cam: self, request, drawn: Err(why) }),
-            Err(error) => Err(error.into()),
-        }
+        let (drawn, points) = match self.body.draw(&request) {
+            Ok(drawn) => {
+                let points = match points::tables(self.body(), &request, &drawn.parts) {
+                    // The check of the cutter's radius says so, too, and what would pass.
+                    Err(TableError::Cutter(why)) => Err(why.to_string()),
+                    tables => Ok(tables.map_err(DrawError::Points)?),
+                };
+                (Ok(drawn), points)
+            }
+            Err(DrawError::NoOutline(why)) => (Err(why), Ok(Vec::new())),
+            Err(error) => return Err(error.into()),
+        };
+        Ok(Drawing { cam: self, request, drawn, points })
     }
 }
 
@@ -64,6 +73,8 @@ pub struct Drawing<'c> {
     request: Request,
     /// What was drawn, or why there is no outline.
     drawn: Result<Drawn, String>,
+    /// The tables of points that were requested, or why there are none.
+    points: Result<Vec<PointTable>, String>,
 }
 
 impl Drawing<'_> {

@@ -1,15 +1,17 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, FileSet, Writing, file_set, report};
-use crate::body::{Drawn, Found, Request};
+use crate::body::points::PointTable;
+use crate::body::{Body, Drawn, Found, Request};
 use crate::geometry::MILLIMETRES;
+use crate::geometry::points::Interpolant;
 use crate::report::{Finding, Report, Rolled, passed};
 use crate::table::Table;
-use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, rolling};
+use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
 use crate::write::Rendering;
 use crate::write::csv;
 use crate::write::dxf::Version;
-use crate::write::proof;
+use crate::write::{points, proof};
 
 /// A cam whose cut files were written to memory, read back, and checked.
 #[derive(Debug)]
@@ -19,6 +21,8 @@ pub struct Proven<'c> {
     pub(super) drawn: Result<Drawn, String>,
     /// The bytes of the cut files, one for each part.
     cut_files: Vec<Vec<u8>>,
+    /// The bytes of the tables of points, one for each part, when they were requested.
+    points: Vec<Vec<u8>>,
     version: Version,
     outlines: Vec<WrittenOutline>,
     rolled: Option<Rolled>,
@@ -59,6 +63,7 @@ impl<'c> Drawing<'c> {
             };
             WrittenPath { radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour }
         });
+        let (points, tables) = written_points(body, &self.request, self.points);
         let findings = verify::run(&Evidence {
             body,
             drawn: self.drawn.as_ref().ok(),
@@ -66,14 +71,37 @@ impl<'c> Drawing<'c> {
             rolled: rolled.as_ref(),
             foreign: None,
             cutter_path: cutter_path.as_ref(),
+            points: tables.as_ref(),
             solid: None,
             tolerance_mm,
             motion: self.request.fit.motion,
             strict: self.request.strict,
         });
         let (cam, request, drawn) = (self.cam, self.request, self.drawn);
-        Ok(Proven { cam, request, drawn, cut_files, version, outlines, rolled, findings })
+        Ok(Proven { cam, request, drawn, cut_files, points, version, outlines, rolled, findings })
     }
+}
+
+/// The tables of points in memory, and the curves that a control makes of their bytes; none when they were not requested.
+#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
+fn written_points(
+    body: &dyn Body,
+    request: &Request,
+    tables: Result<Vec<PointTable>, String>,
+) -> (Vec<Vec<u8>>, Option<Result<Vec<WrittenPoints>, String>>) {
+    let tables = match tables {
+        Ok(tables) if tables.is_empty() => return (Vec::new(), None),
+        Ok(tables) => tables,
+        Err(why) => return (Vec::new(), Some(Err(why))),
+    };
+    let files: Vec<Vec<u8>> = tables.iter().map(|table| points::write(body, table)).collect();
+    let read = |(table, bytes): (PointTable, &Vec<u8>)| {
+        let curve = points::read(bytes)
+            .map(|read| Interpolant::new(&table.turned(&read.rows), read.form, read.between, read.closed));
+        WrittenPoints { table, cutter: request.cutter, curve }
+    };
+    let written = tables.into_iter().zip(&files).map(read).collect();
+    (files, Some(Ok(written)))
 }
 
 impl Proven<'_> {
@@ -151,8 +179,18 @@ impl Proven<'_> {
     ) -> Result<Rendering<'a>, Error> {
         let drawn = self.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
         let (body, cut_files, dxf_version) = (self.cam.body(), &self.cut_files, self.version);
-        let outlines = &self.outlines;
-        Ok(Rendering { body, drawn, outlines, cut_files, dxf_version, report, samples, template, created: None })
+        Ok(Rendering {
+            body,
+            drawn,
+            outlines: &self.outlines,
+            cut_files,
+            points: &self.points,
+            dxf_version,
+            report,
+            samples,
+            template,
+            created: None,
+        })
     }
 
     /// Makes the files in memory.

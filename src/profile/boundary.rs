@@ -1,11 +1,13 @@
 //! The exact profile as a closed loop, against which a written outline is proved.
 
-use super::envelope::{self, Loss, NoEnvelope};
+use super::envelope::{self, Approach, Loss, NoEnvelope, Parallel};
+use super::outline::OutlineError;
 use super::{Curves, extremes, outline};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::Stretch;
 use crate::geometry::contour::Segment;
 use crate::motion::Piece;
+use nalgebra::Vector2;
 
 /// Stretches into which a piece of the motion is cut, so that none turns far: a piece turns by half a circle or little more.
 const STRETCHES: u32 = 8;
@@ -36,6 +38,60 @@ pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<Stretch>, NoEnve
             let end =
                 pieces.get(next).map_or(start, |next_piece| curves.profile(next, next_piece.start).point * MILLIMETRES);
             all.push(Stretch::of_segment(Segment { start, end, bulge: libm::tan(0.25 * corner.turn) }));
+        }
+    }
+    Ok(all)
+}
+
+/// The follower's own curve as stretches in millimetres: the path of a roller's centre.
+#[must_use]
+pub fn of_centre(curves: Curves<'_>) -> Vec<Stretch> {
+    let period = curves.motion.period();
+    let of_piece = |(index, piece): (usize, &Piece)| {
+        let ranges = outline::parts(piece, &[], period).into_iter();
+        ranges.flat_map(|range| cut(index, piece, range, period.is_none())).collect::<Vec<_>>()
+    };
+    curves.motion.pieces().iter().enumerate().flat_map(of_piece).collect()
+}
+
+/// The exact path of the centre of a cutter (radius in m) along the profile as stretches in millimetres: parallel to the
+/// follower's curve, with an arc of the cutter's radius about an edge of the profile.
+///
+/// # Errors
+/// [`OutlineError`] when the cutter does not get into a concave part, or the profile folds over itself.
+pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<Stretch>, OutlineError> {
+    outline::gets_in(curves, cutter_radius)?;
+    let distance = curves.offset() - cutter_radius;
+    let gaps = outline::left_out(curves, distance)?;
+    let spans: Vec<(f64, f64)> = gaps.iter().map(|gap| (gap.from, gap.to)).collect();
+    let (pieces, period) = (curves.motion.pieces(), curves.motion.period());
+    let corners = extremes::corners(curves);
+    let parallel = Parallel { curves, distance };
+    let arc = |start: Vector2<f64>, end: Vector2<f64>, turn: f64| {
+        Stretch::of_segment(Segment {
+            start: start * MILLIMETRES,
+            end: end * MILLIMETRES,
+            bulge: libm::tan(0.25 * turn),
+        })
+    };
+    let mut all = Vec::new();
+    for (index, piece) in pieces.iter().enumerate() {
+        let ranges = outline::parts(piece, &spans, period);
+        for range in &ranges {
+            all.extend(cut(index, piece, *range, period.is_none()));
+            if let Some(gap) = gaps.iter().find(|gap| gap.arc != 0.0 && outline::starts_at(gap, range.1, period)) {
+                let start = parallel.in_piece(index, range.1).point;
+                all.push(arc(start, parallel.at(gap.to, Approach::After).point, gap.arc));
+            }
+        }
+        let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
+        // Along the arc that a roller leaves at a concave corner of its path a smaller cutter turns about the same centre.
+        if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
+            && distance > 0.0
+            && whole
+        {
+            let start = parallel.in_piece(index, piece.end).point;
+            all.push(arc(start, parallel.at(piece.end, Approach::After).point, corner.turn));
         }
     }
     Ok(all)

@@ -184,6 +184,30 @@ impl<'a> Followed<'a> {
         self.cut(stretch, wanted).filter(|_| reached).map(|(cut, _)| cut)
     }
 
+    /// Acceleration of the motion and as cut along the whole chain, by the angle of the shaft: parameter, motion, cut; two at one
+    /// place where it jumps. The places lie no farther apart than a share of the whole motion.
+    #[must_use]
+    pub fn accelerations(&self, share: f64) -> Vec<[f64; 3]> {
+        let (first, last) = self.curves.motion.range();
+        let longest = (share * (last - first)).max(HAIR);
+        let mut points = Vec::new();
+        for stretch in &self.stretches {
+            let length = stretch.to - stretch.from;
+            let mut at = 0.0;
+            loop {
+                let parameter = stretch.from + at;
+                let (speed, slowing) = self.curves.motion.pace(parameter + stretch.shift);
+                let by_angle = |jet: Jet| jet.dds * speed * speed + jet.ds * slowing;
+                points.extend(self.cut(stretch, parameter).map(|(cut, law)| [parameter, by_angle(law), by_angle(cut)]));
+                if at >= length {
+                    break;
+                }
+                at = (at + longest).min(length);
+            }
+        }
+        points
+    }
+
     /// The largest errors, by the angle of the shaft that gives the time.
     #[must_use]
     pub fn errors(&self) -> Errors {

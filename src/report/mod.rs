@@ -9,6 +9,7 @@ mod felt;
 mod finding;
 mod rolled;
 pub mod sheet;
+pub mod trace;
 mod values;
 
 pub use felt::Felt;

@@ -174,6 +174,7 @@ mod tests {
                 foreign: None,
                 solid: None,
                 cutter_path: Some(&path),
+                points: None,
                 tolerance_mm: 5e-3,
                 motion: MotionTolerance::ANY,
                 strict: true,

@@ -18,6 +18,7 @@ mod flank;
 mod force_closure;
 mod outline;
 mod plate_ends;
+mod points;
 mod pressure_angle;
 mod residual;
 pub mod rolling;
@@ -30,6 +31,7 @@ mod wall;
 
 pub use cutter_path::WrittenPath;
 pub use file::join_reach;
+pub use points::WrittenPoints;
 pub use solid::{WrittenSolid, shell_reach};
 
 use crate::body::{Body, Drawn};
@@ -66,6 +68,8 @@ pub struct Evidence<'a> {
     pub foreign: Option<&'a Reading>,
     /// The path of a cutter as read back, when one was requested.
     pub cutter_path: Option<&'a WrittenPath>,
+    /// The tables of points as read back, when they were requested, or why there are none.
+    pub points: Option<&'a Result<Vec<WrittenPoints>, String>>,
     /// What was read from a STEP file that somebody else may have written.
     pub solid: Option<&'a WrittenSolid>,
     /// Tolerance of the outline, mm.
@@ -122,6 +126,7 @@ pub const CHECKS: &[Check] = &[
     curvature::MIN_CONVEX_RADIUS,
     cutter_radius::CHECK,
     cutter_path::CHECK,
+    points::CHECK,
     wall::CHECK,
     plate_ends::ROLLER_CLEARANCE,
     plate_ends::ENDS,

@@ -7,12 +7,13 @@ pub mod dxf;
 pub mod files;
 pub mod json;
 pub mod number;
+pub mod points;
 pub mod proof;
 pub mod step;
 pub mod stl;
 pub mod svg;
 
-use crate::body::{Body, Drawn};
+use crate::body::{Body, Drawn, Part};
 use crate::geometry::solid::SolidError;
 use crate::profile::outline::OutlineError;
 use crate::report::Report;
@@ -29,6 +30,8 @@ pub struct Rendering<'a> {
     pub outlines: &'a [WrittenOutline],
     /// The cut files, written and proved, one for each part of the drawing.
     pub cut_files: &'a [Vec<u8>],
+    /// The tables of points, written and proved, one for each part of the drawing; none when they were not requested.
+    pub points: &'a [Vec<u8>],
     /// Version of the cut files.
     pub dxf_version: dxf::Version,
     /// Its report, the names of the files in it.
@@ -54,6 +57,9 @@ pub enum FormatError {
     /// The solid is not valid.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// Points are drawn and proved with the cam.
+    #[error("no table of points was requested with the drawing, or the cutter has no path")]
+    NoPoints,
     /// The report could not be serialised.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
@@ -89,11 +95,22 @@ pub struct Format {
 
 /// Every format, in the order in which files are listed.
 pub const FORMATS: &[Format] =
-    &[dxf::FORMAT, svg::FORMAT, step::FORMAT, csv::FORMAT, json::FORMAT, stl::FORMAT, dxf::CUTTER_PATH];
+    &[dxf::FORMAT, svg::FORMAT, step::FORMAT, csv::FORMAT, json::FORMAT, stl::FORMAT, points::FORMAT, dxf::CUTTER_PATH];
 
 /// The formats that can be requested.
 pub fn by_name() -> impl Iterator<Item = &'static Format> {
     FORMATS.iter().filter(|format| format.when != When::Drawn)
+}
+
+/// What the names of the files of every part end with: a section has the speed it is for before the ending.
+fn of_parts(drawn: &Drawn, ending: &str) -> Vec<String> {
+    let speeds: Vec<f64> = drawn.parts.iter().filter_map(|part| part.rpm).collect();
+    let mut speeds = number::names(&speeds).into_iter();
+    let mut of_part = |part: &Part| match part.rpm.and_then(|_| speeds.next()) {
+        Some(rpm) => format!("-{rpm}rpm{ending}"),
+        None => ending.to_owned(),
+    };
+    drawn.parts.iter().map(&mut of_part).collect()
 }
 
 /// Any cam.

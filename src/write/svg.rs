@@ -2,10 +2,13 @@
 //! coordinates.
 
 use super::number::plain;
-use super::{Format, When, fits_all};
+use super::{Format, Rendering, When, fits_all};
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Segment};
+use crate::motion::Quantity;
+use crate::profile::followed::Followed;
 use crate::report::sheet::{Group, Shape, Sheet, TextAnchor};
+use crate::report::trace::{self, Trace};
 use nalgebra::Vector2;
 use svg::node::element;
 
@@ -16,8 +19,35 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
-    write: |cam| Ok(vec![write(&cam.body.sheet(cam.drawn, cam.report)?, cam.template)?]),
+    write: |cam| {
+        let sheet = cam.body.sheet(cam.drawn, cam.report)?;
+        let sheet = match trace_of(cam) {
+            Some(trace) => trace::below(sheet, &trace),
+            None => sheet,
+        };
+        Ok(vec![write(&sheet, cam.template)?])
+    },
 };
+
+/// The acceleration on the outline as written, of a plane cam.
+fn trace_of(cam: &Rendering<'_>) -> Option<Trace> {
+    let (curves, outline) = cam.body.plane().zip(cam.outlines.first())?;
+    let followed = Followed::on(curves, &outline.contour, cam.body.mirrored());
+    let turns = curves.motion.period().is_some();
+    let swings = curves.motion.quantity() == Quantity::Angle;
+    let (place, value) = (if turns { 1.0_f64.to_degrees() } else { 1e3 }, if swings { 1.0 } else { 1e3 });
+    let points = followed.accelerations(TRACE_SHARE);
+    Some(Trace {
+        title: format!("acceleration, {}", if swings { "rad/rad²" } else { "mm/rad²" }),
+        places: if turns { "cam angle, deg" } else { "overrun of the bed, mm" },
+        step: if turns { 30.0 } else { 20.0 },
+        period: turns.then_some(360.0),
+        points: points.into_iter().map(|[at, motion, cut]| [place * at, value * motion, value * cut]).collect(),
+    })
+}
+
+/// Places of the diagram of the acceleration lie no farther apart than this share of the motion.
+const TRACE_SHARE: f64 = 1.0 / 180.0;
 
 /// The sheet used when none is given.
 pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");

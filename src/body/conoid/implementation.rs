@@ -97,6 +97,28 @@ impl Conoid {
         )
     }
 
+    /// The exact cut at z (m), mm, of a clockwise cam or mirrored as that of one that turns counter-clockwise.
+    pub(in crate::body) fn cut_at(&self, z: f64, turned: bool) -> Boundary<'_> {
+        let cut = move |piece: usize, angle: f64| {
+            self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.scaled(MILLIMETRES))
+        };
+        let of_piece = |(index, piece): (usize, &Piece)| {
+            let round = self.is_round(index, piece, z);
+            boundary::cut(index, &Piece { dwell: round, ..*piece }, (piece.start, piece.end), false)
+        };
+        let stretches: Vec<Stretch> = self.pieces().iter().enumerate().flat_map(of_piece).collect();
+        Boundary::new(Box::new(cut), &if turned { mirrored(&stretches) } else { stretches })
+    }
+
+    /// The exact path of the roller's centre with the cam at z (m), mm, of a clockwise cam.
+    pub(in crate::body) fn centre_at(&self, z: f64) -> Boundary<'_> {
+        let slice = self.slice(z);
+        let stretches = boundary::of_centre(self.plane_of(&slice));
+        let centre =
+            move |piece: usize, angle: f64| self.plane_of(&slice).touch(piece, angle).curve.scaled(MILLIMETRES);
+        Boundary::new(Box::new(centre), &stretches)
+    }
+
     fn draw_parts(&self, fit: Fit) -> Result<Vec<Part>, OutlineError> {
         let part = |(rpm, z, _): &(f64, f64, &Reversal)| {
             let part = Part::turning(&self.machine, self.section(*z, fit)?);
@@ -283,16 +305,7 @@ impl Body for Conoid {
 
     /// The cut at z.
     fn boundary(&self, z: f64) -> Result<Option<Boundary<'_>>, NoEnvelope> {
-        let cut = move |piece: usize, angle: f64| {
-            self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.scaled(MILLIMETRES))
-        };
-        let of_piece = |(index, piece): (usize, &Piece)| {
-            let round = self.is_round(index, piece, z);
-            boundary::cut(index, &Piece { dwell: round, ..*piece }, (piece.start, piece.end), false)
-        };
-        let stretches: Vec<Stretch> = self.pieces().iter().enumerate().flat_map(of_piece).collect();
-        let turned = self.mirrored() == [true];
-        Ok(Some(Boundary::new(Box::new(cut), &if turned { mirrored(&stretches) } else { stretches })))
+        Ok(Some(self.cut_at(z, self.mirrored() == [true])))
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {

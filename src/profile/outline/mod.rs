@@ -310,6 +310,12 @@ pub(crate) fn profile_within(curves: Curves<'_>, fit: Fit) -> Result<(Outline, f
 /// # Errors
 /// [`OutlineError`] as for [`profile`]; also when the cutter does not get into a concave part.
 pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
+    gets_in(curves, cutter_radius)?;
+    Ok(beside(curves, curves.offset() - cutter_radius, fit.into(), f64::INFINITY)?.0)
+}
+
+/// Refuses a cutter (radius in m) that does not get into a concave part.
+pub(super) fn gets_in(curves: Curves<'_>, cutter_radius: f64) -> Result<(), OutlineError> {
     let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
     if let Some(corner) = corner.filter(|_| cutter_radius > curves.offset()) {
         return Err(OutlineError::CutterPath { cam_deg: corner.at.to_degrees() });
@@ -318,7 +324,7 @@ pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, fit: impl Into<Fit>) 
     if concave.value * cutter_radius >= 1.0 {
         return Err(OutlineError::CutterPath { cam_deg: concave.at.to_degrees() });
     }
-    Ok(beside(curves, curves.offset() - cutter_radius, fit.into(), f64::INFINITY)?.0)
+    Ok(())
 }
 
 /// Least convex radius of the profile, m; infinite where a sharp edge is left of it anyway.
@@ -364,16 +370,16 @@ fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Out
 /// A stretch of a parallel curve that is not drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
-    from: f64,
-    to: f64,
+    pub(super) from: f64,
+    pub(super) to: f64,
     /// Turn of the sharp edge that is left, rad.
     edge: f64,
     /// Turn of the arc about an edge of the profile, rad: what lies outside an edge is parallel to a point.
-    arc: f64,
+    pub(super) arc: f64,
 }
 
 /// What is left out of a parallel of the follower's curve at a distance inwards, m.
-fn left_out(curves: Curves<'_>, distance: f64) -> Result<Vec<Gap>, NoEnvelope> {
+pub(super) fn left_out(curves: Curves<'_>, distance: f64) -> Result<Vec<Gap>, NoEnvelope> {
     let loops_at = |distance: f64| Parallel { curves, distance }.loops();
     let (mut edges, mut sharp) = (Vec::new(), Vec::new());
     if distance < curves.offset() {
@@ -467,7 +473,7 @@ fn parallel(
 }
 
 /// Whether a gap starts at a parameter, by whole turns.
-fn starts_at(gap: &Gap, parameter: f64, period: Option<f64>) -> bool {
+pub(super) fn starts_at(gap: &Gap, parameter: f64, period: Option<f64>) -> bool {
     TURNS.iter().any(|turns| gap.from + turns * period.unwrap_or(0.0) == parameter)
 }
 

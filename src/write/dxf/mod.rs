@@ -8,9 +8,8 @@ mod objects;
 mod tables;
 mod tags;
 
-use super::number::names;
-use super::{Format, When, fits_all};
-use crate::body::{Layer, Part};
+use super::{Format, When, fits_all, of_parts};
+use crate::body::Layer;
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Extents};
 use crate::profile::outline::{Outline, OutlineError};
@@ -23,15 +22,7 @@ pub const FORMAT: Format = Format {
     when: When::Usual,
     flank: false,
     unfit: fits_all,
-    endings: |drawn| {
-        let speeds: Vec<f64> = drawn.parts.iter().filter_map(|part| part.rpm).collect();
-        let mut speeds = names(&speeds).into_iter();
-        let mut ending = |part: &Part| match part.rpm.and_then(|_| speeds.next()) {
-            Some(rpm) => format!("-{rpm}rpm.dxf"),
-            None => ".dxf".into(),
-        };
-        drawn.parts.iter().map(&mut ending).collect()
-    },
+    endings: |drawn| of_parts(drawn, ".dxf"),
     write: |cam| Ok(cam.cut_files.to_vec()),
 };
 

@@ -1,0 +1,222 @@
+//! The exact curve that a table of points stands for, by a length that runs on from stretch to stretch.
+
+use super::PointsError;
+use crate::geometry::CurvePoint;
+use crate::geometry::boundary::Boundary;
+use crate::numeric::{quadrature, root};
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
+
+/// Stretches shorter than this are none, mm.
+const NO_LENGTH: f64 = 1e-12;
+/// Places in a stretch at which it must go round the shaft to be given in polar coordinates.
+const LOOKED_AT: u32 = 8;
+/// A stretch whose ends and middle keep their distance from the shaft, and whose curvature is its inverse, to this share is a
+/// circle about the shaft.
+const ROUND: f64 = 1e-11;
+
+/// Curvatures that differ by more than this share of the larger jump.
+const JUMP: f64 = 1e-6;
+
+/// A stretch with the length at which it starts.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    /// Its number in the boundary.
+    index: usize,
+    /// Its parameter at either end.
+    from: f64,
+    to: f64,
+    /// Length from the start of the curve to its own start, and its own length, mm.
+    start: f64,
+    length: f64,
+    /// Polar angle at either end, counted on round the shaft, rad.
+    angles: (f64, f64),
+}
+
+/// A place on the curve: the number of a stretch, and its parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    pub(super) part: usize,
+    pub(super) parameter: f64,
+}
+
+/// The exact curve, mm, with the shaft at the origin.
+#[derive(Debug)]
+pub struct Path<'a> {
+    boundary: Boundary<'a>,
+    parts: Vec<Part>,
+    closed: bool,
+    length: f64,
+}
+
+impl<'a> Path<'a> {
+    /// A curve that closes, or runs from its first stretch to its last.
+    #[must_use]
+    pub fn new(boundary: Boundary<'a>, closed: bool) -> Self {
+        let (mut parts, mut start, mut angle): (Vec<Part>, f64, Option<f64>) = (Vec::new(), 0.0, None);
+        for (index, stretch) in boundary.stretches().iter().enumerate() {
+            let speed = |at: f64| boundary.at(index, at).map_or(0.0, |point| point.speed);
+            let length = quadrature::integrate(speed, (stretch.from, stretch.to), 1);
+            let Some([first, last]) = boundary.ends(index).filter(|_| length > NO_LENGTH) else { continue };
+            let from = angle.unwrap_or_else(|| libm::atan2(first.point.y, first.point.x));
+            let to = from + libm::atan2(first.point.perp(&last.point), first.point.dot(&last.point));
+            parts.push(Part { index, from: stretch.from, to: stretch.to, start, length, angles: (from, to) });
+            start += length;
+            angle = Some(to);
+        }
+        Self { boundary, parts, closed, length: start }
+    }
+
+    /// Whether it closes.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// Its length, mm.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// How many stretches it has.
+    pub(super) fn parts(&self) -> usize {
+        self.parts.len()
+    }
+
+    fn part(&self, part: usize) -> Option<&Part> {
+        self.parts.get(part % self.parts.len().max(1))
+    }
+
+    /// The parameters at which a stretch starts and ends.
+    pub(super) fn range(&self, part: usize) -> (f64, f64) {
+        self.part(part).map_or((0.0, 0.0), |part| (part.from, part.to))
+    }
+
+    /// The length at which a stretch, counted on round and round, ends, mm.
+    pub(super) fn end_of(&self, part: usize) -> f64 {
+        let rounds = part / self.parts.len().max(1);
+        #[expect(clippy::cast_precision_loss, reason = "one round or two")]
+        let before = self.length * rounds as f64;
+        self.part(part).map_or(f64::INFINITY, |part| before + part.start + part.length)
+    }
+
+    /// The point at a place; a stretch is counted on round and round.
+    pub(super) fn point(&self, place: Place) -> Option<CurvePoint> {
+        self.boundary.at(self.part(place.part)?.index, place.parameter)
+    }
+
+    /// The place at a length from the start, mm; beyond the end of a closed curve it goes on with the first stretch.
+    pub(super) fn place(&self, length: f64) -> Place {
+        let count = self.parts.len();
+        let beyond = self.closed && length >= self.length;
+        let within = if beyond { length - self.length } else { length };
+        let found = self.parts.partition_point(|part| part.start <= within).saturating_sub(1);
+        let parameter = self.parts.get(found).map_or(0.0, |part| {
+            let share = ((within - part.start) / part.length).clamp(0.0, 1.0);
+            if share < 1.0 { part.from + share * (part.to - part.from) } else { part.to }
+        });
+        Place { part: if beyond { found + count } else { found }, parameter }
+    }
+
+    /// The length at which a place lies, mm.
+    pub(super) fn length_at(&self, place: Place) -> f64 {
+        self.part(place.part).map_or(f64::NAN, |part| {
+            let share = (place.parameter - part.from) / (part.to - part.from);
+            self.end_of(place.part) - part.length * (1.0 - share)
+        })
+    }
+
+    /// The lengths at which it has a corner, and those at which a circle about the shaft begins or ends or, if they are asked for,
+    /// the curvature jumps, mm.
+    pub(super) fn joints(&self, jumps: bool) -> (Vec<f64>, Vec<f64>) {
+        let round: Vec<bool> = self.parts.iter().map(|part| self.is_round(part)).collect();
+        let (mut corners, mut changes) = (Vec::new(), Vec::new());
+        let before = round.iter().cycle().skip(round.len().saturating_sub(1));
+        for (index, ((part, round), before)) in self.parts.iter().zip(&round).zip(before).enumerate() {
+            if index == 0 && !self.closed {
+                continue;
+            }
+            if self.boundary.starts_at_corner(part.index) {
+                corners.push(part.start);
+            } else if round != before || (jumps && self.jumps_at(part.index)) {
+                changes.push(part.start);
+            }
+        }
+        (corners, changes)
+    }
+
+    /// Whether the curvature jumps where a stretch of the boundary starts.
+    fn jumps_at(&self, index: usize) -> bool {
+        let count = self.boundary.stretches().len();
+        let before = self.boundary.ends(index + count - 1).map(|ends| ends[1].curvature);
+        let after = self.boundary.ends(index).map(|ends| ends[0].curvature);
+        !before.zip(after).is_some_and(|(a, b)| (a - b).abs() <= JUMP * a.abs().max(b.abs()))
+    }
+
+    fn is_round(&self, part: &Part) -> bool {
+        let middle = 0.5 * (part.from + part.to);
+        let radius = |at: f64| {
+            let point = self.boundary.at(part.index, at)?;
+            let radius = point.point.norm();
+            ((point.curvature * radius - 1.0).abs() <= ROUND).then_some(radius)
+        };
+        match [part.from, middle, part.to].map(radius) {
+            [Some(a), Some(b), Some(c)] => (a - b).abs() <= ROUND * a && (c - b).abs() <= ROUND * a,
+            _ => false,
+        }
+    }
+
+    /// Refuses a curve that is not seen from the shaft in one direction once.
+    ///
+    /// # Errors
+    /// [`PointsError::NotAround`] where it turns back, or does not go round exactly once.
+    pub(super) fn goes_round(&self) -> Result<(), PointsError> {
+        for part in &self.parts {
+            for i in 0..=LOOKED_AT {
+                let parameter = part.from + (part.to - part.from) * f64::from(i) / f64::from(LOOKED_AT);
+                let point = self.boundary.at(part.index, parameter);
+                if !point.is_some_and(|point| point.point.perp(&point.tangent) > 0.0) {
+                    let polar_deg = point.map_or(f64::NAN, |p| libm::atan2(p.point.y, p.point.x).to_degrees());
+                    return Err(PointsError::NotAround { polar_deg });
+                }
+            }
+        }
+        let ends = self.parts.first().zip(self.parts.last());
+        let turned = ends.map_or(0.0, |(first, last)| last.angles.1 - first.angles.0);
+        let once = self.closed && (turned - TAU).abs() < 1e-6;
+        if once { Ok(()) } else { Err(PointsError::NotAround { polar_deg: 0.0 }) }
+    }
+
+    /// Where the ray at a polar angle from the shaft meets a curve that goes round: the length there, mm, and the distance from
+    /// the shaft, mm.
+    pub(super) fn on_ray(&self, angle: f64) -> Option<(f64, f64)> {
+        let (first, last) = (self.parts.first()?, self.parts.last()?);
+        let mut seen = angle;
+        while seen < first.angles.0 {
+            seen += TAU;
+        }
+        while seen > last.angles.1.max(first.angles.0 + TAU) {
+            seen -= TAU;
+        }
+        let ray = Vector2::new(libm::cos(angle), libm::sin(angle));
+        let found = self.parts.partition_point(|part| part.angles.0 <= seen).saturating_sub(1);
+        // Rounding may take the ray past the end of its stretch.
+        let around = [found, found + 1, (found + self.parts.len()).saturating_sub(1)];
+        for index in around.map(|index| index % self.parts.len()) {
+            let part = self.parts.get(index)?;
+            let point = |at: f64| self.boundary.at(part.index, at).map(|point| point.point);
+            let across = |at: f64| point(at).map_or(f64::NAN, |point| ray.perp(&point));
+            if let Ok(parameter) = root::bracketed(across, part.from, part.to, 0.0) {
+                let away = point(parameter)?.dot(&ray);
+                return Some((self.length_at(Place { part: index, parameter }), away)).filter(|_| away > 0.0);
+            }
+        }
+        // The ray goes through the end of a stretch, to rounding.
+        let part = self.parts.get(found)?;
+        let [start, end] = *self.boundary.ends(part.index)?;
+        let at_end = ray.perp(&end.point).abs() < ray.perp(&start.point).abs();
+        let (point, length) = if at_end { (end, part.start + part.length) } else { (start, part.start) };
+        (ray.perp(&point.point).abs() < 1e-9).then(|| (length, point.point.dot(&ray)))
+    }
+}

@@ -1,0 +1,141 @@
+use super::*;
+use crate::geometry::CurvePoint;
+use crate::geometry::boundary::{Boundary, Stretch};
+use nalgebra::Vector2;
+use std::f64::consts::{PI, TAU};
+
+/// A circle of radius 50 mm about (8, 3) mm, counter-clockwise, in stretches.
+fn eccentric<'a>() -> Path<'a> {
+    let frame = |_: usize, at: f64| {
+        let (sin, cos) = (libm::sin(at), libm::cos(at));
+        CurvePoint::from_derivatives(
+            Vector2::new(8.0 + 50.0 * cos, 3.0 + 50.0 * sin),
+            Vector2::new(-50.0 * sin, 50.0 * cos),
+            Vector2::new(-50.0 * cos, -50.0 * sin),
+            Vector2::new(50.0 * sin, -50.0 * cos),
+        )
+    };
+    let stretch = |i: u32| Stretch::of_curve(0, (PI * f64::from(i) / 4.0, PI * f64::from(i + 1) / 4.0));
+    let stretches: Vec<Stretch> = (0..8).map(stretch).collect();
+    Path::new(Boundary::new(Box::new(frame), &stretches), true)
+}
+
+fn wishes(tolerance: f64) -> Vec<Wish> {
+    let mut wishes = Vec::new();
+    for form in [Form::Polar, Form::Plane] {
+        for step in [Step::Angle, Step::Chord] {
+            for between in [Between::Linear, Between::Cubic] {
+                wishes.push(Wish { form, step, between, tolerance });
+            }
+        }
+    }
+    wishes
+}
+
+/// The distance from a circle is known in closed form: at a thousand places of every table it is below what is told, and
+/// somewhere nearly as much.
+#[test]
+fn the_told_error_of_a_circle_is_its_distance() {
+    for tolerance in [0.1, 5e-3, 1e-4] {
+        for wish in wishes(tolerance) {
+            let table = place(&eccentric(), &wish).unwrap_or_else(|error| panic!("{wish:?}: {error}"));
+            assert!(table.error <= tolerance, "{wish:?}: {}", table.error);
+            let curve = Interpolant::new(&table.rows, wish.form, wish.between, true);
+            let mut worst: f64 = 0.0;
+            for interval in 0..curve.count() {
+                let (from, to) = curve.range(interval).expect("an interval");
+                for i in 0..=40 {
+                    let point = curve.at(interval, from + (to - from) * f64::from(i) / 40.0).expect("a point").point;
+                    worst = worst.max(((point - Vector2::new(8.0, 3.0)).norm() - 50.0).abs());
+                }
+            }
+            assert!(worst <= table.error + 1e-10, "{wish:?}: {worst} above {}", table.error);
+            assert!(worst >= 0.99 * table.error - 2e-10, "{wish:?}: {worst} far below {}", table.error);
+            assert!(
+                table.error > 0.7 * tolerance || table.intervals < 30,
+                "{wish:?}: {} of {}",
+                table.error,
+                table.intervals
+            );
+        }
+    }
+}
+
+/// Chords of a circle of radius R turn by 2 acos(1 − tolerance/R): so many and no more.
+#[test]
+fn as_few_chords_as_a_circle_needs() {
+    for tolerance in [0.1, 5e-3, 1e-4] {
+        let wish = Wish { form: Form::Plane, step: Step::Chord, between: Between::Linear, tolerance };
+        let table = place(&eccentric(), &wish).expect("a table");
+        let least = (PI / libm::acos(1.0 - tolerance / 50.0)).ceil();
+        let intervals = f64::from(u32::try_from(table.intervals).expect("few"));
+        assert!(intervals >= least && intervals <= 1.01 * least + 1.0, "{tolerance}: {intervals} of {least}");
+    }
+}
+
+/// One point less at equal angles, and the tolerance is not kept any more.
+#[test]
+fn as_few_angles_as_the_tolerance_allows() {
+    for wish in wishes(2e-3).into_iter().filter(|wish| wish.step == Step::Angle) {
+        let table = place(&eccentric(), &wish).expect("a table");
+        let closer = Wish { tolerance: table.error * 0.999_9, ..wish };
+        let more = place(&eccentric(), &closer).expect("a table");
+        assert!(more.intervals > table.intervals, "{wish:?}: {} {}", more.intervals, table.intervals);
+        assert!(more.intervals <= table.intervals + 2, "{wish:?}: {} {}", more.intervals, table.intervals);
+    }
+}
+
+/// Every interval takes the same share.
+#[test]
+fn errors_are_equal_by_chord_error() {
+    for between in [Between::Linear, Between::Cubic] {
+        for form in [Form::Polar, Form::Plane] {
+            let wish = Wish { form, step: Step::Chord, between, tolerance: 1e-4 };
+            let path = eccentric();
+            let table = place(&path, &wish).expect("a table");
+            let curve = Interpolant::new(&table.rows, form, between, true);
+            let errors = deviations(&path, &curve, &table.places, (0.0, f64::INFINITY)).expect("followed");
+            let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+            // A polar table has inflections, where the error of an interval changes its sign.
+            let share = if form == Form::Polar { 0.1 } else { 0.7 };
+            assert!(least > share * table.error, "{wish:?}: {least} of {}, {}", table.error, table.intervals);
+        }
+    }
+}
+
+/// A row that is off, or one that is missing, is found.
+#[test]
+fn a_wrong_row_is_found() {
+    for wish in wishes(1e-3) {
+        let path = eccentric();
+        let table = place(&path, &wish).expect("a table");
+        for change in [0.01, -0.01] {
+            for column in [0, 1] {
+                let mut rows = table.rows.clone();
+                rows[table.rows.len() / 3][column] += change;
+                let curve = Interpolant::new(&rows, wish.form, wish.between, true);
+                let found = deviations(&path, &curve, &table.places, (0.0, f64::INFINITY));
+                let worst = found.map(|errors| errors.into_iter().fold(0.0, f64::max));
+                assert!(worst.is_err() || worst.is_ok_and(|worst| worst > 1e-3), "{wish:?} {column} {change}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_has_no_table_is_refused() {
+    let wish = Wish { form: Form::Polar, step: Step::Angle, between: Between::Linear, tolerance: 1e-11 };
+    assert!(matches!(place(&eccentric(), &wish), Err(PointsError::TooMany { .. })));
+    // A circle that the shaft is not in.
+    let frame = |_: usize, at: f64| {
+        let (sin, cos) = (libm::sin(at), libm::cos(at));
+        let (first, third) = (Vector2::new(-sin, cos), Vector2::new(sin, -cos));
+        CurvePoint::from_derivatives(Vector2::new(8.0 + cos, sin), first, Vector2::new(-cos, -sin), third)
+    };
+    let halves = [Stretch::of_curve(0, (0.0, PI)), Stretch::of_curve(0, (PI, TAU))];
+    let path = Path::new(Boundary::new(Box::new(frame), &halves), true);
+    let wish = Wish { tolerance: 1e-3, ..wish };
+    assert!(matches!(place(&path, &wish), Err(PointsError::NotAround { .. })));
+    let plane = Wish { form: Form::Plane, step: Step::Chord, ..wish };
+    assert!(place(&path, &plane).is_ok_and(|table| table.error <= 1e-3));
+}

@@ -1,0 +1,206 @@
+//! Tables of points for the control of a grinder or an old mill: what they are in lines that begin with `#`, the columns, then
+//! plain decimals that read back as the same numbers.
+
+use super::number::{plain, shortest};
+use super::{Format, FormatError, When, fits_all, of_parts};
+use crate::body::Body;
+use crate::body::points::{Given, PointTable};
+use crate::geometry::MILLIMETRES;
+use crate::geometry::points::{Between, Form, Step};
+use crate::machine::Rotation;
+
+/// The points of every section, as they were proved.
+pub const FORMAT: Format = Format {
+    name: "points",
+    when: When::Asked,
+    flank: false,
+    unfit: fits_all,
+    endings: |drawn| of_parts(drawn, "-points.csv"),
+    write: |cam| if cam.points.is_empty() { Err(FormatError::NoPoints) } else { Ok(cam.points.to_vec()) },
+};
+
+/// Decimals of a number: as in a DXF file.
+const DECIMALS: usize = 12;
+/// The columns of either form.
+const POLAR: &str = "cam_deg,radius_mm";
+const PLANE: &str = "x_mm,y_mm";
+/// Words that a reader looks for.
+const INTERPOLATION: &str = "# interpolation: ";
+const LINEAR: &str = "linear";
+const CUBIC: &str = "cubic";
+const CLOSED: &str = "# closed: yes";
+
+/// A table as its file.
+#[must_use]
+pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
+    let mut text = String::new();
+    for (key, value) in head(body, table) {
+        text.push_str(&format!("# {key}: {value}\n"));
+    }
+    text.push_str(if table.wish.form == Form::Polar { POLAR } else { PLANE });
+    text.push('\n');
+    for [first, second] in table.turned(&table.rows.rows) {
+        text.push_str(&format!("{},{}\n", plain(first, DECIMALS), plain(second, DECIMALS)));
+    }
+    text.into_bytes()
+}
+
+/// What the table is, line by line.
+fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
+    let (wish, rows) = (&table.wish, &table.rows);
+    let speed =
+        table.rpm.map_or_else(|| body.speeds().to_string(), |rpm| format!(", section for {} rpm", shortest(rpm)));
+    let mut head = vec![
+        ("machine", body.machine().name().to_owned()),
+        ("cam", format!("{}{speed}", body.kind().noun)),
+        ("given", given(table)),
+        ("units", "mm, degrees".to_owned()),
+        ("coordinates", coordinates(table).to_owned()),
+    ];
+    if table.closed {
+        let turns = match body.machine().cam.rotation {
+            Rotation::Clockwise => ("clockwise", "counter-clockwise"),
+            Rotation::CounterClockwise => ("counter-clockwise", "clockwise"),
+        };
+        head.push(("rotation", format!("the cam turns {}", turns.0)));
+        head.push(("order", format!("as the follower meets the points, {} round the shaft", turns.1)));
+    } else {
+        head.push(("order", "along the stroke".to_owned()));
+    }
+    let closed = if table.closed { "yes, the last row is the first point again" } else { "no" };
+    let corners = match (rows.corners, wish.between) {
+        (0, _) => "none".to_owned(),
+        (count, Between::Linear) => format!("{count}, each at a row of its own"),
+        (count, Between::Cubic) => {
+            format!("{count}, each a row that stands twice: one spline ends and the next begins")
+        }
+    };
+    head.extend([
+        ("points", points(table)),
+        ("interpolation", interpolation(table)),
+        ("closed", closed.to_owned()),
+        ("corners", corners),
+        ("tolerance_mm", plain(wish.tolerance, DECIMALS)),
+        ("error_mm", plain(rows.error, DECIMALS)),
+        ("error", "bound of the distance between the interpolated curve and the exact one, either way".to_owned()),
+        ("rows", rows.rows.len().to_string()),
+    ]);
+    head
+}
+
+fn given(table: &PointTable) -> String {
+    let radius = table
+        .radius
+        .map_or_else(String::new, |radius| format!(" of radius {} mm", plain(MILLIMETRES * radius, DECIMALS)));
+    match (table.given, table.closed) {
+        (Given::Profile, true) => "profile of the cam".to_owned(),
+        (Given::Profile, false) => "upper flank of the plate; the lower is its mirror image, y negated".to_owned(),
+        (Given::Centre, true) => format!("path of the centre of the roller{radius}"),
+        (Given::Centre, false) => {
+            format!("path of the centre of the upper roller{radius}; the lower is its mirror image, y negated")
+        }
+        (Given::Cutter, _) => format!("path of the centre of a cutter or wheel{radius}"),
+    }
+}
+
+fn coordinates(table: &PointTable) -> &'static str {
+    match (table.wish.form, table.closed) {
+        (Form::Polar, _) => {
+            "polar; cam_deg is the angle of the point about the shaft from the X axis of the drawing, against the rotation of the \
+             cam, radius_mm its distance from the shaft"
+        }
+        (Form::Plane, true) => "x and y of the drawing, the shaft at the origin",
+        (Form::Plane, false) => "x and y of the drawing, X the axis of the bed",
+    }
+}
+
+fn points(table: &PointTable) -> String {
+    let intervals = table.rows.intervals;
+    match table.wish.step {
+        Step::Angle if table.rows.corners > 0 => format!("{intervals} intervals at equal angles, cut at the corners"),
+        Step::Angle => format!("{intervals} intervals at equal angles about the shaft"),
+        Step::Chord => format!("{intervals} intervals of equal error"),
+    }
+}
+
+fn interpolation(table: &PointTable) -> String {
+    let ends = match (table.closed, table.rows.corners) {
+        (true, 0) => "periodic, continuous in its second derivative",
+        (true, _) => "not-a-knot at both ends and at the corners",
+        (false, _) => "not-a-knot at its ends and at corners",
+    };
+    match (table.wish.between, table.wish.form) {
+        (Between::Linear, Form::Polar) => format!("{LINEAR}, radius linear in the angle between two rows"),
+        (Between::Linear, Form::Plane) => format!("{LINEAR}, a straight line between two rows"),
+        (Between::Cubic, Form::Polar) => format!("{CUBIC}, the cubic spline of the radius over the angle, {ends}"),
+        (Between::Cubic, Form::Plane) => {
+            format!(
+                "{CUBIC}, the cubic splines of x and of y over the sum of the chord lengths from row to row, {ends}"
+            )
+        }
+    }
+}
+
+/// A table as a control finds it in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Read {
+    /// Its coordinates, by the names of its columns.
+    pub form: Form,
+    /// Its interpolation, by its head.
+    pub between: Between,
+    /// Whether it closes, by its head.
+    pub closed: bool,
+    /// Its rows.
+    pub rows: Vec<[f64; 2]>,
+}
+
+/// The table of a file.
+///
+/// # Errors
+/// A sentence when the file is no table of points.
+pub fn read(bytes: &[u8]) -> Result<Read, String> {
+    let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
+    let (mut between, mut closed, mut form, mut rows) = (None, false, None, Vec::new());
+    for line in text.lines() {
+        if let Some(words) = line.strip_prefix(INTERPOLATION) {
+            between = match words.split(',').next() {
+                Some(LINEAR) => Some(Between::Linear),
+                Some(CUBIC) => Some(Between::Cubic),
+                _ => None,
+            };
+        }
+        closed |= line.starts_with(CLOSED);
+        match line {
+            _ if line.starts_with('#') => {}
+            POLAR => form = Some(Form::Polar),
+            PLANE => form = Some(Form::Plane),
+            row => {
+                let numbers = row.split_once(',').map(|(first, second)| (first.parse(), second.parse()));
+                let Some((Ok(first), Ok(second))) = numbers else { return Err(format!("`{row}` is no row")) };
+                rows.push([first, second]);
+            }
+        }
+    }
+    match (form, between) {
+        (Some(form), Some(between)) => Ok(Read { form, between, closed, rows }),
+        (None, _) => Err("there is no line of columns".into()),
+        (_, None) => Err("the interpolation is not told".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_table_is_told() {
+        let good = "# interpolation: cubic, whatever\n# closed: yes, so\nx_mm,y_mm\n1.0,-2.5\n";
+        let table = Read { form: Form::Plane, between: Between::Cubic, closed: true, rows: vec![[1.0, -2.5]] };
+        assert_eq!(read(good.as_bytes()), Ok(table));
+        assert!(read(good.replace("cubic", "quintic").as_bytes()).is_err_and(|why| why.contains("interpolation")));
+        assert!(read(good.replace("x_mm", "u_mm").as_bytes()).is_err_and(|why| why.contains("no row")));
+        assert!(read(good.replace("-2.5", "").as_bytes()).is_err_and(|why| why.contains("1.0,")));
+        assert!(read(b"# interpolation: linear, x\n").is_err_and(|why| why.contains("columns")));
+        assert!(read(&[0xff, 0xfe]).is_err());
+    }
+}

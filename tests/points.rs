@@ -1,0 +1,264 @@
+//! The tables of points as they are in their files: interpolated as their heads say, against closed forms and the exact curves.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+#[path = "common/program.rs"]
+mod program;
+
+use camgen::body::points::{Given, Points};
+use camgen::geometry::points::{Between, Form, Interpolant, Step};
+use camgen::motion::EccentricCircle;
+use camgen::write::points::read;
+use camgen::{Machine, Proven, Request, Spec, Verdict, Writing};
+use nalgebra::Vector2;
+use program::{camgen, camgen_in, files};
+use std::f64::consts::TAU;
+
+const LIFTER: &str = include_str!("common/lifter.toml");
+
+fn all() -> Vec<Points> {
+    let mut all = Vec::new();
+    for given in [Given::Profile, Given::Centre, Given::Cutter] {
+        for form in [Form::Polar, Form::Plane] {
+            for step in [Step::Angle, Step::Chord] {
+                for between in [Between::Linear, Between::Cubic] {
+                    all.push(Points { given, form: Some(form), step: Some(step), between });
+                }
+            }
+        }
+    }
+    all
+}
+
+fn request(points: Points, cutter: Option<f64>, tolerance: f64) -> Request {
+    Request { points: Some(points), cutter, ..Request::within(tolerance) }
+}
+
+/// The bytes of a table.
+fn table(proven: &Proven<'_>) -> String {
+    let found = proven.findings().iter().find(|finding| finding.check == "points").expect("checked");
+    assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
+    let writing = Writing { force: true, ..Writing::to("nowhere", "cam").formats(&["points"]) };
+    let set = proven.files(&writing).expect("files");
+    String::from_utf8(set.bytes("-points.csv").expect("a table").to_vec()).expect("text")
+}
+
+/// Points of what a control makes of a file, with those it was not asked for left out: many in every interval.
+fn interpolated(text: &str) -> Vec<Vector2<f64>> {
+    let table = read(text.as_bytes()).expect("a table");
+    let curve = Interpolant::new(&table.rows, table.form, table.between, table.closed);
+    let of = |interval: usize| {
+        let (from, to) = curve.range(interval).expect("an interval");
+        let at = |i: u32| curve.at(interval, from + (to - from) * f64::from(i) / 16.0).expect("a point").point;
+        (0..16).filter(move |_| from < to).map(at).collect::<Vec<_>>()
+    };
+    (0..curve.count()).flat_map(of).collect()
+}
+
+fn told(text: &str, key: &str) -> String {
+    let line = text.lines().find_map(|line| line.strip_prefix(&format!("# {key}: ")));
+    line.unwrap_or_else(|| panic!("no {key}\n{text}")).to_owned()
+}
+
+/// Under a roller the eccentric circle is a circle about (e, 0), so are its profile and the path of any cutter.
+#[test]
+fn every_table_of_an_eccentric_circle_lies_on_its_circle() {
+    let (e, rho, roller, cutter) = (0.012, 0.06, 0.015, 0.008);
+    for clockwise in [true, false] {
+        let builder = Spec::builder("eccentric").roller(roller).base_radius(rho - e - roller);
+        let builder = if clockwise { builder } else { builder.counter_clockwise() };
+        let cam = builder.motion(EccentricCircle::new(e, rho)).expect("in range").solve().expect("a cam");
+        for points in all() {
+            for tolerance in [50e-6, 2e-6] {
+                let proven =
+                    cam.draw(request(points, Some(cutter), tolerance)).expect("drawn").prove().expect("proved");
+                let text = table(&proven);
+                let radius = match points.given {
+                    Given::Profile => rho - roller,
+                    Given::Centre => rho,
+                    Given::Cutter => rho - roller + cutter,
+                };
+                let off = |point: &Vector2<f64>| ((point - Vector2::new(1e3 * e, 0.0)).norm() - 1e3 * radius).abs();
+                let worst = interpolated(&text).iter().map(off).fold(0.0, f64::max);
+                let error: f64 = told(&text, "error_mm").parse().expect("a number");
+                assert!(worst <= error + 1e-9 && error <= 1e3 * tolerance, "{points:?}: {worst} {error}");
+                assert!(worst >= 0.95 * error, "{points:?}: {worst} far below {error}");
+            }
+        }
+    }
+}
+
+/// Every row stands on the exact curve, and angles are even to the last digit.
+#[test]
+fn rows_stand_on_the_exact_curve() {
+    for clockwise in [true, false] {
+        let rotation = if clockwise { "cam.rotation=cw" } else { "cam.rotation=ccw" };
+        let overrides = [rotation.to_owned(), "follower.roller.offset=12mm".to_owned()];
+        let cam = Spec::rotary(Machine::load("dpi", &overrides).expect("valid").0, 35.0).solve().expect("a cam");
+        let curves = cam.body().plane().expect("plane");
+        for points in all() {
+            let text = table(&cam.draw(request(points, Some(0.01), 5e-6)).expect("drawn").prove().expect("proved"));
+            let rows = read(text.as_bytes()).expect("a table").rows;
+            assert_eq!(rows.first().map(|row| row[1]), rows.last().map(|row| row[1]), "closed");
+            let inwards = match points.given {
+                Given::Profile => curves.offset(),
+                Given::Centre => 0.0,
+                Given::Cutter => curves.offset() - 0.01,
+            };
+            // A cloud of exact points, as dense as a micrometre squared over the radius needs.
+            let cloud: Vec<Vector2<f64>> = (0..200_000)
+                .map(|i| {
+                    let (piece, at) = curves.motion.locate(TAU * f64::from(i) / 2e5);
+                    curves.touch(piece, at).curve.offset_inward(inwards).point * 1e3
+                })
+                .collect();
+            let mut by_angle: Vec<(f64, Vector2<f64>)> =
+                cloud.iter().map(|point| (libm::atan2(point.y, point.x).rem_euclid(TAU), *point)).collect();
+            by_angle.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for (index, row) in rows.iter().enumerate() {
+                let point = match points.form {
+                    Some(Form::Polar) => {
+                        let angle = row[0].to_radians();
+                        Vector2::new(row[1] * libm::cos(angle), row[1] * libm::sin(angle))
+                    }
+                    _ => Vector2::new(row[0], if clockwise { row[1] } else { -row[1] }),
+                };
+                let angle = libm::atan2(point.y, point.x).rem_euclid(TAU);
+                let near = by_angle.partition_point(|(other, _)| *other < angle);
+                let count = by_angle.len();
+                let (a, b) = (by_angle[(near + count - 1) % count].1, by_angle[near % count].1);
+                let off = (b - a).perp(&(point - a)).abs() / (b - a).norm();
+                assert!(off < 1e-7, "{points:?} row {index}: {off}");
+                if (points.form, points.step) == (Some(Form::Polar), Some(Step::Angle)) {
+                    let number = |count: usize| f64::from(u32::try_from(count).expect("few"));
+                    let even = 360.0 * number(index) / number(rows.len() - 1);
+                    assert!((row[0] - even).abs() <= 1e-12, "row {index}");
+                }
+            }
+        }
+    }
+}
+
+/// Where the cam has corners the table has them too, and the dwell is a dwell.
+#[test]
+fn corners_and_dwells_are_kept() {
+    let overrides = ["buffer.column=return".to_owned(), "transition.kind=none".to_owned()];
+    let cam = Spec::rotary(Machine::load("dpi", &overrides).expect("valid").0, 35.0).solve().expect("a cam");
+    for points in all().into_iter().filter(|points| points.form == Some(Form::Polar)) {
+        let text = table(&cam.draw(request(points, Some(0.008), 5e-6)).expect("drawn").prove().expect("proved"));
+        let rows = read(text.as_bytes()).expect("a table").rows;
+        let resting: Vec<f64> = rows.iter().filter(|row| row[0] > 181.0 && row[0] < 359.0).map(|row| row[1]).collect();
+        assert!(!resting.is_empty() && resting.iter().all(|radius| *radius == resting[0]), "{points:?} {resting:?}");
+        let doubles = rows.iter().zip(rows.iter().skip(1)).filter(|(row, next)| row == next).count();
+        // Profile and path of the cutter turn on an arc about the corner.
+        let expected = if points.given == Given::Centre && points.between == Between::Cubic { 2 } else { 0 };
+        let corners = told(&text, "corners");
+        assert_eq!(corners == "none", points.given != Given::Centre, "{points:?} {corners}");
+        // The corner at 0° is the start of the table.
+        assert!(doubles == expected || doubles + 1 == expected, "{points:?}: {doubles}\n{text}");
+    }
+}
+
+/// An undercut cam that is forced has the envelope that exists, with its edge.
+#[test]
+fn an_undercut_profile_is_its_envelope() {
+    let overrides = ["cam.base_radius=40mm".to_owned(), "follower.roller.radius=60mm".to_owned()];
+    let cam = Spec::rotary(Machine::load("dpi", &overrides).expect("valid").0, 35.0).solve().expect("a cam");
+    let boundary = cam.body().boundary(0.0).expect("an envelope").expect("a profile");
+    let edges = (0..boundary.stretches().len()).filter(|index| boundary.starts_at_corner(*index)).count();
+    for points in all().into_iter().filter(|points| points.given == Given::Profile) {
+        let proven = cam.draw(request(points, None, 5e-6)).expect("drawn").prove().expect("proved");
+        assert!(!proven.passed());
+        let text = table(&proven);
+        assert!(edges == 0 || told(&text, "corners").starts_with(&edges.to_string()), "{text}");
+    }
+}
+
+#[test]
+fn every_kind_of_cam_has_its_files() {
+    let run = camgen(&["rotary", "--format", "points"]);
+    assert_eq!(
+        (run.code, files(run.directory.path())),
+        (0, vec!["dpi-rotary-35rpm-points.csv".to_owned()]),
+        "{}",
+        run.err
+    );
+    let again = camgen(&["rotary", "--format", "points"]);
+    let bytes = |run: &program::Run| std::fs::read(run.directory.path().join("output/dpi-rotary-35rpm-points.csv"));
+    assert_eq!(bytes(&run).expect("a file"), bytes(&again).expect("a file"));
+    let run = camgen(&["conoid", "--rpm", "20,35", "--format", "points", "--points-as", "xy"]);
+    let names = ["dpi-conoid-20-35rpm-20rpm-points.csv", "dpi-conoid-20-35rpm-35rpm-points.csv"];
+    assert_eq!((run.code, files(run.directory.path())), (0, names.map(str::to_owned).to_vec()), "{}", run.err);
+    for between in ["linear", "cubic"] {
+        for of in ["profile", "centre"] {
+            let run = camgen(&["translating", "--format", "points", "--points-of", of, "--points-between", between]);
+            assert_eq!(run.code, 0, "{}", run.err);
+            let path = run.directory.path().join("output/dpi-translating-35rpm-points.csv");
+            let text = std::fs::read_to_string(path).expect("a file");
+            assert!(told(&text, "closed").starts_with("no") && told(&text, "given").contains("upper"), "{text}");
+            assert!(read(text.as_bytes()).expect("a table").rows.iter().all(|row| row[1] > 0.0), "{text}");
+        }
+    }
+    let directory = tempfile::tempdir().expect("a directory");
+    std::fs::write(directory.path().join("lifter.toml"), LIFTER).expect("written");
+    let words = ["make", "lifter.toml", "--format", "points", "--points-of", "cutter", "--cutter", "4mm"];
+    let run = camgen_in(directory, &words);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let path = run.directory.path().join("output/lifter-make-120rpm-points.csv");
+    let text = std::fs::read_to_string(path).expect("a file");
+    assert_eq!(told(&text, "given"), "path of the centre of a cutter or wheel of radius 4.0 mm");
+    assert_eq!(told(&text, "machine"), "lifter");
+    assert_eq!(program::report(&camgen(&["rotary", "--format", "points", "--json"]))["checks"][0]["verdict"], "pass");
+}
+
+/// What makes no sense is refused with its reason, and nothing is written.
+#[test]
+fn what_has_no_table_is_refused() {
+    let with = |command: &str, words: &[&str]| {
+        let head: Vec<&str> = command.split(' ').collect();
+        let run = camgen(&[&head[..], &["--format", "points"], words].concat());
+        assert!(files(run.directory.path()).is_empty(), "{words:?}");
+        (run.code, run.out + &run.err)
+    };
+    for (command, words, why) in [
+        ("translating", &["--points-as", "polar"][..], "no angle"),
+        ("translating", &["--points-step", "angle"], "no angle"),
+        ("translating", &["--points-of", "cutter"], "--cutter"),
+        ("conoid --rpm 20,35", &["--points-of", "cutter"], "beside the section"),
+        ("rotary", &["--points-of", "cutter"], "--cutter RADIUS"),
+        ("rotary", &["--side", "inside"], "--side"),
+        ("rotary", &["--points-as", "cartesian"], "possible values"),
+        ("rotary", &["--tolerance", "0.000001um"], "1000000 points"),
+    ] {
+        let (code, text) = with(command, words);
+        assert!(code == 2 && text.contains(why), "{command} {words:?}: {code} {text}");
+    }
+    let (code, text) = with("rotary --set cam.base_radius=69mm", &["--points-of", "cutter", "--cutter", "400mm"]);
+    assert!(code == 1 && text.contains("FAIL  points") && text.contains("FAIL  cutter_radius"), "{text}");
+    let run = camgen(&["rotary", "--points-as", "xy"]);
+    assert!(run.code == 2 && run.err.contains("--format points"), "{}", run.err);
+    // The library tells the same where the table was not drawn with the cam.
+    let cam = Spec::rotary(Machine::load("dpi", &[]).expect("valid").0, 35.0).solve().expect("a cam");
+    let proven = cam.draw(5e-6).expect("drawn").prove().expect("proved");
+    let none = proven.files(&Writing::to("nowhere", "cam").formats(&["points"])).expect_err("no table");
+    assert!(none.to_string().contains("points"), "{none}");
+}
+
+/// A flat face has no centre; its profile has a table like any other.
+#[test]
+fn a_flat_face_has_a_profile_only() {
+    let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
+    let text = format!("{head}[follower.flat]\n");
+    let machine = Machine::from_toml("lifter.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let (motion, rpm) = machine.motion().expect("a motion");
+    let cam = Spec::of_motion(machine, motion, rpm).solve().expect("a cam");
+    for points in all() {
+        let drawing = cam.draw(request(points, Some(0.005), 5e-6));
+        if points.given == Given::Centre {
+            assert!(drawing.expect_err("no centre").to_string().contains("flat face"));
+        } else {
+            let text = table(&drawing.expect("drawn").prove().expect("proved"));
+            assert!(told(&text, "tolerance_mm") == "0.005", "{text}");
+        }
+    }
+}
