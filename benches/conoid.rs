@@ -7,6 +7,7 @@ use camgen::body::conoid::{Conoid, Interpolation, flank};
 use camgen::body::{Body, Request};
 use camgen::geometry::solid::conical;
 use camgen::machine::Machine;
+use camgen::profile::outline::MotionTolerance;
 use camgen::table::Table;
 use camgen::verify::{self, Evidence};
 use camgen::write::{step, stl};
@@ -38,6 +39,8 @@ fn stages(criterion: &mut Criterion) {
             points: None,
             solid: None,
             tolerance_mm: 0.005,
+            motion: MotionTolerance::ANY,
+            strict: true,
         };
         criterion
             .bench_function(&name("checks, sphere on the flank"), |b| b.iter(|| verify::run(black_box(&evidence))));

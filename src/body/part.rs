@@ -152,8 +152,8 @@ impl Part {
         let breaks = outline.contour.tangent_breaks().into_iter().zip(&outline.contour.vertices);
         let smooth = breaks.filter(|(_, vertex)| !is_corner(vertex.point));
         let worst_break = smooth.map(|(turn, _)| turn.abs()).fold(0.0, f64::max);
-        #[expect(clippy::cast_precision_loss, reason = "a few thousand arcs")]
         let [best_for_velocity, best_for_acceleration] = outline.best_for;
+        #[expect(clippy::cast_precision_loss, reason = "a few thousand arcs")]
         let ratio = (outline.best_possible > 0.0).then(|| arcs as f64 / outline.best_possible);
         OutlineMeasures {
             arcs,

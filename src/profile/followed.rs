@@ -16,7 +16,7 @@ use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Segment};
 use crate::motion::{Jet, Motion, Piece};
-use crate::numeric::{chebyshev, extremum};
+use crate::numeric::{chebyshev, extremum, root};
 use nalgebra::Vector2;
 
 /// Stretches of the motion shorter than this, rad or m, are the rounding of a joint: the direction of an arc is known to 1e-9.
@@ -27,11 +27,13 @@ const LIFT_STEPS: u32 = 8;
 const TOUCHING: f64 = 2.0 * f64::EPSILON;
 /// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
 const CHANGE: f64 = 0.1;
-/// Parts into which a stretch is cut to find its largest error, and golden sections there.
+/// Parts into which a stretch is cut to find its largest error, and golden sections where one is largest within it.
 const CELLS: u32 = 4;
 const SECTIONS: u32 = 22;
-/// Only stretches whose ends come that near to the largest error are looked at closer.
-const NEAR: f64 = 0.5;
+/// How exactly the place of the largest velocity error is found, in such parts: its value is right to the square.
+const ROOT: f64 = 1e-5;
+/// Only places that come that near to the largest error are looked at closer.
+const NEAR: f64 = 0.7;
 
 /// What the follower's curve follows while the contact runs along a segment.
 #[derive(Debug, Clone, Copy)]
@@ -208,55 +210,65 @@ impl<'a> Followed<'a> {
         points
     }
 
+    /// Error of the velocity, error of the acceleration and the acceleration as cut at a place of a stretch, by the angle of the
+    /// shaft.
+    fn off(&self, stretch: &Stretch, parameter: f64) -> Option<[f64; 3]> {
+        let (first, second) = self.curves.motion.pace(parameter + stretch.shift);
+        let (cut, law) = self.cut(stretch, parameter)?;
+        let velocity = (cut.ds - law.ds) * first;
+        let acceleration = (cut.dds - law.dds) * first * first + (cut.ds - law.ds) * second;
+        Some([velocity, acceleration, cut.dds * first * first + cut.ds * second])
+    }
+
     /// The largest errors, by the angle of the shaft that gives the time.
+    ///
+    /// Along a segment the error of the velocity is largest where that of the acceleration, its derivative, is 0, or at an end.
     #[must_use]
     pub fn errors(&self) -> Errors {
-        let pace = |parameter: f64| self.curves.motion.pace(parameter);
-        // Velocity and acceleration errors, and the acceleration itself, at a place of a stretch.
-        let at = |stretch: &Stretch, parameter: f64| {
-            let inside = parameter + stretch.shift;
-            let (first, second) = pace(inside);
-            self.cut(stretch, parameter).map(|(cut, law)| {
-                let velocity = (cut.ds - law.ds) * first;
-                let acceleration = (cut.dds - law.dds) * first * first + (cut.ds - law.ds) * second;
-                [velocity.abs(), acceleration.abs(), cut.dds * first * first + cut.ds * second]
-            })
+        let places = |stretch: &Stretch| {
+            let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(CELLS);
+            let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
+            (0..=CELLS).map(found).collect::<Option<Vec<(f64, [f64; 3])>>>().unwrap_or_default()
         };
-        let ends: Vec<_> = self
-            .stretches
-            .iter()
-            .map(|stretch| (stretch, [stretch.from, stretch.to].map(|place| at(stretch, place))))
-            .collect();
-        let place =
-            |stretch: &Stretch, parameter: f64, value: f64| Worst { value, at: parameter + stretch.shift, z: 0.0 };
+        let all: Vec<(&Stretch, Vec<(f64, [f64; 3])>)> =
+            self.stretches.iter().map(|stretch| (stretch, places(stretch))).collect();
+        let place = |stretch: &Stretch, parameter: f64, value: f64| Worst {
+            value: value.abs(),
+            at: parameter + stretch.shift,
+            z: 0.0,
+        };
         let mut errors = Errors::NONE;
-        for (stretch, both) in &ends {
-            for (parameter, found) in [stretch.from, stretch.to].into_iter().zip(both) {
-                if let Some([velocity, acceleration, _]) = found {
-                    errors.velocity = errors.velocity.or_larger(place(stretch, parameter, *velocity));
-                    errors.acceleration = errors.acceleration.or_larger(place(stretch, parameter, *acceleration));
+        for (stretch, places) in &all {
+            for (at, [velocity, acceleration, _]) in places {
+                errors.velocity = errors.velocity.or_larger(place(stretch, *at, *velocity));
+                errors.acceleration = errors.acceleration.or_larger(place(stretch, *at, *acceleration));
+            }
+        }
+        let next = all.iter().cycle().skip(1).take(all.len().saturating_sub(usize::from(!self.closed)));
+        for ((before, left), (_, right)) in all.iter().zip(next) {
+            if let (Some((at, [.., left])), Some((_, [.., right]))) = (left.last(), right.first()) {
+                errors.step = errors.step.or_larger(place(before, *at, right - left));
+            }
+        }
+        for (stretch, places) in &all {
+            let of = |parameter: f64, index: usize| {
+                self.off(stretch, parameter).and_then(|off| off.get(index).copied()).unwrap_or(0.0)
+            };
+            for pair in places.windows(2) {
+                let [(low, [_, left, _]), (high, [_, right, _])] = pair else { continue };
+                if left * right < 0.0
+                    && let Ok(at) = root::bracketed(|at| of(at, 1), *low, *high, ROOT * (high - low))
+                {
+                    errors.velocity = errors.velocity.or_larger(place(stretch, at, of(at, 0)));
                 }
             }
-        }
-        let pairs =
-            ends.iter().zip(ends.iter().cycle().skip(1)).take(ends.len().saturating_sub(usize::from(!self.closed)));
-        for ((before, [_, left]), (_, [right, _])) in pairs {
-            if let (Some([.., left]), Some([.., right])) = (left, right) {
-                errors.step = errors.step.or_larger(place(before, before.to, (right - left).abs()));
-            }
-        }
-        for (stretch, _) in &ends {
-            let middle = at(stretch, 0.5 * (stretch.from + stretch.to));
-            let quantity =
-                |index: usize| move |found: Option<[f64; 3]>| found.and_then(|found| found.get(index).copied());
-            for (index, worst) in [&mut errors.velocity, &mut errors.acceleration].into_iter().enumerate() {
-                let value = |parameter: f64| quantity(index)(at(stretch, parameter)).unwrap_or(0.0);
-                // The error of the velocity is largest within an arc, that of the acceleration mostly at its ends.
-                if quantity(index)(middle).is_some_and(|middle| middle > NEAR * worst.value)
-                    || (index == 1 && value(stretch.from).max(value(stretch.to)) > 2.0 * NEAR * worst.value)
-                {
-                    let found = extremum::largest_without_slope(value, (stretch.from, stretch.to), CELLS, SECTIONS);
-                    *worst = worst.or_larger(place(stretch, found.at, found.value));
+            for three in places.windows(3) {
+                let [(low, [_, left, _]), (_, [_, middle, _]), (high, [_, right, _])] = three else { continue };
+                let top = middle.abs();
+                if top >= left.abs() && top >= right.abs() && top > NEAR * errors.acceleration.value {
+                    let size = |at: f64| of(at, 1).abs();
+                    let found = extremum::largest_without_slope(size, (*low, *high), 2, SECTIONS);
+                    errors.acceleration = errors.acceleration.or_larger(place(stretch, found.at, found.value));
                 }
             }
         }

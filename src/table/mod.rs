@@ -237,9 +237,11 @@ mod tests {
             force: Some(ForceRow { contact: Some(1.0), ..ForceRow::default() }),
             plate: None,
             surface: Some(SurfaceRow::default()),
+            cut: Some([1.0; 2]),
+            swings: false,
         };
         let plate = Row { force: None, plate: Some(PlateRow::default()), ..turning };
-        let swinging = Row { lift: None, swing: Some(Jet::default()), ..turning };
+        let swinging = Row { lift: None, swing: Some(Jet::default()), swings: true, ..turning };
         let mut all: Vec<&str> = Vec::new();
         for row in [turning, plate, swinging] {
             let columns = Table::of(&[row]).columns;

@@ -35,6 +35,13 @@ const BROKEN: CurvePoint = CurvePoint {
     curvature_slope: f64::NAN,
 };
 
+/// A cut beside the exact one with what its heading and curvature may miss, as those of a plane outline: the sphere's path
+/// makes the same angle with the normal of the cut.
+fn cut_within(frame: CurvePoint, angle: f64, motion: MotionTolerance) -> (CurvePoint, Allowed) {
+    let path = Vector2::new(libm::cos(angle), libm::sin(angle));
+    (frame, outline::allowed(&frame, frame.outward().dot(&path), 1.0, motion))
+}
+
 impl Conoid {
     /// Whether the cut at z (m) is a circle over a piece: a dwell that does not lean along the axis.
     fn is_round(&self, index: usize, piece: &Piece, z: f64) -> bool {
@@ -65,7 +72,7 @@ impl Conoid {
                     match fit.motion {
                         MotionTolerance::ANY => outline.lay(|angle| frame(index, angle), range, tolerance)?,
                         motion => {
-                            let within = |angle| self.cut_within(frame(index, angle), angle, motion);
+                            let within = |angle| cut_within(frame(index, angle), angle, motion);
                             outline.lay_allowed(within, range, tolerance)?;
                         }
                     }
@@ -73,13 +80,6 @@ impl Conoid {
             }
         }
         Ok(outline.counted_from_exact(shift))
-    }
-
-    /// A cut beside the exact one with what its heading and curvature may miss, as those of a plane outline: the sphere's path
-    /// makes the same angle with the normal of the cut.
-    fn cut_within(&self, frame: CurvePoint, angle: f64, motion: MotionTolerance) -> (CurvePoint, Allowed) {
-        let path = Vector2::new(libm::cos(angle), libm::sin(angle));
-        (frame, outline::allowed(&frame, frame.outward().dot(&path), 1.0, motion))
     }
 
     /// Why a section cannot be laid where the surface is nearly across the axis: there its cuts jump from one side of the

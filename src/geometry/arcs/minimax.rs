@@ -136,9 +136,9 @@ impl Program {
             // Between the joints the curvature is farthest off where that of the curve turns back.
             let other = index.checked_sub(1).and_then(|before| nodes.get(before)).or(nodes.get(index + 1));
             let turns = other.is_some_and(|other| other.best_heading.signum() != node.best_heading.signum());
-            let heading = node.allowed.heading.is_finite().then(|| Kept::Heading(node.tangent, node.allowed.heading));
+            let heading = node.allowed.heading.is_finite().then_some(Kept::Heading(node.tangent, node.allowed.heading));
             let curvature = (turns && node.allowed.curvature.is_finite())
-                .then(|| Kept::Curvature(node.curvature, node.allowed.curvature));
+                .then_some(Kept::Curvature(node.curvature, node.allowed.curvature));
             let all = [Some(Kept::Distance), heading, curvature];
             all.into_iter().flatten().map(move |kept| (node.point, node.parameter, kept))
         };
