@@ -82,6 +82,9 @@ impl Errors {
     }
 }
 
+/// A place, and what is off there: error of the velocity, error of the acceleration and the acceleration itself.
+type Off = (f64, [f64; 3]);
+
 /// A follower on a chain.
 #[derive(Debug)]
 pub struct Followed<'a> {
@@ -228,10 +231,9 @@ impl<'a> Followed<'a> {
         let places = |stretch: &Stretch| {
             let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(CELLS);
             let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
-            (0..=CELLS).map(found).collect::<Option<Vec<(f64, [f64; 3])>>>().unwrap_or_default()
+            (0..=CELLS).map(found).collect::<Option<Vec<Off>>>().unwrap_or_default()
         };
-        let all: Vec<(&Stretch, Vec<(f64, [f64; 3])>)> =
-            self.stretches.iter().map(|stretch| (stretch, places(stretch))).collect();
+        let all: Vec<(&Stretch, Vec<Off>)> = self.stretches.iter().map(|stretch| (stretch, places(stretch))).collect();
         let place = |stretch: &Stretch, parameter: f64, value: f64| Worst {
             value: value.abs(),
             at: parameter + stretch.shift,
