@@ -9,6 +9,7 @@ pub mod arcs;
 pub mod boundary;
 pub mod contour;
 mod course;
+pub mod cubics;
 mod curve_point;
 mod entity;
 pub mod following;
