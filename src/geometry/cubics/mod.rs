@@ -25,10 +25,12 @@
 
 mod measure;
 mod nodes;
+mod runs;
 mod spline;
 mod squares;
 
 pub use super::arcs::FitError;
+pub use runs::{Run, runs};
 pub use spline::Spline;
 
 use super::{Allowed, CurvePoint};

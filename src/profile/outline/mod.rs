@@ -145,9 +145,7 @@ impl Outline {
         tolerance: f64,
     ) -> Result<(), OutlineError> {
         let chain = arcs::fit(curve, range, MILLIMETRES * tolerance)?;
-        self.contour
-            .vertices
-            .extend(chain.joints.iter().map(|joint| Vertex { point: joint.point, bulge: joint.bulge }));
+        self.contour.vertices.extend(chain.joints.iter().map(|joint| Vertex::new(joint.point, joint.bulge)));
         self.deviation = self.deviation.max(chain.deviation);
         self.best_possible += chain.best_possible;
         Ok(())
@@ -305,7 +303,7 @@ fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> 
             if piece.dwell {
                 // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
-                outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
+                outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
                 outline.lay(|angle| frame(index, angle), range, tolerance)?;
             }
@@ -313,7 +311,7 @@ fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> 
             let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
             if let Some(gap) = gaps.iter().find(|gap| long(gap) && starts_at(gap, range.1, period)) {
                 let bulge = libm::tan(0.25 * gap.arc);
-                outline.contour.vertices.push(Vertex { point: frame(index, range.1).point, bulge });
+                outline.contour.vertices.push(Vertex::new(frame(index, range.1).point, bulge));
             }
         }
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
@@ -323,7 +321,7 @@ fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> 
             && whole
         {
             let bulge = libm::tan(0.25 * corner.turn);
-            outline.contour.vertices.push(Vertex { point: frame(index, piece.end).point, bulge });
+            outline.contour.vertices.push(Vertex::new(frame(index, piece.end).point, bulge));
         }
     }
     Ok(outline)
