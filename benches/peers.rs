@@ -29,13 +29,13 @@ fn dpi() -> Disc {
 fn pitch_arcs(cam: &Disc, tolerance: f64) -> Polyline<f64> {
     let mut line = Polyline::new_closed();
     for vertex in pitch_within(cam.curves(), tolerance).expect("arcs").contour.vertices {
-        line.add_vertex(PlineVertex::new(vertex.point.x, vertex.point.y, vertex.bulge));
+        line.add_vertex(PlineVertex::new(vertex.point.x, vertex.point.y, vertex.bulge().expect("an arc")));
     }
     line
 }
 
 fn as_contour(line: &Polyline<f64>) -> Contour {
-    let vertex = |v: PlineVertex<f64>| Vertex { point: Vector2::new(v.x, v.y), bulge: v.bulge };
+    let vertex = |v: PlineVertex<f64>| Vertex::new(Vector2::new(v.x, v.y), v.bulge);
     Contour { vertices: line.iter_vertexes().map(vertex).collect() }
 }
 
@@ -82,7 +82,7 @@ fn flattened(paths: &[BezPath]) -> Contour {
     for segment in paths.iter().flat_map(BezPath::segments) {
         for i in 0..100 {
             let p = segment.eval(f64::from(i) / 100.0);
-            vertices.push(Vertex { point: Vector2::new(p.x, p.y), bulge: 0.0 });
+            vertices.push(Vertex::new(Vector2::new(p.x, p.y), 0.0));
         }
     }
     Contour { vertices }

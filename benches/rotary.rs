@@ -70,7 +70,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("output/svg", |b| b.iter(|| svg::write(black_box(&sheet), svg::TEMPLATE)));
     criterion.bench_function("drawing/table", |b| b.iter(|| Table::of(&black_box(&cam).rows(720))));
     let points = cam.rows(10_000);
-    let chords = points.iter().map(|row| Vertex { point: row.profile.expect("a profile"), bulge: 0.0 }).collect();
+    let chords = points.iter().map(|row| Vertex::new(row.profile.expect("a profile"), 0.0)).collect();
     let chords = [(Layer::CamProfile, Entity::Polyline(Contour { vertices: chords }))];
     let chords = dxf::write(&chords, Version::R2000);
     criterion.bench_function("check/10 000 segments", |b| b.iter(|| solved.check(black_box(&chords), 5e-6)));

@@ -75,11 +75,15 @@ fn vertices(dxf: &str) -> Vec<Vertex> {
         ::dxf::entities::EntityType::LwPolyline(line) => Some(line.vertices.clone()),
         _ => None,
     });
-    let vertex = |v: &::dxf::LwPolylineVertex| Vertex { point: Vector2::new(v.x, v.y), bulge: v.bulge };
+    let vertex = |v: &::dxf::LwPolylineVertex| Vertex::new(Vector2::new(v.x, v.y), v.bulge);
     found.expect("a polyline").iter().map(vertex).collect()
 }
 
 /// The bore of the default cam.
+fn bulge(vertex: &Vertex) -> f64 {
+    vertex.bulge().expect("an arc or a line")
+}
+
 fn bore() -> (Layer, Entity) {
     (Layer::Bore, Entity::Circle(Vector2::zeros(), 25.0))
 }
@@ -110,7 +114,7 @@ fn the_file_as_written_passes_and_so_do_harmless_edits() {
     // The other way round: segment i runs from vertex i + 1 to vertex i.
     let n = original.len();
     let clockwise: Vec<Vertex> =
-        (0..n).rev().map(|i| Vertex { point: original[(i + 1) % n].point, bulge: -original[i].bulge }).collect();
+        (0..n).rev().map(|i| Vertex::new(original[(i + 1) % n].point, -bulge(&original[i]))).collect();
     for edited in [turned, clockwise] {
         let (code, report) = bench.check(&file(edited), &[]);
         assert_eq!((code, failed(&report)), (0, vec![]), "{report}");
@@ -123,7 +127,7 @@ fn the_file_as_written_passes_and_so_do_harmless_edits() {
     let mut drawing = ::dxf::Drawing::new();
     drawing.header.version = ::dxf::enums::AcadVersion::R2000;
     drawing.header.default_drawing_units = ::dxf::enums::Units::Millimeters;
-    for segment in (Contour { vertices: original }).segments() {
+    for segment in (Contour { vertices: original }).segments().expect("arcs") {
         let (centre, radius) = (segment.centre(), segment.radius().abs());
         let (from, to) = if segment.bulge > 0.0 { (segment.start, segment.end) } else { (segment.end, segment.start) };
         let centre_3d = ::dxf::Point::new(centre.x, centre.y, 0.0);
@@ -165,14 +169,14 @@ fn a_flipped_bulge() {
     let original = vertices(&dxf);
     let contour = Contour { vertices: original.clone() };
     let mut tried = 0;
-    for (index, segment) in contour.segments().enumerate() {
+    for (index, segment) in contour.segments().expect("arcs").into_iter().enumerate() {
         let sagitta = 0.5 * (segment.end - segment.start).norm() * segment.bulge.abs();
         if sagitta <= 0.05 {
             continue;
         }
         tried += 1;
         let mut edited = original.clone();
-        edited[index].bulge = -edited[index].bulge;
+        edited[index] = Vertex::new(edited[index].point, -bulge(&edited[index]));
         let (code, report) = bench.check(&file(edited), &[]);
         assert_eq!(
             (code, failed(&report)),
@@ -209,7 +213,7 @@ fn an_outline_offset_radially() {
     let (_, rows) = bench.cam(&["--samples", "7200"]);
     let radially = |row: &Vec<f64>| {
         let centre = Vector2::new(row[8], row[9]);
-        Vertex { point: centre * (1.0 - 30.0 / centre.norm()), bulge: 0.0 }
+        Vertex::new(centre * (1.0 - 30.0 / centre.norm()), 0.0)
     };
     let (code, report) = bench.check(&file(rows.iter().map(radially).collect()), &[]);
     assert_eq!(code, 1);
@@ -217,7 +221,7 @@ fn an_outline_offset_radially() {
     let at = angle(&report, "rolling");
     assert!((30.0..70.0).contains(&at) || (110.0..150.0).contains(&at), "where the pressure angle is large: {at}");
     // The same number of chords through the true profile gives the law, but has kinks.
-    let truly = |row: &Vec<f64>| Vertex { point: Vector2::new(row[10], row[11]), bulge: 0.0 };
+    let truly = |row: &Vec<f64>| Vertex::new(Vector2::new(row[10], row[11]), 0.0);
     let (code, report) = bench.check(&file(rows.iter().map(truly).collect()), &[]);
     assert_eq!((code, failed(&report)), (1, vec!["tangency".to_owned()]), "{report}");
 }
@@ -228,7 +232,7 @@ fn mirrored_rotated_and_scaled() {
     let (dxf, _) = bench.cam(&[]);
     let original = vertices(&dxf);
     let mapped = |f: &dyn Fn(Vector2<f64>) -> Vector2<f64>| -> Vec<Vertex> {
-        original.iter().map(|v| Vertex { point: f(v.point), bulge: v.bulge }).collect()
+        original.iter().map(|v| Vertex { point: f(v.point), ..*v }).collect()
     };
     let (sin, cos) = 0.05_f64.to_radians().sin_cos();
     for (what, edited) in [
@@ -248,7 +252,7 @@ fn mirrored_rotated_and_scaled() {
         .rev()
         .map(|i| {
             let start = original[(i + 1) % n].point;
-            Vertex { point: Vector2::new(-start.x, start.y), bulge: original[i].bulge }
+            Vertex { point: Vector2::new(-start.x, start.y), ..original[i] }
         })
         .collect();
     assert_eq!(bench.check(&file(about_y), &[]).0, 0);
@@ -268,7 +272,7 @@ fn opened_doubled_and_misplaced() {
 
     // One arc of the outline a second time, as a polyline of its own.
     let v = vertices(&dxf);
-    let arc = Contour { vertices: vec![v[5], Vertex { bulge: 0.0, ..v[6] }] };
+    let arc = Contour { vertices: vec![v[5], Vertex::new(v[6].point, 0.0)] };
     let twice = dxf::write(
         &[
             (Layer::CamProfile, Entity::Polyline(Contour { vertices: v.clone() })),
@@ -302,9 +306,9 @@ fn cut_twice() {
     let original = vertices(&dxf);
     // Once round with the arcs of the file and once with their halves: no segment lies on another, but the tool goes twice.
     let halves = Contour { vertices: original.clone() };
-    let halves = halves.segments().flat_map(|s| {
+    let halves = halves.segments().expect("arcs").into_iter().flat_map(|s| {
         let bulge = (s.bulge.atan() / 2.0).tan();
-        [Vertex { point: s.start, bulge }, Vertex { point: s.middle(), bulge }]
+        [Vertex::new(s.start, bulge), Vertex::new(s.middle(), bulge)]
     });
     let (code, report) = bench.check(&file(original.iter().copied().chain(halves).collect()), &[]);
     assert_eq!((code, failed(&report)), (1, vec!["contours".to_owned(), "outline".to_owned()]), "{report}");
@@ -361,7 +365,7 @@ fn a_transition_of_a_fraction_of_a_micrometre() {
 fn ten_thousand_segments() {
     let bench = Bench::new();
     let (_, rows) = bench.cam(&["--samples", "10000"]);
-    let vertices = rows.iter().map(|row| Vertex { point: Vector2::new(row[10], row[11]), bulge: 0.0 }).collect();
+    let vertices = rows.iter().map(|row| Vertex::new(Vector2::new(row[10], row[11]), 0.0)).collect();
     let (code, report) = bench.check(&file(vertices), &[]);
     assert_eq!((code, failed(&report)), (1, vec!["tangency".to_owned()]), "{report}");
     assert_eq!(report["rolling"]["segments"], 10_000);

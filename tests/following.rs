@@ -77,7 +77,7 @@ fn chain(places: &[CurvePoint], arcs: bool) -> Vec<Vertex> {
     let vertex = |(here, next): (&CurvePoint, &CurvePoint)| {
         let turn = libm::atan2(here.tangent.perp(&next.tangent), here.tangent.dot(&next.tangent));
         let distinct = (next.point - here.point).norm() > 1e-12;
-        distinct.then(|| Vertex { point: here.point, bulge: if arcs { libm::tan(0.25 * turn) } else { 0.0 } })
+        distinct.then(|| Vertex::new(here.point, if arcs { libm::tan(0.25 * turn) } else { 0.0 }))
     };
     places.iter().zip(next).filter_map(vertex).collect()
 }
@@ -126,7 +126,8 @@ fn right_chains_of_every_kind_are_followed() {
                     for vertex in &mut vertices {
                         let away = Vector2::new(draw.between(-gap, gap), draw.between(-gap, gap));
                         vertex.point = (vertex.point + away).map(|value| round(value, decimals));
-                        vertex.bulge += draw.between(-noise, noise);
+                        let bulge = vertex.bulge().expect("an arc") + draw.between(-noise, noise);
+                        *vertex = Vertex::new(vertex.point, bulge);
                     }
                     let vertices = started(vertices, &mut draw);
                     let name = format!("cam {number}, {spread:?}, {decimals} decimals, {count}, {arcs}, {borders}");
@@ -170,7 +171,7 @@ fn a_tooth_on_the_end_of_a_plate_is_a_kink() {
         let (from, to) = (vertices[end].point, vertices[(end + 1) % count].point);
         let (middle, along) = (0.5 * (from + to), (to - from).normalize());
         let out = Vector2::new(along.y, -along.x);
-        let at = |by: f64, off: f64| Vertex { point: middle + along * by + out * off, bulge: 0.0 };
+        let at = |by: f64, off: f64| Vertex::new(middle + along * by + out * off, 0.0);
         let mut toothed = vertices.clone();
         toothed.splice(end..=end, [vertices[end], at(-0.005, 0.0), at(0.0, 0.003), at(0.005, 0.0)]);
         let (verdict, kink) = check(toothed);

@@ -59,7 +59,7 @@ fn chain(cam: &Cam, count: u32, arcs: bool, from: f64, away: impl Fn(f64) -> f64
     let vertex = |i: u32| {
         let ((point, heading), (_, next)) = (at(i), at(i + 1));
         let turn = heading.perp(&next).atan2(heading.dot(&next));
-        Vertex { point, bulge: if arcs { (0.25 * turn).tan() } else { 0.0 } }
+        Vertex::new(point, if arcs { (0.25 * turn).tan() } else { 0.0 })
     };
     (0..count).map(vertex).collect()
 }
@@ -79,9 +79,9 @@ fn a_slot_is_no_cam_although_a_roller_does_not_feel_it() {
     let vertices = written(&cam, 5e-6);
     let longest = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);
     let contour = Contour { vertices: vertices.clone() };
-    let lengths = contour.segments().map(|segment| segment.length()).enumerate();
+    let lengths = contour.edges().map(|edge| edge.length()).enumerate();
     let (dwell, _) = lengths.max_by(longest).expect("segments");
-    let segment = contour.segments().nth(dwell).expect("a segment");
+    let segment = contour.edges().nth(dwell).and_then(|edge| edge.segment()).expect("a segment");
     let (centre, radius, sweep) = (segment.centre(), segment.radius(), segment.sweep());
     let begin = (segment.start - centre).y.atan2((segment.start - centre).x);
     let polar = |angle: f64, r: f64| centre + Vector2::new(angle.cos(), angle.sin()) * r;
@@ -90,11 +90,11 @@ fn a_slot_is_no_cam_although_a_roller_does_not_feel_it() {
     let arc = |angle: f64| (0.25 * angle).tan();
     let deep = Vector2::new((begin + 0.5 * sweep).cos(), (begin + 0.5 * sweep).sin()) * -175.0;
     let slot = [
-        Vertex { point: segment.start, bulge: arc(left - begin) },
-        Vertex { point: polar(left, radius), bulge: 0.0 },
-        Vertex { point: polar(left, radius) + deep, bulge: 0.0 },
-        Vertex { point: polar(right, radius) + deep, bulge: 0.0 },
-        Vertex { point: polar(right, radius), bulge: arc(begin + sweep - right) },
+        Vertex::new(segment.start, arc(left - begin)),
+        Vertex::new(polar(left, radius), 0.0),
+        Vertex::new(polar(left, radius) + deep, 0.0),
+        Vertex::new(polar(right, radius) + deep, 0.0),
+        Vertex::new(polar(right, radius), arc(begin + sweep - right)),
     ];
     let mut sawn = vertices;
     sawn.splice(dwell..=dwell, slot);
@@ -117,7 +117,7 @@ fn spurs_teeth_and_loops_are_told() {
         let (here, next) = (whole[at], whole[(at + 1) % whole.len()]);
         let along = (next.point - here.point).normalize();
         let out = Vector2::new(along.y, -along.x);
-        let v = |along_by: f64, out_by: f64| Vertex { point: here.point + along * along_by + out * out_by, bulge: 0.0 };
+        let v = |along_by: f64, out_by: f64| Vertex::new(here.point + along * along_by + out * out_by, 0.0);
         for (what, detour, least) in [
             ("whisker", vec![v(0.0, 0.0), v(0.0, 0.3), v(0.001, 0.0)], 0.299),
             ("spur inwards", vec![v(0.0, 0.0), v(0.05, -0.4), v(0.1, 0.0)], 0.39),
@@ -163,7 +163,7 @@ fn right_outlines_pass_in_every_dress() {
     let rounded = |vertices: Vec<Vertex>, decimals: i32| -> Vec<Vertex> {
         let unit = 10_f64.powi(decimals);
         let round = |value: f64| (value * unit).round() / unit;
-        vertices.into_iter().map(|v| Vertex { point: v.point.map(round), bulge: v.bulge }).collect()
+        vertices.into_iter().map(|v| Vertex { point: v.point.map(round), ..v }).collect()
     };
     for count in [700, 2000, 9000, 50_000] {
         for arcs in [true, false] {
@@ -221,7 +221,7 @@ fn the_told_distance_is_that_of_a_dense_measurement() {
         let away = |angle: f64| local(angle) + wave * (waves * angle).sin() + if angle > at { step } else { 0.0 };
         let vertices = chain(&cam, count, case % 3 != 0, 0.0, away);
         let contour = Contour { vertices: vertices.clone() };
-        let points = contour.segments().flat_map(|segment| (0..200).map(move |i| segment.at(f64::from(i) / 200.0).0));
+        let points = contour.edges().flat_map(|edge| (0..200).map(move |i| edge.at(f64::from(i) / 200.0).0));
         let most = points.map(|point| dense.distance(point)).fold(0.0, f64::max);
         let finding = outline(&cam, vertices, 5e-6);
         // 200 places of a segment miss a maximum by d'' h²/8: less than a thousandth of what it rises.

@@ -5,7 +5,7 @@
 //! and Δ: the room at a centre, the distance from the nearest contour, changes by no more than the centre moves, so a rectangle of
 //! (ρ, Δ) has an upper bound from its middle. What is told as the least unbalance possible is the least for such rows.
 
-use crate::geometry::contour::{Contour, Segment};
+use crate::geometry::contour::{Contour, Edge};
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 
@@ -89,9 +89,9 @@ fn in_step(count: u32, apart: f64) -> f64 {
 
 /// The face into which holes are drilled.
 struct Face {
-    outline: Vec<Segment>,
+    outline: Vec<Edge>,
     /// Bore with its keyway.
-    bore: Vec<Segment>,
+    bore: Vec<Edge>,
     /// Unit vector to the heavy side.
     heavy: Vector2<f64>,
     /// Least and largest radius that a hole may reach, mm.
@@ -106,8 +106,8 @@ type Rectangle = ((f64, f64), (f64, f64));
 impl Face {
     /// Distance of a point of the metal from the nearest contour, mm; negative outside the metal.
     fn room(&self, point: Vector2<f64>) -> f64 {
-        let left = |segments: &[Segment]| {
-            let nearest = segments.iter().map(|segment| segment.nearest(point).left);
+        let left = |edges: &[Edge]| {
+            let nearest = edges.iter().map(|edge| edge.nearest(point).left);
             nearest.min_by(|a, b| a.abs().total_cmp(&b.abs()))
         };
         let from_bore = left(&self.bore).map_or(f64::INFINITY, |left| -left);
@@ -213,9 +213,9 @@ pub fn balance(outline: &Contour, bore: Option<&Contour>, band: (f64, f64), wall
     if before <= negligible * outline.area_and_centroid().0 {
         return none;
     }
-    let bore_segments = bore.map_or_else(Vec::new, |bore| bore.segments().collect());
+    let bore_edges = bore.map_or_else(Vec::new, |bore| bore.edges().collect());
     let (wall, heavy) = (wall.max(LEAST_WALL), moment / before);
-    let face = Face { outline: outline.segments().collect(), bore: bore_segments, heavy, band, wall };
+    let face = Face { outline: outline.edges().collect(), bore: bore_edges, heavy, band, wall };
     match face.row_for(before) {
         Ok(row) => {
             let hole = |index: u32| (face.centre(row.distance, row.angle(index)), row.radius);
@@ -237,7 +237,7 @@ pub fn balance(outline: &Contour, bore: Option<&Contour>, band: (f64, f64), wall
 fn widest(outline: &Contour, bore: Option<&Contour>, wall: f64) -> (f64, f64) {
     let farthest = |contour: &Contour| contour.vertices.iter().map(|vertex| vertex.point.norm()).fold(0.0, f64::max);
     let inner = bore.map_or(0.0, |bore| {
-        bore.segments().map(|segment| segment.nearest(Vector2::zeros()).foot.norm()).fold(f64::INFINITY, f64::min)
+        bore.edges().map(|edge| edge.nearest(Vector2::zeros()).foot.norm()).fold(f64::INFINITY, f64::min)
     });
     ((inner + wall).ceil(), (farthest(outline) - wall).floor())
 }
@@ -294,7 +294,7 @@ mod tests {
         let (half, bottom) = (12.0_f64, 52.0);
         let edge = (30.0_f64 * 30.0 - half * half).sqrt();
         let round = libm::tan(0.25 * (PI - libm::asin(half / 30.0)));
-        let at = |x: f64, y: f64, bulge: f64| Vertex { point: Vector2::new(x, y), bulge };
+        let at = |x: f64, y: f64, bulge: f64| Vertex::new(Vector2::new(x, y), bulge);
         let bore = Contour {
             vertices: vec![
                 at(edge, half, round),
@@ -312,7 +312,7 @@ mod tests {
         let all: Vec<&Contour> = std::iter::once(&disc).chain([&bore]).chain(&holes).collect();
         // The polygon of many points: its moment errs by the square of the step, so two steps give the limit.
         let points = |contour: &Contour, parts: u32| -> Vec<Vector2<f64>> {
-            contour.segments().flat_map(|s| (0..parts).map(move |i| s.at(f64::from(i) / f64::from(parts)).0)).collect()
+            contour.edges().flat_map(|s| (0..parts).map(move |i| s.at(f64::from(i) / f64::from(parts)).0)).collect()
         };
         let polygon = |contour: &Contour, parts: u32| {
             let points = points(contour, parts);

@@ -181,7 +181,7 @@ pub(super) fn bore(machine: &Machine) -> Option<Entity> {
     // The round part from the upper edge of the slot to the lower one, in two arcs.
     let round = libm::tan(0.25 * (PI - libm::asin(half / radius)));
     let (sin, cos) = (libm::sin(keyway.angle), libm::cos(keyway.angle));
-    let at = |x: f64, y: f64, bulge: f64| Vertex { point: Vector2::new(cos * x - sin * y, sin * x + cos * y), bulge };
+    let at = |x: f64, y: f64, bulge: f64| Vertex::new(Vector2::new(cos * x - sin * y, sin * x + cos * y), bulge);
     let vertices = vec![
         at(edge, half, round),
         at(-radius, 0.0, round),

@@ -1,7 +1,7 @@
 //! How far two chains lie from each other, whatever their shape: for a chain that cannot be followed.
 
 use super::boundary::Boundary;
-use super::contour::{Contour, Segment, Vertex};
+use super::contour::{Contour, Vertex};
 use super::course::Course;
 use super::following::Deviation;
 use super::track::Track;
@@ -37,7 +37,7 @@ fn arcs(boundary: &Boundary<'_>) -> Contour {
         };
         for (a, b) in (0..ARCS).filter_map(|step| at(step).zip(at(step + 1))) {
             let turn = libm::atan2(a.tangent.perp(&b.tangent), a.tangent.dot(&b.tangent));
-            vertices.push(Vertex { point: a.point, bulge: libm::tan(0.25 * turn) });
+            vertices.push(Vertex::new(a.point, libm::tan(0.25 * turn)));
         }
     }
     Contour { vertices }
@@ -59,12 +59,12 @@ impl Part<'_> {
 
 /// The place of a chain that lies farthest from another.
 fn farthest(chain: &Contour, other: &Track) -> Deviation {
-    let courses: Vec<Course> = chain.segments().filter_map(|segment: Segment| Course::of(&segment)).collect();
+    let courses: Vec<Course> = chain.edges().flat_map(|edge| Course::of(&edge)).collect();
     let away = |point: Vector2<f64>| other.nearest(point).map_or(f64::INFINITY, |nearest| nearest.left.abs());
     let mut best = Deviation { distance: -1.0, at: Vector2::zeros() };
     let mut parts = Vec::new();
     for course in &courses {
-        let ends = [0.0, course.length].map(|length| (length, away(course.at(length).0)));
+        let ends = [0.0, course.length()].map(|length| (length, away(course.at(length).0)));
         for (length, distance) in ends {
             if distance > best.distance {
                 best = Deviation { distance, at: course.at(length).0 };

@@ -1,12 +1,102 @@
-//! A segment of a chain by its own length: points, and where a normal of another curve meets it.
+//! An edge of a chain by its own length: points, and where a normal of another curve meets it.
 
-use super::contour::Segment;
+use super::cubic_course::CubicCourse;
+use super::edge::Edge;
+use super::segment::Segment;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
-/// A segment of some length, seen from its start.
+/// An arc is walked in steps that turn by no more than this, rad; a part of a cubic curve turns by less.
+const LONGEST_STEP: f64 = 0.8;
+
+/// An edge of some length, or a part of one, seen from its start.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
+pub(super) enum Course {
+    /// An arc or a line.
+    Arc(Round),
+    /// A part of a cubic curve.
+    Cubic(CubicCourse),
+}
+
+impl Course {
+    /// The courses of an edge, in order; none for one without length.
+    pub(super) fn of(edge: &Edge) -> Vec<Self> {
+        match edge {
+            Edge::Segment(segment) => Round::of(segment).map(Course::Arc).into_iter().collect(),
+            Edge::Cubic(cubic) => CubicCourse::of(cubic).map(Course::Cubic).collect(),
+        }
+    }
+
+    /// Start, mm.
+    pub(super) fn start(&self) -> Vector2<f64> {
+        match self {
+            Course::Arc(round) => round.start,
+            Course::Cubic(cubic) => cubic.start(),
+        }
+    }
+
+    /// Length, mm.
+    pub(super) fn length(&self) -> f64 {
+        match self {
+            Course::Arc(round) => round.length,
+            Course::Cubic(cubic) => cubic.length,
+        }
+    }
+
+    /// Point and unit tangent at a length from the start, mm.
+    pub(super) fn at(&self, length: f64) -> (Vector2<f64>, Vector2<f64>) {
+        match self {
+            Course::Arc(round) => round.at(length),
+            Course::Cubic(cubic) => cubic.at(length),
+        }
+    }
+
+    /// The interval in which the curvature lies between two lengths, 1/mm, positive where it turns left.
+    pub(super) fn curvature_between(&self, from: f64, to: f64) -> (f64, f64) {
+        match self {
+            Course::Arc(round) => (round.curvature, round.curvature),
+            Course::Cubic(cubic) => cubic.curvature_between(from, to),
+        }
+    }
+
+    /// In how many steps a range of it is walked.
+    pub(super) fn steps(&self, (from, to): (f64, f64)) -> f64 {
+        match self {
+            Course::Arc(round) => ((to - from) * round.curvature.abs() / LONGEST_STEP).ceil().max(1.0),
+            Course::Cubic(_) => 1.0,
+        }
+    }
+
+    /// Where the edge crosses the straight line through a point along a unit vector from its right to its left, seen along the
+    /// vector: the distance along it, and the length from the start (beyond 0 and its length where the edge does not reach).
+    /// `None` where they do not cross.
+    pub(super) fn hit(&self, point: Vector2<f64>, direction: Vector2<f64>) -> Option<(f64, f64)> {
+        match self {
+            Course::Arc(round) => round.hit(point, direction),
+            Course::Cubic(cubic) => cubic.hit(point, direction),
+        }
+    }
+
+    /// The length from the start to the place nearest to a point, mm.
+    pub(super) fn nearest(&self, point: Vector2<f64>) -> f64 {
+        match self {
+            Course::Arc(round) => round.nearest(point),
+            Course::Cubic(cubic) => cubic.nearest(point),
+        }
+    }
+
+    /// The largest distance from a point between two lengths, mm.
+    pub(super) fn farthest_from(&self, point: Vector2<f64>, range: (f64, f64)) -> f64 {
+        match self {
+            Course::Arc(round) => round.farthest_from(point, range),
+            Course::Cubic(cubic) => cubic.farthest_from(point, range),
+        }
+    }
+}
+
+/// An arc or a line of some length.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Round {
     /// Start, mm.
     pub(super) start: Vector2<f64>,
     /// Unit tangent there.
@@ -17,7 +107,7 @@ pub(super) struct Course {
     pub(super) length: f64,
 }
 
-impl Course {
+impl Round {
     /// `None` for a segment without length.
     #[must_use]
     pub(super) fn of(segment: &Segment) -> Option<Self> {
@@ -133,25 +223,28 @@ impl Course {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::cubic::Cubic;
 
     fn courses() -> Vec<Course> {
         let at = |x: f64, y: f64| Vector2::new(x, y);
-        let of = |bulge| Course::of(&Segment { start: at(1.0, 2.0), end: at(5.0, 3.0), bulge });
-        [0.0, 1e-9, 1e-4, 0.3, -0.3, 1.5, -1.5].into_iter().filter_map(of).collect()
+        let of = |bulge| Edge::Segment(Segment { start: at(1.0, 2.0), end: at(5.0, 3.0), bulge });
+        let cubic = Edge::Cubic(Cubic { points: [at(1.0, 2.0), at(2.5, 3.0), at(4.0, 3.2), at(5.0, 2.5)] });
+        let arcs = [0.0, 1e-9, 1e-4, 0.3, -0.3, 1.5, -1.5].into_iter().map(of);
+        arcs.chain([cubic]).flat_map(|edge| Course::of(&edge)).collect()
     }
 
     #[test]
     fn a_normal_of_a_point_beside_it_finds_the_place_again() {
         for course in courses() {
             for share in [0.0, 0.1, 0.5, 0.9, 1.0] {
-                let (point, tangent) = course.at(share * course.length);
+                let (point, tangent) = course.at(share * course.length());
                 for away in [-0.01, 0.2] {
                     // Off its own normal by 0.3 rad.
                     let normal = Vector2::new(tangent.y, -tangent.x);
                     let slanted = normal * libm::cos(0.3) + tangent * libm::sin(0.3);
                     let (found, along) = course.hit(point - slanted * away, slanted).expect("a place");
                     assert!((found - away).abs() < 1e-13, "{course:?} {share}: {found}");
-                    assert!((along - share * course.length).abs() < 1e-11, "{course:?} {share}: {along}");
+                    assert!((along - share * course.length()).abs() < 1e-11, "{course:?} {share}: {along}");
                 }
             }
         }
@@ -161,7 +254,7 @@ mod tests {
     fn the_farthest_place_is_the_farthest_of_many() {
         for course in courses() {
             for point in [Vector2::new(0.0, 0.0), Vector2::new(3.0, 2.6), Vector2::new(3.0, 9.0)] {
-                let range = (0.1 * course.length, 0.9 * course.length);
+                let range = (0.1 * course.length(), 0.9 * course.length());
                 let scan = (0..=20_000).map(|i| {
                     let share = f64::from(i) / 2e4;
                     (course.at(range.0 + share * (range.1 - range.0)).0 - point).norm()

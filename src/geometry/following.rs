@@ -7,8 +7,8 @@
 //! dσ/ds = cos Δ/(1 + κ d),   dd/ds = −sin Δ,   d²d/ds² = −cos Δ (k − κ cos Δ/(1 + κ d)),   k the curvature of G
 //! ```
 //!
-//! The chain is cut where a segment ends, where a stretch of C ends and, if need be, between. In such a cell k is constant and κ
-//! lies between what its two ends say, so d'' lies in an interval; two parabolas that start from the ends with the exact d and d'
+//! The chain is cut where a segment ends, where a stretch of C ends and, if need be, between. In such a cell k is constant, or
+//! within an interval that is proved of a cubic edge, and κ lies between what its two ends say, so d'' lies in an interval; two parabolas that start from the ends with the exact d and d'
 //! then bound d. A cell whose bound stays below the largest |d| found is done; another is cut where d' is 0 to first order. What
 //! is told is the largest |d| to [`SLACK`].
 //!
@@ -37,8 +37,6 @@ const ON_NORMAL: f64 = 1e-10;
 const NEAR: f64 = 1e-9;
 /// After one turn the foot stands where it began, mm.
 const CLOSES: f64 = 1e-6;
-/// An arc is walked in steps that turn by no more than this, rad.
-const LONGEST_STEP: f64 = 0.8;
 /// Where the foot is that near to a corner, mm, a chain that turns across the outline, with a cosine below this, has got to it.
 const CORNER_REACH: f64 = 0.1;
 const ACROSS: f64 = 0.1;
@@ -92,8 +90,8 @@ pub struct Lost {
 /// # Errors
 /// [`Lost`] when it does not.
 pub fn follow(contour: &Contour, boundary: &Boundary<'_>) -> Result<Deviation, Lost> {
-    let courses: Vec<Course> = contour.segments().filter_map(|segment| Course::of(&segment)).collect();
-    let origin = courses.first().map_or_else(Vector2::zeros, |course| course.start);
+    let courses: Vec<Course> = contour.edges().flat_map(|edge| Course::of(&edge)).collect();
+    let origin = courses.first().map_or_else(Vector2::zeros, Course::start);
     let cells = MOST_CELLS + MOST_PER_SEGMENT * (courses.len() + boundary.stretches().len());
     let mut walk = Walk { boundary, index: 0, cells, worst: Deviation { distance: 0.0, at: origin } };
     let count = boundary.stretches().len();
@@ -161,7 +159,7 @@ impl Walk<'_, '_> {
         let (point, tangent) = course.at(length);
         let off = (point - foot.point).dot(&foot.outward());
         // A segment that short has any direction where its ends were rounded.
-        if !(foot.tangent.dot(&tangent) > 0.0) && course.length > NEAR {
+        if !(foot.tangent.dot(&tangent) > 0.0) && course.length() > NEAR {
             return Err(Lost { why: Astray::Back, at: point });
         }
         if !(1.0 + foot.curvature * off > 0.0) {
@@ -248,12 +246,14 @@ impl Walk<'_, '_> {
         let length = b.length - a.length;
         if length <= NEAR {
             // d' is a sine: it changes by no more than the two curves turn.
-            let turn = length * (course.curvature.abs() + 1.25 * a.foot.curvature.abs().max(b.foot.curvature.abs()));
+            let (least, most) = course.curvature_between(a.length, b.length);
+            let sharpest = least.abs().max(most.abs());
+            let turn = length * (sharpest + 1.25 * a.foot.curvature.abs().max(b.foot.curvature.abs()));
             let slope = (a.sine.abs().max(b.sine.abs()) + turn).min(1.0);
             self.record(a.off.abs().max(b.off.abs()) + 0.5 * length.max(0.0) * slope, b.point);
             return Ok(());
         }
-        if let Some(bend) = bend(course.curvature, a, b, length)
+        if let Some(bend) = bend(course.curvature_between(a.length, b.length), a, b, length)
             && highest((a.off, -a.sine), (b.off, -b.sine), length, bend.1) <= self.worst.distance + SLACK
             && highest((-a.off, a.sine), (-b.off, b.sine), length, -bend.0) <= self.worst.distance + SLACK
         {
@@ -283,19 +283,19 @@ impl Walk<'_, '_> {
         let Some(first) = courses.first() else {
             return Err(Lost { why: Astray::Turns, at: self.worst.at });
         };
-        let (foot, parameter) = self.begin(first.start)?;
+        let (foot, parameter) = self.begin(first.start())?;
         let started = self.index;
         let mut place = (foot, parameter);
         for course in courses {
             let mut node = self.node(course, 0.0, place.0, place.1)?;
-            for to in steps(course, (0.0, course.length)) {
+            for to in steps(course, (0.0, course.length())) {
                 node = self.advance(course, node, to)?.unwrap_or_else(|corner| corner);
             }
             place = (node.foot, node.parameter);
         }
         let (passed, count) = (self.index - started, self.boundary.stretches().len());
         let closes = (place.0.point - foot.point).norm() <= CLOSES && (count - 1..=count + 1).contains(&passed);
-        if closes { Ok(()) } else { Err(Lost { why: Astray::Turns, at: first.start }) }
+        if closes { Ok(()) } else { Err(Lost { why: Astray::Turns, at: first.start() }) }
     }
 
     /// Takes the stretch nearest to a point among those whose normals pass on either side of it, and gives its foot there.
@@ -435,9 +435,9 @@ impl Walk<'_, '_> {
     }
 }
 
-/// The interval in which d'' lies between two points of a segment of this curvature over one stretch; `None` where they are too
+/// The interval in which d'' lies between two points of an edge with curvatures in this interval over one stretch; `None` where they are too
 /// far apart to tell, or Δ may reach a right angle.
-fn bend(curvature: f64, a: &Node, b: &Node, length: f64) -> Option<(f64, f64)> {
+fn bend((straightest, sharpest): (f64, f64), a: &Node, b: &Node, length: f64) -> Option<(f64, f64)> {
     let (first, last) = (&a.foot, &b.foot);
     let along = 0.5 * (b.parameter - a.parameter) * (first.speed + last.speed);
     let over = OVERSHOOT * along.abs() * (first.curvature_slope.abs() + last.curvature_slope.abs());
@@ -445,7 +445,7 @@ fn bend(curvature: f64, a: &Node, b: &Node, length: f64) -> Option<(f64, f64)> {
     let most = first.curvature.max(last.curvature) + over;
     let size = least.abs().max(most.abs());
     let at_ends = a.sine.abs().max(b.sine.abs());
-    let mut sine = (at_ends + length * (curvature.abs() + 1.25 * size)).min(1.0);
+    let mut sine = (at_ends + length * (straightest.abs().max(sharpest.abs()) + 1.25 * size)).min(1.0);
     let (mut low, mut high) = (0.0, 0.0);
     for _ in 0..BOUND_ROUNDS {
         let reach = 0.5 * length * sine;
@@ -458,8 +458,8 @@ fn bend(curvature: f64, a: &Node, b: &Node, length: f64) -> Option<(f64, f64)> {
                 return None;
             }
             // k − κ cos Δ/(1 + κ d), at both ends of the cosine.
-            for turn in [curvature - kappa / shrink, curvature - kappa * cosine / shrink] {
-                (low, high) = (low.min(turn), high.max(turn));
+            for turn in [kappa / shrink, kappa * cosine / shrink] {
+                (low, high) = (low.min(straightest - turn), high.max(sharpest - turn));
             }
         }
         sine = sine.min(at_ends + 0.5 * length * low.abs().max(high.abs()));
@@ -494,7 +494,7 @@ pub(super) fn highest((a, rise): (f64, f64), (b, fall): (f64, f64), length: f64,
 
 /// The ends of the steps in which a range of a segment is walked.
 fn steps(course: &Course, (from, to): (f64, f64)) -> impl Iterator<Item = f64> + use<> {
-    let count = ((to - from) * course.curvature.abs() / LONGEST_STEP).ceil().max(1.0);
+    let count = course.steps((from, to));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most eight")]
     let steps = count as u32;
     (1..=steps).map(move |step| if step == steps { to } else { from + (to - from) * f64::from(step) / count })
@@ -507,7 +507,7 @@ fn parts(courses: &[Course], from: (usize, f64), to: (usize, f64)) -> Vec<(Cours
     let part = |index: usize| {
         let course = *courses.get(index % count)?;
         let start = if index == from.0 { from.1 } else { 0.0 };
-        let end = if index == last { to.1 } else { course.length };
+        let end = if index == last { to.1 } else { course.length() };
         Some((course, (start, end)))
     };
     (from.0..=last).filter_map(part).filter(|(_, (from, to))| to - from > NEAR).collect()

@@ -88,10 +88,10 @@ fn along(contour: &Contour, length: f64, count: usize) -> Vec<Vector2<f64>> {
     let step = length / count as f64;
     let (mut passed, mut next) = (0.0, 0.5 * step);
     let mut points = Vec::with_capacity(count);
-    for segment in contour.segments() {
-        let own = segment.length();
+    for edge in contour.edges() {
+        let own = edge.length();
         while next < passed + own && points.len() < count {
-            points.push(segment.at((next - passed) / own).0);
+            points.push(edge.at((next - passed) / own).0);
             next += step;
         }
         passed += own;

@@ -1,10 +1,10 @@
-//! How far apart two closed chains are, exactly: both are arcs and lines.
+//! How far apart two closed chains are, exactly.
 //!
 //! A piece of one is compared with the segment of the other that is nearest to its middle. Where the piece runs beside that
-//! segment, the distance is largest at an end of the piece or where the two are parallel, in closed form; everywhere else it
-//! is bounded by the distance of the middle and half the length, and the piece is halved.
+//! segment, the distance is largest at an end of the piece or where the two are parallel, in closed form; everywhere else, and
+//! for cubic curves, it is bounded by the distance of the middle and half the length, and the piece is halved.
 
-use super::contour::{Contour, Segment};
+use super::contour::{Contour, Edge, Segment};
 use super::track::Track;
 use nalgebra::Vector2;
 
@@ -36,12 +36,13 @@ pub fn farthest(chain: &Contour, from: &Contour, fine: f64) -> Farthest {
     let extents = chain.extents().with(&from.extents());
     let rounding = ROUNDING * (extents.least.norm() + extents.largest.norm());
     let (mut found, mut bound) = (Farthest { distance: 0.0, ..beyond }, 0.0_f64);
-    let mut open: Vec<Segment> = chain.segments().filter(|segment| segment.start != segment.end).collect();
+    let mut open: Vec<Edge> =
+        chain.edges().filter(|edge| edge.start() != edge.end() || edge.segment().is_none()).collect();
     let mut looked = 0;
     while let Some(piece) = open.pop() {
         let middle = piece.middle();
         let Some((index, nearest)) = track.nearest_segment(middle) else { return beyond };
-        let (distance, Some(beside)) = (nearest.left.abs(), track.segments().get(index)) else { return beyond };
+        let (distance, Some(beside)) = (nearest.left.abs(), track.edges().get(index)) else { return beyond };
         if distance > found.distance {
             found = Farthest { distance, place: middle };
         }
@@ -49,14 +50,16 @@ pub fn farthest(chain: &Contour, from: &Contour, fine: f64) -> Farthest {
         if looked > MOST_PIECES {
             return beyond;
         }
-        let half = 0.5 * piece.length();
-        let most = alongside(&piece, beside, rounding).unwrap_or(f64::INFINITY).min(distance + half);
+        // Of a cubic curve the middle of the parameter is not that of the length.
+        let half = if piece.segment().is_some() { 0.5 * piece.length() } else { piece.length() };
+        let beside =
+            piece.segment().zip(beside.segment()).and_then(|(piece, beside)| alongside(&piece, &beside, rounding));
+        let most = beside.unwrap_or(f64::INFINITY).min(distance + half);
         if most <= found.distance * (1.0 + NEAR) + fine.max(rounding) {
             bound = bound.max(most);
         } else {
-            let bulge = piece.bulge / (1.0 + (1.0 + piece.bulge * piece.bulge).sqrt());
-            open.push(Segment { start: middle, end: piece.end, bulge });
-            open.push(Segment { start: piece.start, end: middle, bulge });
+            let (first, last) = piece.halves();
+            open.extend([last, first]);
         }
     }
     Farthest { distance: found.distance.max(bound), place: found.place }
@@ -111,12 +114,12 @@ mod tests {
     use crate::geometry::contour::Vertex;
 
     fn at(x: f64, y: f64, bulge: f64) -> Vertex {
-        Vertex { point: Vector2::new(x, y), bulge }
+        Vertex::new(Vector2::new(x, y), bulge)
     }
 
     fn sampled(chain: &Contour, from: &Contour) -> f64 {
-        let places = chain.segments().flat_map(|s| (0..=2_000).map(move |i| s.at(f64::from(i) / 2e3).0));
-        let nearest = |p| from.segments().map(|s| s.nearest(p).left.abs()).fold(f64::INFINITY, f64::min);
+        let places = chain.edges().flat_map(|s| (0..=2_000).map(move |i| s.at(f64::from(i) / 2e3).0));
+        let nearest = |p| from.edges().map(|s| s.nearest(p).left.abs()).fold(f64::INFINITY, f64::min);
         places.map(nearest).fold(0.0, f64::max)
     }
 

@@ -9,13 +9,18 @@ pub mod arcs;
 pub mod boundary;
 pub mod contour;
 mod course;
+mod cubic;
+mod cubic_course;
+pub mod cubics;
 mod curve_point;
+mod edge;
 mod entity;
 pub mod following;
 pub mod likeness;
 pub mod mismatch;
 pub mod nurbs;
 pub mod points;
+mod segment;
 pub mod solid;
 pub mod track;
 

@@ -1,10 +1,10 @@
-//! An outline as something a roller can roll on: exact arcs for the verdict, parry2d to find them fast and to measure
+//! An outline as something a roller can roll on: exact edges for the verdict, parry2d to find them fast and to measure
 //! the same distances a second way.
 //!
-//! parry's polyline is hollow and made of chords. Its bounding-volume tree over the exact segments is the broad phase;
+//! parry's polyline is hollow and made of chords. Its bounding-volume tree over the exact edges is the broad phase;
 //! a polyline of chords much finer than the tolerance gives distances that share no formula with ours.
 
-use crate::geometry::contour::{Contour, Nearest, Segment};
+use crate::geometry::contour::{Contour, Edge, Nearest};
 use nalgebra::Vector2;
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
@@ -17,7 +17,7 @@ const MOST_CHORDS: f64 = 2e5;
 
 /// The outline, prepared for the search of the nearest point.
 pub struct Track {
-    segments: Vec<Segment>,
+    edges: Vec<Edge>,
     tree: Bvh,
 }
 
@@ -29,21 +29,21 @@ impl Track {
     /// The outline, counter-clockwise.
     #[must_use]
     pub fn new(contour: &Contour) -> Self {
-        let segments: Vec<Segment> = contour.segments().collect();
-        let boxes: Vec<Aabb> = segments
+        let edges: Vec<Edge> = contour.edges().collect();
+        let boxes: Vec<Aabb> = edges
             .iter()
-            .map(|segment| {
-                let extents = segment.extents();
+            .map(|edge| {
+                let extents = edge.extents();
                 Aabb::new(parry(extents.least), parry(extents.largest))
             })
             .collect();
-        Self { segments, tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
+        Self { edges, tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 
-    /// The segments.
+    /// The edges.
     #[must_use]
-    pub fn segments(&self) -> &[Segment] {
-        &self.segments
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
     }
 
     /// The nearest point of the outline, exact; `None` for a point that is not finite.
@@ -59,7 +59,7 @@ impl Track {
         let from = parry(point);
         let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
         let distance = |leaf: u32, _: f64| {
-            let nearest = self.segments.get(leaf as usize)?.nearest(point);
+            let nearest = self.edges.get(leaf as usize)?.nearest(point);
             Some((nearest.left.abs(), (leaf as usize, nearest)))
         };
         let (_, (_, found)) = self.tree.find_best(f64::MAX, distance_to_box, distance)?;
@@ -69,12 +69,12 @@ impl Track {
     /// The nearest point seen from both segments where it is their common vertex: on which side the point lies follows from
     /// the two together, and the tangent is that of the segment it stands squarer to.
     fn at_vertex(&self, point: Vector2<f64>, leaf: usize, nearest: Nearest) -> Nearest {
-        let n = self.segments.len();
-        let Some(own) = self.segments.get(leaf) else { return nearest };
-        let (before, after) = if nearest.foot == own.start {
-            (self.segments.get((leaf + n - 1) % n), Some(own))
-        } else if nearest.foot == own.end {
-            (Some(own), self.segments.get((leaf + 1) % n))
+        let n = self.edges.len();
+        let Some(own) = self.edges.get(leaf) else { return nearest };
+        let (before, after) = if nearest.foot == own.start() {
+            (self.edges.get((leaf + n - 1) % n), Some(own))
+        } else if nearest.foot == own.end() {
+            (Some(own), self.edges.get((leaf + 1) % n))
         } else {
             return nearest;
         };
@@ -95,7 +95,7 @@ impl Track {
             let (low, high) = (node.aabb().mins, node.aabb().maxs);
             -corner(low.x, high.x, direction.x) - corner(low.y, high.y, direction.y)
         };
-        let reach = |leaf: u32, _: f64| Some(-self.segments.get(leaf as usize)?.farthest(direction));
+        let reach = |leaf: u32, _: f64| Some(-self.edges.get(leaf as usize)?.farthest(direction));
         let (_, least) = self.tree.find_best(f64::MAX, of_box, reach)?;
         Some(-least)
     }
@@ -105,14 +105,13 @@ impl Track {
     pub fn places_within(&self, point: Vector2<f64>, reach: f64) -> usize {
         let corner = Vector2::new(reach, reach);
         let region = Aabb::new(parry(point - corner), parry(point + corner));
-        let near = |leaf: &u32| {
-            self.segments.get(*leaf as usize).is_some_and(|segment| segment.nearest(point).left.abs() <= reach)
-        };
+        let near =
+            |leaf: &u32| self.edges.get(*leaf as usize).is_some_and(|edge| edge.nearest(point).left.abs() <= reach);
         let mut touching: Vec<u32> = self.tree.intersect_aabb(&region).filter(near).collect();
         touching.sort_unstable();
         let gaps = touching.windows(2).filter(|pair| matches!(pair, [a, b] if b - a > 1)).count();
         let closes = match (touching.first(), touching.last()) {
-            (Some(0), Some(last)) => *last as usize + 1 == self.segments.len(),
+            (Some(0), Some(last)) => *last as usize + 1 == self.edges.len(),
             _ => false,
         };
         match touching.len() {
@@ -140,20 +139,22 @@ impl Chords {
         let mut worst = 0.0_f64;
         #[expect(clippy::cast_precision_loss, reason = "a few thousand segments")]
         let share = MOST_CHORDS / contour.vertices.len().max(1) as f64;
-        for segment in contour.segments() {
-            points.push(parry(segment.start));
-            if segment.bulge == 0.0 {
-                continue;
-            }
-            let (radius, sweep) = (segment.radius().abs(), segment.sweep());
-            // Sagitta of a chord over the angle a: R (1 − cos(a/2)) ≈ R a²/8, from above.
-            let wanted = (sweep.abs() * (radius / (8.0 * sagitta)).sqrt()).ceil();
+        for edge in contour.edges() {
+            points.push(parry(edge.start()));
+            // Sagitta of a chord over the angle a: R (1 − cos(a/2)) ≈ R a²/8, from above; of a cubic curve over the share h of
+            // its parameter: h²/8 of the largest second derivative, which is at an end.
+            let (swept, bow) = match edge {
+                Edge::Segment(segment) if segment.bulge == 0.0 => continue,
+                Edge::Segment(segment) => (segment.sweep(), segment.radius().abs()),
+                Edge::Cubic(cubic) => (1.0, cubic.derivatives(0.0)[2].norm().max(cubic.derivatives(1.0)[2].norm())),
+            };
+            let wanted = (swept.abs() * (bow / (8.0 * sagitta)).sqrt()).ceil();
             let count = wanted.clamp(1.0, share.max(1.0));
-            worst = worst.max(radius * (sweep / count) * (sweep / count) / 8.0);
+            worst = worst.max(bow * (swept / count) * (swept / count) / 8.0);
             let mut step = 1.0;
             while step < count {
                 // From the chord, so that a nearly straight arc keeps its digits.
-                points.push(parry(segment.at(step / count).0));
+                points.push(parry(edge.at(step / count).0));
                 step += 1.0;
             }
         }
@@ -188,7 +189,7 @@ mod tests {
 
     #[test]
     fn exact_and_chordal_distances_agree_inside_and_outside() {
-        let at = |x: f64, y: f64, bulge: f64| Vertex { point: Vector2::new(x, y), bulge };
+        let at = |x: f64, y: f64, bulge: f64| Vertex::new(Vector2::new(x, y), bulge);
         let slot = Contour {
             vertices: vec![at(0.0, -10.0, 0.0), at(40.0, -10.0, 1.0), at(40.0, 10.0, -0.1), at(0.0, 10.0, 1.0)],
         };
@@ -204,7 +205,7 @@ mod tests {
 
     #[test]
     fn separate_places_are_counted() {
-        let at = |x: f64, y: f64| Vertex { point: Vector2::new(x, y), bulge: 0.0 };
+        let at = |x: f64, y: f64| Vertex::new(Vector2::new(x, y), 0.0);
         let channel = Contour {
             vertices: vec![
                 at(0.0, 0.0),

@@ -3,6 +3,7 @@
 //! Knows numbers only; every method cites its source.
 
 pub mod banded;
+pub mod bernstein;
 pub mod chebyshev;
 pub mod double;
 pub mod extremum;

@@ -1,4 +1,4 @@
-//! A follower on a chain of arcs and lines: lift, velocity and acceleration as cut, in closed form.
+//! A follower on a chain of arcs, lines and cubic curves: lift, velocity and acceleration as cut, in closed form.
 //!
 //! While the contact runs along an arc, the centre of the roller runs on a circle about the centre of the arc; along a line, on
 //! a line. Lift, velocity and acceleration follow one after the other from the point of the follower's curve C being on that
@@ -14,7 +14,7 @@
 use super::{Curves, Worst};
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
-use crate::geometry::contour::{Contour, Segment};
+use crate::geometry::contour::{Contour, Edge};
 use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::{chebyshev, extremum, root};
 use nalgebra::Vector2;
@@ -25,6 +25,8 @@ const HAIR: f64 = 1e-8;
 const LIFT_STEPS: u32 = 8;
 /// Roundings of a length at which the roller touches.
 const TOUCHING: f64 = 2.0 * f64::EPSILON;
+/// A curve of less curvature, 1/m, is straight.
+const STRAIGHT: f64 = 1e-9;
 /// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
 const CHANGE: f64 = 0.1;
 /// Parts into which a stretch is cut to find its largest error, and golden sections where one is largest within it.
@@ -43,6 +45,8 @@ enum Guide {
     Circle(Vector2<f64>, f64),
     /// The centre of a roller by a line: a point of it, m, and its unit normal.
     Line(Vector2<f64>, Vector2<f64>),
+    /// What touches a curve: at each place its circle of curvature is followed, since that has the same curvature.
+    Curve(Edge),
 }
 
 /// A stretch of the motion over which the contact stays on one segment and the motion on one piece.
@@ -100,9 +104,9 @@ fn outward(tangent: Vector2<f64>) -> Vector2<f64> {
 }
 
 impl<'a> Followed<'a> {
-    /// On segments in their order (mm), the metal on their left.
+    /// On edges in their order (mm), the metal on their left.
     #[must_use]
-    pub fn new(curves: Curves<'a>, segments: &[Segment]) -> Self {
+    pub fn new(curves: Curves<'a>, edges: &[Edge]) -> Self {
         let reach = MILLIMETRES * curves.offset();
         let face = curves.element() == Element::Face;
         // NaN where the follower, placed by the motion, is nowhere near: on the end or the other flank of a plate.
@@ -117,34 +121,34 @@ impl<'a> Followed<'a> {
         };
         let period = curves.motion.period();
         // Every segment, and what lies between it and the one before: an edge about which the follower turns.
-        let mut runs: Vec<(f64, f64, Guide)> = Vec::with_capacity(segments.len());
+        let mut runs: Vec<(f64, f64, Guide)> = Vec::with_capacity(edges.len());
         let mut last: Option<f64> = None;
         let mut first: Option<(f64, Vector2<f64>)> = None;
         let corner = |from: f64, to: f64, point: Vector2<f64>| {
             let radius = if face { 0.0 } else { curves.offset() };
             (from, to, Guide::Circle(point / MILLIMETRES, radius))
         };
-        for segment in segments {
+        for edge in edges {
             let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
-            let from = parameter(segment.start, segment.start_tangent());
-            let to = parameter(segment.end, segment.end_tangent());
+            let from = parameter(edge.start(), edge.start_tangent());
+            let to = parameter(edge.end(), edge.end_tangent());
             let from = last.map_or(from, |last| near(from, last));
             let to = near(to, from);
             if !(from.is_finite() && to.is_finite()) {
                 last = None;
                 continue;
             }
-            first = first.or(Some((from, segment.start)));
-            join(&mut runs, last, from, &corner, segment.start);
+            first = first.or(Some((from, edge.start())));
+            join(&mut runs, last, from, &corner, edge.start());
             // Where two runs overlap the contact jumps from one to the other between their ends.
             let from = runs.last().map_or(from, |run| if last.is_some() { run.1.max(from) } else { from });
-            if let Some(guide) = guide(segment, curves.offset(), face).filter(|_| to > from) {
+            if let Some(guide) = guide(edge, curves.offset(), face).filter(|_| to > from) {
                 runs.push((from, to, guide));
             }
             last = Some(last.filter(|last| *last > to).unwrap_or(to));
         }
-        let closed = match (segments.first(), segments.last()) {
-            (Some(first), Some(last)) => period.is_some() && first.start == last.end,
+        let closed = match (edges.first(), edges.last()) {
+            (Some(first), Some(last)) => period.is_some() && first.start() == last.end(),
             _ => false,
         };
         if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
@@ -158,8 +162,8 @@ impl<'a> Followed<'a> {
     #[must_use]
     pub fn on(curves: Curves<'a>, contour: &Contour, mirrored: &[bool]) -> Self {
         let turned = mirrored.first().copied().unwrap_or(false).then(|| contour.mirrored_about_x());
-        let segments: Vec<Segment> = turned.as_ref().unwrap_or(contour).segments().collect();
-        Self::new(curves, &segments)
+        let edges: Vec<Edge> = turned.as_ref().unwrap_or(contour).edges().collect();
+        Self::new(curves, &edges)
     }
 
     /// Lift, velocity and acceleration as cut at a place of a stretch; the third derivative is that of the motion.
@@ -167,9 +171,13 @@ impl<'a> Followed<'a> {
         let piece = self.curves.motion.pieces().get(stretch.piece)?;
         let inside = (parameter + stretch.shift).clamp(piece.start, piece.end);
         let law = self.curves.motion.jet(stretch.piece, inside);
+        let guide = match &stretch.guide {
+            Guide::Curve(edge) => touching(self.curves, edge, inside)?,
+            known => *known,
+        };
         let cut = match self.curves.element() {
-            Element::Roller { .. } => rolled(self.curves, inside, law, stretch.guide),
-            Element::Face => under_face(self.curves, inside, law, stretch.guide),
+            Element::Roller { .. } => rolled(self.curves, inside, law, guide),
+            Element::Face => under_face(self.curves, inside, law, guide),
         };
         cut.map(|cut| (cut, law))
     }
@@ -300,15 +308,47 @@ fn nearest(parameter: f64, to: f64, period: f64) -> f64 {
     parameter + period * ((to - parameter) / period).round()
 }
 
-/// What the follower's curve follows along a segment; `None` under a face where no run of the motion belongs to it.
-fn guide(segment: &Segment, offset: f64, face: bool) -> Option<Guide> {
+/// What the follower's curve follows along an edge; `None` under a face where no run of the motion belongs to it.
+fn guide(edge: &Edge, offset: f64, face: bool) -> Option<Guide> {
+    let Some(segment) = edge.segment() else { return Some(Guide::Curve(*edge)) };
     if segment.bulge == 0.0 {
-        let normal = outward(segment.start_tangent());
-        return (!face).then(|| Guide::Line(segment.start / MILLIMETRES + normal * offset, normal));
+        return (!face).then(|| line(segment.start, segment.start_tangent(), offset));
     }
     let radius = segment.radius() / MILLIMETRES;
     let centre = segment.centre() / MILLIMETRES;
     Some(Guide::Circle(centre, if face { radius } else { (radius + offset).abs() }))
+}
+
+/// The line on which a roller's centre runs along a tangent at a point, mm.
+fn line(point: Vector2<f64>, tangent: Vector2<f64>, offset: f64) -> Guide {
+    let normal = outward(tangent);
+    Guide::Line(point / MILLIMETRES + normal * offset, normal)
+}
+
+/// The circle of curvature of a curve where the follower touches it at a parameter, or the line where it is straight there.
+fn touching(curves: Curves<'_>, edge: &Edge, parameter: f64) -> Option<Guide> {
+    let (reach, period) = (MILLIMETRES * curves.offset(), curves.motion.period());
+    let ahead = |share: f64| {
+        let (point, tangent) = edge.at(share);
+        let normal = outward(tangent);
+        let here = curves.follower.parameter_of((point + normal * reach) / MILLIMETRES, normal);
+        period.map_or(here, |period| nearest(here, parameter, period)) - parameter
+    };
+    let share = if ahead(0.0) >= 0.0 {
+        0.0
+    } else if ahead(1.0) <= 0.0 {
+        1.0
+    } else {
+        root::bracketed(ahead, 0.0, 1.0, 0.0).ok()?
+    };
+    let ((point, tangent), curvature) = (edge.at(share), edge.curvature(share));
+    let face = curves.element() == Element::Face;
+    if curvature.abs() * MILLIMETRES < STRAIGHT {
+        return (!face).then(|| line(point, tangent, curves.offset()));
+    }
+    let radius = 1.0 / (curvature * MILLIMETRES);
+    let centre = point / MILLIMETRES - outward(tangent) * radius;
+    Some(Guide::Circle(centre, if face { radius } else { (radius + curves.offset()).abs() }))
 }
 
 /// The parts of a run that lie on the pieces of the motion.
@@ -341,6 +381,7 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
             (distance - radius, away / distance)
         }
         Guide::Line(on, normal) => ((point - on).dot(&normal), normal),
+        Guide::Curve(_) => (f64::NAN, Vector2::zeros()),
     };
     let start = touch(law);
     let size = start.curve.point.norm();
@@ -372,7 +413,7 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
     let (own, square) = bend(law.dds);
     let wanted = match guide {
         Guide::Circle(_, radius) => -square / radius,
-        Guide::Line(..) => 0.0,
+        Guide::Line(..) | Guide::Curve(_) => 0.0,
     };
     let dds = law.dds + CHANGE * (wanted - own) / (bend(law.dds + CHANGE).0 - own);
     (lift.is_finite() && ds.is_finite() && dds.is_finite()).then_some(Jet { dds, ..law })

@@ -5,7 +5,7 @@
 //! where that is too much the piece is halved. Nothing is sampled, so nothing hides between samples.
 
 use super::record::{Fault, fault};
-use crate::geometry::contour::Segment;
+use crate::geometry::contour::{Cubic, Edge, Segment};
 use nalgebra::Vector2;
 
 /// Highest degree that is read: no program writes more than 11.
@@ -70,6 +70,24 @@ impl Bezier {
         Self { poles: self.poles.iter().map(pole).collect() }
     }
 
+    /// The same curve as an edge, where it is a polynomial of degree 3 or less.
+    fn exact(&self) -> Option<Edge> {
+        if !self.poles.iter().all(|[.., w]| *w == 1.0) {
+            return None;
+        }
+        let points: Vec<Vector2<f64>> = self.points().collect();
+        match points.as_slice() {
+            [start, end] => Some(Edge::Segment(Segment { start: *start, end: *end, bulge: 0.0 })),
+            // Raised to degree 3.
+            [start, q, end] => {
+                let (leaves, arrives) = (start + (q - start) * (2.0 / 3.0), end + (q - end) * (2.0 / 3.0));
+                Some(Edge::Cubic(Cubic { points: [*start, leaves, arrives, *end] }))
+            }
+            [a, b, c, d] => Some(Edge::Cubic(Cubic { points: [*a, *b, *c, *d] })),
+            _ => None,
+        }
+    }
+
     fn points(&self) -> impl DoubleEndedIterator<Item = Vector2<f64>> + '_ {
         self.poles.iter().map(|[x, y, w]| Vector2::new(*x, *y) / *w)
     }
@@ -128,32 +146,44 @@ fn binomials(degree: usize) -> Vec<f64> {
     row
 }
 
-/// Segments in a row, each from where the one before ends.
+/// Edges in a row, each from where the one before ends.
 #[derive(Debug, Default)]
 pub(super) struct Strand {
-    pub(super) segments: Vec<Segment>,
+    pub(super) edges: Vec<Edge>,
 }
 
 impl Strand {
     fn add(&mut self, from: Vector2<f64>, to: Vector2<f64>, bulge: f64) {
-        let start = self.segments.last().map_or(from, |last| last.end);
+        let start = self.edges.last().map_or(from, Edge::end);
         if (to - start).norm() > SHORTEST {
-            self.segments.push(Segment { start, end: to, bulge });
+            self.edges.push(Edge::Segment(Segment { start, end: to, bulge }));
         }
     }
 
-    /// Curves, each from where the one before ends, within a distance (mm).
+    /// Curves, each from where the one before ends: polynomials up to degree 3 as they are, others within a distance (mm).
     ///
     /// # Errors
     /// [`Fault`] where they cannot be followed.
     pub(super) fn follow(&mut self, curves: &[Bezier], within: f64) -> Result<(), Fault> {
         for curve in curves {
+            if let Some(edge) = curve.exact() {
+                if !edge.is_finite() {
+                    return Err(Fault::File(super::ReadError::NotFinite));
+                }
+                if self.edges.len() > MOST_SEGMENTS {
+                    return fault("is too rough a curve to be followed");
+                }
+                if curve.points().any(|point| (point - edge.start()).norm() > SHORTEST) {
+                    self.edges.push(edge);
+                }
+                continue;
+            }
             let mut open = vec![(curve.clone(), HALVINGS)];
             while let Some((piece, left)) = open.pop() {
                 if !piece.poles.iter().flatten().all(|number| number.is_finite()) {
                     return Err(Fault::File(super::ReadError::NotFinite));
                 }
-                if self.segments.len() > MOST_SEGMENTS {
+                if self.edges.len() > MOST_SEGMENTS {
                     return fault("is too rough a curve to be followed");
                 }
                 if !self.followed(&piece, within) {
@@ -166,7 +196,7 @@ impl Strand {
                 }
             }
         }
-        if let (Some(last), Some(curve)) = (self.segments.last_mut(), curves.last()) {
+        if let (Some(Edge::Segment(last)), Some(curve)) = (self.edges.last_mut(), curves.last()) {
             last.end = curve.end();
         }
         Ok(())
@@ -276,10 +306,10 @@ mod tests {
     }
 
     /// Largest distance of points of the curve from the segments.
-    fn farthest(curves: &[Bezier], segments: &[Segment]) -> f64 {
+    fn farthest(curves: &[Bezier], edges: &[Edge]) -> f64 {
         let points = curves.iter().flat_map(|curve| (0..=500).map(move |i| at(curve, f64::from(i) / 500.0)));
         points
-            .map(|p| segments.iter().map(|s| s.nearest(p).left.abs()).fold(f64::INFINITY, f64::min))
+            .map(|p| edges.iter().map(|edge| edge.nearest(p).left.abs()).fold(f64::INFINITY, f64::min))
             .fold(0.0, f64::max)
     }
 
@@ -297,20 +327,21 @@ mod tests {
         for within in [1e-2, 1e-5, 1e-8] {
             let mut strand = Strand::default();
             strand.follow(&bumpy(), within).expect("followed");
-            let (curves, segments) = (bumpy(), &strand.segments);
-            assert!(farthest(&curves, segments) <= 1.001 * within, "{within}: {}", farthest(&curves, segments));
-            assert!(segments.windows(2).all(|pair| pair[0].end == pair[1].start));
+            let (curves, edges) = (bumpy(), &strand.edges);
+            assert!(farthest(&curves, edges) <= 1.001 * within, "{within}: {}", farthest(&curves, edges));
+            assert!(edges.windows(2).all(|pair| pair[0].end() == pair[1].start()));
+            assert_eq!(edges.iter().filter(|edge| edge.segment().is_none()).count(), 2, "polynomials as they are");
             // The count grows with the cube root of the accuracy.
-            let count = u32::try_from(segments.len()).expect("few");
-            assert!(f64::from(count) < 12.0 + 25.0 * within.powf(-1.0 / 3.0), "{within}: {}", segments.len());
+            let count = u32::try_from(edges.len()).expect("few");
+            assert!(f64::from(count) < 12.0 + 25.0 * within.powf(-1.0 / 3.0), "{within}: {}", edges.len());
         }
     }
 
     #[test]
     fn tangents_are_kept() {
         let mut strand = Strand::default();
-        strand.follow(&bumpy()[2..], 1e-7).expect("followed");
-        for pair in strand.segments.windows(2) {
+        strand.follow(&bumpy()[1..2], 1e-7).expect("followed");
+        for pair in strand.edges.windows(2) {
             assert!(pair[0].end_tangent().perp(&pair[1].start_tangent()).abs() < 1e-7, "{pair:?}");
         }
     }
@@ -321,8 +352,8 @@ mod tests {
         let curves = Bezier::ellipse(Vector2::new(1.0, 2.0), axes, (0.0, std::f64::consts::TAU));
         let mut strand = Strand::default();
         strand.follow(&curves, 1e-9).expect("followed");
-        for segment in &strand.segments {
-            let d = segment.middle() - Vector2::new(1.0, 2.0);
+        for edge in &strand.edges {
+            let d = edge.middle() - Vector2::new(1.0, 2.0);
             let (u, v) = (d.dot(&axes.0) / 25.0, d.dot(&axes.1));
             assert!((u.hypot(v) - 1.0).abs() < 2e-9);
         }
@@ -345,6 +376,6 @@ mod tests {
         there
             .follow(&[Bezier::polynomial(&[v(0.0, 0.0), v(30.0, 0.0), v(-20.0, 0.0), v(10.0, 0.0)])], 1e-6)
             .expect("a line");
-        assert!(there.segments.iter().map(Segment::length).sum::<f64>() > 15.0, "it goes there and back");
+        assert!(there.edges.iter().map(Edge::length).sum::<f64>() > 15.0, "it goes there and back");
     }
 }

@@ -1,16 +1,16 @@
-//! Loose segments joined end to end into chains.
+//! Loose edges joined end to end into chains.
 
 use super::Source;
 use super::walk::Cut;
-use crate::geometry::contour::{Contour, Segment, Vertex};
+use crate::geometry::contour::{Contour, Edge};
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Segments, each starting where the one before ends.
+/// Edges, each starting where the one before ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Its segments, one at the least.
-    pub segments: Vec<Segment>,
+    /// Its edges, one at the least.
+    pub edges: Vec<Edge>,
     /// The last ends where the first starts.
     pub closed: bool,
     /// What it is made of.
@@ -21,20 +21,20 @@ impl Chain {
     /// A closed contour as a chain of nothing in particular.
     #[must_use]
     pub fn of(contour: &Contour) -> Self {
-        Self { segments: contour.segments().collect(), closed: true, sources: Vec::new() }
+        Self { edges: contour.edges().collect(), closed: true, sources: Vec::new() }
     }
 
     /// The chain as a contour, for a closed one.
     #[must_use]
     pub fn contour(&self) -> Contour {
-        Contour { vertices: self.segments.iter().map(|s| Vertex { point: s.start, bulge: s.bulge }).collect() }
+        Contour::of(self.edges.iter().copied())
     }
 
     /// The gap between its ends, mm.
     #[must_use]
     pub fn gap(&self) -> f64 {
-        match (self.segments.first(), self.segments.last()) {
-            (Some(first), Some(last)) => (last.end - first.start).norm(),
+        match (self.edges.first(), self.edges.last()) {
+            (Some(first), Some(last)) => (last.end() - first.start()).norm(),
             _ => 0.0,
         }
     }
@@ -42,8 +42,8 @@ impl Chain {
     /// The same chain run the other way.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        let segments = self.segments.iter().rev().map(|segment| reversed(*segment)).collect();
-        Self { segments, closed: self.closed, sources: self.sources.clone() }
+        let edges = self.edges.iter().rev().map(Edge::reversed).collect();
+        Self { edges, closed: self.closed, sources: self.sources.clone() }
     }
 
     /// What it is made of and where, for a message: "CIRCLE on layer BORE".
@@ -55,17 +55,13 @@ impl Chain {
     }
 }
 
-fn reversed(segment: Segment) -> Segment {
-    Segment { start: segment.end, end: segment.start, bulge: -segment.bulge }
-}
-
 /// Sources of a chain that a message names.
 const MOST_NAMES: usize = 3;
 
 /// A segment no longer than this has no length, mm: readers drop it, whatever reach its ends are joined with.
 const NO_LENGTH: f64 = 1e-6;
 
-/// Ends of two segments that are one, and the ends of a chain that is closed, lie nearer than this share of its length.
+/// Ends of two edges that are one, and the ends of a chain that is closed, lie nearer than this share of its length.
 const SAME_SHARE: f64 = 0.1;
 
 pub(super) struct Joined {
@@ -81,7 +77,7 @@ pub(super) struct Joined {
 const CELL: f64 = 4.0;
 /// Ends about an end beyond which no nearer one is looked for.
 const MANY: usize = 1000;
-/// So many segments about a middle are looked at before one looks for fewer.
+/// So many edges about a middle are looked at before one looks for fewer.
 const FEW: usize = 8;
 
 /// Places seen through a grid whose cells are wider than the reach, so that at most four of them are looked at.
@@ -159,28 +155,28 @@ impl Grid {
 
 /// Segments that were kept, found by their ends and middles: of many with one of them in common few have another.
 struct Known {
-    segments: Vec<Segment>,
+    edges: Vec<Edge>,
     by_place: [Grid; 3],
     reach: f64,
 }
 
 impl Known {
     fn new(reach: f64) -> Self {
-        Self { segments: Vec::new(), by_place: std::array::from_fn(|_| Grid::new(reach)), reach }
+        Self { edges: Vec::new(), by_place: std::array::from_fn(|_| Grid::new(reach)), reach }
     }
 
     /// Start and end in an order that does not depend on the direction, and middle.
-    fn places(segment: &Segment) -> [Vector2<f64>; 3] {
-        [segment.middle(), segment.start, segment.end]
+    fn places(edge: &Edge) -> [Vector2<f64>; 3] {
+        [edge.middle(), edge.start(), edge.end()]
     }
 
-    fn has(&self, segment: &Segment) -> bool {
+    fn has(&self, edge: &Edge) -> bool {
         let [by_middle, by_start, by_end] = &self.by_place;
-        let [middle, start, end] = Self::places(segment);
+        let [middle, start, end] = Self::places(edge);
         let middles = by_middle.near(middle);
         let found = |lists: &[&[usize]]| {
-            let mut all = lists.iter().flat_map(|list| list.iter()).filter_map(|index| self.segments.get(*index));
-            all.any(|other| same(segment, other, self.reach))
+            let mut all = lists.iter().flat_map(|list| list.iter()).filter_map(|index| self.edges.get(*index));
+            all.any(|other| same(edge, other, self.reach))
         };
         if middles.1 <= FEW {
             return found(&middles.0);
@@ -198,34 +194,34 @@ impl Known {
         }
     }
 
-    fn add(&mut self, segment: Segment) {
-        for (grid, place) in self.by_place.iter_mut().zip(Self::places(&segment)) {
-            grid.insert(place, self.segments.len());
+    fn add(&mut self, edge: Edge) {
+        for (grid, place) in self.by_place.iter_mut().zip(Self::places(&edge)) {
+            grid.insert(place, self.edges.len());
         }
-        self.segments.push(segment);
+        self.edges.push(edge);
     }
 }
 
 /// Segments in a row with the indices of their sources, and how long they are together, mm.
 struct Link {
-    segments: Vec<Segment>,
+    edges: Vec<Edge>,
     sources: BTreeSet<usize>,
     length: f64,
 }
 
 impl Link {
-    fn of(segments: Vec<Segment>, source: usize) -> Option<Self> {
-        let length = segments.iter().map(Segment::length).sum();
-        (!segments.is_empty()).then(|| Self { segments, sources: BTreeSet::from([source]), length })
+    fn of(edges: Vec<Edge>, source: usize) -> Option<Self> {
+        let length = edges.iter().map(Edge::length).sum();
+        (!edges.is_empty()).then(|| Self { edges, sources: BTreeSet::from([source]), length })
     }
 
     fn ends(&self) -> Option<(Vector2<f64>, Vector2<f64>)> {
-        Some((self.segments.first()?.start, self.segments.last()?.end))
+        Some((self.edges.first()?.start(), self.edges.last()?.end()))
     }
 
-    /// The distance of its ends where it may be closed by itself: a few short segments within the reach are no loop.
+    /// The distance of its ends where it may be closed by itself: a few short edges within the reach are no loop.
     fn gap(&self, reach: f64) -> Option<f64> {
-        let (start, end) = self.ends().filter(|_| self.segments.len() > 1)?;
+        let (start, end) = self.ends().filter(|_| self.edges.len() > 1)?;
         let gap = (end - start).norm();
         (gap <= reach.min(SAME_SHARE * self.length)).then_some(gap)
     }
@@ -235,14 +231,14 @@ impl Link {
     }
 
     fn reverse(&mut self) {
-        self.segments.reverse();
-        for segment in &mut self.segments {
-            *segment = reversed(*segment);
+        self.edges.reverse();
+        for edge in &mut self.edges {
+            *edge = edge.reversed();
         }
     }
 }
 
-/// Takes out segments without length and segments that lie on another, then joins what is left end to end: the outline, and
+/// Takes out edges without length and edges that lie on another, then joins what is left end to end: the outline, and
 /// what lies beside it.
 pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64) -> Joined {
     let (mut duplicates, mut points) = (Vec::new(), Vec::new());
@@ -252,21 +248,21 @@ pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64) -> Joined {
     // The outline first: what repeats it lies beside it.
     let (first, then): (Vec<Cut>, Vec<Cut>) = cuts.into_iter().partition(on_outline);
     for (cuts, links) in [(first, &mut outline), (then, &mut beside)] {
-        for Cut { segments: all, source, .. } in cuts {
-            let mut segments: Vec<Segment> = Vec::with_capacity(all.len());
-            for segment in all {
-                if (segment.end - segment.start).norm() <= reach.min(NO_LENGTH) {
-                    points.push(segment.start);
-                } else if known.has(&segment) {
-                    duplicates.push(segment.middle());
+        for Cut { edges: all, source, .. } in cuts {
+            let mut edges: Vec<Edge> = Vec::with_capacity(all.len());
+            for edge in all {
+                if (edge.end() - edge.start()).norm() <= reach.min(NO_LENGTH) {
+                    points.push(edge.start());
+                } else if known.has(&edge) {
+                    duplicates.push(edge.middle());
                     // What follows is no longer joined to what was before.
-                    links.extend(Link::of(std::mem::take(&mut segments), source));
+                    links.extend(Link::of(std::mem::take(&mut edges), source));
                 } else {
-                    known.add(segment);
-                    segments.push(segment);
+                    known.add(edge);
+                    edges.push(edge);
                 }
             }
-            links.extend(Link::of(segments, source));
+            links.extend(Link::of(edges, source));
         }
     }
     let chains = |links| joined(links, reach).into_iter().map(|link| chain(link, sources, reach)).collect();
@@ -276,18 +272,22 @@ pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64) -> Joined {
 fn chain(link: Link, sources: &[Source], reach: f64) -> Chain {
     let closed = !link.open(reach);
     let sources = link.sources.iter().filter_map(|index| sources.get(*index)).cloned().collect();
-    Chain { segments: link.segments, closed, sources }
+    Chain { edges: link.edges, closed, sources }
 }
 
-/// Whether two segments are one, within the reach but never beyond a tenth of their length.
-fn same(a: &Segment, b: &Segment, reach: f64) -> bool {
-    let reach = reach.min(SAME_SHARE * (a.end - a.start).norm());
+/// Whether two edges are one, within the reach but never beyond a tenth of their length.
+fn same(a: &Edge, b: &Edge, reach: f64) -> bool {
+    let reach = reach.min(SAME_SHARE * (a.end() - a.start()).norm());
     let close = |a: Vector2<f64>, b: Vector2<f64>| (a - b).norm() <= reach;
+    // Three points tell arcs and lines, a cubic curve needs more.
+    let between = |a: &Edge, b: &Edge| [0.25, 0.75].iter().all(|share| close(a.at(*share).0, b.at(*share).0));
+    let ends = close(a.start(), b.start()) && close(a.end(), b.end())
+        || close(a.start(), b.end()) && close(a.end(), b.start());
     close(a.middle(), b.middle())
-        && (close(a.start, b.start) && close(a.end, b.end) || close(a.start, b.end) && close(a.end, b.start))
+        && (ends && (a.segment().is_some() && b.segment().is_some() || between(a, b) || between(a, &b.reversed())))
 }
 
-/// Joins links as long as an end of one meets an end of another that is still free, the nearest first: among segments shorter
+/// Joins links as long as an end of one meets an end of another that is still free, the nearest first: among edges shorter
 /// than the reach it is the one that follows. A chain whose ends meet goes on where a free end is nearer than its own.
 fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
     // Ends that are the same are found at once, however many others are within reach.
@@ -328,7 +328,7 @@ fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
                     taken.reverse();
                 }
                 link.length += taken.length;
-                link.segments.extend(taken.segments);
+                link.edges.extend(taken.edges);
                 link.sources.extend(taken.sources);
             }
             link.reverse();
@@ -341,6 +341,7 @@ fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::contour::Segment;
 
     /// A round of segments, some of them far shorter than the reach, in any order and either direction.
     #[test]
@@ -348,7 +349,7 @@ mod tests {
         let lengths = |i: u32| if i % 50 < 20 { 1e-3 } else { 0.05 };
         let total: f64 = (0..1000).map(lengths).sum();
         let mut place = 0.0;
-        let mut ring: Vec<Segment> = Vec::new();
+        let mut ring: Vec<Edge> = Vec::new();
         let at = |along: f64| {
             let angle = std::f64::consts::TAU * along / total;
             Vector2::new(9.0 * libm::cos(angle), 9.0 * libm::sin(angle))
@@ -356,18 +357,19 @@ mod tests {
         for i in 0..1000 {
             // Ends that were rounded.
             let rounding = 1e-9 * f64::from(i % 3);
-            ring.push(Segment { start: at(place), end: at(place + lengths(i)).add_scalar(rounding), bulge: 0.0 });
+            let (start, end) = (at(place), at(place + lengths(i)).add_scalar(rounding));
+            ring.push(Edge::Segment(Segment { start, end, bulge: 0.0 }));
             place += lengths(i);
         }
         // 389 has no factor in common with 1000.
         let mixed = (0..1000).map(|i| (i * 389 + 7) % 1000).filter_map(|i| ring.get(i).copied());
-        let turned = mixed.enumerate().map(|(i, s)| if i % 3 == 0 { reversed(s) } else { s });
+        let turned = mixed.enumerate().map(|(i, s)| if i % 3 == 0 { s.reversed() } else { s });
         let links = || turned.clone().filter_map(|segment| Link::of(vec![segment], 0)).collect::<Vec<_>>();
         let found = joined(links(), 4e-3);
         assert_eq!(found.len(), 1);
-        assert!(found.iter().all(|link| !link.open(4e-3) && link.segments.len() == 1000));
-        for (a, b) in found.iter().flat_map(|link| link.segments.iter().zip(link.segments.iter().skip(1))) {
-            assert!((b.start - a.end).norm() < 1e-8, "{a:?} {b:?}");
+        assert!(found.iter().all(|link| !link.open(4e-3) && link.edges.len() == 1000));
+        for (a, b) in found.iter().flat_map(|link| link.edges.iter().zip(link.edges.iter().skip(1))) {
+            assert!((b.start() - a.end()).norm() < 1e-8, "{a:?} {b:?}");
         }
     }
 }

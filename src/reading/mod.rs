@@ -197,7 +197,7 @@ mod tests {
         let reading = read(&drawing(slot(), Units::Millimeters), 1e-6).expect("read");
         assert_eq!((reading.unit, reading.chains.len()), (Unit::Millimetres, 1));
         let chain = &reading.chains[0];
-        assert!(chain.closed && chain.segments.len() == 4);
+        assert!(chain.closed && chain.edges.len() == 4);
         let (area, _) = chain.contour().area_and_centroid();
         assert!((area.abs() - (800.0 + 100.0 * std::f64::consts::PI)).abs() < 1e-9, "{area}");
         assert!(reading.duplicates.is_empty() && reading.unreadable.is_empty());

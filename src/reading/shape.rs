@@ -116,7 +116,10 @@ fn radius(record: &Record<'_>) -> Result<f64, Fault> {
 fn circle(record: &Record<'_>) -> Result<Shape, Fault> {
     let (centre, radius) = (record.point(10)?, radius(record)?);
     let circle = Contour::circle(centre.xy(), radius);
-    Ok(Shape { from_behind: record.is_seen_from_behind()?, ..Shape::of(circle.segments(), centre.z) })
+    Ok(Shape {
+        from_behind: record.is_seen_from_behind()?,
+        ..Shape::of(circle.segments().unwrap_or_default(), centre.z)
+    })
 }
 
 fn arc(record: &Record<'_>) -> Result<Shape, Fault> {
@@ -156,7 +159,7 @@ fn sides(mut vertices: Vec<Vertex>, closed: bool) -> Result<Vec<Segment>, Fault>
     if closed && repeats {
         vertices.pop();
     }
-    let mut segments: Vec<Segment> = Contour { vertices }.segments().collect();
+    let mut segments: Vec<Segment> = Contour { vertices }.segments().unwrap_or_default();
     if !closed {
         segments.pop();
     }
@@ -190,7 +193,7 @@ fn lightweight_polyline(record: &Record<'_>) -> Result<Shape, Fault> {
     let widths = vertices.iter().flat_map(|[.., start, end]| [start, end]).flatten();
     let width = widths.fold(record.real(43, 0.0)?.abs(), |widest, width| widest.max(width.abs()));
     let vertex = |[x, y, bulge, ..]: &[Option<f64>; 5]| match (x, y) {
-        (Some(x), Some(y)) => Ok(Vertex { point: Vector2::new(*x, *y), bulge: bulge.unwrap_or(0.0) }),
+        (Some(x), Some(y)) => Ok(Vertex::new(Vector2::new(*x, *y), bulge.unwrap_or(0.0))),
         _ => fault("has a vertex of which only x is told"),
     };
     let vertices: Vec<Vertex> = vertices.iter().map(vertex).collect::<Result<_, _>>()?;
@@ -228,7 +231,7 @@ fn polyline(record: &Record<'_>, vertices: &[Record<'_>]) -> Result<Shape, Fault
             heights.push(point.z);
         }
         width = width.max(vertex.real(40, 0.0)?.abs()).max(vertex.real(41, 0.0)?.abs());
-        found.push(Vertex { point: point.xy(), bulge });
+        found.push(Vertex::new(point.xy(), bulge));
     }
     let segments = sides(found, flags & CLOSED != 0)?;
     let from_behind = if spatial { false } else { record.is_seen_from_behind()? };

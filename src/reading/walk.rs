@@ -6,7 +6,7 @@ use super::placement::Placement;
 use super::record::{Fault, Record, fault};
 use super::shape::{self, Piece, Shape};
 use super::{OUTLINE_LAYER, ReadError, Source, Stray};
-use crate::geometry::contour::Segment;
+use crate::geometry::contour::{Edge, Segment};
 use nalgebra::{Vector2, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +21,7 @@ const MOST_TOLD: usize = 1_000;
 #[derive(Debug)]
 pub(super) struct Cut {
     /// In a row, each from where the one before ends.
-    pub(super) segments: Vec<Segment>,
+    pub(super) edges: Vec<Edge>,
     /// Index of its source.
     pub(super) source: usize,
     /// Least and largest height.
@@ -214,7 +214,7 @@ impl<'c> Walk<'c> {
                 Piece::Segment(segment) if segment.bulge == 0.0 || keeps_circles => {
                     let bulge = if mirrors { -segment.bulge } else { segment.bulge };
                     let (start, end) = (placement.point(segment.start), placement.point(segment.end));
-                    strand.segments.push(Segment { start, end, bulge });
+                    strand.edges.push(Edge::Segment(Segment { start, end, bulge }));
                 }
                 Piece::Segment(segment) => {
                     curves.push(segment);
@@ -227,13 +227,12 @@ impl<'c> Walk<'c> {
         if !curves.is_empty() || shape.pieces.iter().any(|piece| matches!(piece, Piece::Curve(_))) {
             self.curves += 1;
         }
-        let numbers = |s: &Segment| [s.start.x, s.start.y, s.end.x, s.end.y, s.bulge];
-        if !strand.segments.iter().flat_map(numbers).all(f64::is_finite) {
+        if !strand.edges.iter().all(Edge::is_finite) {
             return Err(Fault::File(ReadError::NotFinite));
         }
         let heights = shape.heights.iter().map(|height| placement.height(*height));
         let heights = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
-        self.cuts.push(Cut { segments: strand.segments, source, heights });
+        self.cuts.push(Cut { edges: strand.edges, source, heights });
         Ok(())
     }
 
@@ -307,7 +306,7 @@ impl<'c> Walk<'c> {
             } else {
                 format!("lies {low} mm above the rest")
             };
-            let place = cut.segments.first().map_or_else(Vector2::zeros, Segment::middle);
+            let place = cut.edges.first().map_or_else(Vector2::zeros, Edge::middle);
             told.push(Stray { kind, why, layer, place });
             if told.len() >= MOST_TOLD {
                 break;

@@ -2,7 +2,7 @@
 
 use super::{Check, Evidence, On, WrittenOutline, place};
 use crate::body::Request;
-use crate::geometry::contour::Contour;
+use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::geometry::mismatch::{Farthest, farthest};
 use crate::geometry::track::Track;
 use crate::geometry::{Entity, MILLIMETRES};
@@ -133,7 +133,7 @@ fn located(chain: &Chain) -> String {
 
 /// The middle of what a closed chain encloses, or of the first segment of an open one.
 fn centre(chain: &Chain) -> Vector2<f64> {
-    let middle = chain.segments.first().map_or_else(Vector2::zeros, crate::geometry::contour::Segment::middle);
+    let middle = chain.edges.first().map_or_else(Vector2::zeros, Edge::middle);
     let enclosed = chain.closed.then(|| chain.contour().area_and_centroid().1);
     enclosed.filter(|centre| centre.x.is_finite() && centre.y.is_finite()).unwrap_or(middle)
 }
@@ -164,21 +164,22 @@ fn runs_once(chain: &Chain, wanted: &Contour, tolerance: f64) -> bool {
     let contour = chain.contour();
     let left = if contour.area_and_centroid().0 < 0.0 { contour.reversed() } else { contour };
     let track = Track::new(wanted);
-    let forwards = |segment: crate::geometry::contour::Segment| {
-        let (middle, tangent) = segment.at(0.5);
+    let forwards = |edge: Edge| {
+        let (middle, tangent) = edge.at(0.5);
         let along = track.nearest_segment(middle).map(|(_, nearest)| nearest.tangent);
-        segment.length() <= 2.0 * tolerance || along.is_some_and(|along| along.dot(&tangent) > 0.0)
+        edge.length() <= 2.0 * tolerance || along.is_some_and(|along| along.dot(&tangent) > 0.0)
     };
-    left.turns() == 1.0 && left.segments().all(forwards)
+    left.turns() == 1.0 && left.edges().all(forwards)
 }
 
 /// Centre and radius of a chain that is a circle.
 fn circle(chain: &Chain) -> Option<(Vector2<f64>, f64)> {
     /// Of the radius: decimals of a file.
     const SAME: f64 = 1e-6;
-    let first = chain.segments.first().filter(|first| first.bulge != 0.0)?;
+    let segments: Vec<Segment> = chain.edges.iter().map(Edge::segment).collect::<Option<_>>()?;
+    let first = segments.first().filter(|first| first.bulge != 0.0)?;
     let (centre, radius) = (first.centre(), first.radius().abs());
-    let same = chain.segments.iter().all(|segment| {
+    let same = segments.iter().all(|segment| {
         segment.bulge != 0.0
             && (segment.centre() - centre).norm() <= SAME * radius
             && (segment.radius().abs() - radius).abs() <= SAME * radius
@@ -218,12 +219,12 @@ fn difference(name: &str, hole: &Entity, chain: &Chain, distance: f64) -> String
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::contour::{Segment, Vertex};
+    use crate::geometry::contour::Vertex;
     use crate::reading::Source;
 
     fn chain(contour: &Contour) -> Chain {
         let sources = vec![Source { kind: "CIRCLE".into(), layer: "BORE".into() }];
-        Chain { segments: contour.segments().collect(), closed: true, sources }
+        Chain { edges: contour.edges().collect(), closed: true, sources }
     }
 
     fn keyed(angle: f64, half: f64) -> Contour {
@@ -231,7 +232,7 @@ mod tests {
         let edge = (radius * radius - half * half).sqrt();
         let round = (0.25 * (std::f64::consts::PI - (half / radius).asin())).tan();
         let (sin, cos) = angle.sin_cos();
-        let at = |x: f64, y: f64, bulge| Vertex { point: Vector2::new(cos * x - sin * y, sin * x + cos * y), bulge };
+        let at = |x: f64, y: f64, bulge| Vertex::new(Vector2::new(cos * x - sin * y, sin * x + cos * y), bulge);
         let far = |y| at(bottom, y, 0.0);
         Contour {
             vertices: vec![at(edge, half, round), at(-radius, 0.0, round), at(edge, -half, 0.0), far(-half), far(half)],
@@ -282,7 +283,8 @@ mod tests {
             bulge: (0.25 * (to - from)).tan(),
         };
         let segments = vec![arc(0.0, 3.0), arc(3.0, 2.9), arc(2.9, 5.0), arc(5.0, std::f64::consts::TAU)];
-        let to_and_fro = Chain { segments, ..chain(&Contour::circle(Vector2::zeros(), 25.0)) };
+        let edges = segments.into_iter().map(Edge::Segment).collect();
+        let to_and_fro = Chain { edges, ..chain(&Contour::circle(Vector2::zeros(), 25.0)) };
         assert!(words(&bore, &[to_and_fro]).contains("to and fro"));
     }
 }

@@ -54,7 +54,9 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         Ok(None) => return None,
         Err(error) => return none(error.to_string()),
     };
-    let cut = moved_inwards(contour, path.radius - path.middle);
+    let Some(cut) = moved_inwards(contour, path.radius - path.middle) else {
+        return none("the path has cubic curves, whose parallels are none".into());
+    };
     let room = limit - path.middle.abs();
     let (worst, kept, astray) = match follow(&cut, &profile) {
         Ok(worst) => (worst, worst.distance <= room, None),
@@ -79,22 +81,22 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     Some(Finding { place: place(evidence.body, worst.at), note: Some(note), ..found })
 }
 
-/// What a cutter of this radius (mm) leaves on the left of its path.
-fn moved_inwards(path: &Contour, radius: f64) -> Contour {
-    let segments: Vec<Segment> = path.segments().collect();
+/// What a cutter of this radius (mm) leaves on the left of its path; `None` where that is not of arcs and lines.
+fn moved_inwards(path: &Contour, radius: f64) -> Option<Contour> {
+    let segments: Vec<Segment> = path.segments()?;
     let before = segments.iter().cycle().skip(segments.len().saturating_sub(1));
     let left = |tangent: Vector2<f64>| Vector2::new(-tangent.y, tangent.x) * radius;
     let mut vertices = Vec::new();
     for ((segment, before), turn) in segments.iter().zip(before).zip(path.tangent_breaks()) {
         if turn < -LEAST_KINK {
             let point = segment.start + left(before.end_tangent());
-            vertices.push(Vertex { point, bulge: libm::tan(0.25 * turn) });
+            vertices.push(Vertex::new(point, libm::tan(0.25 * turn)));
         }
         if segment.bulge == 0.0 || (segment.radius() - radius).abs() > A_POINT {
-            vertices.push(Vertex { point: segment.start + left(segment.start_tangent()), bulge: segment.bulge });
+            vertices.push(Vertex::new(segment.start + left(segment.start_tangent()), segment.bulge));
         }
     }
-    Contour { vertices }
+    Some(Contour { vertices })
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::{Check, Evidence, On};
 use crate::body::Body;
 use crate::geometry::MILLIMETRES;
-use crate::geometry::contour::Segment;
+use crate::geometry::contour::Edge;
 use crate::motion::Quantity;
 use crate::profile::followed::{Errors, Followed};
 use crate::profile::{Curves, Worst};
@@ -22,14 +22,10 @@ const ROUNDING: f64 = 1e-6;
 /// Warns beyond this share when no limit is given.
 const CUSTOMARY: f64 = 0.1;
 
-/// What the follower feels on the flanks of a written outline, each a list of segments that lies as the follower meets it;
+/// What the follower feels on the flanks of a written outline, each a list of edges that lies as the follower meets it;
 /// `None` where it is nowhere in touch.
-pub(super) fn felt<'s>(
-    body: &dyn Body,
-    curves: Curves<'_>,
-    flanks: impl Iterator<Item = &'s [Segment]>,
-) -> Option<Felt> {
-    let errors = flanks.map(|segments| Followed::new(curves, segments).errors());
+pub(super) fn felt<'s>(body: &dyn Body, curves: Curves<'_>, flanks: impl Iterator<Item = &'s [Edge]>) -> Option<Felt> {
+    let errors = flanks.map(|edges| Followed::new(curves, edges).errors());
     let errors = errors.fold(Errors::NONE, Errors::or_larger);
     if errors.acceleration == Worst::NONE {
         return None;

@@ -1,6 +1,7 @@
 //! What a DXF file must be before it can be rolled on: one closed outline in millimetres, on its layer, readable, once.
 
 use super::{Check, Evidence, On, place};
+use crate::geometry::contour::Edge;
 use crate::reading::{OUTLINE_LAYER, Reading, Stray, Unit};
 use crate::report::{Finding, Verdict};
 
@@ -127,7 +128,7 @@ fn contours(reading: &Reading) -> Finding {
 
 fn closed(evidence: &Evidence<'_>, reading: &Reading) -> Option<Finding> {
     let open = reading.chains.iter().filter(|chain| !chain.closed).max_by(|a, b| a.gap().total_cmp(&b.gap()));
-    let end = open.and_then(|chain| chain.segments.last()).map(|segment| segment.end);
+    let end = open.and_then(|chain| chain.edges.last()).map(Edge::end);
     let gap = open.or(reading.chains.first())?.gap();
     let found = CLOSED.found(gap, Some(join_reach(evidence.tolerance_mm)), "mm", Verdict::of(open.is_none()));
     Some(Finding {

@@ -196,11 +196,11 @@ impl Roll<'_> {
         let period = self.curves.motion.period();
         let even = (0..EVEN_PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(EVEN_PLACES));
         // An arc near the least possible number of them misses the curve three times, to either side.
-        let count: u32 = if self.track.segments().len() <= FEW_SEGMENTS { 4 } else { 1 };
-        let touching = self.track.segments().iter().flat_map(|segment| {
+        let count: u32 = if self.track.edges().len() <= FEW_SEGMENTS { 4 } else { 1 };
+        let touching = self.track.edges().iter().flat_map(|edge| {
             (0..count).map(|step| {
                 let share = f64::from(step) / f64::from(count);
-                let (point, tangent) = segment.at(share);
+                let (point, tangent) = edge.at(share);
                 self.parameter_over(point, Vector2::new(tangent.y, -tangent.x))
             })
         });
@@ -472,7 +472,7 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         chord_difference_mm: samples.iter().map(|s| s.difference).fold(0.0, f64::max),
         residual_max_n: residual.map_or(0.0, |s| s.residual),
         residual_at: residual.map_or_else(Place::default, |s| body.place(s.parameter)),
-        felt: felt::felt(body, curves, tracks.iter().map(Track::segments)),
+        felt: felt::felt(body, curves, tracks.iter().map(Track::edges)),
     }
 }
 

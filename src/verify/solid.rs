@@ -203,8 +203,8 @@ fn holes(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Finding {
 /// The largest distance of any place on these contours from those, mm.
 fn farthest(these: &[Contour], those: &[Contour]) -> f64 {
     let tracks: Vec<Track> = those.iter().map(Track::new).collect();
-    let places = these.iter().flat_map(Contour::segments);
-    let places = places.flat_map(|segment| (0..PLACES).map(move |i| segment.at(f64::from(i) / f64::from(PLACES)).0));
+    let places = these.iter().flat_map(Contour::edges);
+    let places = places.flat_map(|edge| (0..PLACES).map(move |i| edge.at(f64::from(i) / f64::from(PLACES)).0));
     let nearest = |place: nalgebra::Vector2<f64>| {
         let all = tracks.iter().filter_map(|track| track.nearest(place)).map(|nearest| nearest.left.abs());
         all.fold(f64::INFINITY, f64::min)

@@ -7,9 +7,11 @@ use super::dxf::{self, Version};
 use crate::body::{Layer, Part};
 use crate::geometry::Entity;
 use crate::geometry::contour::Contour;
+use crate::geometry::cubics::{Run, runs};
 use crate::profile::outline::Outline;
 use crate::reading::{self, Chain, ReadError};
 use ::dxf::entities::EntityType;
+use nalgebra::Vector2;
 
 /// Ends nearer than this are one, mm: far above twelve decimals, far below any segment.
 const JOIN: f64 = 1e-9;
@@ -40,6 +42,9 @@ pub enum ProofError {
     /// It does not hold one closed outline.
     #[error("the DXF file as written does not hold one closed outline; please report this")]
     NotOneOutline,
+    /// The version has no splines.
+    #[error("DXF R12 has no SPLINE: use --outline arcs, or --dxf-version r2000 or later")]
+    NoSplines,
 }
 
 /// Writes the cut drawing to memory and reads its outline back.
@@ -47,6 +52,9 @@ pub enum ProofError {
 /// # Errors
 /// [`ProofError`] when what was written is not what was drawn.
 pub fn write(part: &Part, version: Version) -> Result<Written, ProofError> {
+    if version == Version::R12 && part.outline.contour.cubics() > 0 {
+        return Err(ProofError::NoSplines);
+    }
     let entities = part.entities();
     let bytes = dxf::write(&entities, version);
     if !holds(&bytes, &entities) {
@@ -75,42 +83,92 @@ pub fn cutter_path(outline: &Outline, version: Version) -> Result<Contour, Proof
     }
 }
 
+/// What the file says of one thing that was drawn.
+enum Told<'a> {
+    Entity(&'a Entity),
+    /// A part of an outline with splines, which is told curve by curve.
+    Run(Run),
+}
+
 /// Whether the dxf crate finds these entities in the bytes, in their order and on their layers, and no others.
 fn holds(bytes: &[u8], drawn: &[(Layer, Entity)]) -> bool {
     let Ok(drawing) = ::dxf::Drawing::load(&mut &*bytes) else { return false };
-    let near = |a: f64, b: f64| (a - b).abs() <= ROUNDING;
-    let same_chain = |contour: &Contour, closed: bool, found: &mut dyn Iterator<Item = [f64; 3]>| {
-        let all = contour.vertices.iter().all(|v| {
-            let vertex = found.next();
-            vertex.is_some_and(|[x, y, bulge]| near(v.point.x, x) && near(v.point.y, y) && near(v.bulge, bulge))
-        });
-        all && closed && found.next().is_none()
-    };
-    let same = |(layer, entity): &(Layer, Entity), found: &::dxf::entities::Entity| {
-        found.common.layer == layer.name()
-            && match (entity, &found.specific) {
-                (Entity::Polyline(contour), EntityType::LwPolyline(line)) => {
-                    same_chain(contour, line.is_closed(), &mut line.vertices.iter().map(|v| [v.x, v.y, v.bulge]))
-                }
-                (Entity::Polyline(contour), EntityType::Polyline(line)) => {
-                    let mut vertices = line.vertices().map(|v| [v.location.x, v.location.y, v.bulge]);
-                    same_chain(contour, line.is_closed(), &mut vertices)
-                }
-                (Entity::Circle(centre, radius), EntityType::Circle(circle)) => {
-                    let [x, y] = [circle.center.x, circle.center.y];
-                    near(centre.x, x) && near(centre.y, y) && near(*radius, circle.radius)
-                }
-                _ => false,
-            }
-    };
+    let told = drawn.iter().flat_map(|(layer, entity)| {
+        let all = match entity {
+            Entity::Polyline(contour) if contour.cubics() > 0 => runs(contour).into_iter().map(Told::Run).collect(),
+            Entity::Polyline(_) | Entity::Circle(..) => vec![Told::Entity(entity)],
+        };
+        all.into_iter().map(|told| (*layer, told))
+    });
     let mut found = drawing.entities();
-    drawn.iter().all(|entity| found.next().is_some_and(|other| same(entity, other))) && found.next().is_none()
+    let mut told = told.collect::<Vec<_>>().into_iter();
+    told.all(|(layer, told)| {
+        found.next().is_some_and(|other| {
+            let same = match &told {
+                Told::Entity(entity) => same_entity(entity, &other.specific),
+                Told::Run(run) => same_run(run, &other.specific),
+            };
+            other.common.layer == layer.name() && same
+        })
+    }) && found.next().is_none()
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUNDING
+}
+
+fn at(point: Vector2<f64>, found: &::dxf::Point) -> bool {
+    near(point.x, found.x) && near(point.y, found.y)
+}
+
+fn same_chain(contour: &Contour, closed: bool, found: &mut dyn Iterator<Item = [f64; 3]>) -> bool {
+    let all = contour.vertices.iter().all(|v| {
+        let bulge = v.bulge().unwrap_or(f64::NAN);
+        found.next().is_some_and(|[x, y, b]| near(v.point.x, x) && near(v.point.y, y) && near(bulge, b))
+    });
+    all && closed && found.next().is_none()
+}
+
+fn same_entity(entity: &Entity, found: &EntityType) -> bool {
+    match (entity, found) {
+        (Entity::Polyline(contour), EntityType::LwPolyline(line)) => {
+            same_chain(contour, line.is_closed(), &mut line.vertices.iter().map(|v| [v.x, v.y, v.bulge]))
+        }
+        (Entity::Polyline(contour), EntityType::Polyline(line)) => {
+            let mut vertices = line.vertices().map(|v| [v.location.x, v.location.y, v.bulge]);
+            same_chain(contour, line.is_closed(), &mut vertices)
+        }
+        (Entity::Circle(centre, radius), EntityType::Circle(circle)) => {
+            at(*centre, &circle.center) && near(*radius, circle.radius)
+        }
+        _ => false,
+    }
+}
+
+fn same_run(run: &Run, found: &EntityType) -> bool {
+    match (run, found) {
+        (Run::Segment(segment), EntityType::Line(line)) => at(segment.start, &line.p1) && at(segment.end, &line.p2),
+        (Run::Segment(segment), EntityType::Arc(arc)) => {
+            let (from, to) = segment.angles();
+            let angles = near(from, arc.start_angle) && near(to, arc.end_angle);
+            at(segment.centre(), &arc.center) && near(segment.radius().abs(), arc.radius) && angles
+        }
+        (Run::Spline(spline), EntityType::Spline(found)) => {
+            found.degree_of_curve == 3
+                && found.weight_values.is_empty()
+                && spline.knots.len() == found.knot_values.len()
+                && spline.controls.len() == found.control_points.len()
+                && spline.knots.iter().zip(&found.knot_values).all(|(a, b)| near(*a, *b))
+                && spline.controls.iter().zip(&found.control_points).all(|(a, b)| at(*a, b))
+        }
+        _ => false,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector2;
+    use crate::geometry::contour::Bend;
 
     #[test]
     fn the_second_reader_misses_nothing_and_finds_nothing_more() {
@@ -128,7 +186,7 @@ mod tests {
             moved[1] = (Layer::CutterPath, drawn[1].1.clone());
             assert!(!holds(&bytes, &moved), "{name}: another layer");
             let Entity::Polyline(mut chain) = drawn[0].1.clone() else { unreachable!("a polyline") };
-            chain.vertices[0].bulge += 1e-9;
+            chain.vertices[0].bend = Bend::Arc(1.0 + 1e-9);
             assert!(!holds(&bytes, &[(Layer::CamProfile, Entity::Polyline(chain)), drawn[1].clone()]), "{name}: bent");
         }
     }

@@ -4,7 +4,7 @@
 use super::number::plain;
 use super::{Format, Rendering, When, fits_all};
 use crate::geometry::Entity;
-use crate::geometry::contour::{Contour, Segment};
+use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::motion::Quantity;
 use crate::profile::followed::Followed;
 use crate::report::sheet::{Group, Shape, Sheet, TextAnchor};
@@ -198,8 +198,19 @@ fn place(point: Vector2<f64>) -> String {
 
 fn path(contour: &Contour) -> String {
     let start = contour.vertices.first().map(|vertex| place(vertex.point)).unwrap_or_default();
-    let segments: Vec<String> = contour.segments().map(|segment| arc(&segment)).collect();
-    format!("M{start} {} Z", segments.join(" "))
+    let edges: Vec<String> = contour.edges().map(|edge| command(&edge)).collect();
+    format!("M{start} {} Z", edges.join(" "))
+}
+
+/// The commands of one edge.
+fn command(edge: &Edge) -> String {
+    match edge {
+        Edge::Segment(segment) => arc(segment),
+        Edge::Cubic(cubic) => {
+            let [_, leaves, arrives, end] = cubic.points.map(place);
+            format!("C{leaves} {arrives} {end}")
+        }
+    }
 }
 
 /// The commands of one segment: a line, an arc, or the two halves of a long arc.

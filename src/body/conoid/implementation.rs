@@ -67,7 +67,7 @@ impl Conoid {
             for range in outline::parts(&Piece { dwell: round, ..*piece }, &[], Some(TAU)) {
                 if round {
                     let bulge = libm::tan(0.25 * (range.1 - range.0));
-                    outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
+                    outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
                 } else {
                     match fit.motion {
                         MotionTolerance::ANY => outline.lay(|angle| frame(index, angle), range, tolerance)?,

@@ -8,7 +8,7 @@ use crate::body::{
 };
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
-use crate::geometry::contour::{Contour, Segment, Vertex};
+use crate::geometry::contour::{Contour, Edge, Segment, Vertex};
 use crate::load::{RunUp, air_law, closed_at};
 use crate::machine::Machine;
 use crate::motion::Motion;
@@ -47,16 +47,19 @@ impl Wedge {
         let back = outward * shift - tangent * (shift * outward.x / tangent.x);
         let run_out = self.run_out() * MILLIMETRES - back * MILLIMETRES;
         let there = (run_out - end).dot(&tangent) > SHORTEST;
-        lower.extend(std::iter::once(end).chain(there.then_some(run_out)).map(|point| Vertex { point, bulge: 0.0 }));
-        // Mirrored and run the other way a segment keeps its bulge, which then belongs to its other end.
-        let bulges = lower.iter().map(|vertex| vertex.bulge);
-        let bulges: Vec<f64> = std::iter::once(0.0).chain(bulges).collect();
-        let mirror =
-            |(vertex, bulge): (&Vertex, f64)| Vertex { point: Vector2::new(vertex.point.x, -vertex.point.y), bulge };
-        let upper: Vec<Vertex> = lower.iter().zip(bulges).rev().map(mirror).collect();
-        lower.extend(upper);
+        lower.extend(std::iter::once(end).chain(there.then_some(run_out)).map(|point| Vertex::new(point, 0.0)));
+        // The edges of the flank, its end left out, and their mirror images run the other way.
+        let last = lower.last().map(|vertex| vertex.point);
+        let flank_edges: Vec<Edge> = Contour { vertices: lower }.edges().collect();
+        let own = flank_edges.len().saturating_sub(1);
+        let first = flank_edges.first().map(Edge::start);
+        let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
+        let mut vertices = Contour::of(flank_edges.iter().take(own).copied()).vertices;
+        vertices.extend(last.map(|point| Vertex::new(point, 0.0)));
+        vertices.extend(Contour::of(flank_edges.iter().take(own).rev().map(Edge::mirrored_about_x)).vertices);
+        vertices.extend(first.map(|point| Vertex::new(flip(point), 0.0)));
         Ok(Outline {
-            contour: Contour { vertices: lower },
+            contour: Contour { vertices },
             deviation: flank.deviation,
             best_possible: 2.0 * flank.best_possible,
             best_for: flank.best_for.map(|best| 2.0 * best),
@@ -68,9 +71,11 @@ impl Wedge {
         let mut vertices = outline::pitch(self.curves())?.contour.vertices;
         let last = self.motion.pieces().len().saturating_sub(1);
         let end = self.curves().contact(last, self.stroke()).curve.point * MILLIMETRES;
-        vertices.push(Vertex { point: end, bulge: 0.0 });
+        vertices.push(Vertex::new(end, 0.0));
         let pairs = vertices.iter().zip(vertices.iter().skip(1));
-        Ok(pairs.map(|(a, b)| Segment { start: a.point, end: b.point, bulge: a.bulge }).collect())
+        // A pitch curve is laid as arcs.
+        let segment = |(a, b): (&Vertex, &Vertex)| Some(Segment { start: a.point, end: b.point, bulge: a.bulge()? });
+        Ok(pairs.filter_map(segment).collect())
     }
 
     fn law(&self) -> AirLaw {

@@ -27,7 +27,7 @@ mod nodes;
 mod spacing;
 mod trial;
 
-use crate::geometry::contour::Segment;
+use crate::geometry::contour::{Edge, Segment};
 use crate::geometry::{Allowed, CurvePoint};
 use crate::numeric::extremum::larger;
 use nalgebra::Vector2;
@@ -88,10 +88,12 @@ pub struct Chain {
 impl Chain {
     /// Its arcs, the last of which ends at a point.
     #[must_use]
-    pub fn segments(&self, end: Vector2<f64>) -> Vec<Segment> {
+    pub fn edges(&self, end: Vector2<f64>) -> Vec<Edge> {
         let ends = self.joints.iter().skip(1).map(|joint| joint.point).chain([end]);
-        let segment = |(joint, end): (&Joint, Vector2<f64>)| Segment { start: joint.point, end, bulge: joint.bulge };
-        self.joints.iter().zip(ends).map(segment).collect()
+        let arc = |(joint, end): (&Joint, Vector2<f64>)| {
+            Edge::Segment(Segment { start: joint.point, end, bulge: joint.bulge })
+        };
+        self.joints.iter().zip(ends).map(arc).collect()
     }
 }
 

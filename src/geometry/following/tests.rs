@@ -27,7 +27,7 @@ fn chain(count: u32, radius: impl Fn(f64) -> f64, bulge: impl Fn(u32) -> f64) ->
         let angle = TAU * (f64::from(i) + 0.3) / f64::from(count);
         let own = libm::tan(0.25 * TAU / f64::from(count));
         let point = Vector2::new(12.0 + radius(angle) * libm::cos(angle), radius(angle) * libm::sin(angle));
-        Vertex { point, bulge: own * bulge(i) }
+        Vertex::new(point, own * bulge(i))
     };
     Contour { vertices: (0..count).map(vertex).collect() }
 }

@@ -1,11 +1,11 @@
-//! The part as a solid: its face extruded, exact planes and cylinders, no booleans and no splines.
+//! The part as a solid: its face extruded, exact planes, cylinders and, over cubic curves, spline surfaces; no booleans.
 //!
 //! Every contour runs with the metal on its left, the outline counter-clockwise, holes clockwise, so that one rule makes
-//! all side faces: the outward normal lies to the right. A line sweeps a plane; an arc sweeps a cylinder, whose own
+//! all side faces: the outward normal lies to the right. A line sweeps a plane, a cubic curve a spline surface; an arc sweeps a cylinder, whose own
 //! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
 //! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
 
-use super::contour::{Contour, Segment, sweep_minus_sine};
+use super::contour::{Contour, Cubic, Edge, Segment, sweep_minus_sine};
 use nalgebra::Vector2;
 use truck_modeling::{InnerSpace, Point3, Vector3};
 use truck_topology::compress::{CompressedEdge, CompressedEdgeIndex, CompressedFace, CompressedShell, CompressedSolid};
@@ -173,20 +173,20 @@ impl Shell {
 
     /// The walls over a contour with the metal on its left.
     fn walls(&mut self, contour: &Contour) {
-        let segments: Vec<Segment> = contour.segments().flat_map(|segment| edges(&segment)).collect();
-        let n = segments.len();
+        let sides: Vec<Edge> = contour.edges().flat_map(|edge| edges(&edge)).collect();
+        let n = sides.len();
         let (low, high) = self.ends;
         let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
-        for (i, segment) in segments.iter().enumerate() {
+        for (i, edge) in sides.iter().enumerate() {
             for (top, z) in [(0, low), (1, high)] {
-                vertices.push(at(segment.start, z));
+                vertices.push(at(edge.start(), z));
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
-                edges.push(CompressedEdge { vertices: ends, curve: carrier(segment, z) });
+                edges.push(CompressedEdge { vertices: ends, curve: carrier(edge, z) });
             }
-            let upright = Curve::Line { origin: at(segment.start, low), direction: Vector3::unit_z() };
+            let upright = Curve::Line { origin: at(edge.start(), low), direction: Vector3::unit_z() };
             edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
             let around = [self.edge(n, i, 0), self.edge(n, i + 1, 2), self.edge(n, i, 1), self.edge(n, i, 2)];
-            faces.push(side(segment, low, around));
+            faces.push(side(edge, (low, high), around));
         }
         self.close(n, vertices, edges, faces);
     }
@@ -277,36 +277,61 @@ pub fn conical(
     Ok(Solid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
 }
 
-/// An arc as its edges: two where it is long, as some readers cannot tell the inside of a cylinder face that is almost
-/// closed, and a line where it differs from one by less than
-/// the solid's uncertainty and its centre would be too far away.
-fn edges(segment: &Segment) -> Vec<Segment> {
+/// An edge as it is carried: an arc as two where it is long, as some readers cannot tell the inside of a cylinder face that is
+/// almost closed, and as a line where it differs from one by less than the solid's uncertainty and its centre would be too far
+/// away.
+fn edges(edge: &Edge) -> Vec<Edge> {
+    let Edge::Segment(segment) = edge else { return vec![*edge] };
     let sagitta = 0.5 * (segment.end - segment.start).norm() * segment.bulge.abs();
     if segment.radius().abs() > LARGEST_RADIUS && sagitta < STRAIGHT {
-        return vec![Segment { bulge: 0.0, ..*segment }];
+        return vec![Edge::Segment(Segment { bulge: 0.0, ..*segment })];
     }
     if segment.sweep().abs() <= LONGEST_SWEEP {
-        return vec![*segment];
+        return vec![*edge];
     }
     let (middle, bulge) = (segment.middle(), libm::tan(0.125 * segment.sweep()));
-    vec![Segment { end: middle, bulge, ..*segment }, Segment { start: middle, bulge, ..*segment }]
+    [Segment { end: middle, bulge, ..*segment }, Segment { start: middle, bulge, ..*segment }]
+        .map(Edge::Segment)
+        .to_vec()
 }
 
-fn carrier(segment: &Segment, z: f64) -> Curve {
-    if segment.bulge == 0.0 {
-        let direction = segment.start_tangent();
-        return Curve::Line {
-            origin: at(segment.start, z),
-            direction: Vector3::new(direction.x + 0.0, direction.y + 0.0, 0.0),
-        };
+fn carrier(edge: &Edge, z: f64) -> Curve {
+    match edge {
+        Edge::Segment(segment) if segment.bulge == 0.0 => {
+            let direction = segment.start_tangent();
+            let direction = Vector3::new(direction.x + 0.0, direction.y + 0.0, 0.0);
+            Curve::Line { origin: at(segment.start, z), direction }
+        }
+        Edge::Segment(segment) => Curve::Circle {
+            centre: at(segment.centre(), z),
+            radius: segment.radius().abs(),
+            clockwise: segment.bulge < 0.0,
+        },
+        Edge::Cubic(cubic) => Curve::Spline(SplineCurve {
+            knots: SPAN.to_vec(),
+            controls: cubic.points.iter().map(|point| at(*point, z)).collect(),
+        }),
     }
-    Curve::Circle { centre: at(segment.centre(), z), radius: segment.radius().abs(), clockwise: segment.bulge < 0.0 }
 }
 
-/// The side face over a segment; edges: below, upright at its end, above, upright at its start.
-fn side(segment: &Segment, low: f64, [below, end, above, start]: [usize; 4]) -> CompressedFace<FaceSurface> {
-    // Counter-clockwise about the normal to the right of the segment.
+/// Knots of a spline that is one polynomial.
+const SPAN: [f64; 8] = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];
+
+/// The side face over an edge, between two heights; edges: below, upright at its end, above, upright at its start.
+fn side(edge: &Edge, (low, high): (f64, f64), [below, end, above, start]: [usize; 4]) -> CompressedFace<FaceSurface> {
+    // Counter-clockwise about the normal to the right of the edge.
     let outward = vec![forward(below), forward(end), backward(above), backward(start)];
+    let segment = match edge {
+        Edge::Segment(segment) => segment,
+        Edge::Cubic(cubic) => {
+            // Raised to degree 3 in height too, in which it is straight.
+            let heights = [low, low + (high - low) / 3.0, low + (high - low) * (2.0 / 3.0), high];
+            let row = |point: &Vector2<f64>| heights.iter().map(|z| at(*point, *z)).collect();
+            let controls = cubic.points.iter().map(row).collect();
+            let surface = FaceSurface::Spline(SplineSurface { u: SPAN.to_vec(), v: SPAN.to_vec(), controls });
+            return CompressedFace { boundaries: vec![outward], orientation: true, surface };
+        }
+    };
     if segment.bulge == 0.0 {
         let tangent = segment.start_tangent();
         let along = Vector3::new(tangent.x + 0.0, tangent.y + 0.0, 0.0);
@@ -350,8 +375,11 @@ fn swept(shell: &CompressedShell<Point3, Curve, FaceSurface>, used: CompressedEd
         return f64::NAN;
     };
     let area = match &edge.curve {
-        // Flanks of splines have a volume of their own.
-        Curve::Spline(_) => return f64::NAN,
+        // A flank of several spans has a volume of its own.
+        Curve::Spline(spline) => match spline.controls.as_slice() {
+            [a, b, c, d] => Cubic { points: [a, b, c, d].map(|p| Vector2::new(p.x, p.y)) }.area_and_moments().0,
+            _ => return f64::NAN,
+        },
         Curve::Line { .. } => 0.5 * (a.x * b.y - a.y * b.x),
         Curve::Circle { centre, radius, clockwise } => {
             // Under the chord a triangle with the origin, over it R²/2 (θ − sin θ); θ from the circle's centre, seen

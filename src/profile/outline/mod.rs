@@ -216,8 +216,8 @@ impl Outline {
             let [velocity, acceleration] = &mut chain.best_for;
             *velocity *= (asked.velocity / motion.velocity).max(0.0).sqrt();
             *acceleration *= asked.acceleration / motion.acceleration;
-            let segments = chain.segments(frame(range.1).point);
-            let errors = Followed::new(curves, &segments).errors();
+            let edges = chain.edges(frame(range.1).point);
+            let errors = Followed::new(curves, &edges).errors();
             let over = [errors.velocity.value / motion.velocity, errors.acceleration.value / motion.acceleration];
             let worst = over.iter().copied().fold(0.0, f64::max);
             if best.as_ref().is_none_or(|(least, _)| worst < *least) {
@@ -239,9 +239,7 @@ impl Outline {
     }
 
     fn add(&mut self, chain: &arcs::Chain) {
-        self.contour
-            .vertices
-            .extend(chain.joints.iter().map(|joint| Vertex { point: joint.point, bulge: joint.bulge }));
+        self.contour.vertices.extend(chain.joints.iter().map(|joint| Vertex::new(joint.point, joint.bulge)));
         self.deviation = self.deviation.max(chain.deviation);
         self.best_possible += chain.best_possible;
         for (sum, best) in self.best_for.iter_mut().zip(chain.best_for) {
@@ -448,7 +446,7 @@ fn parallel(
             if piece.dwell {
                 // A circle about the shaft, also for an offset follower: one true arc. On a plate a straight line.
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
-                outline.contour.vertices.push(Vertex { point: frame(index, range.0).point, bulge });
+                outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
                 outline.lay_felt(curves, (index, distance), range, tolerances)?;
             }
@@ -456,7 +454,7 @@ fn parallel(
             let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
             if let Some(gap) = gaps.iter().find(|gap| long(gap) && starts_at(gap, range.1, period)) {
                 let bulge = libm::tan(0.25 * gap.arc);
-                outline.contour.vertices.push(Vertex { point: frame(index, range.1).point, bulge });
+                outline.contour.vertices.push(Vertex::new(frame(index, range.1).point, bulge));
             }
         }
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
@@ -466,7 +464,7 @@ fn parallel(
             && whole
         {
             let bulge = libm::tan(0.25 * corner.turn);
-            outline.contour.vertices.push(Vertex { point: frame(index, piece.end).point, bulge });
+            outline.contour.vertices.push(Vertex::new(frame(index, piece.end).point, bulge));
         }
     }
     Ok(outline)

@@ -2,7 +2,7 @@
 //! spline patches where the flank is not upright.
 
 use super::{Boundary, Curve, Edge, Face, Surface};
-use crate::geometry::contour::{Contour, Segment, Vertex};
+use crate::geometry::contour::{Contour, Vertex};
 use crate::geometry::nurbs;
 use crate::geometry::track::Track;
 use nalgebra::{Vector2, Vector3};
@@ -421,7 +421,7 @@ impl Former<'_> {
                     arcs(start, end, centre.xy(), counter, edge.start == edge.end, &mut vertices);
                 }
                 Curve::Spline(_) => splines += 1,
-                _ => vertices.push(Vertex { point: start, bulge: 0.0 }),
+                _ => vertices.push(Vertex::new(start, 0.0)),
             }
         }
         Some(if splines > 0 { Loop::Splines(splines) } else { Loop::Contour(Contour { vertices }) })
@@ -438,8 +438,8 @@ impl Former<'_> {
                 let ends = piece.vertices.iter().skip(1).map(|vertex| vertex.point).chain([end.xy()]);
                 let segments = piece.vertices.iter().zip(ends);
                 let swept = segments.map(|(vertex, end)| {
-                    let segment = Segment { start: vertex.point, end, bulge: vertex.bulge };
-                    if segment.start == segment.end { 0.0 } else { segment.area_and_moments().0 }
+                    let edge = vertex.to(end);
+                    if edge.start() == edge.end() { 0.0 } else { edge.area_and_moments().0 }
                 });
                 volume -= 0.5 * (start.z + end.z) * swept.sum::<f64>();
             }
@@ -477,15 +477,15 @@ fn arcs(
 ) {
     let side = if counter { 1.0 } else { -1.0 };
     if whole {
-        to.push(Vertex { point: start, bulge: side });
-        to.push(Vertex { point: centre * 2.0 - start, bulge: side });
+        to.push(Vertex::new(start, side));
+        to.push(Vertex::new(centre * 2.0 - start, side));
         return;
     }
     // The sweep from the centre's distance of the chord, so that a nearly straight arc keeps its digits.
     let chord = end - start;
     let away = side * ((start + end) * 0.5 - centre).perp(&chord) / chord.norm();
     let turn = 2.0 * libm::atan2(0.5 * chord.norm(), away);
-    to.push(Vertex { point: start, bulge: side * libm::tan(0.25 * turn) });
+    to.push(Vertex::new(start, side * libm::tan(0.25 * turn)));
 }
 
 /// How far the contours above and below are apart at most, mm; infinite where their counts differ.
@@ -503,7 +503,7 @@ fn apart(under: &[Loop], above: &[Loop]) -> f64 {
     }
     let farthest = |from: &[Contour], to: &[Contour]| {
         let tracks: Vec<Track> = to.iter().map(Track::new).collect();
-        let points = from.iter().flat_map(Contour::segments).flat_map(|segment| [segment.start, segment.middle()]);
+        let points = from.iter().flat_map(Contour::edges).flat_map(|edge| [edge.start(), edge.middle()]);
         let nearest = |point: Vector2<f64>| {
             let all = tracks.iter().filter_map(|track| track.nearest(point)).map(|nearest| nearest.left.abs());
             all.fold(f64::INFINITY, f64::min)

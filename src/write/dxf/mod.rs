@@ -12,6 +12,7 @@ use super::{Format, When, fits_all, of_parts};
 use crate::body::Layer;
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Extents};
+use crate::geometry::cubics::{Run, runs};
 use crate::profile::outline::{Outline, OutlineError};
 use nalgebra::Vector2;
 use tags::{Tags, handle};
@@ -183,6 +184,12 @@ fn begin_entity(tags: &mut Tags, kind: &str, layer: Layer, subclass: &str) -> u3
 
 fn write_entity(tags: &mut Tags, layer: Layer, entity: &Entity) {
     match entity {
+        // A polyline has arcs and lines.
+        Entity::Polyline(contour) if contour.cubics() > 0 => {
+            for run in runs(contour) {
+                curve(tags, layer, &run);
+            }
+        }
         Entity::Polyline(contour) if tags.modern() => lightweight_polyline(tags, layer, contour),
         Entity::Polyline(contour) => old_polyline(tags, layer, contour),
         Entity::Circle(centre, radius) => {
@@ -193,6 +200,49 @@ fn write_entity(tags: &mut Tags, layer: Layer, entity: &Entity) {
     }
 }
 
+/// One curve of an outline with splines.
+fn curve(tags: &mut Tags, layer: Layer, run: &Run) {
+    match run {
+        Run::Segment(segment) if segment.bulge == 0.0 => {
+            begin_entity(tags, "LINE", layer, "AcDbLine");
+            tags.point_3d(10, segment.start);
+            tags.point_3d(11, segment.end);
+        }
+        Run::Segment(segment) => {
+            begin_entity(tags, "ARC", layer, "AcDbCircle");
+            tags.point_3d(10, segment.centre());
+            tags.real(40, segment.radius().abs());
+            if tags.modern() {
+                tags.text(100, "AcDbArc");
+            }
+            let (from, to) = segment.angles();
+            tags.real(50, from);
+            tags.real(51, to);
+        }
+        Run::Spline(spline) => {
+            begin_entity(tags, "SPLINE", layer, "AcDbSpline");
+            // It lies in a plane, whose normal points up.
+            for (code, value) in [(210, 0.0), (220, 0.0), (230, 1.0)] {
+                tags.real(code, value);
+            }
+            tags.integer(70, PLANAR);
+            tags.integer(71, 3);
+            tags.text(72, &spline.knots.len().to_string());
+            tags.text(73, &spline.controls.len().to_string());
+            tags.integer(74, 0);
+            // How near two knots, control or fit points are one: as AutoCAD writes it.
+            for (code, value) in [(42, 1e-9), (43, 1e-10), (44, 1e-10)] {
+                tags.real(code, value);
+            }
+            spline.knots.iter().for_each(|knot| tags.real(40, *knot));
+            spline.controls.iter().for_each(|control| tags.point_3d(10, *control));
+        }
+    }
+}
+
+/// Flag of a SPLINE that lies in a plane.
+const PLANAR: i64 = 8;
+
 fn lightweight_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
     begin_entity(tags, "LWPOLYLINE", layer, "AcDbPolyline");
     tags.text(90, &contour.vertices.len().to_string());
@@ -200,7 +250,7 @@ fn lightweight_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
     tags.real(43, 0.0);
     for vertex in &contour.vertices {
         tags.point(10, vertex.point);
-        tags.bulge(vertex.bulge);
+        tags.bulge(vertex.bulge().unwrap_or(f64::NAN));
     }
 }
 
@@ -213,7 +263,7 @@ fn old_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
         tags.text(0, "VERTEX");
         tags.text(8, layer.name());
         tags.point_3d(10, vertex.point);
-        tags.bulge(vertex.bulge);
+        tags.bulge(vertex.bulge().unwrap_or(f64::NAN));
     }
     tags.text(0, "SEQEND");
     tags.text(8, layer.name());
@@ -222,10 +272,10 @@ fn old_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::contour::Vertex;
+    use crate::geometry::contour::{Bend, Vertex};
 
     fn slot() -> Vec<(Layer, Entity)> {
-        let at = |x: f64, y: f64, bulge: f64| Vertex { point: Vector2::new(x, y), bulge };
+        let at = |x: f64, y: f64, bulge: f64| Vertex::new(Vector2::new(x, y), bulge);
         let vertices = vec![at(0.0, -10.0, 0.0), at(40.0, -10.0, 1.0), at(40.0, 10.0, 0.0), at(0.0, 10.0, 1.0)];
         vec![
             (Layer::CamProfile, Entity::Polyline(Contour { vertices })),
@@ -266,8 +316,8 @@ mod tests {
         for (name, version) in Version::ALL {
             let mut entities = slot();
             if let Some((_, Entity::Polyline(contour))) = entities.first_mut() {
-                contour.vertices[0].bulge = tiny;
-                contour.vertices[1].bulge = -arc;
+                contour.vertices[0].bend = Bend::Arc(tiny);
+                contour.vertices[1].bend = Bend::Arc(-arc);
             }
             let text = String::from_utf8(write(&entities, version)).expect("ASCII");
             let (_, written) = text.split_once("ENTITIES").expect("a section of entities");

@@ -1,0 +1,235 @@
+//! A circular arc or a straight line by its ends and its bulge, millimetres.
+
+use nalgebra::Vector2;
+
+/// A point is near the centre of an arc when the square of its distance from there, over the radius, is less.
+const NEAR_CENTRE: f64 = 1e-4;
+
+/// An arc or a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// Start, mm.
+    pub start: Vector2<f64>,
+    /// End, mm.
+    pub end: Vector2<f64>,
+    /// tan(sweep/4).
+    pub bulge: f64,
+}
+
+impl Segment {
+    /// Signed angle swept, rad; 0 for a line.
+    #[must_use]
+    pub fn sweep(&self) -> f64 {
+        4.0 * libm::atan(self.bulge)
+    }
+
+    /// Signed radius, mm, positive where the segment turns left; infinite for a line.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        // chord = 2 R sin(sweep/2), sin(sweep/2) = 2 b/(1 + b²).
+        let b = self.bulge;
+        (self.end - self.start).norm() * (1.0 + b * b) / (4.0 * b)
+    }
+
+    /// Centre of an arc, mm; meaningless for a line.
+    #[must_use]
+    pub fn centre(&self) -> Vector2<f64> {
+        let chord = self.end - self.start;
+        let left = Vector2::new(-chord.y, chord.x);
+        // Distance of the centre from the chord over its length: (1 − b²)/(4 b), to the left.
+        (self.start + self.end) * 0.5 + left * ((1.0 - self.bulge * self.bulge) / (4.0 * self.bulge))
+    }
+
+    /// Angles of the radii of an arc to its ends, degrees, in the order in which it is run counter-clockwise.
+    #[must_use]
+    pub fn angles(&self) -> (f64, f64) {
+        let centre = self.centre();
+        let of = |point: Vector2<f64>| {
+            let away = point - centre;
+            libm::atan2(away.y, away.x).to_degrees()
+        };
+        if self.bulge > 0.0 { (of(self.start), of(self.end)) } else { (of(self.end), of(self.start)) }
+    }
+
+    /// Middle of the segment, mm: off the chord by the sagitta, half the chord times the bulge, to the right.
+    #[must_use]
+    pub fn middle(&self) -> Vector2<f64> {
+        let chord = self.end - self.start;
+        (self.start + self.end) * 0.5 + Vector2::new(chord.y, -chord.x) * (0.5 * self.bulge)
+    }
+
+    /// Point and unit tangent at a share of the sweep, 0 the start, 1 the end.
+    #[must_use]
+    pub fn at(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
+        // The part of an arc up to there is an arc whose chord leaves the start turned by half its own sweep.
+        let chord = self.end - self.start;
+        if self.bulge == 0.0 {
+            return (self.start + chord * share, self.start_tangent());
+        }
+        let (radius, half) = (self.radius(), 0.5 * self.sweep() * share);
+        let (sin, cos) = (libm::sin(half), libm::cos(half));
+        let turned = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+        let along = turned(self.start_tangent());
+        (self.start + along * (2.0 * radius * sin), turned(along))
+    }
+
+    /// Length, mm.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        if self.bulge == 0.0 { (self.end - self.start).norm() } else { (self.radius() * self.sweep()).abs() }
+    }
+
+    /// Unit tangent at the start: the chord turned right by half the sweep.
+    #[must_use]
+    pub fn start_tangent(&self) -> Vector2<f64> {
+        self.tangent(-1.0)
+    }
+
+    /// Unit tangent at the end: the chord turned left by half the sweep.
+    #[must_use]
+    pub fn end_tangent(&self) -> Vector2<f64> {
+        self.tangent(1.0)
+    }
+
+    fn tangent(&self, side: f64) -> Vector2<f64> {
+        let chord = (self.end - self.start).normalize();
+        let b2 = self.bulge * self.bulge;
+        let (cos, sin) = ((1.0 - b2) / (1.0 + b2), side * 2.0 * self.bulge / (1.0 + b2));
+        Vector2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y)
+    }
+
+    /// Exact extents, the bulging of an arc included.
+    #[must_use]
+    pub fn extents(&self) -> Extents {
+        let mut extents = Extents { least: self.start.inf(&self.end), largest: self.start.sup(&self.end) };
+        if self.bulge == 0.0 {
+            return extents;
+        }
+        let (centre, radius) = (self.centre(), self.radius().abs());
+        for direction in [Vector2::x(), Vector2::y(), -Vector2::x(), -Vector2::y()] {
+            let point = centre + direction * radius;
+            // The arc lies to the right of its chord when it turns left, and the other way round.
+            if (self.end - self.start).perp(&(point - self.start)) * self.bulge < 0.0 {
+                extents = extents.with(&Extents { least: point, largest: point });
+            }
+        }
+        extents
+    }
+
+    /// How far the segment reaches in a direction (a unit vector) from the origin, mm.
+    #[must_use]
+    pub fn farthest(&self, direction: Vector2<f64>) -> f64 {
+        let ends = self.start.dot(&direction).max(self.end.dot(&direction));
+        if self.bulge == 0.0 {
+            return ends;
+        }
+        let top = self.centre() + direction * self.radius().abs();
+        // The arc lies to the right of its chord when it turns left, and the other way round.
+        let on_arc = (self.end - self.start).perp(&(top - self.start)) * self.bulge < 0.0;
+        if on_arc { top.dot(&direction) } else { ends }
+    }
+
+    /// The nearest point of the segment, seen from a point.
+    #[must_use]
+    pub fn nearest(&self, point: Vector2<f64>) -> Nearest {
+        let chord = self.end - self.start;
+        let heading = self.start_tangent();
+        let d = point - self.start;
+        if self.bulge == 0.0 {
+            let along = d.dot(&heading);
+            if (0.0..=chord.norm()).contains(&along) {
+                let left = heading.perp(&d);
+                return Nearest { left, foot: self.start + heading * along, tangent: heading };
+            }
+        } else {
+            let curvature = 1.0 / self.radius();
+            // Signed distance without cancellation of a large radius, see `geometry::arcs`.
+            let g = 2.0 * heading.perp(&d) - curvature * d.norm_squared();
+            // From the centre to the point, over the radius: the normal at the foot, to the left; its square is 1 − κ g.
+            let normal = Vector2::new(-heading.y, heading.x) - d * curvature;
+            let square = 1.0 - curvature * g;
+            // Near the centre the difference is rounding only, and its root a million times more.
+            let from_centre = if square > NEAR_CENTRE { square.sqrt() } else { normal.norm() };
+            let left = g / (1.0 + from_centre);
+            if normal.norm_squared() > 0.0 {
+                let normal = normal.normalize();
+                let foot = point - normal * left;
+                // The arc lies to the right of its chord when it turns left, and the other way round.
+                if chord.perp(&(foot - self.start)) * self.bulge <= 0.0 {
+                    return Nearest { left, foot, tangent: Vector2::new(normal.y, -normal.x) };
+                }
+            }
+        }
+        let (foot, tangent) = if d.norm_squared() <= (point - self.end).norm_squared() {
+            (self.start, heading)
+        } else {
+            (self.end, self.end_tangent())
+        };
+        let away = point - foot;
+        Nearest { left: away.norm().copysign(tangent.perp(&away)), foot, tangent }
+    }
+
+    /// Area between the segment and the origin, mm², and its first moments ∫x dA, ∫y dA, mm³, signed.
+    ///
+    /// The triangle (origin, start, end) plus the circular segment over the chord, which has area
+    /// R²(sweep − sin sweep)/2 and its centroid at distance 4 R sin³(sweep/2)/(3 (sweep − sin sweep)) from the centre.
+    #[must_use]
+    pub fn area_and_moments(&self) -> (f64, Vector2<f64>) {
+        let triangle = 0.5 * self.start.perp(&self.end);
+        let moment = (self.start + self.end) * (triangle / 3.0);
+        if self.bulge == 0.0 {
+            return (triangle, moment);
+        }
+        let (sweep, radius) = (self.sweep(), self.radius());
+        let cap = 0.5 * radius * radius * sweep_minus_sine(sweep);
+        let half_sine = 2.0 * self.bulge / (1.0 + self.bulge * self.bulge);
+        let chord = (self.end - self.start).normalize();
+        let right = Vector2::new(chord.y, -chord.x);
+        let cap_moment = self.centre() * cap + right * (2.0 / 3.0 * radius * radius * radius * half_sine.powi(3));
+        (triangle + cap, moment + cap_moment)
+    }
+}
+
+/// The point of a segment nearest to a given one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Distance, mm, positive when the given point lies to the left of the segment: inside a counter-clockwise chain.
+    pub left: f64,
+    /// The nearest point.
+    pub foot: Vector2<f64>,
+    /// Unit tangent there.
+    pub tangent: Vector2<f64>,
+}
+
+/// x − sin x without cancellation at small x (series to x¹¹, exact to rounding below 0.5).
+pub(crate) fn sweep_minus_sine(x: f64) -> f64 {
+    if x.abs() > 0.5 {
+        return x - libm::sin(x);
+    }
+    let x2 = x * x;
+    let tail = 1.0 - x2 / 20.0 * (1.0 - x2 / 42.0 * (1.0 - x2 / 72.0 * (1.0 - x2 / 110.0)));
+    x * x2 / 6.0 * tail
+}
+
+/// Corners of the smallest upright rectangle, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extents {
+    /// Smallest x and y.
+    pub least: Vector2<f64>,
+    /// Largest x and y.
+    pub largest: Vector2<f64>,
+}
+
+impl Extents {
+    /// The smallest that holds both.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        Self { least: self.least.inf(&other.least), largest: self.largest.sup(&other.largest) }
+    }
+
+    /// Largest x and y minus smallest.
+    #[must_use]
+    pub fn size(&self) -> Vector2<f64> {
+        self.largest - self.least
+    }
+}
