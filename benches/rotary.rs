@@ -8,6 +8,7 @@ use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::machine::Machine;
 use camgen::pipeline::Spec;
+use camgen::profile::outline::MotionTolerance;
 use camgen::table::Table;
 use camgen::verify::{self, Evidence, rolling};
 use camgen::write::dxf::{self, Version};
@@ -58,6 +59,8 @@ fn stages(criterion: &mut Criterion) {
         points: None,
         solid: None,
         tolerance_mm: 0.005,
+        motion: MotionTolerance::ANY,
+        strict: true,
     };
     criterion.bench_function("checks", |b| b.iter(|| verify::run(black_box(&evidence))));
     let solved = Spec::rotary(machine, 35.0).solve().expect("a cam");

@@ -461,7 +461,7 @@ fn rate(text: &str, units: &[RateUnit]) -> Result<Rate, String> {
         return Ok(Rate::Any);
     }
     let text = text.trim().replace('²', "2").replace('^', "");
-    let end = text.find(|c: char| c == '%' || c == 'm' || c == 'r').unwrap_or(text.len());
+    let end = text.find(['%', 'm', 'r']).unwrap_or(text.len());
     let (number, unit) = text.split_at(end);
     let known: Vec<&str> = units.iter().map(|(name, ..)| *name).collect();
     let known = known.join(", ");

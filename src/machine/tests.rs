@@ -245,6 +245,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.wall", "4 mm"),
     ("limits.contact_stress", "1200 MPa"),
     ("limits.residual_share", "0.02"),
+    ("limits.acceleration_share", "0.02"),
 ];
 
 /// A motion program behind a press, so that a file has every table that can stand in it.

@@ -133,7 +133,6 @@ pub const CHECKS: &[Check] = &[
     tangency::CHECK,
     outline::CHECK,
     rolling::CHECK,
-    felt::CHECK,
     bore::CHECK,
     sphere::ROLLING_FLANK,
     flank::CHECK,
@@ -144,6 +143,7 @@ pub const CHECKS: &[Check] = &[
     residual::CHECK,
     air::CHECK,
     run_up::CHECK,
+    felt::CHECK,
     between_sections::CHECK,
     balance::CHECK,
 ];

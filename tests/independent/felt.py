@@ -160,13 +160,13 @@ def errors(follower, track, law, period=2 * math.pi):
             if isinstance(follower, Lever):
                 follower.guess = follower.start + jets(0.5 * (at + to))[0]
             off = lambda theta, order: follower.jet(arc, theta)[order] - jets(theta)[order]
-            places = np.linspace(at, to, 9)
+            places = np.linspace(at, to, 17)
             for order, name in ((1, "velocity"), (2, "acceleration")):
                 values = [abs(off(p, order)) for p in places]
                 worst[name] = max(worst[name], *values)
-                i = int(np.argmax(values))
-                if 0 < i < 8 and values[i] > 0.6 * worst[name]:
-                    worst[name] = max(worst[name], golden(lambda p: abs(off(p, order)), places[i - 1], places[i + 1], 40))
+                for i in range(1, 16):
+                    if values[i] >= max(values[i - 1], values[i + 1]) and values[i] > 0.8 * worst[name]:
+                        worst[name] = max(worst[name], golden(lambda p: abs(off(p, order)), places[i - 1], places[i + 1], 40))
             here = follower.jet(arc, at)[2]
             if before is not None:
                 worst["step"] = max(worst["step"], abs(here - before))

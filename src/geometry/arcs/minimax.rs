@@ -89,6 +89,16 @@ struct Program {
     tolerance: f64,
 }
 
+/// Newton's system for a step: the band, the right side, the border of the level with its corner, and what the multipliers of the
+/// level exceed their sum by.
+struct System {
+    matrix: Banded<8>,
+    right: Vec<f64>,
+    border: Vec<f64>,
+    corner: f64,
+    excess: f64,
+}
+
 /// Joints of a chain within `tolerance` at the nodes, from a first guess; `None` when none was found.
 pub(super) fn relax(
     target: &impl Target,
@@ -247,26 +257,9 @@ impl Program {
                 *value = -link.open;
             }
         }
-        for (index, end) in
-            self.ends.iter().enumerate().flat_map(|(index, ends)| ends.iter().map(move |end| (index, end)))
-        {
-            let [(force, stiff), (back, stiff_back)] =
-                end.sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
-            corner += stiff + stiff_back;
-            excess += force + back;
-            let freedoms = end.off_by.iter().enumerate();
-            let freedoms = freedoms.filter_map(|(freedom, by)| Some((place_of(freedom, index, arcs)?, *by)));
-            for (row, by) in freedoms.clone() {
-                for (column, other) in freedoms.clone().filter(|(column, _)| *column >= row) {
-                    matrix.add(row, column, (stiff + stiff_back) * by * other);
-                }
-                for (value, amount) in [(&mut right, (force - back) * by), (&mut border, (stiff - stiff_back) * by)] {
-                    if let Some(value) = value.get_mut(row) {
-                        *value -= amount;
-                    }
-                }
-            }
-        }
+        let mut system = System { matrix, right, border, corner, excess };
+        self.press_ends(&mut system, aim, arcs);
+        let System { matrix, mut right, mut border, corner, excess } = system;
         let factors = matrix.factored();
         let edge = border.clone();
         factors.solve(&mut right);
@@ -274,6 +267,30 @@ impl Program {
         let dot = |values: &[f64]| edge.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
         let rise = (excess - dot(&right)) / (corner - dot(&border));
         (Step(right.iter().zip(&border).map(|(r, b)| r - b * rise).collect()), rise)
+    }
+
+    /// The part of Newton's step that keeps the curvature at the joints.
+    fn press_ends(&self, system: &mut System, aim: f64, arcs: usize) {
+        let ends = self.ends.iter().enumerate().flat_map(|(index, ends)| ends.iter().map(move |end| (index, end)));
+        for (index, end) in ends {
+            let [(force, stiff), (back, stiff_back)] =
+                end.sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
+            system.corner += stiff + stiff_back;
+            system.excess += force + back;
+            let freedoms = end.off_by.iter().enumerate();
+            let freedoms = freedoms.filter_map(|(freedom, by)| Some((place_of(freedom, index, arcs)?, *by)));
+            for (row, by) in freedoms.clone() {
+                for (column, other) in freedoms.clone().filter(|(column, _)| *column >= row) {
+                    system.matrix.add(row, column, (stiff + stiff_back) * by * other);
+                }
+                let sums = [(&mut system.right, (force - back) * by), (&mut system.border, (stiff - stiff_back) * by)];
+                for (value, amount) in sums {
+                    if let Some(value) = value.get_mut(row) {
+                        *value -= amount;
+                    }
+                }
+            }
+        }
     }
 
     /// Shares of a step that slacks and multipliers allow; the changes of the multipliers are kept with the samples.

@@ -211,7 +211,8 @@ impl Outline {
         let mut best: Option<(f64, arcs::Chain)> = None;
         for _ in 0..TRIES {
             let target = |at: f64| within(curves, (piece, at), distance, asked);
-            let mut chain = arcs::fit_allowed(target, range, MILLIMETRES * tolerance)?;
+            // Where no number of arcs that a drawing can hold would do the distance is kept alone, and the check says so.
+            let Ok(mut chain) = arcs::fit_allowed(target, range, MILLIMETRES * tolerance) else { break };
             // The best possible numbers are those for what may be felt, not for what was asked of this try.
             let [velocity, acceleration] = &mut chain.best_for;
             *velocity *= (asked.velocity / motion.velocity).max(0.0).sqrt();
@@ -232,8 +233,9 @@ impl Outline {
                 acceleration: asked.acceleration / acceleration,
             };
         }
-        if let Some((_, chain)) = &best {
-            self.add(chain);
+        match &best {
+            Some((_, chain)) => self.add(chain),
+            None => self.lay(frame, range, tolerance)?,
         }
         Ok(())
     }
