@@ -1,13 +1,15 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
-use super::args::{CommonArgs, ConoidArgs, FileArgs, MakeArgs, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs};
+use super::args::{
+    CommonArgs, ConoidArgs, FileArgs, LaidOf, MakeArgs, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs,
+};
 use super::{Failure, Outcome, print, tell, text};
 use camgen::body::Request;
 use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::machine::Machine;
 use camgen::motion::equation_18::Solver;
 use camgen::pipeline::{Cam, Spec, Writing};
-use camgen::profile::outline::{Fit, Side};
+use camgen::profile::outline::{Fit, Laid, Side};
 use camgen::report::{Report, Speeds};
 use camgen::write::json;
 use camgen::write::number::names;
@@ -97,7 +99,11 @@ impl FileArgs {
             SideOf::Inside => Side::Inside,
             SideOf::Outside => Side::Outside,
         };
-        Request::within(Fit { tolerance: common.tolerance(), side })
+        let laid = match self.outline {
+            LaidOf::Arcs => Laid::Arcs,
+            LaidOf::Spline => Laid::Splines,
+        };
+        Request::within(Fit { tolerance: common.tolerance(), side, laid })
     }
 
     fn template(&self) -> Result<String, Failure> {

@@ -125,7 +125,7 @@ mod tests {
             {
                 let name = format!("{overrides:?} {cutter} {side:?} {tolerance}");
                 let cam = cam(overrides);
-                let fit = Fit { tolerance, side };
+                let fit = Fit { side, ..Fit::from(tolerance) };
                 let request = Request { cutter: Some(1e-3 * cutter), ..Request::within(fit) };
                 let proven = cam.draw(request).expect("drawn").prove().expect("proved");
                 let found = proven.findings().iter().find(|f| f.check == "cutter_path").expect("checked");

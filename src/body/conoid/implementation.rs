@@ -62,7 +62,7 @@ impl Conoid {
                     let bulge = libm::tan(0.25 * (range.1 - range.0));
                     outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
                 } else {
-                    outline.lay(|angle| frame(index, angle), range, tolerance)?;
+                    outline.lay(|angle| frame(index, angle), range, (tolerance, fit.laid))?;
                 }
             }
         }

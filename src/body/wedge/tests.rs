@@ -92,7 +92,8 @@ fn a_plate_on_either_side_of_a_wide_band_has_its_ends_and_no_kinks() {
         let machine = Machine::load("dpi", &set).expect("valid").0;
         let spec = Spec::translating(machine, 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking);
         let cam = spec.solve().expect("a plate");
-        let proven = cam.draw(Request::within(Fit { tolerance, side })).expect("drawn").prove().expect("proved");
+        let proven =
+            cam.draw(Request::within(Fit { side, ..Fit::from(tolerance) })).expect("drawn").prove().expect("proved");
         for check in ["tangency", "rolling", "ends"] {
             let found = proven.findings().iter().find(|f| f.check == check).expect("checked");
             assert_eq!(found.verdict, Verdict::Pass, "{name}: {found:?}");

@@ -1,4 +1,4 @@
-//! A profile as a chain of tangent arcs in millimetres, piece by piece: where curves are sampled, once, to a stated tolerance.
+//! A profile as a chain of tangent arcs or of cubic splines in millimetres, piece by piece: where curves are sampled, once, to a stated tolerance.
 //!
 //! Tolerances are in metres, like everything that comes in; contours and their measures are in millimetres.
 
@@ -6,9 +6,11 @@ use super::envelope::{Approach, Loop, NoEnvelope, Parallel};
 use super::{Curves, extremes};
 use crate::follower::Element;
 use crate::geometry::arcs::{self, FitError};
-use crate::geometry::contour::{Contour, Vertex};
-use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::geometry::contour::{Bend, Contour, Vertex};
+use crate::geometry::cubics;
+use crate::geometry::{Allowed, CurvePoint, MILLIMETRES};
 use crate::motion::Piece;
+use nalgebra::Vector2;
 use std::f64::consts::PI;
 
 /// A piece that turns by more than a half circle is fitted in two, so that no arc ends where it starts.
@@ -41,6 +43,16 @@ pub enum Side {
     Outside,
 }
 
+/// What the curved pieces of an outline are laid of; dwells are true arcs, or lines of a plate, either way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Laid {
+    /// Tangent arcs.
+    #[default]
+    Arcs,
+    /// Cubic splines, one for each piece, without a jump of the curvature within.
+    Splines,
+}
+
 /// How near an outline keeps to the exact curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
@@ -48,11 +60,13 @@ pub struct Fit {
     pub tolerance: f64,
     /// On which side.
     pub side: Side,
+    /// Of what it is laid.
+    pub laid: Laid,
 }
 
 impl From<f64> for Fit {
     fn from(tolerance: f64) -> Self {
-        Self { tolerance, side: Side::Both }
+        Self { tolerance, side: Side::Both, laid: Laid::default() }
     }
 }
 
@@ -75,7 +89,7 @@ pub struct Outline {
     pub contour: Contour,
     /// Largest distance from the exact curve, mm.
     pub deviation: f64,
-    /// Best possible number of arcs N*, dwells not counted.
+    /// Best possible number of arcs N*, or the number of spans of splines by theory; dwells not counted.
     pub best_possible: f64,
 }
 
@@ -137,13 +151,25 @@ impl Outline {
         Self { deviation, ..self }
     }
 
-    /// Lays arcs along a curve, given in millimetres over a range of its parameter, within a tolerance (m).
+    /// Lays arcs or a spline along a curve, given in millimetres over a range of its parameter, within a tolerance (m).
     pub(crate) fn lay(
         &mut self,
         curve: impl Fn(f64) -> CurvePoint,
         range: (f64, f64),
-        tolerance: f64,
+        (tolerance, laid): (f64, Laid),
     ) -> Result<(), OutlineError> {
+        if laid == Laid::Splines {
+            let fitted = cubics::fit(curve, range, MILLIMETRES * tolerance, &|_, _| Allowed::ANY)?;
+            let pieces = fitted.spline.pieces().into_iter();
+            let vertex = |[start, leaves, arrives, _]: [Vector2<f64>; 4]| Vertex {
+                point: start,
+                bend: Bend::Cubic([leaves, arrives]),
+            };
+            self.contour.vertices.extend(pieces.map(vertex));
+            self.deviation = self.deviation.max(fitted.deviation);
+            self.best_possible += fitted.by_theory;
+            return Ok(());
+        }
         let chain = arcs::fit(curve, range, MILLIMETRES * tolerance)?;
         self.contour.vertices.extend(chain.joints.iter().map(|joint| Vertex::new(joint.point, joint.bulge)));
         self.deviation = self.deviation.max(chain.deviation);
@@ -186,7 +212,9 @@ pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, fit: impl Into<Fit>) 
     if concave.value * cutter_radius >= 1.0 {
         return Err(OutlineError::CutterPath { cam_deg: concave.at.to_degrees() });
     }
-    Ok(beside(curves, curves.offset() - cutter_radius, fit.into(), f64::INFINITY)?.0)
+    // What a cutter leaves along arcs and lines are arcs and lines, which the proof follows.
+    let fit = Fit { laid: Laid::Arcs, ..fit.into() };
+    Ok(beside(curves, curves.offset() - cutter_radius, fit, f64::INFINITY)?.0)
 }
 
 /// Least convex radius of the profile, m; infinite where a sharp edge is left of it anyway.
@@ -215,14 +243,14 @@ fn concave_radius(curves: Curves<'_>) -> f64 {
 fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Outline, f64), OutlineError> {
     let (shift, half) = fit.band();
     if shift == 0.0 {
-        return Ok((parallel(curves, distance, half, &left_out(curves, distance)?)?, shift));
+        return Ok((parallel(curves, distance, (half, fit.laid), &left_out(curves, distance)?)?, shift));
     }
     let shift = shift.clamp(-room, room);
     // From an edge of turn τ the edge of a parallel is 1/cos(τ/2) times as far as the curves beside it.
     let sharp = left_out(curves, distance + shift)?.iter().map(|gap| gap.edge).fold(0.0, f64::max);
     let closer = libm::cos(0.5 * sharp);
     let shift = shift * closer;
-    let outline = parallel(curves, distance + shift, shift.abs(), &left_out(curves, distance + shift)?)?;
+    let outline = parallel(curves, distance + shift, (shift.abs(), fit.laid), &left_out(curves, distance + shift)?)?;
     let outline = outline.counted_from_exact(shift);
     let deviation = outline.deviation.max(MILLIMETRES * shift.abs() / closer);
     Ok((Outline { deviation, ..outline }, shift))
@@ -274,7 +302,7 @@ pub fn pitch(curves: Curves<'_>) -> Result<Outline, OutlineError> {
 /// # Errors
 /// As for [`pitch`].
 pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, OutlineError> {
-    parallel(curves, 0.0, tolerance, &[])
+    parallel(curves, 0.0, (tolerance, Laid::Arcs), &[])
 }
 
 /// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
@@ -284,7 +312,7 @@ pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> Cur
 }
 
 /// The parallel of the follower's curve at a distance inwards (m), within a tolerance (m), without the gaps.
-fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> Result<Outline, OutlineError> {
+fn parallel(curves: Curves<'_>, distance: f64, within: (f64, Laid), gaps: &[Gap]) -> Result<Outline, OutlineError> {
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
     let frame = |piece: usize, angle: f64| -> CurvePoint {
@@ -305,7 +333,7 @@ fn parallel(curves: Curves<'_>, distance: f64, tolerance: f64, gaps: &[Gap]) -> 
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
                 outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
-                outline.lay(|angle| frame(index, angle), range, tolerance)?;
+                outline.lay(|angle| frame(index, angle), range, within)?;
             }
             // Readers drop a shorter arc.
             let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;

@@ -104,7 +104,7 @@ fn no_arc_about_an_edge_is_too_short_to_be_read() {
         let roller = 66.523_885_130_629_4 + beyond;
         let cam =
             rotary(&[&format!("follower.roller.radius={roller}mm"), &format!("cam.base_radius={}mm", 99.0 - roller)]);
-        let outline = profile(cam.curves(), Fit { tolerance: 1.4e-7, side: Side::Outside }).expect("an outline");
+        let outline = profile(cam.curves(), Fit { side: Side::Outside, ..Fit::from(1.4e-7) }).expect("an outline");
         let shortest = outline.contour.edges().map(|edge| edge.length()).fold(f64::INFINITY, f64::min);
         assert!(shortest > 5e-6, "{beyond}: {shortest:e}");
     }
