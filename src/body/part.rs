@@ -2,6 +2,7 @@
 
 use super::balancing::{self, Balancing};
 use crate::geometry::contour::{Contour, Vertex};
+use crate::geometry::cubics::{Run, runs};
 use crate::geometry::solid::{Solid, SolidError, prism};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
@@ -147,21 +148,27 @@ impl Part {
     #[must_use]
     pub fn measures(&self, tolerance_mm: f64, is_corner: impl Fn(Vector2<f64>) -> bool) -> OutlineMeasures {
         let outline = &self.outline;
-        let arcs = outline.contour.arcs();
-        let lines = outline.contour.vertices.len() - arcs;
+        let (arcs, lines, spans) = (outline.contour.arcs(), outline.contour.lines(), outline.contour.cubics());
+        let splined = spans > 0;
+        let splines =
+            splined.then(|| runs(&outline.contour).iter().filter(|run| matches!(run, Run::Spline(_))).count());
+        let best_possible = if splined { 0.0 } else { outline.best_possible };
         let breaks = outline.contour.tangent_breaks().into_iter().zip(&outline.contour.vertices);
         let smooth = breaks.filter(|(_, vertex)| !is_corner(vertex.point));
         let worst_break = smooth.map(|(turn, _)| turn.abs()).fold(0.0, f64::max);
         let [best_for_velocity, best_for_acceleration] = outline.best_for;
         #[expect(clippy::cast_precision_loss, reason = "a few thousand arcs")]
-        let ratio = (outline.best_possible > 0.0).then(|| arcs as f64 / outline.best_possible);
+        let ratio = (best_possible > 0.0).then(|| arcs as f64 / best_possible);
         OutlineMeasures {
             arcs,
             lines,
+            splines,
+            spans: splined.then_some(spans),
+            spans_by_theory: splined.then_some(outline.best_possible),
             deviation_max_mm: outline.deviation,
             tangent_break_max_deg: worst_break.to_degrees(),
             tolerance_mm,
-            arcs_best_possible: outline.best_possible,
+            arcs_best_possible: best_possible,
             arcs_over_best_possible: ratio,
             arcs_best_possible_velocity: Some(best_for_velocity).filter(|best| *best > 0.0),
             arcs_best_possible_acceleration: Some(best_for_acceleration).filter(|best| *best > 0.0),

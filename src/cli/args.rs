@@ -285,6 +285,12 @@ pub(super) enum SideOf {
     Outside,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum LaidOf {
+    Arcs,
+    Spline,
+}
+
 /// Named tolerances of those that `trade` measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Accuracy {
@@ -349,6 +355,10 @@ pub(super) struct FileArgs {
     /// Side of the exact curve the outline keeps to: both, inside (never metal in the way) or outside (never cut too deep)
     #[arg(long, value_name = "SIDE", default_value = "both")]
     pub(super) side: SideOf,
+
+    /// What the curved parts of the outline are: arcs, which every control reads, or spline: cubic SPLINEs without steps of curvature
+    #[arg(long, value_name = "KIND", default_value = "arcs")]
+    pub(super) outline: LaidOf,
 
     /// Write the files although a check failed (the exit code stays 1)
     #[arg(long)]

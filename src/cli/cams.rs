@@ -1,8 +1,8 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
 use super::args::{
-    CommonArgs, ConoidArgs, CutterArgs, FileArgs, MakeArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep,
-    RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs,
+    CommonArgs, ConoidArgs, CutterArgs, FileArgs, LaidOf, MakeArgs, PointsArgs, PointsAs, PointsBetween, PointsOf,
+    PointsStep, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs,
 };
 use super::{Failure, Outcome, print, tell, text};
 use camgen::body::Request;
@@ -12,7 +12,7 @@ use camgen::geometry::points::{Between, Form, Step};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::Solver;
 use camgen::pipeline::{Cam, Spec, Writing};
-use camgen::profile::outline::{Fit, Side};
+use camgen::profile::outline::{Fit, Laid, Side};
 use camgen::report::{Report, Speeds};
 use camgen::write::json;
 use camgen::write::number::names;
@@ -147,9 +147,13 @@ impl FileArgs {
             SideOf::Inside => Side::Inside,
             SideOf::Outside => Side::Outside,
         };
+        let laid = match self.outline {
+            LaidOf::Arcs => Laid::Arcs,
+            LaidOf::Spline => Laid::Splines,
+        };
         let points = self.points.asked(self.format.as_deref())?;
         let (rates, strict) = common.rates();
-        let fit = Fit { side, ..Fit::from(common.tolerance()) };
+        let fit = Fit { side, laid, ..Fit::from(common.tolerance()) };
         Ok(Request { points, rates, strict, ..Request::within(fit) })
     }
 

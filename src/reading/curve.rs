@@ -71,7 +71,7 @@ impl Bezier {
     }
 
     /// The same curve as an edge, where it is a polynomial of degree 3 or less.
-    fn exact(&self) -> Option<Edge> {
+    pub(super) fn exact(&self) -> Option<Edge> {
         if !self.poles.iter().all(|[.., w]| *w == 1.0) {
             return None;
         }

@@ -2,8 +2,8 @@
 //!
 //! Cut are LINE, ARC, CIRCLE, ELLIPSE, SPLINE, LWPOLYLINE and POLYLINE in model space, those of inserted blocks among them, on
 //! layers that are on. Those of layer `CAM_PROFILE` are the outline, the others lie beside it; either are joined end to end.
-//! What does not fit is kept and reported, not repaired. Texts, dimensions, points and the like are information. Arcs and lines
-//! are read exactly, curves as tangent arcs within a share of the reach.
+//! What does not fit is kept and reported, not repaired. Texts, dimensions, points and the like are information. Arcs, lines and
+//! polynomial splines up to degree 3 are read exactly, other curves as tangent arcs within a share of the reach.
 
 mod contents;
 mod curve;
@@ -108,7 +108,7 @@ pub struct Reading {
     pub layers: Vec<String>,
     /// Names of the layers on which something is not seen.
     pub hidden: Vec<String>,
-    /// Number of curves, which are read as arcs.
+    /// Number of curves that are read as arcs: ellipses, and splines that are rational or of a degree above 3.
     pub splines: usize,
 }
 

@@ -224,7 +224,8 @@ impl<'c> Walk<'c> {
                 Piece::Curve(curve) => strand.follow(&[mapped(curve)], self.within)?,
             }
         }
-        if !curves.is_empty() || shape.pieces.iter().any(|piece| matches!(piece, Piece::Curve(_))) {
+        let inexact = |piece: &Piece| matches!(piece, Piece::Curve(curve) if curve.exact().is_none());
+        if !curves.is_empty() || shape.pieces.iter().any(inexact) {
             self.curves += 1;
         }
         if !strand.edges.iter().all(Edge::is_finite) {

@@ -243,6 +243,13 @@ impl Equation18 {
 pub struct OutlineMeasures {
     pub arcs: usize,
     pub lines: usize,
+    /// Of an outline of splines: how many, of how many spans together, and how many spans by theory.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub splines: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spans: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spans_by_theory: Option<f64>,
     pub deviation_max_mm: f64,
     pub tangent_break_max_deg: f64,
     pub tolerance_mm: f64,
@@ -267,15 +274,26 @@ impl OutlineMeasures {
             |what: &str, best: Option<f64>| best.map_or(String::new(), |best| format!(", {best:.1} for the {what}"));
         let also = also("velocity", self.arcs_best_possible_velocity)
             + &also("acceleration", self.arcs_best_possible_acceleration);
+        let (arcs, lines) = (self.arcs, self.lines);
+        let (what, short) = match (self.splines, self.spans) {
+            (Some(splines), Some(spans)) => (
+                format!(
+                    "{splines} splines of {spans} spans (by theory {:.1}), {arcs} arcs and {lines} lines",
+                    self.spans_by_theory.unwrap_or(f64::NAN)
+                ),
+                format!("{splines} splines of {spans} spans"),
+            ),
+            _ => (
+                format!("{arcs} arcs and {lines} lines (best possible {:.1}{ratio}{also})", self.arcs_best_possible),
+                format!("{arcs} arcs"),
+            ),
+        };
         let words = vec![format!(
-            "{} arcs and {} lines (best possible {:.1}{ratio}{also}), {:.4} µm from the exact curve, tolerance {} µm",
-            self.arcs,
-            self.lines,
-            self.arcs_best_possible,
+            "{what}, {:.4} µm from the exact curve, tolerance {} µm",
             1e3 * self.deviation_max_mm,
             shown(1e3 * self.tolerance_mm)
         )];
-        let figure = format!("{} arcs, {:.3} µm from the exact curve", self.arcs, 1e3 * self.deviation_max_mm);
+        let figure = format!("{short}, {:.3} µm from the exact curve", 1e3 * self.deviation_max_mm);
         Section::new("outline", self).with_words(words).with_figures(vec![figure])
     }
 }

@@ -51,6 +51,7 @@ impl Conoid {
     /// The cut at z (m) as an outline, of a clockwise cam.
     fn section(&self, z: f64, fit: Fit) -> Result<Outline, OutlineError> {
         let (shift, tolerance) = fit.band();
+        let within_band = Fit { tolerance, ..fit };
         let frame = |piece: usize, angle: f64| {
             self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
         };
@@ -69,13 +70,8 @@ impl Conoid {
                     let bulge = libm::tan(0.25 * (range.1 - range.0));
                     outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
                 } else {
-                    match fit.motion {
-                        MotionTolerance::ANY => outline.lay(|angle| frame(index, angle), range, tolerance)?,
-                        motion => {
-                            let within = |angle| cut_within(frame(index, angle), angle, motion);
-                            outline.lay_allowed(within, range, tolerance)?;
-                        }
-                    }
+                    let within = |angle| cut_within(frame(index, angle), angle, fit.motion);
+                    outline.lay(within, range, &within_band)?;
                 }
             }
         }

@@ -1,15 +1,18 @@
-//! A profile as a chain of tangent arcs in millimetres, piece by piece: where curves are sampled, once, to a stated tolerance.
+//! A profile as a chain of tangent arcs or of cubic splines in millimetres, piece by piece: where curves are sampled, once, to a stated tolerance.
 //!
 //! Tolerances are in metres, like everything that comes in; contours and their measures are in millimetres.
 
+mod laying;
+
+pub(crate) use laying::allowed;
+
 use super::envelope::{Approach, Loop, NoEnvelope, Parallel};
-use super::followed::Followed;
 use super::{Curves, extremes};
 use crate::follower::Element;
-use crate::geometry::arcs::{self, FitError};
+use crate::geometry::arcs::FitError;
 use crate::geometry::contour::{Contour, Vertex};
-use crate::geometry::{Allowed, CurvePoint, MILLIMETRES};
-use crate::motion::{Motion, Piece};
+use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::motion::Piece;
 use std::f64::consts::PI;
 
 /// A piece that turns by more than a half circle is fitted in two, so that no arc ends where it starts.
@@ -26,16 +29,6 @@ const PITCH_TOLERANCE: f64 = 0.05e-3;
 
 /// An arc about an edge is left out when it is shorter, mm: the ends it would join are then one to a reader.
 const SHORTEST_ARC: f64 = 1e-5;
-
-/// Places at which the variation of the acceleration is seen, and the least number of arcs that is expected.
-const PLACES: u32 = 16;
-const FEW: f64 = 4.0;
-/// How much closer than by the ratio more is asked for where the follower feels too much, and how often.
-const CLOSER: f64 = 0.99;
-const TRIES: u32 = 4;
-
-/// Cosine of the pressure angle below which no motion is transmitted.
-const LEAST_COSINE: f64 = 1e-3;
 
 /// A gap may lie a turn before or after a piece.
 const TURNS: [f64; 3] = [-1.0, 0.0, 1.0];
@@ -67,6 +60,16 @@ impl MotionTolerance {
     pub const ANY: Self = Self { velocity: f64::INFINITY, acceleration: f64::INFINITY };
 }
 
+/// What the curved pieces of an outline are laid of; dwells are true arcs, or lines of a plate, either way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Laid {
+    /// Tangent arcs.
+    #[default]
+    Arcs,
+    /// Cubic splines, one for each piece, without a jump of the curvature within.
+    Splines,
+}
+
 /// How near an outline keeps to the exact curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
@@ -76,11 +79,13 @@ pub struct Fit {
     pub side: Side,
     /// What the follower may feel.
     pub motion: MotionTolerance,
+    /// Of what it is laid.
+    pub laid: Laid,
 }
 
 impl From<f64> for Fit {
     fn from(tolerance: f64) -> Self {
-        Self { tolerance, side: Side::Both, motion: MotionTolerance::ANY }
+        Self { tolerance, side: Side::Both, motion: MotionTolerance::ANY, laid: Laid::default() }
     }
 }
 
@@ -103,7 +108,7 @@ pub struct Outline {
     pub contour: Contour,
     /// Largest distance from the exact curve, mm.
     pub deviation: f64,
-    /// Best possible number of arcs N*, dwells not counted.
+    /// Best possible number of arcs N*, or the number of spans of splines by theory; dwells not counted.
     pub best_possible: f64,
     /// The same for the velocity and the acceleration alone; 0 where they do not matter.
     pub best_for: [f64; 2],
@@ -166,122 +171,6 @@ impl Outline {
         let deviation = self.deviation + MILLIMETRES * shift.abs();
         Self { deviation, ..self }
     }
-
-    /// Lays arcs along a curve, given in millimetres over a range of its parameter, within a tolerance (m).
-    pub(crate) fn lay(
-        &mut self,
-        curve: impl Fn(f64) -> CurvePoint,
-        range: (f64, f64),
-        tolerance: f64,
-    ) -> Result<(), OutlineError> {
-        self.add(&arcs::fit(curve, range, MILLIMETRES * tolerance)?);
-        Ok(())
-    }
-
-    /// The same along a curve that also tells what of its heading and curvature may be missed.
-    pub(crate) fn lay_allowed(
-        &mut self,
-        curve: impl Fn(f64) -> (CurvePoint, Allowed),
-        range: (f64, f64),
-        tolerance: f64,
-    ) -> Result<(), OutlineError> {
-        self.add(&arcs::fit_allowed(curve, range, MILLIMETRES * tolerance)?);
-        Ok(())
-    }
-
-    /// Lays arcs along a parallel of the follower's curve so that the follower feels no more than it may.
-    ///
-    /// What heading and curvature may miss follows from that to first order; what the follower feels is then measured on the
-    /// chain itself, which is laid again where it is more.
-    fn lay_felt(
-        &mut self,
-        curves: Curves<'_>,
-        (piece, distance): (usize, f64),
-        range: (f64, f64),
-        (tolerance, motion): (f64, MotionTolerance),
-    ) -> Result<(), OutlineError> {
-        let frame = |at: f64| curves.touch(piece, at).curve.offset_inward(distance).scaled(MILLIMETRES);
-        if motion == MotionTolerance::ANY {
-            return self.lay(frame, range, tolerance);
-        }
-        // What is felt differs from the first order by as much as one arc is of all.
-        let arcs = variation(curves.motion, piece, range) / (2.0 * motion.acceleration);
-        let first = arcs.max(FEW) / (arcs.max(FEW) + 1.0);
-        let mut asked = MotionTolerance { acceleration: first * motion.acceleration, ..motion };
-        let mut best: Option<(f64, arcs::Chain)> = None;
-        for _ in 0..TRIES {
-            let target = |at: f64| within(curves, (piece, at), distance, asked);
-            // Where no number of arcs that a drawing can hold would do the distance is kept alone, and the check says so.
-            let Ok(mut chain) = arcs::fit_allowed(target, range, MILLIMETRES * tolerance) else { break };
-            // The best possible numbers are those for what may be felt, not for what was asked of this try.
-            let [velocity, acceleration] = &mut chain.best_for;
-            *velocity *= (asked.velocity / motion.velocity).max(0.0).sqrt();
-            *acceleration *= asked.acceleration / motion.acceleration;
-            let edges = chain.edges(frame(range.1).point);
-            let errors = Followed::new(curves, &edges).errors();
-            let over = [errors.velocity.value / motion.velocity, errors.acceleration.value / motion.acceleration];
-            let worst = over.iter().copied().fold(0.0, f64::max);
-            if best.as_ref().is_none_or(|(least, _)| worst < *least) {
-                best = Some((worst, chain));
-            }
-            if !(worst > 1.0) {
-                break;
-            }
-            let [velocity, acceleration] = over.map(|over| over.max(1.0) / if over > 1.0 { CLOSER } else { 1.0 });
-            asked = MotionTolerance {
-                velocity: asked.velocity / velocity,
-                acceleration: asked.acceleration / acceleration,
-            };
-        }
-        match &best {
-            Some((_, chain)) => self.add(chain),
-            None => self.lay(frame, range, tolerance)?,
-        }
-        Ok(())
-    }
-
-    fn add(&mut self, chain: &arcs::Chain) {
-        self.contour.vertices.extend(chain.joints.iter().map(|joint| Vertex::new(joint.point, joint.bulge)));
-        self.deviation = self.deviation.max(chain.deviation);
-        self.best_possible += chain.best_possible;
-        for (sum, best) in self.best_for.iter_mut().zip(chain.best_for) {
-            *sum += best;
-        }
-    }
-}
-
-/// A parallel of the follower's curve at a distance inwards (m), in millimetres, with what its heading and curvature may miss so
-/// that the follower feels no more than this: to first order δs' = (ℓ/cos α) δheading and δs'' = −(ℓ²/cos α) δκ, ℓ the speed
-/// of that parallel, which is the same for all of them.
-fn within(
-    curves: Curves<'_>,
-    (piece, at): (usize, f64),
-    distance: f64,
-    motion: MotionTolerance,
-) -> (CurvePoint, Allowed) {
-    let lift = curves.motion.jet(piece, at);
-    let touch = curves.follower.touch(at, &lift);
-    let frame = touch.curve.offset_inward(distance).scaled(MILLIMETRES);
-    let cosine = touch.drive.dot(&touch.curve.outward());
-    let pace = curves.motion.pace(at).0;
-    (frame, allowed(&frame, cosine * curves.follower.leverage(&lift), pace, motion))
-}
-
-/// What heading and curvature of a curve in millimetres may miss, where a unit of lift moves the follower so far along its
-/// normal (m), and the parameter keeps this pace.
-pub(crate) fn allowed(frame: &CurvePoint, along_normal: f64, pace: f64, motion: MotionTolerance) -> Allowed {
-    let (lift, speed) = (MILLIMETRES * along_normal.max(LEAST_COSINE), frame.speed.abs() * pace);
-    Allowed { heading: motion.velocity * lift / speed, curvature: motion.acceleration * lift / (speed * speed) }
-}
-
-/// The total variation of the acceleration over a range of a piece, by the angle of the shaft, as far as a few places show it.
-fn variation(motion: &dyn Motion, piece: usize, (from, to): (f64, f64)) -> f64 {
-    let at = |i: u32| {
-        let place = from + (to - from) * f64::from(i) / f64::from(PLACES);
-        let (jet, (first, second)) = (motion.jet(piece, place), motion.pace(place));
-        jet.dds * first * first + jet.ds * second
-    };
-    (0..PLACES).map(|i| (at(i + 1) - at(i)).abs()).sum()
 }
 
 /// The profile as an outline. Where it is undercut the loops are left out: what can be cut is drawn, with a sharp edge
@@ -353,7 +242,8 @@ fn concave_radius(curves: Curves<'_>) -> f64 {
 fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Outline, f64), OutlineError> {
     let (shift, half) = fit.band();
     if shift == 0.0 {
-        return Ok((parallel(curves, distance, (half, fit.motion), &left_out(curves, distance)?)?, shift));
+        let within = Fit { tolerance: half, ..fit };
+        return Ok((parallel(curves, distance, &within, &left_out(curves, distance)?)?, shift));
     }
     let shift = shift.clamp(-room, room);
     // From an edge of turn τ the edge of a parallel is 1/cos(τ/2) times as far as the curves beside it.
@@ -361,7 +251,8 @@ fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Out
     let closer = libm::cos(0.5 * sharp);
     let shift = shift * closer;
     let gaps = left_out(curves, distance + shift)?;
-    let outline = parallel(curves, distance + shift, (shift.abs(), fit.motion), &gaps)?;
+    let within = Fit { tolerance: shift.abs(), ..fit };
+    let outline = parallel(curves, distance + shift, &within, &gaps)?;
     let outline = outline.counted_from_exact(shift);
     let deviation = outline.deviation.max(MILLIMETRES * shift.abs() / closer);
     Ok((Outline { deviation, ..outline }, shift))
@@ -413,7 +304,7 @@ pub fn pitch(curves: Curves<'_>) -> Result<Outline, OutlineError> {
 /// # Errors
 /// As for [`pitch`].
 pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, OutlineError> {
-    parallel(curves, 0.0, (tolerance, MotionTolerance::ANY), &[])
+    parallel(curves, 0.0, &Fit::from(tolerance), &[])
 }
 
 /// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
@@ -422,14 +313,8 @@ pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> Cur
     if radius_mm <= LARGEST_COORDINATE { Ok(()) } else { Err(OutlineError::TooLarge { radius_mm }) }
 }
 
-/// The parallel of the follower's curve at a distance inwards (m), within a tolerance (m) and one of the motion, without the
-/// gaps.
-fn parallel(
-    curves: Curves<'_>,
-    distance: f64,
-    tolerances: (f64, MotionTolerance),
-    gaps: &[Gap],
-) -> Result<Outline, OutlineError> {
+/// The parallel of the follower's curve at a distance inwards (m), within the tolerances of a fit, without the gaps.
+fn parallel(curves: Curves<'_>, distance: f64, fit: &Fit, gaps: &[Gap]) -> Result<Outline, OutlineError> {
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
     let frame = |piece: usize, angle: f64| -> CurvePoint {
@@ -450,7 +335,7 @@ fn parallel(
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
                 outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
-                outline.lay_felt(curves, (index, distance), range, tolerances)?;
+                outline.lay_felt(curves, (index, distance), range, fit)?;
             }
             // Readers drop a shorter arc.
             let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
