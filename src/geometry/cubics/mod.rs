@@ -46,6 +46,8 @@ const DAMPING: f64 = 0.7;
 const SEEN: f64 = 0.99;
 /// Where the search for the number of spans begins, over the number by theory.
 const FIRST_SHARE: f64 = 0.5;
+/// Up to so many spans no number is left out.
+const FEW: f64 = 16.0;
 /// Most spans that are tried, over the number by theory.
 const MOST_TIMES: f64 = 3.0;
 const MOST_MORE: f64 = 40.0;
@@ -107,9 +109,10 @@ pub fn fit(
                 seen = (seen * (1.0 / worst.share).clamp(0.5, 0.999)).max(0.5 * SEEN);
             }
         }
-        // As many as the misfits ask for, but no big step near the end.
+        // One by one where one matters, else as many as the misfits ask for, but no big step near the end.
         let wanted = found.map_or(spans * 1.25, |trial| trial.wanted);
-        spans = (spans + 1.0).max((spans + 0.5 * (wanted - spans)).floor());
+        let next = if spans < FEW { spans } else { (spans + 0.5 * (wanted - spans)).floor() };
+        spans = next.max(spans + 1.0);
     }
     Err(too_fine)
 }
