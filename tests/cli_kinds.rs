@@ -211,7 +211,7 @@ fn a_conoid_is_as_long_as_the_contact_needs() {
 /// The ladder gets finer from row to row: less is left, more arcs are laid; the advice keeps the limit.
 #[test]
 fn trade_measures_a_ladder_and_advises() {
-    for (kind, rows) in [("rotary", 9), ("translating", 17)] {
+    for (kind, rows) in [("rotary", 18), ("translating", 23)] {
         let run = camgen(&["trade", kind, "--json", "--residual", "5N"]);
         assert_eq!(run.code, 0, "{}", run.err);
         let report = report(&run);
@@ -220,12 +220,31 @@ fn trade_measures_a_ladder_and_advises() {
         let of = |row: &Value, key: &str| row[key].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
         assert!(of(&found[8], "residual_n") < 0.05 * of(&found[0], "residual_n"));
         assert!(found[..9].windows(2).all(|pair| of(&pair[0], "arcs") <= of(&pair[1], "arcs")));
-        assert!(found.iter().all(|row| of(row, "total_us") > 0.0 && of(row, "bytes") > 1e4));
+        assert!(found.iter().all(|row| of(row, "total_us") > 0.0 && of(row, "bytes") > 1e3));
+        // Arcs that keep the acceleration, splines of fewer pieces, and for a disc tables of points stand beside them.
+        let named = |name: &str| found.iter().find(|row| row["setting"] == name).unwrap_or_else(|| panic!("no {name}"));
+        let (standard, spline) = (named("5 µm, 5 % (standard)"), named("spline, 5 µm, 5 %"));
+        for row in [standard, spline] {
+            assert!(of(row, "acceleration_share") <= 0.05 && of(row, "rolled_mm") <= 0.005, "{row}");
+        }
+        assert!(of(spline, "pieces") < of(standard, "pieces"));
+        if kind == "rotary" {
+            assert!(of(named("points, cubic, 5 µm"), "rolled_mm") <= 0.005);
+            assert!(
+                of(standard, "torque_error_nm") < of(&found[3], "torque_error_nm"),
+                "it falls with the acceleration"
+            );
+        }
         assert!(report["advice"].as_str().is_some_and(|advice| advice.contains("cheapest")), "{report}");
         let stem = format!("dpi-trade-{kind}-35rpm");
         assert_eq!(files(run.directory.path()), [format!("{stem}.csv"), format!("{stem}.svg")]);
     }
     assert_eq!(camgen(&["trade", "conoid"]).code, 2);
+    assert_eq!(camgen(&["trade", "--acceleration", "2mm/rad2"]).code, 2);
+    let run = camgen(&["trade", "--json", "--residual", "5N", "--acceleration", "2%"]);
+    let report = report(&run);
+    let advice = report["advice"].as_str().expect("an advice");
+    assert!(advice.starts_with("5 µm, 2 % ") || advice.starts_with("0.5 µm, 1 % "), "{advice}");
 }
 
 /// A limit that no setting keeps: the tolerance matters all the same, and the setting that leaves least is named.

@@ -27,7 +27,7 @@ fn rotary(overrides: &[&str]) -> Cam {
 }
 
 fn splines(tolerance: f64, side: Side) -> Request {
-    Request::within(Fit { tolerance, side, laid: Laid::Splines })
+    Request::within(Fit { side, laid: Laid::Splines, ..Fit::from(tolerance) })
 }
 
 /// The outline of the first part, and the verdicts.

@@ -256,6 +256,10 @@ pub(super) struct TradeArgs {
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
 
+    /// Largest error of the acceleration that the advice keeps, as a share of the motion's largest, e.g. 2%
+    #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
+    pub(super) acceleration: Option<f64>,
+
     /// Directory for the table and the picture, created when missing
     #[arg(long, value_name = "DIR", default_value = "output")]
     pub(super) out: PathBuf,
@@ -464,6 +468,13 @@ fn velocity_error(text: &str) -> Result<Rate, String> {
 
 fn acceleration_error(text: &str) -> Result<Rate, String> {
     rate(text, &ACCELERATIONS)
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match rate(text, &ACCELERATIONS)? {
+        Rate::Within(RateTolerance::Share(share)) => Ok(share),
+        _ => Err("must be a share, e.g. 2%".into()),
+    }
 }
 
 fn rate(text: &str, units: &[RateUnit]) -> Result<Rate, String> {

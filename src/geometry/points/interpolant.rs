@@ -11,6 +11,7 @@
 
 use super::{Between, Form};
 use crate::geometry::CurvePoint;
+use crate::geometry::contour::{Cubic, Edge, Segment};
 use crate::numeric::spline::Spline;
 use nalgebra::Vector2;
 use std::ops::Range;
@@ -71,6 +72,23 @@ impl Interpolant {
             .map(|((from, to), (first, second))| Interval { from: *from, to: *to, first, second })
             .collect();
         Self { form, straight: form == Form::Plane && between == Between::Linear, intervals }
+    }
+
+    /// Its intervals as lines and cubic curves; `None` in polar coordinates, where they are neither.
+    #[must_use]
+    pub fn edges(&self) -> Option<Vec<Edge>> {
+        let edge = |interval: &Interval| {
+            let length = interval.to - interval.from;
+            let at = |t: f64| Vector2::new(jet(interval.first, t)[0], jet(interval.second, t)[0]);
+            let slope = |t: f64| Vector2::new(jet(interval.first, t)[1], jet(interval.second, t)[1]) * (length / 3.0);
+            let (start, end) = (at(0.0), at(length));
+            if self.straight {
+                Edge::Segment(Segment { start, end, bulge: 0.0 })
+            } else {
+                Edge::Cubic(Cubic { points: [start, start + slope(0.0), end - slope(length), end] })
+            }
+        };
+        (self.form == Form::Plane).then(|| self.intervals.iter().map(edge).collect())
     }
 
     /// How many intervals it has: one less than the table has rows.
