@@ -287,3 +287,24 @@ fn sides_and_named_accuracies() {
     }
     assert_eq!(camgen(&["rotary", "--accuracy", "fine", "--tolerance", "5um"]).code, 2);
 }
+
+#[test]
+fn tolerances_of_the_motion_are_read_and_refused() {
+    for bad in ["5", "5%%", "-5%", "0%", "101%", "3 parsec", "2mm/rad", "nonsense", "nan%", "inf%", "5 rad/rad2"] {
+        let run = camgen(&["rotary", "--tolerance-acceleration", bad]);
+        assert_eq!(run.code, 2, "{bad}: {}", run.err);
+        assert!(files(run.directory.path()).is_empty() && run.err.contains("error"), "{bad}: {}", run.err);
+    }
+    for good in ["5%", "20mm/rad2", "20 mm/rad²", "2m/s^2", "2000 mm/s2", "none"] {
+        let run = camgen(&["rotary", "--format", "dxf", "--json", "--tolerance-acceleration", good]);
+        assert_eq!(run.code, 0, "{good}: {}", run.err);
+        let error = report(&run)["rolling"]["acceleration_error_max_mm_per_rad2"].as_f64().expect("a number");
+        assert!(error <= 20.0 || good == "none", "{good}: {error}");
+    }
+    // A limit of the machine file refuses what the default only warns of.
+    let coarse = ["rotary", "--format", "dxf", "--tolerance-acceleration", "none"];
+    assert_eq!(camgen(&coarse).code, 0);
+    assert_eq!(camgen(&[&coarse[..], &["--set", "limits.acceleration_share=0.2"]].concat()).code, 1);
+    let velocity = camgen(&["rotary", "--format", "dxf", "--tolerance-velocity", "5mm/rad2"]);
+    assert_eq!(velocity.code, 2, "{}", velocity.err);
+}

@@ -259,3 +259,19 @@ fn rolling_tells_its_maxima() {
         assert!((-1e-9..2e-4 * lift).contains(&(told - lift)), "{overrides:?}: {rolled:?} {lift}");
     }
 }
+
+/// Taken for inches the outline runs near the centres of curvature of the exact one, where no distance can be bounded: the
+/// search ends all the same.
+#[test]
+fn an_outline_in_inches_is_refused_in_no_time() {
+    let overrides = ["cam.rotation=ccw", "follower.roller.offset=15mm", "buffer.column=return"];
+    let cam = cam(&overrides);
+    for tolerance in [5e-6, 50e-9] {
+        let mut vertices = written(&cam, tolerance);
+        for vertex in &mut vertices {
+            vertex.point /= 25.4;
+        }
+        let report = cam.check(&file(vertices), tolerance).expect("it reads");
+        assert_eq!(found(&report, "outline").verdict, Verdict::Fail);
+    }
+}

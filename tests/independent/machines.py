@@ -331,7 +331,8 @@ def conoid(binary, directory, number, rng):
     m["width"] = math.radians(rng.uniform(8, 40))
     if rng.random() < 0.6:
         # One that may be made.
-        m.update(mass=rng.uniform(20, 300), material="steel", base=None, stress=None, share=None, cutter=0.004, wall=0.001, preload=None)
+        m.update(mass=rng.uniform(20, 300), material="steel", base=None, stress=None, share=None, cutter=0.004, wall=0.001, preload=None,
+                 follower_mass=None)
     m["column"] = rng.choice(["matched", "return"])
     m.update(travel=rng.uniform(0.06, 0.3), mode=rng.choice(["adjusted", "fixed"]), shift=rng.choice(["linear", "square"]))
     overhang = rng.choice(["auto", "auto", "auto", rng.uniform(0, 0.01)])
