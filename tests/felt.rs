@@ -34,7 +34,7 @@ impl Motion for Rest {
 /// e cos θ + ρ; both derivatives by hand, in millimetres.
 #[test]
 fn an_eccentric_circle_gives_what_its_formulas_say() {
-    let (e, rho, r) = (7.0, 40.0, 12.0);
+    let (e, rho, r) = (4.0, 40.0, 12.0);
     let circle = |centre: Vector2<f64>, radius: f64| -> Vec<Edge> { Contour::circle(centre, radius).edges().collect() };
     let edges = circle(Vector2::new(e, 0.0), rho);
     let roller = TranslatingRoller::new(1e-3 * (rho + r), 0.0, 1e-3 * r);
@@ -63,7 +63,7 @@ fn an_eccentric_circle_gives_what_its_formulas_say() {
 /// the angle that the cosine rule gives.
 #[test]
 fn a_swinging_roller_on_a_circle_is_a_linkage() {
-    let (e, rho, r, arm, pivot) = (7.0, 40.0, 12.0, 90.0, 110.0);
+    let (e, rho, r, arm, pivot) = (4.0, 40.0, 12.0, 90.0, 110.0);
     let follower =
         SwingingRoller::new(1e-3 * arm, 1e-3 * pivot, 1e-3 * r, 1.0).sized(1e-3 * (rho + r)).expect("in reach");
     let edges: Vec<Edge> = Contour::circle(Vector2::new(e, 0.0), rho).edges().collect();
@@ -165,6 +165,22 @@ fn the_default_cam_has_few_arcs_and_keeps_five_per_cent() {
     assert!(felt(&both).velocity_error.0 < felt(&alone).velocity_error.0);
     let residual = |proven: &Proven<'_>| proven.rolled().expect("plane").residual_max_n;
     assert!(residual(&both) < residual(&alone));
+}
+
+/// A dwell over most of the turn is one arc, along which the follower rests.
+#[test]
+fn a_long_dwell_is_felt_as_rest() {
+    let program = "name = \"x\"\n[motion]\nstart = \"0 mm\"\n\
+        [[motion.segment]]\nlaw = \"cycloidal\"\nover = \"40 deg\"\nto = \"6 mm\"\n\
+        [[motion.segment]]\nlaw = \"cycloidal\"\nover = \"40 deg\"\nto = \"0 mm\"\n\
+        [[motion.segment]]\nlaw = \"dwell\"\nover = \"280 deg\"\n\
+        [follower.roller]\nradius = \"10 mm\"\n[cam]\n[limits]\npressure_angle = \"40 deg\"\n";
+    let machine = Machine::from_toml("x", program, &[]).expect("valid");
+    let (motion, rpm) = machine.motion().expect("a motion");
+    let cam = Spec::of_motion(machine.clone(), motion, rpm).solve().expect("a cam");
+    let proven = proved(&cam, Fit::from(5e-6), [None, Some(RateTolerance::Share(0.05))]);
+    let felt = proven.rolled().and_then(|rolled| rolled.felt).expect("in touch");
+    assert!(felt.acceleration_share().expect("it moves") <= 0.05, "{felt:?}");
 }
 
 /// A velocity, and quantities per second and per radian, are kept as well; splines keep all of them with fewer pieces.

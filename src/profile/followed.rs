@@ -133,7 +133,8 @@ impl<'a> Followed<'a> {
             let from = parameter(edge.start(), edge.start_tangent());
             let to = parameter(edge.end(), edge.end_tangent());
             let from = last.map_or(from, |last| near(from, last));
-            let to = near(to, from);
+            // An arc of a dwell may go round by more than a half turn.
+            let to = near(to, from + edge.turning());
             if !(from.is_finite() && to.is_finite()) {
                 last = None;
                 continue;

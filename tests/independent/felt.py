@@ -256,7 +256,7 @@ LAWS = {
 def make(binary, directory, name, rng):
     kind = rng.choice(["flat", "swinging", "roller"])
     unit = "deg" if kind == "swinging" else "mm"
-    rise, rest, fall = rng.uniform(80, 130), rng.uniform(10, 50), rng.uniform(90, 140)
+    rise, rest, fall = rng.uniform(40, 130), rng.uniform(10, 50), rng.uniform(40, 140)
     lift = rng.uniform(5, 20)
     segments = [(rng.choice(sorted(LAWS)), rise, 0.0, lift), ("dwell", rest, lift, lift), (rng.choice(sorted(LAWS)), fall, lift, 0.0),
                 ("dwell", 360 - rise - rest - fall, 0.0, 0.0)]
