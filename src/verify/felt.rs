@@ -1,6 +1,6 @@
 //! What the follower feels: velocity and acceleration on the outline as it is in the file.
 
-use super::{Check, Evidence, On};
+use super::{Check, Evidence, On, felt_sections};
 use crate::body::Body;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Edge;
@@ -47,7 +47,9 @@ pub(super) fn felt<'s>(body: &dyn Body, curves: Curves<'_>, flanks: impl Iterato
 }
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
-    let felt = evidence.rolled?.felt.as_ref()?;
+    let of_sections = |conoid| felt_sections::felt(conoid, evidence.outlines);
+    let felt =
+        evidence.rolled.and_then(|rolled| rolled.felt).or_else(|| evidence.body.spatial().and_then(of_sections))?;
     let share = felt.acceleration_share()?;
     let unit = if felt.swings { 1.0 } else { MILLIMETRES };
     let over = |(error, _): (f64, Place), asked: f64| error > unit * asked * (1.0 + ROUNDING);
@@ -69,7 +71,10 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         _ => Verdict::Pass,
     };
     let found = CHECK.found(share, Some(limit), "1", verdict);
-    let mut note = words(felt);
+    let mut note = words(&felt);
+    if evidence.body.spatial().is_some() {
+        note = format!("sections, to first order: {note}");
+    }
     if too_fast {
         let [velocity, _] = felt.units();
         note =

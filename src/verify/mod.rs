@@ -13,6 +13,7 @@ mod cutter_path;
 mod cutter_radius;
 mod cylinder_contact;
 mod felt;
+mod felt_sections;
 mod file;
 mod flank;
 mod force_closure;

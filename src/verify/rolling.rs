@@ -472,7 +472,8 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         chord_difference_mm: samples.iter().map(|s| s.difference).fold(0.0, f64::max),
         residual_max_n: residual.map_or(0.0, |s| s.residual),
         residual_at: residual.map_or_else(Place::default, |s| body.place(s.parameter)),
-        felt: felt::felt(body, curves, tracks.iter().map(Track::edges)),
+        // Where motion is lost there is no velocity to compare.
+        felt: if touches { felt::felt(body, curves, tracks.iter().map(Track::edges)) } else { None },
     }
 }
 
