@@ -27,7 +27,7 @@ HAIR = 1e-8
 
 
 class Track:
-    """Arcs of a file with the metal on their left, as (centre, signed radius, start, end, normals there); mm."""
+    """Arcs of a file with the metal on their left, as (centre, signed radius, start, end, normals there, sweep); mm."""
 
     def __init__(self, vertices, mirrored):
         if mirrored:
@@ -40,7 +40,8 @@ class Track:
             normal = lambda heading: np.array([math.sin(heading), -math.cos(heading)])
             radius = math.copysign(chain.radius[i], chain.sweep[i]) if chain.is_arc[i] else None
             self.arcs.append((chain.centre[i] if chain.is_arc[i] else chain.start[i], radius, chain.start[i], chain.end[i],
-                              normal(chain.heading_in[i]), normal(chain.heading_out[i])))
+                              normal(chain.heading_in[i]), normal(chain.heading_out[i]),
+                              chain.sweep[i]))
 
 
 class Roller:
@@ -55,7 +56,7 @@ class Roller:
         return math.atan2(q[1], q[0]) - math.atan2(self.offset, height)
 
     def jet(self, arc, theta):
-        centre, radius, _, _, normal, _ = arc
+        centre, radius, _, _, normal, *_ = arc
         c, s = math.cos(theta), math.sin(theta)
         if radius is None:
             on = centre + normal * self.radius
@@ -108,7 +109,7 @@ class Lever:
         return math.atan2(q[1], q[0]) + self.side * at_shaft
 
     def jet(self, arc, theta):
-        centre, radius, _, _, normal, _ = arc
+        centre, radius, _, _, normal, *_ = arc
         t = self.side
         psi = self.guess
         for _ in range(12):
@@ -145,11 +146,12 @@ def errors(follower, track, law, period=2 * math.pi):
     before = first = None
     last = None
     for arc in track.arcs:
-        _, radius, start, end, at_start, at_end = arc
+        _, radius, start, end, at_start, at_end, sweep = arc
         low, high = follower.angle(start, at_start), follower.angle(end, at_end)
         if last is not None:
             low += period * round((last - low) / period)
-        high += period * round((low - high) / period)
+        # A dwell may be one arc of more than a half turn.
+        high += period * round((low + sweep - high) / period)
         last = high
         if isinstance(follower, Face) and radius is None:
             continue
@@ -338,7 +340,7 @@ def plate(binary, directory, name, rng):
     axis = report["cam"]["plate"]["axis_distance_mm"]
     cut, wrong = [], []
     for arc in track.arcs:
-        centre, radius, start, end, at_start, at_end = arc
+        centre, radius, start, end, at_start, at_end, _ = arc
         for x, dx, v_told, a_told in zip(rows["x_mm"], rows["dx_mm"], rows["velocity_cut_mm_per_rad"], rows["acceleration_cut_mm_per_rad2"]):
             if x <= 0 or x >= r:
                 continue

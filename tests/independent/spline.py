@@ -15,6 +15,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 from disc import Disc, roll
+from felt import Roller, of_disc
 from outline import Chain, polyline
 
 DPI = dict(mass=978.2, r=0.18, k=1.35, q=2.0, column="matched", lead=0.0, kind="run-up", width=math.radians(20), roller=0.03,
@@ -192,6 +193,22 @@ def gate(binary, directory, name, tolerance, args, changes):
     gap, _, _ = roll(disc, outline)
     assert gap <= tolerance * (1 + 1e-9), f"the roller is {gap} mm off"
     assert gap <= told["deviation_max_mm"] + 1e-9, f"{gap} mm off, told {told['deviation_max_mm']}"
+    # As cut: the roller follows the circle of curvature of the written spline at each of its places.
+    follower, law, flip = Roller(1e3 * disc.rf, 1e3 * disc.prime, 1e3 * disc.eps), of_disc(disc), -1.0 if disc.m["ccw"] else 1.0
+    worst = 0.0
+    for spline in outline.splines:
+        t = np.linspace(spline.low, spline.high, 60 * len(spline.controls))[1:-1]
+        for p, v, a in zip(spline.at(t), spline.at(t, 1), spline.at(t, 2)):
+            normal = np.array([v[1], -v[0] * flip]) / np.hypot(*v)
+            point, radius = p * [1, flip], np.hypot(*v) ** 3 / (v[0] * a[1] - v[1] * a[0])
+            theta = follower.angle(point, normal)
+            jet = follower.jet((point - normal * radius, radius, None, None, normal, None), theta)
+            worst = max(worst, abs(jet[2] - law(theta)[0](theta)[2]))
+    rolling = report["rolling"]
+    largest, told_error = rolling["acceleration_of_motion_max_mm_per_rad2"], rolling["acceleration_error_max_mm_per_rad2"]
+    # Its ends, where the error is largest, are not among the places.
+    assert worst <= told_error * (1 + 1e-6) and worst > 0.9 * told_error, f"acceleration off by {worst}, told {told_error}"
+    assert worst <= 0.05 * largest, f"{worst} of {largest}, 5 % asked for"
     chain = Chain(polyline(arcs_stem.with_suffix(".dxf"))[1])
     arcs_length = np.where(chain.is_arc, chain.radius * np.abs(chain.sweep), chain.length).sum()
     # Either outline lies within the tolerance, so that they differ by no more than two of them all round.
