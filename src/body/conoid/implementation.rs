@@ -23,6 +23,9 @@ use crate::table::{BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
+/// Share of the error of the heading that is seen where the arcs are compared with a cut.
+const SEEN_AT_NODES: f64 = 0.99;
+
 /// A normal that leans more than this along the axis, rad, makes sections that arcs can hardly follow: 89°.
 const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
 
@@ -52,6 +55,7 @@ impl Conoid {
     fn section(&self, z: f64, fit: Fit) -> Result<Outline, OutlineError> {
         let (shift, tolerance) = fit.band();
         let within_band = Fit { tolerance, ..fit };
+        let asked = MotionTolerance { velocity: SEEN_AT_NODES * fit.motion.velocity, ..fit.motion };
         let frame = |piece: usize, angle: f64| {
             self.cut(piece, angle, z).map_or(BROKEN, |(frame, _)| frame.offset_inward(shift).scaled(MILLIMETRES))
         };
@@ -70,7 +74,7 @@ impl Conoid {
                     let bulge = libm::tan(0.25 * (range.1 - range.0));
                     outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
                 } else {
-                    let within = |angle| cut_within(frame(index, angle), angle, fit.motion);
+                    let within = |angle| cut_within(frame(index, angle), angle, asked);
                     outline.lay(within, range, &within_band)?;
                 }
             }

@@ -74,18 +74,20 @@ struct Slack {
     change: f64,
 }
 
-/// The curvature that is kept at a joint of an arc.
+/// The curvature, or the heading, that is kept at a joint of an arc.
 #[derive(Debug, Clone, Copy)]
 struct End {
+    /// Which of [`Trial::bends`].
+    bend: usize,
     off: f64,
     off_by: [f64; 6],
     sides: [Slack; 2],
 }
 
-/// The samples of a piece, the joints of every arc where its curvature is kept, and the tolerance.
+/// The samples of a piece, what is kept at the joints of every arc, and the tolerance.
 struct Program {
     samples: Vec<Sample>,
-    ends: Vec<[End; 2]>,
+    ends: Vec<Vec<End>>,
     tolerance: f64,
 }
 
@@ -154,14 +156,17 @@ impl Program {
         };
         let all: Vec<(Vector2<f64>, f64, Kept)> = nodes.iter().enumerate().flat_map(kept).collect();
         let bent = nodes.iter().any(|node| node.allowed.curvature.is_finite());
-        let ends = if bent { arcs } else { 0 };
+        let turned = nodes.iter().any(|node| node.allowed.heading.is_finite());
+        let kept: Vec<usize> =
+            [bent, bent, turned].into_iter().zip(0..).filter_map(|(is, bend)| is.then_some(bend)).collect();
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
-        let multiplier = 0.5 * arcs as f64 / (all.len() + 2 * ends) as f64;
+        let multiplier = 0.5 * arcs as f64 / (all.len() + kept.len() * arcs) as f64;
         let sides = [Slack { distance: 0.0, multiplier, change: 0.0 }; 2];
         let sample =
             |(point, parameter, kept)| Sample { point, parameter, kept, basis: Vector4::zeros(), off: 0.0, sides };
-        let end = End { off: 0.0, off_by: [0.0; 6], sides };
-        Self { samples: all.into_iter().map(sample).collect(), ends: vec![[end; 2]; ends], tolerance }
+        let ends: Vec<End> = kept.into_iter().map(|bend| End { bend, off: 0.0, off_by: [0.0; 6], sides }).collect();
+        let ends = if ends.is_empty() { Vec::new() } else { vec![ends; arcs] };
+        Self { samples: all.into_iter().map(sample).collect(), ends, tolerance }
     }
 
     /// Every arc with its samples, up to the foot of its end.
@@ -188,8 +193,11 @@ impl Program {
             }
         }
         for (index, ends) in self.ends.iter_mut().enumerate() {
-            for (end, bend) in ends.iter_mut().zip(trial.bends(index, tolerance).into_iter().flatten()) {
-                (end.off, end.off_by) = (bend.off, bend.off_by);
+            let bends = trial.bends(index, tolerance);
+            for end in ends {
+                if let Some(bend) = bends.as_ref().and_then(|bends| bends.get(end.bend)) {
+                    (end.off, end.off_by) = (bend.off, bend.off_by);
+                }
                 worst = larger(worst, end.off.abs());
             }
         }
@@ -208,7 +216,8 @@ impl Program {
             }
         }
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
-        let (arcs, count) = (arcs as f64, 2.0 * (self.samples.len() + 2 * self.ends.len()) as f64);
+        let (arcs, count) =
+            (arcs as f64, 2.0 * (self.samples.len() + self.ends.iter().map(Vec::len).sum::<usize>()) as f64);
         (product / arcs, CENTRE * product / count)
     }
 

@@ -7,8 +7,8 @@ use nalgebra::{Vector2, Vector4};
 
 /// Nodes per best possible arc: they see the lobes to 0.9 %.
 const NODES_PER_ARC: f64 = 24.0;
-/// Nodes for every arc more that heading or curvature ask for: the distances of short arcs are no limit, and the curvature is
-/// kept at the joints.
+/// Nodes for every arc more that the curvature asks for: the distances of short arcs are no limit, and the curvature is kept at the
+/// joints.
 const NODES_PER_SHORT_ARC: f64 = 6.0;
 /// Nodes a piece has at the least, so that a short piece or a nearly circular one is seen at all.
 const LEAST_NODES: f64 = 96.0;
@@ -225,9 +225,10 @@ impl Mesh {
     /// Nodes of equal share, with a little spread evenly; `None` when they are too many.
     fn nodes(&self, target: &impl Target, seen: f64) -> Option<Vec<Node>> {
         let size = libm::cbrt(CHAIN * seen);
-        let [for_distance, ..] = self.each;
-        let shorter = (self.total - for_distance).max(0.0);
-        let count = ((NODES_PER_ARC * for_distance + NODES_PER_SHORT_ARC * shorter) / size).ceil() + LEAST_NODES;
+        let [for_distance, for_heading, _] = self.each;
+        let long = for_distance.max(for_heading);
+        let shorter = (self.total - long).max(0.0);
+        let count = ((NODES_PER_ARC * long + NODES_PER_SHORT_ARC * shorter) / size).ceil() + LEAST_NODES;
         if count > MOST_NODES {
             return None;
         }

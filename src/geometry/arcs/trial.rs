@@ -142,8 +142,8 @@ pub(super) fn place_of(freedom: usize, index: usize, arcs: usize) -> Option<usiz
     free.then(|| if at_end { 4 * index + freedom - 3 } else { 4 * index + freedom - 4 })
 }
 
-/// How much an arc misses the curvature of the curve at one of its joints, in what is allowed, and its derivatives by the six
-/// freedoms.
+/// How much an arc misses the curvature, or the heading, of the curve at one of its joints, in what is allowed, and its derivatives
+/// by the six freedoms.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bend {
     pub(super) off: f64,
@@ -180,8 +180,8 @@ impl Trial {
         Some(Self { stands, links })
     }
 
-    /// Misses of the curvature at both joints of an arc.
-    pub(super) fn bends(&self, index: usize, tolerance: f64) -> Option<[Bend; 2]> {
+    /// Misses of the curvature at both joints of an arc, and of the heading at the later one.
+    pub(super) fn bends(&self, index: usize, tolerance: f64) -> Option<[Bend; 3]> {
         let (link, start, end) = (self.links.get(index)?, self.stands.get(index)?, self.stands.get(index + 1)?);
         let bend = |stand: &Stand, along: usize| {
             let allowed = stand.allowed.curvature;
@@ -192,7 +192,10 @@ impl Trial {
             }
             Bend { off: (link.arc.curvature - stand.frame.curvature) / allowed, off_by }
         };
-        Some([bend(start, 0), bend(end, 3)])
+        let slope = end.place.slope;
+        let by = tolerance / (end.length * (1.0 + slope * slope) * end.allowed.heading);
+        let turn = Bend { off: libm::atan(slope) / end.allowed.heading, off_by: [0.0, 0.0, 0.0, 0.0, 0.0, by] };
+        Some([bend(start, 0), bend(end, 3), turn])
     }
 
     /// Widest opening, in tolerances over the chord.

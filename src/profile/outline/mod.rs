@@ -200,7 +200,9 @@ pub(crate) fn profile_within(curves: Curves<'_>, fit: Fit) -> Result<(Outline, f
 /// [`OutlineError`] as for [`profile`]; also when the cutter does not get into a concave part.
 pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
     gets_in(curves, cutter_radius)?;
-    Ok(beside(curves, curves.offset() - cutter_radius, fit.into(), f64::INFINITY)?.0)
+    // What a cutter leaves along arcs and lines are arcs and lines, which the proof follows.
+    let fit = Fit { laid: Laid::Arcs, ..fit.into() };
+    Ok(beside(curves, curves.offset() - cutter_radius, fit, f64::INFINITY)?.0)
 }
 
 /// Refuses a cutter (radius in m) that does not get into a concave part.
