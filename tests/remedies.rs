@@ -97,16 +97,10 @@ fn apply(seed: u64, wanted: usize) -> usize {
 
 #[test]
 fn what_a_refusal_says_passes() {
-    let refusals = apply(13, 120);
-    println!("120 remedies of {refusals} refusals work");
-}
-
-/// The long run: `cargo test --release --test remedies -- --ignored --nocapture`.
-#[test]
-#[ignore = "minutes"]
-fn what_two_thousand_refusals_say_passes() {
-    let refusals = apply(2026, 2000);
-    println!("2000 remedies of {refusals} refusals work");
+    // The long run: REMEDIES=2000 cargo test --release --test remedies -- --nocapture.
+    let count = std::env::var("REMEDIES").map_or(120, |count| count.parse().expect("a number of remedies"));
+    let refusals = apply(13, count);
+    println!("{count} remedies of {refusals} refusals work");
 }
 
 /// A corner of the motion stays a corner on any cam.

@@ -482,7 +482,9 @@ fn rate(text: &str, units: &[RateUnit]) -> Result<Rate, String> {
         return Ok(Rate::Any);
     }
     let text = text.trim().replace('²', "2").replace('^', "");
-    let end = text.find(['%', 'm', 'r']).unwrap_or(text.len());
+    // An e belongs to the number.
+    let begins_unit = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
+    let end = text.find(begins_unit).unwrap_or(text.len());
     let (number, unit) = text.split_at(end);
     let known: Vec<&str> = units.iter().map(|(name, ..)| *name).collect();
     let known = known.join(", ");
