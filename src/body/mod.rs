@@ -9,6 +9,7 @@ pub mod conoid;
 pub mod disc;
 mod part;
 pub mod points;
+mod sheet;
 mod stress;
 pub mod wedge;
 
@@ -26,8 +27,8 @@ use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
 use crate::profile::{Curves, Worst, boundary, envelope, extremes, followed};
-use crate::report::sheet::Sheet;
-use crate::report::{Place, Report, Rolled, Section, Speeds};
+use crate::report::sheet::View;
+use crate::report::{Place, Rolled, Section, Speeds};
 use crate::table::Row;
 use conoid::Conoid;
 use conoid::flank::{Flank, FlankError};
@@ -436,11 +437,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// What it and its parts contribute to the report.
     fn sections(&self, found: &Found<'_>) -> Vec<Section>;
 
-    /// Its review sheet.
+    /// What its review sheet shows.
     ///
     /// # Errors
     /// [`OutlineError`] when a curve for viewing cannot be drawn.
-    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError>;
+    fn view(&self, drawn: &Drawn) -> Result<View, OutlineError>;
 }
 
 /// The loop of these stretches of a plane cam, mm.

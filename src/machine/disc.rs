@@ -30,7 +30,22 @@ pub enum Material {
     Aluminium,
 }
 
+/// The materials by their names, in the order of [`Material`].
+const MATERIALS: &[&str] = &["steel", "cast-iron", "bronze", "aluminium"];
+
 impl Material {
+    /// As the machine file names it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        let index = match self {
+            Material::Steel => 0,
+            Material::CastIron => 1,
+            Material::Bronze => 2,
+            Material::Aluminium => 3,
+        };
+        MATERIALS.get(index).copied().unwrap_or_default()
+    }
+
     /// E/(1 − ν²), Pa, customary values.
     #[must_use]
     pub fn contact_modulus(self) -> f64 {
@@ -151,7 +166,7 @@ const MATERIAL: Field<Material> = Field::words(
     "material",
     "\"steel\", \"cast-iron\", \"bronze\" or \"aluminium\": for mass (steel when absent) and contact stress",
     Optional("steel"),
-    &["steel", "cast-iron", "bronze", "aluminium"],
+    MATERIALS,
     &[Material::Steel, Material::CastIron, Material::Bronze, Material::Aluminium],
 );
 const BALANCE: Field<(f64, f64)> = Field::band(

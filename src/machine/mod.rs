@@ -12,6 +12,7 @@ mod disc;
 mod embedded;
 mod limits;
 mod press;
+mod title;
 mod transition;
 mod translating;
 
@@ -22,6 +23,7 @@ pub use disc::{CamData, Keyway, Material, Rotation};
 pub use embedded::{EMBEDDED, Embedded};
 pub use limits::{Limits, Touching, customary_stress};
 pub use press::{NoPress, NoRoller, Press};
+pub use title::Title;
 pub use translating::TranslatingData;
 
 use crate::document::Presence::Required;
@@ -49,7 +51,7 @@ const MOTION_TABLES: &[&Section] =
 
 /// The tables after those of the followers.
 const BODY_TABLES: &[&Section] =
-    &[&disc::SECTION, &disc::KEYWAY, &transition::SECTION, &translating::SECTION, &conoid::SECTION, &limits::SECTION];
+    &[&disc::SECTION, &disc::KEYWAY, &transition::SECTION, &translating::SECTION, &conoid::SECTION, &limits::SECTION, &title::SECTION];
 
 /// Every table of a machine file: those of the machine, and one for each kind of follower.
 #[must_use]
@@ -126,6 +128,8 @@ pub struct Machine {
     pub(crate) conoid: Option<ConoidData>,
     /// Limits.
     pub(crate) limits: Limits,
+    /// Title block.
+    pub(crate) title: Title,
     /// Keys the user gave.
     given: Vec<String>,
 }
@@ -165,6 +169,7 @@ impl Machine {
             translating: translating::read(reader, radius),
             conoid: conoid::read(reader),
             limits: limits::read(reader)?,
+            title: title::read(reader),
             given: reader.given(own),
             follower,
         })

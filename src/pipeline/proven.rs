@@ -185,6 +185,7 @@ impl Proven<'_> {
             outlines: &self.outlines,
             cut_files,
             points: &self.points,
+            fit: self.request.fit,
             dxf_version,
             report,
             samples,

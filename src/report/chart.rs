@@ -1,20 +1,26 @@
-//! A log-log chart, e.g. of computing time against residual force.
+//! A log-log chart on a sheet of paper, e.g. of computing time against residual force.
 
-use super::sheet::{Group, Pen, STROKE_OVER_TEXT, Shape, Sheet, TextAnchor};
+use super::sheet::paper::{PAPERS, Paper, furniture};
+use super::sheet::placing::Taken;
+use super::sheet::{Group, STROKE, Shape, Sheet, TextAnchor, font, words};
 use crate::geometry::Entity;
-use crate::geometry::contour::{Contour, Extents};
+use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
-/// Size of the field, mm.
-const FIELD: Vector2<f64> = Vector2::new(180.0, 110.0);
-/// From one panel to the next, mm.
-const PITCH: f64 = 135.0;
-/// Height of the text, mm.
+/// Height of the texts, of the title and of the labels, mm.
 const TEXT: f64 = 3.0;
-/// Width of a letter over its height, on the safe side.
-const LETTER: f64 = 0.65;
+const TITLE: f64 = 4.5;
+const LABEL: f64 = 2.5;
 /// Radius of a point, mm.
-const POINT: f64 = 1.2;
+const POINT: f64 = 1.0;
+/// Room of a panel for the names of its lines: to the left, above, below, to the right, mm.
+const LEFT: f64 = 16.0;
+const ABOVE: f64 = 10.0;
+const BELOW: f64 = 14.0;
+const RIGHT: f64 = 8.0;
+/// From a point to its label in points, and how many directions are tried.
+const NEAR: [f64; 4] = [1.6, 3.0, 5.0, 8.0];
+const DIRECTIONS: u32 = 16;
 
 /// A point of a chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,69 +63,110 @@ pub struct Panel {
 /// The chart, a panel below the other; points that are not above 0 cannot be shown and are left out.
 #[must_use]
 pub fn chart(title: &str, x_name: &str, panels: &[Panel]) -> Sheet {
-    let pen = Pen { text: TEXT };
+    let paper = PAPERS.first().copied().unwrap_or(Paper { name: "", size: Vector2::repeat(1.0), lettering: &[] });
+    let frame = paper.frame(Vector2::zeros());
+    let mut groups = furniture(&paper, Vector2::zeros());
+    let room = frame.size().x - 4.0 * TEXT;
+    let (lines, size) = font::fitted(title, TITLE, room, 3.0 * TITLE);
+    let mut top = frame.largest.y - 2.0 * TEXT;
+    let mut heads = Vec::new();
+    for line in lines {
+        top -= font::LEADING * size;
+        heads.push(words(Vector2::new(frame.least.x + 2.0 * TEXT, top), size, TextAnchor::Start, line));
+    }
+    groups.push(Group { class: "facts", ..Group::new("title", "title", heads) });
+    top -= TEXT;
     let fits = |p: &&Point| p.x > 0.0 && p.y > 0.0 && (p.x * p.y).is_finite();
     let x = decades(panels.iter().flat_map(|panel| &panel.points).filter(fits).map(|p| p.x));
-    let mut groups = Vec::new();
-    let mut bottom = 0.0;
-    for (number, panel) in (1_u32..).zip(panels) {
-        bottom = -f64::from(number - 1) * PITCH;
-        let shown: Vec<&Point> = panel.points.iter().filter(fits).collect();
-        let y = decades(shown.iter().map(|p| p.y));
-        let share = |value: f64, (low, high): (f64, f64)| (libm::log10(value) - low) / (high - low);
-        let at = |p: &Point| Vector2::new(FIELD.x * share(p.x, x), bottom + FIELD.y * share(p.y, y));
-        let dot = |p: &Point| Shape::Entity(Entity::Polyline(Contour::circle(at(p), POINT)));
-        let mut best: Vec<&Point> = shown.iter().copied().filter(|p| p.best).collect();
-        best.sort_by(|a, b| a.x.total_cmp(&b.x).then(b.y.total_cmp(&a.y)));
-        let mut front: Vec<Shape> = best.iter().map(|p| dot(p)).collect();
-        front.push(Shape::Path(best.iter().map(|p| at(p)).collect()));
-        let others = shown.iter().filter(|p| !p.best).map(|p| dot(p)).collect();
-        let words = vec![
-            pen.middle(Vector2::new(0.5 * FIELD.x, bottom - 3.5 * TEXT), x_name),
-            pen.words(-6.0 * TEXT, bottom + FIELD.y + 0.9 * TEXT, panel.y_name),
-        ];
-        let group = |id: &'static str, label: &str, shapes| {
-            let group = Group::new(id, label, shapes);
-            // A name stands once in a file.
-            if number == 1 { group } else { Group { id: format!("{id}-{number}"), ..group } }
+    #[expect(clippy::cast_precision_loss, reason = "a few panels")]
+    let each = (top - frame.least.y) / panels.len().max(1) as f64;
+    for panel in panels {
+        let field = Extents {
+            least: Vector2::new(frame.least.x + LEFT, top - each + BELOW),
+            largest: Vector2::new(frame.largest.x - RIGHT, top - ABOVE),
         };
-        groups.extend([
-            group("axis", "grid", grid(&pen, x, y, bottom)),
-            group("other", "other settings", others),
-            group("roller", "Pareto front", front),
-            group("labels", "labels", labels(&shown, at)),
-            group("facts", "names", words),
-        ]);
+        let shown: Vec<&Point> = panel.points.iter().filter(fits).collect();
+        groups.extend(panel_groups(panel.y_name, x_name, &shown, x, &field));
+        top -= each;
     }
-    groups.push(Group::new("title", "title", vec![pen.words(-6.0 * TEXT, FIELD.y + 3.0 * TEXT, title)]));
-    Sheet {
-        title: title.into(),
-        extents: Extents {
-            least: Vector2::new(-7.0 * TEXT, bottom - 5.0 * TEXT),
-            largest: FIELD + Vector2::new(3.0 * TEXT, 6.0 * TEXT),
-        },
-        stroke: STROKE_OVER_TEXT * TEXT,
-        groups,
+    for (index, group) in groups.iter_mut().enumerate().skip(3) {
+        // A name stands once in a file.
+        group.id = format!("{}-{index}", group.id);
     }
+    let extents = Extents { least: Vector2::zeros(), largest: paper.size };
+    Sheet { title: title.into(), extents, stroke: STROKE, scale: 1.0, groups }
+}
+
+/// One panel in its field.
+fn panel_groups(y_name: &str, x_name: &str, shown: &[&Point], x: (f64, f64), field: &Extents) -> Vec<Group> {
+    let y = decades(shown.iter().map(|p| p.y));
+    let share = |value: f64, (low, high): (f64, f64)| (libm::log10(value) - low) / (high - low);
+    let at = |p: &Point| field.least + field.size().component_mul(&Vector2::new(share(p.x, x), share(p.y, y)));
+    let dot = |p: &Point| Shape::Entity(Entity::Circle(at(p), POINT));
+    let mut best: Vec<&Point> = shown.iter().copied().filter(|p| p.best).collect();
+    best.sort_by(|a, b| a.x.total_cmp(&b.x).then(b.y.total_cmp(&a.y)));
+    let mut front = between_rings(&best.iter().map(|p| at(p)).collect::<Vec<_>>());
+    front.extend(best.iter().map(|p| dot(p)));
+    let others: Vec<Shape> = shown.iter().filter(|p| !p.best).map(|p| dot(p)).collect();
+    let grid = grid(x, y, field);
+    let mut taken = Taken::none(*field);
+    for shape in grid.iter().chain(&front).chain(&others) {
+        taken.put(shape);
+    }
+    let labels = labels(shown, at, &mut taken);
+    let middle = 0.5 * (field.least.x + field.largest.x);
+    let names = vec![
+        words(Vector2::new(middle, field.least.y - 3.0 * TEXT), TEXT, TextAnchor::Middle, x_name),
+        words(Vector2::new(field.least.x - LEFT + TEXT, field.largest.y + 1.2 * TEXT), TEXT, TextAnchor::Start, y_name),
+    ];
+    vec![
+        Group { class: "trace-grid", ..Group::new("grid", "grid", grid) },
+        Group { class: "other", ..Group::new("other", "other settings", others) },
+        Group { class: "front", ..Group::new("front", "Pareto front", front) },
+        Group { class: "facts", ..Group::new("labels", "labels", labels) },
+        Group { class: "facts", ..Group::new("names", "names", names) },
+    ]
+}
+
+/// The lines from each ring to the next, from rim to rim.
+fn between_rings(centres: &[Vector2<f64>]) -> Vec<Shape> {
+    let apart = |a: &Vector2<f64>, b: &Vector2<f64>| {
+        let way = b - a;
+        let along = way / way.norm().max(1e-9) * POINT;
+        (way.norm() > 2.0 * POINT).then(|| Shape::Line(a + along, b - along))
+    };
+    centres.iter().zip(centres.iter().skip(1)).filter_map(|(a, b)| apart(a, b)).collect()
+}
+
+/// A power of ten as it is read: 0.01, 100, 10⁵.
+fn power_of_ten(exponent: f64) -> String {
+    if (-3.0..=4.0).contains(&exponent) {
+        return libm::pow(10.0, exponent).to_string();
+    }
+    let raised = |letter: char| match letter {
+        '-' => '⁻',
+        digit => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit as usize - '0' as usize).unwrap_or(digit),
+    };
+    format!("10{}", exponent.to_string().chars().map(raised).collect::<String>())
 }
 
 /// The lines of the decades with their names.
-fn grid(pen: &Pen, x: (f64, f64), y: (f64, f64), bottom: f64) -> Vec<Shape> {
+fn grid(x: (f64, f64), y: (f64, f64), field: &Extents) -> Vec<Shape> {
     let mut grid = Vec::new();
     for (range, along) in [(x, true), (y, false)] {
         let mut decade = range.0;
         while decade <= range.1 {
-            let place = (decade - range.0) / (range.1 - range.0);
-            let name = format!("{:e}", libm::pow(10.0, decade));
+            let place = field.least + field.size() * ((decade - range.0) / (range.1 - range.0));
+            let name = power_of_ten(decade);
             if along {
-                let across = FIELD.x * place;
-                grid.push(Shape::Line(Vector2::new(across, bottom), Vector2::new(across, bottom + FIELD.y)));
-                grid.push(pen.middle(Vector2::new(across, bottom - 1.5 * TEXT), name));
+                let (low, high) = (field.least.y, field.largest.y);
+                grid.push(Shape::Line(Vector2::new(place.x, low), Vector2::new(place.x, high)));
+                grid.push(words(Vector2::new(place.x, low - 1.4 * TEXT), TEXT, TextAnchor::Middle, name));
             } else {
-                let up = bottom + FIELD.y * place;
-                grid.push(Shape::Line(Vector2::new(0.0, up), Vector2::new(FIELD.x, up)));
-                let place = Vector2::new(-0.5 * TEXT, up - 0.35 * TEXT);
-                grid.push(Shape::Text { at: place, height: TEXT, anchor: TextAnchor::End, text: name });
+                let (left, right) = (field.least.x, field.largest.x);
+                grid.push(Shape::Line(Vector2::new(left, place.y), Vector2::new(right, place.y)));
+                let name_at = Vector2::new(left - 0.5 * TEXT, place.y - 0.35 * TEXT);
+                grid.push(words(name_at, TEXT, TextAnchor::End, name));
             }
             decade += 1.0;
         }
@@ -127,30 +174,26 @@ fn grid(pen: &Pen, x: (f64, f64), y: (f64, f64), bottom: f64) -> Vec<Shape> {
     grid
 }
 
-/// The names of the points: to the right where there is room, else to the left; where neither is free a point has none.
-fn labels(shown: &[&Point], at: impl Fn(&Point) -> Vector2<f64>) -> Vec<Shape> {
-    let height = 0.8 * TEXT;
-    let mut taken: Vec<(Vector2<f64>, Vector2<f64>)> = Vec::new();
+/// The names of the points, those of the front first: beside the point where there is room; where there is none a point has no name.
+fn labels(shown: &[&Point], at: impl Fn(&Point) -> Vector2<f64>, taken: &mut Taken) -> Vec<Shape> {
     let mut labels = Vec::new();
-    // Those of the front first.
     let named = shown.iter().filter(|p| p.best).chain(shown.iter().filter(|p| !p.best));
     for p in named {
-        #[expect(clippy::cast_precision_loss, reason = "a few words")]
-        let width = LETTER * height * p.label.chars().count() as f64;
-        let place = |step: f64| at(p) + Vector2::new(step * 1.8 * POINT, 0.3 * TEXT);
-        let free = |step: f64| {
-            let start = place(step).x + if step < 0.0 { -width } else { 0.0 };
-            let field = (Vector2::new(start, place(step).y), Vector2::new(start + width, place(step).y + height));
-            let inside = start >= 0.0 && start + width <= FIELD.x;
-            let apart = |(low, high): &(Vector2<f64>, Vector2<f64>)| {
-                field.1.x <= low.x || field.0.x >= high.x || field.1.y <= low.y || field.0.y >= high.y
-            };
-            (inside && taken.iter().all(apart)).then_some((step, field))
-        };
-        let Some((step, field)) = free(1.0).or_else(|| free(-1.0)) else { continue };
-        taken.push(field);
-        let anchor = if step < 0.0 { TextAnchor::End } else { TextAnchor::Start };
-        labels.push(Shape::Text { at: place(step), height, anchor, text: p.label.clone() });
+        let half = 0.5 * Vector2::new(font::width(&p.label, LABEL), (font::ASCENT + font::DESCENT) * LABEL);
+        let places = NEAR.iter().flat_map(|near| (0..DIRECTIONS).map(move |direction| (near * POINT, direction)));
+        let free = places.into_iter().find_map(|(distance, direction)| {
+            let angle = f64::from(direction) * std::f64::consts::TAU / f64::from(DIRECTIONS);
+            let along = Vector2::new(libm::cos(angle), libm::sin(angle));
+            let lean = (along * 1.6).map(|part| part.clamp(-1.0, 1.0)).component_mul(&half);
+            let middle = at(p) + along * distance + lean;
+            let field = Extents { least: middle - half, largest: middle + half };
+            taken.free(&field).then_some((middle, field))
+        });
+        let Some((middle, field)) = free else { continue };
+        let base = Vector2::new(middle.x, field.least.y + font::DESCENT * LABEL);
+        let label = words(base, LABEL, TextAnchor::Middle, p.label.clone());
+        taken.put(&label);
+        labels.push(label);
     }
     labels
 }

@@ -1,12 +1,17 @@
-//! The acceleration as cut beside that of the motion, as a diagram below a sheet.
+//! The acceleration as cut beside that of the motion, as a diagram of a sheet.
 
-use super::sheet::{Group, LINE_SPACING, Pen, STROKE_OVER_TEXT, Shape, Sheet, TextAnchor, rounded};
+use super::sheet::{Group, Shape, TextAnchor, font, rounded, words};
+use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
-/// Height of the diagram over its width.
-const HEIGHT_OVER_WIDTH: f64 = 0.22;
 /// Most lines across for the values of a diagram.
 const LINES: f64 = 6.0;
+/// Over the lettering of an A4, mm: texts, and the room to the left of the field, above and below it.
+const TEXT: f64 = 2.8;
+const LEFT: f64 = 15.0;
+const ABOVE: f64 = 7.0;
+const BELOW: f64 = 11.0;
+const RIGHT: f64 = 6.0;
 
 /// A curve over another: a place, and two values there.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,45 +29,52 @@ pub struct Trace {
 }
 
 /// The largest of 1, 2 and 5 times a power of ten of which no more than so many fit into a range.
-fn round_step(range: f64, most: f64) -> f64 {
+pub(crate) fn round_step(range: f64, most: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(range / most).floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|n| n * decade).find(|step| range / step <= most).unwrap_or(10.0 * decade)
 }
 
-/// The sheet with a diagram below all that is on it.
+/// The diagram within a field of paper, with this lettering; nothing where there is no value.
 #[must_use]
-pub(crate) fn below(mut sheet: Sheet, trace: &Trace) -> Sheet {
+pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
     let values = trace.points.iter().flat_map(|[_, motion, cut]| [*motion, *cut]);
     let (low, high) = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
-    let (Some([first, ..]), Some([last, ..])) = (trace.points.first(), trace.points.last()) else { return sheet };
+    let (Some([first, ..]), Some([last, ..])) = (trace.points.first(), trace.points.last()) else { return Vec::new() };
     if !(high > low && last > first && (high - low).is_finite()) {
-        return sheet;
+        return Vec::new();
     }
-    let pen = Pen { text: sheet.stroke / STROKE_OVER_TEXT };
-    let (margin, line) = (2.0 * pen.text, LINE_SPACING * pen.text);
+    let size = TEXT * k;
     let step = round_step(high - low, LINES);
     let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
-    let left = sheet.extents.least.x + margin + 5.0 * pen.text;
-    let width = sheet.extents.largest.x - margin - left;
-    let height = HEIGHT_OVER_WIDTH * width;
-    let top = sheet.extents.least.y - 2.0 * line;
+    let inner = Extents {
+        least: field.least + Vector2::new(LEFT, BELOW) * k,
+        largest: field.largest - Vector2::new(RIGHT, ABOVE) * k,
+    };
+    let (width, height) = (inner.size().x, inner.size().y);
     let at = |place: f64, value: f64| {
-        Vector2::new(left + width * (place - first) / (last - first), top - height * (high - value) / (high - low))
+        let share = Vector2::new((place - first) / (last - first), (value - low) / (high - low));
+        inner.least + Vector2::new(width * share.x, height * share.y)
     };
     let mut grid = Vec::new();
     let mut value = low;
     while value <= high + 0.5 * step {
         grid.push(Shape::Line(at(*first, value), at(*last, value)));
-        let place = at(*first, value) - Vector2::new(0.5, 0.35) * pen.text;
+        let place = at(*first, value) - Vector2::new(0.5, 0.35) * size;
         let text = rounded((value / step).round() * step);
-        grid.push(Shape::Text { at: place, height: pen.text, anchor: TextAnchor::End, text });
+        let (text, size) = font::fitted_in_one(&text, size, (LEFT - 2.0) * k);
+        grid.push(words(place, size, TextAnchor::End, text));
         value += step;
     }
+    // As many names as there is room for.
+    let named = (font::width("0000", size) * (last - first) / (width * trace.step)).ceil().max(1.0) * trace.step;
     let mut place = (first / trace.step).ceil() * trace.step;
     while place <= *last {
         grid.push(Shape::Line(at(place, low), at(place, high)));
         let shown = trace.period.map_or(place, |period| place.rem_euclid(period));
-        grid.push(pen.middle(at(place, low) - Vector2::new(0.0, 1.4 * pen.text), rounded(shown)));
+        if (place / named - (place / named).round()).abs() < 1e-9 {
+            let below = at(place, low) - Vector2::new(0.0, 1.3 * size);
+            grid.push(words(below, size, TextAnchor::Middle, rounded(shown)));
+        }
         place += trace.step;
     }
     let curve = |index: usize| {
@@ -72,14 +84,17 @@ pub(crate) fn below(mut sheet: Sheet, trace: &Trace) -> Sheet {
         };
         vec![Shape::Path(trace.points.iter().filter_map(point).collect())]
     };
-    let words = vec![
-        pen.words(left, top + 0.8 * pen.text, format!("{}: motion (thin), as cut (bold)", trace.title)),
-        pen.middle(at(0.5 * (first + last), low) - Vector2::new(0.0, 1.4 * pen.text + line), trace.places),
+    let head = format!("Follower's {}: motion (thin), as cut (bold)", trace.title);
+    let (head, head_size) = font::fitted_in_one(&head, size, width);
+    let below = Vector2::new(0.5 * (inner.least.x + inner.largest.x), inner.least.y - 2.7 * size);
+    let names = vec![
+        words(Vector2::new(inner.least.x, inner.largest.y + 0.8 * size), head_size, TextAnchor::Start, head),
+        words(below, size, TextAnchor::Middle, trace.places),
     ];
-    sheet.groups.push(Group::new("trace-grid", "lines of the diagram", grid));
-    sheet.groups.push(Group::new("trace-cut", "acceleration as cut", curve(2)));
-    sheet.groups.push(Group::new("trace-motion", "acceleration of the motion", curve(1)));
-    sheet.groups.push(Group::new("facts", "names of the diagram", words));
-    sheet.extents.least.y = top - height - 2.0 * line - margin;
-    sheet
+    vec![
+        Group::new("trace-grid", "lines of the diagram", grid),
+        Group::new("trace-cut", "acceleration as cut", curve(2)),
+        Group::new("trace-motion", "acceleration of the motion", curve(1)),
+        Group { class: "facts", ..Group::new("trace-names", "names of the diagram", names) },
+    ]
 }

@@ -7,6 +7,7 @@ pub mod dxf;
 pub mod files;
 pub mod json;
 pub mod number;
+pub mod pdf;
 pub mod points;
 pub mod proof;
 pub mod step;
@@ -15,7 +16,7 @@ pub mod svg;
 
 use crate::body::{Body, Drawn, Part};
 use crate::geometry::solid::SolidError;
-use crate::profile::outline::OutlineError;
+use crate::profile::outline::{Fit, OutlineError};
 use crate::report::Report;
 use crate::verify::WrittenOutline;
 
@@ -32,6 +33,8 @@ pub struct Rendering<'a> {
     pub cut_files: &'a [Vec<u8>],
     /// The tables of points, written and proved, one for each part of the drawing; none when they were not requested.
     pub points: &'a [Vec<u8>],
+    /// How near the outlines keep to the exact curves, and on which side.
+    pub fit: Fit,
     /// Version of the cut files.
     pub dxf_version: dxf::Version,
     /// Its report, the names of the files in it.
@@ -57,6 +60,9 @@ pub enum FormatError {
     /// The solid is not valid.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// There is no PDF.
+    #[error(transparent)]
+    Pdf(#[from] pdf::PdfError),
     /// Points are drawn and proved with the cam.
     #[error("no table of points was requested with the drawing, or the cutter has no path")]
     NoPoints,
@@ -95,7 +101,7 @@ pub struct Format {
 
 /// Every format, in the order in which files are listed.
 pub const FORMATS: &[Format] =
-    &[dxf::FORMAT, svg::FORMAT, step::FORMAT, csv::FORMAT, json::FORMAT, stl::FORMAT, points::FORMAT, dxf::CUTTER_PATH];
+    &[dxf::FORMAT, svg::FORMAT, step::FORMAT, csv::FORMAT, json::FORMAT, pdf::FORMAT, stl::FORMAT, points::FORMAT, dxf::CUTTER_PATH];
 
 /// The formats that can be requested.
 pub fn by_name() -> impl Iterator<Item = &'static Format> {

@@ -2,13 +2,14 @@
 //! coordinates.
 
 use super::number::plain;
-use super::{Format, Rendering, When, fits_all};
-use crate::geometry::Entity;
+use super::{Format, FormatError, Rendering, When, fits_all};
+use crate::geometry::{Entity, MILLIMETRES};
 use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::motion::Quantity;
 use crate::profile::followed::Followed;
-use crate::report::sheet::{Group, Shape, Sheet, TextAnchor};
-use crate::report::trace::{self, Trace};
+use crate::profile::outline::Fit;
+use crate::report::sheet::{Extras, Group, Shape, Sheet, TextAnchor, compose, font};
+use crate::report::trace::Trace;
 use nalgebra::Vector2;
 use svg::node::element;
 
@@ -19,15 +20,26 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
-    write: |cam| {
-        let sheet = cam.body.sheet(cam.drawn, cam.report)?;
-        let sheet = match trace_of(cam) {
-            Some(trace) => trace::below(sheet, &trace),
-            None => sheet,
-        };
-        Ok(vec![write(&sheet, cam.template)?])
-    },
+    write: |cam| Ok(vec![write(&sheet(cam)?, cam.template)?]),
 };
+
+/// The review sheet of a proven cam.
+///
+/// # Errors
+/// [`FormatError`] when a curve for viewing cannot be drawn.
+pub fn sheet(cam: &Rendering<'_>) -> Result<Sheet, FormatError> {
+    let view = cam.body.view(cam.drawn)?;
+    let trace = trace_of(cam);
+    let profile_tolerance = tolerance_words(&cam.fit);
+    Ok(compose(&view, cam.report, &Extras { profile_tolerance: &profile_tolerance, trace: trace.as_ref() }))
+}
+
+/// The zone in which the profile must lie, in words.
+fn tolerance_words(fit: &Fit) -> String {
+    let (middle, half) = fit.band();
+    let [low, high] = [middle - half, middle + half].map(|limit| number(MILLIMETRES * limit));
+    if middle == 0.0 { format!("±{high} mm to exact curve") } else { format!("{low} to {high} mm to exact curve") }
+}
 
 /// The acceleration on the outline as written, of a plane cam.
 fn trace_of(cam: &Rendering<'_>) -> Option<Trace> {
@@ -52,6 +64,8 @@ const TRACE_SHARE: f64 = 1.0 / 180.0;
 /// The sheet used when none is given.
 pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");
 
+/// Classes of the groups that show an outline: they tell their scale.
+const OUTLINES: [&str; 2] = ["profile", "section"];
 /// Decimals of a coordinate: a nanometre.
 const DECIMALS: usize = 6;
 /// Largest sweep of one SVG arc, rad: the direction of a half circle is ambiguous within rounding.
@@ -69,7 +83,7 @@ pub enum TemplateError {
     Unknown(String),
 }
 
-const KNOWN: &str = "width, height, left, top, stroke, thick, dash, dot, title, drawing";
+const KNOWN: &str = "width, height, left, top, stroke, thick, heavy, dash, dot, title, drawing";
 
 fn number(value: f64) -> String {
     let text = plain(value, DECIMALS);
@@ -81,6 +95,11 @@ fn number(value: f64) -> String {
 /// # Errors
 /// [`TemplateError`] when a placeholder is missing or unknown.
 pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
+    fill(sheet, template, true)
+}
+
+/// As [`write`]; `told`: every text tells its length, so that a viewer with another font keeps it.
+pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>, TemplateError> {
     let size = sheet.extents.size();
     let dashes = |parts: &[f64]| parts.iter().map(|n| number(n * sheet.stroke)).collect::<Vec<_>>().join(" ");
     let lookup = |name: &str| {
@@ -91,11 +110,12 @@ pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
             // Upwards in the drawing, downwards in the file.
             "top" => number(-sheet.extents.largest.y),
             "stroke" => number(sheet.stroke),
-            "thick" => number(2.5 * sheet.stroke),
+            "thick" => number(2.0 * sheet.stroke),
+            "heavy" => number(4.0 * sheet.stroke),
             "dash" => dashes(&[24.0, 6.0, 4.0, 6.0]),
             "dot" => dashes(&[8.0, 8.0]),
             "title" => escaped(&sheet.title),
-            "drawing" => sheet.groups.iter().map(group).collect::<Vec<_>>().join("\n"),
+            "drawing" => sheet.groups.iter().map(|shown| group(shown, sheet.scale, told)).collect::<Vec<_>>().join("\n"),
             _ => return None,
         })
     };
@@ -135,7 +155,7 @@ fn printable(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).collect()
 }
 
-fn group(group: &Group) -> String {
+fn group(group: &Group, scale: f64, told: bool) -> String {
     let mut node = element::Group::new()
         .set("id", group.id.as_str())
         .set("class", group.class)
@@ -143,6 +163,9 @@ fn group(group: &Group) -> String {
         .set("inkscape:label", printable(&group.label));
     if let Some(colour) = &group.colour {
         node = node.set("stroke", colour.as_str());
+    }
+    if OUTLINES.contains(&group.class) {
+        node = node.set("data-scale", number(scale));
     }
     for shape in &group.shapes {
         node = match shape {
@@ -178,14 +201,18 @@ fn group(group: &Group) -> String {
                     TextAnchor::Middle => "middle",
                     TextAnchor::End => "end",
                 };
-                node.add(
-                    element::Text::new(printable(text))
-                        .set("x", number(at.x))
-                        .set("y", number(-at.y))
-                        .set("font-size", number(*height))
-                        .set("text-anchor", anchor)
-                        .set("xml:space", "preserve"),
-                )
+                let words = element::Text::new(printable(text))
+                    .set("x", number(at.x))
+                    .set("y", number(-at.y))
+                    .set("font-size", number(*height))
+                    .set("text-anchor", anchor)
+                    .set("xml:space", "preserve");
+                node.add(if told {
+                    let length = number(font::width(text, *height));
+                    words.set("textLength", length).set("lengthAdjust", "spacingAndGlyphs")
+                } else {
+                    words
+                })
             }
         };
     }
@@ -243,6 +270,7 @@ mod tests {
             title: title.into(),
             extents: Extents { least: Vector2::new(-10.0, -20.0), largest: Vector2::new(30.0, 40.0) },
             stroke: 0.1,
+            scale: 1.0,
             groups: vec![Group::new("profile", "profile", shapes)],
         }
     }

@@ -17,8 +17,8 @@ use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, MotionTolerance, Outline, OutlineError};
 use crate::profile::size::rounded_up;
 use crate::profile::{Curves, Worst, boundary, extremes, followed};
-use crate::report::sheet::Sheet;
-use crate::report::{Report, Section, Speeds};
+use crate::report::sheet::View;
+use crate::report::{Section, Speeds};
 use crate::table::{BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
@@ -344,7 +344,7 @@ impl Body for Conoid {
         report::sections(self, found)
     }
 
-    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
-        Ok(sheet::sheet(self, drawn, report))
+    fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {
+        Ok(sheet::view(self, drawn))
     }
 }

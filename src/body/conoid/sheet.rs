@@ -1,17 +1,20 @@
 //! The review sheet of a conoid: the sections over each other, coloured by speed, and the cam seen isometrically.
 
 use super::Conoid;
+use crate::body::sheet::{axes, bore, overall, turning};
 use crate::body::{Drawn, Part};
 use crate::geometry::contour::Extents;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Rotation;
 use crate::motion::Motion;
-use crate::report::Report;
-use crate::report::sheet::{Group, LINE_SPACING, Pen, Shape, Sheet, TEXT_OVER_WIDTH, rounded, with_facts};
+use crate::motion::Reversal;
+use crate::report::sheet::{Facts, Group, PlaceTable, Shape, View, rounded};
 use nalgebra::Vector2;
 
 /// Most speeds that are named one by one.
 const MOST_NAMED: usize = 8;
+/// Room between plan and isometric view over the width of the plan.
+const GAP_OVER_WIDTH: f64 = 0.15;
 /// Points of a turn and lines along the axis in the isometric view, and points of each such line.
 const TURN: u32 = 180;
 const RULERS: u32 = 24;
@@ -23,81 +26,88 @@ fn colour(share: f64) -> String {
     format!("rgb({},{},{})", mix(30.0, 200.0), mix(90.0, 40.0), mix(180.0, 30.0))
 }
 
-/// The review sheet.
+/// What the review sheet shows.
 #[must_use]
-pub(super) fn sheet(conoid: &Conoid, drawn: &Drawn, report: &Report) -> Sheet {
+pub(super) fn view(conoid: &Conoid, drawn: &Drawn) -> View {
     let parts = &drawn.parts;
     let plan = parts.iter().map(|part| part.outline.contour.extents()).reduce(|a, b| a.with(&b));
     let plan = plan.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
-    let gap = 0.12 * plan.size().x;
-    let view = View { conoid, turned: conoid.machine.cam.rotation == Rotation::CounterClockwise };
+    let gap = GAP_OVER_WIDTH * plan.size().x;
+    let seen = Isometric { conoid, turned: conoid.machine.cam.rotation == Rotation::CounterClockwise };
     let cuts = conoid.cuts();
     let (low, high) = conoid.ends();
-    let rings: Vec<Vec<Vector2<f64>>> = cuts.iter().map(|(_, z, _)| view.ring(*z)).collect();
-    let ends: Vec<Vec<Vector2<f64>>> = [low, high].iter().map(|z| view.ring(*z)).collect();
-    let rulers: Vec<Vec<Vector2<f64>>> = (0..RULERS).map(|i| view.ruler(i, (low, high))).collect();
-    let seen = rings.iter().chain(&ends).chain(&rulers).flatten();
+    let rings: Vec<Vec<Vector2<f64>>> = cuts.iter().map(|(_, z, _)| seen.ring(*z)).collect();
+    let ends: Vec<Vec<Vector2<f64>>> = [low, high].iter().map(|z| seen.ring(*z)).collect();
+    let rulers: Vec<Vec<Vector2<f64>>> = (0..RULERS).map(|i| seen.ruler(i, (low, high))).collect();
+    let points = rings.iter().chain(&ends).chain(&rulers).flatten();
     let start = Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) };
-    let seen = seen.fold(start, |extents, p| extents.with(&Extents { least: *p, largest: *p }));
+    let solid = points.fold(start, |extents, p| extents.with(&Extents { least: *p, largest: *p }));
     // The view stands to the right of the plan, its middle as high as the plan's.
     let shift = Vector2::new(
-        plan.largest.x + gap - seen.least.x,
-        0.5 * (plan.least.y + plan.largest.y - seen.least.y - seen.largest.y),
+        plan.largest.x + gap - solid.least.x,
+        0.5 * (plan.least.y + plan.largest.y - solid.least.y - solid.largest.y),
     );
     let moved = |points: &Vec<Vector2<f64>>| Shape::Path(points.iter().map(|p| p + shift).collect());
-    let seen = Extents { least: seen.least + shift, largest: seen.largest + shift };
-    let margin = Vector2::repeat(0.3 * gap);
-    let both = plan.with(&seen);
-    let mut drawn = Extents { least: both.least - margin, largest: both.largest + margin };
-    let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
-    // The key of the colours stands above the plan; of many sections every few are named.
-    let every = cuts.len().div_ceil(MOST_NAMED);
-    #[expect(clippy::cast_precision_loss, reason = "a few sections")]
-    let key = LINE_SPACING * pen.text * (cuts.len().div_ceil(every) as f64 + 1.0);
-    drawn.largest.y += (key - (drawn.largest.y - plan.largest.y)).max(0.0);
-
-    let (first, last) = (conoid.speeds.first().copied().unwrap_or(0.0), conoid.speeds.last().copied().unwrap_or(0.0));
+    let holes = parts.first().map_or_else(Vec::new, |part: &Part| part.holes().into_iter().map(Shape::Entity).collect());
     let mut groups = vec![
         Group::new("axis", "axes", axes(&plan)),
-        Group::new(
-            "bore",
-            "bore",
-            parts.first().map_or_else(Vec::new, |part: &Part| part.holes().into_iter().map(Shape::Entity).collect()),
-        ),
+        Group::new("bore", "bore", holes),
         Group::new("isometric", "isometric view", ends.iter().chain(&rulers).map(moved).collect()),
     ];
-    #[expect(clippy::cast_precision_loss, reason = "a few sections")]
+    // Of many sections every few are named.
+    let every = cuts.len().div_ceil(MOST_NAMED);
+    let (first, last) = (conoid.speeds.first().copied().unwrap_or(0.0), conoid.speeds.last().copied().unwrap_or(0.0));
     let sections = cuts.iter().zip(parts).zip(&rings).enumerate().map(|(index, (((rpm, z, _), part), ring))| {
         let share = if last > first { (rpm - first) / (last - first) } else { 1.0 };
-        let y = drawn.largest.y - LINE_SPACING * pen.text * ((index / every) as f64 + 1.0);
-        let swatch = Vector2::new(drawn.least.x, y + 0.35 * pen.text);
-        let words = format!("{} rpm, z = {} mm", rounded(*rpm), rounded(MILLIMETRES * z));
-        let mut shapes = vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone())), moved(ring)];
-        if index % every == 0 {
-            shapes.push(Shape::Line(swatch, swatch + Vector2::new(2.0 * pen.text, 0.0)));
-            shapes.push(pen.words(drawn.least.x + 2.6 * pen.text, y, words));
+        let shapes = vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone())), moved(ring)];
+        let label = format!("section for {} rpm, z = {} mm", rounded(*rpm), rounded(MILLIMETRES * z));
+        Group {
+            id: format!("section-{index}"),
+            class: "section",
+            label,
+            colour: Some(colour(share)),
+            shapes,
+            in_legend: index % every == 0 || index + 1 == cuts.len(),
         }
-        let label = format!("section for {} rpm", rounded(*rpm));
-        Group { id: format!("section-{index}"), class: "section", label, colour: Some(colour(share)), shapes }
     });
     groups.extend(sections);
-    with_facts(&pen, report, &drawn, groups)
+    let base = parts.iter().map(|part| part.outline.contour.extents().largest.x).fold(0.0, f64::max);
+    let marks = [
+        overall(&plan),
+        bore(&conoid.machine, parts.first().and_then(|part| part.balancing.as_ref())),
+        turning(&conoid.machine, 0.7 * base, base, "θ = 0, φ = 0"),
+    ];
+    View {
+        groups,
+        marks: marks.concat(),
+        tables: vec![sections_table(conoid, parts)],
+        facts: Facts { thickness_mm: Some(MILLIMETRES * (high - low)), ..Facts::of(&conoid.machine, None) },
+        ..View::default()
+    }
 }
 
-fn axes(plan: &Extents) -> Vec<Shape> {
-    vec![
-        Shape::Line(Vector2::new(plan.least.x, 0.0), Vector2::new(plan.largest.x, 0.0)),
-        Shape::Line(Vector2::new(0.0, plan.least.y), Vector2::new(0.0, plan.largest.y)),
-    ]
+/// Speed, place and extents of each section.
+fn sections_table(conoid: &Conoid, parts: &[Part]) -> PlaceTable {
+    let row = |((rpm, z, _), part): ((f64, f64, &Reversal), &Part)| {
+        let size = part.outline.contour.extents().size();
+        let area = part.area_and_moment().0;
+        let cells = [rpm, MILLIMETRES * z, size.x, size.y];
+        cells.iter().map(|value| rounded(*value)).chain([format!("{area:.1}")]).collect()
+    };
+    PlaceTable {
+        title: "Sections: speed, place along the axis, width, height, area".into(),
+        heads: ["n, rpm", "z, mm", "width, mm", "height, mm", "area, mm²"].map(str::to_owned).to_vec(),
+        rows: conoid.cuts().into_iter().zip(parts).map(row).collect(),
+    }
 }
 
 /// The isometric view, mm.
-struct View<'a> {
+struct Isometric<'a> {
     conoid: &'a Conoid,
     turned: bool,
 }
 
-impl View<'_> {
+impl Isometric<'_> {
     fn seen(&self, point: Vector2<f64>, z: f64) -> Vector2<f64> {
         let y = if self.turned { -point.y } else { point.y };
         // Isometric: x and y at 30° to either side, z upwards.

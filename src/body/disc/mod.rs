@@ -19,8 +19,8 @@ use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
 use crate::profile::{Curves, Worst, lifts};
-use crate::report::sheet::Sheet;
-use crate::report::{CamMeasures, Forces, Report, Section, Speeds};
+use crate::report::sheet::View;
+use crate::report::{CamMeasures, Forces, Section, Speeds};
 use crate::table::{BedRow, ForceRow, Row, Turned, turned};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -457,8 +457,8 @@ impl Body for Disc {
         sections
     }
 
-    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
-        sheet::sheet(self, drawn, report)
+    fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {
+        sheet::view(self, drawn)
     }
 }
 

@@ -1,66 +1,89 @@
-//! The review sheet of a disc cam.
+//! What the review sheet of a disc cam shows.
 
 use super::Disc;
 use crate::body::part::{as_turned, point_as_turned};
+use crate::body::sheet::{axes, bore, lost_motion, overall, places, pressure_angle, roller, turning};
 use crate::body::{Body, Drawn};
 use crate::follower::Element;
 use crate::geometry::contour::{Contour, Extents};
 use crate::geometry::{Entity, MILLIMETRES};
-use crate::machine::Rotation;
+use crate::profile::envelope;
 use crate::profile::outline::{OutlineError, pitch};
-use crate::report::Report;
-use crate::report::sheet::{Group, PATH_OVER_RADIUS, Pen, Shape, Sheet, TEXT_OVER_WIDTH, roller, rounded, with_facts};
+use crate::report::sheet::{Facts, Group, Mark, Shape, View, rounded};
 use nalgebra::Vector2;
 
 /// Half the length at which a flat face is shown, over the base radius.
 const FACE_OVER_BASE: f64 = 0.8;
+/// Points of a stretch of lost motion.
+const LOST_POINTS: u32 = 48;
 
 const NOWHERE: Extents = Extents { least: Vector2::new(0.0, 0.0), largest: Vector2::new(0.0, 0.0) };
 
-/// The review sheet of a disc cam.
+/// What the review sheet of a disc cam shows.
 ///
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.
-pub(super) fn sheet(disc: &Disc, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
+pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
     // A flat face has no pitch curve: its curve is the profile, which may be undercut.
     let pitch_curve = match disc.curves().element() {
         Element::Roller { .. } => Some(as_turned(&disc.machine, pitch(disc.curves())?.contour)),
         Element::Face => None,
     };
-    let outlines: Vec<Contour> = drawn.parts.iter().map(|part| part.outline.contour.clone()).collect();
-    let holes = drawn.parts.iter().flat_map(super::Part::holes).map(Shape::Entity).collect();
-    let roller = shown_radius(disc);
-    let profile = drawn.parts.first().map(|part| part.outline.contour.extents());
-    let inner = pitch_curve.as_ref().map(Contour::extents).or(profile).unwrap_or(NOWHERE);
-    let reach = Vector2::new(roller, roller) * (1.0 + PATH_OVER_RADIUS);
-    let drawn = Extents { least: inner.least - reach, largest: inner.largest + reach };
-    let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
-    let prime = MILLIMETRES * disc.prime_radius();
-    let base = MILLIMETRES * disc.base_radius();
+    let part = drawn.parts.first();
+    let outline = part.map_or(NOWHERE, |part| part.outline.contour.extents());
+    let (prime, base) = (MILLIMETRES * disc.prime_radius(), MILLIMETRES * disc.base_radius());
+    let profile = part.map(|part| Shape::Entity(Entity::Polyline(part.outline.contour.clone())));
+    let holes = part.map_or_else(Vec::new, |part| part.holes().into_iter().map(Shape::Entity).collect());
+    let circle = |radius: f64| vec![Shape::Entity(Entity::Circle(Vector2::zeros(), radius))];
     let group = Group::new;
-    let profile = outlines.into_iter().map(|contour| Shape::Entity(Entity::Polyline(contour))).collect();
+    let crossed = pitch_curve.as_ref().map_or(outline, |curve| curve.extents().with(&outline));
     let mut groups = vec![
-        group("profile", "profile", profile),
+        group("profile", "profile", profile.into_iter().collect()).told(),
         group("bore", "bore", holes),
-        group("axis", "axes", axes(&pen, disc, &drawn)),
-        group("base-circle", "base circle", circle_with_name(&pen, base, 0.4, "base circle")),
+        group("axis", "axes", axes(&crossed)),
+        group("base-circle", &format!("base circle R {}", rounded(base)), circle(base)).told(),
     ];
     if let Some(pitch_curve) = pitch_curve {
-        groups.push(group("prime-circle", "prime circle", circle_with_name(&pen, prime, -1.1, "prime circle")));
-        groups.push(group("pitch-curve", "pitch curve", vec![Shape::Entity(Entity::Polyline(pitch_curve))]));
+        groups.push(group("prime-circle", &format!("prime circle R {}", rounded(prime)), circle(prime)).told());
+        let curve = vec![Shape::Entity(Entity::Polyline(pitch_curve))];
+        groups.push(group("pitch-curve", "pitch curve", curve).told());
     }
-    groups.push(group("roller", "follower at its worst pressure angle", worst_place(&pen, disc, &drawn)));
-    groups.push(group("rotation", "rotation of the cam", rotation_arrow(&pen, disc, base)));
-    Ok(with_facts(&pen, report, &drawn, groups))
+    groups.extend(lost_motion(lost(disc)));
+    let (shapes, angle) = worst_place(disc);
+    groups.push(group("roller", "follower at its worst pressure angle", shapes).told());
+    let zero = if disc.load.is_some() { "θ = 0, φ = 0" } else { "θ = 0" };
+    let at_zero = profile_radius_at_zero(part.map(|part| &part.outline.contour), base);
+    let marks = [
+        overall(&outline),
+        bore(&disc.machine, part.and_then(|part| part.balancing.as_ref())),
+        turning(&disc.machine, base, at_zero, zero),
+        angle,
+        farthest(part.map(|part| &part.outline.contour)).into_iter().collect(),
+    ];
+    Ok(View {
+        groups,
+        marks: marks.into_iter().flatten().collect(),
+        tables: places(disc),
+        facts: Facts::of(&disc.machine, part.and_then(|part| part.weight(&disc.machine).mass_kg)),
+        notes: Vec::new(),
+        lost: if disc.least_radius().value <= disc.curves().offset() { disc.lost_motion() } else { Vec::new() },
+    })
 }
 
-fn axes(pen: &Pen, disc: &Disc, drawn: &Extents) -> Vec<Shape> {
-    let zero = Vector2::new(drawn.largest.x - 3.0 * pen.text, 0.4 * pen.text);
-    vec![
-        Shape::Line(Vector2::new(drawn.least.x, 0.0), Vector2::new(drawn.largest.x, 0.0)),
-        Shape::Line(Vector2::new(0.0, drawn.least.y), Vector2::new(0.0, drawn.largest.y)),
-        pen.middle(zero, if disc.load.is_some() { "θ = 0, φ = 0" } else { "θ = 0" }),
-    ]
+/// Where the outline crosses the positive X axis, mm; the base radius where it does not.
+fn profile_radius_at_zero(outline: Option<&Contour>, base: f64) -> f64 {
+    let crossing = |edge: crate::geometry::contour::Edge| {
+        let (a, b) = (edge.start(), edge.end());
+        (a.x > 0.0 && (a.y <= 0.0) != (b.y <= 0.0)).then(|| 0.5 * (a.x + b.x))
+    };
+    outline.and_then(|outline| outline.edges().filter_map(crossing).reduce(f64::max)).unwrap_or(base)
+}
+
+/// The largest radius of the outline.
+fn farthest(outline: Option<&Contour>) -> Option<Mark> {
+    let points = outline?.edges().map(|edge| edge.start());
+    let to = points.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+    Some(Mark::Radius { centre: Vector2::zeros(), to, text: format!("R {}", rounded(to.norm())) })
 }
 
 /// Radius of the roller, mm, or half the length at which a flat face is shown.
@@ -68,56 +91,47 @@ fn shown_radius(disc: &Disc) -> f64 {
     disc.roller_radius().map_or(FACE_OVER_BASE * MILLIMETRES * disc.base_radius(), |radius| MILLIMETRES * radius)
 }
 
-/// A circle with its name below the shaft, `above` text heights over the line: one inside, one outside never meet.
-fn circle_with_name(pen: &Pen, radius: f64, above: f64, name: &str) -> Vec<Shape> {
-    let at = Vector2::new(0.0, -radius + above * pen.text);
-    vec![
-        Shape::Entity(Entity::Circle(Vector2::zeros(), radius)),
-        pen.middle(at, format!("{name} R {}", rounded(radius))),
-    ]
-}
-
-/// The follower where the pressure angle is worst, with its path and the normal of the cam.
-fn worst_place(pen: &Pen, disc: &Disc, drawn: &Extents) -> Vec<Shape> {
+/// The follower where the pressure angle is worst, with its path and the normal of the cam, and the angle between them.
+fn worst_place(disc: &Disc) -> (Vec<Shape>, Vec<Mark>) {
     let curves = disc.curves();
     let worst = disc.pressure_angle();
     let (piece, angle) = curves.motion.locate(worst.at);
     let contact = curves.contact(piece, angle);
     let turned = |vector| point_as_turned(&disc.machine, vector);
     let (centre, radius) = (turned(contact.curve.point * MILLIMETRES), shown_radius(disc));
-    let text =
-        format!("α = {:.2}° at θ = {:.2}°", worst.value.to_degrees(), disc.place(worst.at).cam_deg.unwrap_or(0.0));
+    let degrees = disc.place(worst.at).cam_deg.unwrap_or(0.0);
+    let text = format!("α = {:.2}° at θ = {degrees:.2}°", worst.value.to_degrees());
     let (drive, along) = (turned(contact.drive), turned(contact.curve.tangent));
-    let mut shapes = match curves.element() {
-        Element::Roller { .. } => roller(centre, drive, turned(contact.curve.outward()), radius),
-        Element::Face => vec![
-            Shape::Line(centre - along * radius, centre + along * radius),
-            Shape::Line(centre, centre + drive * radius),
-        ],
-    };
-    shapes.push(pen.beside(centre, radius, radius * PATH_OVER_RADIUS, drawn, text));
-    shapes
+    match curves.element() {
+        Element::Roller { .. } => {
+            let outward = turned(contact.curve.outward());
+            (roller(centre, drive, outward, radius), pressure_angle(centre, drive, outward, radius, text))
+        }
+        Element::Face => {
+            let shapes = vec![
+                Shape::Line(centre - along * radius, centre + along * radius),
+                Shape::Line(centre, centre + drive * radius),
+            ];
+            let label = Mark::Label { class: "roller", at: centre + drive * radius, towards: drive, text };
+            (shapes, vec![label])
+        }
+    }
 }
 
-/// How the cam turns: an open arc about the shaft with a head.
-fn rotation_arrow(pen: &Pen, disc: &Disc, base: f64) -> Vec<Shape> {
-    let bore = MILLIMETRES * disc.machine.cam.bore_radius.unwrap_or(0.0);
-    let radius = 0.5 * (bore + base);
-    // Clockwise in the drawing of a clockwise cam, over 75° about the upper half of the vertical.
-    let sense = match disc.machine.cam.rotation {
-        Rotation::Clockwise => -1.0,
-        Rotation::CounterClockwise => 1.0,
+/// The stretches of the follower's curve on which the follower loses its motion, mm.
+fn lost(disc: &Disc) -> Vec<Vec<Vector2<f64>>> {
+    let curves = disc.curves();
+    if disc.least_radius().value > curves.offset() {
+        return Vec::new();
+    }
+    let losses = envelope::losses(curves).unwrap_or_default();
+    let at = |parameter: f64| {
+        let (piece, angle) = curves.motion.locate(parameter);
+        point_as_turned(&disc.machine, curves.contact(piece, angle).curve.point * MILLIMETRES)
     };
-    let on = |degrees: f64, radius: f64| {
-        let angle = degrees.to_radians();
-        Vector2::new(radius * libm::cos(angle), radius * libm::sin(angle))
+    let stretch = |loss: &envelope::Loss| {
+        let share = |step: u32| f64::from(step) / f64::from(LOST_POINTS);
+        (0..=LOST_POINTS).map(|step| at(loss.from + (loss.to - loss.from) * share(step))).collect()
     };
-    let (start, sweep) = (90.0 - sense * 37.5, sense * 75.0);
-    let end = start + sweep;
-    let head = 1.2 * pen.text;
-    let ahead = sense * (head / radius).to_degrees();
-    vec![
-        Shape::Arc(on(start, radius), on(end, radius), libm::tan(0.25 * sweep.to_radians())),
-        Shape::Triangle([on(end, radius - 0.35 * head), on(end, radius + 0.35 * head), on(end + ahead, radius)]),
-    ]
+    losses.iter().map(stretch).collect()
 }

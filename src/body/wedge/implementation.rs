@@ -16,9 +16,9 @@ use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver,
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
 use crate::profile::{Curves, Worst, boundary};
-use crate::report::sheet::Sheet;
+use crate::report::sheet::View;
 use crate::report::{
-    AirLaw, Break, CamMeasures, Equation18, Forces, Place, PlateMeasures, Report, ResidualByWay, Section, Speeds,
+    AirLaw, Break, CamMeasures, Equation18, Forces, Place, PlateMeasures, ResidualByWay, Section, Speeds,
 };
 use crate::table::{BedRow, PlateRow, Row};
 use nalgebra::Vector2;
@@ -364,7 +364,7 @@ impl Body for Wedge {
         ]
     }
 
-    fn sheet(&self, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
-        sheet::sheet(self, drawn, report)
+    fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {
+        sheet::view(self, drawn)
     }
 }

@@ -1,76 +1,103 @@
-//! The review sheet of a cam plate.
+//! What the review sheet of a cam plate shows.
 
 use super::Wedge;
+use crate::body::sheet::{overall, pressure_angle, roller};
 use crate::body::{Body, Drawn};
 use crate::geometry::contour::{Extents, Segment};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::motion::Motion;
 use crate::profile::outline::OutlineError;
-use crate::report::Report;
-use crate::report::sheet::{
-    Group, PATH_OVER_RADIUS, Pen, Shape, Sheet, TEXT_OVER_WIDTH, TextAnchor, roller, with_facts,
-};
+use crate::report::sheet::{Facts, Group, Mark, PlaceTable, Shape, View};
+use crate::table::Row;
 use nalgebra::Vector2;
 
-/// The review sheet of a plate: both flanks with their pitch curves, the rollers where the pressure angle is worst, the
+/// Steps of the finer table of places over the stroke.
+const STEPS: u32 = 72;
+
+/// What the review sheet of a plate shows: both flanks with their pitch curves, the rollers where the pressure angle is worst, the
 /// bed's axis and the overrun.
 ///
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.
-pub(super) fn sheet(plate: &Wedge, drawn: &Drawn, report: &Report) -> Result<Sheet, OutlineError> {
-    let radius = MILLIMETRES * plate.data.roller_radius;
+pub(super) fn view(plate: &Wedge, drawn: &Drawn) -> Result<View, OutlineError> {
     let lower = plate.pitch_curve()?;
-    let mirrored = |segment: &Segment| {
-        let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
-        Segment { start: flip(segment.start), end: flip(segment.end), bulge: -segment.bulge }
-    };
+    let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
+    let mirrored =
+        |segment: &Segment| Segment { start: flip(segment.start), end: flip(segment.end), bulge: -segment.bulge };
     let both: Vec<Segment> = lower.iter().copied().chain(lower.iter().map(mirrored)).collect();
-    let reach = Vector2::new(radius, radius) * (1.0 + PATH_OVER_RADIUS);
-    let outlines = drawn.parts.iter().map(|part| part.outline.contour.extents());
-    let inner = outlines.chain(both.iter().map(Segment::extents)).reduce(|a, b| a.with(&b));
-    let inner = inner.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
-    let profile = drawn.parts.iter().map(|part| Shape::Entity(Entity::Polyline(part.outline.contour.clone())));
-    let profile = profile.collect();
-    let drawn = Extents { least: inner.least - reach, largest: inner.largest + reach };
-    let pen = Pen { text: TEXT_OVER_WIDTH * drawn.size().x };
+    let contours: Vec<_> = drawn.parts.iter().map(|part| part.outline.contour.clone()).collect();
+    let outline = contours.iter().map(|contour| contour.extents()).reduce(|a, b| a.with(&b));
+    let outline = outline.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
+    let profile = contours.into_iter().map(|contour| Shape::Entity(Entity::Polyline(contour))).collect();
     let pitch_curve = both.iter().map(|s| Shape::Arc(s.start, s.end, s.bulge)).collect();
+    let (lines, names) = axes(plate, &outline);
+    let (shapes, angle) = rollers(plate);
     let group = Group::new;
     let groups = vec![
-        group("profile", "profile", profile),
-        group("axis", "bed's axis", axes(&pen, plate, &drawn)),
-        group("pitch-curve", "pitch curves", pitch_curve),
-        group("roller", "rollers at their worst pressure angle", rollers(&pen, plate, &drawn)),
+        group("profile", "profile", profile).told(),
+        group("axis", "bed's axis, ends of the overrun", lines).told(),
+        group("pitch-curve", "pitch curves", pitch_curve).told(),
+        group("roller", "rollers at their worst pressure angle", shapes).told(),
     ];
-    Ok(with_facts(&pen, report, &drawn, groups))
+    let weight = drawn.parts.first().map(|part| part.weight(&plate.machine));
+    Ok(View {
+        groups,
+        marks: [overall(&outline), names, angle].concat(),
+        tables: places(plate),
+        facts: Facts::of(&plate.machine, weight.and_then(|weight| weight.mass_kg)),
+        ..View::default()
+    })
 }
 
 /// The bed's axis, and a mark where the overrun starts and where it ends.
-fn axes(pen: &Pen, plate: &Wedge, drawn: &Extents) -> Vec<Shape> {
-    let mut shapes = vec![Shape::Line(Vector2::new(drawn.least.x, 0.0), Vector2::new(drawn.largest.x, 0.0))];
+fn axes(plate: &Wedge, outline: &Extents) -> (Vec<Shape>, Vec<Mark>) {
+    let beyond = 0.05 * outline.size().x;
+    let ends = [outline.least.x - beyond, outline.largest.x + beyond];
+    let mut shapes = vec![Shape::Line(Vector2::new(ends[0], 0.0), Vector2::new(ends[1], 0.0))];
+    let mut marks = Vec::new();
     let stroke = MILLIMETRES * plate.stroke();
-    for (x, words) in [(0.0, "x = 0".to_owned()), (stroke, format!("x = r = {stroke} mm"))] {
+    for (x, text) in [(0.0, "x = 0".to_owned()), (stroke, format!("x = r = {stroke} mm"))] {
         let (piece, at) = plate.motion.locate(x / MILLIMETRES);
         let centre = plate.curves().contact(piece, at).curve.point * MILLIMETRES;
         shapes.push(Shape::Line(centre, Vector2::new(centre.x, -centre.y)));
-        shapes.push(pen.middle(Vector2::new(centre.x, drawn.least.y + 0.3 * pen.text), words));
+        marks.push(Mark::Label { class: "axis", at: centre, towards: Vector2::new(0.0, -1.0), text });
     }
-    shapes
+    (shapes, marks)
 }
 
-/// The rollers of both flanks where the pressure angle is worst, with path and normal.
-fn rollers(pen: &Pen, plate: &Wedge, drawn: &Extents) -> Vec<Shape> {
+/// The rollers of both flanks where the pressure angle is worst, with path, normal and the angle between.
+fn rollers(plate: &Wedge) -> (Vec<Shape>, Vec<Mark>) {
     let curves = plate.curves();
     let worst = plate.pressure_angle();
     let (piece, x) = curves.motion.locate(worst.at);
     let contact = curves.contact(piece, x);
-    let drive = contact.drive;
     let radius = MILLIMETRES * plate.data.roller_radius;
     let flip = |v: Vector2<f64>| Vector2::new(v.x, -v.y);
-    let centre = contact.curve.point * MILLIMETRES;
-    let mut shapes = roller(centre, drive, contact.curve.outward(), radius);
-    shapes.extend(roller(flip(centre), flip(drive), flip(contact.curve.outward()), radius));
-    let text = format!("pressure angle {:.2}° at x = {:.2} mm", worst.value.to_degrees(), MILLIMETRES * worst.at);
-    let corner = Vector2::new(drawn.largest.x, drawn.largest.y - pen.text);
-    shapes.push(Shape::Text { at: corner, height: pen.text, anchor: TextAnchor::End, text });
-    shapes
+    let (centre, drive, outward) = (contact.curve.point * MILLIMETRES, contact.drive, contact.curve.outward());
+    let mut shapes = roller(centre, drive, outward, radius);
+    shapes.extend(roller(flip(centre), flip(drive), flip(outward), radius));
+    let text = format!("α = {:.2}° at x = {:.2} mm", worst.value.to_degrees(), MILLIMETRES * worst.at);
+    (shapes, pressure_angle(flip(centre), flip(drive), flip(outward), radius, text))
+}
+
+/// Overrun, travel of the bottom and the upper flank's profile.
+fn places(plate: &Wedge) -> Vec<PlaceTable> {
+    let rows = plate.rows(STEPS);
+    let row = |row: &Row| {
+        let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{:.3}", value + 0.0));
+        vec![
+            cell(row.bed.map(|bed| bed.x)),
+            cell(row.bed.map(|bed| bed.dx)),
+            cell(row.profile.map(|point| point.x)),
+            cell(row.profile.map(|point| point.y)),
+        ]
+    };
+    let heads = ["x, mm", "Δx, mm", "profile x", "profile y"].map(str::to_owned).to_vec();
+    [1, 2, 4]
+        .map(|every| PlaceTable {
+            title: "Overrun x, travel Δx of the bottom, place of the profile, mm".into(),
+            heads: heads.clone(),
+            rows: rows.iter().step_by(every).map(row).collect(),
+        })
+        .to_vec()
 }

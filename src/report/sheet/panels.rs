@@ -1,0 +1,220 @@
+//! What stands beside the drawing: verdicts, figures, legend, tables. Each panel is set in a width and tells its height.
+
+use super::{Group, PlaceTable, Shape, TextAnchor, View, font, rounded, words};
+use crate::report::{Finding, Place, Report, Verdict};
+use nalgebra::Vector2;
+
+/// Over the lettering of an A4, mm: size of texts, of headings, distance of lines, room between two panels.
+const TEXT: f64 = 2.8;
+const HEADING: f64 = 3.2;
+const LINE: f64 = 4.0;
+const GAP: f64 = 3.2;
+/// Length of a sample of the legend, and the columns it is set in, at most.
+const SAMPLE: f64 = 12.0;
+/// A panel narrower than this shows fewer columns of the checks.
+const NARROW: f64 = 120.0;
+/// Width of a column of a table of places.
+const PLACE_COLUMN: f64 = 19.0;
+/// Most rows of notes.
+const MOST_NOTES: usize = 12;
+
+/// A panel, its upper left corner at the origin, downwards.
+#[derive(Debug, Clone)]
+pub(super) struct Panel {
+    pub(super) height: f64,
+    pub(super) groups: Vec<Group>,
+}
+
+impl Panel {
+    /// Its groups with the corner at a place.
+    pub(super) fn at(self, corner: Vector2<f64>) -> impl Iterator<Item = Group> {
+        let moved = move |shape: Shape| match shape {
+            Shape::Text { at, height, anchor, text } => Shape::Text { at: at + corner, height, anchor, text },
+            Shape::Line(a, b) => Shape::Line(a + corner, b + corner),
+            other => other,
+        };
+        self.groups.into_iter().map(move |group| {
+            let shapes = group.shapes.into_iter().map(&moved).collect();
+            Group { shapes, ..group }
+        })
+    }
+}
+
+/// A pen that writes a panel from its top to its bottom.
+pub(super) struct Writer {
+    k: f64,
+    width: f64,
+    down: f64,
+    groups: Vec<Group>,
+}
+
+impl Writer {
+    pub(super) fn new(lettering: f64, width: f64) -> Self {
+        Self { k: lettering, width: width / lettering, down: 0.0, groups: Vec::new() }
+    }
+
+    fn push(&mut self, class: &'static str, shape: Shape) {
+        match self.groups.iter_mut().find(|group| group.class == class) {
+            Some(group) => group.shapes.push(shape),
+            None => self.groups.push(Group::new(class, class, vec![shape])),
+        }
+    }
+
+    fn text(&mut self, class: &'static str, x: f64, size: f64, anchor: TextAnchor, text: impl Into<String>) {
+        let at = Vector2::new(x * self.k, -self.down * self.k);
+        self.push(class, words(at, size * self.k, anchor, text));
+    }
+
+    /// A text in its column, smaller where it would not fit.
+    fn cell(&mut self, class: &'static str, x: f64, room: f64, text: &str) {
+        let (_, size) = font::fitted_in_one(text, TEXT, room);
+        self.text(class, x, size, TextAnchor::Start, text);
+    }
+
+    fn heading(&mut self, text: &str) {
+        self.down += HEADING;
+        self.text("facts", 0.0, HEADING, TextAnchor::Start, text);
+        self.down += 0.35 * HEADING;
+        let (y, width) = (-self.down * self.k, self.width * self.k);
+        self.push("rule", Shape::Line(Vector2::new(0.0, y), Vector2::new(width, y)));
+        self.down += 0.3 * HEADING;
+    }
+
+    fn paragraph(&mut self, class: &'static str, text: &str) {
+        for line in font::wrapped(text, TEXT, self.width) {
+            self.down += LINE;
+            self.text(class, 0.0, TEXT, TextAnchor::Start, line);
+        }
+    }
+
+    fn done(self) -> Panel {
+        Panel { height: (self.down + GAP) * self.k, groups: self.groups }
+    }
+}
+
+/// "12.5 mm", without the unit of a bare number.
+fn with_unit(value: f64, unit: &str) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    if ["", "1"].contains(&unit) { rounded(value) } else { format!("{} {unit}", rounded(value)) }
+}
+
+fn class_of(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Fail => "fail",
+        Verdict::Warn => "warn",
+        Verdict::Pass => "pass",
+        Verdict::Info => "facts",
+    }
+}
+
+/// The checks, a row each.
+pub(super) fn checks(mut writer: Writer, report: &Report) -> Panel {
+    writer.heading("Checks");
+    let wide = writer.width >= NARROW;
+    let columns: &[f64] = if wide { &[0.0, 11.0, 52.0, 96.0, 146.0] } else { &[0.0, 9.0, 39.0, 65.0] };
+    let ends = columns.iter().skip(1).chain([&writer.width]).copied();
+    let rooms: Vec<(f64, f64)> = columns.iter().copied().zip(ends).map(|(x, end)| (x, end - x - 1.5)).collect();
+    for finding in &report.checks {
+        writer.down += LINE;
+        let class = class_of(finding.verdict);
+        for (index, ((x, room), text)) in rooms.iter().zip(cells(finding)).enumerate() {
+            writer.cell(if index == 0 { class } else { "facts" }, *x, *room, &text);
+        }
+    }
+    writer.done()
+}
+
+fn cells(finding: &Finding) -> [String; 5] {
+    let limit = finding.limit.map_or(String::new(), |limit| format!("limit {}", with_unit(limit, &finding.unit)));
+    let place = if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place) };
+    let value = if finding.value.is_finite() || finding.note.is_none() {
+        with_unit(finding.value, &finding.unit)
+    } else {
+        "not run".into()
+    };
+    [finding.verdict.word().into(), finding.check.to_string(), value, limit, place]
+}
+
+/// What the report's sections say in a few figures.
+pub(super) fn figures(mut writer: Writer, report: &Report) -> Panel {
+    writer.heading("Figures");
+    for figure in report.figures() {
+        writer.paragraph("facts", &figure);
+    }
+    writer.done()
+}
+
+/// A line for each kind of line of the drawing.
+pub(super) fn legend(mut writer: Writer, view: &View) -> Panel {
+    writer.heading("Lines");
+    let told: Vec<&Group> = view.groups.iter().filter(|group| group.in_legend).collect();
+    let longest = told.iter().map(|group| font::width(&group.label, TEXT)).fold(0.0, f64::max);
+    let each = SAMPLE + 2.0 + longest + 4.0;
+    let fits = (writer.width / each).floor().clamp(1.0, 3.0);
+    let mut column = 0.0;
+    for (index, group) in told.iter().enumerate() {
+        if column == 0.0 {
+            writer.down += LINE;
+        }
+        let x = column * writer.width / fits;
+        let y = -(writer.down - 0.35 * TEXT) * writer.k;
+        let sample = Shape::Line(Vector2::new(x * writer.k, y), Vector2::new((x + SAMPLE) * writer.k, y));
+        let colour = group.colour.clone();
+        let id = format!("legend-{index}");
+        writer.groups.push(Group { id, colour, ..Group::new(group.class, &group.label, vec![sample]) });
+        let room = writer.width / fits - SAMPLE - 3.0;
+        let (_, size) = font::fitted_in_one(&group.label, TEXT, room);
+        writer.text("facts", x + SAMPLE + 2.0, size, TextAnchor::Start, group.label.clone());
+        column = if column + 1.0 < fits { column + 1.0 } else { 0.0 };
+    }
+    writer.done()
+}
+
+/// What must be said besides.
+pub(super) fn notes(mut writer: Writer, view: &View, report: &Report) -> Panel {
+    writer.heading("Notes");
+    for lost in &view.lost {
+        writer.paragraph("fail", lost);
+    }
+    for note in view.notes.iter().chain(&report.notes).take(MOST_NOTES) {
+        writer.paragraph("facts", note);
+    }
+    let more = (view.notes.len() + report.notes.len()).saturating_sub(MOST_NOTES);
+    if more > 0 {
+        writer.paragraph("facts", &format!("and {more} more, in the report"));
+    }
+    writer.done()
+}
+
+/// A table of places in as many blocks side by side as fit.
+pub(super) fn places(mut writer: Writer, table: &PlaceTable) -> Panel {
+    writer.heading(&table.title);
+    #[expect(clippy::cast_precision_loss, reason = "a few columns")]
+    let block = PLACE_COLUMN * table.heads.len() as f64 + 3.0;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few columns")]
+    let blocks = (writer.width / block).floor().clamp(1.0, 9.0) as u32;
+    let rows = table.rows.len().div_ceil(blocks as usize).max(1);
+    let step = writer.width / f64::from(blocks);
+    writer.down += LINE;
+    let top = writer.down;
+    for (number, rows) in (0_u32..).zip(table.rows.chunks(rows)) {
+        writer.down = top;
+        let left = step * f64::from(number);
+        for cells in std::iter::once(&table.heads).chain(rows) {
+            let column = (step - 3.0) / f64::from(u32::try_from(cells.len()).unwrap_or(1).max(1));
+            let mut x = left;
+            for cell in cells {
+                x += column;
+                let (_, size) = font::fitted_in_one(cell, TEXT, column - 1.0);
+                writer.text("facts", x, size, TextAnchor::End, cell.clone());
+            }
+            writer.down += LINE;
+        }
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a few rows")]
+    let height = LINE * rows as f64;
+    writer.down = top + height;
+    writer.done()
+}

@@ -1,0 +1,107 @@
+//! Sheets of ISO 5457 and scales of ISO 5455.
+
+use super::{Group, Shape, TextAnchor};
+use crate::geometry::contour::Extents;
+use nalgebra::Vector2;
+
+/// A sheet of paper, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Paper {
+    /// "A4".
+    pub name: &'static str,
+    /// Width and height, mm: A4 upright, the others lengthwise (ISO 5457).
+    pub size: Vector2<f64>,
+    /// Sizes of the lettering, the largest first: over that of an A4. A larger sheet is looked at from farther away, and at a width
+    /// of a screen.
+    pub lettering: &'static [f64],
+}
+
+/// The sheets, the smallest first.
+pub const PAPERS: &[Paper] = &[
+    Paper { name: "A4", size: Vector2::new(210.0, 297.0), lettering: &[1.0] },
+    Paper { name: "A3", size: Vector2::new(420.0, 297.0), lettering: &[1.0] },
+    Paper { name: "A2", size: Vector2::new(594.0, 420.0), lettering: &[1.4, 1.2] },
+    Paper { name: "A1", size: Vector2::new(841.0, 594.0), lettering: &[2.0, 1.8, 1.6, 1.4, 1.2, 1.0] },
+];
+
+/// Reductions of ISO 5455: a length on the sheet is a true length over this.
+pub const REDUCTIONS: &[f64] = &[
+    1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6,
+];
+
+/// Margins of ISO 5457: the left one to file the sheet by.
+const FILING: f64 = 20.0;
+const MARGIN: f64 = 10.0;
+/// Width of the border of the grid reference.
+const BORDER: f64 = 5.0;
+/// Length of a field of the grid reference, and height of its letters.
+const FIELD: f64 = 50.0;
+const LETTER: f64 = 3.5;
+
+impl Paper {
+    /// The frame within a page whose lower left corner lies at a place.
+    #[must_use]
+    pub fn frame(&self, corner: Vector2<f64>) -> Extents {
+        Extents {
+            least: corner + Vector2::new(FILING, MARGIN),
+            largest: corner + self.size - Vector2::new(MARGIN, MARGIN),
+        }
+    }
+}
+
+/// The four sides of a rectangle.
+pub(super) fn rectangle(rect: &Extents) -> Vec<Shape> {
+    let [a, c] = [rect.least, rect.largest];
+    let [b, d] = [Vector2::new(c.x, a.y), Vector2::new(a.x, c.y)];
+    vec![Shape::Line(a, b), Shape::Line(b, c), Shape::Line(c, d), Shape::Line(d, a)]
+}
+
+/// Frame, border with the grid reference, and centring marks.
+pub(in crate::report) fn furniture(paper: &Paper, corner: Vector2<f64>) -> Vec<Group> {
+    let frame = paper.frame(corner);
+    let outer = Extents { least: frame.least.add_scalar(-BORDER), largest: frame.largest.add_scalar(BORDER) };
+    let middle = 0.5 * (frame.least + frame.largest);
+    let mut marks = vec![
+        Shape::Line(Vector2::new(middle.x, outer.least.y), Vector2::new(middle.x, frame.least.y)),
+        Shape::Line(Vector2::new(middle.x, frame.largest.y), Vector2::new(middle.x, outer.largest.y)),
+        Shape::Line(Vector2::new(outer.least.x, middle.y), Vector2::new(frame.least.x, middle.y)),
+        Shape::Line(Vector2::new(frame.largest.x, middle.y), Vector2::new(outer.largest.x, middle.y)),
+    ];
+    marks.extend(rectangle(&frame));
+    let mut grid = rectangle(&outer);
+    // Fields of 50 mm from the centring marks; the outermost take what is left.
+    for (along, across) in [(0, 1), (1, 0)] {
+        let side = |index: usize, which: &Vector2<f64>| which.as_slice().get(index).copied().unwrap_or(0.0);
+        let (low, high, centre) = (side(along, &frame.least), side(along, &frame.largest), side(along, &middle));
+        let fields = ((0.5 * (high - low)) / FIELD).floor().max(1.0);
+        let mut edges = vec![low];
+        let mut step = -(fields - 1.0);
+        while step <= fields - 1.0 {
+            edges.push(centre + step * FIELD);
+            step += 1.0;
+        }
+        edges.push(high);
+        let strips = [
+            (side(across, &outer.least), side(across, &frame.least)),
+            (side(across, &frame.largest), side(across, &outer.largest)),
+        ];
+        let count = edges.len() - 1;
+        for (from, to) in strips {
+            let point = |a: f64, b: f64| if along == 0 { Vector2::new(a, b) } else { Vector2::new(b, a) };
+            let inner = edges.get(1..count).unwrap_or_default();
+            grid.extend(inner.iter().map(|edge| Shape::Line(point(*edge, from), point(*edge, to))));
+            for (index, (a, b)) in edges.iter().zip(edges.iter().skip(1)).enumerate() {
+                let at = point(0.5 * (a + b), 0.5 * (from + to)) - Vector2::new(0.0, 0.36 * LETTER);
+                // Numbers from the left, letters from the top.
+                let text = if along == 0 { (index + 1).to_string() } else { letter(count - 1 - index) };
+                grid.push(Shape::Text { at, height: LETTER, anchor: TextAnchor::Middle, text });
+            }
+        }
+    }
+    vec![Group::new("grid-reference", "grid reference", grid), Group::new("frame", "frame", marks)]
+}
+
+/// Letters of the grid reference, without I and O.
+fn letter(index: usize) -> String {
+    "ABCDEFGHJKLMNPQRSTUVWXYZ".chars().nth(index).map_or_else(|| (index + 1).to_string(), String::from)
+}

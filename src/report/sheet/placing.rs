@@ -1,0 +1,105 @@
+//! Where on the paper there is nothing yet: a map of cells, so that a text finds its place in a few microseconds.
+
+use super::Shape;
+use crate::geometry::contour::Extents;
+use nalgebra::Vector2;
+
+/// Side of a cell, mm.
+const CELL: f64 = 0.8;
+
+/// What already stands in a region of the paper.
+#[derive(Debug)]
+pub(in crate::report) struct Taken {
+    region: Extents,
+    columns: usize,
+    rows: usize,
+    lines: Vec<bool>,
+    texts: Vec<bool>,
+}
+
+impl Taken {
+    /// Nothing stands there.
+    pub(in crate::report) fn none(region: Extents) -> Self {
+        let count = |length: f64| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a sheet of paper")]
+            let count = (length / CELL).ceil().clamp(1.0, 4000.0) as usize;
+            count
+        };
+        let size = region.size();
+        let (columns, rows) = (count(size.x), count(size.y));
+        Self { region, columns, rows, lines: vec![false; columns * rows], texts: vec![false; columns * rows] }
+    }
+
+    fn cell(&self, point: Vector2<f64>) -> Option<usize> {
+        let place = (point - self.region.least) / CELL;
+        if !(place.x >= 0.0 && place.y >= 0.0) {
+            return None;
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative; saturates")]
+        let (column, row) = (place.x as usize, place.y as usize);
+        (column < self.columns && row < self.rows).then_some(row * self.columns + column)
+    }
+
+    /// The points of a straight line, half a cell apart.
+    fn along(from: Vector2<f64>, to: Vector2<f64>) -> impl Iterator<Item = Vector2<f64>> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most ten thousand")]
+        let steps = ((to - from).norm() / (0.5 * CELL)).ceil().clamp(1.0, 1e4) as u32;
+        (0..=steps).map(move |step| from + (to - from) * (f64::from(step) / f64::from(steps)))
+    }
+
+    /// Whether a line is clear of texts.
+    pub(in crate::report) fn clear(&self, from: Vector2<f64>, to: Vector2<f64>) -> bool {
+        Self::along(from, to).all(|point| {
+            self.cell(point).is_none_or(|cell| !self.texts.get(cell).copied().unwrap_or(false))
+        })
+    }
+
+    /// A shape stands there.
+    pub(in crate::report) fn put(&mut self, shape: &Shape) {
+        if let Some(field) = shape.text_field() {
+            self.fill(&field);
+        }
+        for chain in shape.chains(0.5 * CELL) {
+            for (from, to) in chain.iter().zip(chain.iter().skip(1)) {
+                for point in Self::along(*from, *to) {
+                    if let Some(cell) = self.cell(point).and_then(|cell| self.lines.get_mut(cell)) {
+                        *cell = true;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The cells that a field touches, a hair wider on every side.
+    fn cells(&self, field: &Extents) -> impl Iterator<Item = usize> + use<> {
+        let at = |value: f64, most: usize| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+            let index = (value / CELL).floor().clamp(0.0, 4000.0) as usize;
+            index.min(most.saturating_sub(1))
+        };
+        let (least, largest) = (field.least - self.region.least, field.largest - self.region.least);
+        let columns = self.columns;
+        let (left, right) = (at(least.x, columns), at(largest.x, columns));
+        let (low, high) = (at(least.y, self.rows), at(largest.y, self.rows));
+        (low..=high).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
+    }
+
+    fn fill(&mut self, field: &Extents) {
+        let cells: Vec<usize> = self.cells(field).collect();
+        for cell in cells {
+            if let Some(taken) = self.texts.get_mut(cell) {
+                *taken = true;
+            }
+        }
+    }
+
+    /// Whether a field lies in the region and nothing stands in it.
+    pub(in crate::report) fn free(&self, field: &Extents) -> bool {
+        let inside = field.least.x >= self.region.least.x
+            && field.least.y >= self.region.least.y
+            && field.largest.x <= self.region.largest.x
+            && field.largest.y <= self.region.largest.y;
+        let taken = |cells: &[bool], cell: usize| cells.get(cell).copied().unwrap_or(true);
+        inside && self.cells(field).all(|cell| !taken(&self.lines, cell) && !taken(&self.texts, cell))
+    }
+}

@@ -1,0 +1,217 @@
+//! The review sheets as somebody looks at them: every text is measured against every other text, every line and the frame.
+
+#![allow(clippy::expect_used, clippy::panic, clippy::indexing_slicing, missing_docs, reason = "a test fails loudly")]
+
+use camgen::geometry::contour::Extents;
+use camgen::report::sheet::{Sheet, font, paper};
+use camgen::write::{pdf, svg};
+use camgen::{ExactOn, Machine, Solver, Spec};
+use nalgebra::Vector2;
+
+/// How far two texts, or a text and a line, must be apart at the least, mm: less is a touch for the eye.
+const APART: f64 = 0.05;
+
+struct Drawn {
+    sheet: Sheet,
+    passed: bool,
+}
+
+fn solved(command: &str, machine: &str, overrides: &[&str], rpm: &[f64]) -> Drawn {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let machine = Machine::load(machine, &overrides).expect("valid").0;
+    let spec = match command {
+        "rotary" => Spec::rotary(machine, rpm[0]),
+        "translating" => Spec::translating(machine, rpm[0], Solver::Ode { tolerance: 1e-12 }, ExactOn::Braking),
+        "conoid" => Spec::conoid(machine, rpm.to_vec(), None),
+        _ => {
+            let (motion, told) = machine.motion().expect("a program");
+            Spec::of_motion(machine, motion, told)
+        }
+    };
+    let cam = spec.solve().expect("a cam");
+    let proven = cam.draw(5e-6).expect("drawn").prove().expect("proved");
+    let report = proven.report();
+    let rendering = proven.rendering(&report, 72, svg::TEMPLATE).expect("an outline");
+    Drawn { sheet: svg::sheet(&rendering).expect("a sheet"), passed: proven.passed() }
+}
+
+fn overlap(a: &Extents, b: &Extents) -> bool {
+    let apart = -APART;
+    a.least.x < b.largest.x + apart
+        && b.least.x < a.largest.x + apart
+        && a.least.y < b.largest.y + apart
+        && b.least.y < a.largest.y + apart
+}
+
+/// Whether a straight line meets a field (Liang and Barsky).
+fn crosses(field: &Extents, from: Vector2<f64>, to: Vector2<f64>) -> bool {
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let (start, way) = (from[axis], to[axis] - from[axis]);
+        let (low, high) = (field.least[axis] + APART, field.largest[axis] - APART);
+        if way.abs() < 1e-12 {
+            if start < low || start > high {
+                return false;
+            }
+            continue;
+        }
+        let (a, b) = ((low - start) / way, (high - start) / way);
+        enter = enter.max(a.min(b));
+        leave = leave.min(a.max(b));
+    }
+    enter <= leave
+}
+
+fn fields(sheet: &Sheet) -> Vec<(Extents, String)> {
+    let shapes = sheet.groups.iter().flat_map(|group| &group.shapes);
+    shapes
+        .filter_map(|shape| match shape {
+            camgen::report::sheet::Shape::Text { text, .. } => shape.text_field().map(|field| (field, text.clone())),
+            _ => None,
+        })
+        .collect()
+}
+
+/// Everything that is wrong with a sheet for the eye.
+fn faults(sheet: &Sheet) -> Vec<String> {
+    let mut found = Vec::new();
+    let texts = fields(sheet);
+    let size = sheet.extents.size();
+    if !paper::PAPERS.iter().any(|paper| (paper.size - size).norm() < 1e-9) {
+        found.push(format!("{size:?} is no sheet of ISO 5457"));
+    }
+    for (index, (field, text)) in texts.iter().enumerate() {
+        if text.trim().is_empty() {
+            found.push("an empty text".into());
+        }
+        let inside = |least: Vector2<f64>, largest: Vector2<f64>| {
+            field.least.x >= least.x && field.least.y >= least.y && field.largest.x <= largest.x && field.largest.y <= largest.y
+        };
+        if !inside(sheet.extents.least, sheet.extents.largest) {
+            found.push(format!("`{text}` is cut off"));
+        }
+        for (other, words) in texts.iter().skip(index + 1) {
+            if overlap(field, other) {
+                found.push(format!("`{text}` over `{words}`"));
+            }
+        }
+    }
+    for group in &sheet.groups {
+        for chain in group.shapes.iter().flat_map(|shape| shape.chains(0.25)) {
+            for (from, to) in chain.iter().zip(chain.iter().skip(1)) {
+                for (field, text) in &texts {
+                    if crosses(field, *from, *to) {
+                        found.push(format!("`{text}` is struck by {}", group.id));
+                    }
+                }
+            }
+        }
+    }
+    found.sort();
+    found.dedup();
+    found
+}
+
+fn looks_right(what: &str, drawn: &Drawn) {
+    let found = faults(&drawn.sheet);
+    assert!(found.is_empty(), "{what}: {found:#?}");
+}
+
+#[test]
+fn nothing_overlaps_on_the_sheet_of_a_disc() {
+    let long = "name=A printing press whose name has sixty characters, as some do";
+    let cyrillic = "name=Плоскопечатная машина ДПИ с воздушными буферами";
+    let cases: [&[&str]; 8] = [
+        &[],
+        &["cam.rotation=ccw"],
+        &["follower.roller.offset=20mm"],
+        &["cam.base_radius=1000mm"],
+        &["cam.base_radius=40mm"],
+        &[long],
+        &[cyrillic],
+        &["cam.balance=30mm .. 217mm", "cam.base_radius=140mm", "cam.keyway.width=8mm", "cam.keyway.depth=3.3mm"],
+    ];
+    for case in cases {
+        looks_right(&format!("{case:?}"), &solved("rotary", "dpi", case, &[35.0]));
+    }
+}
+
+#[test]
+fn nothing_overlaps_on_other_sheets() {
+    looks_right("plate", &solved("translating", "dpi", &[], &[35.0]));
+    looks_right("conoid", &solved("conoid", "dpi", &[], &[20.0, 25.0, 30.0, 35.0]));
+    let ten: Vec<f64> = (0..10).map(|index| 20.0 + 1.5 * f64::from(index)).collect();
+    looks_right("ten sections", &solved("conoid", "dpi", &["cam.rotation=ccw"], &ten));
+}
+
+/// The smallest standard sheet is taken, true size wherever an A1 holds it, and the outline tells its scale.
+#[test]
+fn paper_and_scale_are_standard() {
+    for (overrides, scale) in [(&["cam.base_radius=40mm"][..], 1.0), (&[], 1.0), (&["cam.base_radius=1000mm"], 0.2)] {
+        let drawn = solved("rotary", "dpi", overrides, &[35.0]);
+        assert_eq!(drawn.sheet.scale, scale, "{overrides:?}");
+        let text = String::from_utf8(svg::write(&drawn.sheet, svg::TEMPLATE).expect("filled")).expect("UTF-8");
+        assert!(text.contains(&format!("data-scale=\"{scale}\"")), "{overrides:?}");
+    }
+}
+
+/// A cam that breaks a limit cannot be taken for a good one.
+#[test]
+fn a_cam_that_breaks_a_limit_is_stamped() {
+    let has = |drawn: &Drawn, words: &str| fields(&drawn.sheet).iter().any(|(_, text)| text.contains(words));
+    let good = solved("rotary", "dpi", &[], &[35.0]);
+    assert!(good.passed && !has(&good, "NOT FOR MANUFACTURE"));
+    let bad = solved("rotary", "dpi", &["cam.base_radius=30mm", "cam.bore_radius=10mm"], &[35.0]);
+    assert!(!bad.passed && has(&bad, "NOT FOR MANUFACTURE") && has(&bad, "pressure_angle"));
+    looks_right("stamped", &bad);
+}
+
+/// `[title]` stands in the block as it was given, and no text is too long for it.
+#[test]
+fn the_title_block_tells_what_was_given() {
+    let given = [
+        ("owner", "Полиграфмаш, Завод тяжёлых печатных машин имени всех инженеров"),
+        ("part_number", "PM-0417-000-000-12"),
+        ("revision", "C"),
+        ("date", "2026-11-22"),
+        ("designer", "N. N. Designer"),
+        ("approved", "M. M."),
+        ("general_tolerance", "ISO 2768-mK"),
+        ("surface_roughness", "Ra 0.8"),
+    ];
+    let overrides: Vec<String> = given.iter().map(|(key, value)| format!("title.{key}={value}")).collect();
+    let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
+    let drawn = solved("rotary", "dpi", &overrides, &[35.0]);
+    let all: String = fields(&drawn.sheet).iter().map(|(_, text)| format!("{text} ")).collect();
+    let squeezed = |text: &str| text.split_whitespace().collect::<String>();
+    for (key, value) in given {
+        assert!(squeezed(&all).contains(&squeezed(value)), "{key}: {all}");
+    }
+    looks_right("title", &drawn);
+}
+
+/// The page of the PDF is the sheet, and the font is in the file.
+#[test]
+fn the_pdf_has_the_size_of_the_sheet_and_its_font() {
+    let drawn = solved("rotary", "dpi", &[], &[35.0]);
+    let bytes = pdf::write(&drawn.sheet, svg::TEMPLATE).expect("a PDF");
+    assert_eq!(bytes, pdf::write(&drawn.sheet, svg::TEMPLATE).expect("a PDF"), "the same bytes again");
+    let text = String::from_utf8_lossy(&bytes);
+    let page = text.split("/MediaBox").nth(1).expect("a page");
+    let numbers: Vec<f64> = page
+        .split([' ', '[', ']', '\n', '/'])
+        .filter(|word| !word.is_empty())
+        .map_while(|word| word.parse().ok())
+        .collect();
+    let size = drawn.sheet.extents.size() * (72.0 / 25.4);
+    assert!((numbers[2] - size.x).abs() < 0.01 && (numbers[3] - size.y).abs() < 0.01, "{numbers:?} {size:?}");
+    assert!(text.contains("/FontFile") && text.contains("LiberationSans"));
+}
+
+#[test]
+fn a_text_of_the_font_has_the_width_that_is_told() {
+    let drawn = solved("rotary", "dpi", &[], &[35.0]);
+    let text = String::from_utf8(svg::write(&drawn.sheet, svg::TEMPLATE).expect("filled")).expect("UTF-8");
+    assert!(text.contains("textLength"));
+    assert!((font::width("Scale", 10.0) - 10.0 * (1366.0 + 1024.0 + 1139.0 + 455.0 + 1139.0) / 2048.0).abs() < 1e-9);
+}
