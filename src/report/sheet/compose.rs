@@ -216,6 +216,9 @@ impl Layout<'_> {
             shapes.iter().for_each(|shape| taken.put(shape));
             groups.push(Group { shapes, ..group.clone() });
         }
+        let ruler = ruler(&self.view, k);
+        ruler.iter().for_each(|shape| taken.put(shape));
+        groups.push(Group::new("scale", "ruler of the paper", ruler));
         groups.extend(self.marks(view, covered, &mut taken));
         groups.extend(self.diagram.zip(extras.trace).into_iter().flat_map(|(field, trace)| trace::within(&field, k, trace)));
         if let Some(field) = self.stamp {
@@ -278,6 +281,24 @@ fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents, k: f64) -> 
         Shape::Line(Vector2::new(field.least.x, field.largest.y), Vector2::new(field.largest.x, field.largest.y))
     }));
     lines
+}
+
+/// Length of the ruler, mm of paper.
+const RULER: f64 = 100.0;
+
+/// A ruler in the lower left corner of the view, by which a print is measured.
+fn ruler(view: &Extents, k: f64) -> Vec<Shape> {
+    let start = view.least + Vector2::new(3.0, 2.0) * k;
+    let tick = 1.5 * k;
+    let mut shapes = vec![Shape::Line(start, start + Vector2::new(RULER, 0.0))];
+    for tenth in 0..=10 {
+        let foot = start + Vector2::new(RULER * f64::from(tenth) / 10.0, 0.0);
+        let long = if tenth % 5 == 0 { 1.6 } else { 1.0 };
+        shapes.push(Shape::Line(foot, foot + Vector2::new(0.0, long * tick)));
+    }
+    let end = start + Vector2::new(RULER + 2.0 * k, 0.0);
+    shapes.push(words(end, 2.6 * k, TextAnchor::Start, format!("{RULER} mm on paper")));
+    shapes
 }
 
 /// What nobody can overlook on the sheet of a cam that breaks a limit.

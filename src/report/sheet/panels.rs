@@ -67,6 +67,9 @@ impl Writer {
 
     /// A text in its column, smaller where it would not fit.
     fn cell(&mut self, class: &'static str, x: f64, room: f64, text: &str) {
+        if text.is_empty() {
+            return;
+        }
         let (_, size) = font::fitted_in_one(text, TEXT, room);
         self.text(class, x, size, TextAnchor::Start, text);
     }
