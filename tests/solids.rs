@@ -2,6 +2,9 @@
 
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
+#[path = "common/lines.rs"]
+#[allow(dead_code, reason = "not all of it is needed here")]
+mod lines;
 #[path = "common/program.rs"]
 #[allow(dead_code, reason = "not all of it is needed here")]
 mod program;
@@ -10,8 +13,10 @@ mod program;
 mod random;
 
 use camgen::motion::equation_18::{ExactOn, Solver};
+use camgen::profile::outline::{Fit, Laid};
 use camgen::reading::step;
 use camgen::{Cam, Finding, Machine, Report, Request, Spec, Verdict, Writing};
+use lines::Lines;
 use program::{Run, camgen, camgen_in, report};
 
 const TOLERANCE: f64 = 5e-6;
@@ -33,11 +38,23 @@ fn conoid(speeds: &[f64], overrides: &[&str]) -> Cam {
 
 /// The STEP file that camgen writes of a cam.
 fn written(cam: &Cam) -> String {
-    let request = Request { flank: true, ..Request::within(TOLERANCE) };
+    file(cam, Request { flank: true, ..Request::within(TOLERANCE) }, "step")
+}
+
+/// The same with an outline of splines.
+fn splines(cam: &Cam) -> String {
+    file(cam, with_splines(), "step")
+}
+
+fn with_splines() -> Request {
+    Request::within(Fit { laid: Laid::Splines, ..Fit::from(TOLERANCE) })
+}
+
+fn file(cam: &Cam, request: Request, format: &str) -> String {
     let proven = cam.draw(request).expect("drawn").prove().expect("proved");
-    let writing = Writing { force: true, ..Writing::to("nowhere", "cam").formats(&["step"]) };
+    let writing = Writing { force: true, ..Writing::to("nowhere", "cam").formats(&[format]) };
     let set = proven.files(&writing).expect("files");
-    String::from_utf8(set.bytes("step").expect("a solid").to_vec()).expect("text")
+    String::from_utf8(set.bytes(format).expect("a file").to_vec()).expect("text")
 }
 
 fn checked(cam: &Cam, text: &str) -> Report {
@@ -46,52 +63,6 @@ fn checked(cam: &Cam, text: &str) -> Report {
 
 fn failed(report: &Report) -> Vec<&str> {
     report.checks.iter().filter(|f| f.verdict == Verdict::Fail).map(|f: &Finding| &*f.check).collect()
-}
-
-/// A file in lines, `#17 = …;` each.
-struct Lines(Vec<String>);
-
-impl Lines {
-    fn of(text: &str) -> Self {
-        Self(text.lines().map(str::to_owned).collect())
-    }
-
-    fn text(&self) -> String {
-        self.0.join("\n") + "\n"
-    }
-
-    fn with(&self, index: usize, line: String) -> String {
-        let mut lines = self.0.clone();
-        lines[index] = line;
-        lines.join("\n") + "\n"
-    }
-
-    /// The lines of a keyword.
-    fn all(&self, keyword: &str) -> Vec<usize> {
-        let part = format!(" = {keyword}(");
-        (0..self.0.len()).filter(|i| self.0[*i].contains(&part)).collect()
-    }
-
-    fn line_of(&self, number: &str) -> usize {
-        let start = format!("#{number} = ");
-        self.0.iter().position(|line| line.starts_with(&start)).expect("defined")
-    }
-
-    /// Numbers of the instances a line refers to.
-    fn references(&self, index: usize) -> Vec<String> {
-        let digits = |part: &str| part.chars().take_while(char::is_ascii_digit).collect::<String>();
-        self.0[index].split('#').skip(2).map(digits).collect()
-    }
-
-    /// A line with something added to one coordinate of its triple.
-    fn moved(&self, index: usize, axis: usize, by: f64) -> String {
-        let line = &self.0[index];
-        let (head, rest) = line.split_once("('', (").expect("a triple");
-        let mut numbers: Vec<f64> =
-            rest.trim_end_matches("));").split(", ").map(|n| n.parse().expect("a number")).collect();
-        numbers[axis] += by;
-        self.with(index, format!("{head}('', ({:?}, {:?}, {:?}));", numbers[0], numbers[1], numbers[2]))
-    }
 }
 
 /// A whole number below a limit.
@@ -223,10 +194,11 @@ fn nothing_of_a_solid_may_be_moved() {
 /// Senses turned round, faces left out or given twice, edges swapped.
 #[test]
 fn a_shell_that_does_not_close_or_is_inside_out_is_refused() {
-    for cam in [rotary(&KEYWAY), conoid(&[20.0, 35.0], &[])] {
-        let lines = Lines::of(&written(&cam));
+    let (disc, conoid) = (rotary(&KEYWAY), conoid(&[20.0, 35.0], &[]));
+    for (cam, text) in [(&disc, written(&disc)), (&disc, splines(&disc)), (&conoid, written(&conoid))] {
+        let lines = Lines::of(&text);
         let refused = |edited: &str, what: &str| {
-            let report = checked(&cam, edited);
+            let report = checked(cam, edited);
             assert!(!failed(&report).is_empty(), "{what}: {report:?}");
         };
         for keyword in ["ADVANCED_FACE", "FACE_BOUND", "ORIENTED_EDGE", "EDGE_CURVE"] {
@@ -346,7 +318,8 @@ fn a_bump_on_a_flank_is_found_wherever_it_is() {
 /// Cut short, with bytes changed, left out and doubled: told or judged, never a panic.
 #[test]
 fn no_bytes_end_the_reader() {
-    let texts = [written(&rotary(&KEYWAY)), written(&conoid(&[20.0, 35.0], &[]))];
+    let disc = rotary(&KEYWAY);
+    let texts = [written(&disc), splines(&disc), written(&conoid(&[20.0, 35.0], &[]))];
     let mut random = random::Random(7);
     let signs = b"()#',.;=$*/E-+0123456789TF\\\n\"&\xff\0";
     for text in &texts {
@@ -370,8 +343,10 @@ fn no_bytes_end_the_reader() {
                 }
             }
             if let Ok(file) = step::read(&bytes) {
-                let form = step::form(&file.boundary, 1e-6);
-                assert!(form.low.len() <= file.boundary.faces.len());
+                for flank in [step::Flank::Upright, step::Flank::Patches] {
+                    let form = step::form(&file.boundary, flank, 1e-6);
+                    assert!(form.low.len() <= file.boundary.faces.len());
+                }
             }
         }
     }

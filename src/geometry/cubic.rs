@@ -87,6 +87,19 @@ impl Cubic {
         (Self { points: [p, a, d, middle] }, Self { points: [middle, e, c, s] })
     }
 
+    /// The part from one parameter to another, run the other way where that is the lower one: its control points are blossoms
+    /// (L. Ramshaw, 1987).
+    #[must_use]
+    pub fn part(&self, from: f64, to: f64) -> Self {
+        let [p, q, r, s] = self.points;
+        let on = |a: Vector2<f64>, b: Vector2<f64>, t: f64| a + (b - a) * t;
+        let blossom = |[x, y, z]: [f64; 3]| {
+            let (a, b, c) = (on(p, q, x), on(q, r, x), on(r, s, x));
+            on(on(a, b, y), on(b, c, y), z)
+        };
+        Self { points: [[from; 3], [from, from, to], [from, to, to], [to; 3]].map(blossom) }
+    }
+
     /// The same curve run the other way.
     #[must_use]
     pub fn reversed(&self) -> Self {

@@ -16,17 +16,20 @@ pub struct Knots {
 }
 
 impl Knots {
-    /// Whether they carry so many control points: enough of them, finite, never falling, and with a span at all.
+    /// Whether they carry so many control points without a gap: enough of them, finite, never falling, with a span at all, and
+    /// none so often that what they carry jumps there.
     #[must_use]
     pub fn carry(&self, controls: usize) -> bool {
         let rising =
             self.values.windows(2).all(|pair| matches!(pair, [a, b] if a <= b && b.is_finite() && a.is_finite()));
         let (first, last) = self.range();
-        (1..=HIGHEST_DEGREE).contains(&self.degree)
+        let often = |times: usize| self.values.windows(times).filter_map(|row| Some((row.first()?, row.last()?)));
+        let fits = (1..=HIGHEST_DEGREE).contains(&self.degree)
             && controls > self.degree
             && self.values.len() == controls + self.degree + 1
             && rising
-            && first < last
+            && first < last;
+        fits && !often(self.degree + 1).any(|(a, b)| a == b && first < *a && *a < last)
     }
 
     /// First and last value of the parameter.
@@ -118,6 +121,30 @@ impl Curve {
         projected(sums[0], sums[1])
     }
 
+    /// Its polynomials in order as Bézier curves of degree 3: those of a higher degree in parts, no farther from them than `within`
+    /// (the unit of the curve). `None` for a rational curve, and one that takes too many parts.
+    #[must_use]
+    pub fn cubics(&self, within: f64) -> Option<Vec<[Vector3<f64>; 4]>> {
+        let (degree, knots) = (self.knots.degree, &self.knots.values);
+        let weight = self.controls.first()?.w;
+        if self.controls.iter().any(|control| control.w != weight) {
+            return None;
+        }
+        let poles: Vec<[f64; 4]> = self.controls.iter().map(|control| (control / weight).into()).collect();
+        let most = PARTS + PARTS_EACH * poles.len();
+        let mut found = Vec::new();
+        for span in degree..poles.len() {
+            let (Some(&low), Some(&high)) = (knots.get(span), knots.get(span + 1)) else { continue };
+            if high > low {
+                let pole = |at_high: usize| blossom(degree, span, knots, &poles, (low, high, at_high));
+                let row: Option<Vec<_>> =
+                    (0..=degree).map(|i| pole(i).map(|[x, y, z, _]| Vector3::new(x, y, z))).collect();
+                parted(row?, within, most, &mut found)?;
+            }
+        }
+        Some(found)
+    }
+
     /// The same curve run the other way.
     #[must_use]
     pub fn reversed(&self) -> Self {
@@ -158,6 +185,91 @@ impl Curve {
 const SAME_KNOT: f64 = 1e-9;
 /// Samples for each control point where two curves are compared point by point.
 const SAMPLES: u32 = 8;
+
+/// Parts of curves of a higher degree than 3: for a curve, and for each of its control points.
+const PARTS: usize = 256;
+const PARTS_EACH: usize = 4;
+
+/// A Bézier curve of any degree as ones of degree 3, added to others, of which there may be so many.
+fn parted(points: Vec<Vector3<f64>>, within: f64, most: usize, found: &mut Vec<[Vector3<f64>; 4]>) -> Option<()> {
+    let mut open = vec![points];
+    while let Some(part) = open.pop() {
+        let cubic = near(&part)?;
+        let mut raised = cubic.to_vec();
+        while raised.len() < part.len() {
+            raised = elevated(&raised);
+        }
+        // Lower ones are that cubic.
+        let off = raised.iter().zip(&part).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        if part.len() <= 4 || off <= within {
+            found.push(cubic);
+        } else {
+            (found.len() + open.len() < most).then_some(())?;
+            let (first, last) = halves(part);
+            open.extend([last, first]);
+        }
+    }
+    Some(())
+}
+
+/// The cubic Bézier curve with the ends and the derivatives there of one of any degree: up to degree 3 the same curve.
+fn near(points: &[Vector3<f64>]) -> Option<[Vector3<f64>; 4]> {
+    let (a, b) = (points.first()?, points.last()?);
+    let (p, q) = (points.get(1)?, points.iter().rev().nth(1)?);
+    #[expect(clippy::cast_precision_loss, reason = "at most 25")]
+    let third = (points.len() - 1) as f64 / 3.0;
+    Some(if points.len() == 4 { [*a, *p, *q, *b] } else { [*a, a + (p - a) * third, b + (q - b) * third, *b] })
+}
+
+/// The same Bézier curve by the control points of one degree more.
+#[expect(clippy::cast_precision_loss, reason = "at most 25")]
+fn elevated(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let count = points.len() as f64;
+    let inner = points.iter().zip(points.iter().skip(1)).enumerate();
+    let inner = inner.map(|(i, (before, after))| after + (before - after) * ((i + 1) as f64 / count));
+    points.first().copied().into_iter().chain(inner).chain(points.last().copied()).collect()
+}
+
+/// De Casteljau's halves.
+fn halves(mut row: Vec<Vector3<f64>>) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
+    let (mut first, mut last) = (Vec::with_capacity(row.len()), Vec::with_capacity(row.len()));
+    while let (Some(start), Some(end)) = (row.first(), row.last()) {
+        first.push(*start);
+        last.push(*end);
+        row = row.iter().zip(row.iter().skip(1)).map(|(a, b)| (a + b) * 0.5).collect();
+    }
+    last.reverse();
+    (first, last)
+}
+
+/// The blossom of a span at its high knot so many times and at its low one else: a pole of its Bézier curve (L. Ramshaw, 1987),
+/// by de Boor's algorithm, of poles in any coordinates; `None` where the span has not its poles and knots.
+#[must_use]
+pub fn blossom<const N: usize>(
+    degree: usize,
+    span: usize,
+    knots: &[f64],
+    poles: &[[f64; N]],
+    (low_knot, high_knot, at_high): (f64, f64, usize),
+) -> Option<[f64; N]> {
+    let mut row = [[0.0; N]; HIGHEST_DEGREE + 1];
+    for (place, pole) in row.iter_mut().zip(poles.get(span.checked_sub(degree)?..=span)?) {
+        *place = *pole;
+    }
+    for level in 1..=degree {
+        let t = if level <= at_high { high_knot } else { low_knot };
+        for j in (level..=degree).rev() {
+            let (low, high) = (*knots.get(span - degree + j)?, *knots.get(span + j - level + 1)?);
+            let share = (t - low) / (high - low);
+            let (before, here) = (*row.get(j - 1)?, *row.get(j)?);
+            *row.get_mut(j)? = std::array::from_fn(|k| match (before.get(k), here.get(k)) {
+                (Some(a), Some(b)) => a * (1.0 - share) + b * share,
+                _ => 0.0,
+            });
+        }
+    }
+    row.get(degree).copied()
+}
 
 /// A B-spline surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -224,6 +336,37 @@ mod tests {
     use crate::geometry::solid::SplineSurface;
     use truck_modeling::Point3;
 
+    /// Of degree 1 to 3 the same curve, above that as near as is asked.
+    #[test]
+    fn a_curve_of_any_degree_is_cubics() {
+        for degree in 1..=9_u32 {
+            let count = degree as usize;
+            let place = |i: u32| Vector3::new(f64::from(i), f64::from(i * i % 5), f64::from(i * i * i % 7));
+            let controls = (0..=degree).map(|i| weighted(place(i), 2.0)).collect();
+            let values = [vec![0.0; count + 1], vec![1.0; count + 1]].concat();
+            let curve = Curve { knots: Knots { degree: count, values }, controls };
+            assert!(curve.knots.carry(count + 1));
+            for within in [1e-2, 1e-4, 1e-6] {
+                let cubics = curve.cubics(within).expect("polynomials");
+                assert!(degree > 3 || cubics.len() == 1);
+                let mut worst = 0.0_f64;
+                for [a, b, c, d] in &cubics {
+                    let middle = (a + d) * 0.125 + (b + c) * 0.375;
+                    let away = |t: f64| (curve.at(t).0 - middle).norm();
+                    let nearest = (0..=4000).map(|i| f64::from(i) / 4e3).min_by(|a, b| away(*a).total_cmp(&away(*b)));
+                    let mut t = nearest.expect("many");
+                    for _ in 0..20 {
+                        let (point, slope) = curve.at(t);
+                        t = (t - (point - middle).dot(&slope) / slope.norm_squared()).clamp(0.0, 1.0);
+                    }
+                    worst = worst.max(away(t));
+                }
+                assert!(worst <= within + 1e-13, "{degree} {within}: {worst}");
+                assert!(degree <= 3 || within > 1e-3 || worst > 1e-3 * within, "{degree} {within}: {worst}");
+            }
+        }
+    }
+
     /// Against the bicubic surface of our own solids, and against an exact quarter of a cylinder.
     #[test]
     fn surfaces_are_those_of_the_book() {
@@ -254,6 +397,20 @@ mod tests {
         assert_eq!(low.farthest(&low), 0.0);
         assert!((low.farthest(&high.reversed()) - 0.0).abs() > 1.0);
 
+        for (index, cubic) in low.cubics(0.0).expect("not rational").iter().enumerate() {
+            let (from, to) = [(0.0, 0.4), (0.4, 1.0)][index];
+            for i in 0..=10 {
+                let t = f64::from(i) / 10.0;
+                let u = 1.0 - t;
+                let weights = [u * u * u, 3.0 * u * u * t, 3.0 * u * t * t, t * t * t];
+                let point = cubic.iter().zip(weights).map(|(p, w)| p * w).sum::<Vector3<f64>>();
+                assert!((point - low.at(from + (to - from) * t).0).norm() < 1e-13);
+            }
+        }
+        // Three knots within are a corner, four a gap.
+        assert!(knots(&[0.0, 0.0, 0.0, 0.0, 0.4, 0.4, 0.4, 1.0, 1.0, 1.0, 1.0]).carry(7));
+        assert!(!knots(&[0.0, 0.0, 0.0, 0.0, 0.4, 0.4, 0.4, 0.4, 1.0, 1.0, 1.0, 1.0]).carry(8));
+
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let quarter = Curve {
             knots: Knots { degree: 2, values: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0] },
@@ -265,5 +422,6 @@ mod tests {
             let (point, slope) = quarter.at(f64::from(i) / 10.0);
             assert!((point.norm() - 1.0).abs() < 1e-15 && point.dot(&slope).abs() < 1e-14, "{point} {slope}");
         }
+        assert!(quarter.cubics(1.0).is_none(), "no polynomial");
     }
 }

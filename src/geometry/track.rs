@@ -29,7 +29,12 @@ impl Track {
     /// The outline, counter-clockwise.
     #[must_use]
     pub fn new(contour: &Contour) -> Self {
-        let edges: Vec<Edge> = contour.edges().collect();
+        Self::along(contour.edges().collect())
+    }
+
+    /// A chain that need not close: the nearest of its edges can be asked for, as [`Self::nearest_segment`] tells it.
+    #[must_use]
+    pub fn along(edges: Vec<Edge>) -> Self {
         let boxes: Vec<Aabb> = edges
             .iter()
             .map(|edge| {

@@ -3,7 +3,7 @@
 use super::{Cam, Error, diagnosis, report};
 use crate::geometry::MILLIMETRES;
 use crate::profile::outline::MotionTolerance;
-use crate::reading::step::Loop;
+use crate::reading::step::{Flank, Loop};
 use crate::reading::{self, Chain, step};
 use crate::report::{Report, Section};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
@@ -123,8 +123,9 @@ impl Cam {
     fn check_solid(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
         let tolerance_mm = MILLIMETRES * tolerance;
         let file = step::read(bytes)?;
-        let form = step::form(&file.boundary, shell_reach(tolerance_mm));
         let body = self.body();
+        let flank = if body.spatial().is_some() { Flank::Patches } else { Flank::Upright };
+        let form = step::form(&file.boundary, flank, shell_reach(tolerance_mm));
         let outer = |run: &Loop| match run {
             Loop::Contour(contour) if contour.area_and_centroid().0 > 0.0 => Some(contour.clone()),
             _ => None,

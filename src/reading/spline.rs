@@ -2,6 +2,7 @@
 
 use super::curve::{Bezier, HIGHEST_DEGREE};
 use super::record::{Fault, Record, fault};
+use crate::geometry::nurbs::blossom;
 use nalgebra::{Vector2, Vector3};
 
 /// Bits of the flags (70) of a SPLINE.
@@ -49,34 +50,6 @@ fn by_controls(record: &Record<'_>, points: &[Vector2<f64>]) -> Result<Vec<Bezie
         }
     }
     if curves.is_empty() { fault("has no length") } else { Ok(curves) }
-}
-
-/// The blossom of a span at its high knot so many times and at its low one else: a pole of its Bézier curve (L. Ramshaw, 1987),
-/// by de Boor's algorithm in homogeneous coordinates.
-fn blossom(
-    degree: usize,
-    span: usize,
-    knots: &[f64],
-    poles: &[[f64; 3]],
-    (low_knot, high_knot, at_high): (f64, f64, usize),
-) -> Option<[f64; 3]> {
-    let mut row = [[0.0; 3]; HIGHEST_DEGREE + 1];
-    for (place, pole) in row.iter_mut().zip(poles.get(span - degree..=span)?) {
-        *place = *pole;
-    }
-    for level in 1..=degree {
-        let t = if level <= at_high { high_knot } else { low_knot };
-        for j in (level..=degree).rev() {
-            let (low, high) = (*knots.get(span - degree + j)?, *knots.get(span + j - level + 1)?);
-            let share = (t - low) / (high - low);
-            let (before, here) = (*row.get(j - 1)?, *row.get(j)?);
-            *row.get_mut(j)? = std::array::from_fn(|k| match (before.get(k), here.get(k)) {
-                (Some(a), Some(b)) => a * (1.0 - share) + b * share,
-                _ => 0.0,
-            });
-        }
-    }
-    row.get(degree).copied()
 }
 
 /// The cubic spline through fit points, with continuous second derivative by the length of chord.

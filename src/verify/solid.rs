@@ -126,16 +126,9 @@ fn walls(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Finding {
             told.push(format!("the {name} end has {} outer contours", outer_runs(runs)));
         }
         if splines != usize::from(flank) {
-            let due =
-                if flank { "one, that of the flank" } else { "none: the outline of a plane cam is arcs and lines" };
+            let due = if flank { "one, that of the flank" } else { "none that cannot be read" };
             told.push(format!("the {name} end has {splines} contours of splines; it should have {due}"));
         }
-    }
-    if !flank && !form.patches.is_empty() {
-        told.push(format!(
-            "{} faces are splines; the walls of a plane cam are planes and cylinders",
-            form.patches.len()
-        ));
     }
     if !(form.apart <= 2.0 * shell_reach(evidence.tolerance_mm)) {
         told.push(format!("the contours of the two ends are {:.6} mm apart", form.apart));

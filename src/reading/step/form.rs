@@ -1,11 +1,13 @@
-//! What a boundary amounts to: a shell that closes, two level end faces with their contours, upright walls between them, and
-//! spline patches where the flank is not upright.
+//! What a boundary amounts to: a shell that closes, two level end faces with their contours, and upright walls between them; of a
+//! conoid, a flank of spline patches.
 
+use super::runs::{Loop, apart, arcs, bent, sweep};
+use super::upright::{Level, Upright, WORK, straightened};
 use super::{Boundary, Curve, Edge, Face, Surface};
 use crate::geometry::contour::{Contour, Vertex};
 use crate::geometry::nurbs;
-use crate::geometry::track::Track;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 /// What a face is.
@@ -23,13 +25,13 @@ enum Role {
     Strange,
 }
 
-/// A closed run of edges of an end face, seen from above with the metal on its left.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Loop {
-    /// Of arcs and lines.
-    Contour(Contour),
-    /// Of splines, of which it has so many.
-    Splines(usize),
+/// What spline faces and edges are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flank {
+    /// Upright walls, on cubic curves; anything else is strange.
+    Upright,
+    /// Patches of a flank that is not upright.
+    Patches,
 }
 
 /// What a boundary amounts to.
@@ -62,10 +64,17 @@ const SAME_SIDE: f64 = 0.9;
 
 struct Former<'a> {
     boundary: &'a Boundary,
+    flank: Flank,
     /// Within this, mm, places are one.
     reach: f64,
     /// How far the boundary reaches from the axis and along it, mm.
     size: f64,
+    /// Of each spline edge of an upright flank what it is, or why it is no such edge.
+    levels: Vec<Option<Result<Level, &'static str>>>,
+    /// Of each face that a curve sweeps upwards the surface.
+    uprights: Vec<Option<Upright>>,
+    /// What may yet be spent on edges of upright walls.
+    work: Cell<usize>,
     roles: Vec<Role>,
     /// Who uses each edge: face and sense.
     uses: Vec<Vec<(usize, bool)>>,
@@ -74,11 +83,19 @@ struct Former<'a> {
 
 /// What a boundary amounts to; places within `reach` (mm) are one.
 #[must_use]
-pub fn form(boundary: &Boundary, reach: f64) -> Form {
+pub fn form(boundary: &Boundary, flank: Flank, reach: f64) -> Form {
+    let straight = (flank == Flank::Upright).then(|| straightened(boundary, reach));
+    let boundary = straight.as_ref().unwrap_or(boundary);
     let size = boundary.vertices.iter().map(Vector3::norm).fold(0.0, f64::max);
-    let (roles, uses) = (Vec::new(), vec![Vec::new(); boundary.edges.len()]);
-    let mut former = Former { boundary, reach, size, roles, uses, form: Form::default() };
-    former.roles = boundary.faces.iter().map(|face| former.role(face)).collect();
+    let uses = vec![Vec::new(); boundary.edges.len()];
+    let (levels, uprights, roles, form) = (Vec::new(), Vec::new(), Vec::new(), Form::default());
+    let work = Cell::new(WORK);
+    let mut former = Former { boundary, flank, reach, size, levels, uprights, work, roles, uses, form };
+    if flank == Flank::Upright {
+        former.levels = boundary.edges.iter().map(|edge| former.level(edge)).collect();
+        former.uprights = boundary.faces.iter().map(|face| Upright::of(&face.surface, reach, size)).collect();
+    }
+    former.roles = (0..boundary.faces.len()).map(|index| former.role(index)).collect();
     former.use_edges();
     former.close();
     former.edges_lie_on_their_vertices();
@@ -110,7 +127,23 @@ impl Former<'_> {
         if forward { [start, end] } else { [end, start] }
     }
 
-    fn role(&self, face: &Face) -> Role {
+    fn level(&self, edge: &Edge) -> Option<Result<Level, &'static str>> {
+        let is_spline = matches!(edge.curve, Curve::Spline(_));
+        is_spline.then(|| Level::of(edge, [self.place(edge.start), self.place(edge.end)], self.reach))
+    }
+
+    /// The spline edge of an upright flank, where it is one.
+    fn level_of(&self, edge: usize) -> Option<&Level> {
+        self.levels.get(edge)?.as_ref()?.as_ref().ok()
+    }
+
+    /// The surface of a face that a curve sweeps upwards.
+    fn upright_of(&self, face: usize) -> Option<&Upright> {
+        self.uprights.get(face)?.as_ref()
+    }
+
+    fn role(&self, index: usize) -> Role {
+        let Some(face) = self.boundary.faces.get(index) else { return Role::Strange };
         // A tilt counts by how far it lifts the rim.
         let level = |tilt: f64| tilt * self.size <= self.reach;
         match &face.surface {
@@ -123,7 +156,8 @@ impl Former<'_> {
             }
             Surface::Plane { normal, .. } if level(normal.z.abs()) => Role::Wall,
             Surface::Cylinder { axis, .. } if level(axis.xy().norm()) => Role::Wall,
-            Surface::Spline(_) => Role::Patch,
+            _ if self.upright_of(index).is_some() => Role::Wall,
+            Surface::Spline(_) if self.flank == Flank::Patches => Role::Patch,
             _ => Role::Strange,
         }
     }
@@ -184,7 +218,7 @@ impl Former<'_> {
 
     fn edges_lie_on_their_vertices(&mut self) {
         let mut open = Vec::new();
-        for edge in &self.boundary.edges {
+        for (index, edge) in self.boundary.edges.iter().enumerate() {
             let ends = [self.place(edge.start), self.place(edge.end)];
             let [start, end] = if edge.forward { ends } else { [ends[1], ends[0]] };
             let (off, along) = match &edge.curve {
@@ -199,6 +233,14 @@ impl Former<'_> {
                     });
                     (off[0].max(off[1]), true)
                 }
+                Curve::Spline(_) if self.flank == Flank::Upright => match self.levels.get(index) {
+                    Some(Some(Ok(level))) => (level.off, true),
+                    Some(Some(Err(why))) => {
+                        open.push(format!("the spline edge of line {} is {why}", edge.line));
+                        continue;
+                    }
+                    _ => (f64::INFINITY, true),
+                },
                 Curve::Spline(curve) => {
                     let (first, last) = curve.knots.range();
                     ((curve.at(first).0 - start).norm().max((curve.at(last).0 - end).norm()), true)
@@ -219,10 +261,13 @@ impl Former<'_> {
 
     fn edges_lie_on_their_faces(&mut self) {
         let mut open = Vec::new();
-        for (edge, uses) in self.boundary.edges.iter().zip(&self.uses) {
+        for (number, (edge, uses)) in self.boundary.edges.iter().zip(&self.uses).enumerate() {
             for (index, _) in uses {
                 let Some(face) = self.boundary.faces.get(*index) else { continue };
-                let off = self.off(edge, &face.surface);
+                let off = match self.upright_of(*index) {
+                    Some(upright) => self.off_upright((number, edge), upright),
+                    None => self.off(edge, &face.surface),
+                };
                 if !(off <= self.reach) {
                     open.push(format!(
                         "the edge of line {} leaves the face of line {} by {off:.6} mm",
@@ -232,6 +277,18 @@ impl Former<'_> {
             }
         }
         self.form.open.extend(open);
+    }
+
+    /// How far an edge leaves an upright surface over a spline at most, mm, or a bound for it.
+    fn off_upright(&self, (number, edge): (usize, &Edge), upright: &Upright) -> f64 {
+        let ends = [self.place(edge.start), self.place(edge.end)];
+        match (&edge.curve, self.level_of(number)) {
+            (Curve::Line { .. }, _) => upright.off_line(ends),
+            (_, Some(level)) => upright.off_level(level, ends, self.reach, &self.work),
+            // What a spline is no level edge for, is told elsewhere.
+            (Curve::Spline(_) | Curve::Other(_), None) => 0.0,
+            (Curve::Circle { .. }, None) => f64::INFINITY,
+        }
     }
 
     /// How far an edge leaves a surface at most, mm, or a bound for it.
@@ -258,14 +315,15 @@ impl Former<'_> {
             (Surface::Cylinder { origin, axis, radius }, Curve::Circle { centre, axis: own, radius: of_edge }) => {
                 off_line(*centre, *origin, *axis) + (of_edge - radius).abs() + of_edge * axis.cross(own).norm()
             }
-            (Surface::Spline(patch), Curve::Spline(curve)) => {
+            (Surface::Spline(patch), Curve::Spline(curve)) if self.flank == Flank::Patches => {
                 let along = if edge.forward { curve.clone() } else { curve.reversed() };
                 let sides = patch.boundary().into_iter().flatten();
                 let off = |side: nurbs::Curve| side.farthest(&along).min(side.farthest(&along.reversed()));
                 sides.map(off).fold(f64::INFINITY, f64::min)
             }
+            (Surface::Spline(_), _) if self.flank == Flank::Patches => f64::INFINITY,
             // What a face of no known kind is, is told elsewhere.
-            (Surface::Other(_), _) | (_, Curve::Other(_)) => 0.0,
+            (Surface::Other(_) | Surface::Spline(_) | Surface::Swept { .. }, _) | (_, Curve::Other(_)) => 0.0,
             _ => f64::INFINITY,
         }
     }
@@ -289,6 +347,10 @@ impl Former<'_> {
                     }
                 }
                 (_, Surface::Other(what)) => strange.push(format!("{what} is no face that a cam has")),
+                (_, Surface::Spline(_) | Surface::Swept { .. }) => strange.push(format!(
+                    "the spline face of line {} is not an upright one over a curve without weights",
+                    face.line
+                )),
                 _ => strange.push(format!("the face of line {} is neither level nor upright", face.line)),
             }
         }
@@ -345,6 +407,7 @@ impl Former<'_> {
 
     /// Middle and direction of an edge as it is run, and the normal of a face out of the metal there.
     fn middle(&self, face: usize, run: (usize, bool)) -> Option<(Vector3<f64>, Vector3<f64>, Vector3<f64>)> {
+        let upright = self.upright_of(face);
         let (face, edge) = (self.boundary.faces.get(face)?, self.boundary.edges.get(run.0)?);
         let [start, end] = self.ends(run);
         let (place, tangent) = match &edge.curve {
@@ -357,9 +420,14 @@ impl Former<'_> {
                 let radial = from * libm::cos(half) + axis.cross(&from) * libm::sin(half);
                 (centre + radial.normalize() * *radius, axis.cross(&radial).normalize())
             }
-            _ => return None,
+            _ => {
+                let cubics = self.level_of(run.0)?.run(run.1);
+                let (place, tangent) = cubics.get(cubics.len() / 2)?.at(0.5);
+                (place.push(start.z), tangent.push(0.0))
+            }
         };
         let normal = match &face.surface {
+            _ if upright.is_some() => upright?.normal(place.xy())?,
             Surface::Plane { normal, .. } => *normal,
             Surface::Cylinder { origin, axis, .. } => {
                 let away = place - origin;
@@ -420,7 +488,10 @@ impl Former<'_> {
                     let counter = (edge.forward == used.1) == (axis.z > 0.0);
                     arcs(start, end, centre.xy(), counter, edge.start == edge.end, &mut vertices);
                 }
-                Curve::Spline(_) => splines += 1,
+                Curve::Spline(_) => match self.level_of(used.0) {
+                    Some(level) => vertices.extend(bent(start, &level.run(used.1))),
+                    None => splines += 1,
+                },
                 _ => vertices.push(Vertex::new(start, 0.0)),
             }
         }
@@ -439,7 +510,7 @@ impl Former<'_> {
                 let segments = piece.vertices.iter().zip(ends);
                 let swept = segments.map(|(vertex, end)| {
                     let edge = vertex.to(end);
-                    if edge.start() == edge.end() { 0.0 } else { edge.area_and_moments().0 }
+                    if edge.segment().is_some() && edge.start() == edge.end() { 0.0 } else { edge.area_and_moments().0 }
                 });
                 volume -= 0.5 * (start.z + end.z) * swept.sum::<f64>();
             }
@@ -458,57 +529,4 @@ fn root(parents: &mut [usize], mut at: usize) -> usize {
         at = above;
     }
     at
-}
-
-/// The angle from one direction to another about an axis, in (0, 2π].
-fn sweep(from: Vector3<f64>, to: Vector3<f64>, axis: Vector3<f64>) -> f64 {
-    let angle = libm::atan2(from.cross(&to).dot(&axis), from.dot(&to));
-    if angle > 0.0 { angle } else { angle + std::f64::consts::TAU }
-}
-
-/// An arc as vertices of a contour, in two halves where it is long; the end is the next one's start.
-fn arcs(
-    start: Vector2<f64>,
-    end: Vector2<f64>,
-    centre: Vector2<f64>,
-    counter: bool,
-    whole: bool,
-    to: &mut Vec<Vertex>,
-) {
-    let side = if counter { 1.0 } else { -1.0 };
-    if whole {
-        to.push(Vertex::new(start, side));
-        to.push(Vertex::new(centre * 2.0 - start, side));
-        return;
-    }
-    // The sweep from the centre's distance of the chord, so that a nearly straight arc keeps its digits.
-    let chord = end - start;
-    let away = side * ((start + end) * 0.5 - centre).perp(&chord) / chord.norm();
-    let turn = 2.0 * libm::atan2(0.5 * chord.norm(), away);
-    to.push(Vertex::new(start, side * libm::tan(0.25 * turn)));
-}
-
-/// How far the contours above and below are apart at most, mm; infinite where their counts differ.
-fn apart(under: &[Loop], above: &[Loop]) -> f64 {
-    let contours = |loops: &[Loop]| -> Vec<Contour> {
-        let of = |one: &Loop| match one {
-            Loop::Contour(contour) => Some(contour.clone()),
-            Loop::Splines(_) => None,
-        };
-        loops.iter().filter_map(of).collect()
-    };
-    let (under, above) = (contours(under), contours(above));
-    if under.len() != above.len() {
-        return f64::INFINITY;
-    }
-    let farthest = |from: &[Contour], to: &[Contour]| {
-        let tracks: Vec<Track> = to.iter().map(Track::new).collect();
-        let points = from.iter().flat_map(Contour::edges).flat_map(|edge| [edge.start(), edge.middle()]);
-        let nearest = |point: Vector2<f64>| {
-            let all = tracks.iter().filter_map(|track| track.nearest(point)).map(|nearest| nearest.left.abs());
-            all.fold(f64::INFINITY, f64::min)
-        };
-        points.map(nearest).fold(0.0, f64::max)
-    };
-    farthest(&under, &above).max(farthest(&above, &under))
 }

@@ -6,10 +6,13 @@
 
 mod exchange;
 mod form;
+mod runs;
 mod shape;
+mod upright;
 
 pub use exchange::StepError;
-pub use form::{Form, Loop, form};
+pub use form::{Flank, Form, form};
+pub use runs::Loop;
 
 use super::Unit;
 use crate::geometry::nurbs;
@@ -63,6 +66,13 @@ pub enum Surface {
     },
     /// A B-spline surface; its normal is that of its first by its second parameter.
     Spline(nurbs::Surface),
+    /// What a B-spline sweeps along a unit vector, both ways; its normal is that of the curve by the vector.
+    Swept {
+        /// The curve.
+        curve: nurbs::Curve,
+        /// The unit vector.
+        direction: Vector3<f64>,
+    },
     /// Anything else: its line in the file and what it is called there.
     Other(String),
 }

@@ -4,6 +4,7 @@ use super::exchange::{Exchange, Instance, Value};
 use super::{Curve, Edge, Face, Surface};
 use crate::geometry::nurbs::{self, Knots, weighted};
 use nalgebra::{Vector3, Vector4};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 /// Why an instance is not what it should be, with the line where it stands.
@@ -30,10 +31,14 @@ pub(super) struct Shapes<'a> {
     pub(super) scale: f64,
     vertices: BTreeMap<u64, usize>,
     edges: BTreeMap<u64, usize>,
+    /// Control points that may yet be read.
+    controls: Cell<usize>,
     pub(super) places: Vec<Vector3<f64>>,
     pub(super) run: Vec<Edge>,
 }
 
+/// More control points than these are no cam: a file may refer to one curve as often as it likes.
+const MOST_CONTROLS: usize = 1_000_000;
 /// More knots than these are no cam; a multiplicity must not fill the memory.
 const MOST_KNOTS: usize = 1_000_000;
 
@@ -110,7 +115,8 @@ impl Instance {
 impl<'a> Shapes<'a> {
     pub(super) fn new(exchange: &'a Exchange, scale: f64) -> Self {
         let (vertices, edges) = (BTreeMap::new(), BTreeMap::new());
-        Self { exchange, scale, vertices, edges, places: Vec::new(), run: Vec::new() }
+        let controls = Cell::new(MOST_CONTROLS);
+        Self { exchange, scale, vertices, edges, controls, places: Vec::new(), run: Vec::new() }
     }
 
     pub(super) fn instance(&self, number: u64) -> Result<&'a Instance, Fault> {
@@ -186,6 +192,18 @@ impl<'a> Shapes<'a> {
         if instance.parts.iter().any(|(keyword, _)| keyword.starts_with("B_SPLINE_SURFACE")) {
             return self.spline_surface(instance).map(Surface::Spline);
         }
+        if let Some(values) = instance.part("SURFACE_OF_LINEAR_EXTRUSION") {
+            let (curve, vector) = (self.curve(referred(instance, values, 1)?, 0)?, referred(instance, values, 2)?);
+            let (of, values) = self.of(vector, "VECTOR")?;
+            let along = self.direction(referred(of, values, 1)?)?;
+            match curve {
+                Curve::Spline(curve) => return Ok(Surface::Swept { curve, direction: along }),
+                Curve::Line { origin, direction } if direction.cross(&along).norm() > 0.0 => {
+                    return Ok(Surface::Plane { origin, normal: direction.cross(&along).normalize() });
+                }
+                _ => {}
+            }
+        }
         Ok(Surface::Other(format!("line {}: {}", instance.line, instance.kind())))
     }
 
@@ -231,6 +249,8 @@ impl<'a> Shapes<'a> {
         let degrees: Option<Vec<usize>> = own.iter().take(count).map(|value| number(value).and_then(whole)).collect();
         let row = |value: &Value| -> Result<Vec<Vector3<f64>>, Fault> {
             let single = references(Some(value)).ok_or_else(bad)?;
+            let left = self.controls.get().checked_sub(single.len());
+            self.controls.set(left.ok_or_else(|| instance.fault("is one too many: the solid is no cam"))?);
             single.iter().map(|number| self.point(*number)).collect()
         };
         let points = own.get(count).ok_or_else(bad)?;
