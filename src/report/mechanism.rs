@@ -62,8 +62,10 @@ pub struct Rigid {
 }
 
 /// What a part can be.
-pub const ROLES: [&str; 12] =
-    ["cam", "mark", "roller", "follower", "normal", "ground", "air", "cylinder", "bottom", "bed", "crank", "ghost"];
+pub const ROLES: [&str; 13] = [
+    "cam", "mark", "arrow", "roller", "follower", "normal", "ground", "air", "cylinder", "bottom", "bed", "crank",
+    "ghost",
+];
 
 /// A coordinate over the samples.
 #[derive(Debug, Clone, PartialEq)]

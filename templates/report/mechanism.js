@@ -30,7 +30,7 @@ function mechanism(cam, index) {
     svg.append(...names);
     const words = [letter(index) && `${letter(index)}: ${cam.title}.`, ...cam.pictureNotes].filter(Boolean);
     caption.textContent = words.join(" ");
-    scale();
+    requestAnimationFrame(scale);
   }
 
   /** Text keeps its size on the screen whatever the size of the machine. */
@@ -39,6 +39,20 @@ function mechanism(cam, index) {
     const box = svg.getBoundingClientRect();
     const pixel = box.width > 0 ? Math.max(width / box.width, height / box.height) : width / 1000;
     svg.style.setProperty("--scale", pixel);
+    draw();
+  }
+
+  /** Of names that would lie over each other the first stays. */
+  function unravel() {
+    const kept = [];
+    for (const { name } of moving) {
+      if (!name) continue;
+      const own = name.getBBox();
+      const over = (other) => own.x < other.x + other.width && other.x < own.x + own.width && own.y < other.y + other.height && other.y < own.y + own.height;
+      const hidden = kept.some(over);
+      name.style.visibility = hidden ? "hidden" : "";
+      if (!hidden) kept.push(own);
+    }
   }
 
   function draw() {
@@ -53,8 +67,10 @@ function mechanism(cam, index) {
         name.setAttribute("x", x + part.name[1]);
         name.setAttribute("y", y + part.name[2]);
       }
+      // Pale at ambient pressure, deep at the largest.
       if (range) group.style.fillOpacity = 0.1 + 0.75 * ((of(part.pressure) - range[0]) / (range[1] - range[0] || 1));
     }
+    if (!state.playing) unravel();
   }
 
   new ResizeObserver(() => shownView && scale()).observe(svg);
@@ -92,7 +108,11 @@ function readout(cam, index) {
   function draw() {
     const view = viewOf(cam);
     if (view !== shownView) build(view);
-    const sample = locate(view.columns[view.place], placeOf(view));
+    const places = view.columns[view.place];
+    const place = placeOf(view);
+    // A plate has a run-in before the first row of its table.
+    const told = place >= places[0] - 1e-9;
+    const sample = locate(places, place);
     for (const { name, value, unit } of entries) {
       if (name === null) {
         value.textContent = steady(pressureOf(view));
@@ -100,7 +120,7 @@ function readout(cam, index) {
       }
       const [, kind, order] = view.kinds[name];
       const [factor, words] = inRates(view, kind, order);
-      const at = between(view.columns[name], sample);
+      const at = name === view.place ? place : told ? between(view.columns[name], sample) : null;
       value.textContent = steady(at === null ? null : at * factor);
       unit.textContent = words;
     }

@@ -92,7 +92,7 @@ function sectionsBeside([a, b]) {
 const MOST_COLUMNS = 13;
 function rowsOf(cam, index) {
   const view = viewOf(cam);
-  const skipped = /^(position|profile_|contact_|z_mm|rpm|psi|.*_cut_|air|lift_per|axial|principal|inertia)/;
+  const skipped = /^(position|pitch_x|pitch_y|profile_|contact_|z_mm|rpm|psi|.*_cut_|air|lift_per|axial|principal|inertia)/;
   const names = Object.keys(view.columns).filter((name) => !skipped.test(name)).slice(0, MOST_COLUMNS);
   const last = view.columns[view.place].length - 1;
   const step = Math.max(1, Math.round(last / 36));
@@ -183,13 +183,17 @@ function drawPlots(width, height = 210) {
   const area = byId("plots");
   area.replaceChildren();
   plots = [];
-  for (const panel of panelsOf()) {
-    const box = make("div", { className: "plot" });
-    area.append(box);
-    const made = plotOf(panel, width ?? Math.max(260, box.clientWidth), height);
+  // All places first: their width depends on how many there are.
+  const boxes = panelsOf().map((panel) => [panel, make("div", { className: "plot" })]);
+  area.append(...boxes.map(([, box]) => box));
+  const widths = boxes.map(([, box]) => width ?? Math.max(260, box.clientWidth));
+  boxes.forEach(([panel, box], index) => {
+    const made = plotOf(panel, widths[index], height);
     box.replaceWith(made.box);
     plots.push(made);
-  }
+  });
+  // Their scales are known once they are drawn, which uPlot does after this.
+  setTimeout(() => show(), 0);
 }
 
 let pointing = false;
@@ -295,7 +299,6 @@ function redraw() {
   drawPlots();
   for (const solid of solids) solid.draw();
   byId("rows").replaceChildren(byId("rows").firstElementChild, ...cams.map(rowsOf));
-  show();
 }
 
 function chooseTheme(dark) {
@@ -308,6 +311,9 @@ function start() {
   const beside = cams.length > 1;
   byId("verdict").append(...cams.map(banner), beside ? checksBeside(cams) : checksOf(cams[0]));
   byId("mechanisms").className = beside ? "two" : "";
+  // A picture that is not wide leaves room for the values.
+  const [, , wide, high] = first().box;
+  byId("moving").classList.toggle("tall", !beside && wide < 1.6 * high);
   byId("mechanisms").append(...movers.map((mover) => mover.figure));
   byId("readouts").append(...readouts.map((one) => one.box));
   const inputs = cams.map((cam) => cam.inputs).filter(Boolean);
@@ -366,15 +372,14 @@ function start() {
     window.addEventListener("beforeprint", () => {
       play(false);
       document.documentElement.dataset.printing = "";
-      drawPlots(330, 165);
+      drawPlots(330, 122);
       for (const solid of solids) solid.draw();
-      show();
     });
     window.addEventListener("afterprint", () => {
       delete document.documentElement.dataset.printing;
       redraw();
     });
-    document.documentElement.dataset.ready = "";
+    setTimeout(() => (document.documentElement.dataset.ready = ""), 0);
   }, 0));
 }
 

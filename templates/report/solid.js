@@ -91,22 +91,17 @@ function solidView(cam, index) {
     context.fill("evenodd");
     context.stroke();
     sections.forEach(([, z], at) => {
-      // Only the side that faces the eye.
       const ring = ringAt(z);
+      const [band] = locate(rings.map((one) => one.z), z);
       context.beginPath();
-      let down = false;
-      for (let i = 0; i <= count; i += 1) {
-        const k = i % count;
-        const [x, y] = [ring[2 * k], ring[2 * k + 1]];
-        const [, , depth] = seen(x, y, middle);
-        if (depth > 0) {
-          down = false;
-          continue;
-        }
-        const p = seen(x, y, z);
-        if (down) context.lineTo(p[0], p[1]);
-        else context.moveTo(p[0], p[1]);
-        down = true;
+      for (let i = 0; i < count; i += 1) {
+        // Only where the surface faces the eye.
+        const j = (i + 1) % count;
+        const [a, b, c, d] = [points[band][i], points[band][j], points[band + 1][j], points[band + 1][i]];
+        if ((c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]) > 0) continue;
+        const [p, q] = [seen(ring[2 * i], ring[2 * i + 1], z), seen(ring[2 * j], ring[2 * j + 1], z)];
+        context.moveTo(p[0], p[1]);
+        context.lineTo(q[0], q[1]);
       }
       context.lineWidth = at === state.section ? 3 : 1;
       context.strokeStyle = colour("ink");

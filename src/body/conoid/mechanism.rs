@@ -31,7 +31,10 @@ pub(super) fn of(conoid: &Conoid, drawn: &Drawn, samples: u32) -> Mechanism {
     let shown: Vec<(&(f64, f64, &Reversal), &Part)> = cuts.iter().zip(&drawn.parts).collect();
     let views = parallel::map(&shown, |(cut, part)| view(conoid, **cut, part, samples));
     let mut notes = of_press();
-    notes.push("The roller is a sphere; it is shown in the plane of its centre, where it may stand a little off the section.".into());
+    notes.push(
+        "The roller is a sphere; it is shown in the plane of its centre, where it may stand a little off the section."
+            .into(),
+    );
     Mechanism { views, notes, solid: Some(solid(conoid)) }
 }
 
@@ -76,8 +79,11 @@ fn axial(conoid: &Conoid, (rpm, z): (f64, f64), cover: &mut Cover) -> Vec<Rigid>
     let words = format!("along the axis: {} rpm at z = {} mm", rounded(rpm), rounded(MILLIMETRES * z));
     vec![
         Rigid::new("ghost", shapes),
-        Rigid::new("mark", vec![rectangle((along(z) - 0.08 * radius, along(z) + 0.08 * radius), (bottom, top + 0.5 * radius))])
-            .named(words, 0.0, bottom),
+        Rigid::new(
+            "bottom",
+            vec![rectangle((along(z) - 0.08 * radius, along(z) + 0.08 * radius), (bottom, top + 0.5 * radius))],
+        )
+        .named(words, 0.0, bottom),
     ]
 }
 

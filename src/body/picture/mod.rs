@@ -31,6 +31,8 @@ pub(super) const OF_A_PRESS: &[&str] = &[
 
 /// Share of the prime radius and of the roller by which stems and guides reach beyond what moves.
 const MARGIN: f64 = 0.12;
+/// Sweep of the arrow of rotation, degrees.
+const SWEEP: f64 = 70.0;
 /// Half the thickness of a stem or arm over the roller's radius.
 const STEM: f64 = 0.22;
 
@@ -125,7 +127,7 @@ impl Scene<'_> {
     pub(super) fn view(&self, more: impl FnOnce(&mut Vec<Rigid>, &mut Cover)) -> View {
         let (mut parts, mut cover) = (Vec::new(), Cover::nothing());
         let radius = self.largest_radius();
-        cover.add((-radius, radius), (-radius, radius));
+        cover.add((-radius, radius), (-1.2 * radius, radius));
         more(&mut parts, &mut cover);
         parts.extend(self.follower(&mut cover));
         parts.extend(self.cam());
@@ -153,18 +155,34 @@ impl Scene<'_> {
     fn cam(&self) -> Vec<Rigid> {
         let outline = Shape::Entity(Entity::Polyline(self.part.outline.contour.clone()));
         let shapes = std::iter::once(outline).chain(self.part.holes().into_iter().map(Shape::Entity)).collect();
-        let turn: Vec<f64> =
-            self.places.iter().map(|placed| self.path_deg() - self.sense() * placed.cam_deg).collect();
+        let turn: Vec<f64> = self.places.iter().map(|placed| self.path_deg() - self.sense() * placed.cam_deg).collect();
         let bore = MILLIMETRES * self.machine.cam.bore_radius.unwrap_or(0.0);
         let edge = self.places.first().map_or(0.0, |placed| placed.curve.norm() - self.element.offset());
         // θ = 0 is the +X axis of the drawing.
         let mark = vec![line((bore, 0.0), (MILLIMETRES * edge, 0.0))];
         let cross = 0.15 * (MILLIMETRES * edge).max(bore);
         let axis = vec![line((-cross, 0.0), (cross, 0.0)), line((0.0, -cross), (0.0, cross))];
+        let arrow = self.arrow(bore + 0.4 * (MILLIMETRES * edge - bore).max(0.0));
         vec![
             Rigid::new("cam", shapes).turned(turn.clone()),
+            Rigid::new("arrow", arrow),
             Rigid::new("mark", mark).turned(turn),
-            Rigid::new("ground", axis),
+            Rigid::new("ground", axis).named("cam", 0.0, -1.04 * self.largest_radius()),
+        ]
+    }
+
+    /// How the cam turns: an arc about the shaft with a head.
+    fn arrow(&self, radius: f64) -> Vec<Shape> {
+        let on = |degrees: f64, radius: f64| {
+            let angle = degrees.to_radians();
+            Vector2::new(radius * libm::cos(angle), radius * libm::sin(angle))
+        };
+        let (sweep, head) = (-self.sense() * SWEEP, 0.16 * radius);
+        let (start, end) = (270.0 - 0.5 * sweep, 270.0 + 0.5 * sweep);
+        let back = end - sweep.signum() * (1.6 * head / radius).to_degrees();
+        vec![
+            Shape::Arc(on(start, radius), on(end, radius), libm::tan(0.25 * sweep.to_radians())),
+            Shape::Path(vec![on(back, radius - head), on(end, radius), on(back, radius + head)]),
         ]
     }
 
@@ -186,7 +204,7 @@ impl Scene<'_> {
                 let roller = vec![circle(0.0, 0.0, radius), circle(0.0, 0.0, 0.12 * radius)];
                 let lines = vec![line((-radius, 0.0), (1.9 * radius, 0.0))];
                 vec![
-                    Rigid::new("roller", roller).at(x.clone(), y.clone()),
+                    Rigid::new("roller", roller).at(x.clone(), y.clone()).named("roller", 0.0, -1.15 * radius),
                     Rigid::new("normal", lines).at(x, y).turned(normal),
                 ]
             }
@@ -229,10 +247,7 @@ impl Scene<'_> {
         });
         let top = start + 3.0 * radius + high - low;
         cover.add((offset - radius, offset + radius), (low, top));
-        vec![
-            Rigid::new("ground", guides.to_vec()),
-            Rigid::new("follower", stem).at(x, y).turned(self.path_deg()),
-        ]
+        vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", stem).at(x, y).turned(self.path_deg())]
     }
 
     /// A flat face with its stem.
@@ -250,10 +265,7 @@ impl Scene<'_> {
             rectangle((side * 1.3 * thick, side * 4.0 * thick), (start + thick, start + thick + 0.2 * low))
         });
         cover.add((-half, half), (low, start + 0.4 * low + high - low));
-        vec![
-            Rigid::new("ground", guides.to_vec()),
-            Rigid::new("follower", shapes).at(x, y).turned(self.path_deg()),
-        ]
+        vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", shapes).at(x, y).turned(self.path_deg())]
     }
 
     /// An arm from a pivot to the roller, mm.

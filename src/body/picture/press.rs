@@ -105,8 +105,8 @@ pub(in crate::body) fn buffer(
         let (inner, outer) = (place.y + side * half, place.y + side * (half + wall));
         rectangle((nearest - thick, end), (inner, outer))
     });
-    cover.add((nearest - thick, end), (place.y - half - 2.5 * wall, place.y + half + 2.5 * wall));
-    let below = place.y - half - 0.5 * wall;
+    cover.add((nearest - thick, end), (place.y - half - 5.0 * wall, place.y + half + 2.5 * wall));
+    let below = place.y - half - 1.6 * wall;
     let y = Track::Still(place.y);
     let air = Rigid {
         stretch: lengths.into(),
@@ -181,8 +181,7 @@ fn lever(
     let longer = 1.5 * low.max(travel).max(travel / driven.lever);
     let (to_roller, to_bottom) = (longer * driven.lever.min(1.0), longer * (1.0 / driven.lever).min(1.0));
     let (x, pivot_y, bottom_y) = (middle + clear, line_y + to_roller, line_y + to_roller - to_bottom);
-    let turns: Vec<f64> =
-        driven.rollers.iter().map(|p| libm::atan2(p.x - middle, to_roller).to_degrees()).collect();
+    let turns: Vec<f64> = driven.rollers.iter().map(|p| libm::atan2(p.x - middle, to_roller).to_degrees()).collect();
     let half = 0.22 * driven.radius;
     let rollers: Vec<f64> = driven.rollers.iter().map(|p| p.x).collect();
     let (least, most) = range(bottoms.iter().copied());
@@ -208,7 +207,7 @@ fn crank(of: &Buffer, stands: &[Stand], place: Vector2<f64>, width: f64, cover: 
     let turn: Vec<f64> = stands.iter().map(|stand| 90.0 + stand.crank.to_degrees()).collect();
     cover.add((x, x + of.stroke + pin), (place.y - of.stroke - pin, place.y + of.stroke + pin));
     let arm = vec![
-        rectangle((0.0, of.stroke), (-0.45 * pin, 0.45 * pin)),
+        rectangle((pin, of.stroke - pin), (-0.45 * pin, 0.45 * pin)),
         circle(of.stroke, 0.0, pin),
         circle(0.0, 0.0, pin),
     ];

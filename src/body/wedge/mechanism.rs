@@ -56,7 +56,8 @@ pub(super) fn of(plate: &Wedge, drawn: &Drawn, samples: u32) -> Mechanism {
         parts,
     };
     let notes = vec![
-        "Plate, rollers, bell crank, bottom, air column and overrun are to one scale; rods and bed are a scheme.".into(),
+        "Plate, rollers, bell crank, bottom, air column and overrun are to one scale; rods and bed are a scheme."
+            .into(),
         "The cylinder of the lower roller's bell crank is shown; the other one is its mirror image.".into(),
     ];
     Mechanism { views: vec![view], notes, solid: None }
@@ -98,8 +99,8 @@ fn parts(plate: &Wedge, samples: &[At], outline: Shape, cover: &mut Cover) -> Ve
     let xs: Vec<f64> = samples.iter().map(|at| -at.x).collect();
     let body = place.x + of.column() + of.rod();
     let bed = vec![
-        rectangle((plate_end - 0.2 * radius, body + width), (-0.4 * half_height, 0.4 * half_height)),
-        rectangle((body, body + width), (-0.4 * half_height, axis_y)),
+        rectangle((plate_end - 0.2 * radius, body), (-0.4 * half_height, 0.4 * half_height)),
+        rectangle((body, body + width), (-0.4 * half_height, axis_y - 0.5 * of.bore())),
     ];
     parts.push(Rigid::new("bed", bed).at(xs.clone(), 0.0));
     parts.push(Rigid::new("cam", vec![outline]).at(xs, 0.0).named("plate", 0.5 * plate_end, 0.0));
@@ -108,7 +109,7 @@ fn parts(plate: &Wedge, samples: &[At], outline: Shape, cover: &mut Cover) -> Ve
     parts.extend(rod(samples, pivot.y + l2, place, (&of, radius), pivot.x));
     let rollers = range(samples.iter().map(|at| at.roller.y));
     cover.add((pivot.x - radius, body + width), (rollers.0 - radius, -rollers.0 + radius));
-    cover.add((pivot.x - radius, pivot.x + radius), (pivot.y - radius, (pivot.y + l2).max(-pivot.y + radius)));
+    cover.add((pivot.x - radius, pivot.x + radius), (pivot.y - 1.5 * radius, (pivot.y + l2).max(-pivot.y + radius)));
     parts
 }
 
@@ -135,18 +136,17 @@ fn bell_cranks(samples: &[At], (pivot, l1, l2, delta): Crank, radius: f64) -> Ve
         let end = Vector2::new(l1 * libm::sin(delta), side * l1 * libm::cos(delta));
         let across = Vector2::new(-end.y, end.x).normalize() * half;
         let arm = [across, end + across, end - across, -across, across];
-        vec![
-            Shape::Path(arm.to_vec()),
-            rectangle((-half, half), (0.0, side * l2)),
-            circle(0.0, 0.0, 1.6 * half),
-            circle(0.0, side * l2, 1.2 * half),
-        ]
+        let mut shapes = vec![Shape::Path(arm.to_vec()), circle(0.0, 0.0, 1.6 * half)];
+        if side > 0.0 {
+            shapes.extend([rectangle((-half, half), (1.6 * half, l2 - 1.2 * half)), circle(0.0, l2, 1.2 * half)]);
+        }
+        shapes
     };
     let turns: Vec<f64> = samples.iter().map(|at| -at.psi_deg).collect();
     let mirrored: Vec<f64> = samples.iter().map(|at| at.psi_deg).collect();
     vec![
         Rigid::new("ghost", shape(-1.0)).at(pivot.x, -pivot.y).turned(mirrored),
-        Rigid::new("follower", shape(1.0)).at(pivot.x, pivot.y).turned(turns).named("bell crank", 0.0, -2.0 * half),
+        Rigid::new("follower", shape(1.0)).at(pivot.x, pivot.y).turned(turns).named("bell crank", 0.0, -2.6 * half),
     ]
 }
 

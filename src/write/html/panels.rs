@@ -94,17 +94,24 @@ const PANELS: &[Panel] = &[
 
 /// Columns that are places or coordinates, or that say the same as another.
 const NOT_DRAWN: &[&str] = &[
-    "z", "cam", "crank", "position", "pitch_x", "pitch_y", "profile_x", "profile_y", "contact_x", "contact_y", "contact_z",
+    "z",
+    "cam",
+    "crank",
+    "position",
+    "pitch_x",
+    "pitch_y",
+    "profile_x",
+    "profile_y",
+    "contact_x",
+    "contact_y",
+    "contact_z",
     "",
 ];
 
 /// The diagrams of the columns that a cam has, `place` the column along which they are drawn, under a roller of this radius.
 pub(super) fn of(columns: &[&'static str], place: &str, checks: &[Finding], roller_mm: Option<f64>) -> Vec<Value> {
-    let drawn: Vec<&'static str> = columns
-        .iter()
-        .copied()
-        .filter(|name| *name != place && !NOT_DRAWN.contains(&named(name).stem))
-        .collect();
+    let drawn: Vec<&'static str> =
+        columns.iter().copied().filter(|name| *name != place && !NOT_DRAWN.contains(&named(name).stem)).collect();
     let of_panel = |panel: &Panel| {
         let series: Vec<Value> = panel
             .columns
@@ -125,15 +132,15 @@ pub(super) fn of(columns: &[&'static str], place: &str, checks: &[Finding], roll
         }))
     };
     let mut panels: Vec<Value> = PANELS.iter().filter_map(of_panel).collect();
-    let in_panel = |name: &&&str| PANELS.iter().any(|panel| panel.columns.iter().any(|(stem, _)| named(name).stem == *stem));
+    let in_panel =
+        |name: &&&str| PANELS.iter().any(|panel| panel.columns.iter().any(|(stem, _)| named(name).stem == *stem));
     let others: Vec<&'static str> = drawn.iter().filter(|name| !in_panel(name)).copied().collect();
     let mut units: Vec<(&str, u8)> = others.iter().map(|name| (named(name).unit, named(name).order)).collect();
     units.sort_unstable();
     units.dedup();
     for (unit, order) in units {
         let same = others.iter().filter(|name| (named(name).unit, named(name).order) == (unit, order));
-        let series: Vec<Value> =
-            same.map(|name| json!({"column": name, "label": super::units::words(name)})).collect();
+        let series: Vec<Value> = same.map(|name| json!({"column": name, "label": super::units::words(name)})).collect();
         let title = if unit.is_empty() { "Other".to_owned() } else { format!("Other, {unit}") };
         panels.push(json!({
             "id": format!("other-{unit}"), "title": title, "order": order, "curvature": false, "unit": unit,
