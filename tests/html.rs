@@ -11,7 +11,7 @@ use camgen::motion::equation_18::{ExactOn, Solver};
 use camgen::pipeline::{Cam, Spec, Writing};
 use camgen::report::mechanism::ROLES;
 use camgen::table::Table;
-use program::{camgen_in, files, report};
+use program::{camgen, camgen_in, files, report};
 use serde_json::Value;
 use std::fs;
 
@@ -254,6 +254,6 @@ fn a_failed_cam_beside_another_is_shown() {
     assert_eq!(run.code, 1, "{}", run.err);
     let page = fs::read_to_string(run.directory.path().join("output/both.html")).expect("a page");
     assert!(data(&page).iter().all(|cam| cam["passed"] == false));
-    let run = camgen_in(tempfile::tempdir().expect("a directory"), &["side-by-side", "dpi", "nowhere.toml"]);
+    let run = camgen(&["side-by-side", "dpi", "nowhere.toml"]);
     assert_eq!(run.code, 2, "{}", run.err);
 }

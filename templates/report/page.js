@@ -158,7 +158,8 @@ function plotOf(panel, width, height) {
   const axis = { stroke: colour("ink"), grid: { stroke: colour("faint"), width: 1 }, ticks: { stroke: colour("line"), width: 1 }, font: "12px system-ui, sans-serif" };
   const options = {
     width, height, series: [{ label: turning ? "θ" : "x", value: (_, value) => (value === null ? "–" : `${steady(value)} ${turning ? "°" : "mm"}`) }, ...series],
-    scales: { x: { time: false } },
+    // What is nothing but rounding is drawn as nothing.
+    scales: { x: { time: false }, y: { range: (_, low, high) => (low === null || high - low < 1e-9 && Math.abs(high) < 1e-9 ? [-1, 1] : uPlot.rangeNum(low, high, 0.1, true)) } },
     axes: [{ ...axis, ...(turning ? { incrs: [5, 10, 15, 30, 45, 60, 90, 120, 180], space: 42 } : {}), size: 30 },
       { ...axis, size: 62, values: (_, splits) => splits.map((value) => (value === null ? "" : shown(value, 6))) }],
     cursor: { y: false, drag: { x: true, y: false }, points: { size: 7 } },

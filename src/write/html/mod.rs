@@ -19,7 +19,7 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".html".into()],
-    write: |cam| Ok(vec![page(&cam.report.title(), vec![data::of(cam)])?]),
+    write: |cam| Ok(vec![page(&cam.report.title(), &[data::of(cam)])?]),
 };
 
 const PAGE: &str = include_str!("../../../templates/report.html");
@@ -40,11 +40,11 @@ const CHARTS_LICENCE: &str = include_str!("../../../templates/vendor/uplot/LICEN
 /// Only what `serde_json` cannot write, which a report is not.
 pub fn side_by_side(first: &Rendering<'_>, second: &Rendering<'_>) -> Result<Vec<u8>, FormatError> {
     let title = format!("{} | {}", first.report.title(), second.report.title());
-    page(&title, vec![data::of(first), data::of(second)])
+    page(&title, &[data::of(first), data::of(second)])
 }
 
 /// Fills the template: each placeholder stands once, and what is put in is not searched again.
-fn page(title: &str, cams: Vec<Value>) -> Result<Vec<u8>, FormatError> {
+fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, FormatError> {
     let data = serde_json::to_string(&json!({"schema": 1, "cams": cams}))?;
     let scripts = SCRIPTS.concat();
     let lookup = |name: &str| match name {

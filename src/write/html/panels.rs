@@ -24,7 +24,7 @@ enum As {
 struct Panel {
     id: &'static str,
     title: &'static str,
-    columns: &'static [(&'static str, &'static str)],
+    stems: &'static [(&'static str, &'static str)],
     limits: &'static [(&'static str, As)],
     shown: As,
 }
@@ -32,11 +32,11 @@ struct Panel {
 const fn panel(
     id: &'static str,
     title: &'static str,
-    columns: &'static [(&'static str, &'static str)],
+    stems: &'static [(&'static str, &'static str)],
     limits: &'static [(&'static str, As)],
     shown: As,
 ) -> Panel {
-    Panel { id, title, columns, limits, shown }
+    Panel { id, title, stems, limits, shown }
 }
 
 const CUT: &str = "as cut";
@@ -114,14 +114,14 @@ pub(super) fn of(columns: &[&'static str], place: &str, checks: &[Finding], roll
         columns.iter().copied().filter(|name| *name != place && !NOT_DRAWN.contains(&named(name).stem)).collect();
     let of_panel = |panel: &Panel| {
         let series: Vec<Value> = panel
-            .columns
+            .stems
             .iter()
             .filter_map(|(stem, label)| {
                 let name = drawn.iter().find(|name| named(name).stem == *stem)?;
                 Some(json!({"column": name, "label": label}))
             })
             .collect();
-        let first = panel.columns.iter().find_map(|(stem, _)| drawn.iter().find(|name| named(name).stem == *stem))?;
+        let first = panel.stems.iter().find_map(|(stem, _)| drawn.iter().find(|name| named(name).stem == *stem))?;
         let (unit, order) = (named(first).unit, named(first).order);
         let curvature = panel.shown == As::Curvature;
         let limits: Vec<Value> = panel.limits.iter().flat_map(|limit| limits(limit, checks, roller_mm)).collect();
@@ -133,7 +133,7 @@ pub(super) fn of(columns: &[&'static str], place: &str, checks: &[Finding], roll
     };
     let mut panels: Vec<Value> = PANELS.iter().filter_map(of_panel).collect();
     let in_panel =
-        |name: &&&str| PANELS.iter().any(|panel| panel.columns.iter().any(|(stem, _)| named(name).stem == *stem));
+        |name: &&&str| PANELS.iter().any(|panel| panel.stems.iter().any(|(stem, _)| named(name).stem == *stem));
     let others: Vec<&'static str> = drawn.iter().filter(|name| !in_panel(name)).copied().collect();
     let mut units: Vec<(&str, u8)> = others.iter().map(|name| (named(name).unit, named(name).order)).collect();
     units.sort_unstable();
