@@ -26,7 +26,7 @@ function banner(cam, index) {
   const box = make("div", { className: "banner" }, badge(verdict, cam.passed ? (warns ? "PASS, with warnings" : "PASS") : "FAIL"),
     make("p", {}, `${name}${cam.checks.length} checks: ${summary}`));
   const broken = cam.checks.filter((check) => check.verdict === "fail").map((check) => words(check.check)).join(", ");
-  const stamp = cam.passed ? null : make("p", { className: "broken", role: "alert" }, `This cam breaks a limit: ${broken}. It was written only because that was asked for.`);
+  const stamp = cam.passed ? null : make("p", { className: "broken", role: "alert" }, `This cam breaks a limit: ${broken}.`);
   return make("div", {}, box, stamp);
 }
 

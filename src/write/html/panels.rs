@@ -161,7 +161,10 @@ fn limits((check, shown): &(&'static str, As), checks: &[Finding], roller_mm: Op
         As::Hollow => vec![-1.0 / limit],
         As::Roller => roller_mm.iter().map(|radius| 1.0 / radius).collect(),
     };
-    let label = format!("limit of {}", check.replace('_', " "));
+    let label = match shown {
+        As::Roller => "curvature of the roller".to_owned(),
+        _ => format!("limit of {}", check.replace('_', " ")),
+    };
     values.into_iter().filter(|value| value.is_finite()).map(|value| json!({"label": label, "value": value})).collect()
 }
 
