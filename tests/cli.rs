@@ -74,7 +74,8 @@ fn the_table_has_the_columns_and_the_golden_rows() {
         "cam_deg,crank_deg,x_mm,dx_mm,lift_mm,velocity_mm_per_rad,acceleration_mm_per_rad2,jerk_mm_per_rad3,\
          pitch_x_mm,pitch_y_mm,profile_x_mm,profile_y_mm,pressure_angle_deg,pitch_curvature_radius_mm,\
          profile_curvature_radius_mm,roller_force_n,torque_nm,contact_force_n,\
-         velocity_cut_mm_per_rad,acceleration_cut_mm_per_rad2"
+         velocity_cut_mm_per_rad,acceleration_cut_mm_per_rad2,\
+         inertia_n,air_n,air_fixed_bottom_n,residual_n,residual_cut_n"
     );
     let rows: Vec<Vec<f64>> =
         lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();

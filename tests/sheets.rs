@@ -85,7 +85,10 @@ fn faults(sheet: &Sheet) -> Vec<String> {
             found.push("an empty text".into());
         }
         let inside = |least: Vector2<f64>, largest: Vector2<f64>| {
-            field.least.x >= least.x && field.least.y >= least.y && field.largest.x <= largest.x && field.largest.y <= largest.y
+            field.least.x >= least.x
+                && field.least.y >= least.y
+                && field.largest.x <= largest.x
+                && field.largest.y <= largest.y
         };
         if !inside(sheet.extents.least, sheet.extents.largest) {
             found.push(format!("`{text}` is cut off"));

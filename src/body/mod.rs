@@ -8,6 +8,7 @@ pub mod balancing;
 pub mod conoid;
 pub mod disc;
 mod part;
+mod picture;
 pub mod points;
 mod sheet;
 mod stress;
@@ -27,6 +28,7 @@ use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
 use crate::profile::{Curves, Worst, boundary, envelope, extremes, followed};
+use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{Place, Rolled, Section, Speeds};
 use crate::table::Row;
@@ -436,6 +438,12 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// What it and its parts contribute to the report.
     fn sections(&self, found: &Found<'_>) -> Vec<Section>;
+
+    /// How its mechanism moves, at so many steps of a turn or of a stroke, with the outlines of a drawing.
+    fn mechanism(&self, drawn: &Drawn, samples: u32) -> Mechanism;
+
+    /// What is not modelled of it, and why, a sentence each.
+    fn not_modelled(&self) -> Vec<&'static str>;
 
     /// What its review sheet shows.
     ///

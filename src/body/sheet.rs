@@ -18,12 +18,7 @@ const AXIS_BEYOND: f64 = 0.04;
 const SENSE_DEG: f64 = 24.0;
 
 /// A roller with its path and the normal of the cam, mm.
-pub(super) fn roller(
-    centre: Vector2<f64>,
-    drive: Vector2<f64>,
-    outward: Vector2<f64>,
-    radius: f64,
-) -> Vec<Shape> {
+pub(super) fn roller(centre: Vector2<f64>, drive: Vector2<f64>, outward: Vector2<f64>, radius: f64) -> Vec<Shape> {
     let path = radius * (1.0 + PATH_OVER_RADIUS);
     vec![
         Shape::Entity(Entity::Circle(centre, radius)),

@@ -32,6 +32,8 @@ pub(super) enum Command {
     Conoid(ConoidArgs),
     /// Disc cam of any motion: a program of segments and a follower, both from a file
     Make(MakeArgs),
+    /// Two disc cams in one HTML report, beside each other, with their differences marked
+    SideBySide(super::side_by_side::SideBySideArgs),
     /// Speed against accuracy, measured on this computer: time by stage, arcs, bytes, true error and residual force
     Trade(TradeArgs),
     /// Check a DXF file, also one edited or written by another program: is it one closed outline that gives the motion?
@@ -332,7 +334,7 @@ impl Balanced {
 /// What is written, where, and how.
 #[derive(Debug, Args)]
 pub(super) struct FileArgs {
-    /// What to write: dxf, svg, step, csv, json, points, and stl of a conoid [default: dxf,svg,step,csv]
+    /// What to write: dxf, svg, step, csv, json, html (the moving report), points, and stl of a conoid [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(super) format: Option<Vec<String>>,
 
@@ -536,7 +538,7 @@ fn force(text: &str) -> Result<f64, String> {
     if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
 }
 
-fn rpm(text: &str) -> Result<f64, String> {
+pub(super) fn rpm(text: &str) -> Result<f64, String> {
     let number =
         units::parse_bare(text).map_err(|error| format!("{error}; a speed is a bare number, e.g. --rpm 35"))?;
     valid_rpm(number)
@@ -545,7 +547,7 @@ fn rpm(text: &str) -> Result<f64, String> {
 /// Coarsest tolerance, m: a cam that is off by more than a millimetre is of no use.
 const COARSEST: f64 = 1e-3;
 
-fn tolerance(text: &str) -> Result<f64, String> {
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Length)
         .map_err(|error| format!("{error}; a tolerance is a length with one of {}", Dimension::Length.unit_list()))?;
     if quantity.si > 0.0 && quantity.si <= COARSEST {
@@ -583,7 +585,7 @@ fn dxf_version(text: &str) -> Result<Version, String> {
 }
 
 /// A stem names files in the output directory and must not lead out of it.
-fn stem(text: &str) -> Result<String, String> {
+pub(super) fn stem(text: &str) -> Result<String, String> {
     let bad = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
     if text.is_empty() || text.starts_with('.') || text.contains(bad) {
         return Err("a file stem has no path separators, no control characters and no leading dot; see --out".into());

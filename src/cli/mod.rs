@@ -5,6 +5,7 @@ mod cams;
 mod check;
 mod explain;
 mod machines;
+mod side_by_side;
 mod text;
 mod trade;
 
@@ -39,6 +40,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Rotary(args) => cams::rotary(&args),
         Command::Translating(args) => cams::translating(&args),
         Command::Conoid(args) => cams::conoid(&args),
+        Command::SideBySide(args) => side_by_side::run(&args),
         Command::Trade(args) => trade::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Make(args) => cams::make(&args),

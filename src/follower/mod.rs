@@ -141,6 +141,20 @@ pub struct Touch {
     pub drive_turn: f64,
 }
 
+/// What carries the element, seen from the shaft: x along the direction in which the cam angle is counted, y that turned by +90°
+/// in the frame of a cam that turns clockwise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Carrier {
+    /// A stem on a straight path.
+    Straight,
+    /// An arm about a pivot at this place, m.
+    Arm {
+        /// The place, m.
+        pivot: Vector2<f64>,
+    },
+}
+
 /// A follower outside the cam.
 pub trait Follower: std::fmt::Debug + Send + Sync {
     /// What touches the cam.
@@ -168,6 +182,11 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
     /// Travel of the point of its curve along the drive for a unit of lift, m/m or m/rad.
     fn leverage(&self, _lift: &Jet) -> f64 {
         1.0
+    }
+
+    /// What carries the element, for a picture of it.
+    fn carrier(&self) -> Carrier {
+        Carrier::Straight
     }
 
     /// The same follower on a cam with another prime radius, m; `None` where it cannot reach.

@@ -1,6 +1,6 @@
 //! The swinging roller: a roller on an arm about a pivot.
 
-use super::{Element, Follower, FollowerData, FollowerKind, Touch};
+use super::{Carrier, Element, Follower, FollowerData, FollowerKind, Touch};
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
@@ -119,6 +119,10 @@ impl Follower for SwingingRoller {
         let cosine = (a * a + l * l - point.norm_squared()) / (2.0 * a * l);
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
         libm::atan2(point.y, point.x) - libm::atan2(-l * self.side * sine, a - l * cosine)
+    }
+
+    fn carrier(&self) -> Carrier {
+        Carrier::Arm { pivot: Vector2::new(self.pivot_distance, 0.0) }
     }
 
     fn prime_radius(&self) -> Option<f64> {

@@ -2,13 +2,14 @@
 //! force is to equal the inertia force of the bed.
 
 use super::{Load, RunUp};
-use crate::buffer::Cylinder;
 use crate::buffer::bottom_law::BottomLaw;
+use crate::buffer::{Cylinder, PlainBuffer};
 use crate::geometry::MILLIMETRES;
 use crate::motion::{Motion, Reversal, State, Transition};
 use crate::profile::Worst;
 use crate::profile::extremes::{self, Acting};
 use crate::report::{AirLaw, Section};
+use crate::table::BalanceRow;
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -48,6 +49,17 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &BottomLaw, (dx_max_at_x, dx_max
     }
 }
 
+/// The force balance of a pair of cylinders under a law at an overrun (m), with this pressure ratio; outside the reversal nothing
+/// is to balance.
+#[must_use]
+pub(crate) fn balance_row(cylinder: &Cylinder, law: &BottomLaw, reversing: bool, x: f64, ratio: f64) -> BalanceRow {
+    let plain = PlainBuffer::new(law.loading, law.exponent, law.stroke);
+    let (unit, x) = (cylinder.unit_force(), if reversing { x } else { 0.0 });
+    let (inertia, air) = (unit * law.loading * x, cylinder.force(ratio));
+    let residual = Some(if reversing { inertia - air } else { 0.0 });
+    BalanceRow { inertia, air, air_fixed_bottom: unit * plain.air(x), residual }
+}
+
 /// Crank angle at which a blend closes the column, degrees.
 pub(crate) fn closed_at(transition: Transition) -> Option<f64> {
     match transition {
@@ -80,6 +92,11 @@ impl Load for AirBuffer {
         let left = law.loading * state.overrun - air;
         // A bottom that is beyond the piston leaves no air.
         if left.is_nan() { f64::NEG_INFINITY } else { self.cylinder.unit_force() * left }
+    }
+
+    fn balance_row(&self, piece: usize, at: f64) -> BalanceRow {
+        let state = self.state(piece, at);
+        balance_row(&self.cylinder, self.bottom_law(), state.crank <= PI, state.overrun, state.pressure_ratio)
     }
 
     fn state(&self, piece: usize, at: f64) -> State {

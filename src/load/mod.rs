@@ -3,13 +3,14 @@
 mod air_buffer;
 
 pub use air_buffer::AirBuffer;
-pub(crate) use air_buffer::{air_law, closed_at};
+pub(crate) use air_buffer::{air_law, balance_row, closed_at};
 
 use crate::motion::State;
 use crate::numeric::root;
 use crate::profile::Worst;
 use crate::profile::extremes::Acting;
 use crate::report::Section;
+use crate::table::BalanceRow;
 use nalgebra::Vector2;
 
 /// The lift that a run-up adds.
@@ -45,6 +46,9 @@ pub trait Load: std::fmt::Debug + Send + Sync {
     /// The residual force that the force balance leaves, inertia less air, N, with the follower `moved` (m) along its path from where
     /// the motion puts it and touching where the cam's normal (a unit vector out of the metal) is.
     fn residual(&self, piece: usize, at: f64, moved: f64, normal: Vector2<f64>) -> f64;
+
+    /// The forces that are to balance, where the follower is as the motion has it.
+    fn balance_row(&self, piece: usize, at: f64) -> BalanceRow;
 
     /// The state of the machine.
     fn state(&self, piece: usize, at: f64) -> State;

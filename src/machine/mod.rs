@@ -50,8 +50,15 @@ const MOTION_TABLES: &[&Section] =
     &[&ROOT, &bed::SECTION, &buffer::SECTION, &buffer::DESIGN, &program::SECTION, &program::SEGMENT];
 
 /// The tables after those of the followers.
-const BODY_TABLES: &[&Section] =
-    &[&disc::SECTION, &disc::KEYWAY, &transition::SECTION, &translating::SECTION, &conoid::SECTION, &limits::SECTION, &title::SECTION];
+const BODY_TABLES: &[&Section] = &[
+    &disc::SECTION,
+    &disc::KEYWAY,
+    &transition::SECTION,
+    &translating::SECTION,
+    &conoid::SECTION,
+    &limits::SECTION,
+    &title::SECTION,
+];
 
 /// Every table of a machine file: those of the machine, and one for each kind of follower.
 #[must_use]

@@ -7,6 +7,7 @@
 pub mod chart;
 mod felt;
 mod finding;
+pub mod mechanism;
 mod rolled;
 pub mod sheet;
 pub mod trace;

@@ -32,6 +32,8 @@ pub struct Row {
     pub profile_radius: Option<f64>,
     /// Forces of a turning cam.
     pub force: Option<ForceRow>,
+    /// The force balance of a press.
+    pub balance: Option<BalanceRow>,
     /// What only a plate on the bed has.
     pub plate: Option<PlateRow>,
     /// What only a body has whose sections differ.
@@ -39,6 +41,8 @@ pub struct Row {
     /// Velocity and acceleration of the follower on the written outline, by the angle of the shaft; NaN where it is not in
     /// touch.
     pub cut: Option<[f64; 2]>,
+    /// Size of the residual force with the lift as cut, N, of a cam of a press that turns.
+    pub residual_cut: Option<f64>,
     /// Whether the follower swings.
     pub swings: bool,
 }
@@ -65,9 +69,24 @@ pub struct ForceRow {
     pub contact: Option<f64>,
 }
 
+/// The force balance of a press at a place, N; 0 outside the reversal.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BalanceRow {
+    /// Inertia force of the bed, (1).
+    pub inertia: f64,
+    /// Force of the air with this cam.
+    pub air: f64,
+    /// Force of the air of a plain buffer, (9): fixed bottom, column by (7) at this speed.
+    pub air_fixed_bottom: f64,
+    /// Inertia less air, where nothing else takes part in the balance.
+    pub residual: Option<f64>,
+}
+
 /// A plate at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlateRow {
+    /// Lift of the bottom by the angle of the crank, m.
+    pub lift: Jet,
     /// ψ of (19).
     pub psi_deg: f64,
     /// α of (21).
@@ -151,6 +170,15 @@ pub const COLUMNS: &[Column] = &[
     ("acceleration_cut_mm_per_rad2", |row| row.cut.filter(|_| !row.swings).map(|[_, acceleration]| 1e3 * acceleration)),
     ("velocity_cut_rad_per_rad", |row| row.cut.filter(|_| row.swings).map(|[velocity, _]| velocity)),
     ("acceleration_cut_rad_per_rad2", |row| row.cut.filter(|_| row.swings).map(|[_, acceleration]| acceleration)),
+    ("inertia_n", |row| Some(row.balance?.inertia)),
+    ("air_n", |row| Some(row.balance?.air)),
+    ("air_fixed_bottom_n", |row| Some(row.balance?.air_fixed_bottom)),
+    ("residual_n", |row| row.balance?.residual),
+    ("residual_cut_n", |row| row.residual_cut),
+    ("lift_mm", |row| Some(1e3 * row.plate?.lift.s.max(0.0))),
+    ("velocity_mm_per_rad", |row| Some(1e3 * row.plate?.lift.ds)),
+    ("acceleration_mm_per_rad2", |row| Some(1e3 * row.plate?.lift.dds)),
+    ("jerk_mm_per_rad3", |row| Some(1e3 * row.plate?.lift.ddds)),
 ];
 
 /// A table of numbers.
@@ -235,12 +263,14 @@ mod tests {
             curve_radius: Some(1.0),
             profile_radius: Some(1.0),
             force: Some(ForceRow { contact: Some(1.0), ..ForceRow::default() }),
+            balance: Some(BalanceRow { residual: Some(1.0), ..BalanceRow::default() }),
             plate: None,
             surface: Some(SurfaceRow::default()),
             cut: Some([1.0; 2]),
+            residual_cut: Some(1.0),
             swings: false,
         };
-        let plate = Row { force: None, plate: Some(PlateRow::default()), ..turning };
+        let plate = Row { lift: None, force: None, plate: Some(PlateRow::default()), ..turning };
         let swinging = Row { lift: None, swing: Some(Jet::default()), swings: true, ..turning };
         let mut all: Vec<&str> = Vec::new();
         for row in [turning, plate, swinging] {

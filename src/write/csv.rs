@@ -5,6 +5,7 @@ use super::{Format, When, fits_all};
 use crate::body::Body;
 use crate::geometry::MILLIMETRES;
 use crate::motion::Quantity;
+use crate::profile::Curves;
 use crate::profile::followed::Followed;
 use crate::table::Table;
 use crate::verify::WrittenOutline;
@@ -28,16 +29,29 @@ pub fn table(body: &dyn Body, outlines: &[WrittenOutline], samples: u32) -> Tabl
         let followed = Followed::on(curves, &outline.contour, body.mirrored());
         for row in &mut rows {
             let place = row.cam_deg.map(f64::to_radians).or(row.bed.map(|bed| bed.x / MILLIMETRES));
-            let cut = place.and_then(|place| {
+            let followed = place.and_then(|place| Some((place, followed.at(place)?)));
+            let cut = followed.map(|(place, cut)| {
                 let (first, second) = motion.pace(place);
-                let cut = followed.at(place)?;
-                Some([cut.ds * first, cut.dds * first * first + cut.ds * second])
+                [cut.ds * first, cut.dds * first * first + cut.ds * second]
             });
+            // What is left of the forces of a plate depends on the slope as cut, too.
+            if row.balance.is_some() && row.plate.is_none() {
+                let left = followed.map(|(place, cut)| residual(body, curves, place, cut.s));
+                row.residual_cut = Some(left.unwrap_or(f64::NAN));
+            }
             row.swings = motion.quantity() == Quantity::Angle;
             row.cut = Some(cut.unwrap_or([f64::NAN; 2]));
         }
     }
     Table::of(&rows)
+}
+
+/// Size of the residual force with the follower where the outline as written puts it, N.
+fn residual(body: &dyn Body, curves: Curves<'_>, place: f64, lift: f64) -> f64 {
+    let (piece, parameter) = curves.motion.locate(place);
+    let contact = curves.contact(piece, parameter);
+    let moved = (lift - contact.lift.s) * curves.follower.leverage(&contact.lift);
+    body.unbalanced(piece, parameter, moved, contact.curve.outward())
 }
 
 /// The table as text with line feeds.

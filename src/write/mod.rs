@@ -5,6 +5,7 @@
 pub mod csv;
 pub mod dxf;
 pub mod files;
+pub mod html;
 pub mod json;
 pub mod number;
 pub mod pdf;
@@ -100,8 +101,18 @@ pub struct Format {
 }
 
 /// Every format, in the order in which files are listed.
-pub const FORMATS: &[Format] =
-    &[dxf::FORMAT, svg::FORMAT, step::FORMAT, csv::FORMAT, json::FORMAT, pdf::FORMAT, stl::FORMAT, points::FORMAT, dxf::CUTTER_PATH];
+pub const FORMATS: &[Format] = &[
+    dxf::FORMAT,
+    svg::FORMAT,
+    step::FORMAT,
+    csv::FORMAT,
+    json::FORMAT,
+    html::FORMAT,
+    pdf::FORMAT,
+    stl::FORMAT,
+    points::FORMAT,
+    dxf::CUTTER_PATH,
+];
 
 /// The formats that can be requested.
 pub fn by_name() -> impl Iterator<Item = &'static Format> {

@@ -1,8 +1,8 @@
 //! The review sheet as PDF: the SVG of the sheet on a page of its size, with the font in the file.
 
 use super::{Format, FormatError, Rendering, When, fits_all, svg};
-use crate::report::sheet::font::FONT;
 use crate::report::sheet::Sheet;
+use crate::report::sheet::font::FONT;
 use krilla::Document;
 use krilla::geom::Size;
 use krilla::metadata::Metadata;
@@ -44,8 +44,7 @@ pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, FormatError> {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(FONT.to_vec());
     let options = usvg::Options { fontdb: Arc::new(fonts), ..Default::default() };
-    let tree = usvg::Tree::from_data(&text, &options)
-        .map_err(|error| PdfError::NoSvg(error.to_string()))?;
+    let tree = usvg::Tree::from_data(&text, &options).map_err(|error| PdfError::NoSvg(error.to_string()))?;
     let size = sheet.extents.size() * POINTS;
     #[expect(clippy::cast_possible_truncation, reason = "a size of paper")]
     let size = Size::from_wh(size.x as f32, size.y as f32);

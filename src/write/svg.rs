@@ -3,8 +3,8 @@
 
 use super::number::plain;
 use super::{Format, FormatError, Rendering, When, fits_all};
-use crate::geometry::{Entity, MILLIMETRES};
 use crate::geometry::contour::{Contour, Edge, Segment};
+use crate::geometry::{Entity, MILLIMETRES};
 use crate::motion::Quantity;
 use crate::profile::followed::Followed;
 use crate::profile::outline::Fit;
@@ -115,7 +115,9 @@ pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>,
             "dash" => dashes(&[24.0, 6.0, 4.0, 6.0]),
             "dot" => dashes(&[8.0, 8.0]),
             "title" => escaped(&sheet.title),
-            "drawing" => sheet.groups.iter().map(|shown| group(shown, sheet.scale, told)).collect::<Vec<_>>().join("\n"),
+            "drawing" => {
+                sheet.groups.iter().map(|shown| group(shown, sheet.scale, told)).collect::<Vec<_>>().join("\n")
+            }
             _ => return None,
         })
     };

@@ -1,27 +1,29 @@
 //! The conoid as a [`Body`]: what checks, drawings, tables and reports use of it.
 
-use super::{Conoid, KIND, flank, report, sheet};
+use super::{Conoid, KIND, flank, mechanism, report, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::{self, Part, point_as_turned};
+use crate::body::picture::{OF_A_PRESS, RIGID};
 use crate::body::{
     Body, DrawError, Drawn, Found, Kind, Request, broken_limit, mirrored, no_radius, passing, radius_of, stress,
 };
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Vertex};
 use crate::geometry::{Allowed, CurvePoint, Entity, MILLIMETRES};
-use crate::load::RunUp;
+use crate::load::{self, RunUp};
 use crate::machine::{Machine, Rotation};
-use crate::motion::{Jet, Motion, Piece, Reversal};
+use crate::motion::{Jet, Motion, Piece, Reversal, State};
 use crate::numeric::parallel;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, MotionTolerance, Outline, OutlineError};
 use crate::profile::size::rounded_up;
 use crate::profile::{Curves, Worst, boundary, extremes, followed};
+use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{Section, Speeds};
-use crate::table::{BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
+use crate::table::{BalanceRow, BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
 use nalgebra::{Vector2, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Share of the error of the heading that is seen where the arcs are compared with a cut.
 const SEEN_AT_NODES: f64 = 0.99;
@@ -151,6 +153,7 @@ impl Conoid {
             curve_radius: Some(MILLIMETRES / in_plane.curve.curvature),
             profile_radius: Some(cut.map_or(f64::NAN, |frame| MILLIMETRES / frame.curvature)),
             force: Some(ForceRow { path: force, torque: force * lift[1][0], contact: None }),
+            balance: Some(self.balance_row(section, &state)),
             surface: Some(SurfaceRow {
                 z: MILLIMETRES * z,
                 rpm,
@@ -162,6 +165,14 @@ impl Conoid {
             }),
             ..Row::default()
         }
+    }
+}
+
+impl Conoid {
+    /// The force balance at the speed of a section.
+    fn balance_row(&self, section: &Reversal, state: &State) -> BalanceRow {
+        let law = &section.law().bottom_law;
+        load::balance_row(&self.cylinder, law, state.crank <= PI, state.overrun, state.pressure_ratio)
     }
 }
 
@@ -342,6 +353,14 @@ impl Body for Conoid {
 
     fn sections(&self, found: &Found<'_>) -> Vec<Section> {
         report::sections(self, found)
+    }
+
+    fn mechanism(&self, drawn: &Drawn, samples: u32) -> Mechanism {
+        mechanism::of(self, drawn, samples)
+    }
+
+    fn not_modelled(&self) -> Vec<&'static str> {
+        [RIGID, OF_A_PRESS, mechanism::NOT_MODELLED].concat()
     }
 
     fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {

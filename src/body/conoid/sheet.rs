@@ -48,7 +48,8 @@ pub(super) fn view(conoid: &Conoid, drawn: &Drawn) -> View {
         0.5 * (plan.least.y + plan.largest.y - solid.least.y - solid.largest.y),
     );
     let moved = |points: &Vec<Vector2<f64>>| Shape::Path(points.iter().map(|p| p + shift).collect());
-    let holes = parts.first().map_or_else(Vec::new, |part: &Part| part.holes().into_iter().map(Shape::Entity).collect());
+    let holes =
+        parts.first().map_or_else(Vec::new, |part: &Part| part.holes().into_iter().map(Shape::Entity).collect());
     let mut groups = vec![
         Group::new("axis", "axes", axes(&plan)),
         Group::new("bore", "bore", holes),

@@ -1,6 +1,8 @@
 //! The disc cam: one section for one speed, under any follower.
 
 mod balance;
+mod mechanism;
+pub(in crate::body) use mechanism::of_press;
 mod sheet;
 
 use super::balance::{AsCut, Balance};
@@ -19,6 +21,7 @@ use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
 use crate::profile::{Curves, Worst, lifts};
+use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{CamMeasures, Forces, Section, Speeds};
 use crate::table::{BedRow, ForceRow, Row, Turned, turned};
@@ -302,6 +305,7 @@ impl Disc {
             curve_radius: Some(MILLIMETRES / contact.curve.curvature),
             profile_radius: Some(MILLIMETRES / profile.curvature),
             force,
+            balance: self.load.as_ref().map(|load| load.balance_row(piece, angle)),
             ..Row::default()
         }
     }
@@ -455,6 +459,14 @@ impl Body for Disc {
         sections.push(Section::new("rolling", &found.rolled));
         sections.extend(self.forces(residual).map(|forces| forces.section()));
         sections
+    }
+
+    fn mechanism(&self, drawn: &Drawn, samples: u32) -> Mechanism {
+        mechanism::of(self, drawn, samples)
+    }
+
+    fn not_modelled(&self) -> Vec<&'static str> {
+        mechanism::not_modelled(self)
     }
 
     fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {

@@ -1,26 +1,28 @@
 //! The plate on the bed as a [`Body`]: what checks, drawings, tables and reports use of it.
 
-use super::{KIND, Wedge, sheet};
+use super::{KIND, Wedge, mechanism, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::Part;
+use crate::body::picture::{OF_A_PRESS, RIGID};
 use crate::body::{
     Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress,
 };
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Edge, Segment, Vertex};
-use crate::load::{RunUp, air_law, closed_at};
+use crate::load::{RunUp, air_law, balance_row, closed_at};
 use crate::machine::Machine;
-use crate::motion::Motion;
 use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver, Trend, Way};
+use crate::motion::{Jet, Motion};
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
 use crate::profile::{Curves, Worst, boundary};
+use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{
     AirLaw, Break, CamMeasures, Equation18, Forces, Place, PlateMeasures, ResidualByWay, Section, Speeds,
 };
-use crate::table::{BedRow, PlateRow, Row};
+use crate::table::{BalanceRow, BedRow, PlateRow, Row};
 use nalgebra::Vector2;
 
 /// Readers drop shorter segments, mm.
@@ -169,7 +171,9 @@ impl Wedge {
             pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
             curve_radius: Some(MILLIMETRES / contact.curve.curvature),
             profile_radius: Some(MILLIMETRES / profile.curvature),
+            balance: Some(self.balance_row(x, bottom.s)),
             plate: Some(PlateRow {
+                lift: self.by_crank(x, contact.lift),
                 psi_deg: self.mechanism().psi(bottom.s).to_degrees(),
                 alpha_deg: self.mechanism().slope_angle(bottom.s, bottom.ds).to_degrees(),
                 slope: bottom.ds,
@@ -178,6 +182,28 @@ impl Wedge {
                 residual_braking: self.residual(piece, x, Way::Braking),
             }),
             ..Row::default()
+        }
+    }
+}
+
+impl Wedge {
+    /// Inertia and air; in (18) the plate takes part in the balance, whose residuals stand in the plate's own columns.
+    fn balance_row(&self, x: f64, bottom: f64) -> BalanceRow {
+        let law = &self.mechanism().bottom_law;
+        let ratio = if x < 0.0 { 1.0 } else { 1.0 + self.mechanism().air(x, bottom) };
+        BalanceRow { residual: None, ..balance_row(&self.cylinder, law, x >= 0.0, x, ratio) }
+    }
+
+    /// A jet by x as one by the angle φ of the crank: the pace of the motion has dx/dφ and d²x/dφ², and with x = r sin φ the third
+    /// derivative is that of the first with its sign turned.
+    fn by_crank(&self, x: f64, jet: Jet) -> Jet {
+        let (first, second) = self.motion.pace(x);
+        let third = if x < 0.0 { 0.0 } else { -first };
+        Jet {
+            s: jet.s,
+            ds: jet.ds * first,
+            dds: jet.dds * first * first + jet.ds * second,
+            ddds: jet.ddds * first * first * first + 3.0 * jet.dds * first * second + jet.ds * third,
         }
     }
 }
@@ -362,6 +388,14 @@ impl Body for Wedge {
             Section::new("rolling", &found.rolled),
             self.forces(found.rolled.map(|rolled| rolled.residual_max_n)).section(),
         ]
+    }
+
+    fn mechanism(&self, drawn: &Drawn, samples: u32) -> Mechanism {
+        mechanism::of(self, drawn, samples)
+    }
+
+    fn not_modelled(&self) -> Vec<&'static str> {
+        [RIGID, OF_A_PRESS, mechanism::NOT_MODELLED].concat()
     }
 
     fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {

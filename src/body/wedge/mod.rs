@@ -2,6 +2,7 @@
 
 mod balance;
 mod implementation;
+mod mechanism;
 mod sheet;
 
 use super::{Kind, ROUNDING_OF_BALANCE, WorstPlaces, largest, plane};

@@ -97,10 +97,8 @@ impl Block<'_> {
 
     /// The block with its lower right corner at a place.
     pub(super) fn groups(&self, corner: Vector2<f64>, k: f64) -> Vec<Group> {
-        let field = Extents {
-            least: corner - Vector2::new(WIDTH * k, 0.0),
-            largest: corner + Vector2::new(0.0, HEIGHT * k),
-        };
+        let field =
+            Extents { least: corner - Vector2::new(WIDTH * k, 0.0), largest: corner + Vector2::new(0.0, HEIGHT * k) };
         let (mut lines, mut names, mut values) = (rectangle(&field), Vec::new(), Vec::new());
         let mut top = field.largest.y;
         for (height, cells) in self.rows() {

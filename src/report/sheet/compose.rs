@@ -220,7 +220,9 @@ impl Layout<'_> {
         ruler.iter().for_each(|shape| taken.put(shape));
         groups.push(Group::new("scale", "ruler of the paper", ruler));
         groups.extend(self.marks(view, covered, &mut taken));
-        groups.extend(self.diagram.zip(extras.trace).into_iter().flat_map(|(field, trace)| trace::within(&field, k, trace)));
+        groups.extend(
+            self.diagram.zip(extras.trace).into_iter().flat_map(|(field, trace)| trace::within(&field, k, trace)),
+        );
         if let Some(field) = self.stamp {
             groups.extend(stamp(&field, k, report));
         }
@@ -304,8 +306,12 @@ fn ruler(view: &Extents, k: f64) -> Vec<Shape> {
 /// What nobody can overlook on the sheet of a cam that breaks a limit.
 fn stamp(field: &Extents, k: f64, report: &Report) -> Vec<Group> {
     let inner = Extents { least: field.least.add_scalar(2.0 * k), largest: field.largest.add_scalar(-2.0 * k) };
-    let failed: Vec<&str> =
-        report.checks.iter().filter(|finding| finding.verdict == Verdict::Fail).map(|finding| &*finding.check).collect();
+    let failed: Vec<&str> = report
+        .checks
+        .iter()
+        .filter(|finding| finding.verdict == Verdict::Fail)
+        .map(|finding| &*finding.check)
+        .collect();
     let room = inner.size().x - 4.0 * k;
     let middle = 0.5 * (inner.least.x + inner.largest.x);
     let (head, size) = font::fitted_in_one("NOT FOR MANUFACTURE", 6.5 * k, room);

@@ -25,9 +25,8 @@ pub const PAPERS: &[Paper] = &[
 ];
 
 /// Reductions of ISO 5455: a length on the sheet is a true length over this.
-pub const REDUCTIONS: &[f64] = &[
-    1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6,
-];
+pub const REDUCTIONS: &[f64] =
+    &[1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5, 5e5, 1e6, 2e6, 5e6];
 
 /// Margins of ISO 5457: the left one to file the sheet by.
 const FILING: f64 = 20.0;

@@ -49,9 +49,8 @@ impl Taken {
 
     /// Whether a line is clear of texts.
     pub(in crate::report) fn clear(&self, from: Vector2<f64>, to: Vector2<f64>) -> bool {
-        Self::along(from, to).all(|point| {
-            self.cell(point).is_none_or(|cell| !self.texts.get(cell).copied().unwrap_or(false))
-        })
+        Self::along(from, to)
+            .all(|point| self.cell(point).is_none_or(|cell| !self.texts.get(cell).copied().unwrap_or(false)))
     }
 
     /// A shape stands there.

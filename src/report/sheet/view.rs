@@ -114,7 +114,8 @@ impl View {
     /// What the groups cover, mm.
     #[must_use]
     pub(super) fn extents(&self) -> Extents {
-        let mut reached = Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) };
+        let mut reached =
+            Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) };
         for shape in self.groups.iter().flat_map(|group| &group.shapes) {
             if let Some(extents) = shape.extents() {
                 reached = reached.with(&extents);

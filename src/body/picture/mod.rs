@@ -1,0 +1,313 @@
+//! The mechanism of a turning cam as it moves, for a picture: cam, follower, and the press behind it.
+//!
+//! All is shown in the frame of the machine, the shaft at the origin. A cam of a press has its follower's path along +x, and behind
+//! it the cylinder with its bottom, the air, and the bed with its crank; any other has it upwards.
+
+pub(super) mod press;
+
+use super::Part;
+use crate::follower::{Carrier, Element};
+use crate::geometry::contour::Extents;
+use crate::geometry::{Entity, MILLIMETRES};
+use crate::machine::{Machine, Rotation};
+use crate::report::mechanism::{Rigid, Track, View, circle, line, rectangle};
+use crate::report::sheet::Shape;
+use nalgebra::Vector2;
+use press::{Buffer, Stand};
+
+/// What no cam here models.
+pub(super) const RIGID: &[&str] = &[
+    "Elasticity: shaft, lever, follower and contact are rigid, so that vibration and bending under load are not shown.",
+    "Clearance and wear: bearings, guides and the roller have no play and keep their size.",
+    "Speed: the shaft turns evenly; neither starting, stopping nor the drive's own unevenness is modelled.",
+    "Temperature: all sizes are those of the drawing.",
+];
+
+/// What is not modelled of a press.
+pub(super) const OF_A_PRESS: &[&str] = &[
+    "Air: it follows p·v^k = const without leakage or exchange of heat; k is that of the machine file.",
+    "The bed between its reversals: it runs evenly, and its reversal at the other end is another cam's.",
+];
+
+/// Share of the prime radius and of the roller by which stems and guides reach beyond what moves.
+const MARGIN: f64 = 0.12;
+/// Sweep of the arrow of rotation, degrees.
+const SWEEP: f64 = 70.0;
+/// Half the thickness of a stem or arm over the roller's radius.
+const STEM: f64 = 0.22;
+
+/// The follower at a place of a turn, in the frame of a clockwise cam, m and rad.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placed {
+    /// Cam angle, rad.
+    pub(super) angle: f64,
+    /// The same in degrees, as the table has it.
+    pub(super) cam_deg: f64,
+    /// Point of the follower's curve.
+    pub(super) curve: Vector2<f64>,
+    /// Normal out of the metal there.
+    pub(super) outward: Vector2<f64>,
+    /// The press, where there is one; its crank angle grows over all lobes.
+    pub(super) stand: Option<Stand>,
+}
+
+/// What is shown of a turning cam.
+#[derive(Debug)]
+pub(super) struct Scene<'a> {
+    pub(super) machine: &'a Machine,
+    pub(super) element: Element,
+    pub(super) carrier: Carrier,
+    pub(super) part: &'a Part,
+    pub(super) places: Vec<Placed>,
+    /// The cylinder, where there is a press.
+    pub(super) buffer: Option<Buffer>,
+    pub(super) shaft_speed: Option<f64>,
+    pub(super) rpm: Option<f64>,
+}
+
+/// What the picture covers so far.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cover(pub(super) Extents);
+
+impl Cover {
+    pub(super) fn nothing() -> Self {
+        Self(Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) })
+    }
+
+    pub(super) fn add(&mut self, x: (f64, f64), y: (f64, f64)) {
+        let box_ = Extents { least: Vector2::new(x.0, y.0), largest: Vector2::new(x.1, y.1) };
+        self.0 = self.0.with(&box_);
+    }
+
+    /// With a margin all round.
+    pub(super) fn with_margin(self, margin: f64) -> Extents {
+        let margin = Vector2::repeat(margin);
+        Extents { least: self.0.least - margin, largest: self.0.largest + margin }
+    }
+}
+
+impl Scene<'_> {
+    /// +1 for a cam that turns clockwise, −1 for the other.
+    fn sense(&self) -> f64 {
+        match self.machine.cam.rotation {
+            Rotation::Clockwise => 1.0,
+            Rotation::CounterClockwise => -1.0,
+        }
+    }
+
+    /// A vector in the frame of the follower, x along û and y along n̂, in the frame of the machine.
+    fn shown(&self, local: Vector2<f64>) -> Vector2<f64> {
+        let across = self.sense() * local.y;
+        if self.buffer.is_some() { Vector2::new(local.x, across) } else { Vector2::new(-across, local.x) }
+    }
+
+    /// Direction of the follower's path, degrees.
+    fn path_deg(&self) -> f64 {
+        if self.buffer.is_some() { 0.0 } else { 90.0 }
+    }
+
+    /// A vector of the cam's frame in that of the follower.
+    fn local(placed: &Placed, vector: Vector2<f64>) -> Vector2<f64> {
+        let along = Vector2::new(libm::cos(placed.angle), libm::sin(placed.angle));
+        Vector2::new(vector.dot(&along), along.perp(&vector))
+    }
+
+    /// The points of the follower's curve in the follower's frame, mm.
+    fn locals(&self) -> Vec<Vector2<f64>> {
+        self.places.iter().map(|placed| Self::local(placed, placed.curve) * MILLIMETRES).collect()
+    }
+
+    /// The tracks of points of the follower's frame.
+    fn tracks(&self, points: &[Vector2<f64>]) -> (Track, Track) {
+        let (x, y): (Vec<f64>, Vec<f64>) = points.iter().map(|p| self.shown(*p)).map(|p| (p.x, p.y)).unzip();
+        (x.into(), y.into())
+    }
+
+    /// The view: its parts from the back to the front, and what is below the cam, if anything, added by `more`.
+    pub(super) fn view(&self, more: impl FnOnce(&mut Vec<Rigid>, &mut Cover)) -> View {
+        let (mut parts, mut cover) = (Vec::new(), Cover::nothing());
+        let radius = self.largest_radius();
+        cover.add((-radius, radius), (-1.2 * radius, radius));
+        more(&mut parts, &mut cover);
+        parts.extend(self.follower(&mut cover));
+        parts.extend(self.cam());
+        parts.extend(self.touching());
+        let size = cover.0.largest - cover.0.least;
+        View {
+            rpm: self.rpm,
+            shaft_speed: self.shaft_speed,
+            returns: false,
+            place: "cam_deg",
+            at: self.places.iter().map(|placed| placed.cam_deg).collect(),
+            turn_deg: self.places.iter().map(|placed| placed.cam_deg).collect(),
+            extents: cover.with_margin(0.03 * size.x.max(size.y)),
+            parts,
+        }
+    }
+
+    /// Largest radius of the profile, mm, at the places.
+    fn largest_radius(&self) -> f64 {
+        let offset = self.element.offset();
+        let of = |placed: &Placed| MILLIMETRES * (placed.curve - placed.outward * offset).norm();
+        self.places.iter().map(of).fold(0.0, f64::max)
+    }
+
+    fn cam(&self) -> Vec<Rigid> {
+        let outline = Shape::Entity(Entity::Polyline(self.part.outline.contour.clone()));
+        let shapes = std::iter::once(outline).chain(self.part.holes().into_iter().map(Shape::Entity)).collect();
+        let turn: Vec<f64> = self.places.iter().map(|placed| self.path_deg() - self.sense() * placed.cam_deg).collect();
+        let bore = MILLIMETRES * self.machine.cam.bore_radius.unwrap_or(0.0);
+        let edge = self.places.first().map_or(0.0, |placed| placed.curve.norm() - self.element.offset());
+        // θ = 0 is the +X axis of the drawing.
+        let mark = vec![line((bore, 0.0), (MILLIMETRES * edge, 0.0))];
+        let cross = 0.15 * (MILLIMETRES * edge).max(bore);
+        let axis = vec![line((-cross, 0.0), (cross, 0.0)), line((0.0, -cross), (0.0, cross))];
+        let arrow = self.arrow(bore + 0.4 * (MILLIMETRES * edge - bore).max(0.0));
+        vec![
+            Rigid::new("cam", shapes).turned(turn.clone()),
+            Rigid::new("arrow", arrow),
+            Rigid::new("mark", mark).turned(turn),
+            Rigid::new("ground", axis).named("cam", 0.0, -1.04 * self.largest_radius()),
+        ]
+    }
+
+    /// How the cam turns: an arc about the shaft with a head.
+    fn arrow(&self, radius: f64) -> Vec<Shape> {
+        let on = |degrees: f64, radius: f64| {
+            let angle = degrees.to_radians();
+            Vector2::new(radius * libm::cos(angle), radius * libm::sin(angle))
+        };
+        let (sweep, head) = (-self.sense() * SWEEP, 0.16 * radius);
+        let (start, end) = (270.0 - 0.5 * sweep, 270.0 + 0.5 * sweep);
+        let back = end - sweep.signum() * (1.6 * head / radius).to_degrees();
+        vec![
+            Shape::Arc(on(start, radius), on(end, radius), libm::tan(0.25 * sweep.to_radians())),
+            Shape::Path(vec![on(back, radius - head), on(end, radius), on(back, radius + head)]),
+        ]
+    }
+
+    /// The roller or the contact on a face, with the normal there.
+    fn touching(&self) -> Vec<Rigid> {
+        let locals = self.locals();
+        let (x, y) = self.tracks(&locals);
+        let normal: Vec<f64> = self
+            .places
+            .iter()
+            .map(|placed| {
+                let normal = Self::local(placed, placed.outward);
+                self.path_deg() + self.sense() * libm::atan2(normal.y, normal.x).to_degrees()
+            })
+            .collect();
+        match self.element {
+            Element::Roller { radius } => {
+                let radius = MILLIMETRES * radius;
+                let roller = vec![circle(0.0, 0.0, radius), circle(0.0, 0.0, 0.12 * radius)];
+                let lines = vec![line((-radius, 0.0), (1.9 * radius, 0.0))];
+                vec![
+                    Rigid::new("roller", roller).at(x.clone(), y.clone()).named("roller", 0.0, -1.15 * radius),
+                    Rigid::new("normal", lines).at(x, y).turned(normal),
+                ]
+            }
+            Element::Face => {
+                let reach = 0.25 * locals.iter().map(|p| p.x).fold(0.0, f64::max);
+                vec![Rigid::new("normal", vec![line((-0.3 * reach, 0.0), (reach, 0.0))]).at(x, y).turned(normal)]
+            }
+        }
+    }
+
+    /// What carries the element.
+    fn follower(&self, cover: &mut Cover) -> Vec<Rigid> {
+        let locals = self.locals();
+        match (self.carrier, self.element, self.buffer) {
+            (Carrier::Arm { pivot }, ..) => self.arm(pivot * MILLIMETRES, &locals, cover),
+            (_, _, Some(buffer)) => {
+                let stands: Vec<Stand> = self.places.iter().filter_map(|placed| placed.stand).collect();
+                let rollers: Vec<Vector2<f64>> = locals.iter().map(|p| self.shown(*p)).collect();
+                let radius = MILLIMETRES * self.element.offset();
+                let lever = self.machine.cam.lever;
+                press::behind(&buffer, &stands, &press::Driven { rollers, radius, lever }, self.largest_radius(), cover)
+            }
+            (_, Element::Face, None) => self.face(&locals, cover),
+            (_, Element::Roller { radius }, None) => self.stem(&locals, MILLIMETRES * radius, cover),
+        }
+    }
+
+    /// A stem on a straight path between two guides.
+    fn stem(&self, locals: &[Vector2<f64>], radius: f64, cover: &mut Cover) -> Vec<Rigid> {
+        let (low, high) = range(locals.iter().map(|p| p.x));
+        let half = STEM * radius;
+        let start = (high + radius * (1.0 + MARGIN)).max(self.largest_radius() + half);
+        let length = start + 3.0 * radius - low;
+        let (x, y) = self.tracks(locals);
+        let stem = vec![rectangle((0.0, length), (-half, half))];
+        let offset = locals.first().map_or(0.0, |p| self.shown(*p).x);
+        let guides = [-1.0, 1.0].map(|side| {
+            let (from, to) = (offset + side * 1.25 * half, offset + side * (2.5 * half + 0.5 * radius));
+            rectangle((from, to), (start, start + 1.5 * radius))
+        });
+        let top = start + 3.0 * radius + high - low;
+        cover.add((offset - radius, offset + radius), (low, top));
+        vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", stem).at(x, y).turned(self.path_deg())]
+    }
+
+    /// A flat face with its stem.
+    fn face(&self, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+        let (low, high) = range(locals.iter().map(|p| p.x));
+        let (least, most) = range(locals.iter().map(|p| p.y));
+        let half = least.abs().max(most.abs()) + 0.15 * low;
+        let thick = 0.06 * low;
+        let start = self.largest_radius().max(high) + 2.0 * thick;
+        let length = start + 0.4 * low - low;
+        let along: Vec<Vector2<f64>> = locals.iter().map(|p| Vector2::new(p.x, 0.0)).collect();
+        let (x, y) = self.tracks(&along);
+        let shapes = vec![rectangle((0.0, thick), (-half, half)), rectangle((thick, length), (-thick, thick))];
+        let guides = [-1.0, 1.0].map(|side| {
+            rectangle((side * 1.3 * thick, side * 4.0 * thick), (start + thick, start + thick + 0.2 * low))
+        });
+        cover.add((-half, half), (low, start + 0.4 * low + high - low));
+        vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", shapes).at(x, y).turned(self.path_deg())]
+    }
+
+    /// An arm from a pivot to the roller, mm.
+    fn arm(&self, pivot: Vector2<f64>, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+        let half = STEM * MILLIMETRES * self.element.offset();
+        let arm = locals.first().map_or(0.0, |p| (p - pivot).norm());
+        // Counted from the line to the shaft: an arm swings by less than half a turn from it.
+        let turn: Vec<f64> = locals
+            .iter()
+            .map(|p| {
+                let (from, back) = (p - pivot, -pivot.normalize());
+                let swung = libm::atan2(back.perp(&from), back.dot(&from)).to_degrees();
+                self.path_deg() + 180.0 + self.sense() * swung
+            })
+            .collect();
+        let place = self.shown(pivot);
+        let (x, y) = (place.x, place.y);
+        let foot = 2.2 * half.max(0.02 * arm);
+        let bracket = vec![
+            Shape::Path(vec![
+                Vector2::new(x, y),
+                Vector2::new(x - foot, y + 1.6 * foot),
+                Vector2::new(x + foot, y + 1.6 * foot),
+                Vector2::new(x, y),
+            ]),
+            line((x - 1.5 * foot, y + 1.6 * foot), (x + 1.5 * foot, y + 1.6 * foot)),
+        ];
+        let (low, high) = range(locals.iter().map(|p| self.shown(*p).x));
+        let roller = MILLIMETRES * self.element.offset();
+        cover.add((low - roller, high + roller), (0.0, 0.0));
+        let tops = range(locals.iter().map(|p| self.shown(*p).y));
+        cover.add((x - 1.5 * foot, x + 1.5 * foot), (tops.0 - roller, (y + 1.6 * foot).max(tops.1 + roller)));
+        vec![
+            Rigid::new("ground", bracket),
+            Rigid::new("follower", vec![rectangle((0.0, arm), (-half, half)), circle(0.0, 0.0, 1.6 * half)])
+                .at(x, y)
+                .turned(turn),
+        ]
+    }
+}
+
+/// Smallest and largest of some numbers.
+pub(super) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+}

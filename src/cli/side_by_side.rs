@@ -1,0 +1,114 @@
+//! `camgen side-by-side`: two disc cams in one HTML report, moved by one cursor, with their differences marked.
+
+use super::args::{rpm, stem, tolerance};
+use super::{Failure, Outcome, print, tell, text};
+use camgen::body::{RateTolerance, Request};
+use camgen::machine::Machine;
+use camgen::pipeline::{Cam, Output, Proven, Spec};
+use camgen::report::Report;
+use camgen::write::files::write_all;
+use camgen::write::{html, json, svg};
+use clap::Args;
+use std::path::PathBuf;
+
+/// Tolerance of the outlines by default, m, and of the acceleration as cut, as for the commands that make a cam.
+const TOLERANCE: f64 = 5e-6;
+const ACCELERATION: f64 = 0.05;
+/// Rows of the tables: every half degree.
+const SAMPLES: u32 = 720;
+
+#[derive(Debug, Args)]
+pub(super) struct SideBySideArgs {
+    /// Machine (an embedded one or a file), of which the disc cam is taken, or file of a motion program
+    #[arg(value_name = "A")]
+    first: String,
+
+    /// The other
+    #[arg(value_name = "B")]
+    second: String,
+
+    /// Speed of both: of the main shaft of a press, of the cam of a motion program, rpm [default: that of each file]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    rpm: Option<f64>,
+
+    /// Largest distance of the outlines from the exact curves [default: 5um]
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+
+    /// Overrides one key of both files; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+
+    /// Directory for the file, created when missing
+    #[arg(long, value_name = "DIR", default_value = "output")]
+    out: PathBuf,
+
+    /// File stem [default: A-B-side-by-side]
+    #[arg(long, value_name = "STEM", value_parser = stem)]
+    name: Option<String>,
+
+    /// Print both reports as JSON, a list of two, and nothing else
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Solves, draws and proves both, and writes the page also where a check failed: it is a report, and says so.
+pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
+    let ((a, first), (b, second)) = (args.solved(&args.first)?, args.solved(&args.second)?);
+    let (a, b) = (args.proven(&a)?, args.proven(&b)?);
+    let [mut one, mut two] = [&a, &b].map(Proven::report);
+    if let Some(why) = a.no_outline().or(b.no_outline()) {
+        tell(&format!("refused: {why}; there is no outline to show"));
+        args.show(&[&one, &two])?;
+        return Ok(Outcome::CheckFailed);
+    }
+    let stem = args.name.clone().unwrap_or_else(|| format!("{first}-{second}-side-by-side"));
+    let name = format!("{stem}.html");
+    for report in [&mut one, &mut two] {
+        report.files = vec![args.out.join(&name).display().to_string()];
+    }
+    let page = {
+        let shown = a.rendering(&one, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
+        let beside = b.rendering(&two, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
+        html::side_by_side(&shown, &beside).map_err(Failure::new)?
+    };
+    write_all(&args.out, &[Output { name, bytes: page }]).map_err(Failure::new)?;
+    args.show(&[&one, &two])?;
+    Ok(if a.passed() && b.passed() { Outcome::Fine } else { Outcome::CheckFailed })
+}
+
+impl SideBySideArgs {
+    /// The disc cam of a file, and the word that names its files.
+    fn solved(&self, name: &str) -> Result<(Cam, String), Failure> {
+        let (machine, stem) = Machine::load(name, &self.set).map_err(Failure::new)?;
+        let spec = match (machine.press().map(|press| press.design_rpm), machine.motion()) {
+            (Err(_), Some((motion, told))) => Spec::of_motion(machine, motion, self.rpm.or(told)),
+            (design, _) => {
+                let rpm = self.rpm.map_or(design, Ok).map_err(Failure::new)?;
+                Spec::rotary(machine, rpm)
+            }
+        };
+        Ok((spec.solve().map_err(|error| Failure(format!("{name}: {error}")))?, stem))
+    }
+
+    fn proven<'c>(&self, cam: &'c Cam) -> Result<Proven<'c>, Failure> {
+        let rates = [None, Some(RateTolerance::Share(ACCELERATION))];
+        let request = Request { rates, strict: false, ..Request::within(self.tolerance.unwrap_or(TOLERANCE)) };
+        cam.draw(request).and_then(camgen::pipeline::Drawing::prove).map_err(Failure::new)
+    }
+
+    fn show(&self, reports: &[&Report]) -> Result<(), Failure> {
+        if self.json {
+            let bytes = json::write(&reports).map_err(Failure::new)?;
+            return print(&String::from_utf8_lossy(&bytes));
+        }
+        if self.quiet {
+            return Ok(());
+        }
+        reports.iter().try_for_each(|report| print(&text::report(report, false)))
+    }
+}

@@ -1,0 +1,206 @@
+//! What the page shows of a cam, as JSON: numbers rounded to what can be seen, everything else as the report has it.
+
+use super::super::Rendering;
+use super::super::csv;
+use super::{panels, shapes, units};
+use crate::report::mechanism::{Mechanism, Rigid, Solid, Track, View};
+use crate::report::{Finding, Place, Report, Section, Verdict, worst_first};
+use crate::table::Table;
+use crate::verify::CHECKS;
+use serde_json::{Map, Value, json};
+
+/// Most steps of a turn, and most rows of the table over all sections.
+const STEPS: u32 = 720;
+const ROWS: u32 = 1800;
+/// Fewest rows of a section.
+const FEWEST: u32 = 120;
+/// Digits of a number of the table.
+const DIGITS: usize = 7;
+/// Decimals of a place, mm, and of an angle, degrees.
+const PLACES: f64 = 1e4;
+const ANGLES: f64 = 1e5;
+
+/// A number, whole ones without a point; what is not finite is null.
+fn number(value: f64) -> Value {
+    #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
+    if value.is_finite() && value == value.trunc() && value.abs() < 1e15 {
+        return Value::from(value as i64);
+    }
+    // What is not finite becomes null.
+    Value::from(value)
+}
+
+/// A number rounded to significant digits.
+fn digits(value: f64) -> Value {
+    number(format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(f64::NAN))
+}
+
+fn rounded(values: &[f64], scale: f64) -> Value {
+    values.iter().map(|value| number((value * scale).round() / scale)).collect()
+}
+
+/// All that the page shows of a cam.
+pub(super) fn of(cam: &Rendering<'_>) -> Value {
+    let (body, report) = (cam.body, cam.report);
+    // The outlines are those read back from the cut files.
+    let mut drawn = cam.drawn.clone();
+    for (part, outline) in drawn.parts.iter_mut().zip(cam.outlines) {
+        part.outline.contour = outline.contour.clone();
+    }
+    let sections = u32::try_from(drawn.parts.len()).unwrap_or(1).max(1);
+    let steps = cam.samples.clamp(1, STEPS).min((ROWS / sections).max(FEWEST));
+    let mechanism = body.mechanism(&drawn, steps);
+    let table = csv::table(body, cam.outlines, steps);
+    let roller = body.roller_radius().map(|radius| radius * crate::geometry::MILLIMETRES);
+    let inputs = serde_json::to_value(report).ok().and_then(|all| all.get("inputs").cloned()).unwrap_or(Value::Null);
+    json!({
+        "title": report.title(),
+        "machine": report.machine,
+        "noun": report.noun,
+        "command": report.command,
+        "speeds": report.rpm.to_string().trim(),
+        "passed": report.passed(),
+        "inputs": inputs,
+        "checks": worst_first(report.checks.clone()).iter().map(check).collect::<Vec<Value>>(),
+        "sections": report.sections.iter().map(section).collect::<Vec<Value>>(),
+        "notes": report.notes,
+        "files": report.files.iter().filter_map(|file| file.rsplit(['/', '\\']).next()).collect::<Vec<&str>>(),
+        "notModelled": body.not_modelled(),
+        "notRun": not_run(report),
+        "pictureNotes": mechanism.notes,
+        "views": views(&mechanism, &table, &report.checks, roller),
+        "solid": mechanism.solid.as_ref().map(solid),
+    })
+}
+
+fn check(finding: &Finding) -> Value {
+    let about = CHECKS.iter().find(|check| check.name == finding.check).map(|check| check.about);
+    let place = (finding.place != Place::default()).then(|| finding.place.to_string());
+    json!({
+        "check": finding.check,
+        "about": about,
+        "value": digits(finding.value),
+        "limit": finding.limit.map(digits),
+        "unit": units::shown(&finding.unit),
+        "place": place,
+        "camDeg": finding.place.cam_deg,
+        "xMm": finding.place.x_mm,
+        "verdict": finding.verdict,
+        "note": finding.note,
+    })
+}
+
+/// Checks that had nothing to go by, and what they lack.
+fn not_run(report: &Report) -> Vec<Value> {
+    let silent = report.checks.iter().filter(|finding| finding.verdict == Verdict::Info && !finding.value.is_finite());
+    silent.filter_map(|finding| Some(json!([finding.check, finding.note.as_ref()?]))).collect()
+}
+
+/// A section with its values one by one: name, value, unit.
+fn section(section: &Section) -> Value {
+    let mut values = Vec::new();
+    flatten(&section.key, &section.value, &mut values);
+    json!({"key": section.key, "words": section.words, "values": values})
+}
+
+fn flatten(name: &str, value: &Value, found: &mut Vec<Value>) {
+    match value {
+        Value::Object(map) => map.iter().for_each(|(key, value)| flatten(key, value, found)),
+        Value::Array(list) if list.iter().any(Value::is_object) => {
+            for (index, value) in list.iter().enumerate() {
+                let mut inner = Vec::new();
+                flatten(name, value, &mut inner);
+                for entry in inner {
+                    let label = entry.get(0).and_then(Value::as_str).unwrap_or_default().to_owned();
+                    found.push(json!([format!("{} {}: {label}", units::words(name), index + 1), entry[1], entry[2]]));
+                }
+            }
+        }
+        Value::Null => {}
+        Value::Number(number) => {
+            let value = number.as_f64().map_or(Value::Null, digits);
+            found.push(json!([units::words(name), value, units::named(name).unit]));
+        }
+        Value::Array(list) => {
+            let all: Vec<Value> = list.iter().map(|value| value.as_f64().map_or(value.clone(), digits)).collect();
+            found.push(json!([units::words(name), all, units::named(name).unit]));
+        }
+        other => found.push(json!([units::words(name), other, ""])),
+    }
+}
+
+fn views(mechanism: &Mechanism, table: &Table, checks: &[Finding], roller: Option<f64>) -> Vec<Value> {
+    let each = table.rows.len() / mechanism.views.len().max(1);
+    let of = |(view, rows): (&View, &[Vec<f64>])| view_of(view, &table.columns, rows, (checks, roller));
+    mechanism.views.iter().zip(table.rows.chunks(each.max(1))).map(of).collect()
+}
+
+fn view_of(
+    view: &View,
+    names: &[&'static str],
+    rows: &[Vec<f64>],
+    (checks, roller): (&[Finding], Option<f64>),
+) -> Value {
+    let column = |index: usize| -> Vec<Value> {
+        rows.iter().map(|row| digits(row.get(index).copied().unwrap_or(f64::NAN))).collect()
+    };
+    let columns: Map<String, Value> =
+        names.iter().enumerate().map(|(index, name)| ((*name).to_owned(), column(index).into())).collect();
+    let kind = |name: &&'static str| {
+        let named = units::named(name);
+        ((*name).to_owned(), json!([units::words(name), named.unit, named.order]))
+    };
+    let kinds: Map<String, Value> = names.iter().map(kind).collect();
+    let extents = view.extents;
+    let size = extents.size();
+    json!({
+        "rpm": view.rpm,
+        "shaftSpeed": view.shaft_speed,
+        "returns": view.returns,
+        "place": view.place,
+        "at": rounded(&view.at, ANGLES),
+        "turn": rounded(&view.turn_deg, ANGLES),
+        "box": rounded(&[extents.least.x, -extents.largest.y, size.x, size.y], PLACES),
+        "parts": view.parts.iter().map(rigid).collect::<Vec<Value>>(),
+        "columns": columns,
+        "kinds": kinds,
+        "panels": panels::of(names, view.place, checks, roller),
+    })
+}
+
+fn track(track: &Track, scale: f64) -> Value {
+    match track {
+        Track::Still(value) => number((value * scale).round() / scale),
+        Track::Moving(values) => rounded(values, scale),
+    }
+}
+
+fn rigid(part: &Rigid) -> Value {
+    let name = part.name.as_ref().map(|(name, at)| json!([name, number(at.x), number(-at.y)]));
+    json!({
+        "role": part.role,
+        "name": name,
+        "path": shapes::path(&part.shapes),
+        "x": track(&part.x, PLACES),
+        "y": track(&part.y, PLACES),
+        "turn": track(&part.turn_deg, ANGLES),
+        "stretch": track(&part.stretch, PLACES),
+        "pressure": part.pressure_bar.as_ref().map(|pressure| track(pressure, ANGLES)),
+    })
+}
+
+/// Decimals of the surface, mm: it is looked at.
+const SURFACE: f64 = 1e2;
+
+fn solid(solid: &Solid) -> Value {
+    let ring = |(z, points): &(f64, Vec<nalgebra::Vector2<f64>>)| {
+        let flat: Vec<f64> = points.iter().flat_map(|point| [point.x, point.y]).collect();
+        json!({"z": number((z * SURFACE).round() / SURFACE), "points": rounded(&flat, SURFACE)})
+    };
+    json!({
+        "rings": solid.rings.iter().map(ring).collect::<Vec<Value>>(),
+        "bore": solid.bore,
+        "roller": solid.roller,
+        "sections": solid.sections,
+    })
+}

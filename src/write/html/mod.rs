@@ -1,0 +1,76 @@
+//! The moving report: one HTML file with everything in it, for a browser without a network. Verdicts, the mechanism as it moves, the
+//! curves, the tables, and what is not modelled.
+//!
+//! The page is a template with its style and script and the chart library uPlot, all in `templates/`; the cam is put into it as JSON.
+//! The script knows no kinematics: it interpolates between the samples of [`crate::report::mechanism`].
+
+mod data;
+mod panels;
+mod shapes;
+mod units;
+
+use super::{Format, FormatError, Rendering, When, fits_all};
+use serde_json::{Value, json};
+
+/// The moving report.
+pub const FORMAT: Format = Format {
+    name: "html",
+    when: When::Asked,
+    flank: false,
+    unfit: fits_all,
+    endings: |_| vec![".html".into()],
+    write: |cam| Ok(vec![page(&cam.report.title(), &[data::of(cam)])?]),
+};
+
+const PAGE: &str = include_str!("../../../templates/report.html");
+const STYLE: &str = include_str!("../../../templates/report.css");
+const SCRIPTS: [&str; 4] = [
+    include_str!("../../../templates/report/common.js"),
+    include_str!("../../../templates/report/mechanism.js"),
+    include_str!("../../../templates/report/solid.js"),
+    include_str!("../../../templates/report/page.js"),
+];
+const CHARTS: &str = include_str!("../../../templates/vendor/uplot/uPlot.iife.min.js");
+const CHARTS_STYLE: &str = include_str!("../../../templates/vendor/uplot/uPlot.min.css");
+const CHARTS_LICENCE: &str = include_str!("../../../templates/vendor/uplot/LICENSE");
+
+/// Two cams beside each other.
+///
+/// # Errors
+/// Only what `serde_json` cannot write, which a report is not.
+pub fn side_by_side(first: &Rendering<'_>, second: &Rendering<'_>) -> Result<Vec<u8>, FormatError> {
+    let title = format!("{} | {}", first.report.title(), second.report.title());
+    page(&title, &[data::of(first), data::of(second)])
+}
+
+/// Fills the template: each placeholder stands once, and what is put in is not searched again.
+fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, FormatError> {
+    let data = serde_json::to_string(&json!({"schema": 1, "cams": cams}))?;
+    let scripts = SCRIPTS.concat();
+    let lookup = |name: &str| match name {
+        "title" => text(title),
+        "style" => format!("{CHARTS_STYLE}\n{STYLE}"),
+        // No tag can begin within the JSON: `<` stands in texts only.
+        "data" => data.replace('<', "\\u003c"),
+        "licence" => text(CHARTS_LICENCE),
+        "charts" => CHARTS.to_owned(),
+        "script" => scripts.clone(),
+        _ => String::new(),
+    };
+    let mut page = String::with_capacity(PAGE.len() + data.len() + CHARTS.len() + scripts.len());
+    let mut rest = PAGE;
+    while let Some((before, behind)) = rest.split_once("{{") {
+        let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
+        page.push_str(before);
+        page.push_str(&lookup(name.trim()));
+        rest = after;
+    }
+    page.push_str(rest);
+    Ok(page.into_bytes())
+}
+
+/// Text as it may stand in HTML.
+fn text(text: &str) -> String {
+    let printable: String = text.chars().filter(|c| !c.is_control() || *c == '\n').collect();
+    printable.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,117 @@
+// What every part of the page needs: the data, elements made of text only, numbers, and places between samples.
+
+const cams = JSON.parse(document.getElementById("data").textContent).cams;
+const byId = (id) => document.getElementById(id);
+
+/** An element with properties, attributes (names with a dash or in lower case of SVG) and children; strings become text. */
+function make(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name in element) element[name] = value;
+    else element.setAttribute(name, value);
+  }
+  element.append(...children.filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+function makeSvg(tag, attributes = {}) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  return element;
+}
+
+/** A number for a person: five digits, an exponent only where it is short. */
+function shown(value, digits = 5) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  const text = size !== 0 && (size < 1e-4 || size >= 1e7)
+    ? value.toExponential(2).replace("e+", "e")
+    : String(Number(value.toPrecision(digits)));
+  return text.replace(/-/g, "−");
+}
+
+/** The same with as many decimals whatever the value, so that it does not jump while it changes. */
+function steady(value) {
+  if (value === null || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size !== 0 && size < 5e-4) return Math.abs(value) < 1e-9 ? "0.000" : shown(value, 2);
+  return value.toFixed(size < 10 ? 3 : size < 1000 ? 2 : 1).replace(/-/g, "−");
+}
+
+/** Where a value lies in a growing list: the index before it and the share of the way to the next. */
+function locate(list, value) {
+  let low = 0;
+  let high = list.length - 1;
+  if (value <= list[0]) return [0, 0];
+  if (value >= list[high]) return [high - 1, 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (list[middle] <= value) low = middle;
+    else high = middle;
+  }
+  return [low, (value - list[low]) / (list[high] - list[low])];
+}
+
+/** A value between two samples; a missing one stays missing. */
+function between(list, [index, share]) {
+  const a = list[index];
+  const b = list[index + 1];
+  if (share === 0 || b === undefined) return a;
+  if (share === 1) return b;
+  return a === null || b === null ? null : a + (b - a) * share;
+}
+
+/** The columns of a view, closed where the motion goes round: the first row stands again at the end. */
+function closed(view) {
+  const columns = {};
+  for (const [name, values] of Object.entries(view.columns)) {
+    columns[name] = view.returns ? values : values.concat(name === view.place ? 360 : values[0]);
+  }
+  return columns;
+}
+for (const cam of cams) for (const view of cam.views) view.columns = closed(view);
+
+const state = {
+  /** Degrees of the shaft from the start of the cycle. */
+  cycle: 0,
+  playing: false,
+  /** Seconds of a cycle. */
+  seconds: 8,
+  rate: "angle",
+  section: 0,
+};
+
+const viewOf = (cam) => cam.views[Math.min(state.section, cam.views.length - 1)];
+const first = () => viewOf(cams[0]);
+
+/** Length of a cycle of a view, degrees of the shaft: a turn, or there and back. */
+function cycleOf(view) {
+  const span = view.turn[view.turn.length - 1] - view.turn[0];
+  return view.returns ? 2 * span : span;
+}
+
+/** Angle of the shaft in a view. */
+function turnOf(view) {
+  const span = view.turn[view.turn.length - 1] - view.turn[0];
+  const at = state.cycle <= span ? state.cycle : view.returns ? 2 * span - state.cycle : span;
+  return view.turn[0] + Math.max(0, at);
+}
+
+/** The place in a view: in its table's own coordinate. */
+const placeOf = (view) => between(view.at, locate(view.turn, turnOf(view)));
+
+/** A colour of the style as it is now. */
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+/** Factor and unit in which a column of an order of derivation is shown. */
+function inRates(view, unit, order) {
+  if (order === 0 || state.rate === "angle" || !view.shaftSpeed) return [1, unit];
+  const [above] = unit.split("/");
+  // Millimetres to metres where the numbers would be long.
+  const metres = above === "mm" && order > 1;
+  const power = ["", "s", "s²", "s³"][order];
+  return [view.shaftSpeed ** order * (metres ? 1e-3 : 1), `${metres ? "m" : above}/${power}`];
+}
+
+/** The letter of a cam beside another. */
+const letter = (index) => (cams.length > 1 ? "AB"[index] : "");

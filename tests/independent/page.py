@@ -1,0 +1,243 @@
+"""Opens the moving report in Chromium without a network, and uses it as a person would.
+
+No message on the console; play moves the roller and the numbers; the keyboard works; nothing plays by itself; text has the
+contrast of WCAG AA in light and dark; no figure is wider than the page; printing gives A4 pages, none of them empty; a name full of
+HTML stays a name. The time to the first paint is printed, not judged.
+
+usage: page.py CAMGEN_BINARY DIRECTORY [--pictures]
+"""
+import argparse
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+LIFTER = Path(__file__).parent.parent / "common" / "lifter.toml"
+HOSTILE = 'name = "</script><b id=planted>Ролик</b><script>document.title=1</script>"'
+SWINGING = '[follower.swinging-roller]\nradius = "16 mm"\narm = "110 mm"\npivot_distance = "140 mm"\n'
+CASES = {
+    "rotary": ["rotary"],
+    "ccw": ["rotary", "--set", "cam.rotation=ccw"],
+    "offset": ["rotary", "--set", "follower.roller.offset=20mm"],
+    "failed": ["rotary", "--set", "cam.base_radius=40mm", "--force"],
+    "translating": ["translating"],
+    "conoid": ["conoid", "--rpm", "20,25,30,35"],
+    "lifter": ["make", "lifter.toml"],
+    "flat": ["make", "flat.toml"],
+    "swinging": ["make", "swinging.toml"],
+    "hostile": ["make", "hostile.toml"],
+    "beside": ["side-by-side", "dpi", "lifter.toml"],
+}
+LARGEST = 1_000_000
+FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--no-first-run"]
+
+# Contrast of every text that is seen: of its colour against the first background behind it, both as computed.
+CONTRAST = """() => {
+  const channel = (v) => { v /= 255; return v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4; };
+  const parse = (c) => { const m = c.match(/[\\d.]+/g).map(Number); return [m[0], m[1], m[2], m[3] ?? 1]; };
+  const light = (c) => 0.2126 * channel(c[0]) + 0.7152 * channel(c[1]) + 0.0722 * channel(c[2]);
+  const behind = (e) => { for (; e; e = e.parentElement) { const c = parse(getComputedStyle(e).backgroundColor); if (c[3] === 1) return c; }
+    return parse(getComputedStyle(document.documentElement).backgroundColor); };
+  const found = [];
+  for (const e of document.querySelectorAll("body *")) {
+    if (["SCRIPT", "STYLE", "NOSCRIPT", "OPTION"].includes(e.tagName) || !e.checkVisibility()) continue;
+    if (![...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim())) continue;
+    const style = getComputedStyle(e);
+    const svg = e.namespaceURI.endsWith("svg");
+    const fore = parse(svg ? style.fill : style.color);
+    const back = behind(e);
+    const [a, b] = [light(fore), light(back)].sort((x, y) => y - x);
+    const large = parseFloat(style.fontSize) >= 24 || (parseFloat(style.fontSize) >= 18.66 && Number(style.fontWeight) >= 700);
+    const ratio = (a + 0.05) / (b + 0.05);
+    if (ratio < (large ? 3 : 4.5)) found.push([e.tagName, e.className?.baseVal ?? e.className, e.textContent.slice(0, 30), ratio.toFixed(2)]);
+  }
+  return found;
+}"""
+STATE = """() => ({
+  roller: [...document.querySelectorAll('.part.normal')].map((p) => p.getAttribute('transform')).join(),
+  cam: document.querySelector('.part.cam').getAttribute('transform'),
+  numbers: document.querySelector('.readout').innerText,
+  legend: document.querySelector('.u-legend').innerText,
+  scrub: Number(document.getElementById('scrub').value),
+})"""
+
+
+def browser_path():
+    for name in ("chromium", "chromium-browser", "google-chrome", "chrome"):
+        if found := shutil.which(name):
+            return found
+    sys.exit("page.py: there is no Chromium here; install it (Debian: apt-get install chromium)")
+
+
+def written(binary, directory):
+    lifter = LIFTER.read_text()
+    head = lifter.split("[follower.roller]")[0]
+    (directory / "lifter.toml").write_text(lifter)
+    (directory / "flat.toml").write_text(head + "[follower.flat]\n")
+    (directory / "swinging.toml").write_text(head.replace(" mm", " deg") + SWINGING)
+    (directory / "hostile.toml").write_text(lifter.replace('name = "lifter"', HOSTILE))
+    for name, command in CASES.items():
+        html = [] if command[0] == "side-by-side" else ["--format", "html"]
+        flags = [*html, "--name", name, "--out", ".", "--quiet"]
+        made = subprocess.run([binary, *command, *flags], cwd=directory, capture_output=True, text=True)
+        assert made.returncode == (1 if name == "failed" else 0), made.stderr
+        size = (directory / f"{name}.html").stat().st_size
+        assert size < LARGEST, f"{name}: {size} bytes"
+
+
+class Page:
+    """A page that remembers what it was told and what it asked for."""
+
+    def __init__(self, browser, path, **options):
+        self.context = browser.new_context(viewport={"width": 1280, "height": 900}, **options)
+        self.page, self.said = self.context.new_page(), []
+        self.page.on("console", lambda message: self.said.append(f"{message.type}: {message.text}"))
+        self.page.on("pageerror", lambda error: self.said.append(f"error: {error}"))
+        self.page.on("request", lambda request: request.url.startswith("file:") or self.said.append(f"asks for {request.url}"))
+        self.page.goto(path.as_uri())
+        self.until("document.documentElement.dataset.ready !== undefined")
+
+    def until(self, condition, seconds=10):
+        """The page lets no text be evaluated, so that this looks again and again from outside."""
+        for _ in range(20 * seconds):
+            if self.page.evaluate(condition):
+                return
+            self.page.wait_for_timeout(50)
+        raise AssertionError(f"never: {condition}")
+
+    def state(self):
+        return self.page.evaluate(STATE)
+
+    def close(self):
+        assert not self.said, self.said
+        self.context.close()
+
+
+def uses(page):
+    """Play, pause, keys, the slider, a curve under the pointer: each moves the roller and the numbers."""
+    start = page.state()
+    page.page.wait_for_timeout(150)
+    assert page.state() == start, "it plays by itself"
+    page.page.click("#play")
+    page.until(f"Number(document.getElementById('scrub').value) > {start['scrub'] + 45}")
+    page.page.click("#play")
+    moved = page.state()
+    for what in ("roller", "cam", "numbers", "legend"):
+        assert moved[what] != start[what], f"play does not move {what}"
+    page.page.wait_for_timeout(150)
+    assert page.state() == moved, "pause does not stop it"
+    page.page.evaluate("document.activeElement.blur()")
+    for key, expected in (("Home", 0), ("ArrowRight", 1), ("Shift+ArrowRight", 11), ("ArrowLeft", 10)):
+        page.page.keyboard.press(key)
+        assert abs(page.state()["scrub"] - expected) < 1e-6, (key, page.state()["scrub"])
+    before = page.page.inner_text("#speed")
+    page.page.keyboard.press("+")
+    assert page.page.inner_text("#speed") != before, "+ does not change the speed"
+    page.page.keyboard.press("-")
+    assert page.page.inner_text("#speed") == before, "- does not change it back"
+    page.page.keyboard.press("Space")
+    page.until("Number(document.getElementById('scrub').value) > 12")
+    page.page.keyboard.press("Space")
+    page.page.keyboard.press("End")
+    assert page.state()["scrub"] > 90
+    area = page.page.locator(".u-over").first
+    area.scroll_into_view_if_needed()
+    box = area.bounding_box()
+    page.page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 20)
+    hovered = page.state()
+    assert abs(hovered["scrub"] - 90) < 25 or "returns" in page.page.content(), hovered["scrub"]
+    page.page.mouse.move(2, 2)
+
+
+def units(page):
+    if not page.page.is_visible("#unit-choice"):
+        return
+    assert "/s" not in page.page.inner_text("#plots")
+    page.page.select_option("#unit", "time")
+    text = page.page.inner_text("#plots")
+    assert "m/s²" in text or "rad/s²" in text, text[:400]
+    assert "/s" in page.page.inner_text("#readouts")
+    page.page.select_option("#unit", "angle")
+
+
+def fits(page, name):
+    """Nothing is wider than the window, at three widths."""
+    for width in (1280, 800, 420):
+        page.page.set_viewport_size({"width": width, "height": 900})
+        page.page.wait_for_timeout(120)
+        wide = page.page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= width, f"{name} at {width} px is {wide} px wide"
+    page.page.set_viewport_size({"width": 1280, "height": 900})
+    page.page.wait_for_timeout(120)
+
+
+def prints(page, path):
+    page.page.pdf(path=str(path), prefer_css_page_size=True)
+    bytes_ = path.read_bytes()
+    boxes = re.findall(rb"/MediaBox\s*\[([\d. ]+)\]", bytes_)
+    sizes = {tuple(round(float(v)) for v in box.split()) for box in boxes}
+    assert sizes == {(0, 0, 595, 842)}, f"{path.name}: {sizes}, not A4"
+    pages = len(re.findall(rb"/Type\s*/Page\b", bytes_))
+    assert 3 <= pages <= 8, f"{path.name} has {pages} pages"
+    if shutil.which("pdftotext"):
+        text = subprocess.run(["pdftotext", str(path), "-"], capture_output=True, text=True, check=True).stdout
+        empty = [i + 1 for i, page_text in enumerate(text.split("\f")[:-1]) if not page_text.strip()]
+        assert not empty, f"{path.name}: pages {empty} are empty"
+    return pages
+
+
+def judge(browser, directory, name, pictures):
+    path = directory / f"{name}.html"
+    page = Page(browser, path)
+    paint = page.page.evaluate("performance.getEntriesByName('first-paint')[0]?.startTime ?? NaN")
+    uses(page)
+    units(page)
+    fits(page, name)
+    poor = page.page.evaluate(CONTRAST)
+    assert not poor, f"{name}, light: {poor[:5]}"
+    page.page.click("#theme")
+    poor = page.page.evaluate(CONTRAST)
+    assert not poor, f"{name}, dark by the button: {poor[:5]}"
+    pages = prints(page, directory / f"{name}.pdf")
+    if pictures:
+        page.page.screenshot(path=str(directory / f"{name}.png"), full_page=True)
+    failed = page.page.is_visible(".broken")
+    assert failed == (name == "failed"), f"{name}: stamped {failed}"
+    assert page.page.locator("#planted").count() == 0, "a name became an element"
+    if name == "conoid":
+        canvas = page.page.locator("#solid canvas")
+        before = canvas.screenshot()
+        canvas.focus()
+        page.page.keyboard.press("ArrowRight")
+        assert canvas.screenshot() != before, "the solid does not turn"
+        numbers = page.state()["numbers"]
+        page.page.select_option("#section", "0")
+        assert page.state()["numbers"] != numbers, "another section has the same numbers"
+    page.close()
+    dark = Page(browser, path, color_scheme="dark", reduced_motion="reduce")
+    poor = dark.page.evaluate(CONTRAST)
+    assert not poor, f"{name}, dark: {poor[:5]}"
+    dark.close()
+    return f"{name}: {path.stat().st_size // 1000} kB, first paint {paint:.0f} ms, {pages} pages"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("binary", type=Path)
+    parser.add_argument("directory", type=Path)
+    parser.add_argument("--pictures", action="store_true")
+    options = parser.parse_args()
+    directory = (options.directory / "html").resolve()
+    directory.mkdir(parents=True, exist_ok=True)
+    written(options.binary.resolve(), directory)
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=browser_path(), args=FLAGS)
+        for name in CASES:
+            print("html:", judge(browser, directory, name, options.pictures), flush=True)
+        browser.close()
+
+
+main()
