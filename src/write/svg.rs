@@ -25,7 +25,7 @@ pub const FORMAT: Format = Format {
             Some(trace) => trace::below(sheet, &trace),
             None => sheet,
         };
-        Ok(vec![write(&sheet, cam.template)?])
+        Ok(vec![marked(&write(&sheet, cam.template)?, &cam.report.inputs.to_string())])
     },
 };
 
@@ -113,6 +113,16 @@ pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
     }
     text.push_str(&rest);
     Ok(text.into_bytes())
+}
+
+/// The file with a comment before its root, whatever the template.
+fn marked(file: &[u8], comment: &str) -> Vec<u8> {
+    let text = String::from_utf8_lossy(file);
+    let (declaration, rest) = match text.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {
+        Some((declaration, rest)) => (format!("<?xml{declaration}?>\n"), rest.trim_start()),
+        None => (String::new(), &*text),
+    };
+    format!("{declaration}<!-- {comment} -->\n{rest}").into_bytes()
 }
 
 fn without_comments(template: &str) -> String {
