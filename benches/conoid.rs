@@ -46,7 +46,7 @@ fn stages(criterion: &mut Criterion) {
             .bench_function(&name("checks, sphere on the flank"), |b| b.iter(|| verify::run(black_box(&evidence))));
         let solid = conical(&drawn.patches, &[], (0.0, 120.0), drawn.volume).expect("a solid");
         criterion.bench_function(&name("step"), |b| b.iter(|| step::write(black_box(&solid), "conoid", None)));
-        criterion.bench_function(&name("stl"), |b| b.iter(|| stl::write(black_box(&drawn), Some(25.0))));
+        criterion.bench_function(&name("stl"), |b| b.iter(|| stl::write(black_box(&drawn), Some(25.0), "cam")));
         criterion.bench_function(&name("table"), |b| b.iter(|| Table::of(&black_box(&conoid).rows(720))));
     }
     criterion.bench_function("conoid/fewest sections for 2 N", |b| {

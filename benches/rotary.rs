@@ -66,10 +66,11 @@ fn stages(criterion: &mut Criterion) {
     let solved = Spec::rotary(machine, 35.0).solve().expect("a cam");
     let proven = solved.draw(5e-6).expect("an outline").prove().expect("one outline");
     let report = proven.report();
-    let sheet = cam.sheet(&drawn, &report).expect("a sheet");
+    let rendering = proven.rendering(&report, 720, svg::TEMPLATE).expect("an outline");
+    let sheet = svg::sheet(&rendering).expect("a sheet");
     let entities = part.entities();
     criterion.bench_function("output/dxf", |b| b.iter(|| dxf::write(black_box(&entities), Version::R2000)));
-    criterion.bench_function("drawing/sheet", |b| b.iter(|| black_box(&cam).sheet(&drawn, &report)));
+    criterion.bench_function("drawing/sheet", |b| b.iter(|| svg::sheet(black_box(&rendering))));
     criterion.bench_function("output/svg", |b| b.iter(|| svg::write(black_box(&sheet), svg::TEMPLATE)));
     criterion.bench_function("drawing/table", |b| b.iter(|| Table::of(&black_box(&cam).rows(720))));
     let points = cam.rows(10_000);

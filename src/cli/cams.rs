@@ -66,11 +66,10 @@ pub(super) fn of_program(common: &CommonArgs, machine: Machine) -> Result<Spec, 
         [] => None,
         _ => Some(common.one_speed(&machine)?),
     };
-    let Some((motion, told)) = machine.motion() else {
+    Spec::of_program(machine, rpm).ok_or_else(|| {
         let why = format!("{} has no motion: `make` needs the tables [motion] and [[motion.segment]]", common.machine);
-        return Err(Failure(format!("{why}; the cams of a press are made by rotary, translating and conoid")));
-    };
-    Ok(Spec::of_motion(machine, motion, rpm.or(told)))
+        Failure(format!("{why}; the cams of a press are made by rotary, translating and conoid"))
+    })
 }
 
 /// The conoid of a list of speeds, or of a range of them and the residual force between the sections.

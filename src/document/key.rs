@@ -5,6 +5,7 @@
 //! type its value becomes, so that no read can ask for the wrong type.
 
 use super::bounds::Bounds;
+use super::input::exact;
 use crate::units::Dimension;
 
 /// What a value of a key may be.
@@ -146,6 +147,25 @@ pub(super) enum Value {
     /// Which of the words.
     Word(usize),
     Band(f64, f64),
+}
+
+impl Value {
+    /// The one text of this value, numbers in SI units with all their digits.
+    pub(super) fn canonical(&self, form: Form) -> String {
+        match (self, form) {
+            (Value::Text(text), _) => text.clone(),
+            (Value::Boolean(truth), _) => truth.to_string(),
+            (Value::Number(number), _) => exact(*number),
+            (Value::Numbers(numbers), _) => numbers.iter().copied().map(exact).collect::<Vec<_>>().join(" "),
+            (Value::LengthOrAngle(LengthOrAngle::Length(length)), _) => format!("{} m", exact(*length)),
+            (Value::LengthOrAngle(LengthOrAngle::Angle(angle)), _) => format!("{} rad", exact(*angle)),
+            (Value::Word(index), Form::Words(words) | Form::WordsOrQuantity(words, ..)) => {
+                words.get(*index).copied().unwrap_or_default().to_owned()
+            }
+            (Value::Word(index), _) => index.to_string(),
+            (Value::Band(low, high), _) => format!("{} .. {}", exact(*low), exact(*high)),
+        }
+    }
 }
 
 /// How a value is converted for the caller.

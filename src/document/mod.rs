@@ -7,6 +7,7 @@
 mod bounds;
 pub mod cams;
 mod fault;
+mod input;
 mod key;
 pub mod range;
 mod reader;
@@ -17,23 +18,36 @@ mod value;
 
 pub use bounds::{Bounds, above, within};
 pub use fault::{Excerpt, Fault};
+pub use input::Input;
 pub use key::{Field, Form, Key, LengthOrAngle, Occurs, Presence, Section};
 pub use reader::{Reader, Table};
 pub use schema::schema;
 pub use template::template;
 
+use std::collections::BTreeSet;
+
 /// Of the keys given, those that have no effect on a kind of cam, in the order given.
 #[must_use]
 pub fn without_effect(sections: &[&Section], given: &[String], cam: &str) -> Vec<String> {
-    let idle = |path: &str| {
-        let (pattern, _) = reader::pattern(path);
-        let mut keys = sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
-        keys.any(|(section, key)| {
-            let cams = section.cams_of(key);
-            !cams.is_empty() && !cams.contains(&cam) && section.path_of(key) == pattern
-        })
-    };
-    given.iter().filter(|path| idle(path)).cloned().collect()
+    let idle = idle(sections, cam);
+    given.iter().filter(|path| idle.contains(&reader::pattern(path).0)).cloned().collect()
+}
+
+/// Of the values of a file, those that have an effect on a kind of cam, in the order given.
+#[must_use]
+pub fn with_effect(sections: &[&Section], inputs: &[Input], cam: &str) -> Vec<Input> {
+    let idle = idle(sections, cam);
+    inputs.iter().filter(|input| !idle.contains(&reader::pattern(&input.key).0)).cloned().collect()
+}
+
+/// The patterns of the keys that have no effect on a kind of cam.
+fn idle(sections: &[&Section], cam: &str) -> BTreeSet<String> {
+    let keys = sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
+    let idle = keys.filter(|(section, key)| {
+        let cams = section.cams_of(key);
+        !cams.is_empty() && !cams.contains(&cam)
+    });
+    idle.map(|(section, key)| section.path_of(key)).collect()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! when both are right. Which keys exist is known from the sections alone, never from what was read.
 
 use super::fault::{Fault, nearest};
+use super::input::Input;
 use super::key::{Field, Key, Occurs, Presence, Section, Value, join};
 use super::text::{Document, Entry, Found, MOST_FAULTS, Place};
 use super::value::{self, Misfit, Scalar};
@@ -18,6 +19,8 @@ pub struct Reader<'a> {
     sections: &'a [&'a Section],
     /// Every value without a fault, defaults too, by its path.
     values: BTreeMap<String, Value>,
+    /// The same as inputs.
+    inputs: BTreeMap<String, Input>,
     /// Required keys that are absent, by their paths, until it is known whether a misspelling explains them.
     missing: BTreeMap<String, Found>,
     /// Paths that have the wrong shape: faults inside them are not reported.
@@ -34,7 +37,8 @@ impl<'a> Reader<'a> {
         let mut document = Document::new(source, text, overrides);
         let faults = RefCell::new(std::mem::take(&mut document.faults));
         let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
-        let mut reader = Self { document, sections, values, missing, misshapen, meant: BTreeSet::new(), faults };
+        let (inputs, meant) = (BTreeMap::new(), BTreeSet::new());
+        let mut reader = Self { document, sections, values, inputs, missing, misshapen, meant, faults };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -122,6 +126,9 @@ impl<'a> Reader<'a> {
             };
             match read {
                 Ok(value) => {
+                    let entry = self.document.entries.get(&path);
+                    let typed = entry.map_or_else(|| key.presence.text().to_owned(), |entry| entry.value.shown());
+                    self.inputs.insert(path.clone(), Input::new(&path, value.canonical(key.form), typed));
                     self.values.insert(path, value);
                 }
                 Err((Misfit { message, help }, place)) => self.told(message, help, place),
@@ -249,6 +256,12 @@ impl<'a> Reader<'a> {
         let entries = self.document.entries.iter();
         let given = entries.filter(|(path, entry)| entry.by_override() || (file && !of_one_kind(path)));
         given.map(|(path, _)| path.clone()).collect()
+    }
+
+    /// Every value without a fault, defaults too, in the order of their paths.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<Input> {
+        self.inputs.values().cloned().collect()
     }
 
     /// Ends the reading.

@@ -27,6 +27,18 @@ impl Scalar {
         }
     }
 
+    /// The value as it was typed.
+    pub(super) fn shown(&self) -> String {
+        match self {
+            Scalar::Text(text) | Scalar::Number(text) => text.clone(),
+            Scalar::Boolean(truth) => truth.to_string(),
+            Scalar::List(items) => {
+                format!("[{}]", items.iter().map(Scalar::shown).collect::<Vec<_>>().join(", "))
+            }
+            Scalar::Other(kind) => (*kind).to_owned(),
+        }
+    }
+
     /// The value as it was typed, where it is a text or a number.
     pub(super) fn typed(&self) -> Option<&str> {
         match self {

@@ -29,7 +29,7 @@ pub use translating::TranslatingData;
 use crate::document::Presence::Required;
 use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
-use crate::document::{self, Field, Occurs, Reader, Section};
+use crate::document::{self, Field, Input, Occurs, Reader, Section};
 use crate::follower::{self, FOLLOWERS};
 use crate::motion::{Motion, Transition, program};
 use std::fmt;
@@ -39,6 +39,11 @@ use std::sync::Arc;
 
 /// Largest machine file, bytes.
 const LARGEST_FILE: u64 = 1 << 20;
+
+/// What is changed of a machine after it was read, as an input.
+const OPPOSITE: &str = "follower (opposite offset)";
+/// The key that [`Machine::ask_for_cutter`] changes.
+const LARGEST_CUTTER: &str = "limits.cutter_radius";
 
 const NAME: Field<String> = Field::text("name", "what the sheet and the report call the machine", Required("my press"));
 
@@ -139,6 +144,8 @@ pub struct Machine {
     pub(crate) title: Title,
     /// Keys the user gave.
     given: Vec<String>,
+    /// Every value, defaults too.
+    inputs: Vec<Input>,
 }
 
 impl Machine {
@@ -178,6 +185,7 @@ impl Machine {
             limits: limits::read(reader)?,
             title: title::read(reader),
             given: reader.given(own),
+            inputs: reader.inputs(),
             follower,
         })
     }
@@ -185,7 +193,13 @@ impl Machine {
     /// The machine with the path of its roller on the other side of the shaft; `None` where the path goes through the shaft.
     #[must_use]
     pub fn with_opposite_offset(&self) -> Option<Self> {
-        Some(Self { follower: self.follower.with_opposite_offset()?, ..self.clone() })
+        let mut machine = Self { follower: self.follower.with_opposite_offset()?, ..self.clone() };
+        let before = machine.inputs.len();
+        machine.inputs.retain(|input| input.key != OPPOSITE);
+        if machine.inputs.len() == before {
+            machine.inputs.push(Input::word(OPPOSITE, "true"));
+        }
+        Some(machine)
     }
 
     /// What reports call it.
@@ -220,7 +234,16 @@ impl Machine {
     /// Requires that a cutter of this radius (m) fits into the concave parts as well.
     pub fn ask_for_cutter(&mut self, radius: f64) {
         let limit = &mut self.limits.cutter_radius;
-        *limit = Some(limit.map_or(radius, |other| other.max(radius)));
+        let larger = limit.map_or(radius, |other| other.max(radius));
+        *limit = Some(larger);
+        self.inputs.retain(|input| input.key != LARGEST_CUTTER);
+        self.inputs.push(Input::quantity(LARGEST_CUTTER, larger, ("mm", 1e-3)));
+    }
+
+    /// Every value that has an effect on a kind of cam as a command names it, defaults too.
+    #[must_use]
+    pub fn inputs(&self, command: &str) -> Vec<Input> {
+        document::with_effect(&sections(), &self.inputs, command)
     }
 
     /// Of the keys given, those that have no effect on a kind of cam as a command names it.

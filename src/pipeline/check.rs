@@ -1,6 +1,7 @@
 //! The proof of a file that was edited, or written by another program.
 
 use super::{Cam, Error, diagnosis, report};
+use crate::body::Request;
 use crate::geometry::MILLIMETRES;
 use crate::profile::outline::MotionTolerance;
 use crate::reading::step::{Flank, Loop};
@@ -112,7 +113,7 @@ impl Cam {
         sections.push(Section::new("rolling", &rolled));
         let found = outlines.first().map(|outline| &outline.contour);
         sections.extend(diagnosis::of(self, section.map(|section| section.rpm), found, (&checks, tolerance)));
-        let whole = report(body, sections, checks);
+        let whole = report(body, &self.inputs_for(&Request::within(tolerance)), sections, checks);
         let noun = match section {
             Some(section) => format!("section for {} rpm of a {}", section.rpm, whole.noun).into(),
             None => whole.noun.clone(),
@@ -158,7 +159,7 @@ impl Cam {
             strict: false,
         });
         let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
-        let whole = report(body, sections, checks);
+        let whole = report(body, &self.inputs_for(&Request::within(tolerance)), sections, checks);
         let noun = format!("solid of a {}", whole.noun).into();
         Ok(Report { command: "check".into(), noun, ..whole })
     }

@@ -8,6 +8,7 @@ mod check;
 mod diagnosis;
 mod error;
 mod file_set;
+mod inputs;
 mod proven;
 mod spec;
 
@@ -19,8 +20,9 @@ pub use spec::Spec;
 
 use crate::body::points::{self, PointTable, TableError};
 use crate::body::{Body, DrawError, Drawn, Kind, Request};
+use crate::document::Input;
 use crate::machine::Machine;
-use crate::report::{Report, Section};
+use crate::report::{Inputs, Report, Section};
 
 /// A solved cam: exact curves, nothing drawn yet.
 #[derive(Debug)]
@@ -28,6 +30,8 @@ pub struct Cam {
     body: Box<dyn Body>,
     /// The same for another speed, where it is made for one.
     again: Option<diagnosis::Again>,
+    /// What determines it.
+    inputs: Vec<Input>,
 }
 
 impl Cam {
@@ -43,7 +47,9 @@ impl Cam {
     /// [`Error::Draw`] when the outline cannot be drawn. A cam that has no outline at all, because it is undercut too
     /// far, gives a drawing without one: its checks say why, and it cannot be written.
     pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
-        let request = request.into().resolved(&*self.body)?;
+        let request = request.into();
+        let inputs = self.inputs_for(&request);
+        let request = request.resolved(&*self.body)?;
         let (drawn, points) = match self.body.draw(&request) {
             Ok(drawn) => {
                 let points = match points::tables(self.body(), &request, &drawn.parts) {
@@ -56,7 +62,12 @@ impl Cam {
             Err(DrawError::NoOutline(why)) => (Err(why), Ok(Vec::new())),
             Err(error) => return Err(error.into()),
         };
-        Ok(Drawing { cam: self, request, drawn, points })
+        Ok(Drawing { cam: self, request, inputs, drawn, points })
+    }
+
+    /// Everything that determines the part as it is drawn.
+    fn inputs_for(&self, request: &Request) -> Vec<Input> {
+        self.inputs.iter().cloned().chain(inputs::of_request(request)).collect()
     }
 }
 
@@ -71,6 +82,7 @@ impl From<f64> for Request {
 pub struct Drawing<'c> {
     cam: &'c Cam,
     request: Request,
+    inputs: Vec<Input>,
     /// What was drawn, or why there is no outline.
     drawn: Result<Drawn, String>,
     /// The tables of points that were requested, or why there are none.
@@ -93,13 +105,14 @@ fn without_effect(machine: &Machine, kind: &Kind) -> Vec<String> {
 }
 
 /// The report of a body, without files.
-fn report(body: &dyn Body, sections: Vec<Section>, checks: Vec<crate::report::Finding>) -> Report {
+fn report(body: &dyn Body, inputs: &[Input], sections: Vec<Section>, checks: Vec<crate::report::Finding>) -> Report {
     let (kind, machine) = (body.kind(), body.machine());
     Report {
         command: kind.command.into(),
         noun: kind.noun.into(),
         machine: machine.name().to_owned(),
         rpm: body.speeds(),
+        inputs: Inputs::of(inputs),
         sections,
         checks,
         notes: without_effect(machine, kind),

@@ -3,9 +3,10 @@
 use super::{Cam, Drawing, Error, FileSet, Writing, file_set, report};
 use crate::body::points::PointTable;
 use crate::body::{Body, Drawn, Found, Request};
+use crate::document::Input;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::Interpolant;
-use crate::report::{Finding, Report, Rolled, passed};
+use crate::report::{Finding, Inputs, Report, Rolled, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
 use crate::write::Rendering;
@@ -18,6 +19,8 @@ use crate::write::{points, proof};
 pub struct Proven<'c> {
     pub(super) cam: &'c Cam,
     request: Request,
+    /// Everything that determines the part.
+    pub(super) inputs: Vec<Input>,
     pub(super) drawn: Result<Drawn, String>,
     /// The bytes of the cut files, one for each part.
     cut_files: Vec<Vec<u8>>,
@@ -44,10 +47,11 @@ impl<'c> Drawing<'c> {
     /// As [`Drawing::prove`].
     pub fn prove_as(self, version: Version) -> Result<Proven<'c>, Error> {
         let body = self.cam.body();
+        let mark = Inputs::of(&self.inputs).to_string();
         let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
         for part in self.drawn.iter().flat_map(|drawn| &drawn.parts) {
             // The proof is of the bytes that would be cut, not of the drawing they were made from.
-            let written = proof::write(part, version)?;
+            let written = proof::write_marked(part, version, &mark)?;
             cut_files.push(written.bytes);
             outlines.push(WrittenOutline { z: part.z, contour: written.outline, beside: written.beside });
         }
@@ -77,8 +81,8 @@ impl<'c> Drawing<'c> {
             motion: self.request.fit.motion,
             strict: self.request.strict,
         });
-        let (cam, request, drawn) = (self.cam, self.request, self.drawn);
-        Ok(Proven { cam, request, drawn, cut_files, points, version, outlines, rolled, findings })
+        let (cam, request, inputs, drawn) = (self.cam, self.request, self.inputs, self.drawn);
+        Ok(Proven { cam, request, inputs, drawn, cut_files, points, version, outlines, rolled, findings })
     }
 }
 
@@ -156,7 +160,7 @@ impl Proven<'_> {
             rolled: self.rolled.as_ref(),
             tolerance_mm: MILLIMETRES * self.request.fit.tolerance,
         };
-        let mut report = report(body, body.sections(&found), self.findings.clone());
+        let mut report = report(body, &self.inputs, body.sections(&found), self.findings.clone());
         report.notes.extend(self.no_outline().map(|why| format!("there is no outline: {why}")));
         report
     }

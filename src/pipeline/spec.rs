@@ -1,11 +1,12 @@
 //! The cam to be made: a machine, and how the body is solved from it.
 
 use super::diagnosis::Again;
-use super::{Builder, Cam, Error};
+use super::{Builder, Cam, Error, inputs};
 use crate::body::conoid::{Conoid, between};
 use crate::body::disc::Disc;
 use crate::body::wedge::Wedge;
 use crate::body::{Body, SolveError};
+use crate::document::Input;
 use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::motion::equation_18::{ExactOn, Solver};
@@ -19,6 +20,8 @@ pub struct Spec {
     machine: Machine,
     solve: Box<Solve>,
     again: Option<Again>,
+    /// How the body is solved; `None` where only `solve` knows.
+    inputs: Option<Vec<Input>>,
 }
 
 impl fmt::Debug for Spec {
@@ -29,6 +32,9 @@ impl fmt::Debug for Spec {
 
 impl Spec {
     /// Any body: `solve` makes it from the machine.
+    ///
+    /// What `solve` knows beside the machine is an input that the hash in the report cannot see as such: it is of the machine and
+    /// of samples of the solved curves, 65 in each piece of the motion.
     pub fn new<B, E>(machine: Machine, solve: impl FnOnce(&Machine) -> Result<B, E> + 'static) -> Self
     where
         B: Body + 'static,
@@ -38,7 +44,12 @@ impl Spec {
             Ok(body) => Ok(Box::new(body) as Box<dyn Body>),
             Err(error) => Err(error.into()),
         };
-        Self { machine, solve: Box::new(solve), again: None }
+        Self { machine, solve: Box::new(solve), again: None, inputs: None }
+    }
+
+    /// All that is known of how the body is solved, beside the machine.
+    fn with(self, inputs: Vec<Input>) -> Self {
+        Self { inputs: Some(inputs), ..self }
     }
 
     /// How the cam is solved for other speeds: a check that fails tells for which it would be the cam.
@@ -53,32 +64,54 @@ impl Spec {
     /// The disc cam of a press for a speed of its main shaft, rpm.
     #[must_use]
     pub fn rotary(machine: Machine, rpm: f64) -> Self {
-        Self::new(machine, move |machine| Disc::solve(machine, rpm)).for_other_speeds(Disc::solve)
+        Self::new(machine, move |machine| Disc::solve(machine, rpm))
+            .for_other_speeds(Disc::solve)
+            .with(vec![Input::number("rpm", rpm)])
     }
 
     /// The wedge cam of a press (a linear cam, the plate on the bed) for a speed of its main shaft, rpm.
     #[must_use]
     pub fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
         let solve = move |machine: &Machine, rpm| Wedge::solve(machine, rpm, solver, exact_on);
-        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve)
+        let mut inputs = inputs::of_wedge(solver, exact_on);
+        inputs.push(Input::number("rpm", rpm));
+        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve).with(inputs)
     }
 
     /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the residual force
     /// between them, N.
     #[must_use]
     pub fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
+        let mut inputs = vec![Input::numbers("rpm", &speeds)];
+        inputs.extend(residual_limit.map(|limit| Input::quantity("residual", limit, ("N", 1.0))));
         let solve = move |machine: &Machine| Conoid::solve(machine, &speeds);
         Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(residual_limit)))
+            .with(inputs)
     }
 
     /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a residual force between them, N.
     #[must_use]
     pub fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
         let solve = move |machine: &Machine| between::fewest(machine, speeds, residual_limit);
+        let (from, to) = speeds;
+        let inputs =
+            vec![Input::word("rpm", format!("{from}..{to}")), Input::quantity("residual", residual_limit, ("N", 1.0))];
         Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(Some(residual_limit))))
+            .with(inputs)
     }
 
-    /// The disc cam of any motion; `rpm` is the speed of the cam itself, where it is known.
+    /// The disc cam of the motion program of the machine file; `rpm` is the speed of the cam itself, in place of that of the file.
+    /// `None` when the file has no motion.
+    #[must_use]
+    pub fn of_program(machine: Machine, rpm: Option<f64>) -> Option<Self> {
+        let (motion, of_file) = machine.motion()?;
+        let rpm = rpm.or(of_file);
+        let inputs = rpm.map(|rpm| Input::number("rpm", rpm)).into_iter().collect();
+        Some(Self::of_motion(machine, motion, rpm).with(inputs))
+    }
+
+    /// The disc cam of any motion; `rpm` is the speed of the cam itself, where it is known. Of the motion the hash in the report
+    /// knows samples, as in [`Spec::new`].
     #[must_use]
     pub fn of_motion(machine: Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Self {
         Self::new(machine, move |machine| Disc::of_motion(machine, motion, rpm))
@@ -101,6 +134,11 @@ impl Spec {
     /// # Errors
     /// [`Error::Solve`] when there is no such cam.
     pub fn solve(self) -> Result<Cam, Error> {
-        Ok(Cam { body: (self.solve)(&self.machine)?, again: self.again })
+        let body = (self.solve)(&self.machine)?;
+        let command = body.kind().command;
+        let mut all = vec![Input::word("command", command)];
+        all.extend(self.machine.inputs(command));
+        all.extend(self.inputs.unwrap_or_else(|| inputs::of_own(&*body)));
+        Ok(Cam { body, again: self.again, inputs: all })
     }
 }

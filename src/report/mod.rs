@@ -7,6 +7,7 @@
 pub mod chart;
 mod felt;
 mod finding;
+mod inputs;
 pub mod mechanism;
 mod rolled;
 pub mod sheet;
@@ -15,6 +16,7 @@ mod values;
 
 pub use felt::Felt;
 pub use finding::{Finding, Place, Verdict, degrees, passed, worst_first};
+pub use inputs::{Inputs, sha256};
 pub use rolled::Rolled;
 pub use values::{
     AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, lobes_words,
@@ -110,6 +112,8 @@ pub struct Report {
     pub machine: String,
     /// Speeds of the main shaft.
     pub rpm: Speeds,
+    /// From which inputs it was made.
+    pub inputs: Inputs,
     /// What the parts contribute, in their order.
     pub sections: Vec<Section>,
     /// Every check.
@@ -127,16 +131,16 @@ impl Report {
         format!("{}, {}{}", self.machine, self.noun, self.rpm)
     }
 
+    /// The hash of the inputs, twelve hexadecimal digits: two different cams have different ones.
+    #[must_use]
+    pub fn inputs_hash(&self) -> &str {
+        &self.inputs.hash
+    }
+
     /// The values of a section.
     #[must_use]
     pub fn section(&self, key: &str) -> Option<&Value> {
         self.sections.iter().find(|section| section.key == key).map(|section| &section.value)
-    }
-
-    /// Digest of everything the cam was made from.
-    #[must_use]
-    pub fn inputs_hash(&self) -> &str {
-        ""
     }
 
     /// Whether no check failed.
@@ -159,6 +163,7 @@ impl Serialize for Report {
         map.serialize_entry("command", &self.command)?;
         map.serialize_entry("machine", &self.machine)?;
         map.serialize_entry("rpm", &self.rpm)?;
+        map.serialize_entry("inputs", &self.inputs)?;
         for section in &self.sections {
             map.serialize_entry(&section.key, &section.value)?;
         }
@@ -193,6 +198,7 @@ impl<'de> Visitor<'de> for ReportVisitor {
             noun: "".into(),
             machine: String::new(),
             rpm: Speeds::Any(()),
+            inputs: Inputs::default(),
             sections: Vec::new(),
             checks: Vec::new(),
             notes: Vec::new(),
@@ -205,6 +211,7 @@ impl<'de> Visitor<'de> for ReportVisitor {
                 "command" => report.command = map.next_value::<String>()?.into(),
                 "machine" => report.machine = map.next_value()?,
                 "rpm" => report.rpm = map.next_value()?,
+                "inputs" => report.inputs = map.next_value()?,
                 "checks" => report.checks = map.next_value()?,
                 "notes" => report.notes = map.next_value()?,
                 "files" => report.files = map.next_value()?,
@@ -233,6 +240,7 @@ mod tests {
             noun: "".into(),
             machine: "press".into(),
             rpm: Speeds::One(35.0),
+            inputs: Inputs::of(&[]),
             sections: vec![Section::new("cam", &serde_json::json!({"base_radius_mm": 69.0, "area_mm2": null}))],
             checks: vec![Finding {
                 check: "wall".into(),

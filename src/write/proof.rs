@@ -52,11 +52,19 @@ pub enum ProofError {
 /// # Errors
 /// [`ProofError`] when what was written is not what was drawn.
 pub fn write(part: &Part, version: Version) -> Result<Written, ProofError> {
+    write_marked(part, version, "")
+}
+
+/// As [`write`](write()), with a comment at the head of the file.
+///
+/// # Errors
+/// As [`write`](write()).
+pub fn write_marked(part: &Part, version: Version, mark: &str) -> Result<Written, ProofError> {
     if version == Version::R12 && part.outline.contour.cubics() > 0 {
         return Err(ProofError::NoSplines);
     }
     let entities = part.entities();
-    let bytes = dxf::write(&entities, version);
+    let bytes = dxf::marked(dxf::write(&entities, version), mark);
     if !holds(&bytes, &entities) {
         return Err(ProofError::OtherEntities);
     }

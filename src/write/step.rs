@@ -17,7 +17,7 @@ pub const FORMAT: Format = Format {
     flank: true,
     unfit: |body| body.height().is_none().then_some("cam.thickness is not given"),
     endings: |_| vec![".step".into()],
-    write: |cam| Ok(vec![write(&solid(cam)?, &cam.report.title(), cam.created)]),
+    write: |cam| Ok(vec![write_marked(&solid(cam)?, &cam.report.title(), cam.created, &cam.report.inputs.to_string())]),
 };
 
 fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {
@@ -246,6 +246,12 @@ fn escaped(text: &str) -> String {
 /// The solid under a product name, with the time of its making where it is known (seconds since 1970 UTC, up to [`LATEST`]).
 #[must_use]
 pub fn write(solid: &Solid, product: &str, created: Option<u64>) -> Vec<u8> {
+    write_marked(solid, product, created, "")
+}
+
+/// As [`write`](write()), with a remark in the description of the file.
+#[must_use]
+pub fn write_marked(solid: &Solid, product: &str, created: Option<u64>, remark: &str) -> Vec<u8> {
     let boundary = with_places(&solid.boundary);
     let written = StepModel::from(&boundary).to_string();
     let start = written.find(FIRST).unwrap_or(0);
@@ -254,11 +260,12 @@ pub fn write(solid: &Solid, product: &str, created: Option<u64>) -> Vec<u8> {
     let category = data.lines().filter_map(|line| line.strip_prefix('#')?.split(' ').next()?.parse::<u32>().ok()).max();
     let category = category.unwrap_or(16) + 1;
     let name = escaped(product);
+    let remark = if remark.is_empty() { String::new() } else { format!(", '{}'", escaped(remark)) };
     let (version, time) = (env!("CARGO_PKG_VERSION"), time_stamp(created));
     format!(
         "ISO-10303-21;
 HEADER;
-FILE_DESCRIPTION(('{name}'), '2;1');
+FILE_DESCRIPTION(('{name}'{remark}), '2;1');
 FILE_NAME('{name}', '{time}', (''), (''), 'camgen {version}', 'camgen', '');
 FILE_SCHEMA(('AUTOMOTIVE_DESIGN {{ 1 0 10303 214 1 1 1 1 }}'));
 ENDSEC;

@@ -15,18 +15,18 @@ pub const FORMAT: Format = Format {
     endings: |_| vec![".stl".into()],
     write: |cam| {
         let bore = cam.body.machine().cam.bore_radius.map(|radius| MILLIMETRES * radius);
-        Ok(cam.drawn.flank.iter().map(|flank| write(flank, bore)).collect())
+        let title = format!("{}, millimetres", cam.report.inputs);
+        Ok(cam.drawn.flank.iter().map(|flank| write(flank, bore, &title)).collect())
     },
 };
 
 /// Triangles as binary STL: 80 bytes of header, a count, 50 bytes a triangle.
 #[must_use]
-pub fn write(flank: &Flank, bore_radius: Option<f64>) -> Vec<u8> {
+pub fn write(flank: &Flank, bore_radius: Option<f64>, title: &str) -> Vec<u8> {
     let mesh = Mesh::new(flank, bore_radius);
     let mut bytes = vec![b' '; 80];
-    let title = b"camgen, millimetres";
-    if let Some(start) = bytes.get_mut(..title.len()) {
-        start.copy_from_slice(title);
+    for (place, byte) in bytes.iter_mut().zip(title.bytes()) {
+        *place = byte;
     }
     // Corners that are one in single precision make no triangle.
     #[expect(clippy::cast_possible_truncation, reason = "STL holds single precision")]

@@ -20,7 +20,7 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
-    write: |cam| Ok(vec![write(&sheet(cam)?, cam.template)?]),
+    write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.inputs.to_string())]),
 };
 
 /// The review sheet of a proven cam.
@@ -135,6 +135,16 @@ pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>,
     }
     text.push_str(&rest);
     Ok(text.into_bytes())
+}
+
+/// The file with a comment before its root, whatever the template.
+fn marked(file: &[u8], comment: &str) -> Vec<u8> {
+    let text = String::from_utf8_lossy(file);
+    let (declaration, rest) = match text.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {
+        Some((declaration, rest)) => (format!("<?xml{declaration}?>\n"), rest.trim_start()),
+        None => (String::new(), &*text),
+    };
+    format!("{declaration}<!-- {comment} -->\n{rest}").into_bytes()
 }
 
 fn without_comments(template: &str) -> String {

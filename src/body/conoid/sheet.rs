@@ -13,8 +13,9 @@ use nalgebra::Vector2;
 
 /// Most speeds that are named one by one.
 const MOST_NAMED: usize = 8;
-/// Room between plan and isometric view over the width of the plan.
-const GAP_OVER_WIDTH: f64 = 0.15;
+/// Room between plan and isometric view, and width of that view, over the width of the plan.
+const GAP_OVER_WIDTH: f64 = 0.12;
+const PICTURE_OVER_WIDTH: f64 = 0.62;
 /// Points of a turn and lines along the axis in the isometric view, and points of each such line.
 const TURN: u32 = 180;
 const RULERS: u32 = 24;
@@ -42,36 +43,42 @@ pub(super) fn view(conoid: &Conoid, drawn: &Drawn) -> View {
     let points = rings.iter().chain(&ends).chain(&rulers).flatten();
     let start = Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) };
     let solid = points.fold(start, |extents, p| extents.with(&Extents { least: *p, largest: *p }));
-    // The view stands to the right of the plan, its middle as high as the plan's.
+    // A picture of the solid, not to scale, above the plan and in its middle.
+    let share = PICTURE_OVER_WIDTH * plan.size().x / solid.size().x.max(f64::MIN_POSITIVE);
     let shift = Vector2::new(
-        plan.largest.x + gap - solid.least.x,
-        0.5 * (plan.least.y + plan.largest.y - solid.least.y - solid.largest.y),
+        0.5 * (plan.least.x + plan.largest.x) - 0.5 * share * (solid.least.x + solid.largest.x),
+        plan.largest.y + gap - share * solid.least.y,
     );
-    let moved = |points: &Vec<Vector2<f64>>| Shape::Path(points.iter().map(|p| p + shift).collect());
+    let moved = |points: &Vec<Vector2<f64>>| Shape::Path(points.iter().map(|p| p * share + shift).collect());
     let holes =
         parts.first().map_or_else(Vec::new, |part: &Part| part.holes().into_iter().map(Shape::Entity).collect());
     let mut groups = vec![
         Group::new("axis", "axes", axes(&plan)),
         Group::new("bore", "bore", holes),
-        Group::new("isometric", "isometric view", ends.iter().chain(&rulers).map(moved).collect()),
+        Group::new("isometric", "isometric view, not to scale", ends.iter().chain(&rulers).map(moved).collect()).told(),
     ];
     // Of many sections every few are named.
     let every = cuts.len().div_ceil(MOST_NAMED);
     let (first, last) = (conoid.speeds.first().copied().unwrap_or(0.0), conoid.speeds.last().copied().unwrap_or(0.0));
-    let sections = cuts.iter().zip(parts).zip(&rings).enumerate().map(|(index, (((rpm, z, _), part), ring))| {
-        let share = if last > first { (rpm - first) / (last - first) } else { 1.0 };
-        let shapes = vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone())), moved(ring)];
+    let colours = |rpm: f64| colour(if last > first { (rpm - first) / (last - first) } else { 1.0 });
+    let sections = cuts.iter().zip(parts).enumerate().map(|(index, ((rpm, z, _), part))| {
         let label = format!("section for {} rpm, z = {} mm", rounded(*rpm), rounded(MILLIMETRES * z));
         Group {
             id: format!("section-{index}"),
             class: "section",
             label,
-            colour: Some(colour(share)),
-            shapes,
+            colour: Some(colours(*rpm)),
+            shapes: vec![Shape::Entity(Entity::Polyline(part.outline.contour.clone()))],
             in_legend: index % every == 0 || index + 1 == cuts.len(),
         }
     });
     groups.extend(sections);
+    let seen_at = cuts.iter().zip(&rings).enumerate().map(|(index, ((rpm, ..), ring))| Group {
+        id: format!("seen-{index}"),
+        colour: Some(colours(*rpm)),
+        ..Group::new("seen", "section in the isometric view", vec![moved(ring)])
+    });
+    groups.extend(seen_at);
     let base = parts.iter().map(|part| part.outline.contour.extents().largest.x).fold(0.0, f64::max);
     let marks = [
         overall(&plan),

@@ -36,7 +36,7 @@ pub const CUTTER_PATH: Format = Format {
     endings: |drawn| drawn.cutter_path.iter().map(|_| "-cutter.dxf".into()).collect(),
     write: |cam| {
         let path = |outline: &Result<Outline, OutlineError>| match outline {
-            Ok(outline) => Ok(cutter_path(outline, cam.dxf_version)),
+            Ok(outline) => Ok(marked(cutter_path(outline, cam.dxf_version), &cam.report.inputs.to_string())),
             Err(error) => Err((*error).into()),
         };
         cam.drawn.cutter_path.iter().map(path).collect()
@@ -109,6 +109,14 @@ pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
     header(&mut head, &extents);
     head.text.push_str(&body.text);
     head.text.into_bytes()
+}
+
+/// The file with a comment at its head, where every reader passes over it.
+#[must_use]
+pub fn marked(file: Vec<u8>, comment: &str) -> Vec<u8> {
+    // A line feed would end the comment, and begin a group.
+    let comment: String = comment.chars().filter(|c| c.is_ascii() && !c.is_control()).collect();
+    if comment.is_empty() { file } else { [format!("999\n{comment}\n").into_bytes(), file].concat() }
 }
 
 fn header(tags: &mut Tags, extents: &Extents) {

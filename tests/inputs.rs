@@ -1,0 +1,225 @@
+//! The hash of the inputs: every value that has an effect changes it, nothing else does.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+#[path = "common/program.rs"]
+mod program;
+
+use camgen::body::KINDS;
+use camgen::document::Presence::Required;
+use camgen::document::{Form, Key, Occurs, Section};
+use camgen::machine::{Machine, sections};
+use camgen::motion::EccentricCircle;
+use camgen::motion::laws::LAWS;
+use camgen::pipeline::Spec;
+use camgen::report::Inputs;
+use program::{camgen, files, report};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{Config, TestRunner};
+use std::fs;
+
+const LIFTER: &str = include_str!("common/lifter.toml");
+
+/// A key that means something only beside another.
+const BESIDE: [(&str, &str); 1] = [("follower.roller.crown", "follower.roller.width=20mm")];
+
+/// A machine with a table, all of whose keys are given that must be.
+fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
+    let keys = section.keys.iter().filter(|key| matches!(key.presence, Required(_)));
+    let examples = keys.clone().map(|key| format!("{}={}", section.path_of(key), key.presence.text()));
+    if section.path.starts_with("motion") {
+        return Machine::from_toml("lifter.toml", LIFTER, sets).ok();
+    }
+    if section.path.starts_with("follower.") && section.path != "follower.roller" {
+        let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
+        let keys: Vec<String> =
+            keys.map(|key| format!("{} = {}", key.name, key.in_toml(key.presence.text()))).collect();
+        let keys = keys.join("\n");
+        let tables = [head.to_owned(), head.replace(" mm", " deg")]
+            .map(|motion| Machine::from_toml("x", &format!("{motion}[{}]\n{keys}", section.path), sets).ok());
+        return tables.into_iter().flatten().next();
+    }
+    let examples = examples.filter(|_| section.occurs != Occurs::Once && section.path.contains("keyway"));
+    Machine::load("dpi", &examples.chain(sets.iter().cloned()).collect::<Vec<_>>()).ok().map(|(machine, _)| machine)
+}
+
+fn hash(machine: &Machine, command: &str) -> String {
+    Inputs::of(&machine.inputs(command)).hash
+}
+
+/// Another value of a key than its example, by a share of it.
+fn another(key: &Key, share: f64, index: u32) -> String {
+    let scaled = |text: &str| {
+        let end = text.find(|c: char| c.is_alphabetic() || c == '%').unwrap_or(text.len());
+        let (number, unit) = text.split_at(end);
+        let number: f64 = number.trim().parse().unwrap_or(1.0);
+        let changed = if number == 0.0 { share } else { number * share };
+        format!("{changed} {unit}").trim().to_owned()
+    };
+    let example = key.presence.text();
+    match key.form {
+        Form::Text if key.name == "law" => LAWS[index as usize % LAWS.len()].name.to_owned(),
+        Form::Text => format!("text {index}"),
+        Form::Boolean => index.is_multiple_of(2).to_string(),
+        Form::Words(words) => words[index as usize % words.len()].to_owned(),
+        Form::WordsOrQuantity(words, ..) if index > 4 => words[index as usize % words.len()].to_owned(),
+        Form::WordsOrQuantity(words, ..) if words.contains(&example) => format!("{} mm", 100.0 * share),
+        Form::Numbers(_) => format!("[{share}]"),
+        Form::Band(..) => {
+            example.split_once("..").map_or_else(String::new, |(a, b)| format!("{} .. {}", a.trim(), scaled(b.trim())))
+        }
+        Form::Number(_) if index < 4 => (1.0 / f64::from(index + 2)).to_string(),
+        _ => scaled(example),
+    }
+}
+
+/// Every key of the table, on every kind of cam: another value changes the hash exactly where the key has an effect.
+#[test]
+fn every_key_that_has_an_effect_changes_the_hash() {
+    let draws = (0.3..1.7_f64, 0..8_u32);
+    let mut runner = TestRunner::new(Config { cases: 24, ..Config::default() });
+    for section in sections() {
+        for key in section.keys {
+            let path = section.path_of(key).replace("[]", "[0]");
+            let mut changed = 0;
+            for _ in 0..24 {
+                let (share, index) = draws.new_tree(&mut runner).expect("a draw").current();
+                let beside: Vec<String> =
+                    BESIDE.iter().filter(|(of, _)| *of == path).map(|(_, set)| (*set).into()).collect();
+                let sets = [&beside[..], &[format!("{path}={}", another(key, share, index))]].concat();
+                let before = machine(section, &beside).expect("a machine with this table");
+                let Some(after) = machine(section, &sets) else { continue };
+                for kind in KINDS {
+                    let cams = section.cams_of(key);
+                    let idle = !cams.is_empty() && !cams.contains(&kind.command);
+                    let same_value = before.inputs(kind.command) == after.inputs(kind.command);
+                    let same_hash = hash(&before, kind.command) == hash(&after, kind.command);
+                    assert_eq!(same_value, same_hash, "{sets:?} on a {}", kind.noun);
+                    assert!(!idle || same_hash, "{sets:?} on a {}", kind.noun);
+                    changed += usize::from(!same_hash);
+                }
+            }
+            // A start is also where the last segment ends: neither can be changed alone.
+            assert!(changed > 0 || path == "motion.start", "no value of {path} changed the hash");
+        }
+    }
+}
+
+#[test]
+fn the_start_of_a_motion_changes_the_hash() {
+    let moved = LIFTER.replace("\"0 mm\"", "\"2 mm\"");
+    let of = |text: &str| hash(&Machine::from_toml("lifter.toml", text, &[]).expect("in range"), "make");
+    assert_ne!(of(LIFTER), of(&moved));
+}
+
+/// Two sets of values have the same hash only where they are the same values.
+#[test]
+fn hashes_agree_where_the_values_do() {
+    let value = (1..4_u32, 0..3_usize);
+    let strategy = prop::collection::vec(value, 2);
+    let set = |draws: &[(u32, usize)]| {
+        let (a, unit) = draws[0];
+        let radius = match unit {
+            0 => format!("{}mm", 10 * a + 10),
+            1 => format!("{}cm", a + 1),
+            _ => format!("0.0{}m", a + 1),
+        };
+        let thickness = 10 * draws[1].0;
+        let overrides = [format!("follower.roller.radius={radius}"), format!("cam.thickness={thickness}mm")];
+        let (machine, _) = Machine::load("dpi", &overrides).expect("in range");
+        ((a, thickness), hash(&machine, "rotary"))
+    };
+    let mut runner = TestRunner::new(Config { cases: 200, ..Config::default() });
+    runner
+        .run(&(strategy.clone(), strategy), |(a, b)| {
+            let ((values_a, hash_a), (values_b, hash_b)) = (set(&a), set(&b));
+            prop_assert_eq!(values_a == values_b, hash_a == hash_b, "{:?} {:?}", a, b);
+            Ok(())
+        })
+        .expect("for all");
+}
+
+fn hash_of(args: &[&str]) -> String {
+    let run = camgen(&[args, &["--json"]].concat());
+    assert!(run.code < 2, "{args:?}: {}", run.err);
+    report(&run)["inputs"]["hash"].as_str().expect("a hash").to_owned()
+}
+
+#[test]
+fn flags_that_change_the_part_change_the_hash_and_no_others() {
+    let plain = hash_of(&["rotary"]);
+    for same in [
+        vec!["--name", "x"],
+        vec!["--out", "elsewhere"],
+        vec!["--format", "dxf,json"],
+        vec!["--samples", "36"],
+        vec!["--dxf-version", "r12"],
+        vec!["--tolerance", "0.005mm"],
+        vec!["--accuracy", "standard"],
+        vec!["--rpm", "35"],
+        vec!["--set", "follower.roller.radius=3cm"],
+        vec!["--set", "translating.delta=50deg"],
+    ] {
+        assert_eq!(hash_of(&[&["rotary"][..], &same].concat()), plain, "{same:?}");
+    }
+    let mut hashes = vec![plain, hash_of(&["translating"]), hash_of(&["conoid", "--rpm", "35"])];
+    for other in [
+        vec!["--rpm", "34"],
+        vec!["--tolerance", "6um"],
+        vec!["--side", "inside"],
+        vec!["--side", "outside"],
+        vec!["--outline", "spline"],
+        vec!["--cutter", "5mm"],
+        vec!["--tolerance-velocity", "2%"],
+        vec!["--tolerance-acceleration", "4%"],
+        vec!["--tolerance-acceleration", "none"],
+        vec!["--set", "follower.roller.radius=29mm"],
+        vec!["--set", "name=another press"],
+    ] {
+        hashes.push(hash_of(&[&["rotary"][..], &other].concat()));
+    }
+    for other in [vec!["--solver", "paper"], vec!["--solver", "paper", "--stations", "900"], vec!["--balance", "mean"]]
+    {
+        hashes.push(hash_of(&[&["translating"][..], &other].concat()));
+    }
+    hashes.push(hash_of(&["conoid", "--rpm", "20,35"]));
+    hashes.push(hash_of(&["conoid", "--rpm", "20..35", "--residual", "2N"]));
+    hashes.push(hash_of(&["conoid", "--rpm", "20..35", "--residual", "3N"]));
+    let all = hashes.len();
+    hashes.sort();
+    hashes.dedup();
+    assert_eq!(hashes.len(), all, "{hashes:?}");
+}
+
+/// Every file that can carry it does.
+#[test]
+fn files_carry_the_hash() {
+    for (version, command) in [("r12", "rotary"), ("r2000", "rotary"), ("r2013", "translating")] {
+        let formats = "dxf,svg,step,json";
+        let run = camgen(&[command, "--dxf-version", version, "--format", formats, "--name", "cam", "--json"]);
+        let hash = report(&run)["inputs"]["hash"].as_str().expect("a hash").to_owned();
+        let mark = format!("camgen {}, inputs {hash}", env!("CARGO_PKG_VERSION"));
+        let read = |ending: &str| {
+            fs::read_to_string(run.directory.path().join("output").join(format!("cam.{ending}"))).expect("a file")
+        };
+        assert_eq!(files(run.directory.path()).len(), 4);
+        assert!(read("dxf").starts_with(&format!("999\n{mark}\n  0\nSECTION\n")));
+        assert!(read("svg").contains(&format!("<!-- {mark} -->")));
+        assert!(read("step").contains(&format!("'{mark}'")));
+        assert!(read("json").contains(&format!("\"hash\": \"{hash}\"")));
+    }
+}
+
+/// Of a motion of one's own the hash knows samples.
+#[test]
+fn a_motion_of_ones_own_is_known_by_samples() {
+    let hash = |eccentricity: f64| {
+        let spec =
+            Spec::builder("eccentric").roller(0.01).base_radius(0.04).motion(EccentricCircle::new(eccentricity, 0.05));
+        let cam = spec.expect("in range").solve().expect("a cam");
+        cam.draw(5e-6).expect("drawn").prove().expect("proved").report().inputs_hash().to_owned()
+    };
+    assert_eq!(hash(0.003), hash(0.003));
+    assert_ne!(hash(0.003), hash(0.003_000_1));
+}
