@@ -246,6 +246,14 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.contact_stress", "1200 MPa"),
     ("limits.residual_share", "0.02"),
     ("limits.acceleration_share", "0.02"),
+    ("title.owner", "Works"),
+    ("title.part_number", "7"),
+    ("title.revision", "B"),
+    ("title.date", "2026-01-02"),
+    ("title.designer", "A. B."),
+    ("title.approved", "C. D."),
+    ("title.general_tolerance", "ISO 2768-fH"),
+    ("title.surface_roughness", "Ra 1.6"),
 ];
 
 /// A motion program behind a press, so that a file has every table that can stand in it.
@@ -258,7 +266,7 @@ fn every_key() -> Vec<String> {
 
 /// All of a machine but the list of keys that were given. What the follower and the motion are, only their text tells.
 fn alike(machine: Machine) -> String {
-    format!("{:#?}", Machine { given: Vec::new(), ..machine })
+    format!("{:#?}", Machine { given: Vec::new(), inputs: Vec::new(), ..machine })
 }
 
 /// A file of a press and a motion program, with the follower that a key belongs to, or a roller.

@@ -65,18 +65,7 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
         grid.push(words(place, size, TextAnchor::End, text));
         value += step;
     }
-    // As many names as there is room for.
-    let named = (font::width("0000", size) * (last - first) / (width * trace.step)).ceil().max(1.0) * trace.step;
-    let mut place = (first / trace.step).ceil() * trace.step;
-    while place <= *last {
-        grid.push(Shape::Line(at(place, low), at(place, high)));
-        let shown = trace.period.map_or(place, |period| place.rem_euclid(period));
-        if (place / named - (place / named).round()).abs() < 1e-9 {
-            let below = at(place, low) - Vector2::new(0.0, 1.3 * size);
-            grid.push(words(below, size, TextAnchor::Middle, rounded(shown)));
-        }
-        place += trace.step;
-    }
+    grid.extend(along(trace, (*first, *last), size, width, |place, up| at(place, if up { high } else { low })));
     let curve = |index: usize| {
         let point = |values: &[f64; 3]| {
             let [place, ..] = values;
@@ -97,4 +86,27 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
         Group::new("trace-motion", "acceleration of the motion", curve(1)),
         Group { class: "facts", ..Group::new("trace-names", "names of the diagram", names) },
     ]
+}
+
+/// The lines along with as many names as there is room for; `at` is a place at the foot or at the head of the field.
+fn along(
+    trace: &Trace,
+    (first, last): (f64, f64),
+    size: f64,
+    width: f64,
+    at: impl Fn(f64, bool) -> Vector2<f64>,
+) -> Vec<Shape> {
+    let mut lines = Vec::new();
+    let named = (font::width("0000", size) * (last - first) / (width * trace.step)).ceil().max(1.0) * trace.step;
+    let mut place = (first / trace.step).ceil() * trace.step;
+    while place <= last {
+        lines.push(Shape::Line(at(place, false), at(place, true)));
+        let shown = trace.period.map_or(place, |period| place.rem_euclid(period));
+        if (place / named - (place / named).round()).abs() < 1e-9 {
+            let below = at(place, false) - Vector2::new(0.0, 1.3 * size);
+            lines.push(words(below, size, TextAnchor::Middle, rounded(shown)));
+        }
+        place += trace.step;
+    }
+    lines
 }

@@ -207,28 +207,31 @@ fn group(group: &Group, scale: f64, told: bool) -> String {
                 let points: Vec<String> = corners.iter().map(|corner| place(*corner)).collect();
                 node.add(element::Polygon::new().set("points", points.join(" ")))
             }
-            Shape::Text { at, height, anchor, text } => {
-                let anchor = match anchor {
-                    TextAnchor::Start => "start",
-                    TextAnchor::Middle => "middle",
-                    TextAnchor::End => "end",
-                };
-                let words = element::Text::new(printable(text))
-                    .set("x", number(at.x))
-                    .set("y", number(-at.y))
-                    .set("font-size", number(*height))
-                    .set("text-anchor", anchor)
-                    .set("xml:space", "preserve");
-                node.add(if told {
-                    let length = number(font::width(text, *height));
-                    words.set("textLength", length).set("lengthAdjust", "spacingAndGlyphs")
-                } else {
-                    words
-                })
-            }
+            Shape::Text { at, height, anchor, text } => node.add(words((*at, *height, *anchor), text, told)),
         };
     }
     node.to_string()
+}
+
+/// A text at a place, of a height, on its anchor.
+fn words((at, height, anchor): (Vector2<f64>, f64, TextAnchor), text: &str, told: bool) -> element::Text {
+    let anchor = match anchor {
+        TextAnchor::Start => "start",
+        TextAnchor::Middle => "middle",
+        TextAnchor::End => "end",
+    };
+    let words = element::Text::new(printable(text))
+        .set("x", number(at.x))
+        .set("y", number(-at.y))
+        .set("font-size", number(height))
+        .set("text-anchor", anchor)
+        .set("xml:space", "preserve");
+    if told {
+        let length = number(font::width(text, height));
+        words.set("textLength", length).set("lengthAdjust", "spacingAndGlyphs")
+    } else {
+        words
+    }
 }
 
 fn place(point: Vector2<f64>) -> String {

@@ -8,7 +8,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Rotation;
 use crate::motion::Motion;
 use crate::motion::Reversal;
-use crate::report::sheet::{Facts, Group, PlaceTable, Shape, View, rounded};
+use crate::report::sheet::{Facts, Group, Mark, PlaceTable, Shape, View, rounded};
 use nalgebra::Vector2;
 
 /// Most speeds that are named one by one.
@@ -79,19 +79,24 @@ pub(super) fn view(conoid: &Conoid, drawn: &Drawn) -> View {
         ..Group::new("seen", "section in the isometric view", vec![moved(ring)])
     });
     groups.extend(seen_at);
-    let base = parts.iter().map(|part| part.outline.contour.extents().largest.x).fold(0.0, f64::max);
-    let marks = [
-        overall(&plan),
-        bore(&conoid.machine, parts.first().and_then(|part| part.balancing.as_ref())),
-        turning(&conoid.machine, 0.7 * base, base, "θ = 0, φ = 0"),
-    ];
     View {
         groups,
-        marks: marks.concat(),
+        marks: marks(conoid, parts, &plan),
         tables: vec![sections_table(conoid, parts)],
         facts: Facts { thickness_mm: Some(MILLIMETRES * (high - low)), ..Facts::of(&conoid.machine, None) },
         ..View::default()
     }
+}
+
+/// Dimensions, bore and rotation.
+fn marks(conoid: &Conoid, parts: &[Part], plan: &Extents) -> Vec<Mark> {
+    let base = parts.iter().map(|part| part.outline.contour.extents().largest.x).fold(0.0, f64::max);
+    let marks = [
+        overall(plan),
+        bore(&conoid.machine, parts.first().and_then(|part| part.balancing.as_ref())),
+        turning(&conoid.machine, 0.7 * base, base, "θ = 0, φ = 0"),
+    ];
+    marks.concat()
 }
 
 /// Speed, place and extents of each section.

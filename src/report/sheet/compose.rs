@@ -102,7 +102,7 @@ impl<'a> Tried<'a> {
             + 2.0 * k * ROOM
             + Vector2::new(dimensions(|away| away.x), dimensions(|away| away.y));
         let block = Vector2::new(block::WIDTH, block::HEIGHT) * k;
-        let (room, columns) = if upright {
+        let (room, stacks) = if upright {
             let wide = 0.5 * (frame.x - 3.0 * PAD * k);
             let below = frame.y - block.y - diagram - stamp - needed.y - PAD * k;
             (Vector2::new(frame.x, needed.y), vec![(wide, below), (wide, below)])
@@ -113,14 +113,14 @@ impl<'a> Tried<'a> {
         if !anyway && (needed.x > room.x || needed.y > room.y) {
             return None;
         }
-        let panels = self.panels(&columns, anyway)?;
+        let panels = self.panels(&stacks, anyway)?;
         Some(self.placed(panels, diagram, stamp, upright))
     }
 
     /// Every panel with its column and its way down, the tables of places as fine as there is room for.
-    fn panels(&self, columns: &[(f64, f64)], anyway: bool) -> Option<Vec<(usize, f64, Panel)>> {
+    fn panels(&self, stacks: &[(f64, f64)], anyway: bool) -> Option<Vec<(usize, f64, Panel)>> {
         let choices = self.view.tables.iter().map(Some).chain(self.view.tables.is_empty().then_some(None));
-        let tried = choices.map(|table| flow(&self.list(columns.first()?.0, table), columns, anyway));
+        let tried = choices.map(|table| flow(&self.list(stacks.first()?.0, table), stacks, anyway));
         tried.flatten().next()
     }
 
@@ -164,7 +164,7 @@ impl<'a> Tried<'a> {
         let corner = middle - 0.5 * (view.least + view.largest);
         let moved = |field: Extents| Extents { least: field.least + corner, largest: field.largest + corner };
         let left = |column: usize| {
-            #[expect(clippy::cast_precision_loss, reason = "two columns")]
+            #[expect(clippy::cast_precision_loss, reason = "two stacks")]
             let column = column as f64;
             if upright { frame.least.x + PAD * k + column * 0.5 * (frame.size().x - PAD * k) } else { right + PAD * k }
         };
@@ -189,14 +189,14 @@ impl<'a> Tried<'a> {
     }
 }
 
-/// Puts panels into columns one below the other; `None` where they do not fit.
-fn flow(list: &[Panel], columns: &[(f64, f64)], anyway: bool) -> Option<Vec<(usize, f64, Panel)>> {
+/// Puts panels into stacks one below the other; `None` where they do not fit.
+fn flow(list: &[Panel], stacks: &[(f64, f64)], anyway: bool) -> Option<Vec<(usize, f64, Panel)>> {
     let (mut column, mut down, mut placed) = (0, 0.0, Vec::new());
     for panel in list {
-        while down + panel.height > columns.get(column).map_or(f64::INFINITY, |(_, height)| *height) {
+        while down + panel.height > stacks.get(column).map_or(f64::INFINITY, |(_, height)| *height) {
             (column, down) = (column + 1, 0.0);
         }
-        if column >= columns.len() {
+        if column >= stacks.len() {
             return anyway.then_some(placed);
         }
         placed.push((column, down, panel.clone()));

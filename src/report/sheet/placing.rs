@@ -11,7 +11,7 @@ const CELL: f64 = 0.8;
 #[derive(Debug)]
 pub(in crate::report) struct Taken {
     region: Extents,
-    columns: usize,
+    across: usize,
     rows: usize,
     lines: Vec<bool>,
     texts: Vec<bool>,
@@ -26,8 +26,8 @@ impl Taken {
             count
         };
         let size = region.size();
-        let (columns, rows) = (count(size.x), count(size.y));
-        Self { region, columns, rows, lines: vec![false; columns * rows], texts: vec![false; columns * rows] }
+        let (across, rows) = (count(size.x), count(size.y));
+        Self { region, across, rows, lines: vec![false; across * rows], texts: vec![false; across * rows] }
     }
 
     fn cell(&self, point: Vector2<f64>) -> Option<usize> {
@@ -37,7 +37,7 @@ impl Taken {
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative; saturates")]
         let (column, row) = (place.x as usize, place.y as usize);
-        (column < self.columns && row < self.rows).then_some(row * self.columns + column)
+        (column < self.across && row < self.rows).then_some(row * self.across + column)
     }
 
     /// The points of a straight line, half a cell apart.
@@ -77,10 +77,10 @@ impl Taken {
             index.min(most.saturating_sub(1))
         };
         let (least, largest) = (field.least - self.region.least, field.largest - self.region.least);
-        let columns = self.columns;
-        let (left, right) = (at(least.x, columns), at(largest.x, columns));
+        let across = self.across;
+        let (left, right) = (at(least.x, across), at(largest.x, across));
         let (low, high) = (at(least.y, self.rows), at(largest.y, self.rows));
-        (low..=high).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
+        (low..=high).flat_map(move |row| (left..=right).map(move |column| row * across + column))
     }
 
     fn fill(&mut self, field: &Extents) {
