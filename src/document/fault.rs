@@ -65,6 +65,27 @@ pub(super) fn nearest<'k>(path: &str, known: &'k [String]) -> Option<&'k str> {
     near.then_some(nearest)
 }
 
+/// The known word that another may be a misspelling or the beginning of, whatever its case; `None` when nothing is near.
+#[must_use]
+pub fn similar<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    if word.is_empty() || word.len() > LONGEST_PATH {
+        return None;
+    }
+    let folded = |text: &str| text.to_lowercase().replace('-', "_");
+    let (wanted, length) = (folded(word), word.chars().count());
+    let distances = known.into_iter().map(|candidate| {
+        let other = folded(candidate);
+        let begins = length >= SHORTEST_BEGINNING && other.starts_with(&wanted);
+        (candidate, if begins { 1 } else { edit_distance(&wanted, &other) })
+    });
+    let (nearest, wrong) = distances.min_by_key(|(_, wrong)| *wrong)?;
+    // Two letters in the wrong order are two errors, in a word of three as well.
+    (2 * wrong <= length + 1).then_some(nearest)
+}
+
+/// The shortest beginning that stands for a whole word.
+const SHORTEST_BEGINNING: usize = 3;
+
 /// The name at the end of a path.
 fn last(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or_default()
@@ -98,6 +119,23 @@ mod tests {
         for (a, b, distance) in [("", "", 0), ("abc", "", 3), ("kitten", "sitting", 3), ("thicknes", "thickness", 1)] {
             assert_eq!(edit_distance(a, b), distance, "{a} {b}");
             assert_eq!(edit_distance(b, a), distance, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn words_are_near_whatever_their_case() {
+        let known = ["dpi", "dpi-paper", "pressure_angle"];
+        for (word, near) in [
+            ("DPI", Some("dpi")),
+            ("dip", Some("dpi")),
+            ("dpi_papr", Some("dpi-paper")),
+            ("pressure", Some("pressure_angle")),
+            ("presure-angle", Some("pressure_angle")),
+            ("xyz", None),
+            ("", None),
+            ("q", None),
+        ] {
+            assert_eq!(similar(word, known), near, "{word}");
         }
     }
 

@@ -5,6 +5,7 @@ use super::{Jet, Motion, Piece, Quantity};
 use crate::document::Presence::{Optional, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, LONGEST};
+use crate::document::similar;
 use crate::document::{Bounds, Field, LengthOrAngle, Occurs, Reader, Section, Table, above, within};
 use crate::numeric::extremum;
 use crate::units::Dimension::Angle;
@@ -232,7 +233,9 @@ fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'sta
     }
     let Some(law) = laws::named(&name) else {
         let known: Vec<&str> = std::iter::once(DWELL).chain(LAWS.iter().map(|law| law.name)).collect();
-        segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("one of {}", known.join(", "))));
+        let near = similar(&name, known.iter().copied());
+        let near = near.map_or(String::new(), |law| format!("did you mean \"{law}\"? It is "));
+        segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("{near}one of {}", known.join(", "))));
         return None;
     };
     let Some(to) = segment.get(&TO) else {

@@ -7,14 +7,16 @@ use super::args::{CamKind, TradeArgs};
 use super::{Failure, Outcome, print};
 use camgen::body::points::{self, Points};
 use camgen::body::{RateTolerance, Request};
+use camgen::document::Input;
 use camgen::geometry::contour::Contour;
 use camgen::geometry::points::{Between, Form, Interpolant, Step};
 use camgen::pipeline::Cam;
 use camgen::profile::outline::{Fit, Laid};
 use camgen::report::{Rolled, shown};
 use camgen::verify::{WrittenOutline, rolling};
-use camgen::write::files::{Output, write_all};
+use camgen::write::files::Output;
 use camgen::write::number::{names, shortest};
+use camgen::write::record::{Run, refuse_kept, write_recorded};
 use camgen::write::{self, dxf, json, proof, svg};
 use camgen::write::{FORMATS, Rendering};
 use serde::Serialize;
@@ -159,20 +161,27 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
         CamKind::Rotary => "rotary",
         CamKind::Translating => "translating",
     };
+    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
+    let output = |ending: &str, bytes: Vec<u8>| Output { name: format!("{stem}.{ending}"), bytes };
+    if !args.overwrite && !args.common.dry_run {
+        refuse_kept(&args.out, &["csv", "svg"].map(|ending| output(ending, Vec::new()))).map_err(Failure::new)?;
+    }
     let inertia = machine.press().map_err(Failure::new)?.bed.largest_inertia(rpm);
     let limits = Limits { residual: args.residual.unwrap_or(SHARE * inertia), acceleration: args.acceleration };
     let Measured { rows, rounds, stable } = measure(&laws, &settings, limits)?;
     let advice = tell::advice(&rows, limits, stable);
-    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
     let title =
         format!("{}: time against force and acceleration of a {kind} cam at {} rpm", machine.name(), shortest(rpm));
     let picture = svg::write(&tell::picture(&rows, &title), svg::TEMPLATE).map_err(Failure::new)?;
-    let outputs = [
-        Output { name: format!("{stem}.csv"), bytes: tell::table(&rows).into_bytes() },
-        Output { name: format!("{stem}.svg"), bytes: picture },
-    ];
-    write_all(&args.out, &outputs).map_err(Failure::new)?;
-    let files = outputs.iter().map(|output| args.out.join(&output.name).display().to_string()).collect();
+    let outputs = vec![output("csv", tell::table(&rows).into_bytes()), output("svg", picture)];
+    let mut files = Vec::new();
+    if !args.common.dry_run {
+        files.extend(outputs.iter().map(|output| args.out.join(&output.name).display().to_string()));
+        let mut inputs = machine.inputs(kind);
+        inputs.extend([Input::word("command", format!("trade {kind}")), Input::number("rpm", rpm)]);
+        let run = Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite };
+        write_recorded(&args.out, outputs, &run).map_err(Failure::new)?;
+    }
     let report = TradeReport {
         schema: 1,
         command: "trade",
