@@ -59,7 +59,7 @@ fn written(first: String, report: &Report, page: Page) -> String {
             lines.extend(entries(told));
         }
     }
-    lines.push(format!("  inputs   {}", report.inputs));
+    lines.push(format!("  inputs   {}, camgen {}", report.inputs.hash, report.inputs.camgen));
     lines.push(String::new());
     lines.join("\n")
 }

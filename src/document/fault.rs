@@ -72,19 +72,31 @@ pub fn similar<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Opti
         return None;
     }
     let folded = |text: &str| text.to_lowercase().replace('-', "_");
-    let (wanted, length) = (folded(word), word.chars().count());
+    let wanted = folded(word);
+    let length = wanted.chars().count();
     let distances = known.into_iter().map(|candidate| {
         let other = folded(candidate);
-        let begins = length >= SHORTEST_BEGINNING && other.starts_with(&wanted);
-        (candidate, if begins { 1 } else { edit_distance(&wanted, &other) })
+        let beginning: String = other.chars().take(length).collect();
+        let begun = if length >= SHORTEST_BEGINNING { 1 + mistakes(&wanted, &beginning) } else { usize::MAX };
+        (candidate, mistakes(&wanted, &other).min(begun))
     });
     let (nearest, wrong) = distances.min_by_key(|(_, wrong)| *wrong)?;
-    // Two letters in the wrong order are two errors, in a word of three as well.
-    (2 * wrong <= length + 1).then_some(nearest)
+    (2 * wrong <= length).then_some(nearest)
+}
+
+/// Levenshtein's distance; letters in the wrong order are a single mistake.
+fn mistakes(a: &str, b: &str) -> usize {
+    let letters = |text: &str| {
+        let mut letters: Vec<char> = text.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let distance = edit_distance(a, b);
+    if distance == 2 && letters(a) == letters(b) { 1 } else { distance }
 }
 
 /// The shortest beginning that stands for a whole word.
-const SHORTEST_BEGINNING: usize = 3;
+const SHORTEST_BEGINNING: usize = 4;
 
 /// The name at the end of a path.
 fn last(path: &str) -> &str {
@@ -131,6 +143,8 @@ mod tests {
             ("dpi_papr", Some("dpi-paper")),
             ("pressure", Some("pressure_angle")),
             ("presure-angle", Some("pressure_angle")),
+            ("presure", Some("pressure_angle")),
+            ("pgf", None),
             ("xyz", None),
             ("", None),
             ("q", None),

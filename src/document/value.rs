@@ -150,17 +150,14 @@ impl Named<'_> {
 
     fn word(&self, scalar: &Scalar, words: &[&str]) -> Result<Value, Misfit> {
         let list = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
-        let help = Some(format!("one of {list}"));
         match scalar {
-            Scalar::Text(text) => match position(words, text) {
-                Some(index) => Ok(Value::Word(index)),
-                None => {
-                    let near = similar(text, words.iter().copied());
-                    let near = near.map_or(String::new(), |word| format!("did you mean \"{word}\"? It is "));
-                    misfit(format!("`{}` cannot be \"{text}\"", self.path), Some(format!("{near}one of {list}")))
-                }
-            },
-            _ => misfit(format!("`{}` must be a word", self.path), help),
+            Scalar::Text(text) => position(words, text).map(Value::Word).ok_or_else(|| {
+                let near = similar(text, words.iter().copied());
+                let near = near.map_or(String::new(), |word| format!("did you mean \"{word}\"? It is "));
+                let message = format!("`{}` cannot be \"{text}\"", self.path);
+                Misfit { message, help: Some(format!("{near}one of {list}")) }
+            }),
+            _ => misfit(format!("`{}` must be a word", self.path), Some(format!("one of {list}"))),
         }
     }
 

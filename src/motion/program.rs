@@ -224,7 +224,7 @@ fn widths(segments: &[Table<'_>]) -> Option<Vec<f64>> {
 /// Law and end of a segment.
 fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'static Law>, f64)> {
     let name = segment.get(&LAW).unwrap_or_else(|| USUAL.to_owned());
-    if name == DWELL {
+    if name.eq_ignore_ascii_case(DWELL) {
         if segment.has(&TO) {
             let help = "omit `to`, or give a law that moves";
             segment.fail(&TO, "a dwell keeps its position and has no `to`".into(), Some(help.into()));

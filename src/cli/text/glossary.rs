@@ -11,10 +11,6 @@ const TERMS: &[(&str, &str)] = &[
     ("kinks", "angles between neighbouring segments"),
     ("run_up", "ramp that brings the bottom to the slope of its law before the reversal"),
     ("sections", "plane cuts of a three-dimensional cam, one for each speed"),
-    ("undercut", "value: smallest convex radius of the pitch curve less the roller's radius"),
-    ("residual", "largest residual force over the largest inertia"),
-    ("force_closure", "least force that presses the follower onto the cam"),
-    ("acceleration", "error of the follower's acceleration on the outline as cut, over its largest"),
 ];
 
 /// The terms that occur in a text.
