@@ -1,12 +1,14 @@
 //! `camgen side-by-side`: two disc cams in one HTML report, moved by one cursor, with their differences marked.
 
 use super::args::{rpm, stem, tolerance};
-use super::{Failure, Outcome, print, tell, text};
+use super::text::{self, Page};
+use super::{Failure, Outcome, print, tell};
 use camgen::body::{RateTolerance, Request};
+use camgen::document::Input;
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Output, Proven, Spec};
 use camgen::report::Report;
-use camgen::write::files::write_all;
+use camgen::write::record::{Run, refuse_kept, write_recorded};
 use camgen::write::{html, json, svg};
 use clap::Args;
 use std::path::PathBuf;
@@ -47,6 +49,10 @@ pub(super) struct SideBySideArgs {
     #[arg(long, value_name = "STEM", value_parser = stem)]
     name: Option<String>,
 
+    /// Replace a file that was edited, or not written by camgen; its own are replaced without
+    #[arg(long)]
+    overwrite: bool,
+
     /// Print both reports as JSON, a list of two, and nothing else
     #[arg(long)]
     json: bool,
@@ -59,6 +65,11 @@ pub(super) struct SideBySideArgs {
 /// Solves, draws and proves both, and writes the page also where a check failed: it is a report, and says so.
 pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
     let ((a, first), (b, second)) = (args.solved(&args.first)?, args.solved(&args.second)?);
+    let stem = args.name.clone().unwrap_or_else(|| format!("{first}-{second}-side-by-side"));
+    let name = format!("{stem}.html");
+    if !args.overwrite {
+        refuse_kept(&args.out, &[Output { name: name.clone(), bytes: Vec::new() }]).map_err(Failure::new)?;
+    }
     let (a, b) = (args.proven(&a)?, args.proven(&b)?);
     let [mut one, mut two] = [&a, &b].map(Proven::report);
     if let Some(why) = a.no_outline().or(b.no_outline()) {
@@ -66,8 +77,6 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
         args.show(&[&one, &two])?;
         return Ok(Outcome::CheckFailed);
     }
-    let stem = args.name.clone().unwrap_or_else(|| format!("{first}-{second}-side-by-side"));
-    let name = format!("{stem}.html");
     for report in [&mut one, &mut two] {
         report.files = vec![args.out.join(&name).display().to_string()];
     }
@@ -76,7 +85,10 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
         let beside = b.rendering(&two, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
         html::side_by_side(&shown, &beside).map_err(Failure::new)?
     };
-    write_all(&args.out, &[Output { name, bytes: page }]).map_err(Failure::new)?;
+    let inputs = [("first", &one), ("second", &two)]
+        .map(|(side, report)| Input::word(side, format!("{}, {}", report.machine, report.inputs_hash())));
+    let run = Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite };
+    write_recorded(&args.out, vec![Output { name, bytes: page }], &run).map_err(Failure::new)?;
     args.show(&[&one, &two])?;
     Ok(if a.passed() && b.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
@@ -86,12 +98,13 @@ impl SideBySideArgs {
     fn solved(&self, name: &str) -> Result<(Cam, String), Failure> {
         let (machine, stem) = Machine::load(name, &self.set).map_err(Failure::new)?;
         let spec = match (machine.press().map(|press| press.design_rpm), machine.motion()) {
-            (Err(_), Some((motion, told))) => Spec::of_motion(machine, motion, self.rpm.or(told)),
+            (Err(_), Some(_)) => Spec::of_program(machine, self.rpm),
             (design, _) => {
                 let rpm = self.rpm.map_or(design, Ok).map_err(Failure::new)?;
-                Spec::rotary(machine, rpm)
+                Some(Spec::rotary(machine, rpm))
             }
         };
+        let spec = spec.ok_or_else(|| Failure(format!("{name} has neither a press nor a motion")))?;
         Ok((spec.solve().map_err(|error| Failure(format!("{name}: {error}")))?, stem))
     }
 
@@ -109,6 +122,6 @@ impl SideBySideArgs {
         if self.quiet {
             return Ok(());
         }
-        reports.iter().try_for_each(|report| print(&text::report(report, false)))
+        reports.iter().try_for_each(|report| print(&text::report(report, Page::here())))
     }
 }

@@ -11,6 +11,7 @@ pub mod number;
 pub mod pdf;
 pub mod points;
 pub mod proof;
+pub mod record;
 pub mod step;
 pub mod stl;
 pub mod svg;

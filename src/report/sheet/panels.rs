@@ -130,7 +130,7 @@ pub(super) fn checks(mut writer: Writer, report: &Report) -> Panel {
 }
 
 fn cells(finding: &Finding) -> [String; 5] {
-    let limit = finding.limit.map_or(String::new(), |limit| format!("limit {}", with_unit(limit, &finding.unit)));
+    let limit = finding.limit_words().unwrap_or_default();
     let place = if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place) };
     let value = if finding.value.is_finite() || finding.note.is_none() {
         with_unit(finding.value, &finding.unit)

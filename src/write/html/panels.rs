@@ -193,6 +193,7 @@ mod tests {
             check: check.into(),
             value: 1.0,
             limit: Some(limit),
+            bound: None,
             unit: "mm".into(),
             place: Place::default(),
             verdict: Verdict::Pass,
