@@ -50,25 +50,16 @@ pub fn compose(view: &View, report: &Report, extras: &Extras<'_>) -> Sheet {
     } else {
         Extents { least: Vector2::zeros(), largest: Vector2::zeros() }
     };
-    let mut found = None;
-    'scales: for reduction in REDUCTIONS {
-        for paper in PAPERS {
-            for k in paper.lettering {
-                let tried = Tried { view, report, extras, covered, paper, scale: 1.0 / reduction, k: *k };
-                if let Some(layout) = tried.layout(false) {
-                    found = Some(layout);
-                    break 'scales;
-                }
-            }
-        }
-    }
-    // What no sheet holds stands on the largest one, with the panels cut off at its edge left out.
-    let last = || {
-        let paper = PAPERS.last()?;
-        let scale = 1.0 / REDUCTIONS.last()?;
-        Tried { view, report, extras, covered, paper, scale, k: 1.0 }.layout(true)
+    let fitting = |partly: bool| {
+        let scales = REDUCTIONS.iter().map(|reduction| 1.0 / reduction);
+        let sheets = scales.flat_map(|scale| PAPERS.iter().map(move |paper| (scale, paper)));
+        let tried = sheets.flat_map(|(scale, paper)| {
+            paper.lettering.iter().map(move |k| Tried { view, report, extras, covered, paper, scale, k: *k })
+        });
+        tried.into_iter().find_map(|tried| tried.layout(partly))
     };
-    match found.or_else(last) {
+    // Where no sheet holds every panel, those that do not fit are left out: the report has them.
+    match fitting(false).or_else(|| fitting(true)) {
         Some(layout) => layout.sheet(view, report, extras, covered),
         None => Sheet { title: report.title(), extents: covered, stroke: STROKE, scale: 1.0, groups: Vec::new() },
     }
@@ -85,8 +76,8 @@ struct Tried<'a> {
 }
 
 impl<'a> Tried<'a> {
-    /// Where all stands, or nothing where it does not fit; with `anyway` what does not fit is left out.
-    fn layout(&self, anyway: bool) -> Option<Layout<'a>> {
+    /// Where all stands, or nothing where it does not fit; `partly`: without the panels that do not fit.
+    fn layout(&self, partly: bool) -> Option<Layout<'a>> {
         let k = self.k;
         let frame = self.paper.frame(Vector2::zeros()).size();
         let upright = self.paper.size.x < self.paper.size.y;
@@ -110,17 +101,17 @@ impl<'a> Tried<'a> {
             let column = (block.x - 2.0 * PAD * k, frame.y - block.y - PAD * k);
             (Vector2::new(frame.x - block.x, frame.y - diagram - stamp), vec![column])
         };
-        if !anyway && (needed.x > room.x || needed.y > room.y) {
+        if needed.x > room.x || needed.y > room.y {
             return None;
         }
-        let panels = self.panels(&stacks, anyway)?;
+        let panels = self.panels(&stacks, partly)?;
         Some(self.placed(panels, diagram, stamp, upright))
     }
 
     /// Every panel with its column and its way down, the tables of places as fine as there is room for.
-    fn panels(&self, stacks: &[(f64, f64)], anyway: bool) -> Option<Vec<(usize, f64, Panel)>> {
+    fn panels(&self, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
         let choices = self.view.tables.iter().map(Some).chain(self.view.tables.is_empty().then_some(None));
-        let tried = choices.map(|table| flow(&self.list(stacks.first()?.0, table), stacks, anyway));
+        let tried = choices.map(|table| flow(&self.list(stacks.first()?.0, table), stacks, partly));
         tried.flatten().next()
     }
 
@@ -190,14 +181,14 @@ impl<'a> Tried<'a> {
 }
 
 /// Puts panels into stacks one below the other; `None` where they do not fit.
-fn flow(list: &[Panel], stacks: &[(f64, f64)], anyway: bool) -> Option<Vec<(usize, f64, Panel)>> {
+fn flow(list: &[Panel], stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
     let (mut column, mut down, mut placed) = (0, 0.0, Vec::new());
     for panel in list {
         while down + panel.height > stacks.get(column).map_or(f64::INFINITY, |(_, height)| *height) {
             (column, down) = (column + 1, 0.0);
         }
         if column >= stacks.len() {
-            return anyway.then_some(placed);
+            return partly.then_some(placed);
         }
         placed.push((column, down, panel.clone()));
         down += panel.height;
