@@ -65,6 +65,39 @@ pub(super) fn nearest<'k>(path: &str, known: &'k [String]) -> Option<&'k str> {
     near.then_some(nearest)
 }
 
+/// The known word that another may be a misspelling or the beginning of, whatever its case; `None` when nothing is near.
+#[must_use]
+pub fn similar<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    if word.is_empty() || word.len() > LONGEST_PATH {
+        return None;
+    }
+    let folded = |text: &str| text.to_lowercase().replace('-', "_");
+    let wanted = folded(word);
+    let length = wanted.chars().count();
+    let distances = known.into_iter().map(|candidate| {
+        let other = folded(candidate);
+        let beginning: String = other.chars().take(length).collect();
+        let begun = if length >= SHORTEST_BEGINNING { 1 + mistakes(&wanted, &beginning) } else { usize::MAX };
+        (candidate, mistakes(&wanted, &other).min(begun))
+    });
+    let (nearest, wrong) = distances.min_by_key(|(_, wrong)| *wrong)?;
+    (2 * wrong <= length).then_some(nearest)
+}
+
+/// Levenshtein's distance; letters in the wrong order are a single mistake.
+fn mistakes(a: &str, b: &str) -> usize {
+    let letters = |text: &str| {
+        let mut letters: Vec<char> = text.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let distance = edit_distance(a, b);
+    if distance == 2 && letters(a) == letters(b) { 1 } else { distance }
+}
+
+/// The shortest beginning that stands for a whole word.
+const SHORTEST_BEGINNING: usize = 4;
+
 /// The name at the end of a path.
 fn last(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or_default()
@@ -98,6 +131,25 @@ mod tests {
         for (a, b, distance) in [("", "", 0), ("abc", "", 3), ("kitten", "sitting", 3), ("thicknes", "thickness", 1)] {
             assert_eq!(edit_distance(a, b), distance, "{a} {b}");
             assert_eq!(edit_distance(b, a), distance, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn words_are_near_whatever_their_case() {
+        let known = ["dpi", "dpi-paper", "pressure_angle"];
+        for (word, near) in [
+            ("DPI", Some("dpi")),
+            ("dip", Some("dpi")),
+            ("dpi_papr", Some("dpi-paper")),
+            ("pressure", Some("pressure_angle")),
+            ("presure-angle", Some("pressure_angle")),
+            ("presure", Some("pressure_angle")),
+            ("pgf", None),
+            ("xyz", None),
+            ("", None),
+            ("q", None),
+        ] {
+            assert_eq!(similar(word, known), near, "{word}");
         }
     }
 

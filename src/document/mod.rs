@@ -17,7 +17,7 @@ mod text;
 mod value;
 
 pub use bounds::{Bounds, above, within};
-pub use fault::{Excerpt, Fault};
+pub use fault::{Excerpt, Fault, similar};
 pub use input::Input;
 pub use key::{Field, Form, Key, LengthOrAngle, Occurs, Presence, Section};
 pub use reader::{Reader, Table};

@@ -1,6 +1,7 @@
 //! A value as written in a file, read by the form of its key.
 
 use super::bounds::Bounds;
+use super::fault::similar;
 use super::key::{Form, Key, LengthOrAngle, Value};
 use crate::units::{self, Dimension, QuantityError};
 
@@ -76,7 +77,7 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misf
 }
 
 fn position(words: &[&str], text: &str) -> Option<usize> {
-    words.iter().position(|word| *word == text)
+    words.iter().position(|word| word.eq_ignore_ascii_case(text.trim()))
 }
 
 /// A key under the path it has in messages.
@@ -103,8 +104,8 @@ impl Named<'_> {
     fn boolean(&self, scalar: &Scalar) -> Result<Value, Misfit> {
         match (scalar, scalar.typed()) {
             (Scalar::Boolean(truth), _) => Ok(Value::Boolean(*truth)),
-            (_, Some("true")) => Ok(Value::Boolean(true)),
-            (_, Some("false")) => Ok(Value::Boolean(false)),
+            (_, Some(text)) if text.eq_ignore_ascii_case("true") => Ok(Value::Boolean(true)),
+            (_, Some(text)) if text.eq_ignore_ascii_case("false") => Ok(Value::Boolean(false)),
             _ => misfit(format!("`{}` must be true or false", self.path), None),
         }
     }
@@ -149,13 +150,14 @@ impl Named<'_> {
 
     fn word(&self, scalar: &Scalar, words: &[&str]) -> Result<Value, Misfit> {
         let list = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
-        let help = Some(format!("one of {list}"));
         match scalar {
-            Scalar::Text(text) => match position(words, text) {
-                Some(index) => Ok(Value::Word(index)),
-                None => misfit(format!("`{}` cannot be \"{text}\"", self.path), help),
-            },
-            _ => misfit(format!("`{}` must be a word", self.path), help),
+            Scalar::Text(text) => position(words, text).map(Value::Word).ok_or_else(|| {
+                let near = similar(text, words.iter().copied());
+                let near = near.map_or(String::new(), |word| format!("did you mean \"{word}\"? It is "));
+                let message = format!("`{}` cannot be \"{text}\"", self.path);
+                Misfit { message, help: Some(format!("{near}one of {list}")) }
+            }),
+            _ => misfit(format!("`{}` must be a word", self.path), Some(format!("one of {list}"))),
         }
     }
 

@@ -252,15 +252,22 @@ impl Machine {
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
-        if let Some(embedded) = EMBEDDED.iter().find(|machine| machine.name == name_or_path) {
-            let machine = Self::read(&format!("{name_or_path} (embedded)"), embedded.toml, overrides, false)?;
-            return Ok((machine, name_or_path.to_owned()));
-        }
         let path = Path::new(name_or_path);
+        let exact = |machine: &&Embedded| machine.name == name_or_path;
+        let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
+        if let Some(embedded) = EMBEDDED.iter().find(exact).or_else(|| EMBEDDED.iter().find(in_any_case)) {
+            let name = embedded.name;
+            let machine = Self::read(&format!("{name} (embedded)"), embedded.toml, overrides, false)?;
+            return Ok((machine, name.to_owned()));
+        }
         let text = read_text(path).map_err(|why| MachineError {
             faults: vec![Fault {
                 message: format!("cannot read the machine file `{name_or_path}`: {why}"),
-                help: Some(format!("give a path to a TOML file or an embedded machine: {}", embedded::names())),
+                help: Some(format!(
+                    "{}give a path to a TOML file or an embedded machine: {}",
+                    meant(path).map_or(String::new(), |near| format!("did you mean `{near}`? Else ")),
+                    embedded::names()
+                )),
                 place: None,
             }],
         })?;
@@ -268,6 +275,23 @@ impl Machine {
         let stem = path.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy().into_owned());
         Ok((machine, stem))
     }
+}
+
+/// The embedded machine, or the TOML file in the same directory, whose name is nearest to that of a file that cannot be read.
+fn meant(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let beside = std::fs::read_dir(parent.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
+    let mut files: Vec<String> = beside.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    files.retain(|file| Path::new(file).extension().is_some_and(|ending| ending == "toml"));
+    files.sort();
+    let embedded = EMBEDDED.iter().map(|machine| machine.name).filter(|_| parent.is_none());
+    let near = document::similar(name, embedded.chain(files.iter().map(String::as_str)))?;
+    Some(
+        parent
+            .filter(|_| files.iter().any(|file| file == near))
+            .map_or_else(|| near.to_owned(), |parent| parent.join(near).display().to_string()),
+    )
 }
 
 fn read_text(path: &Path) -> Result<String, String> {

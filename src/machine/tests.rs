@@ -258,7 +258,7 @@ fn every_key() -> Vec<String> {
 
 /// All of a machine but the list of keys that were given. What the follower and the motion are, only their text tells.
 fn alike(machine: Machine) -> String {
-    format!("{:#?}", Machine { given: Vec::new(), ..machine })
+    format!("{:#?}", Machine { given: Vec::new(), inputs: Vec::new(), ..machine })
 }
 
 /// A file of a press and a motion program, with the follower that a key belongs to, or a roller.

@@ -5,6 +5,7 @@ use super::{Jet, Motion, Piece, Quantity};
 use crate::document::Presence::{Optional, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, LONGEST};
+use crate::document::similar;
 use crate::document::{Bounds, Field, LengthOrAngle, Occurs, Reader, Section, Table, above, within};
 use crate::numeric::extremum;
 use crate::units::Dimension::Angle;
@@ -223,7 +224,7 @@ fn widths(segments: &[Table<'_>]) -> Option<Vec<f64>> {
 /// Law and end of a segment.
 fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'static Law>, f64)> {
     let name = segment.get(&LAW).unwrap_or_else(|| USUAL.to_owned());
-    if name == DWELL {
+    if name.eq_ignore_ascii_case(DWELL) {
         if segment.has(&TO) {
             let help = "omit `to`, or give a law that moves";
             segment.fail(&TO, "a dwell keeps its position and has no `to`".into(), Some(help.into()));
@@ -232,7 +233,9 @@ fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'sta
     }
     let Some(law) = laws::named(&name) else {
         let known: Vec<&str> = std::iter::once(DWELL).chain(LAWS.iter().map(|law| law.name)).collect();
-        segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("one of {}", known.join(", "))));
+        let near = similar(&name, known.iter().copied());
+        let near = near.map_or(String::new(), |law| format!("did you mean \"{law}\"? It is "));
+        segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("{near}one of {}", known.join(", "))));
         return None;
     };
     let Some(to) = segment.get(&TO) else {

@@ -48,7 +48,7 @@ fn turn_minus_sine(t: f64) -> f64 {
 /// The law with this name.
 #[must_use]
 pub fn named(name: &str) -> Option<&'static Law> {
-    LAWS.iter().find(|law| law.name == name)
+    LAWS.iter().find(|law| law.name.eq_ignore_ascii_case(name))
 }
 
 #[cfg(test)]
