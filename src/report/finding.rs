@@ -1,5 +1,6 @@
 //! The result of a check, and where.
 
+use super::shown;
 use serde::ser::Serializer;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
@@ -44,6 +45,33 @@ impl Verdict {
             Verdict::Fail => 0,
             Verdict::Warn => 1,
             Verdict::Pass | Verdict::Info => 2,
+        }
+    }
+}
+
+/// On which side of its limit a value must be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Bound {
+    /// The limit is the largest value.
+    AtMost,
+    /// The limit is the smallest value.
+    AtLeast,
+    /// The value is larger than the limit.
+    Above,
+    /// The value is the limit.
+    Exactly,
+}
+
+impl Bound {
+    /// As reports write it before the limit.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Bound::AtMost => "at most",
+            Bound::AtLeast => "at least",
+            Bound::Above => "above",
+            Bound::Exactly => "exactly",
         }
     }
 }
@@ -102,6 +130,9 @@ pub struct Finding {
     pub value: f64,
     /// Its limit, if it has one.
     pub limit: Option<f64>,
+    /// On which side of it the value must be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bound: Option<Bound>,
     /// Unit of both.
     pub unit: Cow<'static, str>,
     /// The worst place.
@@ -112,6 +143,28 @@ pub struct Finding {
     /// A remedy, or what the figure means.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+}
+
+impl Finding {
+    /// The value with its unit, as reports write it.
+    #[must_use]
+    pub fn value_words(&self) -> String {
+        if self.value.is_finite() { self.with_unit(self.value) } else { "–".into() }
+    }
+
+    /// The limit with its side and unit, `at most 30 deg`; `None` where there is none.
+    #[must_use]
+    pub fn limit_words(&self) -> Option<String> {
+        let side = self.bound.map_or(String::new(), |bound| format!("{} ", bound.words()));
+        Some(format!("{side}{}", self.with_unit(self.limit?)))
+    }
+
+    fn with_unit(&self, value: f64) -> String {
+        match &*self.unit {
+            "" | "1" => shown(value),
+            unit => format!("{} {unit}", shown(value)),
+        }
+    }
 }
 
 /// In the order in which reports show them: failures, warnings, then the rest, each in the order in which they were found.
@@ -143,7 +196,16 @@ mod tests {
 
     fn finding(check: &'static str, verdict: Verdict) -> Finding {
         let place = Place::default();
-        Finding { check: check.into(), value: 1.0, limit: None, unit: "1".into(), place, verdict, note: None }
+        Finding {
+            check: check.into(),
+            value: 1.0,
+            limit: None,
+            bound: None,
+            unit: "1".into(),
+            place,
+            verdict,
+            note: None,
+        }
     }
 
     /// A warning is shown before what passed and after what failed, and does not refuse the cam.

@@ -14,7 +14,7 @@ pub mod trace;
 mod values;
 
 pub use felt::Felt;
-pub use finding::{Finding, Place, Verdict, degrees, passed, worst_first};
+pub use finding::{Bound, Finding, Place, Verdict, degrees, passed, worst_first};
 pub use inputs::{Inputs, sha256};
 pub use rolled::Rolled;
 pub use values::{
@@ -245,6 +245,7 @@ mod tests {
                 check: "wall".into(),
                 value: 44.0,
                 limit: Some(5.0),
+                bound: Some(Bound::AtLeast),
                 unit: "mm".into(),
                 place: Place::default(),
                 verdict: Verdict::Pass,

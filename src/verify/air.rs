@@ -1,6 +1,6 @@
 //! The air between piston and bottom.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
@@ -8,6 +8,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Cam,
     about: "The least length of the air column between piston and bottom while the bottom moves. Where it is not above 0 the \
             bottom hits the piston.",
+    explained: Explained {
+        bound: Bound::Above,
+        formula: "L (1 + A x)^(−1/k) where the forces balance; less by how far the bottom is from its law, towards the piston",
+        usual: "above 0",
+        change: "a lower `buffer.end_pressure`, or a longer `buffer.column`",
+    },
     run: check,
 };
 

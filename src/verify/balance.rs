@@ -1,6 +1,6 @@
 //! The static unbalance that the holes of a disc leave.
 
-use super::{Check, Evidence, On};
+use super::{Bound, Check, Evidence, Explained, On};
 use crate::body::NEGLIGIBLE_MM;
 use crate::body::balancing::{MOST_HOLES, Unbalanced, moment};
 use crate::report::{Finding, Verdict};
@@ -11,6 +11,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Cam,
     about: "The static unbalance of a disc that the holes within cam.balance leave, of the metal as written: outline as read back, \
             bore with keyway, holes. Holes keep limits.wall, at least a millimetre, to all of them and to each other.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "U = m e, of the metal left, with the centre of mass off the shaft by e",
+        usual: "camgen's own rule: e at most a nanometre, the rounding of the holes; ISO 21940-11 has the grades that rotors need",
+        change: "a wider band `cam.balance`, a larger `cam.base_radius`, or no balancing",
+    },
     run: check,
 };
 

@@ -1,6 +1,6 @@
 //! The residual force of a cam for many speeds at the speeds between its sections.
 
-use super::{Check, Evidence, On};
+use super::{Bound, Check, Evidence, Explained, On};
 use crate::body::conoid::between;
 use crate::motion::Transition;
 use crate::report::{Finding, Place, Verdict, shown};
@@ -9,6 +9,12 @@ pub(super) const CHECK: Check = Check {
     name: "between_sections",
     on: On::Cam,
     about: "The largest residual force, inertia less air, at any speed between the sections of a conoid.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max |inertia − air| over the speeds between the sections",
+        usual: "--residual, or what straight strips between the sections leave",
+        change: "more speeds in --rpm, or `--rpm A..B --residual FORCE`, which chooses them",
+    },
     run: check,
 };
 

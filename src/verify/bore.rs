@@ -1,6 +1,6 @@
 //! What is cut beside the outline is the part: bore, keyway and balance holes, and nothing else.
 
-use super::{Check, Evidence, On, WrittenOutline, place};
+use super::{Bound, Check, Evidence, Explained, On, WrittenOutline, place};
 use crate::body::Request;
 use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::geometry::mismatch::{Farthest, farthest};
@@ -15,6 +15,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Outline,
     about: "How far what is cut beside the outline is from the bore with its keyway and the balance holes of the machine file, \
             measured from every point of either; it fails, too, where one of them is missing and where more is cut.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max distance between what is cut beside the outline and bore, keyway and holes, both ways",
+        usual: "the tolerance",
+        change: "set `cam.bore_radius`, `cam.keyway` and `cam.balance` as in the file, or mend the file",
+    },
     run: check,
 };
 

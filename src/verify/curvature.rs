@@ -1,6 +1,6 @@
 //! The sharpest convex place: of the profile (undercut) and of the pitch curve (contact stress).
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::report::{Finding, Verdict};
 
 pub(super) const UNDERCUT: Check = Check {
@@ -8,6 +8,12 @@ pub(super) const UNDERCUT: Check = Check {
     on: On::Cam,
     about: "How much the smallest convex radius of the pitch curve exceeds the roller's radius. Where it does not, the profile \
             folds over itself: metal that one position of the roller needs is cut away for another, and motion is lost.",
+    explained: Explained {
+        bound: Bound::Above,
+        formula: "ρ − r, of the pitch curve's radius of curvature ρ where it is convex and the roller's radius r",
+        usual: "ρ > r (every textbook on cams, for instance R. L. Norton, Design of Machinery)",
+        change: "a smaller roller, a larger `cam.base_radius`, or a smoother law of motion",
+    },
     run: undercut,
 };
 
@@ -16,6 +22,12 @@ pub(super) const MIN_CONVEX_RADIUS: Check = Check {
     on: On::Cam,
     about: "The smallest convex radius of the pitch curve. Customary is two to three times the roller's radius; below, the \
             contact stress rises steeply.",
+    explained: Explained {
+        bound: Bound::AtLeast,
+        formula: "ρ = (x'² + y'²)^(3/2)/(x'y'' − y'x'') of the pitch curve where it is convex",
+        usual: "2 to 3 times the roller's radius (R. L. Norton, Design of Machinery); camgen asks for 2",
+        change: "a smaller roller, a larger `cam.base_radius`, or another `limits.min_convex_pitch_radius_over_roller`",
+    },
     run: min_convex_radius,
 };
 

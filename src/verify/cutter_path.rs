@@ -7,7 +7,7 @@
 //! A band on one side: the cut moved by half the tolerance lies within half the tolerance of the profile. As parallels keep what
 //! lies within what, the cut itself then lies between the profile and its parallel at the tolerance.
 
-use super::{Check, Evidence, On, place};
+use super::{Bound, Check, Evidence, Explained, On, place};
 use crate::geometry::apart::apart;
 use crate::geometry::contour::{Contour, Segment, Vertex};
 use crate::geometry::following::follow;
@@ -19,6 +19,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Cam,
     about: "The largest distance between what a cutter leaves along its path as it is in the file and the exact profile, either \
             way, on the side that was asked for.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max distance between the parallel of the path at the cutter's radius and the exact profile",
+        usual: "the tolerance, on the side of --side",
+        change: "a finer --tolerance, or a smaller --cutter",
+    },
     run: check,
 };
 

@@ -1,12 +1,18 @@
 //! The largest tool that can cut the concave parts.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
     name: "cutter_radius",
     on: On::Cam,
     about: "The radius of the largest cutter that fits into the concave parts of the profile.",
+    explained: Explained {
+        bound: Bound::AtLeast,
+        formula: "the smallest radius of curvature of the profile where it is concave",
+        usual: "the cutter of the shop, `limits.cutter_radius` or --cutter",
+        change: "a smaller cutter, or a larger roller: the concave profile has its radius plus that of the pitch curve",
+    },
     run: check,
 };
 

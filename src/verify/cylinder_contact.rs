@@ -1,6 +1,6 @@
 //! Whether a cylindrical roller bears on its edge where the flank leans along the axis.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::machine::Crown;
 use crate::report::{Finding, Verdict};
 
@@ -8,6 +8,12 @@ pub(super) const CHECK: Check = Check {
     name: "cylinder_contact",
     on: On::Cam,
     about: "By how much the surface of a conoid departs from the contact line of a cylindrical roller over its width.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max distance of the surface from the roller's generator, over `follower.roller.width`",
+        usual: "the tolerance",
+        change: "a narrower roller, a longer `conoid.axial_travel`, or `follower.roller.crown = \"sphere\"`",
+    },
     run: check,
 };
 

@@ -1,6 +1,6 @@
 //! What the follower feels: velocity and acceleration on the outline as it is in the file.
 
-use super::{Check, Evidence, On, felt_sections};
+use super::{Bound, Check, Evidence, Explained, On, felt_sections};
 use crate::body::Body;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Edge;
@@ -14,6 +14,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Outline,
     about: "The largest error of the follower's acceleration on the outline as it is in the file, over the largest acceleration of \
             the motion. Arcs give the acceleration in steps, however small their distance from the exact curve.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max |s''(cut) − s''(motion)|/max |s''(motion)|",
+        usual: "camgen's own rule: 5 % as it is drawn; it warns above 10 %",
+        change: "a smaller --tolerance-acceleration, `--outline spline`, or `limits.acceleration_share`",
+    },
     run: check,
 };
 

@@ -1,44 +1,93 @@
 //! What a DXF file must be before it can be rolled on: one closed outline in millimetres, on its layer, readable, once.
 
-use super::{Check, Evidence, On, place};
+use super::{Bound, Check, Evidence, Explained, On, place};
 use crate::geometry::contour::Edge;
 use crate::reading::{OUTLINE_LAYER, Reading, Stray, Unit};
 use crate::report::{Finding, Verdict};
 
-const fn file_check(name: &'static str, about: &'static str, run: fn(&Evidence<'_>) -> Option<Finding>) -> Check {
-    Check { name, on: On::File, about, run }
+const fn file_check(
+    name: &'static str,
+    about: &'static str,
+    explained: Explained,
+    run: fn(&Evidence<'_>) -> Option<Finding>,
+) -> Check {
+    Check { name, on: On::File, about, explained, run }
 }
 
 pub(super) const LAYER: Check = file_check(
     "layer",
     "Whether the layer CAM_PROFILE, where the outline belongs, exists and is not empty.",
+    Explained {
+        bound: Bound::Exactly,
+        formula: "the number of layers CAM_PROFILE that hold something",
+        usual: "camgen's own rule: its cut files have the outline on CAM_PROFILE",
+        change: "put the outline on layer CAM_PROFILE of the file",
+    },
     |evidence| Some(layer(evidence.foreign?)),
 );
 
-pub(super) const UNITS: Check = file_check("units", "Whether the file is in millimetres.", |evidence| {
-    let told = evidence.foreign.map(|reading| reading.unit).or(evidence.solid.map(|solid| solid.file.unit))?;
-    Some(unit(told))
-});
+pub(super) const UNITS: Check = file_check(
+    "units",
+    "Whether the file is in millimetres.",
+    Explained {
+        bound: Bound::Exactly,
+        formula: "$INSUNITS, or $MEASUREMENT, of a DXF file; the length unit of a STEP file",
+        usual: "camgen's own rule: its files are in millimetres",
+        change: "save the file in millimetres, or scale it",
+    },
+    |evidence| {
+        let told = evidence.foreign.map(|reading| reading.unit).or(evidence.solid.map(|solid| solid.file.unit))?;
+        Some(unit(told))
+    },
+);
 
 pub(super) const READABLE: Check = file_check(
     "readable",
     "How many entities would be cut, or may be, and are not lines of no width in one plane.",
+    Explained {
+        bound: Bound::AtMost,
+        formula: "the number of such entities",
+        usual: "camgen's own rule: what a reader cannot place may be cut",
+        change: "delete or explode the entities that are named, and save a plain two-dimensional DXF",
+    },
     |evidence| Some(readable(evidence, evidence.foreign?)),
 );
 
-pub(super) const DUPLICATES: Check =
-    file_check("duplicates", "How many segments lie on another one or have no length.", |evidence| {
-        Some(duplicates(evidence, evidence.foreign?))
-    });
+pub(super) const DUPLICATES: Check = file_check(
+    "duplicates",
+    "How many segments lie on another one or have no length.",
+    Explained {
+        bound: Bound::AtMost,
+        formula: "the number of such segments",
+        usual: "camgen's own rule; shops ask for cut files without duplicates, which would be cut twice",
+        change: "delete the segments that are named (OVERKILL in AutoCAD)",
+    },
+    |evidence| Some(duplicates(evidence, evidence.foreign?)),
+);
 
 pub(super) const CONTOURS: Check = file_check(
     "contours",
     "How many separate contours lie on the layer of the outline; it must be one that goes round once.",
+    Explained {
+        bound: Bound::Exactly,
+        formula: "the number of contours after joining ends",
+        usual: "camgen's own rule: a cam has one outline",
+        change: "keep one contour on CAM_PROFILE; put the rest on other layers",
+    },
     |evidence| Some(contours(evidence.foreign?)),
 );
 
-pub(super) const CLOSED: Check =
-    file_check("closed", "How far apart the ends of the outline are.", |evidence| closed(evidence, evidence.foreign?));
+pub(super) const CLOSED: Check = file_check(
+    "closed",
+    "How far apart the ends of the outline are.",
+    Explained {
+        bound: Bound::AtMost,
+        formula: "the distance of the two ends of the outline",
+        usual: "camgen's own rule: a tenth of the tolerance",
+        change: "join the ends of the outline",
+    },
+    |evidence| closed(evidence, evidence.foreign?),
+);
 
 /// Entities that are told one by one.
 const MOST_TOLD: usize = 5;

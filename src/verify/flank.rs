@@ -10,7 +10,7 @@
 //! 1/cos(m π/2n) times its largest size at the n Chebyshev places (H. Ehlich, K. Zeller, Schwankung von Polynomen zwischen
 //! Gitterpunkten, 1964). The places are doubled until the bound keeps the limit, or a sample breaks it.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::body::Body;
 use crate::body::conoid::Conoid;
 use crate::geometry::MILLIMETRES;
@@ -28,6 +28,12 @@ pub(super) const CHECK: Check = Check {
     on: On::File,
     about: "The largest distance of the flank of a conoid's solid, as read from a STEP file, from the exact surface, wherever on its \
             patches.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max distance of the file's patches from the exact surface, bounded between places",
+        usual: "the tolerance",
+        change: "a finer --tolerance in the program that wrote the file",
+    },
     run: check,
 };
 

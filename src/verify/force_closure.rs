@@ -1,6 +1,6 @@
 //! Whether the follower stays on the cam: load, preload and the inertia of the follower, all round.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
@@ -8,6 +8,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Cam,
     about: "The least force that presses the follower onto the cam: air or spring, preload and inertia together. Where it is not \
             above 0 the follower leaves the cam.",
+    explained: Explained {
+        bound: Bound::Above,
+        formula: "F = air + preload − m s'', along the follower's path",
+        usual: "above 0",
+        change: "a higher `follower.*.preload`, a lower `follower.*.mass`, or a slower cam",
+    },
     run: check,
 };
 

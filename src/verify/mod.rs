@@ -40,7 +40,7 @@ use crate::geometry::contour::Contour;
 use crate::profile::Worst;
 use crate::profile::outline::MotionTolerance;
 use crate::reading::{Chain, Reading};
-use crate::report::{Finding, Place, Rolled, Verdict, worst_first};
+use crate::report::{Bound, Finding, Place, Rolled, Verdict, worst_first};
 use nalgebra::Vector2;
 
 /// An outline as another program would find it in the written file.
@@ -94,6 +94,19 @@ pub enum On {
     File,
 }
 
+/// What a user should know of a check, beside its meaning.
+#[derive(Debug, Clone, Copy)]
+pub struct Explained {
+    /// On which side of the limit the value must be.
+    pub bound: Bound,
+    /// How the value is made.
+    pub formula: &'static str,
+    /// The usual limit, and who says so.
+    pub usual: &'static str,
+    /// What to change when it fails.
+    pub change: &'static str,
+}
+
 /// A check.
 #[derive(Debug)]
 pub struct Check {
@@ -103,6 +116,8 @@ pub struct Check {
     pub on: On,
     /// What it means, in a sentence.
     pub about: &'static str,
+    /// What `camgen explain` says besides.
+    pub explained: Explained,
     /// The check itself; `None` where it does not apply to the cam.
     run: fn(&Evidence<'_>) -> Option<Finding>,
 }
@@ -168,6 +183,7 @@ impl Check {
             check: self.name.into(),
             value,
             limit,
+            bound: limit.map(|_| self.explained.bound),
             unit: unit.into(),
             place: Place::default(),
             verdict,

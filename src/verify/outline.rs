@@ -2,7 +2,7 @@
 //! and the outline is one simple loop that runs round once. What a roller cannot feel, a slot narrower than its own sag or a
 //! bump between two places where it was put, shows here.
 
-use super::{Check, Evidence, On, WrittenOutline, place};
+use super::{Bound, Check, Evidence, Explained, On, WrittenOutline, place};
 use crate::geometry::apart::apart;
 use crate::geometry::contour::Contour;
 use crate::geometry::following::{Astray, Lost, follow};
@@ -15,6 +15,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Outline,
     about: "The largest distance between the outline as it is in the file and the exact profile, either way: of any point of one \
             from the nearest of the other. The outline must also be one simple loop that runs round once.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max over both curves of the distance to the nearest point of the other (Hausdorff distance), bounded between places",
+        usual: "the tolerance",
+        change: "a finer --tolerance in the program that wrote the file; where the file is another cam, the report says which",
+    },
     run: check,
 };
 

@@ -1,6 +1,6 @@
 //! Checks of a plate on the bed: the two rollers that face each other, and the edges that no roller touches.
 
-use super::{Check, Evidence, On, at, place};
+use super::{Bound, Check, Evidence, Explained, On, at, place};
 use crate::geometry::track::Track;
 use crate::report::{Finding, Verdict};
 
@@ -8,6 +8,12 @@ pub(super) const ROLLER_CLEARANCE: Check = Check {
     name: "roller_clearance",
     on: On::Cam,
     about: "The gap between the rollers of the two flanks of a plate where they come closest to each other.",
+    explained: Explained {
+        bound: Bound::Above,
+        formula: "the distance of the rollers' centres less the diameter",
+        usual: "above 0",
+        change: "a larger distance of the flanks `translating.plate_height`, or a smaller `translating.roller_radius`",
+    },
     run: roller_clearance,
 };
 
@@ -15,6 +21,12 @@ pub(super) const ENDS: Check = Check {
     name: "ends",
     on: On::Outline,
     about: "The distance of the straight ends and run-outs of a plate from where they should be.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max distance of the straight edges from where they should be",
+        usual: "the tolerance",
+        change: "restore the ends of the plate in the file",
+    },
     run: ends,
 };
 

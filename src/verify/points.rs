@@ -3,7 +3,7 @@
 //! The rows are read back from the bytes of the file and interpolated as its head says; how far that curve lies from the exact one
 //! is bounded between the rows, both ways (`geometry::points`).
 
-use super::{Check, Evidence, On, place};
+use super::{Bound, Check, Evidence, Explained, On, place};
 use crate::body::points::{Given, PointTable, traced};
 use crate::geometry::points::{Between, Form, Interpolant, Step, deviations};
 use crate::report::{Finding, Place, Verdict};
@@ -14,6 +14,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Cam,
     about: "The largest distance between the exact curve and what the control makes of the table of points as it is in the file, \
             either way, bounded between the rows.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max distance between the control's curve through the table and the exact curve",
+        usual: "the tolerance",
+        change: "a coarser --tolerance, `--points-step chord`, or `--points-between cubic`",
+    },
     run: check,
 };
 

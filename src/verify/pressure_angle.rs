@@ -1,6 +1,6 @@
 //! The angle between the follower's path and the normal of the cam.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
@@ -8,6 +8,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Cam,
     about: "The largest angle between the direction in which the follower moves and the normal of the cam. Beyond about 30° \
             (translating) or 45° (swinging) the side thrust jams the follower; a larger base radius lowers it.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "tan α = (ds/dθ − e)/(s + √(Rₚ² − e²)) of a translating roller with offset e and prime radius Rₚ",
+        usual: "30° translating, about 35° swinging (R. L. Norton, Design of Machinery, chapter on cams)",
+        change: "a larger `cam.base_radius`, an offset `follower.roller.offset`, a lower lift or a longer rise; or a higher `limits.pressure_angle`",
+    },
     run: check,
 };
 

@@ -1,6 +1,6 @@
 //! What the cam is for: how much of the bed's inertia the air leaves.
 
-use super::{Check, Evidence, On};
+use super::{Bound, Check, Evidence, Explained, On};
 use crate::body::{Balance, USEFUL};
 use crate::profile::Worst;
 use crate::report::{Finding, Place, Verdict, shown};
@@ -11,6 +11,12 @@ pub(super) const CHECK: Check = Check {
     about: "The largest residual force, inertia less air, over the largest inertia, with the lift as rolled where an outline was \
             rolled on. It must be below what a buffer with a fixed bottom leaves, or no cam is better; a useful cam stays below \
             half of that.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max |inertia − air|/max |inertia|",
+        usual: "camgen's own rule: below what a buffer with a fixed bottom leaves; it warns above half of that",
+        change: "`transition.kind = \"run-up\"`, `buffer.column = \"matched\"`, a finer --tolerance, or `limits.residual_share`",
+    },
     run: check,
 };
 

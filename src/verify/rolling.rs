@@ -6,7 +6,7 @@
 //! lift the residual force it really leaves. Normals, offsets, curvatures and arc fitting, by which the outline was made, are
 //! not used; the same distances are measured a second time by parry2d on chords.
 
-use super::{Check, Evidence, On, felt, sphere};
+use super::{Bound, Check, Evidence, Explained, On, felt, sphere};
 use crate::body::Body;
 use crate::follower::{Element, Touch};
 use crate::geometry::contour::Contour;
@@ -21,6 +21,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Outline,
     about: "The largest gap between the follower, placed as the motion requires, and the outline as it is in the file: positive \
             where metal is missing, negative where metal is in the way.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "the distance of the follower, placed by the motion, from the outline, less the roller's radius",
+        usual: "the tolerance",
+        change: "see `outline`: it says where the file differs; an undercut cam has lost this motion",
+    },
     run: check,
 };
 

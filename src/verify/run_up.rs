@@ -1,6 +1,6 @@
 //! The lift that a run-up adds: it grows with the square of the speed.
 
-use super::{Check, Evidence, On};
+use super::{Bound, Check, Evidence, Explained, On};
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
@@ -8,6 +8,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Cam,
     about: "How far the run-up moves the bottom before the reversal begins. It grows with the square of the speed and of the \
             width; beyond the stroke of the bed the cam is larger than the machine it is for.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "the travel of the bottom in the transition, against the stroke 2r of the bed",
+        usual: "camgen's own rule: the stroke of the bed",
+        change: "a narrower `transition.width`, `buffer.column = \"matched\"`, or a smaller `buffer.lead`",
+    },
     run: check,
 };
 

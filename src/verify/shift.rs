@@ -1,6 +1,6 @@
 //! What the shift of a conoid along its axis needs: force, and length of the body.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::body::conoid::ROUNDING;
 use crate::report::{Finding, Verdict, shown};
 
@@ -8,6 +8,12 @@ pub(super) const AXIAL_FORCE: Check = Check {
     name: "axial_force",
     on: On::Cam,
     about: "The largest component of the contact force along the axis of a conoid, which the drive of the shift must resist.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "F nᶻ/(n·d), of the unit normal n and the direction d of the roller's path",
+        usual: "none; it is for whoever builds the drive of the shift",
+        change: "a longer `conoid.axial_travel` between the same speeds",
+    },
     run: axial_force,
 };
 
@@ -15,6 +21,12 @@ pub(super) const AXIAL_REACH: Check = Check {
     name: "axial_reach",
     on: On::Cam,
     about: "How far the contact of the roller runs beyond the ends of a conoid.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "max z of the point of contact, less the end of the cam",
+        usual: "0: the roller rests on metal",
+        change: "`conoid.overhang = \"auto\"`, or a longer one",
+    },
     run: axial_reach,
 };
 

@@ -2,7 +2,7 @@
 //! the edges of the ends, nothing turned inside out. Its outline is rolled on, and its holes are compared, as those of a DXF
 //! file are.
 
-use super::{Check, Evidence, On};
+use super::{Bound, Check, Evidence, Explained, On};
 use crate::body::Request;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
@@ -19,13 +19,24 @@ pub struct WrittenSolid {
     pub form: Form,
 }
 
-const fn solid_check(name: &'static str, about: &'static str, run: fn(&Evidence<'_>) -> Option<Finding>) -> Check {
-    Check { name, on: On::File, about, run }
+const fn solid_check(
+    name: &'static str,
+    about: &'static str,
+    explained: Explained,
+    run: fn(&Evidence<'_>) -> Option<Finding>,
+) -> Check {
+    Check { name, on: On::File, about, explained, run }
 }
 
 pub(super) const SOLIDS: Check = solid_check(
     "solids",
     "How many bodies a STEP file holds; it must be one solid with one closed shell and nothing else.",
+    Explained {
+        bound: Bound::Exactly,
+        formula: "the number of MANIFOLD_SOLID_BREP",
+        usual: "camgen's own rule: a cam is one solid",
+        change: "save the cam alone, as one solid",
+    },
     |evidence| Some(solids(evidence.solid?)),
 );
 
@@ -33,6 +44,12 @@ pub(super) const SHELL: Check = solid_check(
     "shell",
     "How often the boundary of a solid does not close: edges that have not two faces in opposite senses, that miss their \
      vertices or leave their faces, and what cannot be read.",
+    Explained {
+        bound: Bound::AtMost,
+        formula: "the number of faults of the boundary",
+        usual: "ISO 10303-42: every edge of a closed shell is used twice, in opposite senses",
+        change: "mend the solid in CAD, or write the file with camgen again",
+    },
     |evidence| Some(shell(evidence.solid?)),
 );
 
@@ -40,24 +57,48 @@ pub(super) const WALLS: Check = solid_check(
     "walls",
     "How many faces of a solid are neither its two ends nor upright walls on their edges, nor patches of a conoid's flank, or are \
      turned inside out, or do not stand from end to end.",
+    Explained {
+        bound: Bound::AtMost,
+        formula: "the number of such faces",
+        usual: "camgen's own rule: a plane cam is its outline, extruded",
+        change: "remove chamfers, drafts and other features from the file that is checked",
+    },
     |evidence| Some(walls(evidence, evidence.solid?)),
 );
 
 pub(super) const THICKNESS: Check = solid_check(
     "thickness",
     "How far the end faces of a solid are from where they should be: at z = 0 and the thickness, or the ends of a conoid.",
+    Explained {
+        bound: Bound::AtMost,
+        formula: "max |z − z₀| over the end faces",
+        usual: "the tolerance",
+        change: "set `cam.thickness` as in the file, or save the solid with its lower face at z = 0",
+    },
     |evidence| Some(thickness(evidence, evidence.solid?)),
 );
 
 pub(super) const VOLUME: Check = solid_check(
     "volume",
     "The volume that the walls of a solid enclose; it must be the area of its end face times its thickness.",
+    Explained {
+        bound: Bound::Exactly,
+        formula: "∮ over the walls, against area × thickness",
+        usual: "camgen's own rule: a millionth",
+        change: "write the solid with camgen again",
+    },
     |evidence| volume(evidence, evidence.solid?),
 );
 
 pub(super) const HOLES: Check = solid_check(
     "holes",
     "How far bore, keyway and balance holes of a solid are from where they should be.",
+    Explained {
+        bound: Bound::AtMost,
+        formula: "the largest distance of a wall from the hole it belongs to",
+        usual: "the tolerance",
+        change: "set `cam.bore_radius`, `cam.keyway` and `cam.balance` as in the file, or mend the file",
+    },
     |evidence| Some(holes(evidence, evidence.solid?)),
 );
 

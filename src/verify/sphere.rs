@@ -1,6 +1,6 @@
 //! The sphere of a conoid's roller put on its written sections and on the flank of its solid.
 
-use super::{Check, Evidence, On, WrittenOutline, at};
+use super::{Bound, Check, Evidence, Explained, On, WrittenOutline, at};
 use crate::body::conoid::Conoid;
 use crate::body::conoid::flank::Flank;
 use crate::geometry::MILLIMETRES;
@@ -18,6 +18,12 @@ pub(super) const ROLLING_FLANK: Check = Check {
     on: On::Outline,
     about: "The largest gap between the sphere of the roller, placed as the motion requires, and the flank of the solid as \
             written.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "the distance of the roller's centre from the flank, less its radius",
+        usual: "the tolerance",
+        change: "a finer --tolerance",
+    },
     run: rolling_flank,
 };
 

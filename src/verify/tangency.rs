@@ -1,7 +1,7 @@
 //! Kinks between the segments of the outline. The corners of a plate's ends do not count: joints within a few tolerances of where
 //! they are meant to be.
 
-use super::{Check, Evidence, On, WrittenOutline, place};
+use super::{Bound, Check, Evidence, Explained, On, WrittenOutline, place};
 use crate::body::CORNER_REACH;
 use crate::geometry::contour::Vertex;
 use crate::report::{Finding, Place, Verdict};
@@ -11,6 +11,12 @@ pub(super) const CHECK: Check = Check {
     on: On::Outline,
     about: "The largest kink between neighbouring arcs and lines of the outline. Controls and shops take up to 0.05° for smooth; \
             more is a mark on the metal and a knock in the follower.",
+    explained: Explained {
+        bound: Bound::AtMost,
+        formula: "the angle between the tangents on both sides of a joint",
+        usual: "0.05°, camgen's own rule",
+        change: "write the file with more decimals, or let camgen write it again; splines and chords from other programs have such kinks",
+    },
     run: check,
 };
 

@@ -1,12 +1,18 @@
 //! The metal left behind the profile: to the bore, keyway included, or to the other flank of a plate.
 
-use super::{Check, Evidence, On, at};
+use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
     name: "wall",
     on: On::Cam,
     about: "The least metal between the profile and the bore with its keyway, or between the two flanks of a plate.",
+    explained: Explained {
+        bound: Bound::AtLeast,
+        formula: "the least distance between the profile and what is cut inside it",
+        usual: "camgen's own rule: above 0, and `limits.wall` where it is given; the stress in the hub decides",
+        change: "a larger `cam.base_radius`, a smaller `cam.bore_radius`, or a higher `translating.plate_height`",
+    },
     run: check,
 };
 
