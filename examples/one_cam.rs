@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     // Refused with an error when a check has failed.
     let directory = std::env::temp_dir().join("camgen-one-cam");
-    let report = proven.files(&Writing::to(directory, name))?.commit()?;
+    let report = proven.files(&Writing { overwrite: true, ..Writing::to(directory, name) })?.commit()?;
     println!("{}: {}", report.title(), report.files.join(", "));
     Ok(())
 }

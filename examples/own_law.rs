@@ -34,7 +34,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .motion(TwoHarmonics { lift: 0.020 })?;
     let cam = spec.solve()?;
     let proven = cam.draw(2e-6)?.prove()?;
-    let files = proven.files(&Writing::to(std::env::temp_dir().join("camgen-own-law"), "two-harmonics"))?;
+    let writing = Writing::to(std::env::temp_dir().join("camgen-own-law"), "two-harmonics");
+    // A directory of this example alone: what another run has left in it may go.
+    let files = proven.files(&Writing { overwrite: true, ..writing })?;
     let report = files.commit()?;
     println!("{}", serde_json::to_string_pretty(&report)?);
     Ok(())

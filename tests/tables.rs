@@ -239,7 +239,12 @@ fn every_check_is_explained() {
         let run = camgen(&["explain", check.name]);
         assert_eq!(run.code, 0, "{}: {}", check.name, run.err);
         assert!(run.out.starts_with(check.name) && run.out.contains(check.about), "{}", run.out);
-        assert!(all.out.contains(&run.out), "{} is not among all", check.name);
+        let told = check.explained;
+        for (what, text) in [("how", told.formula), ("limit", told.usual), ("change", told.change)] {
+            assert!(run.out.contains(text), "{}: {what}", check.name);
+            assert!(text.len() > 5 && !text.ends_with('.'), "{}: {what}: {text}", check.name);
+        }
+        assert!(all.out.lines().any(|line| line.starts_with(check.name)), "{} is not among all", check.name);
         // A sentence.
         assert!(check.about.len() > 20 && check.about.ends_with('.'), "{}: {}", check.name, check.about);
     }

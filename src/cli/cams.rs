@@ -4,6 +4,7 @@ use super::args::{
     CommonArgs, ConoidArgs, CutterArgs, FileArgs, LaidOf, MakeArgs, PointsArgs, PointsAs, PointsBetween, PointsOf,
     PointsStep, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs,
 };
+use super::progress::Progress;
 use super::{Failure, Outcome, print, tell, text};
 use camgen::body::Request;
 use camgen::body::points::{Given, Points};
@@ -11,7 +12,7 @@ use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::geometry::points::{Between, Form, Step};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::Solver;
-use camgen::pipeline::{Cam, Spec, Writing};
+use camgen::pipeline::{Cam, Proven, Spec, Writing};
 use camgen::profile::outline::{Fit, Laid, Side};
 use camgen::report::{Report, Speeds};
 use camgen::write::json;
@@ -199,6 +200,8 @@ fn source_date() -> Result<Option<u64>, Failure> {
 /// Solves, draws, proves, writes and reports.
 fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, machine: &str) -> Result<Outcome, Failure> {
     let template = files.template()?;
+    let progress = Progress::of_stages(common.shows_progress());
+    progress.stage("solving");
     let cam = spec.solve().map_err(Failure::new)?;
     let writing = Writing {
         directory: files.out.clone(),
@@ -208,25 +211,43 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
         template,
         created: source_date()?,
         force: files.force,
+        overwrite: files.overwrite,
     };
     let (formats, left_out) = writing.chosen(cam.body()).map_err(Failure::new)?;
     // The flank of a three-dimensional cam is drawn, and proved, only for a format that shows it.
     let request = Request { flank: formats.iter().any(|format| format.flank), ..request };
-    let proven = cam.draw(request).and_then(|drawing| drawing.prove_as(files.dxf_version)).map_err(Failure::new)?;
-    let report = if let Some(why) = proven.no_outline() {
-        tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
-        proven.report()
-    } else if proven.passed() || files.force {
-        for (format, why) in left_out {
-            tell(&format!("no {} file: {why}", format.to_uppercase()));
-        }
-        proven.files(&writing).and_then(camgen::pipeline::FileSet::commit).map_err(Failure::new)?
-    } else {
-        tell("refused: a check failed, nothing was written (--force writes nevertheless)");
-        proven.report()
-    };
+    progress.stage("drawing");
+    let drawing = cam.draw(request).map_err(Failure::new)?;
+    progress.stage("proving");
+    let proven = drawing.prove_as(files.dxf_version).map_err(Failure::new)?;
+    progress.stage("writing");
+    let report = written(&proven, &writing, common, &left_out);
+    drop(progress);
+    let report = report?;
     show(&report, common)?;
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
+}
+
+/// Writes the files of a cam that passed, or is forced, and reports it. What is told on the way waits for the end of the progress.
+fn written(
+    proven: &Proven<'_>,
+    writing: &Writing,
+    common: &CommonArgs,
+    left_out: &[(&str, &str)],
+) -> Result<Report, Failure> {
+    if let Some(why) = proven.no_outline() {
+        tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
+        return Ok(proven.report());
+    }
+    if !proven.passed() && !writing.force {
+        tell("refused: a check failed, nothing was written (--force writes nevertheless; camgen explain CHECK)");
+        return Ok(proven.report());
+    }
+    for (format, why) in left_out {
+        tell(&format!("no {} file: {why}", format.to_uppercase()));
+    }
+    let made = proven.files(writing).map_err(Failure::new)?;
+    if common.dry_run { Ok(proven.report()) } else { made.commit().map_err(Failure::new) }
 }
 
 /// Prints a report as it was asked for.
@@ -237,6 +258,6 @@ pub(super) fn show(report: &Report, common: &CommonArgs) -> Result<(), Failure> 
     } else if common.quiet {
         Ok(())
     } else {
-        print(&text::report(report, common.colour()))
+        print(&text::report(report, common.page()))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::args::{CheckArgs, Checked};
 use super::cams::{of_conoid, of_program};
+use super::progress::Progress;
 use super::{Failure, Outcome, print, text};
 use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::motion::equation_18::Solver;
@@ -30,7 +31,10 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         }
         Checked::Conoid => of_conoid(&args.common, machine, args.residual)?,
     };
+    let progress = Progress::of_stages(args.common.shows_progress());
+    progress.stage("solving");
     let cam = spec.solve().map_err(Failure::new)?;
+    progress.stage("rolling on the file");
     let file = args.file.display().to_string();
     let tolerance = args.common.tolerance();
     let checked = match args.section {
@@ -43,12 +47,13 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         Error::Section(why) => Failure(format!("{why} (--section RPM)")),
         other => Failure::new(other),
     })?;
+    drop(progress);
     report.sections.insert(0, Section::new("file", &file));
     if args.common.json {
         let json = json::write(&report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&json))?;
     } else if !args.common.quiet {
-        print(&text::check_report(&file, &report, args.common.colour()))?;
+        print(&text::check_report(&file, &report, args.common.page()))?;
     }
     Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }

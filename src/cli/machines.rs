@@ -2,6 +2,7 @@
 
 use super::args::{MachinesArgs, MachinesCommand};
 use super::{Failure, Outcome, print};
+use camgen::document::similar;
 use camgen::machine::{self, EMBEDDED, Machine};
 use camgen::write::json;
 
@@ -16,9 +17,11 @@ pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
             print(&text)?;
         }
         Some(MachinesCommand::Show { name }) => {
-            let Some(embedded) = EMBEDDED.iter().find(|embedded| embedded.name == name) else {
+            let Some(embedded) = EMBEDDED.iter().find(|embedded| embedded.name.eq_ignore_ascii_case(name)) else {
                 let names: Vec<&str> = EMBEDDED.iter().map(|embedded| embedded.name).collect();
-                return Err(Failure(format!("no embedded machine `{name}`; there are {}", names.join(", "))));
+                let near = similar(name, names.iter().copied());
+                let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? It is "));
+                return Err(Failure(format!("no embedded machine `{name}`; {near}one of {}", names.join(", "))));
             };
             print(embedded.toml)?;
         }

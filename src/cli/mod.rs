@@ -5,11 +5,13 @@ mod cams;
 mod check;
 mod explain;
 mod machines;
+mod pages;
+mod progress;
 mod text;
 mod trade;
+mod watch;
 
 use args::{Cli, Command};
-use camgen::machine;
 use clap::Parser;
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
@@ -36,16 +38,11 @@ impl Failure {
 
 pub(crate) fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
-        Command::Rotary(args) => cams::rotary(&args),
-        Command::Translating(args) => cams::translating(&args),
-        Command::Conoid(args) => cams::conoid(&args),
-        Command::Trade(args) => trade::run(&args),
-        Command::Check(args) => check::run(&args),
-        Command::Make(args) => cams::make(&args),
-        Command::Machines(args) => machines::run(&args),
-        Command::Init => print(&machine::template()).map(|()| Outcome::Fine),
-        Command::Explain(args) => explain::run(&args),
-        Command::Schema => machines::schema(),
+        None => pages::overview(),
+        Some(command) => match command.watched() {
+            Some(files) => watch::run(&files, || run(&command)),
+            None => run(&command),
+        },
     };
     match outcome {
         Ok(Outcome::Fine) => ExitCode::SUCCESS,
@@ -54,6 +51,23 @@ pub(crate) fn main() -> ExitCode {
             tell(&format!("error: {failure}"));
             ExitCode::from(2)
         }
+    }
+}
+
+fn run(command: &Command) -> Result<Outcome, Failure> {
+    match command {
+        Command::Rotary(args) => cams::rotary(args),
+        Command::Translating(args) => cams::translating(args),
+        Command::Conoid(args) => cams::conoid(args),
+        Command::Make(args) => cams::make(args),
+        Command::Check(args) => check::run(args),
+        Command::Trade(args) => trade::run(args),
+        Command::Machines(args) => machines::run(args),
+        Command::Init(args) => pages::init(args),
+        Command::Explain(args) => explain::run(args),
+        Command::Schema => machines::schema(),
+        Command::Completions(args) => pages::completions(args),
+        Command::Man(args) => pages::man(args),
     }
 }
 

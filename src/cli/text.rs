@@ -1,68 +1,146 @@
-//! The report for a person at a terminal: it walks the sections that the parts of the cam contribute.
+//! The report for a person: it walks the sections that the parts of the cam contribute. The text is the same in every run, plain
+//! and as wide as its lines; colour and wrapped lines are for a terminal.
 
-use camgen::report::{Finding, Place, Report, Section, Verdict, shown};
-use std::fmt::Write;
+mod glossary;
+
+use camgen::report::{Finding, Place, Report, Section, Verdict};
+use std::io::IsTerminal;
 
 const GREEN: &str = "\u{1b}[32m";
 const RED: &str = "\u{1b}[1;31m";
 const YELLOW: &str = "\u{1b}[1;33m";
 const PLAIN: &str = "\u{1b}[0m";
 
-pub(super) fn report(report: &Report, colour: bool) -> String {
-    let mut lines = vec![format!("{} · {}{}", report.machine, report.noun, report.rpm)];
-    lines.extend(report.sections.iter().flat_map(section));
-    ended(lines, report, colour)
+/// Narrower terminals are written to as if they were so wide.
+const NARROWEST: usize = 40;
+
+/// What the text is laid out for.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Page {
+    /// Verdicts are coloured.
+    pub(super) colour: bool,
+    /// Characters in a line; `None` where lines are not wrapped.
+    pub(super) width: Option<usize>,
+}
+
+impl Page {
+    /// For standard output as it is, without colours.
+    pub(super) fn here() -> Self {
+        let terminal = std::io::stdout().is_terminal();
+        let width = terminal.then(terminal_size::terminal_size).flatten().map(|(width, _)| usize::from(width.0));
+        Self { colour: false, width }
+    }
+}
+
+pub(super) fn report(report: &Report, page: Page) -> String {
+    let first = format!("{} · {}{}", report.machine, report.noun, report.rpm);
+    written(first, report, page)
 }
 
 /// The report of a checked file: one plain sentence, then the checks.
-pub(super) fn check_report(file: &str, report: &Report, colour: bool) -> String {
+pub(super) fn check_report(file: &str, report: &Report, page: Page) -> String {
     let verdict = if report.passed() { "is this cam" } else { "is NOT this cam" };
-    let mut lines = vec![format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.rpm)];
-    lines.extend(report.sections.iter().flat_map(section));
-    ended(lines, report, colour)
+    let first = format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.rpm);
+    written(first, report, page)
 }
 
-/// The lines of a section, the first with its name.
-fn section(section: &Section) -> Vec<String> {
-    let label = |index: usize| if index == 0 { &*section.key } else { "" };
-    section.words.iter().enumerate().map(|(index, words)| format!("  {:<8} {words}", label(index))).collect()
-}
-
-/// Checks, notes and files, after the lines a report begins with.
-fn ended(mut lines: Vec<String>, report: &Report, colour: bool) -> String {
+fn written(first: String, report: &Report, page: Page) -> String {
+    let mut lines = vec![first];
+    lines.extend(report.sections.iter().flat_map(|of| section(of, page)));
     lines.push("  checks".into());
-    lines.extend(report.checks.iter().map(|finding| check(finding, colour)));
-    for (name, entries) in [("notes", &report.notes), ("files", &report.files)] {
-        if !entries.is_empty() {
+    lines.extend(checks(&report.checks, page));
+    let entries = |entries: &[String]| -> Vec<String> {
+        entries.iter().map(|entry| wrapped(&format!("    {entry}"), 6, page)).collect()
+    };
+    let terms = glossary::of(&lines.join("\n"));
+    for (name, told) in [("notes", &report.notes), ("files", &report.files), ("terms", &terms)] {
+        if !told.is_empty() {
             lines.push(format!("  {name}"));
-            lines.extend(entries.iter().map(|entry| format!("    {entry}")));
+            lines.extend(entries(told));
         }
     }
+    lines.push(format!("  inputs   {}, camgen {}", report.inputs.hash, report.inputs.camgen));
     lines.push(String::new());
     lines.join("\n")
 }
 
-fn check(finding: &Finding, colour: bool) -> String {
-    let paint = match finding.verdict {
+/// The lines of a section, the first with its name.
+fn section(section: &Section, page: Page) -> Vec<String> {
+    let label = |index: usize| if index == 0 { &*section.key } else { "" };
+    let line = |(index, words)| wrapped(&format!("  {:<8} {words}", label(index)), 11, page);
+    section.words.iter().enumerate().map(line).collect()
+}
+
+/// The cells of a check: its name, the value without and the unit with its sign, the limit, the place.
+fn cells(finding: &Finding) -> [String; 5] {
+    let value = finding.value_words();
+    let (number, unit) = value.split_once(' ').unwrap_or((&value, ""));
+    let place = if finding.place == Place::default() { String::new() } else { finding.place.to_string() };
+    let limit = finding.limit_words().unwrap_or_default();
+    [finding.check.to_string(), number.to_owned(), unit.to_owned(), limit, place]
+}
+
+/// A line for each check, in columns, and one below where there is more to say.
+fn checks(findings: &[Finding], page: Page) -> Vec<String> {
+    let rows: Vec<[String; 5]> = findings.iter().map(cells).collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let [name, number, unit, limit] = [0, 1, 2, 3].map(width);
+    let mut lines = Vec::new();
+    for (finding, row) in findings.iter().zip(&rows) {
+        let verdict = painted(finding.verdict, page);
+        let [check, value, of, bound, place] = row;
+        let line = format!("    {verdict}  {check:<name$}  {value:>number$} {of:<unit$}  {bound:<limit$}  {place}");
+        lines.push(line.trim_end().to_owned());
+        lines.extend(finding.note.iter().map(|note| wrapped(&format!("          {note}"), 10, page)));
+    }
+    lines
+}
+
+fn painted(verdict: Verdict, page: Page) -> String {
+    let word = verdict.word();
+    let paint = match verdict {
+        _ if !page.colour => return word.into(),
         Verdict::Pass => GREEN,
         Verdict::Fail => RED,
         Verdict::Warn => YELLOW,
         _ => PLAIN,
     };
-    let word = finding.verdict.word();
-    let verdict = if colour { format!("{paint}{word}{PLAIN}") } else { word.into() };
-    let value = if finding.value.is_finite() { shown(finding.value) } else { "–".into() };
-    let with_unit =
-        |value: String| if ["", "1"].contains(&&*finding.unit) { value } else { format!("{value} {}", finding.unit) };
-    let mut line = format!("    {verdict}  {:<18} {}", finding.check, with_unit(value));
-    if let Some(limit) = finding.limit {
-        let _ = write!(line, ", limit {}", with_unit(shown(limit)));
+    format!("{paint}{word}{PLAIN}")
+}
+
+/// A line broken at blanks where it is wider than the page; the lines behind the first are indented.
+pub(super) fn wrapped(line: &str, indent: usize, page: Page) -> String {
+    let Some(width) = page.width.map(|width| width.max(NARROWEST)) else { return line.to_owned() };
+    let mut text = String::new();
+    let mut column = 0;
+    for (index, word) in line.trim_end().split(' ').enumerate() {
+        let length = word.chars().count();
+        if index > 0 && column + 1 + length > width && column > indent {
+            text.push_str(&format!("\n{}", " ".repeat(indent)));
+            column = indent;
+        } else if index > 0 {
+            text.push(' ');
+            column += 1;
+        }
+        text.push_str(word);
+        column += length;
     }
-    if finding.place != Place::default() {
-        let _ = write!(line, ", at {}", finding.place);
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_wrapped_on_a_terminal_only() {
+        let line = format!("  cam      {}", "word ".repeat(20).trim_end());
+        assert_eq!(wrapped(&line, 11, Page::default()), line);
+        let narrow = wrapped(&line, 11, Page { colour: false, width: Some(50) });
+        assert!(narrow.lines().all(|line| line.chars().count() <= 50), "{narrow}");
+        assert!(narrow.lines().skip(1).all(|line| line.starts_with("           word")), "{narrow}");
+        assert_eq!(narrow.split_whitespace().collect::<Vec<_>>(), line.split_whitespace().collect::<Vec<_>>());
+        let long = "x".repeat(200);
+        assert_eq!(wrapped(&long, 4, Page { colour: false, width: Some(10) }), long, "a word is never broken");
     }
-    if let Some(note) = &finding.note {
-        let _ = write!(line, "; {note}");
-    }
-    line
 }

@@ -2,8 +2,10 @@
 
 use super::{Error, Proven};
 use crate::body::Body;
+use crate::document::Input;
 use crate::report::Report;
-use crate::write::files::{self, write_all};
+use crate::write::files;
+use crate::write::record::{Run, write_recorded};
 use crate::write::svg;
 use crate::write::{FORMATS, Format, Rendering, When, by_name};
 use std::path::{Path, PathBuf};
@@ -27,6 +29,8 @@ pub struct Writing {
     pub created: Option<u64>,
     /// Write although a check failed.
     pub force: bool,
+    /// Replace files that were edited, or that camgen has not written. Its own are always replaced.
+    pub overwrite: bool,
 }
 
 /// Rows of the point table by default: every half degree.
@@ -43,6 +47,7 @@ impl Writing {
             template: svg::TEMPLATE.to_owned(),
             created: None,
             force: false,
+            overwrite: false,
         }
     }
 
@@ -81,6 +86,9 @@ impl Writing {
 #[derive(Debug, Clone)]
 pub struct FileSet {
     directory: PathBuf,
+    stem: String,
+    inputs: Vec<Input>,
+    overwrite: bool,
     report: Report,
     outputs: Vec<Output>,
 }
@@ -109,7 +117,8 @@ pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, E
         bytes.extend((format.write)(&rendering)?);
     }
     let outputs = names.into_iter().zip(bytes).map(|(name, bytes)| Output { name, bytes }).collect();
-    Ok(FileSet { directory: writing.directory.clone(), report, outputs })
+    let (directory, stem) = (writing.directory.clone(), writing.stem.clone());
+    Ok(FileSet { directory, stem, inputs: proven.inputs.clone(), overwrite: writing.overwrite, report, outputs })
 }
 
 impl FileSet {
@@ -137,12 +146,17 @@ impl FileSet {
         &self.directory
     }
 
-    /// Writes all files, or none.
+    /// Writes all files, or none, with a record of them, `.camgen.json`. Files that camgen wrote and nobody changed are replaced,
+    /// and the notes of the report tell which inputs differ from the last time.
     ///
     /// # Errors
-    /// [`Error::Files`]; then every file is as it was before.
+    /// [`Error::Files`], also when a file would be replaced that camgen has not written or that was changed since; then every file
+    /// is as it was before.
     pub fn commit(self) -> Result<Report, Error> {
-        write_all(&self.directory, &self.outputs)?;
-        Ok(self.report)
+        let run = Run { stem: &self.stem, inputs: &self.inputs, overwrite: self.overwrite };
+        let changes = write_recorded(&self.directory, self.outputs, &run)?;
+        let mut report = self.report;
+        report.notes.extend(changes);
+        Ok(report)
     }
 }

@@ -4,6 +4,7 @@
 //! renamed, each over its predecessor, which is kept under another name until the last rename has succeeded; a failure
 //! in between puts the old files back.
 
+use super::record::Kept;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -31,6 +32,12 @@ pub enum FilesError {
         /// Why.
         source: io::Error,
     },
+    /// Files stand in the places that camgen has not written, or that were changed since.
+    #[error(
+        "{}; nothing was written: choose another --name or --out, or replace with --overwrite",
+        .0.iter().map(Kept::to_string).collect::<Vec<_>>().join(", ")
+    )]
+    Kept(Vec<Kept>),
     /// A file cannot be written or put in its place.
     #[error("cannot write `{}`: {source}; nothing was changed", path.display())]
     File {

@@ -9,6 +9,7 @@ pub mod json;
 pub mod number;
 pub mod points;
 pub mod proof;
+pub mod record;
 pub mod step;
 pub mod stl;
 pub mod svg;

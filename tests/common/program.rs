@@ -36,14 +36,14 @@ pub(crate) fn camgen_on(threads: Option<&str>, directory: TempDir, args: &[&str]
     Run { code: output.status.code().expect("a code"), out: text(&output.stdout), err: text(&output.stderr), directory }
 }
 
-/// Every file below a directory.
+/// Every file below a directory, without the record of what was written.
 pub(crate) fn files(directory: &Path) -> Vec<String> {
     let mut found = Vec::new();
     for entry in fs::read_dir(directory).expect("a directory") {
         let path = entry.expect("an entry").path();
         if path.is_dir() {
             found.extend(files(&path));
-        } else {
+        } else if path.file_name().is_some_and(|name| name != ".camgen.json") {
             found.push(path.file_name().expect("a name").to_string_lossy().into_owned());
         }
     }

@@ -255,7 +255,7 @@ def files_in(directory):
     return {
         str(path.relative_to(directory)): path.read_bytes()
         for path in sorted(Path(directory).rglob("*"))
-        if path.is_file() and path.name != "press.toml"
+        if path.is_file() and path.name not in ("press.toml", ".camgen.json")
     }
 
 

@@ -4,17 +4,20 @@ mod settings;
 mod tell;
 
 use super::args::{CamKind, TradeArgs};
+use super::progress::Progress;
 use super::{Failure, Outcome, print};
 use camgen::body::points::{self, Points};
 use camgen::body::{RateTolerance, Request};
+use camgen::document::Input;
 use camgen::geometry::contour::Contour;
 use camgen::geometry::points::{Between, Form, Interpolant, Step};
 use camgen::pipeline::Cam;
 use camgen::profile::outline::{Fit, Laid};
 use camgen::report::{Rolled, shown};
 use camgen::verify::{WrittenOutline, rolling};
-use camgen::write::files::{Output, write_all};
+use camgen::write::files::Output;
 use camgen::write::number::{names, shortest};
+use camgen::write::record::{Run, refuse_kept, write_recorded};
 use camgen::write::{self, dxf, json, proof, svg};
 use camgen::write::{FORMATS, Rendering};
 use serde::Serialize;
@@ -159,20 +162,22 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
         CamKind::Rotary => "rotary",
         CamKind::Translating => "translating",
     };
+    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
+    let output = |ending: &str, bytes: Vec<u8>| Output { name: format!("{stem}.{ending}"), bytes };
+    if !args.overwrite && !args.common.dry_run {
+        refuse_kept(&args.out, &["csv", "svg"].map(|ending| output(ending, Vec::new()))).map_err(Failure::new)?;
+    }
     let inertia = machine.press().map_err(Failure::new)?.bed.largest_inertia(rpm);
     let limits = Limits { residual: args.residual.unwrap_or(SHARE * inertia), acceleration: args.acceleration };
-    let Measured { rows, rounds, stable } = measure(&laws, &settings, limits)?;
+    let Measured { rows, rounds, stable } = measured(args, &laws, &settings, limits)?;
     let advice = tell::advice(&rows, limits, stable);
-    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
     let title =
         format!("{}: time against force and acceleration of a {kind} cam at {} rpm", machine.name(), shortest(rpm));
     let picture = svg::write(&tell::picture(&rows, &title), svg::TEMPLATE).map_err(Failure::new)?;
-    let outputs = [
-        Output { name: format!("{stem}.csv"), bytes: tell::table(&rows).into_bytes() },
-        Output { name: format!("{stem}.svg"), bytes: picture },
-    ];
-    write_all(&args.out, &outputs).map_err(Failure::new)?;
-    let files = outputs.iter().map(|output| args.out.join(&output.name).display().to_string()).collect();
+    let outputs = vec![output("csv", tell::table(&rows).into_bytes()), output("svg", picture)];
+    let mut inputs = machine.inputs(kind);
+    inputs.extend([Input::word("command", format!("trade {kind}")), Input::number("rpm", rpm)]);
+    let files = written(args, outputs, &Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite })?;
     let report = TradeReport {
         schema: 1,
         command: "trade",
@@ -196,6 +201,16 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Fine)
 }
 
+/// Writes the files; none in a dry run.
+fn written(args: &TradeArgs, outputs: Vec<Output>, run: &Run<'_>) -> Result<Vec<String>, Failure> {
+    if args.common.dry_run {
+        return Ok(Vec::new());
+    }
+    let files = outputs.iter().map(|output| args.out.join(&output.name).display().to_string()).collect();
+    write_recorded(&args.out, outputs, run).map_err(Failure::new)?;
+    Ok(files)
+}
+
 /// Time of some work, µs, and what it made.
 fn timed<T>(work: impl FnOnce() -> Result<T, Failure>) -> Result<(f64, T), Failure> {
     let start = Instant::now();
@@ -211,8 +226,14 @@ struct Measured {
     stable: bool,
 }
 
+fn measured(args: &TradeArgs, laws: &[Law], settings: &[Setting], limits: Limits) -> Result<Measured, Failure> {
+    let progress = Progress::of_steps(args.common.shows_progress(), MOST_ROUNDS * settings.len());
+    progress.stage("measuring; it ends when the order has settled");
+    measure(laws, settings, limits, &progress)
+}
+
 /// Rounds over all settings, until their order has settled.
-fn measure(laws: &[Law], settings: &[Setting], limits: Limits) -> Result<Measured, Failure> {
+fn measure(laws: &[Law], settings: &[Setting], limits: Limits, progress: &Progress) -> Result<Measured, Failure> {
     let mut rows: Vec<Row> = Vec::with_capacity(settings.len());
     let mut times: Vec<Vec<Times>> = vec![Vec::new(); settings.len()];
     let (mut order, mut unchanged) = (Vec::new(), 0);
@@ -222,6 +243,7 @@ fn measure(laws: &[Law], settings: &[Setting], limits: Limits) -> Result<Measure
             let (Some(law), Some(law_us)) = (laws.get(setting.law), solved.get(setting.law)) else { continue };
             let (row, now) = one_round(law, setting, *law_us)?;
             measured.push(now);
+            progress.step();
             if round == 1 {
                 rows.push(row);
             }

@@ -1,0 +1,91 @@
+//! The examples in the help of each command. A test runs every line that begins with `camgen`.
+
+pub(super) const CAMGEN: &str = "\
+Start with:
+  camgen rotary --rpm 35                  the cam of the embedded press, four files in output/
+  camgen init press.toml                  a machine file of your own
+  camgen COMMAND --help                   flags and examples of a command";
+
+pub(super) const ROTARY: &str = "\
+Examples:
+  camgen rotary --rpm 35 --format dxf,json
+      the outline of the cam for 35 rpm, and the report as JSON
+  camgen rotary dpi-paper --set cam.base_radius=200mm --dry-run
+      exit code 1: the pressure angle is too large; the report names the radius that would pass";
+
+pub(super) const TRANSLATING: &str = "\
+Examples:
+  camgen translating --rpm 35 --format dxf
+      the plate for 35 rpm, equation (18) integrated as a differential equation
+  camgen translating --solver paper --stations 180 --balance mean --dry-run
+      as the paper solves it, with equal residual forces in both directions; only the report";
+
+pub(super) const CONOID: &str = "\
+Examples:
+  camgen conoid --rpm 20,25,30,35 --format dxf
+      a section for each speed
+  camgen conoid --rpm 20..35 --residual 20N --dry-run
+      the fewest sections that leave no more than 20 N at any speed between";
+
+pub(super) const MAKE: &str = "\
+Examples:
+  camgen make lifter.toml --format dxf,step
+      the cam of the motion program in lifter.toml
+  camgen make lifter.toml --set follower.roller.radius=8mm --dry-run --json
+      the report for another roller, without files";
+
+pub(super) const CHECK: &str = "\
+Examples:
+  camgen check part.dxf dpi --rpm 35
+      whether part.dxf is the rotary cam of the embedded press for 35 rpm
+  camgen check part.dxf --rpm 34 --tolerance 20um
+      exit code 1: it is not the cam for 34 rpm; the report tells for which speed it would be";
+
+pub(super) const TRADE: &str = "\
+Examples:
+  camgen trade
+      every setting for the rotary cam of the embedded press, as a table and a chart
+  camgen trade rotary --residual 5N --acceleration 5% --dry-run
+      the cheapest setting that keeps both, without files";
+
+pub(super) const MACHINES: &str = "\
+Examples:
+  camgen machines
+      their names
+  camgen machines show dpi
+      one of them as a file: > press.toml makes it your own";
+
+pub(super) const INIT: &str = "\
+Examples:
+  camgen init
+      prints it
+  camgen init mine.toml
+      writes it; `camgen rotary mine.toml` makes its cam";
+
+pub(super) const EXPLAIN: &str = "\
+Examples:
+  camgen explain
+      every check in a line
+  camgen explain pressure_angle
+      one in full";
+
+pub(super) const SCHEMA: &str = "\
+Examples:
+  camgen schema
+      prints it: > machine.schema.json keeps it
+  camgen schema --help
+      editors with Taplo complete and check a machine file whose first line is: #:schema ./machine.schema.json";
+
+pub(super) const COMPLETIONS: &str = "\
+Examples:
+  camgen completions bash
+      prints them: > ~/.local/share/bash-completion/completions/camgen
+  camgen completions zsh
+      prints them: > a file _camgen in a directory of $fpath";
+
+pub(super) const MAN: &str = "\
+Examples:
+  camgen man
+      the page of camgen: > camgen.1
+  camgen man rotary
+      the page of a command: > camgen-rotary.1";

@@ -1,0 +1,167 @@
+//! The values of flags, as they were typed.
+
+use camgen::body::RateTolerance;
+use camgen::document::similar;
+use camgen::machine::valid_rpm;
+use camgen::units::{self, Dimension};
+use camgen::write::by_name;
+use camgen::write::dxf::Version;
+
+/// A tolerance of velocity or acceleration, or that there is none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::cli) enum Rate {
+    Any,
+    Within(RateTolerance),
+}
+
+/// A unit of velocity or acceleration: its name, whether it is of a swing, whether it is by the time, and its size in m or rad.
+type RateUnit = (&'static str, bool, bool, f64);
+
+const VELOCITIES: [RateUnit; 5] = [
+    ("mm/rad", false, false, 1e-3),
+    ("mm/s", false, true, 1e-3),
+    ("m/s", false, true, 1.0),
+    ("rad/rad", true, false, 1.0),
+    ("rad/s", true, true, 1.0),
+];
+const ACCELERATIONS: [RateUnit; 5] = [
+    ("mm/rad2", false, false, 1e-3),
+    ("mm/s2", false, true, 1e-3),
+    ("m/s2", false, true, 1.0),
+    ("rad/rad2", true, false, 1.0),
+    ("rad/s2", true, true, 1.0),
+];
+
+/// A speed, or `A..B` from one to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::cli) enum Speed {
+    One(f64),
+    Range(f64, f64),
+}
+
+pub(super) fn velocity_error(text: &str) -> Result<Rate, String> {
+    rate(text, &VELOCITIES)
+}
+
+pub(super) fn acceleration_error(text: &str) -> Result<Rate, String> {
+    rate(text, &ACCELERATIONS)
+}
+
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    match rate(text, &ACCELERATIONS)? {
+        Rate::Within(RateTolerance::Share(share)) => Ok(share),
+        _ => Err("must be a share, e.g. 2%".into()),
+    }
+}
+
+fn rate(text: &str, units: &[RateUnit]) -> Result<Rate, String> {
+    if text.trim().eq_ignore_ascii_case("none") {
+        return Ok(Rate::Any);
+    }
+    let text = text.trim().replace('²', "2").replace('^', "");
+    // An e belongs to the number.
+    let begins_unit = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
+    let end = text.find(begins_unit).unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    let known: Vec<&str> = units.iter().map(|(name, ..)| *name).collect();
+    let known = known.join(", ");
+    let value = units::parse_bare(number.trim()).map_err(|error| format!("{error}; e.g. 5%, none, or {known}"))?;
+    if !(value > 0.0) {
+        return Err("must be above 0".into());
+    }
+    let unit = unit.trim();
+    if unit == "%" {
+        return if value <= 100.0 {
+            Ok(Rate::Within(RateTolerance::Share(value / 100.0)))
+        } else {
+            Err("must be at most 100%".into())
+        };
+    }
+    match units.iter().find(|(name, ..)| *name == unit) {
+        Some((_, swing, by_time, size)) => {
+            Ok(Rate::Within(RateTolerance::Rate { value: value * size, swing: *swing, by_time: *by_time }))
+        }
+        None if unit.is_empty() => Err(format!("has no unit; it is a share (5%), none, or in one of {known}")),
+        None => Err(format!("unknown unit `{unit}`; it is a share (5%), none, or in one of {known}")),
+    }
+}
+
+pub(super) fn speed(text: &str) -> Result<Speed, String> {
+    match text.split_once("..") {
+        None => rpm(text).map(Speed::One),
+        Some((from, to)) => {
+            let (from, to) = (rpm(from)?, rpm(to)?);
+            if from < to {
+                Ok(Speed::Range(from, to))
+            } else {
+                Err("a range goes from the slower to the faster speed".into())
+            }
+        }
+    }
+}
+
+pub(super) fn force(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Force)
+        .map_err(|error| format!("{error}; a force has one of {}", Dimension::Force.unit_list()))?;
+    if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
+}
+
+pub(super) fn rpm(text: &str) -> Result<f64, String> {
+    let number =
+        units::parse_bare(text).map_err(|error| format!("{error}; a speed is a bare number, e.g. --rpm 35"))?;
+    valid_rpm(number)
+}
+
+/// Coarsest tolerance, m: a cam that is off by more than a millimetre is of no use.
+const COARSEST: f64 = 1e-3;
+
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Length)
+        .map_err(|error| format!("{error}; a tolerance is a length with one of {}", Dimension::Length.unit_list()))?;
+    if quantity.si > 0.0 && quantity.si <= COARSEST {
+        Ok(quantity.si)
+    } else {
+        Err(format!("must be above 0 and at most {}", quantity.in_same_unit(COARSEST)))
+    }
+}
+
+pub(super) fn cutter(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Length)
+        .map_err(|error| format!("{error}; a radius is a length with one of {}", Dimension::Length.unit_list()))?;
+    if quantity.si > 0.0 && quantity.si <= 1.0 {
+        Ok(quantity.si)
+    } else {
+        Err(format!("must be above 0 and at most {}", quantity.in_same_unit(1.0)))
+    }
+}
+
+pub(super) fn format(text: &str) -> Result<String, String> {
+    if let Some(format) = by_name().find(|format| format.name.eq_ignore_ascii_case(text)) {
+        return Ok(format.name.to_owned());
+    }
+    let known: Vec<&str> = by_name().map(|format| format.name).collect();
+    Err(format!("no such format; {}one of {}", meant(text, &known), known.join(", ")))
+}
+
+pub(super) fn dxf_version(text: &str) -> Result<Version, String> {
+    Version::ALL.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|(_, version)| *version).ok_or_else(
+        || {
+            let known: Vec<&str> = Version::ALL.iter().map(|(name, _)| *name).collect();
+            format!("no such version; {}one of {}", meant(text, &known), known.join(", "))
+        },
+    )
+}
+
+/// The known word that was meant, as the start of a message; empty when none is near.
+fn meant(text: &str, known: &[&str]) -> String {
+    similar(text, known.iter().copied()).map_or(String::new(), |word| format!("did you mean `{word}`? It is "))
+}
+
+/// A stem names files in the output directory and must not lead out of it.
+pub(super) fn stem(text: &str) -> Result<String, String> {
+    let bad = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
+    if text.is_empty() || text.starts_with('.') || text.contains(bad) {
+        return Err("a file stem has no path separators, no control characters and no leading dot; see --out".into());
+    }
+    Ok(text.to_owned())
+}

@@ -1,0 +1,220 @@
+//! What camgen has written into a directory, so that it replaces its own files and nobody else's.
+//!
+//! A record beside the files holds the SHA-256 of each as it was written, and the inputs of the last run under each stem. A file
+//! that is as recorded, or as it would be written now, is replaced; any other is not, unless that is asked for. A record that is
+//! missing or damaged knows nothing: then every file is somebody else's. The record is one of the files that are written all or none.
+
+use super::files::{FilesError, Output, write_all};
+use crate::document::Input;
+use crate::report::sha256;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Name of the record in the directory of the files.
+pub const RECORD: &str = ".camgen.json";
+/// Largest record that is read, bytes: far above that of ten thousand cams.
+const LARGEST: u64 = 1 << 26;
+/// More changes than these are counted.
+const MOST_TOLD: usize = 8;
+
+/// From what files are made, and which of those that stand in their places may be replaced.
+#[derive(Debug, Clone, Copy)]
+pub struct Run<'a> {
+    /// What the names of the files begin with.
+    pub stem: &'a str,
+    /// Everything that determines the part.
+    pub inputs: &'a [Input],
+    /// Replace files that were edited or not written by camgen, too.
+    pub overwrite: bool,
+}
+
+/// A file that camgen does not replace.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Kept {
+    /// The file.
+    pub path: PathBuf,
+    /// camgen wrote it, and it was changed since.
+    pub changed: bool,
+}
+
+impl fmt::Display for Kept {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let why = if self.changed { "was changed since camgen wrote it" } else { "was not written by camgen" };
+        write!(f, "`{}` {why}", self.path.display())
+    }
+}
+
+/// The record of a directory.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Record {
+    /// SHA-256 of each file.
+    files: BTreeMap<String, String>,
+    /// By stem and key, the value as it is compared and as it was typed.
+    inputs: BTreeMap<String, BTreeMap<String, (String, String)>>,
+}
+
+impl Record {
+    fn of(directory: &Path) -> Self {
+        let read = || {
+            let mut bytes = Vec::new();
+            File::open(directory.join(RECORD)).ok()?.take(LARGEST).read_to_end(&mut bytes).ok()?;
+            serde_json::from_slice(&bytes).ok()
+        };
+        read().unwrap_or_default()
+    }
+
+    /// Of the files that would be replaced, those that are not as camgen wrote them.
+    fn kept(&self, directory: &Path, outputs: &[Output]) -> Vec<Kept> {
+        let kept = outputs.iter().filter_map(|output| {
+            let path = directory.join(&output.name);
+            // A directory is refused when it would be replaced.
+            if fs::symlink_metadata(&path).is_err() || path.is_dir() {
+                return None;
+            }
+            let recorded = self.files.get(&output.name);
+            let own = fs::read(&path)
+                .is_ok_and(|found| found == output.bytes || recorded.is_some_and(|hash| *hash == sha256(&found)));
+            (!own).then(|| Kept { path, changed: recorded.is_some() })
+        });
+        kept.collect()
+    }
+
+    /// What differs from the last run under this stem: `rpm 35 → 34`.
+    fn changes(&self, run: &Run<'_>) -> Vec<String> {
+        let Some(last) = self.inputs.get(run.stem) else { return Vec::new() };
+        let now: BTreeMap<&str, &Input> = run.inputs.iter().map(|input| (&*input.key, input)).collect();
+        let changed = now.iter().filter_map(|(key, input)| match last.get(*key) {
+            Some((value, _)) if *value == input.value => None,
+            Some((_, typed)) => Some(format!("{key} {typed} → {}", input.typed)),
+            None => Some(format!("{key} {}, not given before", input.typed)),
+        });
+        let gone = last.iter().filter(|(key, _)| !now.contains_key(key.as_str()));
+        changed.chain(gone.map(|(key, (_, typed))| format!("{key} {typed}, no longer given"))).collect()
+    }
+
+    fn add(&mut self, directory: &Path, outputs: &[Output], run: &Run<'_>) {
+        self.files.retain(|name, _| directory.join(name).exists());
+        self.files.extend(outputs.iter().map(|output| (output.name.clone(), sha256(&output.bytes))));
+        let files = &self.files;
+        self.inputs.retain(|stem, _| files.keys().any(|name| name.starts_with(stem.as_str())));
+        let inputs = run.inputs.iter().map(|input| (input.key.clone(), (input.value.clone(), input.typed.clone())));
+        self.inputs.insert(run.stem.to_owned(), inputs.collect());
+    }
+}
+
+/// Refuses files that must not be replaced, before work is done for them.
+///
+/// # Errors
+/// [`FilesError::Kept`], as [`write_recorded`] would.
+pub fn refuse_kept(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
+    let kept = Record::of(directory).kept(directory, outputs);
+    if kept.is_empty() { Ok(()) } else { Err(FilesError::Kept(kept)) }
+}
+
+/// Writes all outputs of a run into a directory, or none; returns what differs from the last run under its stem, in a sentence.
+///
+/// # Errors
+/// [`FilesError::Kept`] when a file stands in a place that camgen has not written, or that was changed since; else as
+/// [`write_all`].
+pub fn write_recorded(directory: &Path, outputs: Vec<Output>, run: &Run<'_>) -> Result<Option<String>, FilesError> {
+    fs::create_dir_all(directory).map_err(|source| FilesError::Directory { path: directory.to_owned(), source })?;
+    // Two runs at the same time do not lose what the other has recorded, where the system can lock a directory.
+    let lock = File::open(directory).ok();
+    let _ = lock.as_ref().map(File::lock);
+    if !run.overwrite {
+        refuse_kept(directory, &outputs)?;
+    }
+    let mut record = Record::of(directory);
+    let changes = record.changes(run);
+    record.add(directory, &outputs, run);
+    // A record is a map of texts, which cannot fail to be written.
+    let bytes = serde_json::to_vec(&record).unwrap_or_default();
+    let mut all = outputs;
+    all.push(Output { name: RECORD.into(), bytes });
+    write_all(directory, &all)?;
+    Ok(told(&changes))
+}
+
+fn told(changes: &[String]) -> Option<String> {
+    let shown = changes.get(..MOST_TOLD).unwrap_or(changes).join(", ");
+    let more = match changes.len().saturating_sub(MOST_TOLD) {
+        0 => String::new(),
+        more => format!(", and {more} more"),
+    };
+    (!changes.is_empty()).then(|| format!("changed since the last files of this name: {shown}{more}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn output(text: &str) -> Vec<Output> {
+        vec![Output { name: "cam.dxf".into(), bytes: text.into() }]
+    }
+
+    fn written(directory: &Path, text: &str, rpm: f64, overwrite: bool) -> Result<Option<String>, FilesError> {
+        let inputs = [Input::number("rpm", rpm), Input::quantity("follower.roller.radius", 0.03, ("mm", 1e-3))];
+        write_recorded(directory, output(text), &Run { stem: "cam", inputs: &inputs, overwrite })
+    }
+
+    #[test]
+    fn own_files_are_replaced_and_the_change_is_told() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path();
+        assert_eq!(written(path, "1", 35.0, false).expect("new"), None);
+        assert_eq!(written(path, "1", 35.0, false).expect("the same"), None);
+        let told = written(path, "2", 34.0, false).expect("own").expect("a change");
+        assert_eq!(told, "changed since the last files of this name: rpm 35 → 34");
+        assert_eq!(fs::read_to_string(path.join("cam.dxf")).expect("a file"), "2");
+    }
+
+    #[test]
+    fn files_that_were_edited_or_are_not_known_are_kept() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path();
+        let file = path.join("cam.dxf");
+        written(path, "1", 35.0, false).expect("new");
+        fs::write(&file, "edited").expect("edited");
+        let error = written(path, "2", 35.0, false).expect_err("edited");
+        assert!(error.to_string().contains("was changed since camgen wrote it"), "{error}");
+        assert_eq!(fs::read_to_string(&file).expect("a file"), "edited");
+        assert!(written(path, "edited", 35.0, false).is_ok(), "as it would be written");
+
+        for damage in
+            ["", "{", "[]", "{\"files\": 1}", "\u{0}\u{1}", "{\"files\": {\"cam.dxf\": \"00\"}, \"inputs\": {}}"]
+        {
+            fs::write(path.join(RECORD), damage).expect("damaged");
+            let error = written(path, "2", 35.0, false).expect_err(damage);
+            assert!(matches!(&error, FilesError::Kept(kept) if kept.len() == 1), "{damage}: {error}");
+        }
+        fs::remove_file(path.join(RECORD)).expect("removed");
+        assert!(written(path, "2", 35.0, false).is_err());
+        assert!(written(path, "2", 35.0, true).is_ok());
+        assert!(written(path, "3", 35.0, false).is_ok(), "it is known again");
+    }
+
+    /// Runs at the same time neither lose files nor what was recorded of them.
+    #[test]
+    fn many_at_once_know_all_their_files() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let path = directory.path();
+        let write = |name: usize, text: &str| {
+            let outputs = vec![Output { name: format!("{name}.dxf"), bytes: text.into() }];
+            let stem = name.to_string();
+            write_recorded(path, outputs, &Run { stem: &stem, inputs: &[], overwrite: false })
+        };
+        std::thread::scope(|scope| {
+            for name in 0..8 {
+                scope.spawn(move || write(name, "first").expect("written"));
+            }
+        });
+        for name in 0..8 {
+            write(name, "second").expect("its own");
+        }
+        assert_eq!(fs::read_dir(path).expect("a directory").count(), 9, "nothing is left behind");
+    }
+}

@@ -1,0 +1,246 @@
+//! What a person meets at the terminal: help whose examples run, words that are nearly right, files that are not lost.
+
+#![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
+
+#[path = "common/program.rs"]
+mod program;
+
+use program::{Run, camgen, camgen_in, files, report};
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+const LIFTER: &str = include_str!("common/lifter.toml");
+
+/// The commands in the help of camgen.
+fn commands() -> Vec<String> {
+    let help = camgen(&["--help"]).out;
+    let (_, list) = help.split_once("Commands:\n").expect("commands");
+    let names = list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
+    names.filter(|name| *name != "help").map(str::to_owned).collect()
+}
+
+/// The examples of a help, each with the line below it.
+fn examples(help: &str) -> Vec<(String, String)> {
+    let (_, text) = help.split_once("Examples:\n").expect("examples");
+    let lines: Vec<&str> = text.lines().collect();
+    let pairs = lines.windows(2).filter(|pair| pair[0].starts_with("  camgen "));
+    pairs.map(|pair| (pair[0].trim().to_owned(), pair[1].trim().to_owned())).collect()
+}
+
+/// A directory with the files that examples name.
+fn prepared() -> tempfile::TempDir {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("lifter.toml"), LIFTER).expect("written");
+    let run = camgen_in(directory, &["rotary", "--format", "dxf", "--name", "part", "--out", ".", "--quiet"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    run.directory
+}
+
+#[test]
+fn every_example_of_every_help_runs() {
+    let all = commands();
+    assert!(all.len() >= 12, "{all:?}");
+    for command in all {
+        let help = camgen(&[&command, "--help"]).out;
+        let examples = examples(&help);
+        assert_eq!(examples.len(), 2, "{command}");
+        for (line, told) in examples {
+            let words: Vec<&str> = line.split_whitespace().skip(1).collect();
+            let run = camgen_in(prepared(), &words);
+            let expected = i32::from(told.starts_with("exit code 1"));
+            assert_eq!(run.code, expected, "{line}: {}{}", run.out, run.err);
+            assert!(!run.out.is_empty() || words[0] == "init", "{line}");
+        }
+    }
+}
+
+#[test]
+fn words_that_are_nearly_right_are_named() {
+    let cases: &[(&[&str], &str)] = &[
+        (&["rotari"], "rotary"),
+        (&["rotary", "dip"], "did you mean `dpi`?"),
+        (&["rotary", "dpi-papr"], "did you mean `dpi-paper`?"),
+        (&["make", "liftr.toml"], "did you mean `lifter.toml`?"),
+        (&["rotary", "--format", "dxff"], "did you mean `dxf`?"),
+        (&["rotary", "--dxf-version", "r2001"], "did you mean `r20"),
+        (&["rotary", "--outline", "splin"], "spline"),
+        (&["rotary", "--set", "cam.material=stel"], "did you mean \"steel\"?"),
+        (&["make", "lifter.toml", "--set", "motion.segment[0].law=cycloid"], "did you mean \"cycloidal\"?"),
+        (&["explain", "presure"], "did you mean `pressure_angle`?"),
+        (&["machines", "show", "dpy"], "did you mean `dpi`?"),
+        (&["man", "rotry"], "did you mean `rotary`?"),
+    ];
+    for (args, told) in cases {
+        let run = camgen_in(prepared(), args);
+        assert!(run.code == 2 && run.err.contains(told), "{args:?}: {}", run.err);
+    }
+}
+
+#[test]
+fn values_are_taken_in_any_case() {
+    let hash = |args: &[&str]| {
+        let run = camgen_in(prepared(), &[args, &["--json", "--dry-run"]].concat());
+        assert_eq!(run.code, 0, "{args:?}: {}", run.err);
+        report(&run)["inputs"]["hash"].clone()
+    };
+    for (any, usual) in [
+        (vec!["rotary", "DPI"], vec!["rotary", "dpi"]),
+        (vec!["rotary", "--outline", "SPLINE"], vec!["rotary", "--outline", "spline"]),
+        (
+            vec!["rotary", "--side", "Inside", "--dxf-version", "R2000", "--format", "DXF"],
+            vec!["rotary", "--side", "inside"],
+        ),
+        (vec!["rotary", "--set", "cam.rotation=CCW"], vec!["rotary", "--set", "cam.rotation=ccw"]),
+        (vec!["rotary", "--tolerance-acceleration", "None"], vec!["rotary", "--tolerance-acceleration", "none"]),
+        (vec!["translating", "--balance", "MEAN", "--solver", "Ode"], vec!["translating", "--balance", "mean"]),
+    ] {
+        assert_eq!(hash(&any), hash(&usual), "{any:?}");
+    }
+    assert_eq!(camgen(&["rotary", "--set", "limits.contact_stress=1500mpa"]).code, 2, "a unit is written in one way");
+    let law = ["make", "lifter.toml", "--dry-run", "--set", "motion.segment[0].law=Harmonic"];
+    assert_eq!(camgen_in(prepared(), &law).code, 0);
+}
+
+fn rotary(directory: tempfile::TempDir, more: &[&str]) -> Run {
+    camgen_in(directory, &[&["rotary", "--name", "cam", "--format", "dxf,csv"], more].concat())
+}
+
+/// Trying one value after another never stops; what differs from the last time is told.
+#[test]
+fn own_files_are_replaced_and_what_changed_is_told() {
+    let run = rotary(prepared(), &[]);
+    assert!(run.code == 0 && !run.out.contains("changed since"), "{}", run.out);
+    let run = rotary(run.directory, &[]);
+    assert!(run.code == 0 && !run.out.contains("changed since"), "{}", run.out);
+    let run = rotary(run.directory, &["--rpm", "34", "--set", "follower.roller.radius=25mm"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    for told in ["rpm 35 → 34", "follower.roller.radius 30 mm → 25mm"] {
+        assert!(run.out.contains(told), "{}", run.out);
+    }
+    // The same value in another unit is the same.
+    let run = rotary(run.directory, &["--rpm", "34", "--set", "follower.roller.radius=2.5cm"]);
+    assert!(run.code == 0 && !run.out.contains("changed since"), "{}", run.out);
+    // The record changes no byte of a file.
+    let fresh = rotary(prepared(), &["--rpm", "34", "--set", "follower.roller.radius=25mm"]);
+    for name in ["cam.dxf", "cam.csv"] {
+        let read = |run: &Run| fs::read(run.directory.path().join("output").join(name)).expect("a file");
+        assert_eq!(read(&run), read(&fresh), "{name}");
+    }
+}
+
+#[test]
+fn files_of_others_are_never_replaced_without_being_asked() {
+    let edited = |run: &Run| {
+        let file = run.directory.path().join("output/cam.dxf");
+        fs::write(&file, "mine").expect("edited");
+        file
+    };
+    let run = rotary(prepared(), &[]);
+    let file = edited(&run);
+    let run = rotary(run.directory, &["--rpm", "34"]);
+    assert!(run.code == 2 && run.err.contains("output/cam.dxf` was changed"), "{}", run.err);
+    assert!(run.err.contains("--overwrite") && !run.err.contains("cam.csv"), "{}", run.err);
+    assert_eq!(fs::read_to_string(&file).expect("a file"), "mine");
+    assert_eq!(files(&run.directory.path().join("output")), ["cam.csv", "cam.dxf"]);
+    let run = rotary(run.directory, &["--rpm", "34", "--overwrite"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert_eq!(rotary(run.directory, &[]).code, 0, "it is camgen's again");
+
+    // A file that camgen has not written, and files of a run without a record.
+    let run = rotary(prepared(), &[]);
+    fs::remove_file(run.directory.path().join("output/.camgen.json")).expect("removed");
+    let run = rotary(run.directory, &["--rpm", "34"]);
+    assert!(run.code == 2 && run.err.contains("was not written by camgen"), "{}", run.err);
+    let run = rotary(run.directory, &[]);
+    assert_eq!(run.code, 0, "the same bytes: {}", run.err);
+}
+
+#[test]
+fn a_dry_run_reports_and_writes_nothing() {
+    let run = camgen(&["rotary", "--dry-run"]);
+    assert!(run.code == 0 && run.out.contains("pressure_angle") && !run.out.contains("  files"), "{}", run.out);
+    assert!(files(run.directory.path()).is_empty() && !run.directory.path().join("output").exists());
+    let run = camgen(&["rotary", "dpi-paper", "--set", "cam.base_radius=200mm", "--dry-run", "--force"]);
+    assert!(run.code == 1 && files(run.directory.path()).is_empty(), "{}", run.err);
+}
+
+#[test]
+fn a_report_stands_in_columns() {
+    let out = camgen(&["rotary", "--dry-run"]).out;
+    let rows: Vec<&str> = out.lines().filter(|line| line.starts_with("    pass  ")).collect();
+    assert!(rows.len() > 10, "{out}");
+    let starts: Vec<usize> = rows.iter().filter_map(|row| row.find(" at ").or(row.find(" above "))).collect();
+    assert!(starts.len() > 10 && starts.windows(2).all(|pair| pair[0] == pair[1]), "{out}");
+    assert!(out.contains("at most 30 deg") && out.contains("above 0 mm") && out.contains("at least 60 mm"), "{out}");
+    assert!(out.contains("  terms\n") && out.contains("inertia less air  residual force"), "{out}");
+    assert!(!out.contains('\u{1b}'), "colour is for a terminal");
+    let lifter = camgen_in(prepared(), &["make", "lifter.toml", "--dry-run"]).out;
+    assert!(!lifter.contains("  bottom  "), "only the terms that occur: {lifter}");
+}
+
+#[test]
+fn completions_and_pages_are_made_of_the_commands() {
+    for shell in ["bash", "zsh", "fish", "elvish", "PowerShell"] {
+        let run = camgen(&["completions", shell]);
+        assert!(run.code == 0 && run.out.contains("translating") && run.out.contains("dxf-version"), "{shell}");
+    }
+    let page = camgen(&["man"]).out;
+    assert!(page.contains(".TH camgen") && page.contains("translating"), "{page}");
+    for command in commands() {
+        let page = camgen(&["man", &command]).out;
+        assert!(page.contains(&format!(".TH camgen-{command}")) && page.contains("Examples"), "{command}: {page}");
+    }
+}
+
+#[test]
+fn init_writes_a_file_and_never_replaces_one() {
+    let run = camgen(&["init", "press.toml"]);
+    assert!(run.code == 0 && run.out.is_empty(), "{}", run.err);
+    let file = run.directory.path().join("press.toml");
+    assert_eq!(fs::read_to_string(&file).expect("a file"), camgen(&["init"]).out);
+    fs::write(&file, "mine").expect("edited");
+    let run = camgen_in(run.directory, &["init", "press.toml"]);
+    assert!(run.code == 2 && run.err.contains("is not replaced"), "{}", run.err);
+    assert_eq!(fs::read_to_string(&file).expect("a file"), "mine");
+}
+
+/// The command runs again after each change, also after a fault.
+#[test]
+fn a_watched_file_is_run_again_when_it_changes() {
+    let directory = prepared();
+    let file = directory.path().join("lifter.toml");
+    let program = Path::new(env!("CARGO_BIN_EXE_camgen"));
+    let mut child = Command::new(program)
+        .current_dir(directory.path())
+        .args(["make", "lifter.toml", "--watch", "--format", "dxf"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("it runs");
+    let mut told = BufReader::new(child.stderr.take().expect("messages")).lines();
+    let mut until = |part: &str| {
+        let mut all = String::new();
+        while !all.contains(part) {
+            all.push_str(&told.next().expect("a message").expect("a line"));
+        }
+        all
+    };
+    until("waiting for changes");
+    // The clock of a file system may be coarse.
+    std::thread::sleep(Duration::from_millis(50));
+    fs::write(&file, LIFTER.replace("20 mm", "20 mn")).expect("written");
+    assert!(until("waiting for changes").contains("error:"));
+    fs::write(&file, LIFTER.replace("20 mm", "22 mm")).expect("written");
+    until("waiting for changes");
+    child.kill().expect("ended");
+    let mut out = String::new();
+    std::io::Read::read_to_string(&mut child.stdout.take().expect("reports"), &mut out).expect("text");
+    child.wait().expect("ended");
+    assert!(out.contains("lift 20.000 mm") && out.contains("lift 22.000 mm"), "{out}");
+
+    let run = camgen(&["rotary", "--watch"]);
+    assert!(run.code == 2 && run.err.contains("--watch needs a file"), "{}", run.err);
+}
