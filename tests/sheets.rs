@@ -158,6 +158,32 @@ fn paper_and_scale_are_standard() {
     }
 }
 
+/// A small cam stands upright on an A4, still at true size.
+#[test]
+fn a_small_cam_stands_on_an_a4() {
+    let mut file = tempfile::NamedTempFile::with_suffix(".toml").expect("a file");
+    std::io::Write::write_all(
+        &mut file,
+        b"name = \"valve lifter\"\n[motion]\nrpm = 300\nstart = \"0 mm\"\n[[motion.segment]]\nover = \"120 deg\"\n\
+          to = \"6 mm\"\n[[motion.segment]]\nto = \"0 mm\"\n[follower.roller]\nradius = \"5 mm\"\n[cam]\nbore_radius = \"4 mm\"\n",
+    )
+    .expect("written");
+    let path = file.path().to_str().expect("UTF-8").to_owned();
+    let drawn = solved("make", &path, &[], &[]);
+    assert_eq!((drawn.sheet.extents.size().x, drawn.sheet.scale), (210.0, 1.0));
+    looks_right("small", &drawn);
+    // Under a roller larger than what the motion allows the profile is undercut, and the sheet shows where motion is lost.
+    let lost = solved(
+        "make",
+        &path,
+        &["follower.roller.radius=30mm", "cam.base_radius=5mm", "motion.segment[0].to=14mm"],
+        &[],
+    );
+    let marked = |drawn: &Drawn| drawn.sheet.groups.iter().any(|group| group.class == "lost-motion");
+    assert!(marked(&lost) && !marked(&drawn) && !lost.passed);
+    looks_right("lost motion", &lost);
+}
+
 /// A cam that breaks a limit cannot be taken for a good one.
 #[test]
 fn a_cam_that_breaks_a_limit_is_stamped() {

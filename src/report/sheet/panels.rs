@@ -14,7 +14,7 @@ const SAMPLE: f64 = 12.0;
 /// A panel narrower than this shows fewer columns of the checks.
 const NARROW: f64 = 120.0;
 /// Width of a column of a table of places.
-const PLACE_COLUMN: f64 = 19.0;
+const PLACE_COLUMN: f64 = 13.0;
 /// Most rows of notes.
 const MOST_NOTES: usize = 12;
 
@@ -129,14 +129,14 @@ pub(super) fn checks(mut writer: Writer, report: &Report) -> Panel {
     writer.done()
 }
 
+/// With this the note of a check begins whose keys are absent.
+const NOT_RUN: &str = "not run";
+
 fn cells(finding: &Finding) -> [String; 5] {
     let limit = finding.limit_words().unwrap_or_default();
     let place = if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place) };
-    let value = if finding.value.is_finite() || finding.note.is_none() {
-        with_unit(finding.value, &finding.unit)
-    } else {
-        "not run".into()
-    };
+    let run = finding.note.as_ref().is_none_or(|note| !note.starts_with(NOT_RUN));
+    let value = if run { with_unit(finding.value, &finding.unit) } else { NOT_RUN.into() };
     [finding.verdict.word().into(), finding.check.to_string(), value, limit, place]
 }
 
@@ -197,7 +197,7 @@ pub(super) fn places(mut writer: Writer, table: &PlaceTable) -> Panel {
     #[expect(clippy::cast_precision_loss, reason = "a few columns")]
     let block = PLACE_COLUMN * table.heads.len() as f64 + 3.0;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few columns")]
-    let blocks = (writer.width / block).floor().clamp(1.0, 9.0) as u32;
+    let blocks = (writer.width / block).floor().clamp(1.0, 4.0) as u32;
     let rows = table.rows.len().div_ceil(blocks as usize).max(1);
     let step = writer.width / f64::from(blocks);
     writer.down += LINE;
