@@ -173,12 +173,8 @@ fn a_small_cam_stands_on_an_a4() {
     assert_eq!((drawn.sheet.extents.size().x, drawn.sheet.scale), (210.0, 1.0));
     looks_right("small", &drawn);
     // Under a roller larger than what the motion allows the profile is undercut, and the sheet shows where motion is lost.
-    let lost = solved(
-        "make",
-        &path,
-        &["follower.roller.radius=30mm", "cam.base_radius=5mm", "motion.segment[0].to=14mm"],
-        &[],
-    );
+    let sharp = ["motion.segment[0].over=50deg", "motion.segment[0].to=14mm", "cam.base_radius=20mm"];
+    let lost = solved("make", &path, &[&sharp[..], &["follower.roller.radius=25mm"]].concat(), &[]);
     let marked = |drawn: &Drawn| drawn.sheet.groups.iter().any(|group| group.class == "lost-motion");
     assert!(marked(&lost) && !marked(&drawn) && !lost.passed);
     looks_right("lost motion", &lost);

@@ -101,7 +101,7 @@ fn along(
     let mut place = (first / trace.step).ceil() * trace.step;
     while place <= last {
         lines.push(Shape::Line(at(place, false), at(place, true)));
-        let shown = trace.period.map_or(place, |period| place.rem_euclid(period));
+        let shown = trace.period.map_or(place, |period| place.rem_euclid(period)) + 0.0;
         if (place / named - (place / named).round()).abs() < 1e-9 {
             let below = at(place, false) - Vector2::new(0.0, 1.3 * size);
             lines.push(words(below, size, TextAnchor::Middle, rounded(shown)));
