@@ -7,7 +7,7 @@ pub(super) const CHECK: Check = Check {
     name: "pressure_angle",
     on: On::Cam,
     about: "The largest angle between the direction in which the follower moves and the normal of the cam. Beyond about 30° \
-            (translating) or 45° (swinging) the side thrust jams the follower; a larger base radius lowers it.",
+            (translating) or 35° (swinging) the side thrust jams the follower; a larger base radius lowers it.",
     explained: Explained {
         bound: Bound::AtMost,
         formula: "tan α = (ds/dθ − e)/(s + √(Rₚ² − e²)) of a translating roller with offset e and prime radius Rₚ",
