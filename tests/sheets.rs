@@ -207,7 +207,8 @@ fn the_title_block_tells_what_was_given() {
     let overrides: Vec<String> = given.iter().map(|(key, value)| format!("title.{key}={value}")).collect();
     let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
     let drawn = solved("rotary", "dpi", &overrides, &[35.0]);
-    let all: String = fields(&drawn.sheet).iter().map(|(_, text)| format!("{text} ")).collect();
+    let all: Vec<String> = fields(&drawn.sheet).into_iter().map(|(_, text)| text).collect();
+    let all = all.join(" ");
     let squeezed = |text: &str| text.split_whitespace().collect::<String>();
     for (key, value) in given {
         assert!(squeezed(&all).contains(&squeezed(value)), "{key}: {all}");

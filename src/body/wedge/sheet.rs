@@ -3,7 +3,7 @@
 use super::Wedge;
 use crate::body::sheet::{overall, pressure_angle, roller};
 use crate::body::{Body, Drawn};
-use crate::geometry::contour::{Extents, Segment};
+use crate::geometry::contour::{Contour, Extents, Segment};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::motion::Motion;
 use crate::profile::outline::OutlineError;
@@ -26,7 +26,7 @@ pub(super) fn view(plate: &Wedge, drawn: &Drawn) -> Result<View, OutlineError> {
         |segment: &Segment| Segment { start: flip(segment.start), end: flip(segment.end), bulge: -segment.bulge };
     let both: Vec<Segment> = lower.iter().copied().chain(lower.iter().map(mirrored)).collect();
     let contours: Vec<_> = drawn.parts.iter().map(|part| part.outline.contour.clone()).collect();
-    let outline = contours.iter().map(|contour| contour.extents()).reduce(|a, b| a.with(&b));
+    let outline = contours.iter().map(Contour::extents).reduce(|a, b| a.with(&b));
     let outline = outline.unwrap_or(Extents { least: Vector2::zeros(), largest: Vector2::zeros() });
     let profile = contours.into_iter().map(|contour| Shape::Entity(Entity::Polyline(contour))).collect();
     let pitch_curve = both.iter().map(|s| Shape::Arc(s.start, s.end, s.bulge)).collect();

@@ -204,11 +204,15 @@ impl Layout<'_> {
         let mut taken = Taken::none(self.view);
         for group in &view.groups {
             let shapes: Vec<Shape> = group.shapes.iter().map(|shape| shape.scaled(scale)).collect();
-            shapes.iter().for_each(|shape| taken.put(shape));
+            for shape in &shapes {
+                taken.put(shape);
+            }
             groups.push(Group { shapes, ..group.clone() });
         }
         let ruler = ruler(&self.view, k);
-        ruler.iter().for_each(|shape| taken.put(shape));
+        for shape in &ruler {
+            taken.put(shape);
+        }
         groups.push(Group::new("scale", "ruler of the paper", ruler));
         groups.extend(self.marks(view, covered, &mut taken));
         groups.extend(
