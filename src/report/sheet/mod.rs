@@ -1,4 +1,4 @@
-//! The review sheet: what a person looks at before the metal is cut. A body says what is seen ([`View`], true size); [`compose`]
+//! The review sheet: what a person looks at before the metal is cut. A body says what is seen ([`View`], true size); [`fn@compose`]
 //! chooses paper and scale, and places everything on it.
 //!
 //! All lengths on a sheet are millimetres of paper, y upwards; the origin is that of the drawing. Every text is measured with the
