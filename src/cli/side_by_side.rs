@@ -110,7 +110,7 @@ impl SideBySideArgs {
 
     fn proven<'c>(&self, cam: &'c Cam) -> Result<Proven<'c>, Failure> {
         let rates = [None, Some(RateTolerance::Share(ACCELERATION))];
-        let request = Request { rates, strict: false, ..Request::within(self.tolerance.unwrap_or(TOLERANCE)) };
+        let request = Request { rates, strict: [false; 2], ..Request::within(self.tolerance.unwrap_or(TOLERANCE)) };
         cam.draw(request).and_then(camgen::pipeline::Drawing::prove).map_err(Failure::new)
     }
 

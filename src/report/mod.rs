@@ -9,6 +9,7 @@ mod felt;
 mod finding;
 mod inputs;
 pub mod mechanism;
+mod point_measures;
 mod rolled;
 pub mod sheet;
 pub mod trace;
@@ -17,6 +18,7 @@ mod values;
 pub use felt::Felt;
 pub use finding::{Bound, Finding, Place, Verdict, degrees, passed, worst_first};
 pub use inputs::{Inputs, sha256};
+pub use point_measures::PointMeasures;
 pub use rolled::Rolled;
 pub use values::{
     AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, lobes_words,

@@ -19,12 +19,14 @@ mod implementation;
 mod interpolation;
 mod mechanism;
 pub mod mesh;
+mod missed;
 mod report;
 mod search;
 mod sheet;
 mod surface;
 mod worst;
 
+pub use missed::{BESIDE, Missed, OfSection};
 pub use search::Place;
 pub use surface::SpatialContact;
 
