@@ -25,8 +25,8 @@ from disc import Disc
 
 # Places of the exact curve on each piece of the law, of the interpolated one in an interval and in a turn, neighbours looked at.
 FINE, LEAST, TURN, NEAR = 12000, 16, 60000, 40
-# Places in the interval where an error is largest.
-CLOSE = 100_000
+# Places in a turn of the law, and in the interval where an error is largest.
+PLACES, CLOSE = 1_000_000, 100_000
 # So near to the end of an interval, as a share of it, a jump of the acceleration is at the end.
 AT_END = 1e-3
 # A place at the end of an interval is that share within it.
@@ -179,8 +179,7 @@ def curve(columns, rows, way, counts=evenly):
 
 
 def felt(disc, law, made, out, counts):
-    """Errors of velocity and acceleration of a roller whose centre is so far out of the curve, mm, κ by n·C'', with the largest
-    velocity and acceleration of the law."""
+    """Errors of velocity and acceleration of a roller whose centre is so far out of the curve, mm, κ by n·C''."""
     point, first, second = made
     speed = np.abs(first)
     normal, curvature = -1j * first / speed, (first.conj() * second).imag / speed**3
@@ -192,7 +191,7 @@ def felt(disc, law, made, out, counts):
     h1 = eps - h * turned.imag / turned.real
     h2 = h - (turned.imag * (2 * h1 - eps) + curvature * ((h1 - eps) ** 2 + h**2)) / turned.real
     v, a = law(on_own_side(theta, counts, disc.n) if disc.m["kind"] == "none" else theta)
-    return np.abs([h1 - v, h2 - a]), np.abs(v).max(), np.abs(a).max()
+    return np.abs([h1 - v, h2 - a])
 
 
 def on_own_side(theta, counts, lobes):
@@ -211,17 +210,17 @@ def on_own_side(theta, counts, lobes):
 
 def largest(disc, law, columns, rows, way, out):
     """The largest errors: of all intervals, and close up of those where they are found, since the third derivative of the law
-    may jump within; with the largest velocity and acceleration of the law."""
+    may jump within."""
     knots = np.radians(rows[:, 0]) if columns == "cam_deg,radius_mm" else np.append(0, np.cumsum(np.hypot(*np.diff(rows, axis=0).T)))
     counts = evenly(knots)
-    errors, *most = felt(disc, law, curve(columns, rows, way), out, counts)
+    errors = felt(disc, law, curve(columns, rows, way), out, counts)
     found = []
     for error in errors:
         worst = np.searchsorted(np.cumsum(counts), error.argmax(), side="right")
         close = np.full_like(counts, 3)
         close[worst] = CLOSE
-        found.append(felt(disc, law, curve(columns, rows, way, lambda _: close), out, close)[0][len(found)].max())
-    return *found, *most
+        found.append(felt(disc, law, curve(columns, rows, way, lambda _: close), out, close)[len(found)].max())
+    return found
 
 
 def sagitta(exact, made):
@@ -294,6 +293,7 @@ def main():
                 disc = Disc(m, 35, 1e-3 * report["cam"]["prime_radius_mm"])
                 inwards = {"profile": disc.rf, "centre": 0.0, "cutter": disc.rf - cutter}
                 curves[of], law = exact(disc, inwards[of]), law_of(disc)
+                most_v, most_a = (np.abs(rate).max() for rate in law(np.linspace(0, 2 * math.pi, PLACES)))
             found = [name for name in report["files"] if name.endswith("-points.csv")]
             head, columns, rows = read(found[0])
             assert head["interpolation"].split(",")[0] == way, head
@@ -311,7 +311,7 @@ def main():
             even = form == "xy" or step == "chord" or "jumps" in head or np.ptp(np.diff(rows[:, 0])) < 1e-10
             slack = CHORDS + sagitta(curves[of], made)
             good = off <= told + slack and told <= tolerance and off >= 0.98 * told - slack and seen and even
-            v, a, most_v, most_a = largest(disc, law, columns, turned, way, 1e3 * inwards[of])
+            v, a = largest(disc, law, columns, turned, way, 1e3 * inwards[of])
             felt_as_told = agrees(head, "velocity", "mm_per_rad", v, velocity and velocity * most_v)
             if way == "cubic":
                 felt_as_told &= agrees(head, "acceleration", "mm_per_rad2", a, acceleration and acceleration * most_a)
