@@ -244,3 +244,33 @@ fn a_watched_file_is_run_again_when_it_changes() {
     let run = camgen(&["rotary", "--watch"]);
     assert!(run.code == 2 && run.err.contains("--watch needs a file"), "{}", run.err);
 }
+
+/// Whoever opens a file of a cam that breaks a limit is told so, whichever file it is.
+#[test]
+fn files_of_a_cam_that_breaks_a_limit_say_so() {
+    let run =
+        camgen(&["rotary", "--set", "cam.base_radius=40mm", "--force", "--format", "dxf,step,svg", "--name", "bad"]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    let good = camgen(&["rotary", "--format", "dxf,step,svg", "--name", "good"]);
+    for ending in ["dxf", "step", "svg"] {
+        let text = |run: &Run, stem: &str| {
+            std::fs::read_to_string(run.directory.path().join(format!("output/{stem}.{ending}"))).expect("the file")
+        };
+        assert!(text(&run, "bad").contains("NOT FOR MANUFACTURE, failed: pressure_angle"), "{ending}");
+        assert!(!text(&good, "good").contains("NOT FOR MANUFACTURE"), "{ending}");
+    }
+}
+
+/// A file of somebody else in the place of the record is not replaced.
+#[test]
+fn a_record_of_somebody_else_is_kept() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let record = directory.path().join("output/.camgen.json");
+    std::fs::create_dir(directory.path().join("output")).expect("made");
+    std::fs::write(&record, "{\"my\": \"settings\"}").expect("written");
+    let run = camgen_in(directory, &["rotary", "--format", "dxf"]);
+    assert_eq!(run.code, 2);
+    assert!(run.err.contains(".camgen.json"), "{}", run.err);
+    let kept = std::fs::read_to_string(run.directory.path().join("output/.camgen.json")).expect("kept");
+    assert_eq!(kept, "{\"my\": \"settings\"}");
+}

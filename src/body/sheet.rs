@@ -91,7 +91,7 @@ pub(super) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
         class: "dimension",
         at: down_right * radius,
         towards: down_right,
-        text: format!("⌀{}, datum A", rounded(2.0 * radius)),
+        text: format!("Ø{}, datum A", rounded(2.0 * radius)),
     });
     if let Some(keyway) = machine.cam.keyway {
         let along = Vector2::new(libm::cos(keyway.angle), libm::sin(keyway.angle));
@@ -109,7 +109,7 @@ pub(super) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
         class: "dimension",
         at: centre + Vector2::new(*radius, 0.0),
         towards: Vector2::new(1.0, 0.3),
-        text: format!("⌀{}", rounded(2.0 * radius)),
+        text: format!("Ø{}", rounded(2.0 * radius)),
     }));
     marks
 }

@@ -20,6 +20,8 @@ use camgen::write::number::names;
 use camgen::write::points;
 use camgen::write::step::LATEST;
 use camgen::write::svg;
+use std::io::Read;
+use std::path::Path;
 
 /// Stations of the paper's solver by default: its error is then a hundredth of a millimetre.
 const STATIONS: u32 = 1800;
@@ -160,10 +162,22 @@ impl FileArgs {
     fn template(&self) -> Result<String, Failure> {
         match &self.template {
             None => Ok(svg::TEMPLATE.to_owned()),
-            Some(path) => std::fs::read_to_string(path)
+            Some(path) => template(path)
                 .map_err(|error| Failure(format!("cannot read the template `{}`: {error}", path.display()))),
         }
     }
+}
+
+/// Largest template, bytes.
+const LARGEST_TEMPLATE: u64 = 1 << 20;
+
+fn template(path: &Path) -> std::io::Result<String> {
+    let mut text = String::new();
+    let read = std::fs::File::open(path)?.take(LARGEST_TEMPLATE + 1).read_to_string(&mut text)?;
+    if read as u64 > LARGEST_TEMPLATE {
+        return Err(std::io::Error::other(format!("it is larger than {LARGEST_TEMPLATE} bytes")));
+    }
+    Ok(text)
 }
 
 /// What the names of the files begin with.

@@ -277,7 +277,9 @@ impl Machine {
                 message: format!("cannot read the machine file `{name_or_path}`: {why}"),
                 help: Some(format!(
                     "{}give a path to a TOML file or an embedded machine: {}",
-                    meant(path).map_or(String::new(), |near| format!("did you mean `{near}`? Else ")),
+                    meant(path)
+                        .filter(|near| near != name_or_path)
+                        .map_or(String::new(), |near| format!("did you mean `{near}`? Else ")),
                     embedded::names()
                 )),
                 place: None,

@@ -139,6 +139,20 @@ impl Report {
         &self.inputs.hash
     }
 
+    /// What a file bears of its report: version, hash of the inputs, and which checks failed where any did.
+    #[must_use]
+    pub fn mark(&self) -> String {
+        self.warning().map_or_else(|| self.inputs.to_string(), |warning| format!("{}; {warning}", self.inputs))
+    }
+
+    /// What nobody may overlook of a cam that breaks a limit.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let failed = self.checks.iter().filter(|finding| finding.verdict == Verdict::Fail);
+        let failed: Vec<&str> = failed.map(|finding| &*finding.check).collect();
+        (!failed.is_empty()).then(|| format!("NOT FOR MANUFACTURE, failed: {}", failed.join(", ")))
+    }
+
     /// The values of a section.
     #[must_use]
     pub fn section(&self, key: &str) -> Option<&Value> {

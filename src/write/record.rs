@@ -58,13 +58,19 @@ struct Record {
 }
 
 impl Record {
+    /// `None` where there is none, or what stands there is no record.
+    fn read(directory: &Path) -> Option<Self> {
+        let path = directory.join(RECORD);
+        let mut bytes = Vec::new();
+        if !fs::symlink_metadata(&path).ok()?.is_file() {
+            return None;
+        }
+        File::open(path).ok()?.take(LARGEST).read_to_end(&mut bytes).ok()?;
+        serde_json::from_slice(&bytes).ok()
+    }
+
     fn of(directory: &Path) -> Self {
-        let read = || {
-            let mut bytes = Vec::new();
-            File::open(directory.join(RECORD)).ok()?.take(LARGEST).read_to_end(&mut bytes).ok()?;
-            serde_json::from_slice(&bytes).ok()
-        };
-        read().unwrap_or_default()
+        Self::read(directory).unwrap_or_default()
     }
 
     /// Of the files that would be replaced, those that are not as camgen wrote them.
@@ -76,8 +82,10 @@ impl Record {
                 return None;
             }
             let recorded = self.files.get(&output.name);
-            let own = fs::read(&path)
-                .is_ok_and(|found| found == output.bytes || recorded.is_some_and(|hash| *hash == sha256(&found)));
+            // What is no file, a pipe for example, is not read.
+            let own = path.is_file()
+                && fs::read(&path)
+                    .is_ok_and(|found| found == output.bytes || recorded.is_some_and(|hash| *hash == sha256(&found)));
             (!own).then(|| Kept { path, changed: recorded.is_some() })
         });
         kept.collect()
@@ -111,7 +119,11 @@ impl Record {
 /// # Errors
 /// [`FilesError::Kept`], as [`write_recorded`] would.
 pub fn refuse_kept(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
-    let kept = Record::of(directory).kept(directory, outputs);
+    let mut kept = Record::of(directory).kept(directory, outputs);
+    let path = directory.join(RECORD);
+    if fs::symlink_metadata(&path).is_ok() && Record::read(directory).is_none() {
+        kept.push(Kept { path, changed: false });
+    }
     if kept.is_empty() { Ok(()) } else { Err(FilesError::Kept(kept)) }
 }
 

@@ -17,7 +17,7 @@ pub const FORMAT: Format = Format {
     flank: true,
     unfit: |body| body.height().is_none().then_some("cam.thickness is not given"),
     endings: |_| vec![".step".into()],
-    write: |cam| Ok(vec![write_marked(&solid(cam)?, &cam.report.title(), cam.created, &cam.report.inputs.to_string())]),
+    write: |cam| Ok(vec![write_marked(&solid(cam)?, &cam.report.title(), cam.created, &cam.report.mark())]),
 };
 
 fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {

@@ -15,7 +15,7 @@ pub const FORMAT: Format = Format {
     endings: |_| vec![".stl".into()],
     write: |cam| {
         let bore = cam.body.machine().cam.bore_radius.map(|radius| MILLIMETRES * radius);
-        let title = format!("{}, millimetres", cam.report.inputs);
+        let title = format!("millimetres, {}", cam.report.mark());
         Ok(cam.drawn.flank.iter().map(|flank| write(flank, bore, &title)).collect())
     },
 };

@@ -20,7 +20,7 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
-    write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.inputs.to_string())]),
+    write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
 };
 
 /// The review sheet of a proven cam.
@@ -164,7 +164,8 @@ fn escaped(text: &str) -> String {
 }
 
 fn printable(text: &str) -> String {
-    text.chars().filter(|c| !c.is_control()).collect()
+    // What XML has no place for: controls and the two noncharacters.
+    text.chars().filter(|c| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')).collect()
 }
 
 fn group(group: &Group, scale: f64, told: bool) -> String {

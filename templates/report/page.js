@@ -319,7 +319,7 @@ function start() {
   byId("readouts").append(...readouts.map((one) => one.box));
   const inputs = cams.map((cam) => cam.inputs).filter(Boolean);
   if (inputs.length) {
-    byId("inputs").textContent = `Hash of the inputs: ${inputs.map((one) => (typeof one === "string" ? one : JSON.stringify(one))).join(" | ")}`;
+    byId("inputs").textContent = `Hash of the inputs: ${inputs.map((one) => (one.hash)).join(" | ")}`;
     byId("inputs").hidden = false;
   }
   const scrub = byId("scrub");

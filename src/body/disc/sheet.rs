@@ -5,7 +5,7 @@ use crate::body::part::{as_turned, point_as_turned};
 use crate::body::sheet::{axes, bore, lost_motion, overall, places, pressure_angle, roller, turning};
 use crate::body::{Body, Drawn};
 use crate::follower::Element;
-use crate::geometry::contour::{Contour, Extents};
+use crate::geometry::contour::{Contour, Edge, Extents};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::envelope;
 use crate::profile::outline::{OutlineError, pitch};
@@ -70,11 +70,16 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
     })
 }
 
-/// Where the outline crosses the positive X axis, mm; the base radius where it does not.
+/// Where the outline crosses the positive X axis, mm, to a hundredth of an edge; the base radius where it does not.
 fn profile_radius_at_zero(outline: Option<&Contour>, base: f64) -> f64 {
-    let crossing = |edge: crate::geometry::contour::Edge| {
-        let (a, b) = (edge.start(), edge.end());
-        (a.x > 0.0 && (a.y <= 0.0) != (b.y <= 0.0)).then(|| 0.5 * (a.x + b.x))
+    const STEPS: u32 = 100;
+    let crossing = |edge: Edge| {
+        let at = |step: u32| edge.at(f64::from(step) / f64::from(STEPS)).0;
+        let across = |step: &u32| {
+            let (a, b) = (at(*step), at(step + 1));
+            a.x > 0.0 && (a.y <= 0.0) != (b.y <= 0.0)
+        };
+        (0..STEPS).filter(across).map(|step| 0.5 * (at(step).x + at(step + 1).x)).reduce(f64::max)
     };
     outline.and_then(|outline| outline.edges().filter_map(crossing).reduce(f64::max)).unwrap_or(base)
 }

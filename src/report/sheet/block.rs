@@ -3,7 +3,7 @@
 use super::paper::{Paper, rectangle};
 use super::{Facts, Group, Shape, TextAnchor, font, rounded, words};
 use crate::geometry::contour::Extents;
-use crate::report::Report;
+use crate::report::{Report, Verdict};
 use nalgebra::Vector2;
 
 /// Width and height over the lettering of an A4, mm (ISO 7200: 180 mm).
@@ -87,12 +87,21 @@ impl Block<'_> {
                     cell("Scale", self.scale.clone(), 24.0),
                     cell("Size", self.paper.name, 18.0),
                     cell("Sheet", "1/1", 18.0),
-                    cell("Checks", if self.report.passed() { "passed" } else { "FAILED" }, 30.0),
+                    cell("Checks", self.verdict(), 30.0),
                     cell("Inputs", self.report.inputs_hash(), 52.0),
                     cell("Made by camgen", env!("CARGO_PKG_VERSION"), 38.0),
                 ],
             ),
         ]
+    }
+
+    fn verdict(&self) -> &'static str {
+        let warned = self.report.checks.iter().any(|finding| finding.verdict == Verdict::Warn);
+        match (self.report.passed(), warned) {
+            (false, _) => "FAILED",
+            (true, true) => "passed, with warnings",
+            (true, false) => "passed",
+        }
     }
 
     /// The block with its lower right corner at a place.

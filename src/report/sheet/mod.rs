@@ -163,6 +163,6 @@ pub(crate) fn rounded(value: f64) -> String {
     if !value.is_finite() {
         return "none".into();
     }
-    let rounded = (value * 1e3).round() / 1e3;
+    let rounded = (value * 1e3).round() / 1e3 + 0.0;
     if rounded == 0.0 && value != 0.0 { format!("{value:.1e}") } else { rounded.to_string() }
 }

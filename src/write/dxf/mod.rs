@@ -17,14 +17,17 @@ use crate::profile::outline::{Outline, OutlineError};
 use nalgebra::Vector2;
 use tags::{Tags, handle};
 
-/// The cut files, as they were proved: one for each section.
+/// The cut files, as they were proved: one for each section; those of a cam that breaks a limit say so at their head.
 pub const FORMAT: Format = Format {
     name: "dxf",
     when: When::Usual,
     flank: false,
     unfit: fits_all,
     endings: |drawn| of_parts(drawn, ".dxf"),
-    write: |cam| Ok(cam.cut_files.to_vec()),
+    write: |cam| {
+        let warning = cam.report.warning().unwrap_or_default();
+        Ok(cam.cut_files.iter().map(|file| marked(file.clone(), &warning)).collect())
+    },
 };
 
 /// The path of a cutter's centre.
@@ -36,7 +39,7 @@ pub const CUTTER_PATH: Format = Format {
     endings: |drawn| drawn.cutter_path.iter().map(|_| "-cutter.dxf".into()).collect(),
     write: |cam| {
         let path = |outline: &Result<Outline, OutlineError>| match outline {
-            Ok(outline) => Ok(marked(cutter_path(outline, cam.dxf_version), &cam.report.inputs.to_string())),
+            Ok(outline) => Ok(marked(cutter_path(outline, cam.dxf_version), &cam.report.mark())),
             Err(error) => Err((*error).into()),
         };
         cam.drawn.cutter_path.iter().map(path).collect()
