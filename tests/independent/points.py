@@ -25,8 +25,10 @@ from disc import Disc
 
 # Places of the exact curve on each piece of the law, of the interpolated one in an interval and in a turn, neighbours looked at.
 FINE, LEAST, TURN, NEAR = 12000, 16, 60000, 40
-# Places in a turn of the law, and in the interval where an error is largest.
-PLACES, CLOSE = 1_000_000, 100_000
+# Intervals with errors above that share of the largest, and not more, are looked at closely.
+NEARLY, LOOKED_AT = 0.9, 20
+# Places in a turn of the law, and in an interval where an error is largest.
+PLACES, CLOSE = 1_000_000, 20_000
 # So near to the end of an interval, as a share of it, a jump of the acceleration is at the end.
 AT_END = 1e-3
 # A place at the end of an interval is that share within it.
@@ -216,9 +218,10 @@ def largest(disc, law, columns, rows, way, out):
     errors = felt(disc, law, curve(columns, rows, way), out, counts)
     found = []
     for error in errors:
-        worst = np.searchsorted(np.cumsum(counts), error.argmax(), side="right")
-        close = np.full_like(counts, 3)
-        close[worst] = CLOSE
+        worst = np.maximum.reduceat(error, np.cumsum(counts) - counts)
+        close = np.where(worst > NEARLY * worst.max(), CLOSE, 3)
+        # An error that is the same everywhere needs no closer look everywhere.
+        close[np.argsort(worst)[:-LOOKED_AT]] = 3
         found.append(felt(disc, law, curve(columns, rows, way, lambda _: close), out, close)[len(found)].max())
     return found
 
