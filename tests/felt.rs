@@ -209,3 +209,20 @@ fn velocities_quantities_and_splines() {
         assert!(2 * pieces(&spline) < pieces(&arcs), "{} {}", pieces(&spline), pieces(&arcs));
     }
 }
+
+/// The path of a cutter is judged by the profile that it leaves: as many arcs as the profile, whatever its radius.
+#[test]
+fn the_path_of_a_cutter_has_as_many_arcs_as_the_profile() {
+    let cam = rotary("dpi", &["transition.kind=blend"], 35.0);
+    for radius in [0.004, 0.012, 0.03, 0.04] {
+        for share in [0.05, 0.02, 0.01] {
+            let rates = [None, Some(RateTolerance::Share(share))];
+            let request = Request { rates, cutter: Some(radius), ..Request::within(5e-6) };
+            let drawing = cam.draw(request).expect("drawn");
+            let drawn = drawing.drawn().expect("drawn");
+            let path = drawn.cutter_path.as_ref().expect("asked for").as_ref().expect("it fits");
+            let (path, profile) = (path.contour.arcs(), drawn.parts[0].outline.contour.arcs());
+            assert!(10 * path <= 12 * profile + 40, "{radius} {share}: {path} arcs, the profile {profile}");
+        }
+    }
+}

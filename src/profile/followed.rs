@@ -20,13 +20,13 @@ use crate::numeric::{chebyshev, extremum, root};
 use nalgebra::Vector2;
 
 /// Stretches of the motion shorter than this, rad or m, are the rounding of a joint: the direction of an arc is known to 1e-9.
-const HAIR: f64 = 1e-8;
+pub(super) const HAIR: f64 = 1e-8;
 /// Steps of the secant to the lift: two are mostly enough.
 const LIFT_STEPS: u32 = 8;
 /// Roundings of a length at which the roller touches.
 const TOUCHING: f64 = 2.0 * f64::EPSILON;
 /// A curve of less curvature, 1/m, is straight.
-const STRAIGHT: f64 = 1e-9;
+pub(super) const STRAIGHT: f64 = 1e-9;
 /// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
 const CHANGE: f64 = 0.1;
 /// Parts into which a stretch is cut to find its largest error, and golden sections where one is largest within it.
@@ -39,7 +39,7 @@ const NEAR: f64 = 0.7;
 
 /// What the follower's curve follows while the contact runs along a segment.
 #[derive(Debug, Clone, Copy)]
-enum Guide {
+pub(super) enum Guide {
     /// The centre of a roller, or the shaft's distance of a face, by a circle: its centre, m, and its radius, m; signed under a
     /// face, where a hollow arc has a negative one.
     Circle(Vector2<f64>, f64),
@@ -93,6 +93,8 @@ type Off = (f64, [f64; 3]);
 #[derive(Debug)]
 pub struct Followed<'a> {
     curves: Curves<'a>,
+    /// From the chain out to the follower's curve, m; negative where it lies within.
+    out: f64,
     stretches: Vec<Stretch>,
     /// Whether the end of the chain is its start.
     closed: bool,
@@ -104,10 +106,17 @@ fn outward(tangent: Vector2<f64>) -> Vector2<f64> {
 }
 
 impl<'a> Followed<'a> {
-    /// On edges in their order (mm), the metal on their left.
+    /// On edges of a profile in their order (mm), the metal on their left.
     #[must_use]
     pub fn new(curves: Curves<'a>, edges: &[Edge]) -> Self {
-        let reach = MILLIMETRES * curves.offset();
+        Self::beside(curves, curves.offset(), edges)
+    }
+
+    /// On edges that stand for a parallel of the follower's curve so far inwards, m: the path of a cutter, of whose radius the
+    /// profile lies beside it.
+    #[must_use]
+    pub fn beside(curves: Curves<'a>, out: f64, edges: &[Edge]) -> Self {
+        let reach = MILLIMETRES * out;
         let face = curves.element() == Element::Face;
         // NaN where the follower, placed by the motion, is nowhere near: on the end or the other flank of a plate.
         let parameter = |point: Vector2<f64>, tangent: Vector2<f64>| {
@@ -125,8 +134,7 @@ impl<'a> Followed<'a> {
         let mut last: Option<f64> = None;
         let mut first: Option<(f64, Vector2<f64>)> = None;
         let corner = |from: f64, to: f64, point: Vector2<f64>| {
-            let radius = if face { 0.0 } else { curves.offset() };
-            (from, to, Guide::Circle(point / MILLIMETRES, radius))
+            (from, to, Guide::Circle(point / MILLIMETRES, if face { out } else { out.abs() }))
         };
         for edge in edges {
             let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
@@ -143,7 +151,7 @@ impl<'a> Followed<'a> {
             join(&mut runs, last, from, &corner, edge.start());
             // Where two runs overlap the contact jumps from one to the other between their ends.
             let from = runs.last().map_or(from, |run| if last.is_some() { run.1.max(from) } else { from });
-            if let Some(guide) = guide(edge, curves.offset(), face).filter(|_| to > from) {
+            if let Some(guide) = guide(edge, out, face).filter(|_| to > from) {
                 runs.push((from, to, guide));
             }
             last = Some(last.filter(|last| *last > to).unwrap_or(to));
@@ -156,7 +164,7 @@ impl<'a> Followed<'a> {
             join(&mut runs, Some(last), start + period, &corner, point);
         }
         let stretches = runs.into_iter().flat_map(|run| on_pieces(curves.motion, run)).collect();
-        Self { curves, stretches, closed }
+        Self { curves, out, stretches, closed }
     }
 
     /// On a whole outline (mm) as it lies in the drawing, on the first of the flanks that the follower meets as `mirrored` says.
@@ -173,14 +181,10 @@ impl<'a> Followed<'a> {
         let inside = (parameter + stretch.shift).clamp(piece.start, piece.end);
         let law = self.curves.motion.jet(stretch.piece, inside);
         let guide = match &stretch.guide {
-            Guide::Curve(edge) => touching(self.curves, edge, inside)?,
+            Guide::Curve(edge) => touching(self.curves, self.out, edge, inside)?,
             known => *known,
         };
-        let cut = match self.curves.element() {
-            Element::Roller { .. } => rolled(self.curves, inside, law, guide),
-            Element::Face => under_face(self.curves, inside, law, guide),
-        };
-        cut.map(|cut| (cut, law))
+        on_guide(self.curves, inside, law, guide).map(|cut| (cut, law))
     }
 
     /// Lift, velocity and acceleration as cut at a value of the motion's parameter, by that parameter; `None` where the chain
@@ -305,7 +309,7 @@ fn join(
 }
 
 /// A parameter by whole periods as near as can be to another.
-fn nearest(parameter: f64, to: f64, period: f64) -> f64 {
+pub(super) fn nearest(parameter: f64, to: f64, period: f64) -> f64 {
     parameter + period * ((to - parameter) / period).round()
 }
 
@@ -317,7 +321,8 @@ fn guide(edge: &Edge, offset: f64, face: bool) -> Option<Guide> {
     }
     let radius = segment.radius() / MILLIMETRES;
     let centre = segment.centre() / MILLIMETRES;
-    Some(Guide::Circle(centre, if face { radius } else { (radius + offset).abs() }))
+    let own = radius + offset;
+    Some(Guide::Circle(centre, if face { own } else { own.abs() }))
 }
 
 /// The line on which a roller's centre runs along a tangent at a point, mm.
@@ -327,8 +332,8 @@ fn line(point: Vector2<f64>, tangent: Vector2<f64>, offset: f64) -> Guide {
 }
 
 /// The circle of curvature of a curve where the follower touches it at a parameter, or the line where it is straight there.
-fn touching(curves: Curves<'_>, edge: &Edge, parameter: f64) -> Option<Guide> {
-    let (reach, period) = (MILLIMETRES * curves.offset(), curves.motion.period());
+fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option<Guide> {
+    let (reach, period) = (MILLIMETRES * out, curves.motion.period());
     let ahead = |share: f64| {
         let (point, tangent) = edge.at(share);
         let normal = outward(tangent);
@@ -345,18 +350,35 @@ fn touching(curves: Curves<'_>, edge: &Edge, parameter: f64) -> Option<Guide> {
     let ((point, tangent), curvature) = (edge.at(share), edge.curvature(share));
     let face = curves.element() == Element::Face;
     if curvature.abs() * MILLIMETRES < STRAIGHT {
-        return (!face).then(|| line(point, tangent, curves.offset()));
+        return (!face).then(|| line(point, tangent, out));
     }
     let radius = 1.0 / (curvature * MILLIMETRES);
     let centre = point / MILLIMETRES - outward(tangent) * radius;
-    Some(Guide::Circle(centre, if face { radius } else { (radius + curves.offset()).abs() }))
+    let own = radius + out;
+    Some(Guide::Circle(centre, if face { own } else { own.abs() }))
 }
 
 /// The parts of a run that lie on the pieces of the motion.
 fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> Vec<Stretch> {
+    let stretch = |part: Part| Stretch { from: part.from, to: part.to, piece: part.piece, shift: part.shift, guide };
+    parts(motion, (from, to)).into_iter().map(stretch).collect()
+}
+
+/// A part of a range of the motion's parameter, on one piece.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) piece: usize,
+    /// From the running parameter to that of the piece.
+    pub(super) shift: f64,
+}
+
+/// A range of the motion's parameter, which may run over any number of periods, cut at the pieces of the motion.
+pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> Vec<Part> {
     let (first, last) = motion.range();
     let (from, to) = if motion.period().is_some() { (from, to) } else { (from.max(first), to.min(last)) };
-    let mut stretches = Vec::new();
+    let mut parts = Vec::new();
     let mut at = from;
     while to - at > HAIR {
         let (piece, inside) = motion.locate(at + HAIR);
@@ -365,10 +387,18 @@ fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> Vec<S
         let until = (end - shift).max(at + HAIR);
         // What is left of a piece, or of a run, may be a hair.
         let until = if to - until > HAIR { until } else { to };
-        stretches.push(Stretch { from: at, to: until, piece, shift, guide });
+        parts.push(Part { from: at, to: until, piece, shift });
         at = until;
     }
-    stretches
+    parts
+}
+
+/// The jet of a follower at a parameter whose curve follows a guide, the law's as a start.
+pub(super) fn on_guide(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
+    match curves.element() {
+        Element::Roller { .. } => rolled(curves, parameter, law, guide),
+        Element::Face => under_face(curves, parameter, law, guide),
+    }
 }
 
 /// The jet of a roller whose centre follows a guide.

@@ -81,14 +81,15 @@ impl Outline {
         Ok(())
     }
 
-    /// Lays arcs or a spline along a parallel of the follower's curve so that the follower feels no more than it may.
+    /// Lays arcs or a spline along a parallel of the follower's curve (m inwards) so that the follower feels no more than it may of
+    /// the parallel that it stands for.
     ///
     /// What heading and curvature may miss follows from that to first order; what the follower feels is then measured on the
     /// chain itself, which is laid again where it is more.
     pub(super) fn lay_felt(
         &mut self,
         curves: Curves<'_>,
-        (piece, distance): (usize, f64),
+        (piece, distance, stands_for): (usize, f64, f64),
         range: (f64, f64),
         fit: &Fit,
     ) -> Result<(), OutlineError> {
@@ -111,7 +112,8 @@ impl Outline {
             let [velocity, acceleration] = &mut strip.best_for;
             *velocity *= (asked.velocity / motion.velocity).max(0.0).sqrt();
             *acceleration *= asked.acceleration / motion.acceleration;
-            let errors = Followed::new(curves, &strip.edges(frame(range.1).point)).errors();
+            let edges = strip.edges(frame(range.1).point);
+            let errors = Followed::beside(curves, stands_for, &edges).errors();
             let over = [errors.velocity.value / motion.velocity, errors.acceleration.value / motion.acceleration];
             let worst = over.iter().copied().fold(0.0, f64::max);
             if best.as_ref().is_none_or(|(least, _)| worst < *least) {

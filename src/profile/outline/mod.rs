@@ -245,7 +245,7 @@ fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Out
     let (shift, half) = fit.band();
     if shift == 0.0 {
         let within = Fit { tolerance: half, ..fit };
-        return Ok((parallel(curves, distance, &within, &left_out(curves, distance)?)?, shift));
+        return Ok((parallel(curves, (distance, distance), &within, &left_out(curves, distance)?)?, shift));
     }
     let shift = shift.clamp(-room, room);
     // From an edge of turn τ the edge of a parallel is 1/cos(τ/2) times as far as the curves beside it.
@@ -254,7 +254,7 @@ fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Out
     let shift = shift * closer;
     let gaps = left_out(curves, distance + shift)?;
     let within = Fit { tolerance: shift.abs(), ..fit };
-    let outline = parallel(curves, distance + shift, &within, &gaps)?;
+    let outline = parallel(curves, (distance + shift, distance), &within, &gaps)?;
     let outline = outline.counted_from_exact(shift);
     let deviation = outline.deviation.max(MILLIMETRES * shift.abs() / closer);
     Ok((Outline { deviation, ..outline }, shift))
@@ -306,7 +306,7 @@ pub fn pitch(curves: Curves<'_>) -> Result<Outline, OutlineError> {
 /// # Errors
 /// As for [`pitch`].
 pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, OutlineError> {
-    parallel(curves, 0.0, &Fit::from(tolerance), &[])
+    parallel(curves, (0.0, 0.0), &Fit::from(tolerance), &[])
 }
 
 /// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
@@ -315,8 +315,14 @@ pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> Cur
     if radius_mm <= LARGEST_COORDINATE { Ok(()) } else { Err(OutlineError::TooLarge { radius_mm }) }
 }
 
-/// The parallel of the follower's curve at a distance inwards (m), within the tolerances of a fit, without the gaps.
-fn parallel(curves: Curves<'_>, distance: f64, fit: &Fit, gaps: &[Gap]) -> Result<Outline, OutlineError> {
+/// The parallel of the follower's curve at a distance inwards (m), within the tolerances of a fit, without the gaps; what the
+/// follower feels of it is that of a parallel at another distance, which it stands for.
+fn parallel(
+    curves: Curves<'_>,
+    (distance, stands_for): (f64, f64),
+    fit: &Fit,
+    gaps: &[Gap],
+) -> Result<Outline, OutlineError> {
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
     let frame = |piece: usize, angle: f64| -> CurvePoint {
@@ -337,7 +343,7 @@ fn parallel(curves: Curves<'_>, distance: f64, fit: &Fit, gaps: &[Gap]) -> Resul
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
                 outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
-                outline.lay_felt(curves, (index, distance), range, fit)?;
+                outline.lay_felt(curves, (index, distance, stands_for), range, fit)?;
             }
             // Readers drop a shorter arc.
             let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
