@@ -40,7 +40,7 @@ fn stages(criterion: &mut Criterion) {
             solid: None,
             tolerance_mm: 0.005,
             motion: MotionTolerance::ANY,
-            strict: true,
+            strict: [true; 2],
         };
         criterion
             .bench_function(&name("checks, sphere on the flank"), |b| b.iter(|| verify::run(black_box(&evidence))));

@@ -60,7 +60,7 @@ fn stages(criterion: &mut Criterion) {
         solid: None,
         tolerance_mm: 0.005,
         motion: MotionTolerance::ANY,
-        strict: true,
+        strict: [true; 2],
     };
     criterion.bench_function("checks", |b| b.iter(|| verify::run(black_box(&evidence))));
     let solved = Spec::rotary(machine, 35.0).solve().expect("a cam");

@@ -211,7 +211,7 @@ fn a_conoid_is_as_long_as_the_contact_needs() {
 /// The ladder gets finer from row to row: less is left, more arcs are laid; the advice keeps the limit.
 #[test]
 fn trade_measures_a_ladder_and_advises() {
-    for (kind, rows) in [("rotary", 18), ("translating", 23)] {
+    for (kind, rows) in [("rotary", 20), ("translating", 23)] {
         let run = camgen(&["trade", kind, "--json", "--residual", "5N"]);
         assert_eq!(run.code, 0, "{}", run.err);
         let report = report(&run);
@@ -230,6 +230,9 @@ fn trade_measures_a_ladder_and_advises() {
         assert!(of(spline, "pieces") < of(standard, "pieces"));
         if kind == "rotary" {
             assert!(of(named("points, cubic, 5 µm"), "rolled_mm") <= 0.005);
+            let felt = named("points, cubic, 5 µm, 5 %");
+            assert!(of(felt, "acceleration_share") <= 0.05 && of(felt, "rolled_mm") <= 0.005, "{felt}");
+            assert!(of(named("points, cubic, 0.5 µm, 1 %"), "acceleration_share") <= 0.01);
             assert!(
                 of(standard, "torque_error_nm") < of(&found[3], "torque_error_nm"),
                 "it falls with the acceleration"

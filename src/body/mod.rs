@@ -121,8 +121,8 @@ pub struct Request {
     pub cutter: Option<f64>,
     /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
     pub rates: [Option<RateTolerance>; 2],
-    /// Refuse a cam whose follower feels more; else it is told.
-    pub strict: bool,
+    /// Refuse a cam whose follower feels more, by velocity or by acceleration; else it is told.
+    pub strict: [bool; 2],
     /// The table of points that is needed.
     pub points: Option<points::Points>,
 }
@@ -131,7 +131,7 @@ impl Request {
     /// Outlines within a tolerance (m), nothing else.
     #[must_use]
     pub fn within(fit: impl Into<Fit>) -> Self {
-        Self { fit: fit.into(), flank: false, cutter: None, points: None, rates: [None; 2], strict: true }
+        Self { fit: fit.into(), flank: false, cutter: None, points: None, rates: [None; 2], strict: [true; 2] }
     }
 
     /// With the tolerances of the motion as numbers for a body.

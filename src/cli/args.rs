@@ -145,9 +145,9 @@ impl CommonArgs {
         }
     }
 
-    /// Tolerances of velocity and acceleration, and whether a cam that does not keep them is refused: the default ones are told
+    /// Tolerances of velocity and acceleration, and whether a cam that does not keep each of them is refused: a default one is told
     /// only.
-    pub(super) fn rates(&self) -> ([Option<RateTolerance>; 2], bool) {
+    pub(super) fn rates(&self) -> ([Option<RateTolerance>; 2], [bool; 2]) {
         let named = match self.accuracy {
             Some(Accuracy::Draft) => None,
             None | Some(Accuracy::Standard) => Some(RateTolerance::Share(0.05)),
@@ -158,7 +158,7 @@ impl CommonArgs {
             Some(Rate::Within(rate)) => Some(rate),
             None => default,
         };
-        let strict = self.tolerance_velocity.is_some() || self.tolerance_acceleration.is_some();
+        let strict = [self.tolerance_velocity.is_some(), self.tolerance_acceleration.is_some()];
         ([asked(self.tolerance_velocity, None), asked(self.tolerance_acceleration, named)], strict)
     }
 

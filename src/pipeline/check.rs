@@ -105,7 +105,7 @@ impl Cam {
             solid: None,
             tolerance_mm,
             motion: MotionTolerance::ANY,
-            strict: false,
+            strict: [false; 2],
         });
         let mut sections = vec![Section::new("cam", &body.kind().noun)];
         sections.extend(section.map(|section| Section::new("section", &section)));
@@ -154,7 +154,7 @@ impl Cam {
             points: None,
             tolerance_mm,
             motion: MotionTolerance::ANY,
-            strict: false,
+            strict: [false; 2],
         });
         let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
         let whole = report(body, sections, checks);

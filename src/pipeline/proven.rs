@@ -1,11 +1,11 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, FileSet, Writing, file_set, report};
-use crate::body::points::PointTable;
+use crate::body::points::{Judged, PointTable, swings};
 use crate::body::{Body, Drawn, Found, Request};
 use crate::geometry::MILLIMETRES;
-use crate::geometry::points::Interpolant;
-use crate::report::{Finding, Report, Rolled, passed};
+use crate::geometry::points::{Between, Interpolant};
+use crate::report::{Finding, PointMeasures, Report, Rolled, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
 use crate::write::Rendering;
@@ -23,6 +23,8 @@ pub struct Proven<'c> {
     cut_files: Vec<Vec<u8>>,
     /// The bytes of the tables of points, one for each part, when they were requested.
     points: Vec<Vec<u8>>,
+    /// What the report tells of them.
+    points_told: Vec<PointMeasures>,
     version: Version,
     outlines: Vec<WrittenOutline>,
     rolled: Option<Rolled>,
@@ -63,6 +65,7 @@ impl<'c> Drawing<'c> {
             };
             WrittenPath { radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour }
         });
+        let points_told = self.points.iter().flatten().map(|table| measures(body, table)).collect();
         let (points, tables) = written_points(body, &self.request, self.points);
         let findings = verify::run(&Evidence {
             body,
@@ -78,7 +81,7 @@ impl<'c> Drawing<'c> {
             strict: self.request.strict,
         });
         let (cam, request, drawn) = (self.cam, self.request, self.drawn);
-        Ok(Proven { cam, request, drawn, cut_files, points, version, outlines, rolled, findings })
+        Ok(Proven { cam, request, drawn, cut_files, points, points_told, version, outlines, rolled, findings })
     }
 }
 
@@ -102,6 +105,26 @@ fn written_points(
     };
     let written = tables.into_iter().zip(&files).map(read).collect();
     (files, Some(Ok(written)))
+}
+
+/// What the report tells of a table.
+fn measures(body: &dyn Body, table: &PointTable) -> PointMeasures {
+    let swings = swings(body);
+    let unit = if swings { 1.0 } else { MILLIMETRES };
+    let [velocity, acceleration] = match table.felt {
+        Judged::Errors(errors) => errors.map(|error| Some(unit * error).filter(|error| error.is_finite())),
+        Judged::Not(_) => [None; 2],
+    };
+    PointMeasures {
+        rpm: table.rpm,
+        rows: table.rows.rows.len(),
+        interpolation: if table.wish.between == Between::Linear { "linear" } else { "cubic" },
+        tolerance_mm: table.wish.tolerance,
+        error_mm: table.rows.error,
+        swings,
+        velocity_error: velocity,
+        acceleration_error: acceleration,
+    }
 }
 
 impl Proven<'_> {
@@ -156,7 +179,9 @@ impl Proven<'_> {
             rolled: self.rolled.as_ref(),
             tolerance_mm: MILLIMETRES * self.request.fit.tolerance,
         };
-        let mut report = report(body, body.sections(&found), self.findings.clone());
+        let mut sections = body.sections(&found);
+        sections.extend(PointMeasures::section(&self.points_told));
+        let mut report = report(body, sections, self.findings.clone());
         report.notes.extend(self.no_outline().map(|why| format!("there is no outline: {why}")));
         report
     }

@@ -8,6 +8,7 @@ pub mod boundary;
 pub mod envelope;
 pub mod extremes;
 pub mod followed;
+pub mod interpolated;
 pub mod outline;
 pub mod size;
 

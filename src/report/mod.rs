@@ -7,6 +7,7 @@
 pub mod chart;
 mod felt;
 mod finding;
+mod point_measures;
 mod rolled;
 pub mod sheet;
 pub mod trace;
@@ -14,6 +15,7 @@ mod values;
 
 pub use felt::Felt;
 pub use finding::{Finding, Place, Verdict, degrees, passed, worst_first};
+pub use point_measures::PointMeasures;
 pub use rolled::Rolled;
 pub use values::{
     AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, lobes_words,

@@ -179,7 +179,7 @@ mod tests {
                 points: None,
                 tolerance_mm: 5e-3,
                 motion: MotionTolerance::ANY,
-                strict: true,
+                strict: [true; 2],
             };
             check(&evidence).expect("checked").verdict
         };

@@ -60,13 +60,8 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let limit = given.unwrap_or(CUSTOMARY).min(asked);
     let verdict = match given {
         Some(limit) if share > limit => Verdict::Fail,
-        _ if too_fast || too_much => {
-            if evidence.strict {
-                Verdict::Fail
-            } else {
-                Verdict::Warn
-            }
-        }
+        _ if (too_fast && evidence.strict[0]) || (too_much && evidence.strict[1]) => Verdict::Fail,
+        _ if too_fast || too_much => Verdict::Warn,
         None if share > CUSTOMARY => Verdict::Warn,
         _ => Verdict::Pass,
     };

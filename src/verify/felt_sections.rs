@@ -6,33 +6,16 @@
 
 use super::WrittenOutline;
 use crate::body::Body;
-use crate::body::conoid::Conoid;
+use crate::body::conoid::{BESIDE, Conoid, Missed};
+use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Edge;
-use crate::geometry::{CurvePoint, MILLIMETRES};
 use crate::machine::Rotation;
-use crate::motion::Motion;
 use crate::numeric::parallel;
 use crate::profile::Worst;
 use crate::report::Felt;
-use nalgebra::Vector2;
-use std::f64::consts::TAU;
 
 /// Places on each edge, both ends among them.
 const PLACES: u32 = 5;
-/// Newton steps from a point of the outline to the cam angle of its foot.
-const FOOT_STEPS: u32 = 6;
-/// Cosine of the pressure angle below which no motion is transmitted.
-const LEAST_COSINE: f64 = 1e-3;
-/// A break of the law nearer than this, rad, belongs to the piece on the side of the edge.
-const BESIDE: f64 = 1e-6;
-
-/// Errors of velocity and acceleration at a place, m/rad and m/rad², and the cam angle there.
-struct Off {
-    velocity: f64,
-    acceleration: f64,
-    at: f64,
-}
-
 /// What the follower feels of the sections; `None` where a section has no such place.
 pub(super) fn felt(conoid: &Conoid, outlines: &[WrittenOutline]) -> Option<Felt> {
     let turned = conoid.machine().cam.rotation == Rotation::CounterClockwise;
@@ -40,11 +23,11 @@ pub(super) fn felt(conoid: &Conoid, outlines: &[WrittenOutline]) -> Option<Felt>
         let contour = if turned { section.contour.mirrored_about_x() } else { section.contour.clone() };
         let edges: Vec<Edge> = contour.edges().collect();
         let off =
-            |edge: &Edge| (0..PLACES).map(|place| off(conoid, section.z, edge, place)).collect::<Option<Vec<Off>>>();
-        let all: Option<Vec<Vec<Off>>> = edges.iter().map(off).collect();
+            |edge: &Edge| (0..PLACES).map(|place| off(conoid, section.z, edge, place)).collect::<Option<Vec<Missed>>>();
+        let all: Option<Vec<Vec<Missed>>> = edges.iter().map(off).collect();
         all.map(|all| (section.z, all))
     };
-    let all: Option<Vec<(f64, Vec<Vec<Off>>)>> = parallel::map(outlines, of_section).into_iter().collect();
+    let all: Option<Vec<(f64, Vec<Vec<Missed>>)>> = parallel::map(outlines, of_section).into_iter().collect();
     let (mut velocity, mut acceleration, mut step) = (Worst::NONE, Worst::NONE, Worst::NONE);
     for (z, edges) in &all? {
         let next = edges.iter().cycle().skip(1);
@@ -74,7 +57,7 @@ pub(super) fn felt(conoid: &Conoid, outlines: &[WrittenOutline]) -> Option<Felt>
 }
 
 /// What an edge misses of the exact cut at one of its places.
-fn off(conoid: &Conoid, z: f64, edge: &Edge, place: u32) -> Option<Off> {
+fn off(conoid: &Conoid, z: f64, edge: &Edge, place: u32) -> Option<Missed> {
     let share = f64::from(place) / f64::from(PLACES - 1);
     let (point, tangent) = edge.at(share);
     // At its ends an edge belongs to the piece of the law on its own side.
@@ -85,34 +68,5 @@ fn off(conoid: &Conoid, z: f64, edge: &Edge, place: u32) -> Option<Off> {
     } else {
         0.0
     };
-    let (frame, at) = foot(conoid, z, point / MILLIMETRES, inwards)?;
-    let path = Vector2::new(libm::cos(at), libm::sin(at));
-    let along = frame.speed / frame.outward().dot(&path).max(LEAST_COSINE);
-    Some(Off {
-        velocity: along * frame.tangent.perp(&tangent),
-        acceleration: -along * frame.speed * (MILLIMETRES * edge.curvature(share) - frame.curvature),
-        at,
-    })
-}
-
-/// The point of the cut at z (m) whose normal passes through a point (m), and its cam angle.
-fn foot(conoid: &Conoid, z: f64, point: Vector2<f64>, inwards: f64) -> Option<(CurvePoint, f64)> {
-    let slice = conoid.slice(z);
-    let mut angle = libm::atan2(point.y, point.x);
-    for _ in 0..FOOT_STEPS {
-        let (piece, inside) = slice.locate(angle + inwards);
-        let (frame, _) = conoid.cut(piece, inside - inwards, z)?;
-        let away = point - frame.point;
-        let run = frame.speed * (1.0 + frame.curvature * away.dot(&frame.outward()));
-        let ahead = away.dot(&frame.tangent) / run;
-        if !(ahead.abs() < TAU) {
-            return None;
-        }
-        angle += ahead;
-        if ahead.abs() < f64::EPSILON {
-            break;
-        }
-    }
-    let (piece, inside) = slice.locate(angle + inwards);
-    conoid.cut(piece, inside - inwards, z).map(|(frame, _)| (frame, inside))
+    conoid.missed(z, (point / MILLIMETRES, tangent, MILLIMETRES * edge.curvature(share)), inwards)
 }

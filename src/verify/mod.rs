@@ -77,8 +77,8 @@ pub struct Evidence<'a> {
     pub tolerance_mm: f64,
     /// What the follower may feel of it.
     pub motion: MotionTolerance,
-    /// Whether a cam whose follower feels more is refused.
-    pub strict: bool,
+    /// Whether a cam whose follower feels more is refused, by velocity and by acceleration.
+    pub strict: [bool; 2],
 }
 
 /// What a check looks at.

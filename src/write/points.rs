@@ -4,7 +4,7 @@
 use super::number::{plain, shortest};
 use super::{Format, FormatError, When, fits_all, of_parts};
 use crate::body::Body;
-use crate::body::points::{Given, PointTable};
+use crate::body::points::{Given, Judged, PointTable, swings};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Between, Form, Step};
 use crate::machine::Rotation;
@@ -75,6 +75,11 @@ fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
             format!("{count}, each a row that stands twice: one spline ends and the next begins")
         }
     };
+    if rows.jumps > 0 {
+        let words = "each a row that stands twice: one spline ends where the acceleration jumps and the next begins; the \
+                     velocity steps there by at most twice its error";
+        head.push(("jumps", format!("{}, {words}", rows.jumps)));
+    }
     head.extend([
         ("points", points(table)),
         ("interpolation", interpolation(table)),
@@ -83,8 +88,79 @@ fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
         ("tolerance_mm", plain(wish.tolerance, DECIMALS)),
         ("error_mm", plain(rows.error, DECIMALS)),
         ("error", "bound of the distance between the interpolated curve and the exact one, either way".to_owned()),
-        ("rows", rows.rows.len().to_string()),
     ]);
+    head.extend(felt(body, table));
+    head.push(("rows", rows.rows.len().to_string()));
+    head
+}
+
+/// What the follower feels of the curve that the control makes, and what of it is kept.
+fn felt(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
+    const KEYS: [[&str; 2]; 4] = [
+        ["velocity_tolerance_mm_per_rad", "velocity_tolerance_rad_per_rad"],
+        ["velocity_error_mm_per_rad", "velocity_error_rad_per_rad"],
+        ["acceleration_tolerance_mm_per_rad2", "acceleration_tolerance_rad_per_rad2"],
+        ["acceleration_error_mm_per_rad2", "acceleration_error_rad_per_rad2"],
+    ];
+    let swings = swings(body);
+    let (keys, unit) =
+        (KEYS.map(|[straight, swung]| if swings { swung } else { straight }), if swings { 1.0 } else { MILLIMETRES });
+    let mut head = Vec::new();
+    let errors = match table.felt {
+        Judged::Errors(errors) => errors,
+        Judged::Not(why) => {
+            head.push(("felt", format!("velocity and acceleration are not told: {why}")));
+            [f64::INFINITY; 2]
+        }
+    };
+    let told = keys.iter().zip([table.allowed[0], errors[0], table.allowed[1], errors[1]]);
+    head.extend(told.filter(|(_, value)| value.is_finite()).map(|(key, value)| (*key, plain(unit * value, DECIMALS))));
+    if matches!(table.felt, Judged::Errors(_)) {
+        let how = if body.spatial().is_some() && table.given == Given::Profile {
+            ", to first order, at five places of every interval"
+        } else {
+            ""
+        };
+        let what = match table.wish.between {
+            Between::Linear => "largest error of the follower's velocity",
+            Between::Cubic => "largest errors of the follower's velocity and acceleration",
+        };
+        let shaft = if table.closed { "cam" } else { "crank" };
+        head.push((
+            "felt",
+            format!("{what} on the interpolated curve by the angle of the {shaft}{wheel}{how}", wheel = wheel(table)),
+        ));
+    }
+    head.extend(kept(table, errors));
+    head
+}
+
+/// With which wheel the follower feels what is told.
+fn wheel(table: &PointTable) -> &'static str {
+    match table.given {
+        Given::Profile => "",
+        Given::Centre => ", ground by a wheel as large as the roller",
+        Given::Cutter => ", ground by that wheel",
+    }
+}
+
+/// Which tolerances are kept, and which are not.
+fn kept(table: &PointTable, errors: [f64; 2]) -> Vec<(&'static str, String)> {
+    let names = ["velocity", "acceleration"];
+    let asked = || names.iter().zip(table.allowed.iter().zip(&errors)).filter(|(_, (allowed, _))| allowed.is_finite());
+    let list =
+        |keeps: bool| asked().filter(move |(_, (allowed, error))| (error <= allowed) == keeps).map(|(name, _)| *name);
+    let mut head = vec![("keeps", std::iter::once("distance").chain(list(true)).collect::<Vec<_>>().join(", "))];
+    if table.wish.between == Between::Linear {
+        let words =
+            "acceleration: a control that goes straight from row to row turns at each, and the velocity jumps there";
+        head.push((
+            "not_kept",
+            list(false).filter(|name| *name == "velocity").chain([words]).collect::<Vec<_>>().join(", "),
+        ));
+    } else if list(false).next().is_some() {
+        head.push(("not_kept", list(false).collect::<Vec<_>>().join(", ")));
+    }
     head
 }
 
@@ -124,10 +200,10 @@ fn points(table: &PointTable) -> String {
 }
 
 fn interpolation(table: &PointTable) -> String {
-    let ends = match (table.closed, table.rows.corners) {
+    let ends = match (table.closed, table.rows.corners + table.rows.jumps) {
         (true, 0) => "periodic, continuous in its second derivative",
-        (true, _) => "not-a-knot at both ends and at the corners",
-        (false, _) => "not-a-knot at its ends and at corners",
+        (true, _) => "not-a-knot at both ends and at rows that stand twice",
+        (false, _) => "not-a-knot at its ends and at rows that stand twice",
     };
     match (table.wish.between, table.wish.form) {
         (Between::Linear, Form::Polar) => format!("{LINEAR}, radius linear in the angle between two rows"),

@@ -18,12 +18,14 @@ pub mod flank;
 mod implementation;
 mod interpolation;
 pub mod mesh;
+mod missed;
 mod report;
 mod search;
 mod sheet;
 mod surface;
 mod worst;
 
+pub use missed::{BESIDE, Missed, OfSection};
 pub use search::Place;
 pub use surface::SpatialContact;
 

@@ -106,8 +106,8 @@ struct Setting {
 enum Made {
     /// An outline, which may also keep the acceleration to a share of its largest.
     Outline { laid: Laid, share: Option<f64> },
-    /// A table of points, in x and y by equal chord error.
-    Points(Between),
+    /// A table of points, in x and y by equal chord error, which may also keep the acceleration to a share of its largest.
+    Points { between: Between, share: Option<f64> },
 }
 
 /// What the advice must keep.
@@ -321,7 +321,11 @@ fn one_round(law: &Law, setting: &Setting, law_us: f64) -> Result<(Row, Times), 
             let request = Request { rates, ..Request::within(Fit { laid, ..Fit::from(setting.tolerance) }) };
             outline(law, setting, law_us, request)
         }
-        Made::Points(between) => points(law, setting, law_us, between),
+        Made::Points { between, share } => {
+            let asked = Points { form: Some(Form::Plane), step: Some(Step::Chord), between, ..Points::default() };
+            let rates = [None, share.map(RateTolerance::Share)];
+            points(law, setting, law_us, Request { points: Some(asked), rates, ..Request::within(setting.tolerance) })
+        }
     }
 }
 
@@ -351,10 +355,9 @@ fn outline(law: &Law, setting: &Setting, law_us: f64, request: Request) -> Resul
 }
 
 /// A table of points, and what the follower does on the curve that a control makes of it.
-fn points(law: &Law, setting: &Setting, law_us: f64, between: Between) -> Result<(Row, Times), Failure> {
+fn points(law: &Law, setting: &Setting, law_us: f64, request: Request) -> Result<(Row, Times), Failure> {
     let body = law.cam.body();
-    let asked = Points { form: Some(Form::Plane), step: Some(Step::Chord), between, ..Points::default() };
-    let request = Request { points: Some(asked), ..Request::within(setting.tolerance) };
+    let request = request.resolved(body).map_err(Failure::new)?;
     let whole = law.cam.draw(setting.tolerance).map_err(Failure::new)?;
     let parts = whole.drawn().map(|drawn| drawn.parts.as_slice()).unwrap_or_default();
     let (placing, tables) = timed(|| points::tables(body, &request, parts).map_err(Failure::new))?;

@@ -37,11 +37,13 @@ const FELT: [(&str, f64, Option<f64>, Laid); 6] = [
     ("spline, 5 µm, 5 %", 5e-6, Some(0.05), Laid::Splines),
     ("spline, 0.5 µm, 1 %", 0.5e-6, Some(0.01), Laid::Splines),
 ];
-/// Points in x and y by equal chord error: name, distance in m, and what the control does between them.
-const POINTS: [(&str, f64, Between); 3] = [
-    ("points, linear, 5 µm", 5e-6, Between::Linear),
-    ("points, cubic, 5 µm", 5e-6, Between::Cubic),
-    ("points, cubic, 0.5 µm", 0.5e-6, Between::Cubic),
+/// Points in x and y by equal chord error: name, distance in m, share of the acceleration, and what the control does between them.
+const POINTS: [(&str, f64, Option<f64>, Between); 5] = [
+    ("points, linear, 5 µm", 5e-6, None, Between::Linear),
+    ("points, cubic, 5 µm", 5e-6, None, Between::Cubic),
+    ("points, cubic, 5 µm, 5 %", 5e-6, Some(0.05), Between::Cubic),
+    ("points, cubic, 0.5 µm", 0.5e-6, None, Between::Cubic),
+    ("points, cubic, 0.5 µm, 1 %", 0.5e-6, Some(0.01), Between::Cubic),
 ];
 
 pub(super) type Ladder = (Vec<Law>, Vec<Setting>);
@@ -64,11 +66,11 @@ pub(super) fn rotary(machine: &Machine, rpm: f64) -> Result<Ladder, Failure> {
     let machine = machine.clone();
     let solve = move || Spec::rotary(machine.clone(), rpm).solve().map_err(Failure::new);
     let law = Law { cam: solve()?, solve: Box::new(solve), error_mm: 0.0, residual_n: 0.0 };
-    let points = POINTS.iter().map(|(name, tolerance, between)| Setting {
+    let points = POINTS.iter().map(|(name, tolerance, share, between)| Setting {
         name: (*name).into(),
         law: 0,
         tolerance: *tolerance,
-        made: Made::Points(*between),
+        made: Made::Points { between: *between, share: *share },
     });
     Ok((vec![law], ladder().into_iter().chain(points).collect()))
 }

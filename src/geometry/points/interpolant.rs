@@ -6,8 +6,9 @@
 //! | polar | the radius linear in the angle, an arc of Archimedes' spiral | the cubic spline of the radius over the angle |
 //!
 //! A cubic spline has continuous first and second derivatives. Over a closed table without double rows it is periodic. A row that
-//! stands twice is a corner: there one spline ends and the next begins, each with "not-a-knot" ends; so it has at the ends of a
-//! table that is open, and of one that is closed but has corners.
+//! stands twice is a break, at a corner or where the acceleration jumps: there one spline ends and the next begins, each with
+//! "not-a-knot" ends; so it has at the ends of a table that is open, and of one that is closed but has breaks. The first row stands
+//! twice where the break is the start of a closed table.
 
 use super::{Between, Form};
 use crate::geometry::CurvePoint;
@@ -88,7 +89,9 @@ impl Interpolant {
                 Edge::Cubic(Cubic { points: [start, start + slope(0.0), end - slope(length), end] })
             }
         };
-        (self.form == Form::Plane).then(|| self.intervals.iter().map(edge).collect())
+        // Between the two of a double row there is nothing.
+        let long = || self.intervals.iter().filter(|interval| interval.from < interval.to);
+        (self.form == Form::Plane).then(|| long().map(edge).collect())
     }
 
     /// How many intervals it has: one less than the table has rows.
@@ -175,6 +178,10 @@ fn cubic(knots: &[f64], values: &[f64], runs: &[Range<usize>], closed: bool) -> 
         // From one of a double row to the other there is nothing.
         if let Some(value) = values.first().filter(|_| run.start > 0) {
             cubics.push([*value, 0.0, 0.0, 0.0]);
+        }
+        // The first of a double row that begins the table.
+        if knots.len() < 2 {
+            continue;
         }
         let spline =
             if closed && runs.len() == 1 { Spline::periodic(knots, values) } else { Spline::not_a_knot(knots, values) };

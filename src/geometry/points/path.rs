@@ -146,6 +146,13 @@ impl<'a> Path<'a> {
         (corners, changes)
     }
 
+    /// The lengths at which the curvature jumps and there is no corner, mm, with the points there.
+    pub(super) fn jumps(&self) -> Vec<(f64, CurvePoint)> {
+        let starts = self.parts.iter().skip(usize::from(!self.closed));
+        let jumps = starts.filter(|part| !self.boundary.starts_at_corner(part.index) && self.jumps_at(part.index));
+        jumps.filter_map(|part| Some((part.start, self.boundary.ends(part.index)?[0]))).collect()
+    }
+
     /// Whether the curvature jumps where a stretch of the boundary starts.
     fn jumps_at(&self, index: usize) -> bool {
         let count = self.boundary.stretches().len();

@@ -1,5 +1,5 @@
 //! Where the points of a table stand, and how many: tables are tried and their errors bounded until the fewest points are left
-//! that keep the tolerance.
+//! that keep the tolerance, and what the follower may feel.
 //!
 //! **Equal angles.** The error falls with the square (linear) or the fourth power (cubic) of the number of points, so that each
 //! trial says how many are missing or too many; the last trials halve what is left between too few and enough. A corner is no
@@ -10,13 +10,23 @@
 //! an interval, taken to the power 1/2 or 1/4, is a measure that adds up, and equal parts of it have equal errors: points are put
 //! at equal parts of what the trial before measured, so many that each part is that of the tolerance (C. de Boor, Good
 //! approximation by splines with variable knots II, 1973). Where that does not settle, intervals that err too much are halved.
+//!
+//! **Velocity and acceleration** err as heading and curvature do: by the third and the second power of a cubic interval, the first
+//! of a chord. The measure of an interval is the largest of the three, each over what is allowed. A cubic spline cannot follow a
+//! jump of the acceleration by more than half of it: where it jumps by more than may be missed, one spline ends and another begins.
 
 use super::deviation::deviations;
-use super::{Between, Form, Interpolant, Path, PointsError, Rows, Step, Wish};
+use super::{Between, Felt, Form, Interpolant, Path, PointsError, Rows, Step, Wish};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Most points of a table.
 pub(super) const MOST_POINTS: usize = 1_000_000;
+/// Most points where velocity or acceleration count: so many take seconds to judge.
+const MOST_FELT: usize = 20_000;
+/// A step of the acceleration above this share of what it may miss ends a spline: a spline leaves half of it and what that stirs up.
+const LEAST_STEP: f64 = 0.5;
+/// A break of the curve this near to the start, as a share of its length, is there.
+const AT_START: f64 = 1e-9;
 /// Fewest intervals at equal angles, and those tried first.
 const FEWEST: usize = 4;
 const FIRST: usize = 16;
@@ -29,28 +39,107 @@ const NEGLIGIBLE: f64 = 0.02;
 const DECIMALS: f64 = 1e12;
 /// An even place nearer to a corner than this share of the step is the corner.
 const AT_CORNER: f64 = 1e-3;
-/// All numbers of points up to this are tried.
+/// All numbers of points up to this are tried; a jump of the jerk matters to the acceleration as one of the curvature does to the
+/// distance, so that with it more depends on where an even place happens to lie.
 const ALL_TRIED: usize = 256;
+const ALL_FELT: usize = 512;
 /// Rounds in which points are moved; then their number grows by a share each round; then intervals are halved; rounds in all.
 const SETTLED: u32 = 6;
 const GROWN: u32 = 40;
 const ROUNDS: u32 = 70;
 /// Share of the mean density of points that is kept everywhere, so that no interval spans what was never looked at.
 const LEAST_DENSITY: f64 = 0.01;
+/// The measure of an interval of which nothing is known but that it errs.
+const LOST: f64 = 4.0;
 /// Intervals with which a section that is no circle begins.
 const FIRST_OF_SECTION: usize = 8;
 
-/// The table with the fewest points that keeps what is wished, or nearly so.
+/// What a table is to be, and all that it is to keep.
+#[derive(Clone, Copy)]
+struct Goal<'g, 'a> {
+    path: &'g Path<'a>,
+    wish: &'g Wish,
+    felt: Option<Felt<'g>>,
+}
+
+/// The table with the fewest points that keeps what is wished and what a follower may feel, or nearly so.
 ///
 /// # Errors
 /// [`PointsError`] when the curve has no such table.
-pub fn place(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
+pub fn place(path: &Path<'_>, wish: &Wish, felt: Option<Felt<'_>>) -> Result<Rows, PointsError> {
     if wish.form == Form::Polar || wish.step == Step::Angle {
         path.goes_round()?;
     }
-    match wish.step {
-        Step::Angle => by_angle(path, wish),
-        Step::Chord => by_error(path, wish),
+    let placed = |felt| {
+        let goal = Goal { path, wish, felt };
+        match wish.step {
+            Step::Angle => by_angle(&goal),
+            Step::Chord => by_error(&goal),
+        }
+    };
+    let felt = felt.filter(|felt| felt.wanted() != [false; 2]);
+    let found = placed(felt);
+    let Some(felt) = felt.filter(|_| found.is_err()) else { return found.and_then(|rows| closer(path, wish, rows)) };
+    // The distance may need more points than are tried for the rest, which then may be kept as well.
+    let alone = placed(None)?;
+    let curve = Interpolant::new(&alone.rows, wish.form, wish.between, path.is_closed());
+    if felt.keeps(&felt.errors(&curve, true), curve.count()) {
+        closer(path, wish, alone)
+    } else {
+        Err(PointsError::Felt { most: MOST_FELT })
+    }
+}
+
+/// A table with its distance told as it is, where while it was tried that did not matter.
+fn closer(path: &Path<'_>, wish: &Wish, rows: Rows) -> Result<Rows, PointsError> {
+    if rows.error > 2.0 * NEGLIGIBLE * wish.tolerance {
+        return Ok(rows);
+    }
+    let curve = Interpolant::new(&rows.rows, wish.form, wish.between, path.is_closed());
+    let errors = deviations(path, &curve, &rows.places, (0.0, f64::INFINITY))?;
+    Ok(Rows { error: errors.into_iter().fold(0.0, f64::max), ..rows })
+}
+
+impl Goal<'_, '_> {
+    /// Most intervals that are tried.
+    fn most(&self) -> usize {
+        if self.felt.is_some() { MOST_FELT } else { MOST_POINTS }
+    }
+
+    /// The number by which an interval is to be divided to keep everything, by its distance and what is felt of it.
+    fn part(&self, distance: f64, felt: [f64; 2]) -> f64 {
+        let power = |share: f64, order: f64| if share.is_finite() { libm::pow(share, 1.0 / order) } else { LOST };
+        let own = power(distance / self.wish.tolerance, self.wish.between.order());
+        let Some(Felt { allowed, .. }) = self.felt else { return own };
+        let [heading, curvature] = self.wish.between.orders();
+        own.max(power(felt[0] / allowed[0], heading)).max(power(felt[1] / allowed[1], curvature))
+    }
+
+    /// The breaks of the curve at which rows stand whatever the rest: what is at its start, and the others beyond it, in order.
+    fn breaks(&self, start: f64) -> (Kind, Vec<Spot>) {
+        let path = self.path;
+        let jumps = self.felt.filter(|felt| self.wish.between == Between::Cubic && felt.keeps_acceleration());
+        let jumps = jumps.map_or_else(Vec::new, |felt| {
+            let mut jumps = path.jumps();
+            jumps.retain(|(_, at)| felt.feel.step(at) > LEAST_STEP * felt.allowed[1]);
+            jumps
+        });
+        let corners = path.joints(false).0.into_iter().map(|place| (place, Kind::Corner));
+        let all = corners.chain(jumps.into_iter().map(|(place, _)| (place, Kind::Jump)));
+        let near = AT_START * path.length();
+        let (mut at_start, mut spots) = (Kind::Plain, Vec::new());
+        for (place, kind) in all {
+            let place = if place < start - near { place + path.length() } else { place };
+            if path.is_closed() && ((place - start).abs() <= near || (place - start - path.length()).abs() <= near) {
+                at_start = kind;
+                continue;
+            }
+            let point = path.point(path.place(place)).map_or([f64::NAN; 2], |point| point.point.into());
+            let degrees = rounded(around(libm::atan2(point[1], point[0])).to_degrees());
+            spots.push(Spot { place, degrees, kind });
+        }
+        spots.sort_by(|a, b| a.place.total_cmp(&b.place));
+        (at_start, spots)
     }
 }
 
@@ -64,42 +153,58 @@ struct Trial {
     rows: Vec<[f64; 2]>,
     places: Vec<f64>,
     corners: usize,
-    /// A bound of the error of each interval, mm.
+    jumps: usize,
+    /// A bound of the distance of each interval, mm.
     errors: Vec<f64>,
+    /// By what each interval would have to be divided.
+    parts: Vec<f64>,
+    keeps: bool,
 }
 
 impl Trial {
-    /// Tolerances of more than the distance would be measured here, each as a share of its own limit.
-    fn of(path: &Path<'_>, wish: &Wish, spots: &[Spot], limit: f64) -> Result<Self, PointsError> {
+    fn of(goal: &Goal<'_, '_>, spots: &[Spot], limit: f64) -> Result<Self, PointsError> {
+        let (path, wish) = (goal.path, goal.wish);
         let twice = wish.between == Between::Cubic;
         let (mut rows, mut places) = (Vec::with_capacity(spots.len()), Vec::with_capacity(spots.len()));
-        let mut corners = 0;
+        let (mut corners, mut jumps) = (0, 0);
         let last = spots.len().saturating_sub(1);
         for (index, spot) in spots.iter().enumerate() {
             let (row, place) = spot.row(path, wish.form);
-            // A corner where the table starts is a row already.
-            if !twice && rows.last() == Some(&row) {
-                continue;
-            }
-            corners += usize::from(spot.corner);
-            let times = if spot.corner && twice && index > 0 && index < last { 2 } else { 1 };
+            corners += usize::from(spot.kind == Kind::Corner && index < last);
+            jumps += usize::from(spot.kind == Kind::Jump && index < last);
+            let times = if spot.kind != Kind::Plain && twice && index < last { 2 } else { 1 };
             rows.extend(std::iter::repeat_n(row, times));
             places.extend(std::iter::repeat_n(place, times));
         }
+        let broken = spots.first().is_some_and(|spot| spot.kind != Kind::Plain);
+        if let (true, Some(first), Some(last)) = (broken && path.is_closed(), rows.first().copied(), rows.last_mut()) {
+            // The same point, whatever rounding says of it a turn later.
+            *last = if wish.form == Form::Polar { [last[0], first[1]] } else { first };
+        }
         let curve = Interpolant::new(&rows, wish.form, wish.between, path.is_closed());
         let errors = deviations(path, &curve, &places, (NEGLIGIBLE * wish.tolerance, limit))?;
-        Ok(Self { rows, places, corners, errors })
+        // Behind an interval that is too far off nothing is told, and nothing need be felt.
+        let whole = errors.len() == curve.count() && errors.iter().all(|error| *error <= limit);
+        let felt = goal.felt.filter(|_| whole).map(|felt| felt.errors(&curve, limit.is_finite()));
+        let near = errors.iter().all(|error| *error <= wish.tolerance);
+        let smooth = goal.felt.zip(felt.as_deref()).is_none_or(|(felt, all)| felt.keeps(all, curve.count()));
+        let keeps = near && whole && smooth;
+        let felt = felt.unwrap_or_default().into_iter().chain(std::iter::repeat([0.0; 2]));
+        let parts = errors.iter().zip(felt).map(|(error, felt)| goal.part(*error, felt)).collect();
+        Ok(Self { rows, places, corners, jumps, errors, parts, keeps })
     }
 
-    fn worst(&self) -> f64 {
-        self.errors.iter().copied().fold(0.0, |worst, next| if next > worst || next.is_nan() { next } else { worst })
+    /// By what the number of its intervals would have to be multiplied.
+    fn missing(&self) -> f64 {
+        self.parts.iter().copied().fold(0.0, f64::max)
     }
 
     fn into_rows(self) -> Rows {
-        let error = self.worst();
+        let error = self.errors.iter().copied().fold(0.0, f64::max);
         let spans = self.places.iter().zip(self.places.iter().skip(1));
         let intervals = spans.filter(|(from, to)| from < to).count();
-        Rows { rows: self.rows, places: self.places, corners: self.corners, intervals, error }
+        let Self { rows, places, corners, jumps, .. } = self;
+        Rows { rows, places, corners, jumps, intervals, error }
     }
 }
 
@@ -110,7 +215,18 @@ struct Spot {
     place: f64,
     /// The angle about the shaft that it is to have, degrees; NaN where any will do.
     degrees: f64,
-    corner: bool,
+    kind: Kind,
+}
+
+/// What breaks at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// Nothing.
+    Plain,
+    /// The heading.
+    Corner,
+    /// The acceleration, by more than may be missed.
+    Jump,
 }
 
 impl Spot {
@@ -122,7 +238,7 @@ impl Spot {
         }
         let degrees =
             if self.degrees.is_nan() { rounded(around(libm::atan2(y, x)).to_degrees()) } else { self.degrees };
-        if self.corner {
+        if self.kind != Kind::Plain {
             return ([degrees, rounded(libm::hypot(x, y))], self.place);
         }
         // The radius belongs to the angle as it is written.
@@ -141,67 +257,48 @@ fn around(angle: f64) -> f64 {
     if angle < 0.0 { angle + TAU } else { angle }
 }
 
-/// The corners of a closed curve beyond a place, in order: lengths and angles.
-fn corners_from(path: &Path<'_>, start: f64) -> Vec<Spot> {
-    let (corners, _) = path.joints(false);
-    let spot = |place: f64| {
-        let place = if place < start { place + path.length() } else { place };
-        let point = path.point(path.place(place)).map_or([f64::NAN; 2], |point| point.point.into());
-        Spot { place, degrees: rounded(around(libm::atan2(point[1], point[0])).to_degrees()), corner: true }
-    };
-    let mut spots: Vec<Spot> = corners.into_iter().map(spot).collect();
-    spots.sort_by(|a, b| a.place.total_cmp(&b.place));
-    spots
-}
-
-/// The places at equal angles, and the corners between them.
-fn even(path: &Path<'_>, count: usize, corners: &[Spot]) -> Option<Vec<Spot>> {
-    let (first, _) = path.on_ray(0.0)?;
+/// The places at equal angles from a place at which something may break, and the breaks between them.
+fn even(path: &Path<'_>, count: usize, (start, at_start): (f64, Kind), breaks: &[Spot]) -> Option<Vec<Spot>> {
     #[expect(clippy::cast_precision_loss, reason = "at most a million")]
     let degrees = |index: usize| rounded(360.0 * index as f64 / count as f64);
     let near = AT_CORNER * degrees(1);
-    let mut spots = Vec::with_capacity(count + corners.len() + 1);
-    let mut next = corners.iter().peekable();
-    for index in 0..=count {
+    let mut spots = Vec::with_capacity(count + breaks.len() + 1);
+    spots.push(Spot { place: start, degrees: 0.0, kind: at_start });
+    let mut next = breaks.iter().peekable();
+    for index in 1..count {
         let angle = degrees(index);
         while let Some(corner) = next.next_if(|corner| corner.degrees < angle + near) {
             spots.push(*corner);
         }
-        let at_corner = corners.iter().any(|corner| (corner.degrees - angle).abs() <= near);
-        let outermost = index == 0 || index == count;
-        if at_corner && !outermost {
+        if breaks.iter().any(|corner| (corner.degrees - angle).abs() <= near) {
             continue;
         }
-        let place = match index {
-            0 => first,
-            index if index == count => first + path.length(),
-            _ => {
-                let (place, _) = path.on_ray(angle.to_radians())?;
-                if place < first { place + path.length() } else { place }
-            }
-        };
-        spots.push(Spot { place, degrees: angle, corner: false });
+        let (place, _) = path.on_ray(angle.to_radians())?;
+        let place = if place < start { place + path.length() } else { place };
+        spots.push(Spot { place, degrees: angle, kind: Kind::Plain });
     }
+    spots.extend(next);
+    spots.push(Spot { place: start + path.length(), degrees: 360.0, kind: at_start });
     Some(spots)
 }
 
-fn by_angle(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
-    let too_many = PointsError::TooMany { tolerance_mm: wish.tolerance, most: MOST_POINTS };
+fn by_angle(goal: &Goal<'_, '_>) -> Result<Rows, PointsError> {
+    let (path, wish, most) = (goal.path, goal.wish, goal.most());
+    let too_many = PointsError::TooMany { tolerance_mm: wish.tolerance, most };
     let start = path.on_ray(0.0).ok_or(PointsError::NotAround { polar_deg: 0.0 })?.0;
-    let corners = corners_from(path, start);
+    let (at_start, breaks) = goal.breaks(start);
     let trial = |count: usize, limit: f64| {
-        let spots = even(path, count, &corners).ok_or(PointsError::NotAround { polar_deg: 0.0 })?;
-        Trial::of(path, wish, &spots, limit)
+        let spots = even(path, count, (start, at_start), &breaks).ok_or(PointsError::NotAround { polar_deg: 0.0 })?;
+        Trial::of(goal, &spots, limit)
     };
     let (mut too_few, mut enough): (usize, Option<(usize, Trial)>) = (FEWEST - 1, None);
     let mut count = FIRST;
     loop {
         // A curve that goes astray tells nothing of how many points it lacks.
         let tried = trial(count, f64::INFINITY).ok();
-        let worst = tried.as_ref().map_or(f64::INFINITY, Trial::worst);
-        let missing = missing(worst, wish);
+        let missing = tried.as_ref().map_or(2.0, Trial::missing);
         match tried {
-            Some(tried) if worst <= wish.tolerance => enough = Some((count, tried)),
+            Some(tried) if tried.keeps => enough = Some((count, tried)),
             _ => too_few = too_few.max(count),
         }
         let least_apart = |count: usize| if count <= EXACTLY { 1 } else { scaled(count, NEARLY).max(1) };
@@ -213,26 +310,22 @@ fn by_angle(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
                 // The law of the error first; then halves, so that each trial leaves no more than half.
                 if (most - too_few) > most / 16 { wanted } else { middle }
             }
-            None if count >= MOST_POINTS || missing > doubt(count) * ratio(MOST_POINTS, count) => {
+            None if count >= most || missing > doubt(count) * ratio(most, count) => {
                 return Err(too_many);
             }
-            None => scaled(count, missing.clamp(1.02, 16.0)).clamp(count + 1, MOST_POINTS),
+            None => scaled(count, missing.clamp(1.02, 16.0)).clamp(count + 1, most),
         };
     }
     let (count, found) = enough.ok_or(too_many)?;
-    let keeps = |count: usize| trial(count, wish.tolerance).ok().filter(|trial| trial.worst() <= wish.tolerance);
-    let fewer = if count <= ALL_TRIED { (FEWEST..count).find_map(keeps) } else { None };
+    let keeps = |count: usize| trial(count, wish.tolerance).ok().filter(|trial| trial.keeps);
+    let all = if goal.felt.is_some() { ALL_FELT } else { ALL_TRIED };
+    let fewer = if count <= all { (FEWEST..count).find_map(keeps) } else { None };
     Ok(fewer.unwrap_or(found).into_rows())
 }
 
 /// How far above the truth an estimate from so many points may be: few points see less of the law of the error.
 fn doubt(count: usize) -> f64 {
     if count < EXACTLY { 8.0 } else { 1.1 }
-}
-
-/// What the number of points is to be multiplied by where this is the error, mm.
-fn missing(error: f64, wish: &Wish) -> f64 {
-    if error.is_finite() { libm::pow(error / wish.tolerance, 1.0 / wish.between.order()) } else { 2.0 }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "at most a million")]
@@ -264,12 +357,12 @@ impl Section {
         self.inner = (1..count).map(|index| self.from.place + length * ratio(index, count)).collect();
     }
 
-    /// Halves the intervals whose errors are above a limit.
-    fn halve(&mut self, errors: &[f64], limit: f64) {
+    /// Halves the intervals that are to be divided.
+    fn halve(&mut self, parts: &[f64]) {
         let ends = self.inner.iter().copied().chain([self.to.place]);
-        let (mut inner, mut from) = (Vec::with_capacity(2 * errors.len()), self.from.place);
-        for (to, error) in ends.zip(errors) {
-            if !(*error <= limit) {
+        let (mut inner, mut from) = (Vec::with_capacity(2 * parts.len()), self.from.place);
+        for (to, part) in ends.zip(parts) {
+            if !(*part <= 1.0) {
                 inner.push(0.5 * (from + to));
             }
             inner.push(to);
@@ -303,21 +396,23 @@ impl Section {
 }
 
 /// The curve in sections.
-fn sections(path: &Path<'_>, wish: &Wish) -> Vec<Section> {
+fn sections(goal: &Goal<'_, '_>) -> Vec<Section> {
+    let (path, wish) = (goal.path, goal.wish);
     let start = if path.is_closed() { path.on_ray(0.0).map_or(0.0, |(place, _)| place) } else { 0.0 };
     let end = start + path.length();
-    let any = |place: f64| Spot { place, degrees: f64::NAN, corner: false };
+    let (at_start, breaks) = goal.breaks(start);
+    let any = |place: f64| Spot { place, degrees: f64::NAN, kind: Kind::Plain };
     let beyond = |place: f64| if place < start { place + path.length() } else { place };
-    let mut spots = vec![Spot { degrees: 0.0, ..any(start) }];
-    spots.extend(corners_from(path, start));
+    let mut spots = vec![Spot { degrees: 0.0, kind: at_start, ..any(start) }];
+    spots.extend(breaks);
     spots.extend(path.joints(wish.between == Between::Cubic).1.into_iter().map(beyond).map(any));
-    spots.push(Spot { degrees: 360.0, ..any(end) });
+    spots.push(Spot { degrees: 360.0, kind: at_start, ..any(end) });
     spots.sort_by(|a, b| a.place.total_cmp(&b.place));
     // A joint at the start is the start.
     let near = 1e-9 * path.length();
     spots.dedup_by(|later, earlier| {
         let same = later.place - earlier.place <= near;
-        if same && earlier.degrees.is_nan() {
+        if same && earlier.degrees.is_nan() && earlier.kind == Kind::Plain {
             *earlier = *later;
         }
         same
@@ -336,18 +431,17 @@ fn sections(path: &Path<'_>, wish: &Wish) -> Vec<Section> {
         .collect()
 }
 
-fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
-    let mut sections = sections(path, wish);
-    let order = 1.0 / wish.between.order();
+fn by_error(goal: &Goal<'_, '_>) -> Result<Rows, PointsError> {
+    let mut sections = sections(goal);
     let mut best: Option<Trial> = None;
-    let mut last = PointsError::TooMany { tolerance_mm: wish.tolerance, most: MOST_POINTS };
+    let mut last = PointsError::TooMany { tolerance_mm: goal.wish.tolerance, most: goal.most() };
     let mut more = 1.0;
     for round in 0..ROUNDS {
         let total: usize = sections.iter().map(|section| section.inner.len() + 1).sum();
-        if total > MOST_POINTS {
+        if total > goal.most() {
             break;
         }
-        let trial = match Trial::of(path, wish, &spots(&sections), f64::INFINITY) {
+        let trial = match Trial::of(goal, &spots(&sections), f64::INFINITY) {
             Ok(trial) => trial,
             Err(astray) => {
                 last = astray;
@@ -357,9 +451,9 @@ fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
                 continue;
             }
         };
-        let kept = trial.worst() <= wish.tolerance;
+        let kept = trial.keeps;
         let fewer = best.as_ref().is_none_or(|best| trial.rows.len() < best.rows.len());
-        let mut errors = measured(&trial);
+        let mut parts = measured(&trial);
         if kept && fewer {
             best = Some(trial);
         } else if kept || (best.is_some() && round >= SETTLED) {
@@ -369,16 +463,15 @@ fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
         let mut changed = false;
         for section in &mut sections {
             let present = section.inner.len() + 1;
-            let own: Vec<f64> = errors.by_ref().take(present).collect();
+            let own: Vec<f64> = parts.by_ref().take(present).collect();
             if round >= GROWN && !kept {
-                section.halve(&own, wish.tolerance);
+                section.halve(&own);
                 changed = true;
                 continue;
             }
-            let parts: Vec<f64> = own.iter().map(|error| libm::pow(error / wish.tolerance, order)).collect();
-            let wanted = scaled(1, more * parts.iter().sum::<f64>()).max(section.fewest).min(8 * present);
+            let wanted = scaled(1, more * own.iter().sum::<f64>()).max(section.fewest).min(8 * present);
             changed |= wanted != present || !kept;
-            section.by_parts(&with_least(section, &parts, wish.between), wanted);
+            section.by_parts(&with_least(section, &own, goal.wish.between), wanted);
         }
         if !changed {
             break;
@@ -387,11 +480,11 @@ fn by_error(path: &Path<'_>, wish: &Wish) -> Result<Rows, PointsError> {
     best.map(Trial::into_rows).ok_or(last)
 }
 
-/// The errors of the intervals that have a length, in order.
+/// The measures of the intervals that have a length, in order.
 fn measured(trial: &Trial) -> impl Iterator<Item = f64> + use<> {
     let spans = trial.places.iter().zip(trial.places.iter().skip(1)).map(|(from, to)| from < to);
-    let errors: Vec<f64> = spans.zip(&trial.errors).filter(|(long, _)| *long).map(|(_, error)| *error).collect();
-    errors.into_iter()
+    let parts: Vec<f64> = spans.zip(&trial.parts).filter(|(long, _)| *long).map(|(_, part)| *part).collect();
+    parts.into_iter()
 }
 
 /// A measure whose density is nowhere below a share of its mean, and without jumps for a spline, whose intervals act on their
@@ -416,7 +509,7 @@ fn spots(sections: &[Section]) -> Vec<Spot> {
     let mut spots: Vec<Spot> = Vec::new();
     for section in sections {
         spots.push(section.from);
-        spots.extend(section.inner.iter().map(|place| Spot { place: *place, degrees: f64::NAN, corner: false }));
+        spots.extend(section.inner.iter().map(|place| Spot { place: *place, degrees: f64::NAN, kind: Kind::Plain }));
     }
     spots.extend(sections.last().map(|section| section.to));
     spots

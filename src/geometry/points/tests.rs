@@ -38,7 +38,7 @@ fn wishes(tolerance: f64) -> Vec<Wish> {
 fn the_told_error_of_a_circle_is_its_distance() {
     for tolerance in [0.1, 5e-3, 1e-4] {
         for wish in wishes(tolerance) {
-            let table = place(&eccentric(), &wish).unwrap_or_else(|error| panic!("{wish:?}: {error}"));
+            let table = place(&eccentric(), &wish, None).unwrap_or_else(|error| panic!("{wish:?}: {error}"));
             assert!(table.error <= tolerance, "{wish:?}: {}", table.error);
             let curve = Interpolant::new(&table.rows, wish.form, wish.between, true);
             let mut worst: f64 = 0.0;
@@ -66,7 +66,7 @@ fn the_told_error_of_a_circle_is_its_distance() {
 fn as_few_chords_as_a_circle_needs() {
     for tolerance in [0.1, 5e-3, 1e-4] {
         let wish = Wish { form: Form::Plane, step: Step::Chord, between: Between::Linear, tolerance };
-        let table = place(&eccentric(), &wish).expect("a table");
+        let table = place(&eccentric(), &wish, None).expect("a table");
         let least = (PI / libm::acos(1.0 - tolerance / 50.0)).ceil();
         let intervals = f64::from(u32::try_from(table.intervals).expect("few"));
         assert!(intervals >= least && intervals <= 1.01 * least + 1.0, "{tolerance}: {intervals} of {least}");
@@ -77,9 +77,9 @@ fn as_few_chords_as_a_circle_needs() {
 #[test]
 fn as_few_angles_as_the_tolerance_allows() {
     for wish in wishes(2e-3).into_iter().filter(|wish| wish.step == Step::Angle) {
-        let table = place(&eccentric(), &wish).expect("a table");
+        let table = place(&eccentric(), &wish, None).expect("a table");
         let closer = Wish { tolerance: table.error * 0.999_9, ..wish };
-        let more = place(&eccentric(), &closer).expect("a table");
+        let more = place(&eccentric(), &closer, None).expect("a table");
         assert!(more.intervals > table.intervals, "{wish:?}: {} {}", more.intervals, table.intervals);
         assert!(more.intervals <= table.intervals + 2, "{wish:?}: {} {}", more.intervals, table.intervals);
     }
@@ -92,7 +92,7 @@ fn errors_are_equal_by_chord_error() {
         for form in [Form::Polar, Form::Plane] {
             let wish = Wish { form, step: Step::Chord, between, tolerance: 1e-4 };
             let path = eccentric();
-            let table = place(&path, &wish).expect("a table");
+            let table = place(&path, &wish, None).expect("a table");
             let curve = Interpolant::new(&table.rows, form, between, true);
             let errors = deviations(&path, &curve, &table.places, (0.0, f64::INFINITY)).expect("followed");
             let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
@@ -108,7 +108,7 @@ fn errors_are_equal_by_chord_error() {
 fn a_wrong_row_is_found() {
     for wish in wishes(1e-3) {
         let path = eccentric();
-        let table = place(&path, &wish).expect("a table");
+        let table = place(&path, &wish, None).expect("a table");
         for change in [0.01, -0.01] {
             for column in [0, 1] {
                 let mut rows = table.rows.clone();
@@ -125,7 +125,7 @@ fn a_wrong_row_is_found() {
 #[test]
 fn what_has_no_table_is_refused() {
     let wish = Wish { form: Form::Polar, step: Step::Angle, between: Between::Linear, tolerance: 1e-11 };
-    assert!(matches!(place(&eccentric(), &wish), Err(PointsError::TooMany { .. })));
+    assert!(matches!(place(&eccentric(), &wish, None), Err(PointsError::TooMany { .. })));
     // A circle that the shaft is not in.
     let frame = |_: usize, at: f64| {
         let (sin, cos) = (libm::sin(at), libm::cos(at));
@@ -135,7 +135,63 @@ fn what_has_no_table_is_refused() {
     let halves = [Stretch::of_curve(0, (0.0, PI)), Stretch::of_curve(0, (PI, TAU))];
     let path = Path::new(Boundary::new(Box::new(frame), &halves), true);
     let wish = Wish { tolerance: 1e-3, ..wish };
-    assert!(matches!(place(&path, &wish), Err(PointsError::NotAround { .. })));
+    assert!(matches!(place(&path, &wish, None), Err(PointsError::NotAround { .. })));
     let plane = Wish { form: Form::Plane, step: Step::Chord, ..wish };
-    assert!(place(&path, &plane).is_ok_and(|table| table.error <= 1e-3));
+    assert!(place(&path, &plane, None).is_ok_and(|table| table.error <= 1e-3));
+}
+
+/// r = 50 + 5 sin(θ/2 − turn/2) mm about the shaft: smooth but for one corner, at a polar angle.
+fn drop<'a>(turn: f64) -> Path<'a> {
+    let frame = move |_: usize, at: f64| {
+        let (sin, cos) = (libm::sin(0.5 * (at - turn)), libm::cos(0.5 * (at - turn)));
+        let [r, r1, r2, r3] = [50.0 + 5.0 * sin, 2.5 * cos, -1.25 * sin, -0.625 * cos];
+        let along = Vector2::new(libm::cos(at), libm::sin(at));
+        let across = Vector2::new(-along.y, along.x);
+        CurvePoint::from_derivatives(
+            along * r,
+            along * r1 + across * r,
+            along * (r2 - r) + across * (2.0 * r1),
+            along * (r3 - 3.0 * r1) + across * (3.0 * r2 - r),
+        )
+    };
+    let place = |i: u32| turn + PI * f64::from(i) / 4.0;
+    let stretches: Vec<Stretch> = (0..8).map(|i| Stretch::of_curve(0, (place(i), place(i + 1)))).collect();
+    Path::new(Boundary::new(Box::new(frame), &stretches), true)
+}
+
+/// A corner exactly where the table starts is one like any other: no spline goes across it, and its row stands twice there.
+#[test]
+fn a_corner_may_be_where_the_table_starts() {
+    for (turn, at_start) in [(0.0, true), (1.0, false), (-1e-13, true), (1e-13, true)] {
+        for tolerance in [0.01, 1e-4] {
+            for wish in wishes(tolerance) {
+                let path = drop(turn);
+                let table = place(&path, &wish, None).unwrap_or_else(|error| panic!("{wish:?}: {error}"));
+                assert_eq!((table.corners, table.jumps), (1, 0), "{wish:?} {turn}");
+                let doubles: Vec<usize> =
+                    (1..table.rows.len()).filter(|index| table.rows[*index] == table.rows[*index - 1]).collect();
+                assert_eq!(doubles.len(), usize::from(wish.between == Between::Cubic), "{wish:?} {turn}");
+                assert!(!at_start || doubles.iter().all(|index| *index == 1), "{wish:?}: {doubles:?}");
+                let curve = Interpolant::new(&table.rows, wish.form, wish.between, true);
+                let mut worst: f64 = 0.0;
+                for interval in 0..curve.count() {
+                    let (from, to) = curve.range(interval).expect("an interval");
+                    for i in 1..40 {
+                        let point =
+                            curve.at(interval, from + (to - from) * f64::from(i) / 40.0).expect("a point").point;
+                        let angle = (libm::atan2(point.y, point.x) - turn).rem_euclid(TAU);
+                        let radius = 50.0 + 5.0 * libm::sin(0.5 * angle);
+                        // The curve leans against the ray by no more than 2.5 in 50.
+                        worst = worst.max((point.norm() - radius).abs() * 0.998);
+                    }
+                }
+                assert!(worst <= table.error + 1e-9 && table.error <= tolerance, "{wish:?} {turn}: {worst}");
+                assert!(worst > 0.9 * table.error, "{wish:?} {turn}: {worst} of {}", table.error);
+                // As few rows as where the corner is elsewhere, but for the row of its own.
+                let elsewhere = place(&drop(0.3), &wish, None).expect("a table").intervals;
+                let few = wish.step == Step::Angle || table.intervals <= elsewhere + 2;
+                assert!(few, "{wish:?} {turn}: {} {elsewhere}", table.intervals);
+            }
+        }
+    }
 }

@@ -1,0 +1,299 @@
+//! A follower on the curve that a control makes of a table of points: the errors of its velocity and acceleration.
+//!
+//! A table gives the profile, the path of the roller's centre, or that of a cutter. What the cutter leaves is a parallel of the
+//! given curve, and the follower's own curve is a parallel of that: headings are the same, radii of curvature differ by the
+//! distance. So each point of the interpolated curve, with its tangent and curvature, tells where the follower stands, and the
+//! circle of curvature on which its curve runs there; lift, velocity and acceleration follow as on an arc (`followed`). Nothing is
+//! of first order only, and polar splines need be no cubics of x and y.
+//!
+//! At a row where the curve has a corner the follower turns about it, or jumps to the next interval before the end of this one:
+//! either way the velocity stays between what the ends of the intervals say. Where a row stands twice since the acceleration jumps
+//! there, the two splines differ in their headings by no more than their errors, so that the velocity steps by at most twice its
+//! error; the jump of the acceleration comes as much early or late, and each spline is judged by its own side of it.
+
+use super::Curves;
+use super::followed::{Guide, HAIR, Part, STRAIGHT, largest_rates, nearest, on_guide, parts};
+use crate::follower::Element;
+use crate::geometry::points::{Feel, Interpolant};
+use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::motion::Jet;
+use crate::numeric::{chebyshev, root};
+
+/// Errors are found to this share of those at the ends and in the middle of an interval, but not closer than to this share of the
+/// largest velocity and acceleration, which is rounding.
+const SHARE: f64 = 1e-5;
+const ROUNDING: f64 = 1e-8;
+/// A break of the motion this near to the end of an interval, as a share of it, is at the end.
+const AT_END: f64 = 1e-3;
+/// How exactly the place of a break of the motion is found, as a share of the interval.
+const ROOT: f64 = 1e-12;
+/// The motion on both sides of a point of the exact curve is looked at so far from it, rad or m.
+const BESIDE: f64 = 1e-6;
+
+/// A follower on interpolated curves.
+#[derive(Debug)]
+pub struct Interpolated<'a> {
+    curves: Curves<'a>,
+    /// From the given curve out to that of the follower, m; negative where it lies within.
+    out: f64,
+    /// The largest velocity and acceleration of the motion.
+    largest: [f64; 2],
+}
+
+/// An interval with what of the motion belongs to it.
+struct Run<'i> {
+    curve: &'i Interpolant,
+    interval: usize,
+    range: (f64, f64),
+    /// The motion's parameter at both ends.
+    parameters: (f64, f64),
+}
+
+impl<'a> Interpolated<'a> {
+    /// On curves that stand for the parallel of the follower's curve so far inwards, m: the radius of the roller for its profile, 0
+    /// for the path of its centre.
+    #[must_use]
+    pub fn new(curves: Curves<'a>, inwards: f64) -> Self {
+        Self { curves, out: inwards, largest: largest_rates(curves.motion) }
+    }
+
+    /// The motion's parameter at which the follower touches what belongs to a point, mm.
+    fn parameter(&self, point: &CurvePoint) -> f64 {
+        let normal = point.outward();
+        self.curves.follower.parameter_of(point.point / MILLIMETRES + normal * self.out, normal)
+    }
+
+    /// The same by whole periods as near as can be to another.
+    fn parameter_near(&self, point: &CurvePoint, to: f64) -> f64 {
+        let parameter = self.parameter(point);
+        self.curves.motion.period().map_or(parameter, |period| nearest(parameter, to, period))
+    }
+
+    /// What the follower's curve follows at a point; `None` where its parallel turns back.
+    fn guide(&self, point: &CurvePoint) -> Option<Guide> {
+        let (normal, curvature) = (point.outward(), point.curvature * MILLIMETRES);
+        if !(1.0 + curvature * self.out > 0.0) {
+            return None;
+        }
+        let on = point.point / MILLIMETRES;
+        if curvature.abs() < STRAIGHT {
+            return (self.curves.element() != Element::Face).then(|| Guide::Line(on + normal * self.out, normal));
+        }
+        let radius = 1.0 / curvature;
+        let own = radius + self.out;
+        let own = if self.curves.element() == Element::Face { own } else { own.abs() };
+        Some(Guide::Circle(on - normal * radius, own))
+    }
+
+    /// Errors of velocity and acceleration where a guide is followed, by the angle of the shaft; infinite where it cannot be.
+    fn off(&self, part: &Part, parameter: f64, guide: Option<Guide>) -> [f64; 2] {
+        let motion = self.curves.motion;
+        let Some(piece) = motion.pieces().get(part.piece) else { return [f64::INFINITY; 2] };
+        let inside = (parameter + part.shift).clamp(piece.start, piece.end);
+        let law = motion.jet(part.piece, inside);
+        let Some(cut) = guide.and_then(|guide| on_guide(self.curves, inside, law, guide)) else {
+            return [f64::INFINITY; 2];
+        };
+        let (first, second) = motion.pace(inside);
+        let velocity = cut.ds - law.ds;
+        [velocity * first, (cut.dds - law.dds) * first * first + velocity * second]
+    }
+
+    /// The errors at a parameter of an interval.
+    fn off_at(&self, run: &Run<'_>, part: &Part, at: f64) -> [f64; 2] {
+        let Some(point) = run.curve.at(run.interval, at) else { return [f64::INFINITY; 2] };
+        self.off(part, self.parameter_near(&point, run.near(at)), self.guide(&point))
+    }
+
+    /// The largest errors of an interval.
+    fn interval(&self, curve: &Interpolant, interval: usize, wanted: [bool; 2]) -> [f64; 2] {
+        const NOT_FOLLOWED: [f64; 2] = [f64::INFINITY; 2];
+        let Some(range) = curve.range(interval).filter(|(from, to)| from < to) else { return [0.0; 2] };
+        let (Some(first), Some(last)) = (curve.at(interval, range.0), curve.at(interval, range.1)) else {
+            return NOT_FOLLOWED;
+        };
+        if curve.is_straight() && self.curves.element() == Element::Face {
+            return self.on_chord(&first, &last);
+        }
+        let from = self.parameter(&first);
+        let turn = libm::atan2(first.point.perp(&last.point), first.point.dot(&last.point));
+        let to = self.parameter_near(&last, from + turn);
+        let run = Run { curve, interval, range, parameters: (from, to) };
+        if !(to - from > HAIR) {
+            // Of an interval that the follower passes in no time nothing can be told.
+            return if to - from > -HAIR { [0.0; 2] } else { NOT_FOLLOWED };
+        }
+        let mut worst = [0.0_f64; 2];
+        for part in own_parts(parts(self.curves.motion, (from, to)), AT_END * (to - from)) {
+            let range = (run.place(self, part.from), run.place(self, part.to));
+            let errors = self.largest_of(&run, &part, range, wanted);
+            worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
+        }
+        worst
+    }
+
+    /// The largest errors on a part of an interval, of those that are wanted.
+    fn largest_of(&self, run: &Run<'_>, part: &Part, range: (f64, f64), wanted: [bool; 2]) -> [f64; 2] {
+        let places = [range.0, 0.5 * (range.0 + range.1), range.1];
+        let seen = places.map(|at| self.off_at(run, part, at));
+        let rate = |index: usize| {
+            let of = |errors: &[f64; 2]| errors.get(index).copied().unwrap_or(0.0);
+            let known = seen.iter().map(|errors| of(errors).abs()).fold(0.0, f64::max);
+            let negligible = (SHARE * known).max(ROUNDING * of(&self.largest));
+            if known.is_finite() {
+                chebyshev::largest_size(|at| of(&self.off_at(run, part, at)), range, negligible).value.max(known)
+            } else {
+                f64::INFINITY
+            }
+        };
+        [if wanted[0] { rate(0) } else { 0.0 }, if wanted[1] { rate(1) } else { 0.0 }]
+    }
+
+    /// A flat face on a chord touches its ends only: at its own heading it goes over from one to the other.
+    fn on_chord(&self, first: &CurvePoint, last: &CurvePoint) -> [f64; 2] {
+        let errors = [first, last].map(|point| {
+            let parameter = self.parameter(point);
+            let (piece, inside) = self.curves.motion.locate(parameter);
+            let part = Part { from: inside, to: inside, piece, shift: 0.0 };
+            let corner = point.point / MILLIMETRES + point.outward() * self.out;
+            self.off(&part, inside, Some(Guide::Circle(corner, 0.0)))[0].abs()
+        });
+        [errors[0].max(errors[1]), f64::INFINITY]
+    }
+}
+
+impl Run<'_> {
+    /// About where the motion's parameter is at a parameter of the interval.
+    fn near(&self, at: f64) -> f64 {
+        let share = (at - self.range.0) / (self.range.1 - self.range.0);
+        self.parameters.0 + share * (self.parameters.1 - self.parameters.0)
+    }
+
+    /// The parameter of the interval at which the motion's is reached.
+    fn place(&self, on: &Interpolated<'_>, parameter: f64) -> f64 {
+        if parameter <= self.parameters.0 {
+            return self.range.0;
+        }
+        if parameter >= self.parameters.1 {
+            return self.range.1;
+        }
+        let ahead = |at: f64| {
+            let point = self.curve.at(self.interval, at);
+            point.map_or(f64::NAN, |point| on.parameter_near(&point, self.near(at)) - parameter)
+        };
+        let exactly = ROOT * (self.range.1 - self.range.0);
+        root::bracketed(ahead, self.range.0, self.range.1, exactly).unwrap_or(self.range.1)
+    }
+}
+
+/// The parts of an interval; one at its end that is shorter than `least` belongs to its neighbour.
+fn own_parts(mut parts: Vec<Part>, least: f64) -> Vec<Part> {
+    let short = |part: Option<&Part>| part.is_some_and(|part| part.to - part.from < least);
+    if parts.len() > 1 && short(parts.last()) {
+        let end = parts.pop().map(|part| part.to);
+        if let (Some(part), Some(end)) = (parts.last_mut(), end) {
+            part.to = end;
+        }
+    }
+    if parts.len() > 1 && short(parts.first()) {
+        let start = parts.remove(0).from;
+        if let Some(part) = parts.first_mut() {
+            part.from = start;
+        }
+    }
+    parts
+}
+
+/// The errors of so many intervals, up to the first that is above a limit.
+pub fn up_to(count: usize, limit: [f64; 2], errors: impl Fn(usize) -> [f64; 2]) -> Vec<[f64; 2]> {
+    let mut all = Vec::with_capacity(count);
+    for interval in 0..count {
+        let own = errors(interval);
+        all.push(own);
+        if !(own[0] <= limit[0] && own[1] <= limit[1]) {
+            break;
+        }
+    }
+    all
+}
+
+impl Feel for Interpolated<'_> {
+    fn errors(&self, curve: &Interpolant, wanted: [bool; 2], limit: [f64; 2]) -> Vec<[f64; 2]> {
+        up_to(curve.count(), limit, |interval| self.interval(curve, interval, wanted))
+    }
+
+    fn step(&self, at: &CurvePoint) -> f64 {
+        let (motion, parameter) = (self.curves.motion, self.parameter(at));
+        let beside = |away: f64| {
+            let (piece, inside) = motion.locate(parameter + away);
+            let jet: Jet = motion
+                .pieces()
+                .get(piece)
+                .map_or_else(Jet::default, |own| motion.jet(piece, (inside - away).clamp(own.start, own.end)));
+            let (first, second) = motion.pace(inside - away);
+            jet.dds * first * first + jet.ds * second
+        };
+        (beside(BESIDE) - beside(-BESIDE)).abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follower::TranslatingRoller;
+    use crate::geometry::points::{Between, Form};
+    use crate::motion::EccentricCircle;
+    use nalgebra::Vector2;
+    use std::f64::consts::TAU;
+
+    /// A roller of any size on the tables of a circle about (e, 0) of another radius: its centre keeps a circle of radius ρ + δ, on
+    /// which s = √(ρ'² − e² sin²θ) + e cos θ − …, and the errors are those of two such lifts.
+    #[test]
+    fn a_larger_circle_is_felt_as_in_closed_form() {
+        let (e, rho, grown) = (0.012, 0.06, 1e-3);
+        let motion = EccentricCircle::new(e, rho);
+        let follower = TranslatingRoller::new(rho - e, 0.0, 0.015);
+        let curves = Curves { motion: &motion, follower: &follower };
+        let lift = |radius: f64, angle: f64| {
+            let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+            let root = (radius * radius - e * e * sin * sin).sqrt();
+            let slope = -e * e * sin * cos / root;
+            let bend = (-e * e * (cos * cos - sin * sin) - slope * slope) / root;
+            [slope - e * sin, bend - e * cos]
+        };
+        let worst = (0..36_000).map(|i| TAU * f64::from(i) / 36e3).fold([0.0_f64; 2], |worst, angle| {
+            let (own, cut) = (lift(rho, angle), lift(rho + grown, angle));
+            [worst[0].max((cut[0] - own[0]).abs()), worst[1].max((cut[1] - own[1]).abs())]
+        });
+        for inwards in [0.0, 0.015, 0.005, -0.02] {
+            let radius = rho + grown - inwards;
+            let row = |i: u32| {
+                let angle = TAU * f64::from(i) / 7200.0;
+                [1e3 * (e + radius * libm::cos(angle)), 1e3 * radius * libm::sin(angle)]
+            };
+            let mut rows: Vec<[f64; 2]> = (0..7200).map(row).collect();
+            rows.extend(rows.first().copied());
+            let curve = Interpolant::new(&rows, Form::Plane, Between::Cubic, true);
+            let felt = Interpolated::new(curves, inwards).errors(&curve, [true; 2], [f64::INFINITY; 2]);
+            let found = felt.iter().fold([0.0_f64; 2], |worst, own| [worst[0].max(own[0]), worst[1].max(own[1])]);
+            for (found, worst) in found.iter().zip(worst) {
+                assert!((found / worst - 1.0).abs() < 1e-3, "{inwards}: {found} {worst}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_step_of_a_smooth_motion_is_none() {
+        let motion = EccentricCircle::new(0.012, 0.06);
+        let follower = TranslatingRoller::new(0.048, 0.0, 0.015);
+        let on = Interpolated::new(Curves { motion: &motion, follower: &follower }, 0.0);
+        let at = CurvePoint {
+            point: Vector2::new(72.0, 0.0),
+            tangent: Vector2::new(0.0, 1.0),
+            speed: 1.0,
+            curvature: 1.0 / 60.0,
+            curvature_slope: 0.0,
+        };
+        assert!(on.step(&at) < 1e-9);
+    }
+}

@@ -1,0 +1,72 @@
+//! What is told of tables of points.
+
+use super::{Section, shown};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+/// A table of points, and what the curve that a control makes of it misses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointMeasures {
+    /// Speed of its section, rpm, where there are several.
+    pub rpm: Option<f64>,
+    /// Rows.
+    pub rows: usize,
+    /// What the control does between them.
+    pub interpolation: &'static str,
+    /// Largest distance from the exact curve that was asked for, mm.
+    pub tolerance_mm: f64,
+    /// Bound of that distance, mm.
+    pub error_mm: f64,
+    /// Whether the follower swings.
+    pub swings: bool,
+    /// Largest error of the velocity, mm or rad per rad, where it can be told.
+    pub velocity_error: Option<f64>,
+    /// Largest error of the acceleration, mm or rad per rad², where it can be told.
+    pub acceleration_error: Option<f64>,
+}
+
+impl PointMeasures {
+    /// The section of a report; `None` where there is no table.
+    #[must_use]
+    pub fn section(all: &[Self]) -> Option<Section> {
+        (!all.is_empty()).then(|| Section::new("points", &all).with_words(all.iter().map(Self::words).collect()))
+    }
+
+    fn words(&self) -> String {
+        let unit = if self.swings { "rad" } else { "mm" };
+        let of = self.rpm.map_or_else(String::new, |rpm| format!(" for {rpm} rpm"));
+        let mut words =
+            format!("{} rows{of}, {} between them, off by {} mm", self.rows, self.interpolation, shown(self.error_mm));
+        if let Some(error) = self.velocity_error {
+            words += &format!(", the velocity by {} {unit}/rad", shown(error));
+        }
+        if let Some(error) = self.acceleration_error {
+            words += &format!(", the acceleration by {} {unit}/rad²", shown(error));
+        }
+        words
+    }
+}
+
+impl Serialize for PointMeasures {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        if let Some(rpm) = self.rpm {
+            map.serialize_entry("rpm", &rpm)?;
+        }
+        map.serialize_entry("rows", &self.rows)?;
+        map.serialize_entry("interpolation", self.interpolation)?;
+        map.serialize_entry("tolerance_mm", &self.tolerance_mm)?;
+        map.serialize_entry("error_mm", &self.error_mm)?;
+        let keys = if self.swings {
+            ["velocity_error_rad_per_rad", "acceleration_error_rad_per_rad2"]
+        } else {
+            ["velocity_error_mm_per_rad", "acceleration_error_mm_per_rad2"]
+        };
+        for (key, value) in keys.iter().zip([self.velocity_error, self.acceleration_error]) {
+            if let Some(value) = value {
+                map.serialize_entry(key, &value)?;
+            }
+        }
+        map.end()
+    }
+}
