@@ -1,7 +1,8 @@
 """Opens cut files with the importers of the programs a shop uses, and measures what arrives there.
 
-A plate, a disc with a keyway, a disc with holes that balance it and the sections of a conoid, in every version of DXF.
-Each importer must give closed wires, as many as were written, of the length and area that camgen reports.
+A plate, a disc with a keyway, a disc with holes that balance it, the sections of a conoid and a disc of cubic splines, in every
+version of DXF that has them. Each importer must give closed wires, as many as were written, of the length and area that camgen
+reports; those of splines have the length and area of the same disc in fine arcs, to 1e-6 where the importer keeps the curves.
 
   ezdxf      the library; always
   FreeCAD    `Import.readDXF`, its importer in C++, and the older one in Python where its library is there
@@ -37,7 +38,10 @@ CASES = {
     "keyway": ["rotary", *KEYWAY],
     "holes": ["rotary", *HOLES],
     "conoid": ["conoid", "--rpm", "20,25,30,35"],
+    "spline": ["rotary", "--tolerance", "0.05um", "--outline", "spline"],
 }
+# What the wires of a case are measured by in place of its own report: the same in fine arcs.
+FINE_ARCS = {"spline": ["rotary", "--tolerance", "0.02um", "--outline", "arcs"]}
 PACKAGES = ["freecad", "librecad", "inkscape", "python3-lxml", "python3-cssselect", "dxf2gcode"]
 # Ends nearer than this are joined, mm; lengths and areas agree to this share.
 EXACT = (1e-5, 1e-6)
@@ -126,11 +130,36 @@ def run(command, **more):
         raise Missing(f"{command[0]} is not there") from None
 
 
+def bulge_of(a, m, b):
+    """Of the arc from a to b through m, in about its middle."""
+    chord, sagitta = b - a, m - (a + b) / 2
+    return -2 * (chord[0] * sagitta[1] - chord[1] * sagitta[0]) / (chord @ chord)
+
+
+def arcs_along(spline):
+    """Arcs through three points each, 32 from knot to knot: off by the fourth power of their length."""
+    knots = sorted(set(spline.knots()))
+    times = np.concatenate([np.linspace(a, b, 65)[:-1] for a, b in zip(knots, knots[1:])] + [[knots[-1]]])
+    points = np.array([(p.x, p.y) for p in spline.points(times)])
+    for a, m, b in zip(points[0:-1:2], points[1::2], points[2::2]):
+        yield tuple(a), tuple(b), bulge_of(a, m, b)
+
+
 def by_ezdxf(files, _):
     def segments(path):
         for entity in ezdxf.readfile(path).modelspace():
             if entity.dxftype() == "CIRCLE":
                 yield from circle(entity.dxf.center.x, entity.dxf.center.y, entity.dxf.radius)
+                continue
+            if entity.dxftype() == "ARC":
+                turn = math.radians((entity.dxf.end_angle - entity.dxf.start_angle) % 360)
+                # A bulge of more than a half turn is known to few digits: two arcs.
+                low, centre = math.radians(entity.dxf.start_angle), np.array(entity.dxf.center.xyz[:2])
+                on = [tuple(centre + entity.dxf.radius * np.array([math.cos(a), math.sin(a)])) for a in (low, low + turn / 2, low + turn)]
+                yield from ((a, b, math.tan(turn / 8)) for a, b in zip(on, on[1:]))
+                continue
+            if entity.dxftype() == "SPLINE":
+                yield from arcs_along(entity.construction_tool())
                 continue
             if entity.dxftype() == "LWPOLYLINE":
                 found, closed = list(entity.get_points("xyb")), entity.closed
@@ -269,10 +298,16 @@ def svg_segments(text):
     for group in root.iter(space + "g"):
         for path in group.iter(space + "path"):
             at = first = None
-            for command, numbers in re.findall(r"([MLAzZ])([^MLAzZ]*)", path.get("d")):
+            for command, numbers in re.findall(r"([MLACzZ])([^MLACzZ]*)", path.get("d")):
                 values = [float(v) for v in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", numbers)]
                 to = (pixel * values[-2], -pixel * values[-1]) if values else first
                 bulge = 0.0
+                if command == "C":
+                    points = pixel * np.array(values).reshape(-1, 2) * (1, -1)
+                    for a, m, b in zip(*[iter(through(at, points))] * 3):
+                        yield a, b, bulge_of(np.array(a), m, np.array(b))
+                    at = to
+                    continue
                 if command == "A":
                     chord, radius = math.dist(at, to), pixel * values[0]
                     # Half a circle is one, whatever the digits of its ends.
@@ -284,6 +319,15 @@ def svg_segments(text):
                 elif math.dist(at, to) > 1e-6:
                     yield at, to, bulge
                 at = to
+
+
+def through(at, points):
+    """Start, middle and end of 32 arcs along each cubic, one after the other."""
+    for three in points.reshape(-1, 3, 2):
+        on = [at, *map(tuple, bezier(np.array(at), *three))]
+        for i in range(0, 64, 2):
+            yield from (on[i], np.array(on[i + 1]), on[i + 2])
+        at = on[-1]
 
 
 # Written for older Qt bindings, which took a float for an int; nothing of the import is touched.
@@ -363,16 +407,26 @@ def written(binary, directory):
     """The files of every case and version, and what camgen says of each: wires, length of the outline, area."""
     expected = {}
     for case, command in CASES.items():
+        fine = None
+        if case in FINE_ARCS:
+            words = [*FINE_ARCS[case], "--json", "--format", "dxf", "--name", f"{case}-arcs", "--out", str(directory / "arcs")]
+            fine = json.loads(subprocess.run([binary, *words], check=True, capture_output=True, text=True).stdout)
         for version in VERSIONS:
+            # R12 has no SPLINE.
+            if fine and version == "r12":
+                continue
             name = f"{case}-{version}"
             flags = ["--json", "--format", "dxf", "--dxf-version", version, "--name", name, "--out", str(directory)]
             made = subprocess.run([binary, *command, *flags], check=True, capture_output=True, text=True)
             report = json.loads(made.stdout)
+            report = fine and {**fine, "files": report["files"]} or report
             sections = report.get("sections", [report["cam"]])
             lengths = [report["outline"].get("length_mm")] if len(sections) == 1 else [None] * len(sections)
             for path, section, length in zip(report["files"], sections, lengths, strict=True):
                 path = Path(path)
-                written = sum(e.dxftype() in ("CIRCLE", "LWPOLYLINE", "POLYLINE") for e in ezdxf.readfile(path).modelspace())
+                # Splines and the arcs between them make one wire.
+                space = [e.dxftype() for e in ezdxf.readfile(path).modelspace()]
+                written = sum(kind in ("CIRCLE", "LWPOLYLINE", "POLYLINE") for kind in space) + ("SPLINE" in space)
                 expected[path] = (written, length, section["area_mm2"])
     return expected
 
