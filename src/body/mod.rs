@@ -16,6 +16,7 @@ pub mod wedge;
 
 pub use balance::{AsCut, Balance, USEFUL};
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
+pub use sheet::acceleration_as_cut;
 
 use crate::follower::Element;
 use crate::geometry::boundary::{Boundary, Stretch};

@@ -3,10 +3,13 @@
 use super::Body;
 use super::balancing::Balancing;
 use super::part::point_as_turned;
-use crate::geometry::contour::Extents;
+use crate::geometry::contour::{Contour, Extents};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
+use crate::motion::Quantity;
+use crate::profile::followed::Followed;
 use crate::report::sheet::{Group, Mark, PlaceTable, Shape, rounded};
+use crate::report::trace::Trace;
 use crate::table::Row;
 use nalgebra::Vector2;
 
@@ -14,6 +17,8 @@ use nalgebra::Vector2;
 const PATH_OVER_RADIUS: f64 = 0.6;
 /// How far axes reach beyond what is drawn, as a share of it.
 const AXIS_BEYOND: f64 = 0.04;
+/// Places of the diagram of the acceleration lie no farther apart than this share of the motion.
+const TRACE_SHARE: f64 = 1.0 / 180.0;
 /// Degrees of cam angle over which the sense of the angle is shown.
 const SENSE_DEG: f64 = 24.0;
 
@@ -165,6 +170,24 @@ pub(super) fn places(body: &dyn Body) -> Vec<PlaceTable> {
             rows: rows.iter().step_by(*every).map(row).collect(),
         })
         .collect()
+}
+
+/// The acceleration of the follower on an outline (mm) beside that of the motion, of a plane cam.
+#[must_use]
+pub fn acceleration_as_cut(body: &dyn Body, outline: &Contour) -> Option<Trace> {
+    let curves = body.plane()?;
+    let followed = Followed::on(curves, outline, body.mirrored());
+    let turns = curves.motion.period().is_some();
+    let swings = curves.motion.quantity() == Quantity::Angle;
+    let (place, value) = (if turns { 1.0_f64.to_degrees() } else { 1e3 }, if swings { 1.0 } else { 1e3 });
+    let points = followed.accelerations(TRACE_SHARE);
+    Some(Trace {
+        title: format!("acceleration, {}", if swings { "rad/rad²" } else { "mm/rad²" }),
+        places: if turns { "cam angle, deg" } else { "overrun of the bed, mm" },
+        step: if turns { 30.0 } else { 20.0 },
+        period: turns.then_some(360.0),
+        points: points.into_iter().map(|[at, motion, cut]| [place * at, value * motion, value * cut]).collect(),
+    })
 }
 
 /// A stretch of a curve that nobody may overlook.

@@ -1,8 +1,8 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
 use super::args::{
-    CommonArgs, ConoidArgs, CutterArgs, FileArgs, LaidOf, MakeArgs, PointsArgs, PointsAs, PointsBetween, PointsOf,
-    PointsStep, RotaryArgs, SideOf, SolverKind, Speed, TranslatingArgs,
+    CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, LaidOf, PointsArgs, PointsAs, PointsBetween, PointsOf,
+    PointsStep, SideOf, SolverKind, Speed, TranslatingArgs,
 };
 use super::progress::Progress;
 use super::{Failure, Outcome, print, tell, text};
@@ -28,7 +28,7 @@ const STATIONS: u32 = 1800;
 /// More speeds than these are named by the first and the last.
 const MOST_NAMED: usize = 6;
 
-pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
+pub(super) fn rotary(args: &DiscArgs) -> Result<Outcome, Failure> {
     let (mut machine, name) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
@@ -56,7 +56,7 @@ pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
 }
 
 /// The cam of a motion program.
-pub(super) fn make(args: &MakeArgs) -> Result<Outcome, Failure> {
+pub(super) fn make(args: &DiscArgs) -> Result<Outcome, Failure> {
     let (mut machine, name) = args.common.machine()?;
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     let spec = of_program(&args.common, machine)?;

@@ -24,6 +24,17 @@ pub struct Title {
     pub surface_roughness: Option<String>,
 }
 
+impl Title {
+    /// Every text that was given.
+    #[must_use]
+    pub fn all(&self) -> Vec<&str> {
+        let Self { owner, part_number, revision, date, designer, approved, general_tolerance, surface_roughness } =
+            self;
+        let all = [owner, part_number, revision, date, designer, approved, general_tolerance, surface_roughness];
+        all.into_iter().filter_map(|text| text.as_deref()).collect()
+    }
+}
+
 const OWNER: Field<String> = Field::text("owner", "legal owner of the drawing", Optional("Polygraph Works"));
 const PART_NUMBER: Field<String> = Field::text("part_number", "number of the part", Optional("PM-0417"));
 const REVISION: Field<String> = Field::text("revision", "revision index", Optional("A"));

@@ -3,7 +3,7 @@
 use super::{Error, Proven};
 use crate::body::Body;
 use crate::document::Input;
-use crate::report::Report;
+use crate::report::{Report, failed};
 use crate::write::files;
 use crate::write::record::{Run, write_recorded};
 use crate::write::svg;
@@ -97,9 +97,7 @@ pub struct FileSet {
 pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, Error> {
     let drawn = proven.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
     if !proven.passed() && !writing.force {
-        let failed = proven.findings().iter().filter(|finding| finding.verdict == crate::report::Verdict::Fail);
-        let names: Vec<&str> = failed.map(|finding| &*finding.check).collect();
-        return Err(Error::Refused(names.join(", ")));
+        return Err(Error::Refused(failed(proven.findings()).join(", ")));
     }
     let body = proven.cam.body();
     let (formats, _) = writing.chosen(body)?;

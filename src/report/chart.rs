@@ -1,7 +1,7 @@
 //! A log-log chart on a sheet of paper, e.g. of computing time against residual force.
 
 use super::sheet::paper::{PAPERS, Paper, furniture};
-use super::sheet::placing::Taken;
+use super::sheet::placing::{Taken, beside, filling, half_field};
 use super::sheet::{Group, STROKE, Shape, Sheet, TextAnchor, font, words};
 use crate::geometry::Entity;
 use crate::geometry::contour::Extents;
@@ -179,19 +179,16 @@ fn labels(shown: &[&Point], at: impl Fn(&Point) -> Vector2<f64>, taken: &mut Tak
     let mut labels = Vec::new();
     let named = shown.iter().filter(|p| p.best).chain(shown.iter().filter(|p| !p.best));
     for p in named {
-        let half = 0.5 * Vector2::new(font::width(&p.label, LABEL), (font::ASCENT + font::DESCENT) * LABEL);
+        let half = half_field(&p.label, LABEL);
         let places = NEAR.iter().flat_map(|near| (0..DIRECTIONS).map(move |direction| (near * POINT, direction)));
         let free = places.into_iter().find_map(|(distance, direction)| {
             let angle = f64::from(direction) * std::f64::consts::TAU / f64::from(DIRECTIONS);
             let along = Vector2::new(libm::cos(angle), libm::sin(angle));
-            let lean = (along * 1.6).map(|part| part.clamp(-1.0, 1.0)).component_mul(&half);
-            let middle = at(p) + along * distance + lean;
-            let field = Extents { least: middle - half, largest: middle + half };
-            taken.free(&field).then_some((middle, field))
+            let field = beside(at(p), along, distance, half);
+            taken.free(&field).then_some(field)
         });
-        let Some((middle, field)) = free else { continue };
-        let base = Vector2::new(middle.x, field.least.y + font::DESCENT * LABEL);
-        let label = words(base, LABEL, TextAnchor::Middle, p.label.clone());
+        let Some(field) = free else { continue };
+        let label = filling(&field, LABEL, &p.label);
         taken.put(&label);
         labels.push(label);
     }

@@ -174,6 +174,12 @@ pub fn worst_first(mut findings: Vec<Finding>) -> Vec<Finding> {
     findings
 }
 
+/// The names of the checks that failed.
+#[must_use]
+pub fn failed(findings: &[Finding]) -> Vec<&str> {
+    findings.iter().filter(|finding| finding.verdict == Verdict::Fail).map(|finding| &*finding.check).collect()
+}
+
 /// Whether nothing failed.
 #[must_use]
 pub fn passed(findings: &[Finding]) -> bool {

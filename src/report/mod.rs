@@ -16,7 +16,7 @@ pub mod trace;
 mod values;
 
 pub use felt::Felt;
-pub use finding::{Bound, Finding, Place, Verdict, degrees, passed, worst_first};
+pub use finding::{Bound, Finding, Place, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, sha256};
 pub use point_measures::PointMeasures;
 pub use rolled::Rolled;
@@ -148,8 +148,7 @@ impl Report {
     /// What nobody may overlook of a cam that breaks a limit.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
-        let failed = self.checks.iter().filter(|finding| finding.verdict == Verdict::Fail);
-        let failed: Vec<&str> = failed.map(|finding| &*finding.check).collect();
+        let failed = failed(&self.checks);
         (!failed.is_empty()).then(|| format!("NOT FOR MANUFACTURE, failed: {}", failed.join(", ")))
     }
 

@@ -1,20 +1,11 @@
 //! What a DXF file must be before it can be rolled on: one closed outline in millimetres, on its layer, readable, once.
 
-use super::{Bound, Check, Evidence, Explained, On, place};
+use super::{Bound, Check, Evidence, Explained, place};
 use crate::geometry::contour::Edge;
 use crate::reading::{OUTLINE_LAYER, Reading, Stray, Unit};
 use crate::report::{Finding, Verdict};
 
-const fn file_check(
-    name: &'static str,
-    about: &'static str,
-    explained: Explained,
-    run: fn(&Evidence<'_>) -> Option<Finding>,
-) -> Check {
-    Check { name, on: On::File, about, explained, run }
-}
-
-pub(super) const LAYER: Check = file_check(
+pub(super) const LAYER: Check = Check::on_file(
     "layer",
     "Whether the layer CAM_PROFILE, where the outline belongs, exists and is not empty.",
     Explained {
@@ -26,7 +17,7 @@ pub(super) const LAYER: Check = file_check(
     |evidence| Some(layer(evidence.foreign?)),
 );
 
-pub(super) const UNITS: Check = file_check(
+pub(super) const UNITS: Check = Check::on_file(
     "units",
     "Whether the file is in millimetres.",
     Explained {
@@ -41,7 +32,7 @@ pub(super) const UNITS: Check = file_check(
     },
 );
 
-pub(super) const READABLE: Check = file_check(
+pub(super) const READABLE: Check = Check::on_file(
     "readable",
     "How many entities would be cut, or may be, and are not lines of no width in one plane.",
     Explained {
@@ -53,7 +44,7 @@ pub(super) const READABLE: Check = file_check(
     |evidence| Some(readable(evidence, evidence.foreign?)),
 );
 
-pub(super) const DUPLICATES: Check = file_check(
+pub(super) const DUPLICATES: Check = Check::on_file(
     "duplicates",
     "How many segments lie on another one or have no length.",
     Explained {
@@ -65,7 +56,7 @@ pub(super) const DUPLICATES: Check = file_check(
     |evidence| Some(duplicates(evidence, evidence.foreign?)),
 );
 
-pub(super) const CONTOURS: Check = file_check(
+pub(super) const CONTOURS: Check = Check::on_file(
     "contours",
     "How many separate contours lie on the layer of the outline; it must be one that goes round once.",
     Explained {
@@ -77,7 +68,7 @@ pub(super) const CONTOURS: Check = file_check(
     |evidence| Some(contours(evidence.foreign?)),
 );
 
-pub(super) const CLOSED: Check = file_check(
+pub(super) const CLOSED: Check = Check::on_file(
     "closed",
     "How far apart the ends of the outline are.",
     Explained {

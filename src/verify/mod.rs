@@ -122,6 +122,18 @@ pub struct Check {
     run: fn(&Evidence<'_>) -> Option<Finding>,
 }
 
+impl Check {
+    /// A check of a file that was read.
+    const fn on_file(
+        name: &'static str,
+        about: &'static str,
+        explained: Explained,
+        run: fn(&Evidence<'_>) -> Option<Finding>,
+    ) -> Self {
+        Self { name, on: On::File, about, explained, run }
+    }
+}
+
 /// Every check, in the order of the report.
 pub const CHECKS: &[Check] = &[
     file::LAYER,

@@ -2,7 +2,7 @@
 //! the edges of the ends, nothing turned inside out. Its outline is rolled on, and its holes are compared, as those of a DXF
 //! file are.
 
-use super::{Bound, Check, Evidence, Explained, On};
+use super::{Bound, Check, Evidence, Explained};
 use crate::body::Request;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
@@ -19,16 +19,7 @@ pub struct WrittenSolid {
     pub form: Form,
 }
 
-const fn solid_check(
-    name: &'static str,
-    about: &'static str,
-    explained: Explained,
-    run: fn(&Evidence<'_>) -> Option<Finding>,
-) -> Check {
-    Check { name, on: On::File, about, explained, run }
-}
-
-pub(super) const SOLIDS: Check = solid_check(
+pub(super) const SOLIDS: Check = Check::on_file(
     "solids",
     "How many bodies a STEP file holds; it must be one solid with one closed shell and nothing else.",
     Explained {
@@ -40,7 +31,7 @@ pub(super) const SOLIDS: Check = solid_check(
     |evidence| Some(solids(evidence.solid?)),
 );
 
-pub(super) const SHELL: Check = solid_check(
+pub(super) const SHELL: Check = Check::on_file(
     "shell",
     "How often the boundary of a solid does not close: edges that have not two faces in opposite senses, that miss their \
      vertices or leave their faces, and what cannot be read.",
@@ -53,7 +44,7 @@ pub(super) const SHELL: Check = solid_check(
     |evidence| Some(shell(evidence.solid?)),
 );
 
-pub(super) const WALLS: Check = solid_check(
+pub(super) const WALLS: Check = Check::on_file(
     "walls",
     "How many faces of a solid are neither its two ends nor upright walls on their edges, nor patches of a conoid's flank, or are \
      turned inside out, or do not stand from end to end.",
@@ -66,7 +57,7 @@ pub(super) const WALLS: Check = solid_check(
     |evidence| Some(walls(evidence, evidence.solid?)),
 );
 
-pub(super) const THICKNESS: Check = solid_check(
+pub(super) const THICKNESS: Check = Check::on_file(
     "thickness",
     "How far the end faces of a solid are from where they should be: at z = 0 and the thickness, or the ends of a conoid.",
     Explained {
@@ -78,7 +69,7 @@ pub(super) const THICKNESS: Check = solid_check(
     |evidence| Some(thickness(evidence, evidence.solid?)),
 );
 
-pub(super) const VOLUME: Check = solid_check(
+pub(super) const VOLUME: Check = Check::on_file(
     "volume",
     "The volume that the walls of a solid enclose; it must be the area of its end face times its thickness.",
     Explained {
@@ -90,7 +81,7 @@ pub(super) const VOLUME: Check = solid_check(
     |evidence| volume(evidence, evidence.solid?),
 );
 
-pub(super) const HOLES: Check = solid_check(
+pub(super) const HOLES: Check = Check::on_file(
     "holes",
     "How far bore, keyway and balance holes of a solid are from where they should be.",
     Explained {

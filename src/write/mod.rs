@@ -8,6 +8,7 @@ pub mod files;
 pub mod html;
 pub mod json;
 pub mod number;
+mod path_data;
 pub mod pdf;
 pub mod points;
 pub mod proof;

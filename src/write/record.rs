@@ -55,6 +55,15 @@ struct Record {
     files: BTreeMap<String, String>,
     /// By stem and key, the value as it is compared and as it was typed.
     inputs: BTreeMap<String, BTreeMap<String, (String, String)>>,
+    /// Digest of the inputs that each file was made from.
+    #[serde(default)]
+    made_from: BTreeMap<String, String>,
+}
+
+/// Digest of the inputs of a run.
+fn digest(inputs: &[Input]) -> String {
+    let texts: Vec<String> = inputs.iter().map(|input| format!("{} = {}\n", input.key, input.value)).collect();
+    sha256(texts.concat().as_bytes())
 }
 
 impl Record {
@@ -107,10 +116,21 @@ impl Record {
     fn add(&mut self, directory: &Path, outputs: &[Output], run: &Run<'_>) {
         self.files.retain(|name, _| directory.join(name).exists());
         self.files.extend(outputs.iter().map(|output| (output.name.clone(), sha256(&output.bytes))));
+        let made_from = digest(run.inputs);
+        self.made_from.extend(outputs.iter().map(|output| (output.name.clone(), made_from.clone())));
         let files = &self.files;
+        self.made_from.retain(|name, _| files.contains_key(name));
         self.inputs.retain(|stem, _| files.keys().any(|name| name.starts_with(stem.as_str())));
         let inputs = run.inputs.iter().map(|input| (input.key.clone(), (input.value.clone(), input.typed.clone())));
         self.inputs.insert(run.stem.to_owned(), inputs.collect());
+    }
+
+    /// Files of this stem that other inputs than those of this run have made.
+    fn of_other_inputs(&self, run: &Run<'_>) -> Vec<String> {
+        let now = digest(run.inputs);
+        let of_stem = |name: &str| name.strip_prefix(run.stem).is_some_and(|rest| rest.starts_with(['.', '-']));
+        let other = self.made_from.iter().filter(|(name, from)| of_stem(name) && **from != now);
+        other.map(|(name, _)| name.clone()).collect()
     }
 }
 
@@ -127,12 +147,13 @@ pub fn refuse_kept(directory: &Path, outputs: &[Output]) -> Result<(), FilesErro
     if kept.is_empty() { Ok(()) } else { Err(FilesError::Kept(kept)) }
 }
 
-/// Writes all outputs of a run into a directory, or none; returns what differs from the last run under its stem, in a sentence.
+/// Writes all outputs of a run into a directory, or none; returns what differs from the last run under its stem, and which of its
+/// files are still of other inputs, a sentence each.
 ///
 /// # Errors
 /// [`FilesError::Kept`] when a file stands in a place that camgen has not written, or that was changed since; else as
 /// [`write_all`].
-pub fn write_recorded(directory: &Path, outputs: Vec<Output>, run: &Run<'_>) -> Result<Option<String>, FilesError> {
+pub fn write_recorded(directory: &Path, outputs: Vec<Output>, run: &Run<'_>) -> Result<Vec<String>, FilesError> {
     fs::create_dir_all(directory).map_err(|source| FilesError::Directory { path: directory.to_owned(), source })?;
     // Two runs at the same time do not lose what the other has recorded, where the system can lock a directory.
     let lock = File::open(directory).ok();
@@ -141,14 +162,18 @@ pub fn write_recorded(directory: &Path, outputs: Vec<Output>, run: &Run<'_>) -> 
         refuse_kept(directory, &outputs)?;
     }
     let mut record = Record::of(directory);
-    let changes = record.changes(run);
+    let mut notes: Vec<String> = told(&record.changes(run)).into_iter().collect();
     record.add(directory, &outputs, run);
+    let other = record.of_other_inputs(run);
+    if !other.is_empty() {
+        notes.push(format!("still here, and made from other inputs: {}", other.join(", ")));
+    }
     // A record is a map of texts, which cannot fail to be written.
     let bytes = serde_json::to_vec(&record).unwrap_or_default();
     let mut all = outputs;
     all.push(Output { name: RECORD.into(), bytes });
     write_all(directory, &all)?;
-    Ok(told(&changes))
+    Ok(notes)
 }
 
 fn told(changes: &[String]) -> Option<String> {
@@ -168,7 +193,7 @@ mod tests {
         vec![Output { name: "cam.dxf".into(), bytes: text.into() }]
     }
 
-    fn written(directory: &Path, text: &str, rpm: f64, overwrite: bool) -> Result<Option<String>, FilesError> {
+    fn written(directory: &Path, text: &str, rpm: f64, overwrite: bool) -> Result<Vec<String>, FilesError> {
         let inputs = [Input::number("rpm", rpm), Input::quantity("follower.roller.radius", 0.03, ("mm", 1e-3))];
         write_recorded(directory, output(text), &Run { stem: "cam", inputs: &inputs, overwrite })
     }
@@ -177,11 +202,29 @@ mod tests {
     fn own_files_are_replaced_and_the_change_is_told() {
         let directory = tempfile::tempdir().expect("a directory");
         let path = directory.path();
-        assert_eq!(written(path, "1", 35.0, false).expect("new"), None);
-        assert_eq!(written(path, "1", 35.0, false).expect("the same"), None);
-        let told = written(path, "2", 34.0, false).expect("own").expect("a change");
-        assert_eq!(told, "changed since the last files of this name: rpm 35 → 34");
+        assert!(written(path, "1", 35.0, false).expect("new").is_empty());
+        assert!(written(path, "1", 35.0, false).expect("the same").is_empty());
+        let told = written(path, "2", 34.0, false).expect("own");
+        assert_eq!(told, ["changed since the last files of this name: rpm 35 → 34"]);
         assert_eq!(fs::read_to_string(path.join("cam.dxf")).expect("a file"), "2");
+    }
+
+    /// A file that an earlier run left under the same name is not taken for one of this run.
+    #[test]
+    fn files_of_other_inputs_are_told() {
+        let directory = tempfile::tempdir().expect("a directory");
+        let write = |name: &str, rpm: f64| {
+            let inputs = [Input::number("rpm", rpm)];
+            let outputs = vec![Output { name: name.into(), bytes: name.into() }];
+            write_recorded(directory.path(), outputs, &Run { stem: "cam", inputs: &inputs, overwrite: false })
+        };
+        assert!(write("cam.step", 35.0).expect("new").is_empty());
+        assert!(write("camera.dxf", 35.0).expect("another stem").is_empty());
+        let changed = "changed since the last files of this name: rpm 35 → 34";
+        let other = "still here, and made from other inputs: cam.step";
+        assert_eq!(write("cam.dxf", 34.0).expect("new"), [changed, other]);
+        assert_eq!(write("cam.svg", 34.0).expect("new"), [other]);
+        assert!(write("cam.step", 34.0).expect("own").is_empty());
     }
 
     #[test]

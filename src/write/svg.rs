@@ -1,15 +1,14 @@
 //! The review sheet as SVG at true size: one user unit is a millimetre, arcs are arcs, y is flipped once, in the
 //! coordinates.
 
-use super::number::plain;
+use super::path_data::PathData;
 use super::{Format, FormatError, Rendering, When, fits_all};
-use crate::geometry::contour::{Contour, Edge, Segment};
+use crate::body;
+use crate::geometry::contour::Segment;
 use crate::geometry::{Entity, MILLIMETRES};
-use crate::motion::Quantity;
-use crate::profile::followed::Followed;
 use crate::profile::outline::Fit;
 use crate::report::sheet::{Extras, Group, Shape, Sheet, TextAnchor, compose, font};
-use crate::report::trace::Trace;
+use crate::report::shown;
 use nalgebra::Vector2;
 use svg::node::element;
 
@@ -29,7 +28,7 @@ pub const FORMAT: Format = Format {
 /// [`FormatError`] when a curve for viewing cannot be drawn.
 pub fn sheet(cam: &Rendering<'_>) -> Result<Sheet, FormatError> {
     let view = cam.body.view(cam.drawn)?;
-    let trace = trace_of(cam);
+    let trace = cam.outlines.first().and_then(|outline| body::acceleration_as_cut(cam.body, &outline.contour));
     let profile_tolerance = tolerance_words(&cam.fit);
     Ok(compose(&view, cam.report, &Extras { profile_tolerance: &profile_tolerance, trace: trace.as_ref() }))
 }
@@ -37,29 +36,9 @@ pub fn sheet(cam: &Rendering<'_>) -> Result<Sheet, FormatError> {
 /// The zone in which the profile must lie, in words.
 fn tolerance_words(fit: &Fit) -> String {
     let (middle, half) = fit.band();
-    let [low, high] = [middle - half, middle + half].map(|limit| number(MILLIMETRES * limit));
+    let [low, high] = [middle - half, middle + half].map(|limit| shown(MILLIMETRES * limit));
     if middle == 0.0 { format!("±{high} mm to exact curve") } else { format!("{low} to {high} mm to exact curve") }
 }
-
-/// The acceleration on the outline as written, of a plane cam.
-fn trace_of(cam: &Rendering<'_>) -> Option<Trace> {
-    let (curves, outline) = cam.body.plane().zip(cam.outlines.first())?;
-    let followed = Followed::on(curves, &outline.contour, cam.body.mirrored());
-    let turns = curves.motion.period().is_some();
-    let swings = curves.motion.quantity() == Quantity::Angle;
-    let (place, value) = (if turns { 1.0_f64.to_degrees() } else { 1e3 }, if swings { 1.0 } else { 1e3 });
-    let points = followed.accelerations(TRACE_SHARE);
-    Some(Trace {
-        title: format!("acceleration, {}", if swings { "rad/rad²" } else { "mm/rad²" }),
-        places: if turns { "cam angle, deg" } else { "overrun of the bed, mm" },
-        step: if turns { 30.0 } else { 20.0 },
-        period: turns.then_some(360.0),
-        points: points.into_iter().map(|[at, motion, cut]| [place * at, value * motion, value * cut]).collect(),
-    })
-}
-
-/// Places of the diagram of the acceleration lie no farther apart than this share of the motion.
-const TRACE_SHARE: f64 = 1.0 / 180.0;
 
 /// The sheet used when none is given.
 pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");
@@ -68,8 +47,6 @@ pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");
 const OUTLINES: [&str; 2] = ["profile", "section"];
 /// Decimals of a coordinate: a nanometre.
 const DECIMALS: usize = 6;
-/// Largest sweep of one SVG arc, rad: the direction of a half circle is ambiguous within rounding.
-const LONGEST_SWEEP: f64 = 3.0;
 
 /// Why a template cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -85,9 +62,11 @@ pub enum TemplateError {
 
 const KNOWN: &str = "width, height, left, top, stroke, thick, heavy, dash, dot, title, drawing";
 
+/// The coordinates of the sheet.
+const DATA: PathData = PathData { decimals: DECIMALS };
+
 fn number(value: f64) -> String {
-    let text = plain(value, DECIMALS);
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+    DATA.number(value)
 }
 
 /// Fills a template with the sheet.
@@ -182,7 +161,7 @@ fn group(group: &Group, scale: f64, told: bool) -> String {
     }
     for shape in &group.shapes {
         node = match shape {
-            Shape::Entity(Entity::Polyline(contour)) => node.add(element::Path::new().set("d", path(contour))),
+            Shape::Entity(Entity::Polyline(contour)) => node.add(element::Path::new().set("d", DATA.contour(contour))),
             Shape::Entity(Entity::Circle(centre, radius)) => node.add(
                 element::Circle::new()
                     .set("cx", number(centre.x))
@@ -197,15 +176,15 @@ fn group(group: &Group, scale: f64, told: bool) -> String {
                     .set("y2", number(-b.y)),
             ),
             Shape::Path(points) => {
-                let points: Vec<String> = points.iter().map(|point| place(*point)).collect();
+                let points: Vec<String> = points.iter().map(|point| DATA.place(*point)).collect();
                 node.add(element::Polyline::new().set("points", points.join(" ")))
             }
             Shape::Arc(start, end, bulge) => {
                 let segment = Segment { start: *start, end: *end, bulge: *bulge };
-                node.add(element::Path::new().set("d", format!("M{} {}", place(*start), arc(&segment))))
+                node.add(element::Path::new().set("d", DATA.open_arc(&segment)))
             }
             Shape::Triangle(corners) => {
-                let points: Vec<String> = corners.iter().map(|corner| place(*corner)).collect();
+                let points: Vec<String> = corners.iter().map(|corner| DATA.place(*corner)).collect();
                 node.add(element::Polygon::new().set("points", points.join(" ")))
             }
             Shape::Text { at, height, anchor, text } => node.add(words((*at, *height, *anchor), text, told)),
@@ -235,46 +214,10 @@ fn words((at, height, anchor): (Vector2<f64>, f64, TextAnchor), text: &str, told
     }
 }
 
-fn place(point: Vector2<f64>) -> String {
-    format!("{},{}", number(point.x), number(-point.y))
-}
-
-fn path(contour: &Contour) -> String {
-    let start = contour.vertices.first().map(|vertex| place(vertex.point)).unwrap_or_default();
-    let edges: Vec<String> = contour.edges().map(|edge| command(&edge)).collect();
-    format!("M{start} {} Z", edges.join(" "))
-}
-
-/// The commands of one edge.
-fn command(edge: &Edge) -> String {
-    match edge {
-        Edge::Segment(segment) => arc(segment),
-        Edge::Cubic(cubic) => {
-            let [_, leaves, arrives, end] = cubic.points.map(place);
-            format!("C{leaves} {arrives} {end}")
-        }
-    }
-}
-
-/// The commands of one segment: a line, an arc, or the two halves of a long arc.
-fn arc(segment: &Segment) -> String {
-    if segment.bulge == 0.0 {
-        return format!("L{}", place(segment.end));
-    }
-    let radius = number(segment.radius().abs());
-    // A left turn upwards is a right turn (sweep flag 0) once y points down.
-    let sweep = u8::from(segment.bulge < 0.0);
-    let to = |point| format!("A{radius},{radius} 0 0 {sweep} {}", place(point));
-    if segment.sweep().abs() <= LONGEST_SWEEP {
-        return to(segment.end);
-    }
-    format!("{} {}", to(segment.middle()), to(segment.end))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::contour::Extents;
+    use crate::geometry::contour::{Contour, Extents};
 
     fn sheet(title: &str) -> Sheet {
         let contour = Contour::circle(Vector2::new(1.0, 2.0), 5.0);

@@ -4,6 +4,7 @@
 
 const word = { pass: "pass", fail: "FAIL", warn: "WARN", info: "info" };
 const badge = (verdict, text = word[verdict]) => make("span", { className: `badge ${verdict}` }, text);
+const limitOf = (check) => (check.limit === null ? "" : `${check.side ? `${check.side} ` : ""}${withUnit(check.limit, check.unit)}`);
 const withUnit = (value, unit) => (value === null ? "–" : `${shown(value)}${unit ? ` ${unit}` : ""}`);
 const words = (name) => name.replace(/_/g, " ");
 
@@ -34,7 +35,7 @@ function checksOf(cam) {
   const rows = cam.checks.map((check) => ({
     className: check.verdict,
     cells: [[words(check.check)], [badge(check.verdict)], [withUnit(check.value, check.unit), "number"],
-      [check.limit === null ? "" : withUnit(check.limit, check.unit), "number"], [check.place || "", "place"], [check.note || "", "note"]],
+      [limitOf(check), "number"], [check.place || "", "place"], [check.note || "", "note"]],
   }));
   const box = table([["Check"], ["Verdict"], ["Value", "number"], ["Limit", "number"], ["Place"], ["Note"]], rows);
   box.querySelectorAll("tbody th").forEach((cell, index) => (cell.title = cam.checks[index].about || ""));
@@ -52,7 +53,7 @@ function checksBeside([a, b]) {
     const both = [a, b].map((cam) => of(cam, name));
     const cells = both.flatMap((check) => (check
       ? [[badge(check.verdict)], [withUnit(check.value, check.unit), "number"], [check.place || "", "place"]] : [["–"], ["", "number"], [""]]));
-    const limits = [...new Set(both.filter((check) => check && check.limit !== null).map((check) => withUnit(check.limit, check.unit)))];
+    const limits = [...new Set(both.filter((check) => check && check.limit !== null).map(limitOf))];
     const differs = both[0]?.verdict !== both[1]?.verdict;
     const found = worst(name);
     return { className: [found === 0 ? "fail" : found === 1 ? "warn" : "", differs ? "differs" : ""].join(" "), cells: [[words(name)], ...cells, [limits.join(" | "), "number"]] };

@@ -37,7 +37,7 @@ pub(super) enum Command {
     ///
     /// The cam moves the bottom of the air buffers so that the air force equals the inertia force of the bed.
     #[command(after_help = help::ROTARY)]
-    Rotary(RotaryArgs),
+    Rotary(DiscArgs),
     /// Wedge cam of a press: a plate on the bed, by equation (18)
     ///
     /// The plate rides on the bed and moves the bottom through a bell crank with a roller on each flank.
@@ -52,7 +52,7 @@ pub(super) enum Command {
     ///
     /// The file has a program of segments, `[motion]` and `[[motion.segment]]`, and a follower.
     #[command(after_help = help::MAKE)]
-    Make(MakeArgs),
+    Make(DiscArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -92,10 +92,9 @@ impl Command {
     /// The files that `--watch` looks at, when it is asked for: the machine file, and the file that is checked.
     pub(super) fn watched(&self) -> Option<Vec<PathBuf>> {
         let (common, more) = match self {
-            Command::Rotary(args) => (&args.common, args.files.template.as_ref()),
+            Command::Rotary(args) | Command::Make(args) => (&args.common, args.files.template.as_ref()),
             Command::Translating(args) => (&args.common, args.files.template.as_ref()),
             Command::Conoid(args) => (&args.common, args.files.template.as_ref()),
-            Command::Make(args) => (&args.common, args.files.template.as_ref()),
             Command::Check(args) => (&args.common, Some(&args.file)),
             Command::Trade(args) => (&args.common, None),
             _ => return None,
@@ -132,7 +131,7 @@ pub(super) struct ExplainArgs {
 }
 
 #[derive(Debug, Args)]
-pub(super) struct MakeArgs {
+pub(super) struct DiscArgs {
     #[command(flatten)]
     pub(super) common: CommonArgs,
 
@@ -183,18 +182,6 @@ pub(super) enum Checked {
 pub(super) enum CamKind {
     Rotary,
     Translating,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct RotaryArgs {
-    #[command(flatten)]
-    pub(super) common: CommonArgs,
-
-    #[command(flatten)]
-    pub(super) files: FileArgs,
-
-    #[command(flatten)]
-    pub(super) cutter: CutterArgs,
 }
 
 #[derive(Debug, Args)]

@@ -8,12 +8,14 @@ use super::placing::Taken;
 use super::{Facts, Group, Mark, STROKE, Shape, Sheet, TextAnchor, View, font, words};
 use crate::geometry::contour::Extents;
 use crate::report::trace::{self, Trace};
-use crate::report::{Report, Verdict};
+use crate::report::{Report, failed};
 use nalgebra::Vector2;
+use std::borrow::Cow;
 
-/// Over the lettering of an A4, mm: room about the lines of a view, with the dimensions to the left and below; height of the diagram
+/// Over the lettering of an A4, mm: room about the lines of a view, for each dimension line; height of the diagram
 /// and of the stamp; room between panels and frame.
 const ROOM: Vector2<f64> = Vector2::new(10.0, 9.0);
+const DIMENSION_ROOM: f64 = 7.0;
 const DIAGRAM: f64 = 50.0;
 const STAMP: f64 = 17.0;
 const PAD: f64 = 3.0;
@@ -44,6 +46,7 @@ struct Layout<'a> {
 /// The sheet of a view.
 #[must_use]
 pub fn compose(view: &View, report: &Report, extras: &Extras<'_>) -> Sheet {
+    let view = &with_missing_letters(view, report);
     let covered = view.extents();
     let covered = if covered.size().iter().all(|size| size.is_finite() && *size >= 0.0) {
         covered
@@ -65,6 +68,18 @@ pub fn compose(view: &View, report: &Report, extras: &Extras<'_>) -> Sheet {
     }
 }
 
+/// The view with a note of the letters that would be boxes.
+fn with_missing_letters<'a>(view: &'a View, report: &Report) -> Cow<'a, View> {
+    let missing = font::missing(&(report.title() + &view.facts.title.all().concat()));
+    if missing.is_empty() {
+        return Cow::Borrowed(view);
+    }
+    let codes: Vec<String> = missing.iter().map(|letter| format!("U+{:04X}", u32::from(*letter))).collect();
+    let mut view = view.clone();
+    view.notes.push(format!("letters that the font of this sheet does not have: {}", codes.join(", ")));
+    Cow::Owned(view)
+}
+
 struct Tried<'a> {
     view: &'a View,
     report: &'a Report,
@@ -83,15 +98,7 @@ impl<'a> Tried<'a> {
         let upright = self.paper.size.x < self.paper.size.y;
         let diagram = if self.extras.trace.is_some() { DIAGRAM * k } else { 0.0 };
         let stamp = if self.report.passed() { 0.0 } else { STAMP * k };
-        let dimensions = |axis: fn(&Vector2<f64>) -> f64| {
-            let along = |mark: &&Mark| matches!(mark, Mark::Distance { away, .. } if axis(away) != 0.0);
-            #[expect(clippy::cast_precision_loss, reason = "a few marks")]
-            let count = self.view.marks.iter().filter(along).count() as f64;
-            7.0 * k * count
-        };
-        let needed = self.covered.size() * self.scale
-            + 2.0 * k * ROOM
-            + Vector2::new(dimensions(|away| away.x), dimensions(|away| away.y));
+        let needed = self.covered.size() * self.scale + 2.0 * k * ROOM + self.dimensions();
         let block = Vector2::new(block::WIDTH, block::HEIGHT) * k;
         let (room, stacks) = if upright {
             let wide = 0.5 * (frame.x - 3.0 * PAD * k);
@@ -106,6 +113,15 @@ impl<'a> Tried<'a> {
         }
         let panels = self.panels(&stacks, partly)?;
         Some(self.placed(panels, diagram, stamp, upright))
+    }
+
+    /// Room for the dimension lines to the left and below, mm of paper.
+    fn dimensions(&self) -> Vector2<f64> {
+        let room = self.view.marks.iter().map(|mark| match mark {
+            Mark::Distance { away, .. } => away.map(|part| if part == 0.0 { 0.0 } else { DIMENSION_ROOM * self.k }),
+            _ => Vector2::zeros(),
+        });
+        room.sum()
     }
 
     /// Every panel with its column and its way down, the tables of places as fine as there is room for.
@@ -144,13 +160,7 @@ impl<'a> Tried<'a> {
             largest: region.largest - Vector2::new(0.0, stamp),
         };
         // The dimensions stand to the left and below: the lines themselves are moved to the other side by half of that.
-        let count = |upright: bool| {
-            let of = |mark: &&Mark| matches!(mark, Mark::Distance { away, .. } if (away.x != 0.0) == upright);
-            #[expect(clippy::cast_precision_loss, reason = "a few marks")]
-            let count = self.view.marks.iter().filter(of).count() as f64;
-            3.5 * k * count
-        };
-        let middle = 0.5 * (covered.least + covered.largest) * self.scale - Vector2::new(count(true), count(false));
+        let middle = 0.5 * (covered.least + covered.largest) * self.scale - 0.5 * self.dimensions();
         // The origin of the drawing stays where it is; the page moves about it.
         let corner = middle - 0.5 * (view.least + view.largest);
         let moved = |field: Extents| Extents { least: field.least + corner, largest: field.largest + corner };
@@ -301,12 +311,7 @@ fn ruler(view: &Extents, k: f64) -> Vec<Shape> {
 /// What nobody can overlook on the sheet of a cam that breaks a limit.
 fn stamp(field: &Extents, k: f64, report: &Report) -> Vec<Group> {
     let inner = Extents { least: field.least.add_scalar(2.0 * k), largest: field.largest.add_scalar(-2.0 * k) };
-    let failed: Vec<&str> = report
-        .checks
-        .iter()
-        .filter(|finding| finding.verdict == Verdict::Fail)
-        .map(|finding| &*finding.check)
-        .collect();
+    let failed = failed(&report.checks);
     let room = inner.size().x - 4.0 * k;
     let middle = 0.5 * (inner.least.x + inner.largest.x);
     let (head, size) = font::fitted_in_one("NOT FOR MANUFACTURE", 6.5 * k, room);

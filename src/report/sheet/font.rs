@@ -32,6 +32,16 @@ pub fn width(text: &str, size: f64) -> f64 {
     size * text.chars().map(advance).sum::<f64>()
 }
 
+/// Letters of a text that the font does not have, each once.
+#[must_use]
+pub fn missing(text: &str) -> Vec<char> {
+    let has = |letter: char| letter.is_whitespace() || face().is_none_or(|face| face.glyph_index(letter).is_some());
+    let mut missing: Vec<char> = text.chars().filter(|letter| !has(*letter)).collect();
+    missing.sort_unstable();
+    missing.dedup();
+    missing
+}
+
 #[expect(clippy::cast_precision_loss, reason = "a text")]
 fn length(text: &str) -> f64 {
     text.chars().count() as f64
@@ -103,6 +113,12 @@ mod tests {
         assert!((width("0", 2048.0) - 1139.0).abs() < 1e-9);
         assert!((width("A 0", 2048.0) - (1366.0 + 569.0 + 1139.0)).abs() < 1e-9);
         assert!(width("Пресс ДПИ", 3.0) > 0.0 && width("θφα°±⌀µ²", 3.0) < 8.0 * 3.0);
+    }
+
+    #[test]
+    fn letters_that_the_font_lacks_are_known() {
+        assert!(missing("Пресс ДПИ θφα°±²Δ–× Ra 0.8").is_empty());
+        assert_eq!(missing("圧 cam 圧"), ['圧']);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Labels, dimensions and arrows at the size of the lettering.
 
-use super::placing::Taken;
+use super::placing::{Taken, beside, filling, half_field};
 use super::{Group, Mark, Shape, TextAnchor, font, words};
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
@@ -15,8 +15,6 @@ const SLENDER: f64 = 0.3;
 const DISTANCES: [f64; 12] = [2.0, 3.5, 5.5, 8.0, 11.0, 15.0, 20.0, 27.0, 36.0, 50.0, 70.0, 100.0];
 /// Directions that are tried, to either side of the wanted one.
 const DIRECTIONS: u32 = 24;
-/// How soon the corner of a text, not its side, looks back at its place.
-const LEAN: f64 = 1.6;
 /// A text farther than this is tied to its place with a line.
 const TIED: f64 = 3.0;
 
@@ -63,7 +61,7 @@ impl Marker<'_> {
     /// A text where there is room for it, with its leader.
     fn label(&mut self, at: Vector2<f64>, towards: Vector2<f64>, text: &str) -> Vec<Shape> {
         let size = TEXT * self.lettering;
-        let half = 0.5 * Vector2::new(font::width(text, size), (font::ASCENT + font::DESCENT) * size);
+        let half = half_field(text, size);
         let wanted = libm::atan2(towards.y, towards.x);
         for distance in DISTANCES {
             for index in 0..DIRECTIONS {
@@ -71,10 +69,7 @@ impl Marker<'_> {
                 let step = f64::from(index.div_ceil(2)) * if index % 2 == 0 { -1.0 } else { 1.0 };
                 let angle = wanted + step * std::f64::consts::TAU / f64::from(DIRECTIONS);
                 let along = Vector2::new(libm::cos(angle), libm::sin(angle));
-                // The field touches the end of the way with the side that looks back.
-                let lean = (along * LEAN).map(|part| part.clamp(-1.0, 1.0)).component_mul(&half);
-                let middle = at + along * (distance * self.lettering) + lean;
-                let field = Extents { least: middle - half, largest: middle + half };
+                let field = beside(at, along, distance * self.lettering, half);
                 let nearest = at.sup(&field.least).inf(&field.largest);
                 let apart = (nearest - at).norm();
                 if apart > distance * self.lettering * 1.01 + 1e-9 || !self.taken.free(&field) {
@@ -86,8 +81,7 @@ impl Marker<'_> {
                 if tied && !self.taken.clear(at, nearest) {
                     continue;
                 }
-                let base = Vector2::new(middle.x, field.least.y + font::DESCENT * size);
-                let mut shapes = vec![words(base, size, TextAnchor::Middle, text)];
+                let mut shapes = vec![filling(&field, size, text)];
                 if tied {
                     shapes.push(leader);
                 }

@@ -1,6 +1,6 @@
 //! What stands beside the drawing: verdicts, figures, legend, tables. Each panel is set in a width and tells its height.
 
-use super::{Group, PlaceTable, Shape, TextAnchor, View, font, rounded, words};
+use super::{Group, PlaceTable, Shape, TextAnchor, View, font, words};
 use crate::report::{Finding, Place, Report, Verdict};
 use nalgebra::Vector2;
 
@@ -95,14 +95,6 @@ impl Writer {
     }
 }
 
-/// "12.5 mm", without the unit of a bare number.
-fn with_unit(value: f64, unit: &str) -> String {
-    if !value.is_finite() {
-        return "–".into();
-    }
-    if ["", "1"].contains(&unit) { rounded(value) } else { format!("{} {unit}", rounded(value)) }
-}
-
 fn class_of(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Fail => "fail",
@@ -136,7 +128,7 @@ fn cells(finding: &Finding) -> [String; 5] {
     let limit = finding.limit_words().unwrap_or_default();
     let place = if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place) };
     let run = finding.note.as_ref().is_none_or(|note| !note.starts_with(NOT_RUN));
-    let value = if run { with_unit(finding.value, &finding.unit) } else { NOT_RUN.into() };
+    let value = if run { finding.value_words() } else { NOT_RUN.into() };
     [finding.verdict.word().into(), finding.check.to_string(), value, limit, place]
 }
 

@@ -1,11 +1,32 @@
 //! Where on the paper there is nothing yet: a map of cells, so that a text finds its place in a few microseconds.
 
-use super::Shape;
+use super::{Shape, TextAnchor, font, words};
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
 /// Side of a cell, mm.
 const CELL: f64 = 0.8;
+
+/// How soon the corner of a text, not its side, looks back at its place.
+const LEAN: f64 = 1.6;
+
+/// The field of a text of these half sides, so far from a place in a direction (a unit vector).
+pub(in crate::report) fn beside(at: Vector2<f64>, along: Vector2<f64>, distance: f64, half: Vector2<f64>) -> Extents {
+    let lean = (along * LEAN).map(|part| part.clamp(-1.0, 1.0)).component_mul(&half);
+    let middle = at + along * distance + lean;
+    Extents { least: middle - half, largest: middle + half }
+}
+
+/// Half the sides of the field of a text.
+pub(in crate::report) fn half_field(text: &str, size: f64) -> Vector2<f64> {
+    0.5 * Vector2::new(font::width(text, size), (font::ASCENT + font::DESCENT) * size)
+}
+
+/// A text that fills a field.
+pub(in crate::report) fn filling(field: &Extents, size: f64, text: &str) -> Shape {
+    let base = Vector2::new(0.5 * (field.least.x + field.largest.x), field.least.y + font::DESCENT * size);
+    words(base, size, TextAnchor::Middle, text)
+}
 
 /// What already stands in a region of the paper.
 #[derive(Debug)]

@@ -2,9 +2,10 @@
 
 use super::super::Rendering;
 use super::super::csv;
-use super::{panels, shapes, units};
+use super::super::path_data::PathData;
+use super::{panels, units};
 use crate::report::mechanism::{Mechanism, Rigid, Solid, Track, View};
-use crate::report::{Finding, Place, Report, Section, Verdict, worst_first};
+use crate::report::{Bound, Finding, Place, Report, Section, Verdict, worst_first};
 use crate::table::Table;
 use crate::verify::CHECKS;
 use serde_json::{Map, Value, json};
@@ -16,6 +17,8 @@ const ROWS: u32 = 1800;
 const FEWEST: u32 = 120;
 /// Digits of a number of the table.
 const DIGITS: usize = 7;
+/// Shapes, to a tenth of a micrometre.
+const DATA: PathData = PathData { decimals: 4 };
 /// Decimals of a place, mm, and of an angle, degrees.
 const PLACES: f64 = 1e4;
 const ANGLES: f64 = 1e5;
@@ -81,6 +84,7 @@ fn check(finding: &Finding) -> Value {
         "about": about,
         "value": digits(finding.value),
         "limit": finding.limit.map(digits),
+        "side": finding.bound.map(Bound::words),
         "unit": units::shown(&finding.unit),
         "place": place,
         "camDeg": finding.place.cam_deg,
@@ -180,7 +184,7 @@ fn rigid(part: &Rigid) -> Value {
     json!({
         "role": part.role,
         "name": name,
-        "path": shapes::path(&part.shapes),
+        "path": part.shapes.iter().map(|shape| DATA.shape(shape)).collect::<String>(),
         "x": track(&part.x, PLACES),
         "y": track(&part.y, PLACES),
         "turn": track(&part.turn_deg, ANGLES),

@@ -6,7 +6,6 @@
 
 mod data;
 mod panels;
-mod shapes;
 mod units;
 
 use super::{Format, FormatError, Rendering, When, fits_all};
