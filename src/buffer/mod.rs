@@ -4,6 +4,7 @@
 //! absolute. Knows the bed's overrun, not the angles of any cam.
 
 pub mod bottom_law;
+pub mod camshaft;
 pub mod energy;
 pub mod regime;
 pub mod spring;
