@@ -5,6 +5,7 @@
 
 pub mod bottom_law;
 pub mod camshaft;
+pub mod drive;
 pub mod energy;
 pub mod regime;
 pub mod spring;
