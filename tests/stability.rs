@@ -119,7 +119,7 @@ fn the_reset_at_other_speeds() {
         let cylinder = Cylinder::sized(&bed, 35.0, k, 98_066.5, q * 98_066.5);
         let design = BottomLaw::new(cylinder.loading(35.0), k, 0.18, Column::Matched, 0.0);
         let rpm = 35.0 * random.log_between(0.01, 10.0);
-        let found = regime::reset(&design, &cylinder, rpm);
+        let found = regime::reset(&design, &cylinder, rpm, regime::Reset::End);
         let load = cylinder.loading(rpm) * 0.18;
         let shortening = 0.18 + design.displacement(0.18);
         let exact = big(shortening) / (big(1.0) - (-(big(1.0) + big(load)).ln() / big(k)).exp());

@@ -32,7 +32,7 @@ pub enum Column {
 
 /// Below this u the series of g is summed, above it the closed form is accurate: at 0.25 the closed form of g − 1
 /// (about −0.2) has lost less than three bits, and the series needs 27 terms (each factor is below 1 for k ≥ 1).
-const SERIES_LIMIT: f64 = 0.25;
+pub(super) const SERIES_LIMIT: f64 = 0.25;
 
 /// Beyond this u the two terms of the law as printed no longer cancel, and it has fewer roundings than x (g − 1).
 const PRINTED_LIMIT: f64 = 4.0;
@@ -50,8 +50,8 @@ pub fn column_for(shortening: f64, end_loading: f64, exponent: f64) -> f64 {
     shortening / -libm::expm1(-libm::log1p(end_loading) / exponent)
 }
 
-/// g(u) − 1 for p = 1/k and u ≥ 0, to a few ulp at any u.
-fn g_minus_one(u: f64, p: f64) -> f64 {
+/// g(u) − 1 for p = 1/k and u ≥ 0, to a few ulp at any u; p = 0 is the limit g = ln(1+u)/u.
+pub(super) fn g_minus_one(u: f64, p: f64) -> f64 {
     if u < SERIES_LIMIT {
         let (mut term, mut sum, mut n) = (1.0, 0.0, 1.0);
         loop {
@@ -63,6 +63,9 @@ fn g_minus_one(u: f64, p: f64) -> f64 {
             }
             n += 1.0;
         }
+    }
+    if p == 0.0 {
+        return libm::log1p(u) / u - 1.0;
     }
     -libm::expm1(-p * libm::log1p(u)) / (p * u) - 1.0
 }
@@ -92,8 +95,9 @@ fn g_minus_one_to_the_end(u: Double, p: Double) -> Double {
     }
 }
 
-/// (g(u) − g(U))/(U − u) for 0 ≤ u ≤ U below [`SERIES_LIMIT`], by the series with the factor taken out term by term.
-fn g_divided_difference(u: f64, end: f64, p: f64) -> f64 {
+/// (g(u) − g(U))/(U − u) for 0 ≤ u ≤ U below [`SERIES_LIMIT`], by the series with the factor taken out term by term. It is
+/// symmetric in both, and −g'(u) where they are one.
+pub(super) fn g_divided_difference(u: f64, end: f64, p: f64) -> f64 {
     // complete = Σ U^j u^(n−1−j), the complete symmetric polynomial, by complete_n = U·complete_(n−1) + uⁿ⁻¹.
     let (mut coefficient, mut power, mut complete, mut sum, mut n) = (-1.0, 1.0, 1.0, 0.0, 1.0);
     loop {
@@ -121,6 +125,8 @@ pub struct Bottom {
     pub second: f64,
     /// d³Δx/dx³, 1/m².
     pub third: f64,
+    /// d⁴Δx/dx⁴, 1/m³.
+    pub fourth: f64,
 }
 
 /// The law for one machine, one speed and one column.
@@ -237,7 +243,7 @@ impl BottomLaw {
         }
     }
 
-    /// Δx and its first three derivatives by x, exact.
+    /// Δx and its first four derivatives by x, exact.
     #[must_use]
     pub fn bottom(&self, x: f64, y: f64) -> Bottom {
         let (p, a, u) = (1.0 / self.exponent, self.loading, self.loading * x);
@@ -253,11 +259,13 @@ impl BottomLaw {
             (power, power - 1.0)
         };
         let second = -c * a * (p + 1.0) * power / (1.0 + u);
+        let third = -second * a * (p + 2.0) / (1.0 + u);
         Bottom {
             value: self.displacement_between(x, y),
             slope: self.start_slope + c * fall,
             second,
-            third: -second * a * (p + 2.0) / (1.0 + u),
+            third,
+            fourth: -third * a * (p + 3.0) / (1.0 + u),
         }
     }
 
@@ -321,6 +329,22 @@ mod tests {
         // The reference gives the place of the largest Δx at 2 at for the returning column too.
         assert!((reference(2.0, Column::Return).largest_displacement().1 - 0.026_94).abs() < 5e-6);
         assert_eq!(reference(5.0, Column::Return).displacement(0.18), 0.0);
+    }
+
+    /// The fourth derivative is the difference quotient of the third; its error is the sixth derivative times h²/6 and the
+    /// rounding 1e-16/h.
+    #[test]
+    fn the_fourth_derivative_belongs_to_the_third() {
+        let h = 1e-6;
+        for column in [Column::Matched, Column::Return, Column::Length(0.3)] {
+            let law = reference(2.0, column);
+            for x in [0.01, 0.09, 0.17] {
+                let third = |x: f64| law.bottom(x, 0.18 - x).third;
+                let quotient = (third(x + h) - third(x - h)) / (2.0 * h);
+                let fourth = law.bottom(x, 0.18 - x).fourth;
+                assert!((fourth / quotient - 1.0).abs() < 1e-8, "{column:?} at {x}: {fourth} {quotient}");
+            }
+        }
     }
 
     /// The law must give the force it was made for, by equation (8) as printed.

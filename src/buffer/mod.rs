@@ -4,6 +4,8 @@
 //! absolute. Knows the bed's overrun, not the angles of any cam.
 
 pub mod bottom_law;
+pub mod camshaft;
+pub mod drive;
 pub mod energy;
 pub mod regime;
 pub mod spring;
@@ -145,6 +147,26 @@ mod tests {
         let bed = Bed { mass: 978.2, crank_radius: 0.18, crank_turns_per_main_shaft_turn: 3.0 };
         let cylinder = Cylinder::sized(&bed, 35.0, 1.35, 98_066.5, end_pressure_at * 98_066.5);
         (bed, cylinder)
+    }
+
+    /// Numbers spread evenly, the same in every run: SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
+    pub(crate) struct Random(pub(crate) u64);
+
+    impl Random {
+        /// In [low, high).
+        pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            let bits = u32::try_from((z ^ (z >> 31)) >> 32).expect("32 bits");
+            low + (high - low) * (f64::from(bits) / 4_294_967_296.0)
+        }
+
+        /// In [low, high), the logarithm spread evenly.
+        pub(crate) fn of_size(&mut self, low: f64, high: f64) -> f64 {
+            libm::exp(self.between(libm::log(low), libm::log(high)))
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! A motion is smooth on each of its pieces and may jump between them. A motion is sampled piece by piece, so that
 //! both sides of a break are available: there is no evaluation "at" a break without saying from which side.
 
+pub mod counter_torque;
 mod eccentric;
 pub mod equation_18;
 pub mod laws;

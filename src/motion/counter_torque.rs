@@ -1,0 +1,221 @@
+//! The counter-torque law: a second disc on the same shaft presses a spring so that its torque is the opposite of a given one.
+//!
+//! With E the work that the shaft gives elsewhere by the cam angle θ, T = dE/dθ, a spring of rate `c_s` with the travel y and the
+//! preload `c_s` y0 keeps ½ `c_s` (y0 + y)² + E = ½ `c_s` y0² + `E_max`, so that
+//!
+//! ```text
+//! y = D/(y0 + √(y0² + D)),  D = 2 (E_max − E)/c_s,  Y = y0 + y = √(y0² + D)
+//! c_s Y y' = −T,  c_s (Y y'' + y'²) = −T',  c_s (Y y''' + 3 y' y'') = −T''
+//! ```
+//!
+//! Without preload y is no smooth function of θ where E is largest: y0 must be above 0. The mass of the second follower is left
+//! out of the law.
+
+use super::Jet;
+
+/// Work given elsewhere and its derivatives by the cam angle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WorkJet {
+    /// E, J.
+    pub energy: f64,
+    /// T = dE/dθ, N·m.
+    pub torque: f64,
+    /// dT/dθ, N·m/rad.
+    pub torque_slope: f64,
+    /// d²T/dθ², N·m/rad².
+    pub torque_second: f64,
+}
+
+impl WorkJet {
+    /// The jet by θ = ratio · φ of a jet by φ.
+    #[must_use]
+    pub fn by_angle_times(self, ratio: f64) -> Self {
+        let n = 1.0 / ratio;
+        Self {
+            energy: self.energy,
+            torque: self.torque * n,
+            torque_slope: self.torque_slope * n * n,
+            torque_second: self.torque_second * n * n * n,
+        }
+    }
+}
+
+/// Why there is no such law.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CounterTorqueError {
+    /// Without preload the lift has a corner where the work is largest.
+    #[error("the preload of the counter-torque spring is {preload} N; it must be above 0")]
+    Preload {
+        /// Preload, N.
+        preload: f64,
+    },
+    /// A spring needs a rate.
+    #[error("the rate of the counter-torque spring is {rate} N/m; it must be above 0")]
+    Rate {
+        /// Rate, N/m.
+        rate: f64,
+    },
+    /// The largest work is not a number.
+    #[error("the largest work is {energy} J, which is no finite number")]
+    Energy {
+        /// Largest work, J.
+        energy: f64,
+    },
+}
+
+/// The law for one spring and one largest work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CounterTorque {
+    rate: f64,
+    /// y0, m.
+    preloaded: f64,
+    energy_max: f64,
+}
+
+impl CounterTorque {
+    /// The law for a spring rate `c_s` (N/m), the force of the spring where the lift is 0 (N) and the largest work (J), where the
+    /// lift is 0.
+    ///
+    /// # Errors
+    /// [`CounterTorqueError`] unless rate and preload are finite and above 0, and the work is finite.
+    pub fn new(rate: f64, preload: f64, energy_max: f64) -> Result<Self, CounterTorqueError> {
+        if !(rate > 0.0 && rate.is_finite()) {
+            return Err(CounterTorqueError::Rate { rate });
+        }
+        if !(preload > 0.0 && preload.is_finite()) {
+            return Err(CounterTorqueError::Preload { preload });
+        }
+        if !energy_max.is_finite() {
+            return Err(CounterTorqueError::Energy { energy: energy_max });
+        }
+        Ok(Self { rate, preloaded: preload / rate, energy_max })
+    }
+
+    /// Lift of the second follower, m, with three derivatives by the cam angle. A work above the largest is taken as the largest.
+    #[must_use]
+    pub fn jet(&self, work: WorkJet) -> Jet {
+        let lack = (2.0 * (self.energy_max - work.energy) / self.rate).max(0.0);
+        let length = (self.preloaded * self.preloaded + lack).sqrt();
+        let by_force = -1.0 / (self.rate * length);
+        let ds = by_force * work.torque;
+        let dds = by_force * (work.torque_slope + self.rate * ds * ds);
+        let ddds = by_force * (work.torque_second + 3.0 * self.rate * ds * dds);
+        Jet { s: lack / (self.preloaded + length), ds, dds, ddds }
+    }
+
+    /// Force of the spring at a lift, N.
+    #[must_use]
+    pub fn spring_force(&self, lift: f64) -> f64 {
+        self.rate * (self.preloaded + lift)
+    }
+
+    /// Torque of the spring, N·m by the cam angle, at a jet of this law: the opposite of the work's.
+    #[must_use]
+    pub fn spring_torque(&self, jet: Jet) -> f64 {
+        self.spring_force(jet.s) * jet.ds
+    }
+}
+
+/// Torque, N·m, that a follower of a mass (kg) adds at a speed of the cam (rad/s): m ω² y' y''. The law leaves it out.
+#[must_use]
+pub fn follower_torque(mass: f64, cam_speed: f64, jet: Jet) -> f64 {
+    mass * cam_speed * cam_speed * jet.ds * jet.dds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::buffer::bottom_law::{BottomLaw, Column};
+    use crate::buffer::{Bed, Cylinder, camshaft};
+
+    /// 100 N/mm and 10 kN for one of the two machines of the press.
+    fn machine(q: f64, column: Column) -> (BottomLaw, Cylinder, CounterTorque) {
+        let bed = Bed { mass: 978.2, crank_radius: 0.18, crank_turns_per_main_shaft_turn: 3.0 };
+        let cylinder = Cylinder::sized(&bed, 35.0, 1.35, 98_066.5, q * 98_066.5);
+        let law = BottomLaw::new(cylinder.loading(35.0), 1.35, 0.18, column, 0.0);
+        let energy_max = camshaft::largest_work(&law, &cylinder).value;
+        (law, cylinder, CounterTorque::new(1e5, 1e4, energy_max).expect("preload and rate are positive"))
+    }
+
+    fn jet_at(degrees: f64, (law, cylinder, disc): &(BottomLaw, Cylinder, CounterTorque)) -> Jet {
+        let work = camshaft::work(law, cylinder, degrees.to_radians());
+        let work = WorkJet {
+            energy: work.value,
+            torque: work.torque,
+            torque_slope: work.torque_slope,
+            torque_second: work.torque_second,
+        };
+        let jet = disc.jet(work);
+        assert!((disc.spring_torque(jet) + work.torque).abs() < 1e-12);
+        jet
+    }
+
+    /// Relative; a handful of roundings.
+    fn close(got: f64, want: f64) {
+        assert!((got / want - 1.0).abs() < 2e-14, "{got} is not {want}");
+    }
+
+    #[test]
+    fn golden_numbers() {
+        let matched = machine(2.0, Column::Matched);
+        for (degrees, lift) in [
+            (10.0, 0.982_327_851_304_808_177),
+            (30.0, 16.856_008_771_649_496_5),
+            (60.0, 58.531_113_360_097_157_9),
+            (90.0, 77.965_519_078_930_342_7),
+        ] {
+            close(1e3 * jet_at(degrees, &matched).s, lift);
+        }
+        let jet = jet_at(30.0, &matched);
+        close(1e3 * jet.ds, 71.888_357_896_597_821_8);
+        close(1e3 * jet.dds, 109.238_165_370_897_997);
+        close(1e3 * jet.ddds, -478.613_585_087_834_990);
+        let start = jet_at(0.0, &matched);
+        assert_eq!((start.s, start.ds, start.dds), (0.0, 0.0, 0.0));
+        close(1e3 * start.ddds, 1_334.051_489_934_620_47);
+        let returning = machine(5.0, Column::Return);
+        for (degrees, lift) in
+            [(0.0, 10.594_681_872_600_720_5), (30.0, 5.961_641_229_831_062_82), (90.0, 70.321_730_781_434_801_2)]
+        {
+            close(1e3 * jet_at(degrees, &returning).s, lift);
+        }
+        close(1e3 * jet_at(0.0, &returning).dds, -1_127.588_445_571_74);
+    }
+
+    /// A spring pressed by a source of any kind: E = −sin² θ. Each derivative is the difference quotient of the one before, to
+    /// h²/6 of the derivative two orders beyond, which is some hundreds for the last, and 1e-16/h.
+    #[test]
+    fn derivatives_belong_to_their_values() {
+        let disc = CounterTorque::new(3.0, 0.5, 0.0).expect("positive");
+        let jet = |angle: f64| {
+            let (s, c) = (libm::sin(2.0 * angle), libm::cos(2.0 * angle));
+            let energy = -libm::sin(angle) * libm::sin(angle);
+            disc.jet(WorkJet { energy, torque: -s, torque_slope: -2.0 * c, torque_second: 4.0 * s })
+        };
+        let h = 1e-5;
+        for i in 0..60 {
+            let angle = 0.1 * f64::from(i);
+            let difference = |f: fn(Jet) -> f64| (f(jet(angle + h)) - f(jet(angle - h))) / (2.0 * h);
+            let at = jet(angle);
+            assert!((at.ds - difference(|j| j.s)).abs() < 1e-8);
+            assert!((at.dds - difference(|j| j.ds)).abs() < 1e-8);
+            assert!((at.ddds - difference(|j| j.dds)).abs() < 1e-7);
+            let kept = 1.5 * (0.5 + at.s) * (0.5 + at.s) - libm::sin(angle) * libm::sin(angle);
+            assert!((kept - 0.375).abs() < 4e-15, "energy of spring and source");
+        }
+        let by_half = WorkJet { energy: 1.0, torque: 2.0, torque_slope: 4.0, torque_second: 8.0 }.by_angle_times(2.0);
+        assert_eq!(by_half, WorkJet { energy: 1.0, torque: 1.0, torque_slope: 1.0, torque_second: 1.0 });
+        assert_eq!(follower_torque(2.0, 3.0, Jet { s: 0.0, ds: 0.5, dds: 4.0, ddds: 0.0 }), 36.0);
+    }
+
+    #[test]
+    fn refuses_a_spring_without_preload_or_rate() {
+        for preload in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let error = CounterTorque::new(1e5, preload, 0.0).expect_err("no preload");
+            assert!(matches!(error, CounterTorqueError::Preload { .. }), "{error}");
+        }
+        assert!(matches!(CounterTorque::new(0.0, 1.0, 0.0), Err(CounterTorqueError::Rate { .. })));
+        assert!(matches!(CounterTorque::new(1.0, 1.0, f64::NAN), Err(CounterTorqueError::Energy { .. })));
+    }
+}
