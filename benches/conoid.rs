@@ -37,6 +37,7 @@ fn stages(criterion: &mut Criterion) {
             foreign: None,
             cutter_path: None,
             points: None,
+            compensator: None,
             solid: None,
             tolerance_mm: 0.005,
             motion: MotionTolerance::ANY,

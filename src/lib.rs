@@ -88,6 +88,9 @@ pub mod load;
 pub mod body;
 
 #[doc(hidden)]
+pub mod analysis;
+
+#[doc(hidden)]
 pub mod reading;
 
 #[doc(hidden)]
@@ -99,6 +102,8 @@ pub mod write;
 #[doc(hidden)]
 pub mod pipeline;
 
+#[doc(inline)]
+pub use analysis::Analysis;
 #[doc(inline)]
 pub use body::{Drawn, Part, Request};
 #[doc(inline)]
@@ -118,7 +123,7 @@ pub use motion::program::Program;
 #[doc(inline)]
 pub use motion::{Jet, Motion, Piece, Quantity};
 #[doc(inline)]
-pub use pipeline::{Builder, Cam, Drawing, Error, FileSet, Output, Proven, Spec, Writing};
+pub use pipeline::{Builder, Cam, Drawing, Error, FileSet, Judged, Output, Proven, Spec, Writing};
 #[doc(inline)]
 pub use profile::outline::{Fit, Outline, Side};
 #[doc(inline)]

@@ -22,6 +22,10 @@ pub enum Dimension {
     Time,
     /// Newtons per metre inside.
     Stiffness,
+    /// Metres per second inside.
+    Speed,
+    /// Kilograms times square metres inside.
+    Inertia,
 }
 
 struct Unit {
@@ -39,6 +43,8 @@ const fn unit(symbol: &'static str, dimension: Dimension, multiply: f64, divide:
 
 /// One kilogram-force in newtons (exact, CGPM 1901); one technical atmosphere is 1e4 of them per square metre.
 pub const KILOGRAM_FORCE: f64 = 9.80665;
+/// One technical atmosphere, 1 kgf/cm², in pascals.
+pub const TECHNICAL_ATMOSPHERE: f64 = 98_066.5;
 
 const UNITS: &[Unit] = &[
     unit("um", Dimension::Length, 1.0, 1e6),
@@ -55,9 +61,9 @@ const UNITS: &[Unit] = &[
     unit("kPa", Dimension::Pressure, 1e3, 1.0),
     unit("MPa", Dimension::Pressure, 1e6, 1.0),
     unit("bar", Dimension::Pressure, 1e5, 1.0),
-    unit("at", Dimension::Pressure, 98_066.5, 1.0),
+    unit("at", Dimension::Pressure, TECHNICAL_ATMOSPHERE, 1.0),
     unit("psi", Dimension::Pressure, 6_894.757_293_168_361, 1.0),
-    unit("kgf/cm2", Dimension::Pressure, 98_066.5, 1.0),
+    unit("kgf/cm2", Dimension::Pressure, TECHNICAL_ATMOSPHERE, 1.0),
     unit("N", Dimension::Force, 1.0, 1.0),
     unit("kN", Dimension::Force, 1e3, 1.0),
     unit("kgf", Dimension::Force, KILOGRAM_FORCE, 1.0),
@@ -65,6 +71,9 @@ const UNITS: &[Unit] = &[
     unit("ms", Dimension::Time, 1.0, 1e3),
     unit("N/mm", Dimension::Stiffness, 1e3, 1.0),
     unit("kgf/cm", Dimension::Stiffness, 980.665, 1.0),
+    unit("m/s", Dimension::Speed, 1.0, 1.0),
+    unit("mm/s", Dimension::Speed, 1.0, 1e3),
+    unit("kg*m2", Dimension::Inertia, 1.0, 1.0),
 ];
 
 impl Dimension {
@@ -87,6 +96,8 @@ impl fmt::Display for Dimension {
             Dimension::Force => "force",
             Dimension::Time => "time",
             Dimension::Stiffness => "stiffness",
+            Dimension::Speed => "speed",
+            Dimension::Inertia => "moment of inertia",
         })
     }
 }

@@ -8,9 +8,9 @@ mod source;
 use source::{Token, closing, code, sources, src, tokens};
 use std::path::{Path, PathBuf};
 
-const ROOMS: [&str; 17] = [
+const ROOMS: [&str; 18] = [
     "units", "numeric", "document", "geometry", "buffer", "motion", "follower", "machine", "profile", "report",
-    "table", "load", "body", "reading", "verify", "write", "pipeline",
+    "table", "load", "body", "analysis", "reading", "verify", "write", "pipeline",
 ];
 
 /// Longest function, in lines from its name to its closing brace.

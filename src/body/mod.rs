@@ -49,10 +49,12 @@ pub struct Kind {
     pub command: &'static str,
     /// What messages call it: "rotary cam".
     pub noun: &'static str,
+    /// The kind of cam, as keys name it, whose keys have an effect on it.
+    pub keys: &'static str,
 }
 
 /// Every kind of body.
-pub const KINDS: &[&Kind] = &[&disc::ROTARY, &disc::GENERAL, &wedge::KIND, &conoid::KIND];
+pub const KINDS: &[&Kind] = &[&disc::ROTARY, &disc::GENERAL, &disc::COMPENSATOR, &wedge::KIND, &conoid::KIND];
 
 /// A largest error of velocity or acceleration, as it is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -343,6 +345,17 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// Force between follower and cam along the normal, N; `None` where no force is known.
     fn contact_force(&self, piece: usize, parameter: f64) -> Option<f64>;
+
+    /// Force on the follower along its path, N, and the torque of the shaft against it, N·m, at a cam angle; `None` where no force is
+    /// known.
+    fn force_and_torque(&self, _angle: f64) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// The second disc that takes its torque, with what it does by its law; `None` where none is described.
+    fn compensating(&self) -> Option<Result<(disc::Disc, disc::Compensated), disc::DiscError>> {
+        None
+    }
 
     /// Largest pressure between roller and cam after Hertz, Pa; `None` where thickness, material or forces are not given.
     fn contact_stress(&self) -> Option<Worst>;

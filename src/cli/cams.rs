@@ -1,8 +1,8 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
 use super::args::{
-    CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, LaidOf, PointsArgs, PointsAs, PointsBetween, PointsOf,
-    PointsStep, SideOf, SolverKind, Speed, TranslatingArgs,
+    CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween,
+    PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
 };
 use super::progress::Progress;
 use super::{Failure, Outcome, print, tell, text};
@@ -28,8 +28,11 @@ const STATIONS: u32 = 1800;
 /// More speeds than these are named by the first and the last.
 const MOST_NAMED: usize = 6;
 
-pub(super) fn rotary(args: &DiscArgs) -> Result<Outcome, Failure> {
-    let (mut machine, name) = args.common.machine()?;
+pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
+    let keys = args.compensator.iter().map(|key| format!("compensator.{}", key.trim()));
+    let args = &args.disc;
+    let overrides: Vec<String> = args.common.set.iter().cloned().chain(keys).collect();
+    let (mut machine, name) = Machine::load(&args.common.machine, &overrides).map_err(Failure::new)?;
     let rpm = args.common.one_speed(&machine)?;
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     cut(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
@@ -158,8 +161,11 @@ impl FileArgs {
         let fit = Fit { side, laid, ..Fit::from(common.tolerance()) };
         Ok(Request { points, rates, strict, ..Request::within(fit) })
     }
+}
 
-    fn template(&self) -> Result<String, Failure> {
+impl OutArgs {
+    /// The template of the sheet.
+    pub(super) fn template(&self) -> Result<String, Failure> {
         match &self.template {
             None => Ok(svg::TEMPLATE.to_owned()),
             Some(path) => template(path)
@@ -184,7 +190,7 @@ fn template(path: &Path) -> std::io::Result<String> {
 fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String {
     let command = cam.body().kind().command;
     let speeds = match cam.body().speeds() {
-        Speeds::Any(()) => return files.name.clone().unwrap_or_else(|| format!("{machine}-{command}")),
+        Speeds::Any(()) => return files.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}")),
         Speeds::One(rpm) => names(&[rpm]).concat(),
         Speeds::Several(speeds) => {
             let sections = names(&speeds);
@@ -195,7 +201,7 @@ fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String
             }
         }
     };
-    files.name.clone().unwrap_or_else(|| format!("{machine}-{command}-{speeds}rpm"))
+    files.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}-{speeds}rpm"))
 }
 
 /// The time that files are to bear, of the environment variable `SOURCE_DATE_EPOCH`: seconds since 1970, UTC. Without it they bear
@@ -213,19 +219,19 @@ fn source_date() -> Result<Option<u64>, Failure> {
 
 /// Solves, draws, proves, writes and reports.
 fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, machine: &str) -> Result<Outcome, Failure> {
-    let template = files.template()?;
-    let progress = Progress::of_stages(common.shows_progress());
+    let template = files.to.template()?;
+    let progress = Progress::of_stages(common.told.shows_progress());
     progress.stage("solving");
     let cam = spec.solve().map_err(Failure::new)?;
     let writing = Writing {
-        directory: files.out.clone(),
+        directory: files.to.out.clone(),
         stem: stem(common, files, &cam, machine),
         formats: files.format.clone(),
         samples: files.samples,
         template,
         created: source_date()?,
-        force: files.force,
-        overwrite: files.overwrite,
+        force: files.to.force,
+        overwrite: files.to.overwrite,
     };
     let (formats, left_out) = writing.chosen(cam.body()).map_err(Failure::new)?;
     // The flank of a three-dimensional cam is drawn, and proved, only for a format that shows it.
@@ -238,7 +244,7 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
     let report = written(&proven, &writing, common, &left_out);
     drop(progress);
     let report = report?;
-    show(&report, common)?;
+    show(&report, &common.told)?;
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
@@ -261,17 +267,17 @@ fn written(
         tell(&format!("no {} file: {why}", format.to_uppercase()));
     }
     let made = proven.files(writing).map_err(Failure::new)?;
-    if common.dry_run { Ok(proven.report()) } else { made.commit().map_err(Failure::new) }
+    if common.told.dry_run { Ok(proven.report()) } else { made.commit().map_err(Failure::new) }
 }
 
 /// Prints a report as it was asked for.
-pub(super) fn show(report: &Report, common: &CommonArgs) -> Result<(), Failure> {
-    if common.json {
+pub(super) fn show(report: &Report, told: &ToldArgs) -> Result<(), Failure> {
+    if told.json {
         let bytes = json::write(report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&bytes))
-    } else if common.quiet {
+    } else if told.quiet {
         Ok(())
     } else {
-        print(&text::report(report, common.page()))
+        print(&text::report(report, told.page()))
     }
 }

@@ -23,7 +23,11 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         Checked::Make => of_program(&args.common, machine)?,
         Checked::Rotary => {
             let rpm = args.common.one_speed(&machine)?;
-            Spec::rotary(machine, rpm)
+            Spec::rotary(machine, rpm).alone()
+        }
+        Checked::Compensator => {
+            let rpm = args.common.one_speed(&machine)?;
+            Spec::compensator(machine, rpm)
         }
         Checked::Translating => {
             let (rpm, solver) = (args.common.one_speed(&machine)?, Solver::Ode { tolerance: LAW_TOLERANCE });
@@ -31,7 +35,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         }
         Checked::Conoid => of_conoid(&args.common, machine, args.residual)?,
     };
-    let progress = Progress::of_stages(args.common.shows_progress());
+    let progress = Progress::of_stages(args.common.told.shows_progress());
     progress.stage("solving");
     let cam = spec.solve().map_err(Failure::new)?;
     progress.stage("rolling on the file");
@@ -49,11 +53,11 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     })?;
     drop(progress);
     report.sections.insert(0, Section::new("file", &file));
-    if args.common.json {
+    if args.common.told.json {
         let json = json::write(&report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&json))?;
-    } else if !args.common.quiet {
-        print(&text::check_report(&file, &report, args.common.page()))?;
+    } else if !args.common.told.quiet {
+        print(&text::check_report(&file, &report, args.common.told.page()))?;
     }
     Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }

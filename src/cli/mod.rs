@@ -1,5 +1,6 @@
 //! Commands, their exit codes and what they print: data and reports on stdout, messages on stderr.
 
+mod analyses;
 mod args;
 mod cams;
 mod check;
@@ -61,6 +62,8 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Translating(args) => cams::translating(args),
         Command::Conoid(args) => cams::conoid(args),
         Command::Make(args) => cams::make(args),
+        Command::Regimes(args) => analyses::regimes(args),
+        Command::Spring(args) => analyses::spring(args),
         Command::SideBySide(args) => side_by_side::run(args),
         Command::Check(args) => check::run(args),
         Command::Trade(args) => trade::run(args),

@@ -101,7 +101,7 @@ impl SideBySideArgs {
             (Err(_), Some(_)) => Spec::of_program(machine, self.rpm),
             (design, _) => {
                 let rpm = self.rpm.map_or(design, Ok).map_err(Failure::new)?;
-                Some(Spec::rotary(machine, rpm))
+                Some(Spec::rotary(machine, rpm).alone())
             }
         };
         let spec = spec.ok_or_else(|| Failure(format!("{name} has neither a press nor a motion")))?;

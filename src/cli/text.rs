@@ -14,6 +14,9 @@ const PLAIN: &str = "\u{1b}[0m";
 /// Narrower terminals are written to as if they were so wide.
 const NARROWEST: usize = 40;
 
+/// Width of the names of sections.
+const LABEL: usize = 8;
+
 /// What the text is laid out for.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Page {
@@ -66,9 +69,12 @@ fn written(first: String, report: &Report, page: Page) -> String {
 
 /// The lines of a section, the first with its name.
 fn section(section: &Section, page: Page) -> Vec<String> {
-    let label = |index: usize| if index == 0 { &*section.key } else { "" };
-    let line = |(index, words)| wrapped(&format!("  {:<8} {words}", label(index)), 11, page);
-    section.words.iter().enumerate().map(line).collect()
+    // A long name has a line of its own.
+    let alone = section.key.chars().count() > LABEL;
+    let label = |index: usize| if index == 0 && !alone { &*section.key } else { "" };
+    let line = |(index, words)| wrapped(&format!("  {:<LABEL$} {words}", label(index)), LABEL + 3, page);
+    let head = (alone && !section.words.is_empty()).then(|| format!("  {}", section.key));
+    head.into_iter().chain(section.words.iter().enumerate().map(line)).collect()
 }
 
 /// The cells of a check: its name, the value without and the unit with its sign, the limit, the place.

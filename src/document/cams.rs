@@ -1,4 +1,4 @@
-//! Kinds of cam, as keys name the ones on which they have an effect.
+//! Kinds of cam, and analyses, as keys name the ones on which they have an effect.
 
 /// The disc cam of a press.
 pub const ROTARY: &str = "rotary";
@@ -8,10 +8,26 @@ pub const TRANSLATING: &str = "translating";
 pub const CONOID: &str = "conoid";
 /// The disc cam of any motion.
 pub const MAKE: &str = "make";
+/// One cam of a press at other speeds.
+pub const REGIMES: &str = "regimes";
+/// Buffers of a press on springs.
+pub const SPRING: &str = "spring";
+/// The drive of a bed without a cam.
+pub const DRIVE: &str = "drive";
 
 /// The kinds that turn about a shaft.
 pub const TURNING: &[&str] = &[ROTARY, CONOID, MAKE];
 /// Disc cams.
 pub const DISCS: &[&str] = &[ROTARY, MAKE];
+/// What is analysed and not cut: a key that is of every cam has no effect there.
+pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE];
 /// The cams of a press.
 pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
+/// Whatever the bed and its air act on.
+pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE];
+/// Whatever has a column of air.
+pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, DRIVE];
+/// Whatever the law of a bottom acts on.
+pub const OF_A_LAW: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES];
+/// Whatever depends on the design of a press.
+pub const OF_A_DESIGN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING];

@@ -36,6 +36,8 @@ pub enum Form {
 pub enum Presence {
     /// It must be given; here is an example.
     Required(&'static str),
+    /// It must be given, with this example, but where another table stands that takes its place.
+    RequiredUnless(&'static str, &'static str),
     /// What holds when it is absent.
     Default(&'static str),
     /// It may be absent; here is an example.
@@ -47,7 +49,10 @@ impl Presence {
     #[must_use]
     pub const fn text(self) -> &'static str {
         match self {
-            Presence::Required(text) | Presence::Default(text) | Presence::Optional(text) => text,
+            Presence::Required(text)
+            | Presence::RequiredUnless(_, text)
+            | Presence::Default(text)
+            | Presence::Optional(text) => text,
         }
     }
 }

@@ -45,7 +45,8 @@ fn idle(sections: &[&Section], cam: &str) -> BTreeSet<String> {
     let keys = sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
     let idle = keys.filter(|(section, key)| {
         let cams = section.cams_of(key);
-        !cams.is_empty() && !cams.contains(&cam)
+        let of_all = cams.is_empty() && !self::cams::ANALYSES.contains(&cam);
+        !of_all && !cams.contains(&cam)
     });
     idle.map(|(section, key)| section.path_of(key)).collect()
 }

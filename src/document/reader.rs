@@ -114,10 +114,11 @@ impl<'a> Reader<'a> {
             } else {
                 match key.presence {
                     Presence::Optional(_) => continue,
+                    Presence::RequiredUnless(other, _) if self.document.has(other) => continue,
                     Presence::Default(text) => {
                         value::read(key, &path, &Scalar::Text(text.into())).map_err(|misfit| (misfit, None))
                     }
-                    Presence::Required(_) => {
+                    Presence::Required(_) | Presence::RequiredUnless(..) => {
                         let place = self.document.header(table).filter(|_| section.occurs == Occurs::Repeated);
                         self.missing.insert(path.clone(), missing(key, &path, source, place));
                         continue;

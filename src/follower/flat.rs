@@ -22,7 +22,14 @@ const SECTION: Section = Section {
 fn read(table: &Table<'_>) -> Option<FollowerData> {
     // Made for a size when the cam is sized.
     let shape = Arc::new(FlatFace { base_radius: 1.0 });
-    Some(FollowerData { path: SECTION.path, shape, mass: table.get(&MASS), preload: table.get(&PRELOAD), roller: None })
+    Some(FollowerData {
+        path: SECTION.path,
+        shape,
+        mass: table.get(&MASS),
+        preload: table.get(&PRELOAD),
+        spring_rate: 0.0,
+        roller: None,
+    })
 }
 
 /// A face whose distance from the shaft is p = R_b + s: the profile is the envelope of its lines,

@@ -48,6 +48,8 @@ pub struct FollowerData {
     pub mass: Option<f64>,
     /// Force that presses it onto the cam beside the load, N.
     pub preload: Option<f64>,
+    /// By how much that force grows with the lift, N/m.
+    pub spring_rate: f64,
     /// What only a translating roller has.
     pub roller: Option<RollerData>,
 }

@@ -79,6 +79,7 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
         shape: Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius)),
         mass: table.get(&MASS),
         preload: table.get(&PRELOAD),
+        spring_rate: 0.0,
         roller: Some(RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) }),
     })
 }

@@ -1,10 +1,11 @@
 //! The air buffers of a press under a disc cam: the air presses the roller on, and its
 //! force is to equal the inertia force of the bed.
 
-use super::{Load, RunUp};
+use super::{Load, RunUp, ShaftWork};
 use crate::buffer::bottom_law::BottomLaw;
 use crate::buffer::{Cylinder, PlainBuffer};
 use crate::geometry::MILLIMETRES;
+use crate::motion::counter_torque::Work;
 use crate::motion::{Motion, Reversal, State, Transition};
 use crate::profile::Worst;
 use crate::profile::extremes::{self, Acting};
@@ -143,6 +144,11 @@ impl Load for AirBuffer {
             [start.slope * law.stroke, start.second * law.stroke * law.stroke]
         };
         Some(RunUp::new(law.stroke, width, end))
+    }
+
+    fn shaft_work(&self, preload: f64, (mass, speed): (f64, f64)) -> Option<Arc<dyn Work>> {
+        let reversal = Arc::clone(&self.reversal);
+        Some(Arc::new(ShaftWork::new(self.cylinder, reversal, preload, mass, speed)))
     }
 
     fn section(&self) -> Section {

@@ -1,17 +1,21 @@
 //! Loads: what presses the follower onto the cam, and the force balance the motion is made for. A cam may have no load.
 
 mod air_buffer;
+mod shaft_work;
 
 pub use air_buffer::AirBuffer;
 pub(crate) use air_buffer::{air_law, balance_row, closed_at};
+pub use shaft_work::ShaftWork;
 
 use crate::motion::State;
+use crate::motion::counter_torque::Work;
 use crate::numeric::root;
 use crate::profile::Worst;
 use crate::profile::extremes::Acting;
 use crate::report::Section;
 use crate::table::BalanceRow;
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// The lift that a run-up adds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +68,12 @@ pub trait Load: std::fmt::Debug + Send + Sync {
 
     /// The lift that a run-up before the load begins adds; `None` without one.
     fn run_up(&self) -> Option<RunUp>;
+
+    /// The work of the shaft on the follower under this load, a preload (N), and a mass (kg) at an angular speed of the cam (rad/s);
+    /// `None` where it is not known.
+    fn shaft_work(&self, _preload: f64, _mass: (f64, f64)) -> Option<Arc<dyn Work>> {
+        None
+    }
 
     /// What the load contributes to the report.
     fn section(&self) -> Section;

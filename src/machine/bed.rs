@@ -3,14 +3,14 @@
 use super::buffer::PRESS;
 use crate::buffer::Bed;
 use crate::document::Presence::{Default, Required};
-use crate::document::cams::OF_A_PRESS;
+use crate::document::cams::{OF_A_BED, OF_A_DESIGN};
 use crate::document::range::{HEAVIEST, LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, above};
 use crate::units::Dimension::{Length, Mass};
 
-const MASS: Field<f64> =
+pub(super) const MASS: Field<f64> =
     Field::quantity("mass", "moving mass of the bed with its forme", Required("978.2 kg"), Mass, above(0.0, HEAVIEST));
-const CRANK_RADIUS: Field<f64> = Field::quantity(
+pub(super) const CRANK_RADIUS: Field<f64> = Field::quantity(
     "crank_radius",
     "crank radius r = the whole overrun of the bed",
     Required("180 mm"),
@@ -22,14 +22,15 @@ const CRANK_TURNS: Field<f64> = Field::number(
     "turns of the reversing crank for one turn of the main shaft",
     Default("3"),
     above(0.0, LARGEST_NUMBER),
-);
+)
+.only(OF_A_DESIGN);
 
 /// `[bed]`.
 pub(super) const SECTION: Section = Section {
     path: "bed",
     about: "the bed and its crank",
     occurs: Occurs::With(PRESS),
-    cams: OF_A_PRESS,
+    cams: OF_A_BED,
     keys: &[MASS.key, CRANK_RADIUS.key, CRANK_TURNS.key],
 };
 

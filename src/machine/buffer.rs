@@ -3,8 +3,8 @@
 use super::press::Press;
 use crate::buffer::Bed;
 use crate::buffer::bottom_law::Column;
-use crate::document::Presence::{Default, Required};
-use crate::document::cams::OF_A_PRESS;
+use crate::document::Presence::{Default, Required, RequiredUnless};
+use crate::document::cams::{OF_A_BED, OF_A_COLUMN, OF_A_DESIGN, OF_A_LAW};
 use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST};
 use crate::document::{Bounds, Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Length, Pressure};
@@ -14,42 +14,45 @@ pub(super) const PRESS: &[&str] = &["bed", "buffer", "design"];
 
 const PRESSURE: Bounds = above(0.0, HIGHEST_PRESSURE);
 
-const POLYTROPIC_EXPONENT: Field<f64> = Field::number(
+pub(super) const POLYTROPIC_EXPONENT: Field<f64> = Field::number(
     "polytropic_exponent",
     "k of p·v^k = const, 1 to 3; 1.35 to 1.40 for a quick air buffer",
     Default("1.35"),
     within(1.0, 3.0),
 );
-const AMBIENT_PRESSURE: Field<f64> =
+pub(super) const AMBIENT_PRESSURE: Field<f64> =
     Field::quantity("ambient_pressure", "pressure of the air around, absolute", Required("1 at"), Pressure, PRESSURE);
 const END_PRESSURE: Field<f64> = Field::quantity(
     "end_pressure",
     "absolute pressure at the end of the compression, design speed; above ambient_pressure",
-    Required("2 at"),
+    RequiredUnless(super::drive::PATH, "2 at"),
     Pressure,
     PRESSURE,
-);
-const COLUMN: Field<Column> = Field::words_or_quantity(
+)
+.only(OF_A_DESIGN);
+pub(super) const COLUMN: Field<Column> = Field::words_or_quantity(
     "column",
     "air column: \"matched\" (the law starts with slope 0), \"return\" (the bottom comes back) or a length",
     Default("matched"),
     (&["matched", "return"], &[Column::Matched, Column::Return]),
     (Length, above(0.0, LONGEST), Column::Length),
-);
+)
+.only(OF_A_COLUMN);
 const LEAD: Field<f64> = Field::quantity(
     "lead",
     "piston travel inside the cylinder before the reversal starts",
     Default("0 mm"),
     Length,
     within(0.0, LONGEST),
-);
+)
+.only(OF_A_LAW);
 
 /// `[buffer]`.
 pub(super) const SECTION: Section = Section {
     path: "buffer",
     about: "the air buffer",
     occurs: Occurs::With(PRESS),
-    cams: OF_A_PRESS,
+    cams: OF_A_BED,
     keys: &[POLYTROPIC_EXPONENT.key, AMBIENT_PRESSURE.key, END_PRESSURE.key, COLUMN.key, LEAD.key],
 };
 
@@ -65,7 +68,7 @@ pub(super) const DESIGN: Section = Section {
     path: "design",
     about: "what the machine is built for",
     occurs: Occurs::With(PRESS),
-    cams: OF_A_PRESS,
+    cams: OF_A_DESIGN,
     keys: &[RPM.key],
 };
 

@@ -1,7 +1,7 @@
 //! The disc of a disc cam, its bore and its keyway; other cams use the keys that apply to them.
 
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::{CONOID, DISCS, MAKE, ROTARY, TRANSLATING, TURNING};
+use crate::document::cams::{CONOID, DISCS, MAKE, REGIMES, ROTARY, TRANSLATING, TURNING};
 use crate::document::range::{LARGEST_NUMBER, LONGEST, THINNEST};
 use crate::document::{Bounds, Field, Occurs, Reader, Section, Table, above, within};
 use crate::follower::FollowerData;
@@ -130,7 +130,7 @@ const TURNS: Field<f64> = Field::number(
     Default("1"),
     above(0.0, LARGEST_NUMBER),
 )
-.only(&[ROTARY, CONOID]);
+.only(&[ROTARY, CONOID, REGIMES]);
 const LEVER: Field<f64> = Field::number(
     "lever",
     "roller travel per travel of the cylinder's bottom",

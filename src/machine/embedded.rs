@@ -13,6 +13,7 @@ pub struct Embedded {
 pub const EMBEDDED: &[Embedded] = &[
     Embedded { name: "dpi", toml: include_str!("../../profiles/dpi.toml") },
     Embedded { name: "dpi-paper", toml: include_str!("../../profiles/dpi-paper.toml") },
+    Embedded { name: "dp", toml: include_str!("../../profiles/dp.toml") },
 ];
 
 /// Their names in one list for a message.

@@ -7,8 +7,10 @@
 
 mod bed;
 mod buffer;
+mod compensator;
 mod conoid;
 mod disc;
+mod drive;
 mod embedded;
 mod limits;
 mod press;
@@ -18,8 +20,10 @@ mod translating;
 
 pub use crate::document::{Excerpt, Fault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
+pub use compensator::CompensatorData;
 pub use conoid::{ConoidData, ConoidMode, Shift};
 pub use disc::{CamData, Keyway, Material, Rotation};
+pub use drive::{DriveData, DriveMachine};
 pub use embedded::{EMBEDDED, Embedded};
 pub use limits::{Limits, Touching, customary_stress};
 pub use press::{NoPress, NoRoller, Press};
@@ -61,6 +65,8 @@ const BODY_TABLES: &[&Section] = &[
     &transition::SECTION,
     &translating::SECTION,
     &conoid::SECTION,
+    &compensator::SECTION,
+    &drive::SECTION,
     &limits::SECTION,
     &title::SECTION,
 ];
@@ -138,12 +144,16 @@ pub struct Machine {
     pub(crate) translating: Option<TranslatingData>,
     /// Conoid, when described.
     pub(crate) conoid: Option<ConoidData>,
+    /// Compensating cam, when described.
+    compensator: Option<CompensatorData>,
     /// Limits.
     pub(crate) limits: Limits,
     /// Title block.
     pub(crate) title: Title,
     /// Keys the user gave.
     given: Vec<String>,
+    /// Those of them that are set by overrides.
+    overridden: Vec<String>,
     /// Every value, defaults too.
     inputs: Vec<Input>,
 }
@@ -159,12 +169,7 @@ impl Machine {
 
     /// `own`: the user wrote the text.
     fn read(source: &str, text: &str, overrides: &[String], own: bool) -> Result<Self, MachineError> {
-        let sections = sections();
-        let reader = Reader::new(source, text, overrides, &sections);
-        let machine = Self::parts(&reader, own);
-        reader.finish().map_err(|faults| MachineError { faults })?;
-        // A part is missing only after a fault, so `finish` has returned before.
-        machine.ok_or(MachineError { faults: Vec::new() })
+        read_as(source, text, overrides, |reader| Self::parts(reader, own))
     }
 
     fn parts(reader: &Reader<'_>, own: bool) -> Option<Self> {
@@ -182,9 +187,11 @@ impl Machine {
             transition: transition::read(reader)?,
             translating: translating::read(reader, radius),
             conoid: conoid::read(reader),
+            compensator: compensator::read(reader),
             limits: limits::read(reader)?,
             title: title::read(reader),
             given: reader.given(own),
+            overridden: reader.given(false),
             inputs: reader.inputs(),
             follower,
         })
@@ -249,7 +256,16 @@ impl Machine {
     /// Of the keys given, those that have no effect on a kind of cam as a command names it.
     #[must_use]
     pub fn without_effect(&self, command: &str) -> Vec<String> {
-        document::without_effect(&sections(), &self.given, command)
+        // A file may describe what an analysis does not look at.
+        let given = if cams::ANALYSES.contains(&command) { &self.overridden } else { &self.given };
+        document::without_effect(&sections(), given, command)
+    }
+
+    /// A sentence for each key that was given and has no effect on what a command makes, which messages call by its noun.
+    #[must_use]
+    pub fn idle_keys_told(&self, command: &str, noun: &str) -> Vec<String> {
+        let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+        self.without_effect(command).iter().map(|key| format!("`{key}` has no effect on {article} {noun}")).collect()
     }
 
     /// The keys the user gave, in a file of their own or by overrides, for [`Machine::without_effect`]. Of the tables
@@ -264,31 +280,53 @@ impl Machine {
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
-        let path = Path::new(name_or_path);
-        let exact = |machine: &&Embedded| machine.name == name_or_path;
-        let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
-        if let Some(embedded) = EMBEDDED.iter().find(exact).or_else(|| EMBEDDED.iter().find(in_any_case)) {
-            let name = embedded.name;
-            let machine = Self::read(&format!("{name} (embedded)"), embedded.toml, overrides, false)?;
-            return Ok((machine, name.to_owned()));
-        }
-        let text = read_text(path).map_err(|why| MachineError {
-            faults: vec![Fault {
-                message: format!("cannot read the machine file `{name_or_path}`: {why}"),
-                help: Some(format!(
-                    "{}give a path to a TOML file or an embedded machine: {}",
-                    meant(path)
-                        .filter(|near| near != name_or_path)
-                        .map_or(String::new(), |near| format!("did you mean `{near}`? Else ")),
-                    embedded::names()
-                )),
-                place: None,
-            }],
-        })?;
-        let machine = Self::from_toml(name_or_path, &text, overrides)?;
-        let stem = path.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy().into_owned());
-        Ok((machine, stem))
+        load_as(name_or_path, |source, text, own| Self::read(source, text, overrides, own))
     }
+}
+
+/// What `parts` makes of a text that is read against the tables of a machine file.
+fn read_as<T>(
+    source: &str,
+    text: &str,
+    overrides: &[String],
+    parts: impl FnOnce(&Reader<'_>) -> Option<T>,
+) -> Result<T, MachineError> {
+    let sections = sections();
+    let reader = Reader::new(source, text, overrides, &sections);
+    let made = parts(&reader);
+    reader.finish().map_err(|faults| MachineError { faults })?;
+    // A part is missing only after a fault, so `finish` has returned before.
+    made.ok_or(MachineError { faults: Vec::new() })
+}
+
+/// What `read` makes of an embedded machine by its name, or of a file, and the word that names its files; it is told the source, the
+/// text, and whether the user wrote it.
+fn load_as<T>(
+    name_or_path: &str,
+    read: impl FnOnce(&str, &str, bool) -> Result<T, MachineError>,
+) -> Result<(T, String), MachineError> {
+    let path = Path::new(name_or_path);
+    let exact = |machine: &&Embedded| machine.name == name_or_path;
+    let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
+    if let Some(embedded) = EMBEDDED.iter().find(exact).or_else(|| EMBEDDED.iter().find(in_any_case)) {
+        let name = embedded.name;
+        return Ok((read(&format!("{name} (embedded)"), embedded.toml, false)?, name.to_owned()));
+    }
+    let text = read_text(path).map_err(|why| MachineError {
+        faults: vec![Fault {
+            message: format!("cannot read the machine file `{name_or_path}`: {why}"),
+            help: Some(format!(
+                "{}give a path to a TOML file or an embedded machine: {}",
+                meant(path)
+                    .filter(|near| near != name_or_path)
+                    .map_or(String::new(), |near| format!("did you mean `{near}`? Else ")),
+                embedded::names()
+            )),
+            place: None,
+        }],
+    })?;
+    let stem = path.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy().into_owned());
+    Ok((read(name_or_path, &text, true)?, stem))
 }
 
 /// The embedded machine, or the TOML file in the same directory, whose name is nearest to that of a file that cannot be read.

@@ -11,7 +11,13 @@
 //! Without preload y is no smooth function of θ where E is largest: y0 must be above 0. The mass of the second follower is left
 //! out of the law.
 
-use super::Jet;
+use super::{Jet, Motion, Piece};
+use crate::numeric::extremum;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Cells in which the extrema of the work in a piece are searched: a handful a piece.
+const CELLS: u32 = 32;
 
 /// Work given elsewhere and its derivatives by the cam angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -38,6 +44,33 @@ impl WorkJet {
             torque_second: self.torque_second * n * n * n,
         }
     }
+}
+
+impl std::ops::Add for WorkJet {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            energy: self.energy + other.energy,
+            torque: self.torque + other.torque,
+            torque_slope: self.torque_slope + other.torque_slope,
+            torque_second: self.torque_second + other.torque_second,
+        }
+    }
+}
+
+/// What asks a torque of a shaft, over one turn of the cam.
+pub trait Work: std::fmt::Debug + Send + Sync {
+    /// The pieces on which it is smooth, as [`Motion::pieces`]; a dwell is where nothing is given and nothing taken.
+    fn pieces(&self) -> &[Piece];
+
+    /// Equal lobes of a turn.
+    fn lobes(&self) -> u32 {
+        1
+    }
+
+    /// Work and torque at an angle of a piece.
+    fn at(&self, piece: usize, angle: f64) -> WorkJet;
 }
 
 /// Why there is no such law.
@@ -110,6 +143,18 @@ impl CounterTorque {
         self.rate * (self.preloaded + lift)
     }
 
+    /// Force of the spring where the lift is 0, N.
+    #[must_use]
+    pub fn preload(&self) -> f64 {
+        self.rate * self.preloaded
+    }
+
+    /// Rate of the spring, N/m.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        self.rate
+    }
+
     /// Torque of the spring, N·m by the cam angle, at a jet of this law: the opposite of the work's.
     #[must_use]
     pub fn spring_torque(&self, jet: Jet) -> f64 {
@@ -117,10 +162,88 @@ impl CounterTorque {
     }
 }
 
-/// Torque, N·m, that a follower of a mass (kg) adds at a speed of the cam (rad/s): m ω² y' y''. The law leaves it out.
+/// The motion of a follower by this law against some work on its shaft.
+#[derive(Debug, Clone)]
+pub struct CounterMotion {
+    work: Arc<dyn Work>,
+    law: CounterTorque,
+    /// Work between its least and its largest, J.
+    stored: f64,
+    pieces: Vec<Piece>,
+}
+
+impl CounterMotion {
+    /// The motion with a spring rate (N/m) and the force of the spring where the lift is 0 (N).
+    ///
+    /// # Errors
+    /// As [`CounterTorque::new`].
+    pub fn new(work: Arc<dyn Work>, rate: f64, preload: f64) -> Result<Self, CounterTorqueError> {
+        let pieces = work.pieces().to_vec();
+        let distinct = pieces.len() / usize::try_from(work.lobes().max(1)).unwrap_or(1);
+        let extreme = |sign: f64| {
+            let of = |(index, piece): (usize, &Piece)| {
+                let value = |angle| sign * work.at(index, angle).energy;
+                let slope = |angle| sign * work.at(index, angle).torque;
+                let cells = if piece.dwell { 1 } else { CELLS };
+                extremum::largest(value, slope, (piece.start, piece.end), cells).value
+            };
+            sign * pieces.iter().take(distinct.max(1)).enumerate().map(of).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let (most, least) = (extreme(1.0), extreme(-1.0));
+        Ok(Self { law: CounterTorque::new(rate, preload, most)?, stored: most - least, pieces, work })
+    }
+
+    /// The law of its spring.
+    #[must_use]
+    pub fn law(&self) -> &CounterTorque {
+        &self.law
+    }
+
+    /// Work between its least and its largest, J: what the spring takes up and gives back.
+    #[must_use]
+    pub fn stored(&self) -> f64 {
+        self.stored
+    }
+}
+
+impl Motion for CounterMotion {
+    fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    fn lobes(&self) -> u32 {
+        self.work.lobes()
+    }
+
+    fn jet(&self, piece: usize, angle: f64) -> Jet {
+        let lift = self.law.jet(self.work.at(piece, angle));
+        if self.pieces.get(piece).is_some_and(|piece| piece.dwell) { Jet { s: lift.s, ..Jet::default() } } else { lift }
+    }
+}
+
+/// The pieces of a turn with those next to each other on which nothing is given or taken made one: for each the piece it is made of
+/// and how far its angle is shifted from that, rad.
 #[must_use]
-pub fn follower_torque(mass: f64, cam_speed: f64, jet: Jet) -> f64 {
-    mass * cam_speed * cam_speed * jet.ds * jet.dds
+pub fn merged(pieces: &[Piece], rests: &[bool]) -> Vec<(Piece, usize, f64)> {
+    let rests_at = |index: usize| rests.get(index).copied().unwrap_or(false);
+    // A turn that begins within a rest would cut it in two.
+    let first = (0..pieces.len()).find(|index| !rests_at(*index)).unwrap_or(0);
+    let turned = (0..pieces.len()).map(|step| {
+        let index = (first + step) % pieces.len();
+        (index, if first + step < pieces.len() { 0.0 } else { TAU })
+    });
+    let mut all: Vec<(Piece, usize, f64)> = Vec::new();
+    for (index, shift) in turned {
+        let Some(piece) = pieces.get(index) else { continue };
+        match all.last_mut() {
+            Some((last, ..)) if last.dwell && rests_at(index) => last.end = piece.end + shift,
+            _ => {
+                let start = all.last().map_or(piece.start, |(last, ..)| last.end);
+                all.push((Piece { start, end: piece.end + shift, dwell: rests_at(index) }, index, shift));
+            }
+        }
+    }
+    all
 }
 
 #[cfg(test)]
@@ -206,7 +329,6 @@ mod tests {
         }
         let by_half = WorkJet { energy: 1.0, torque: 2.0, torque_slope: 4.0, torque_second: 8.0 }.by_angle_times(2.0);
         assert_eq!(by_half, WorkJet { energy: 1.0, torque: 1.0, torque_slope: 1.0, torque_second: 1.0 });
-        assert_eq!(follower_torque(2.0, 3.0, Jet { s: 0.0, ds: 0.5, dds: 4.0, ddds: 0.0 }), 36.0);
     }
 
     #[test]

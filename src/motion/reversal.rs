@@ -201,6 +201,47 @@ impl Reversal {
         State { crank, overrun, displacement, pressure_ratio }
     }
 
+    /// The crank angle of the braking or returning half at an angle of a piece, rad; below 0 before the reversal.
+    #[must_use]
+    pub fn crank_in(&self, piece: usize, angle: f64) -> f64 {
+        self.part_at(piece, angle).map_or(0.0, |(_, crank)| crank)
+    }
+
+    /// Whether the air is compressed on a piece, or a part of it.
+    #[must_use]
+    pub fn compresses(&self, piece: usize) -> bool {
+        let part = self.parts.get(piece % self.parts.len().max(1));
+        part.is_some_and(|part| part.end > 0.0 && part.start < PI)
+    }
+
+    /// Whether the force balance is exact on a piece.
+    #[must_use]
+    pub fn follows_law(&self, piece: usize) -> bool {
+        self.parts.get(piece % self.parts.len().max(1)).is_some_and(|part| part.shape == Shape::Reversal)
+    }
+
+    /// The crank angle at which the exact law begins, rad: 0, or the end of a blend.
+    #[must_use]
+    pub fn law_begins(&self) -> Option<f64> {
+        self.parts.iter().find(|part| part.shape == Shape::Reversal).map(|part| part.start)
+    }
+
+    /// Fourth derivative of the lift by the cam angle, m/rad⁴.
+    #[must_use]
+    pub fn fourth(&self, piece: usize, angle: f64) -> f64 {
+        let Some((&Part { shape, mirrored, .. }, crank)) = self.part_at(piece, angle) else { return 0.0 };
+        let mirrored = mirrored || (shape == Shape::Reversal && crank > FRAC_PI_2);
+        let crank = if mirrored { PI - crank } else { crank };
+        // An even derivative is the same in the mirror.
+        let by_crank = match shape {
+            Shape::Dwell(_) | Shape::Retreat => 0.0,
+            Shape::Polynomial(quintic) => quintic.fourth(crank),
+            Shape::Reversal => fourth_of_law(&self.law.bottom_law, crank),
+        };
+        let square = self.count() * self.count();
+        self.law.lever * by_crank * square * square
+    }
+
     /// The lowest Δx of the turn, m: where the lift is counted from.
     #[must_use]
     pub fn lowest(&self) -> f64 {
@@ -287,6 +328,16 @@ fn bottom_law_at(bottom_law: &BottomLaw, crank: f64) -> Derivatives {
         bottom.second * x1 * x1 - bottom.slope * x,
         bottom.third * x1 * x1 * x1 - 3.0 * bottom.second * x1 * x - bottom.slope * x1,
     ]
+}
+
+/// d⁴Δx/dφ⁴ in [0, π/2]; the fourth derivative of x = r sin φ is x itself.
+fn fourth_of_law(bottom_law: &BottomLaw, crank: f64) -> f64 {
+    let (x, y) = overrun(bottom_law.stroke, crank);
+    let x1 = bottom_law.stroke * libm::sin(FRAC_PI_2 - crank);
+    let bottom = bottom_law.bottom(x, y);
+    let square = x1 * x1;
+    let cross = bottom.second * (3.0 * x * x - 4.0 * square);
+    bottom.fourth * square * square - 6.0 * bottom.third * square * x + cross + bottom.slope * x
 }
 
 impl Motion for Reversal {

@@ -54,6 +54,13 @@ impl Quintic {
         self.coefficients[0]
     }
 
+    /// Its fourth derivative.
+    pub(crate) fn fourth(&self, angle: f64) -> f64 {
+        let (t, n) = ((angle - self.start) / self.width, 1.0 / self.width);
+        let [.., c4, c5] = self.coefficients;
+        (120.0 * c5 * t + 24.0 * c4) * n * n * n * n
+    }
+
     pub(crate) fn at(&self, angle: f64) -> Derivatives {
         let t = (angle - self.start) / self.width;
         let n = 1.0 / self.width;

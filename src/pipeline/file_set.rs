@@ -114,9 +114,22 @@ pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, E
     for format in formats {
         bytes.extend((format.write)(&rendering)?);
     }
-    let outputs = names.into_iter().zip(bytes).map(|(name, bytes)| Output { name, bytes }).collect();
+    let mut all = set(writing, proven.inputs.clone(), report, names.into_iter().zip(bytes).collect());
+    if let Some(second) = proven.second() {
+        let of_second =
+            Writing { stem: format!("{}-{}", writing.stem, second.cam.body().kind().command), ..writing.clone() };
+        let second = files(second, &of_second)?;
+        all.outputs.extend(second.outputs);
+        all.report.files.extend(second.report.files);
+    }
+    Ok(all)
+}
+
+/// Named bytes where they are to be written.
+pub(super) fn set(writing: &Writing, inputs: Vec<Input>, report: Report, named: Vec<(String, Vec<u8>)>) -> FileSet {
+    let outputs = named.into_iter().map(|(name, bytes)| Output { name, bytes }).collect();
     let (directory, stem) = (writing.directory.clone(), writing.stem.clone());
-    Ok(FileSet { directory, stem, inputs: proven.inputs.clone(), overwrite: writing.overwrite, report, outputs })
+    FileSet { directory, stem, inputs, overwrite: writing.overwrite, report, outputs }
 }
 
 impl FileSet {

@@ -9,19 +9,21 @@ mod diagnosis;
 mod error;
 mod file_set;
 mod inputs;
+mod judged;
 mod proven;
 mod spec;
 
 pub use builder::Builder;
 pub use error::Error;
 pub use file_set::{FileSet, Output, Writing};
+pub use judged::Judged;
 pub use proven::Proven;
 pub use spec::Spec;
 
+use crate::body::disc::Compensated;
 use crate::body::points::{self, PointTable, TableError};
-use crate::body::{Body, DrawError, Drawn, Kind, Request};
+use crate::body::{Body, DrawError, Drawn, Request};
 use crate::document::Input;
-use crate::machine::Machine;
 use crate::report::{Inputs, Report, Section};
 
 /// A solved cam: exact curves, nothing drawn yet.
@@ -32,6 +34,8 @@ pub struct Cam {
     again: Option<diagnosis::Again>,
     /// What determines it.
     inputs: Vec<Input>,
+    /// The disc that takes its torque, and what it does by its law.
+    second: Option<(Box<Cam>, Compensated)>,
 }
 
 impl Cam {
@@ -48,6 +52,7 @@ impl Cam {
     /// far, gives a drawing without one: its checks say why, and it cannot be written.
     pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
         let request = request.into();
+        let asked = request;
         let inputs = self.inputs_for(&request);
         let request = request.resolved(&*self.body)?;
         let (drawn, points) = match self.body.draw(&request) {
@@ -62,7 +67,11 @@ impl Cam {
             Err(DrawError::NoOutline(why)) => (Err(why), Ok(Vec::new())),
             Err(error) => return Err(error.into()),
         };
-        Ok(Drawing { cam: self, request, inputs, drawn, points })
+        let second = match &self.second {
+            Some((cam, _)) => Some(Box::new(cam.draw(asked)?)),
+            None => None,
+        };
+        Ok(Drawing { cam: self, request, inputs, drawn, points, second })
     }
 
     /// Everything that determines the part as it is drawn.
@@ -87,6 +96,8 @@ pub struct Drawing<'c> {
     drawn: Result<Drawn, String>,
     /// The tables of points that were requested, or why there are none.
     points: Result<Vec<PointTable>, String>,
+    /// The disc that takes its torque.
+    second: Option<Box<Self>>,
 }
 
 impl Drawing<'_> {
@@ -95,13 +106,6 @@ impl Drawing<'_> {
     pub fn drawn(&self) -> Option<&Drawn> {
         self.drawn.as_ref().ok()
     }
-}
-
-/// A sentence for each key that was given and has no effect on the cam.
-fn without_effect(machine: &Machine, kind: &Kind) -> Vec<String> {
-    let keys = machine.without_effect(kind.command);
-    let article = if kind.noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
-    keys.iter().map(|key| format!("`{key}` has no effect on {article} {}", kind.noun)).collect()
 }
 
 /// The report of a body, without files.
@@ -115,7 +119,7 @@ fn report(body: &dyn Body, inputs: &[Input], sections: Vec<Section>, checks: Vec
         inputs: Inputs::of(inputs),
         sections,
         checks,
-        notes: without_effect(machine, kind),
+        notes: machine.idle_keys_told(kind.keys, kind.noun),
         files: Vec::new(),
     }
 }

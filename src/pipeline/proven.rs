@@ -1,12 +1,14 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, FileSet, Writing, file_set, report};
+use crate::body::disc::AtSpeed;
 use crate::body::points::{Judged, PointTable, swings};
 use crate::body::{Body, Drawn, Found, Request};
 use crate::document::Input;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Between, Interpolant};
-use crate::report::{Finding, Inputs, PointMeasures, Report, Rolled, passed};
+use crate::profile::lifts;
+use crate::report::{Compensation, Finding, Inputs, PointMeasures, PreloadAt, Report, Rolled, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
 use crate::write::Rendering;
@@ -32,6 +34,8 @@ pub struct Proven<'c> {
     outlines: Vec<WrittenOutline>,
     rolled: Option<Rolled>,
     findings: Vec<Finding>,
+    /// The disc that takes its torque.
+    second: Option<Box<Self>>,
 }
 
 impl<'c> Drawing<'c> {
@@ -48,6 +52,10 @@ impl<'c> Drawing<'c> {
     /// # Errors
     /// As [`Drawing::prove`].
     pub fn prove_as(self, version: Version) -> Result<Proven<'c>, Error> {
+        let second = match self.second {
+            Some(second) => Some(Box::new(second.prove_as(version)?)),
+            None => None,
+        };
         let body = self.cam.body();
         let mark = Inputs::of(&self.inputs).to_string();
         let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
@@ -79,13 +87,27 @@ impl<'c> Drawing<'c> {
             foreign: None,
             cutter_path: cutter_path.as_ref(),
             points: tables.as_ref(),
+            compensator: second.as_ref().map(|second| second.findings.as_slice()),
             solid: None,
             tolerance_mm,
             motion: self.request.fit.motion,
             strict: self.request.strict,
         });
         let (cam, request, inputs, drawn) = (self.cam, self.request, self.inputs, self.drawn);
-        Ok(Proven { cam, request, inputs, drawn, cut_files, points, points_told, version, outlines, rolled, findings })
+        Ok(Proven {
+            cam,
+            request,
+            inputs,
+            drawn,
+            cut_files,
+            points,
+            points_told,
+            version,
+            outlines,
+            rolled,
+            findings,
+            second,
+        })
     }
 }
 
@@ -109,6 +131,16 @@ fn written_points(
     };
     let written = tables.into_iter().zip(&files).map(read).collect();
     (files, Some(Ok(written)))
+}
+
+fn preload_at(at: &AtSpeed) -> PreloadAt {
+    PreloadAt {
+        rpm: at.rpm,
+        preload_n: at.preload,
+        torque_before_max_nm: at.before,
+        torque_unchanged_max_nm: at.unchanged,
+        torque_after_max_nm: at.after,
+    }
 }
 
 /// What the report tells of a table.
@@ -141,13 +173,47 @@ impl Proven<'_> {
     /// Whether there is an outline and no check failed.
     #[must_use]
     pub fn passed(&self) -> bool {
-        self.drawn.is_ok() && passed(&self.findings)
+        self.drawn.is_ok() && passed(&self.findings) && self.second.as_ref().is_none_or(|second| second.passed())
     }
 
     /// Why there is no outline, when there is none.
     #[must_use]
     pub fn no_outline(&self) -> Option<&str> {
-        self.drawn.as_ref().err().map(String::as_str)
+        self.drawn.as_ref().err().map(String::as_str).or(self.second.as_ref().and_then(|second| second.no_outline()))
+    }
+
+    /// The disc that takes its torque, where there is one.
+    #[must_use]
+    pub fn second(&self) -> Option<&Proven<'_>> {
+        self.second.as_deref()
+    }
+
+    /// What that disc does, for the report.
+    fn compensation(&self) -> Option<Compensation> {
+        let (second, (_, told)) = (self.second.as_deref()?, self.cam.second.as_ref()?);
+        let (body, machine) = (second.cam.body(), self.cam.body().machine());
+        let (curves, data) = (body.plane()?, machine.compensator()?);
+        let both = self.outlines.first().zip(second.outlines.first());
+        let part = second.drawn().and_then(|drawn| drawn.parts.first());
+        let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
+        let prime_radius_mm = MILLIMETRES * curves.follower.prime_radius()?;
+        Some(Compensation {
+            lift_max_mm: MILLIMETRES * lifts(curves.motion).1,
+            prime_radius_mm,
+            base_radius_mm: prime_radius_mm - MILLIMETRES * data.roller_radius,
+            roller_radius_mm: MILLIMETRES * data.roller_radius,
+            angle_deg: data.angle.to_degrees(),
+            work_j: told.work,
+            spring_force_max_n: told.spring_force,
+            torque_before_max_nm: told.before,
+            torque_after_max_nm: told.after,
+            torque_as_cut_max_nm: both
+                .and_then(|(first, second)| verify::torque_as_cut([(self.cam.body(), first), (body, second)])),
+            preload_by_rpm: told.by_speed.iter().map(preload_at).collect(),
+            outline: part.map(|part| part.measures(tolerance_mm, |_| false)),
+            rolling: second.rolled.clone(),
+            checks: second.findings.clone(),
+        })
     }
 
     /// What was drawn.
@@ -185,6 +251,7 @@ impl Proven<'_> {
         };
         let mut sections = body.sections(&found);
         sections.extend(PointMeasures::section(&self.points_told));
+        sections.extend(self.compensation().map(|told| told.section()));
         let mut report = report(body, &self.inputs, sections, self.findings.clone());
         report.notes.extend(self.no_outline().map(|why| format!("there is no outline: {why}")));
         report
@@ -193,7 +260,7 @@ impl Proven<'_> {
     /// The point table with so many rows over a turn of the cam, or steps over the stroke of a plate.
     #[must_use]
     pub fn table(&self, samples: u32) -> Table {
-        csv::table(self.cam.body(), &self.outlines, samples)
+        csv::table(self.cam.body(), self.second_body(), &self.outlines, samples)
     }
 
     /// The cam as the formats see it, with a report and the template of the sheet.
@@ -210,6 +277,7 @@ impl Proven<'_> {
         let (body, cut_files, dxf_version) = (self.cam.body(), &self.cut_files, self.version);
         Ok(Rendering {
             body,
+            second: self.second_body(),
             drawn,
             outlines: &self.outlines,
             cut_files,
@@ -221,6 +289,10 @@ impl Proven<'_> {
             template,
             created: None,
         })
+    }
+
+    fn second_body(&self) -> Option<&dyn Body> {
+        self.second.as_ref().map(|second| second.cam.body())
     }
 
     /// Makes the files in memory.

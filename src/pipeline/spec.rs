@@ -20,6 +20,8 @@ pub struct Spec {
     machine: Machine,
     solve: Box<Solve>,
     again: Option<Again>,
+    /// The disc that takes its torque is left out, although it is described.
+    alone: bool,
     /// How the body is solved; `None` where only `solve` knows.
     inputs: Option<Vec<Input>>,
 }
@@ -44,7 +46,7 @@ impl Spec {
             Ok(body) => Ok(Box::new(body) as Box<dyn Body>),
             Err(error) => Err(error.into()),
         };
-        Self { machine, solve: Box::new(solve), again: None, inputs: None }
+        Self { machine, solve: Box::new(solve), again: None, alone: false, inputs: None }
     }
 
     /// All that is known of how the body is solved, beside the machine.
@@ -123,6 +125,22 @@ impl Spec {
         Builder::new(name)
     }
 
+    /// The compensating cam of a press for a speed of its main shaft, rpm: the disc that takes the torque of the rotary cam, as the
+    /// machine file describes it.
+    #[must_use]
+    pub fn compensator(machine: Machine, rpm: f64) -> Self {
+        let solve = |machine: &Machine, rpm| Disc::solve(machine, rpm)?.compensating_disc();
+        Self::new(machine, move |machine| solve(machine, rpm))
+            .for_other_speeds(solve)
+            .with(vec![Input::number("rpm", rpm)])
+    }
+
+    /// Without the disc that takes its torque.
+    #[must_use]
+    pub fn alone(self) -> Self {
+        Self { alone: true, ..self }
+    }
+
     /// The machine it is for.
     #[must_use]
     pub fn machine(&self) -> &Machine {
@@ -135,10 +153,22 @@ impl Spec {
     /// [`Error::Solve`] when there is no such cam.
     pub fn solve(self) -> Result<Cam, Error> {
         let body = (self.solve)(&self.machine)?;
-        let command = body.kind().command;
-        let mut all = vec![Input::word("command", command)];
-        all.extend(self.machine.inputs(command));
-        all.extend(self.inputs.unwrap_or_else(|| inputs::of_own(&*body)));
-        Ok(Cam { body, again: self.again, inputs: all })
+        let own = self.inputs.unwrap_or_else(|| inputs::of_own(&*body));
+        let of = |body: &dyn Body| {
+            let mut all = vec![Input::word("command", body.kind().command)];
+            all.extend(self.machine.inputs(body.kind().keys));
+            all.extend(own.iter().cloned());
+            all
+        };
+        let second = match body.compensating().filter(|_| !self.alone) {
+            Some(second) => {
+                let (disc, told) = second.map_err(SolveError::from)?;
+                let inputs = of(&disc);
+                Some((Box::new(Cam { body: Box::new(disc), again: None, inputs, second: None }), told))
+            }
+            None => None,
+        };
+        let inputs = of(&*body);
+        Ok(Cam { body, again: self.again, inputs, second })
     }
 }

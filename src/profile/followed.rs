@@ -202,6 +202,11 @@ impl<'a> Followed<'a> {
         self.cut(stretch, wanted).filter(|_| reached).map(|(cut, _)| cut)
     }
 
+    /// The stretches between whose ends lift and velocity as cut are smooth, by the motion's parameter.
+    pub fn ranges(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.stretches.iter().map(|stretch| (stretch.from, stretch.to))
+    }
+
     /// Acceleration of the motion and as cut along the whole chain, by the angle of the shaft: parameter, motion, cut; two at one
     /// place where it jumps. The places lie no farther apart than a share of the whole motion.
     #[must_use]

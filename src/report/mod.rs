@@ -5,16 +5,19 @@
 //! on a kind of cam.
 
 pub mod chart;
+mod compensation;
 mod felt;
 mod finding;
 mod inputs;
 pub mod mechanism;
+pub mod plot;
 mod point_measures;
 mod rolled;
 pub mod sheet;
 pub mod trace;
 mod values;
 
+pub use compensation::{Compensation, PreloadAt};
 pub use felt::Felt;
 pub use finding::{Bound, Finding, Place, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, sha256};

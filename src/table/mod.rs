@@ -43,6 +43,8 @@ pub struct Row {
     pub cut: Option<[f64; 2]>,
     /// Size of the residual force with the lift as cut, N, of a cam of a press that turns.
     pub residual_cut: Option<f64>,
+    /// Torque of a second disc on the same shaft, N·m.
+    pub torque_of_second: Option<f64>,
     /// Whether the follower swings.
     pub swings: bool,
 }
@@ -175,6 +177,8 @@ pub const COLUMNS: &[Column] = &[
     ("air_fixed_bottom_n", |row| Some(row.balance?.air_fixed_bottom)),
     ("residual_n", |row| row.balance?.residual),
     ("residual_cut_n", |row| row.residual_cut),
+    ("compensator_torque_nm", |row| row.torque_of_second),
+    ("torque_left_nm", |row| Some(row.force?.torque + row.torque_of_second?)),
     ("lift_mm", |row| Some(1e3 * row.plate?.lift.s.max(0.0))),
     ("velocity_mm_per_rad", |row| Some(1e3 * row.plate?.lift.ds)),
     ("acceleration_mm_per_rad2", |row| Some(1e3 * row.plate?.lift.dds)),
@@ -200,7 +204,17 @@ impl Table {
         let values = |row: &Row| columns.iter().map(|(_, value)| value(row).unwrap_or(f64::NAN) + 0.0).collect();
         Self { columns: columns.iter().map(|(name, _)| *name).collect(), rows: rows.iter().map(values).collect() }
     }
+
+    /// Rows of anything but a cam, under the names of what is told of each.
+    #[must_use]
+    pub fn listed<T>(told: &[Told<T>], rows: &[T]) -> Self {
+        let values = |row: &T| told.iter().map(|(_, value)| value(row) + 0.0).collect();
+        Self { columns: told.iter().map(|(name, _)| *name).collect(), rows: rows.iter().map(values).collect() }
+    }
 }
+
+/// The name of a value with its unit, and the value of a row.
+pub type Told<T> = (&'static str, fn(&T) -> f64);
 
 /// Where a row of a turning cam's table stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -268,6 +282,7 @@ mod tests {
             surface: Some(SurfaceRow::default()),
             cut: Some([1.0; 2]),
             residual_cut: Some(1.0),
+            torque_of_second: Some(1.0),
             swings: false,
         };
         let plate = Row { lift: None, force: None, plate: Some(PlateRow::default()), ..turning };

@@ -183,6 +183,7 @@ mod tests {
                 solid: None,
                 cutter_path: Some(&path),
                 points: None,
+                compensator: None,
                 tolerance_mm: 5e-3,
                 motion: MotionTolerance::ANY,
                 strict: [true; 2],

@@ -10,7 +10,7 @@ pub(super) const CHECK: Check = Check {
             above 0 the follower leaves the cam.",
     explained: Explained {
         bound: Bound::Above,
-        formula: "F = air + preload − m s'', along the follower's path",
+        formula: "F = air or spring + preload + m s'', along the follower's path; s'' by the time",
         usual: "above 0",
         change: "a higher `follower.*.preload`, a lower `follower.*.mass`, or a slower cam",
     },

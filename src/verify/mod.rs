@@ -3,10 +3,12 @@
 //! A check takes what is known and gives value, limit and place, also when it passes. A new check is one file and one line in
 //! [`CHECKS`].
 
+mod added_volume;
 mod air;
 mod balance;
 mod between_sections;
 mod bore;
+mod compensator;
 mod contact_stress;
 mod curvature;
 mod cutter_path;
@@ -30,11 +32,13 @@ mod sphere;
 mod tangency;
 mod wall;
 
+pub use compensator::torque_as_cut;
 pub use cutter_path::WrittenPath;
 pub use file::join_reach;
 pub use points::WrittenPoints;
 pub use solid::{WrittenSolid, shell_reach};
 
+use crate::analysis::Measure;
 use crate::body::{Body, Drawn};
 use crate::geometry::contour::Contour;
 use crate::profile::Worst;
@@ -71,6 +75,8 @@ pub struct Evidence<'a> {
     pub cutter_path: Option<&'a WrittenPath>,
     /// The tables of points as read back, when they were requested, or why there are none.
     pub points: Option<&'a Result<Vec<WrittenPoints>, String>>,
+    /// Every check of the disc that takes the torque of this one, when there is one.
+    pub compensator: Option<&'a [Finding]>,
     /// What was read from a STEP file that somebody else may have written.
     pub solid: Option<&'a WrittenSolid>,
     /// Tolerance of the outline, mm.
@@ -92,6 +98,8 @@ pub enum On {
     Motion,
     /// A file that somebody else may have written.
     File,
+    /// The measures of an analysis.
+    Analysis,
 }
 
 /// What a user should know of a check, beside its meaning.
@@ -174,6 +182,8 @@ pub const CHECKS: &[Check] = &[
     felt::CHECK,
     between_sections::CHECK,
     balance::CHECK,
+    compensator::CHECK,
+    added_volume::CHECK,
 ];
 
 /// Runs every check that applies: failures first, then warnings, then the rest, each in the order of the list.
@@ -184,11 +194,36 @@ pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
         On::Outline => !evidence.outlines.is_empty(),
         On::Motion => evidence.foreign.is_none() || evidence.rolled.is_some(),
         On::File => evidence.foreign.is_some() || evidence.solid.is_some(),
+        On::Analysis => false,
     };
     worst_first(CHECKS.iter().filter(applies).filter_map(|check| (check.run)(evidence)).collect())
 }
 
+/// Judges the measures of an analysis, each by its check: failures first.
+#[must_use]
+pub fn judge(measures: &[Measure]) -> Vec<Finding> {
+    let judged = |measure: &Measure| {
+        let check = CHECKS.iter().find(|check| check.name == measure.check)?;
+        let (value, limit) = (measure.value, measure.limit);
+        // What is not a number keeps no limit.
+        let kept = match check.explained.bound {
+            Bound::AtMost => value <= limit,
+            Bound::AtLeast => value >= limit,
+            Bound::Above => value > limit,
+            Bound::Exactly => value == limit,
+        };
+        let found = check.found(value, Some(limit), measure.unit, Verdict::of(kept));
+        Some(Finding { note: measure.note.clone(), ..found })
+    };
+    worst_first(measures.iter().filter_map(judged).collect())
+}
+
 impl Check {
+    /// A check of a measure of an analysis.
+    const fn on_analysis(name: &'static str, about: &'static str, explained: Explained) -> Self {
+        Self { name, on: On::Analysis, about, explained, run: |_| None }
+    }
+
     /// A finding of this check at no particular place.
     fn found(&self, value: f64, limit: Option<f64>, unit: &'static str, verdict: Verdict) -> Finding {
         Finding {

@@ -17,13 +17,24 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".csv".into()],
-    write: |cam| Ok(vec![write(&table(cam.body, cam.outlines, cam.samples))]),
+    write: |cam| Ok(vec![write(&table(cam.body, cam.second, cam.outlines, cam.samples))]),
+    of_analysis: Some(|account| {
+        let tables = account.analysis.tables.iter();
+        Ok(tables.map(|(ending, table)| (format!("{ending}.csv"), write(table))).collect())
+    }),
 };
 
-/// The point table of a cam, with what its follower does on the outline as written.
+/// The point table of a cam, with what its follower does on the outline as written, and with the torque of a second disc on its
+/// shaft.
 #[must_use]
-pub fn table(body: &dyn Body, outlines: &[WrittenOutline], samples: u32) -> Table {
+pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline], samples: u32) -> Table {
     let mut rows = body.rows(samples);
+    if let Some(second) = second {
+        for row in &mut rows {
+            let at = row.cam_deg.map(f64::to_radians);
+            row.torque_of_second = at.and_then(|at| second.force_and_torque(at)).map(|[_, torque]| torque);
+        }
+    }
     if let (Some(curves), Some(outline)) = (body.plane(), outlines.first()) {
         let motion = curves.motion;
         let followed = Followed::on(curves, &outline.contour, body.mirrored());

@@ -11,6 +11,7 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".json".into()],
     write: |cam| Ok(vec![write(cam.report)?]),
+    of_analysis: Some(|account| Ok(vec![(".json".into(), write(account.report)?)])),
 };
 
 /// A report, indented, with a line feed at the end.

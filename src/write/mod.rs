@@ -17,6 +17,7 @@ pub mod step;
 pub mod stl;
 pub mod svg;
 
+use crate::analysis::Analysis;
 use crate::body::{Body, Drawn, Part};
 use crate::geometry::solid::SolidError;
 use crate::profile::outline::{Fit, OutlineError};
@@ -28,6 +29,8 @@ use crate::verify::WrittenOutline;
 pub struct Rendering<'a> {
     /// The solved cam.
     pub body: &'a dyn Body,
+    /// The disc on the same shaft that takes its torque.
+    pub second: Option<&'a dyn Body>,
     /// Its drawing.
     pub drawn: &'a Drawn,
     /// The outlines as read back from them.
@@ -49,6 +52,20 @@ pub struct Rendering<'a> {
     /// The time that the files bear, seconds since 1970 UTC.
     pub created: Option<u64>,
 }
+
+/// An analysis as the formats see it.
+#[derive(Debug, Clone, Copy)]
+pub struct Account<'a> {
+    /// The analysis.
+    pub analysis: &'a Analysis,
+    /// Its report, the names of the files in it.
+    pub report: &'a Report,
+    /// The template of the plot.
+    pub template: &'a str,
+}
+
+/// What the name of a file ends with, and its bytes.
+pub type Named = (String, Vec<u8>);
 
 /// Why a format could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -100,6 +117,8 @@ pub struct Format {
     pub endings: fn(&Drawn) -> Vec<String>,
     /// The files, in the same order.
     pub write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
+    /// The files of an analysis, where it can have any.
+    pub of_analysis: Option<fn(&Account<'_>) -> Result<Vec<Named>, FormatError>>,
 }
 
 /// Every format, in the order in which files are listed.

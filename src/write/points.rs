@@ -17,6 +17,7 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |drawn| of_parts(drawn, "-points.csv"),
     write: |cam| if cam.points.is_empty() { Err(FormatError::NoPoints) } else { Ok(cam.points.to_vec()) },
+    of_analysis: None,
 };
 
 /// Decimals of a number: as in a DXF file.

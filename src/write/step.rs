@@ -18,6 +18,7 @@ pub const FORMAT: Format = Format {
     unfit: |body| body.height().is_none().then_some("cam.thickness is not given"),
     endings: |_| vec![".step".into()],
     write: |cam| Ok(vec![write_marked(&solid(cam)?, &cam.report.title(), cam.created, &cam.report.mark())]),
+    of_analysis: None,
 };
 
 fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {

@@ -18,6 +18,7 @@ pub const FORMAT: Format = Format {
         let title = format!("millimetres, {}", cam.report.mark());
         Ok(cam.drawn.flank.iter().map(|flank| write(flank, bore, &title)).collect())
     },
+    of_analysis: None,
 };
 
 /// Triangles as binary STL: 80 bytes of header, a count, 50 bytes a triangle.

@@ -8,7 +8,7 @@ use crate::geometry::contour::Segment;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::outline::Fit;
 use crate::report::sheet::{Extras, Group, Shape, Sheet, TextAnchor, compose, font};
-use crate::report::shown;
+use crate::report::{plot, shown};
 use nalgebra::Vector2;
 use svg::node::element;
 
@@ -20,6 +20,10 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
     write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
+    of_analysis: Some(|account| {
+        let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
+        Ok(vec![(".svg".into(), marked(&write(&sheet, account.template)?, &account.report.mark()))])
+    }),
 };
 
 /// The review sheet of a proven cam.

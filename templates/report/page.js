@@ -332,7 +332,7 @@ function start() {
   const sections = Math.max(...cams.map((cam) => cam.views.length));
   if (sections > 1) {
     const views = cams.find((cam) => cam.views.length === sections).views;
-    byId("section").append(...views.map((view, index) => make("option", { value: String(index) }, `${view.rpm} rpm`)));
+    byId("section").append(...views.map((view, index) => make("option", { value: String(index) }, view.name)));
     byId("section").value = String((state.section = sections - 1));
     byId("section-choice").hidden = false;
     byId("section").addEventListener("change", (event) => {

@@ -33,6 +33,7 @@ pub use surface::SpatialContact;
 use super::{Body, Kind};
 use crate::buffer::Cylinder;
 use crate::buffer::bottom_law::{BottomLaw, Column, column_for};
+use crate::document::cams;
 use crate::follower::{Follower, TranslatingRoller};
 use crate::machine::{ConoidData, ConoidMode, Machine, NoPress, NoRoller, Press, RollerData, Shift};
 use crate::motion::{Jet, Motion, MotionError, Piece, Reversal, ReversalLaw};
@@ -44,7 +45,7 @@ use interpolation::{Variable, Weights};
 use std::sync::{Arc, OnceLock};
 
 /// The cam for many speeds.
-pub const KIND: Kind = Kind { command: "conoid", noun: "conoid" };
+pub const KIND: Kind = Kind { command: "conoid", noun: "conoid", keys: cams::CONOID };
 
 /// Slices between two sections at which the surface is searched for its worst places.
 const SLICES: u32 = 6;

@@ -1,7 +1,9 @@
 //! The disc cam: one section for one speed, under any follower.
 
 mod balance;
+mod compensator;
 mod mechanism;
+pub use compensator::{AtSpeed, Compensated};
 pub(in crate::body) use mechanism::of_press;
 mod sheet;
 
@@ -11,11 +13,13 @@ use super::{
     Body, DrawError, Drawn, Found, Kind, ROUNDING_OF_BALANCE, Request, WorstPlaces, broken_limit, no_radius, passing,
     plane, stress,
 };
+use crate::document::cams;
 use crate::follower::Follower;
 use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load, RunUp};
 use crate::machine::{Machine, NoPress, Press, Rotation};
+use crate::motion::counter_torque::CounterTorqueError;
 use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw};
 use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
@@ -29,10 +33,13 @@ use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// The disc cam of a press.
-pub const ROTARY: Kind = Kind { command: "rotary", noun: "rotary cam" };
+pub const ROTARY: Kind = Kind { command: "rotary", noun: "rotary cam", keys: cams::ROTARY };
 
 /// The disc cam of any motion.
-pub const GENERAL: Kind = Kind { command: "make", noun: "disc cam" };
+pub const GENERAL: Kind = Kind { command: "make", noun: "disc cam", keys: cams::MAKE };
+
+/// The disc that takes the torque of the disc cam of a press.
+pub const COMPENSATOR: Kind = Kind { command: "compensator", noun: "compensating cam", keys: cams::ROTARY };
 
 /// Largest base radius that is tried, m: what a drawing holds.
 const LARGEST_BASE: f64 = outline::LARGEST_COORDINATE / MILLIMETRES;
@@ -74,6 +81,15 @@ pub enum DiscError {
         /// The base radius, mm.
         base_radius_mm: f64,
     },
+    /// The machine file describes no compensating cam.
+    #[error(
+        "the machine file describes no compensating cam: add the table [compensator] with spring_rate and preload, or give \
+         --compensator spring_rate=100N/mm,preload=10kN"
+    )]
+    NoCompensator,
+    /// The law of the compensating cam has no solution.
+    #[error("no compensating cam: {0}; see compensator.spring_rate and compensator.preload")]
+    CounterTorque(#[from] CounterTorqueError),
     /// Lengths as lift for a follower that swings, or the other way round.
     #[error("the motion is {motion}, but the follower takes {follower}")]
     WrongQuantity {
@@ -227,8 +243,12 @@ impl Disc {
         }
         let load = self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle));
         let preload = follower.preload.unwrap_or(0.0);
-        let (Some(mass), Some(speed)) = (follower.mass, self.speed) else { return Some(load + preload) };
-        Some(load + preload + mass * speed * speed * self.motion.jet(piece, angle).dds)
+        let inertia = follower.mass.zip(self.speed).map(|(mass, speed)| mass * speed * speed);
+        if inertia.is_none() && follower.spring_rate == 0.0 {
+            return Some(load + preload);
+        }
+        let lift = self.motion.jet(piece, angle);
+        Some(load + preload + follower.spring_rate * lift.s + inertia.unwrap_or(0.0) * lift.dds)
     }
 
     /// The ranges at whose ends forces may jump.
@@ -362,6 +382,18 @@ impl Body for Disc {
     fn contact_force(&self, piece: usize, angle: f64) -> Option<f64> {
         let force = self.path_force(piece, angle)?.max(0.0);
         Some(force / libm::cos(self.curves().contact(piece, angle).pressure_angle))
+    }
+
+    fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {
+        let (piece, inside) = self.motion.locate(angle);
+        let force = self.path_force(piece, inside)?;
+        Some([force, force * self.motion.jet(piece, inside).ds])
+    }
+
+    fn compensating(&self) -> Option<Result<(Disc, Compensated), DiscError>> {
+        self.machine.compensator().filter(|_| *self.kind == ROTARY)?;
+        let both = |second: Disc| self.compensated_by(&second).map(|told| (second, told));
+        Some(self.compensating_disc().and_then(both))
     }
 
     fn contact_stress(&self) -> Option<Worst> {

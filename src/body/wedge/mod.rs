@@ -7,6 +7,7 @@ mod sheet;
 
 use super::{Kind, ROUNDING_OF_BALANCE, WorstPlaces, largest, plane};
 use crate::buffer::Cylinder;
+use crate::document::cams;
 use crate::follower::BellCrank;
 use crate::machine::{Machine, NoPress, TranslatingData};
 use crate::motion::equation_18::{ExactOn, Mechanism, Solver, Way, WedgeMotionError};
@@ -18,7 +19,7 @@ use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// The wedge cam: the plate on the bed.
-pub const KIND: Kind = Kind { command: "translating", noun: "translating cam" };
+pub const KIND: Kind = Kind { command: "translating", noun: "translating cam", keys: cams::TRANSLATING };
 
 /// Absolute tolerance of Δx, m, unless another is given: a thousandth of a nanometre. The outline adds its own,
 /// a million times larger.

@@ -19,6 +19,30 @@ pub(in crate::cli) enum Accuracy {
     Fine,
 }
 
+/// How a report is told.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ToldArgs {
+    /// Print the report as JSON and nothing else
+    #[arg(long)]
+    pub(in crate::cli) json: bool,
+
+    /// Print no report
+    #[arg(long, short)]
+    pub(in crate::cli) quiet: bool,
+
+    /// Solve, draw and check, print the report, and write no files
+    #[arg(long)]
+    pub(in crate::cli) dry_run: bool,
+
+    /// Run again whenever the machine file changes, until Ctrl-C
+    #[arg(long)]
+    pub(in crate::cli) watch: bool,
+
+    /// No colours on the terminal (also: the environment variable `NO_COLOR`)
+    #[arg(long)]
+    pub(in crate::cli) no_color: bool,
+}
+
 /// Flags of every command about a cam.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct CommonArgs {
@@ -53,25 +77,8 @@ pub(in crate::cli) struct CommonArgs {
     #[arg(long, value_name = "KEY=VALUE")]
     pub(in crate::cli) set: Vec<String>,
 
-    /// Print the report as JSON and nothing else
-    #[arg(long)]
-    pub(in crate::cli) json: bool,
-
-    /// Print no report
-    #[arg(long, short)]
-    pub(in crate::cli) quiet: bool,
-
-    /// Solve, draw and check, print the report, and write no files
-    #[arg(long)]
-    pub(in crate::cli) dry_run: bool,
-
-    /// Run again whenever the machine file changes, until Ctrl-C
-    #[arg(long)]
-    pub(in crate::cli) watch: bool,
-
-    /// No colours on the terminal (also: the environment variable `NO_COLOR`)
-    #[arg(long)]
-    pub(in crate::cli) no_color: bool,
+    #[command(flatten)]
+    pub(in crate::cli) told: ToldArgs,
 }
 
 impl CommonArgs {
@@ -116,7 +123,9 @@ impl CommonArgs {
         let strict = [self.tolerance_velocity.is_some(), self.tolerance_acceleration.is_some()];
         ([asked(self.tolerance_velocity, None), asked(self.tolerance_acceleration, named)], strict)
     }
+}
 
+impl ToldArgs {
     /// How the report is laid out on standard output.
     pub(in crate::cli) fn page(&self) -> Page {
         let terminal = std::io::stdout().is_terminal();

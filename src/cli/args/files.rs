@@ -26,14 +26,9 @@ pub(in crate::cli) enum LaidOf {
     Spline,
 }
 
-/// What is written, where, and how.
+/// Where files are written, and over what.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct FileArgs {
-    /// What to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet), points, and stl of a conoid
-    /// [default: dxf,svg,step,csv]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
-    pub(in crate::cli) format: Option<Vec<String>>,
-
+pub(in crate::cli) struct OutArgs {
     /// Directory for the files, created when missing
     #[arg(long, value_name = "DIR", default_value = "output", value_hint = ValueHint::DirPath)]
     pub(in crate::cli) out: PathBuf,
@@ -41,6 +36,27 @@ pub(in crate::cli) struct FileArgs {
     /// File stem [default: MACHINE-COMMAND-RPMrpm]
     #[arg(long, value_name = "STEM", value_parser = stem)]
     pub(in crate::cli) name: Option<String>,
+
+    /// Template of the SVG review sheet instead of the built-in one, templates/sheet.svg
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) template: Option<PathBuf>,
+
+    /// Write the files although a check failed (the exit code stays 1)
+    #[arg(long)]
+    pub(in crate::cli) force: bool,
+
+    /// Replace files that were edited, or not written by camgen; its own are replaced without
+    #[arg(long)]
+    pub(in crate::cli) overwrite: bool,
+}
+
+/// What is written, where, and how.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct FileArgs {
+    /// What to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet), points, and stl of a conoid
+    /// [default: dxf,svg,step,csv]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
+    pub(in crate::cli) format: Option<Vec<String>>,
 
     /// Version of the DXF file: r12, r2000, r2010 or r2013
     #[arg(long, value_name = "VERSION", default_value = "r2000", value_parser = dxf_version)]
@@ -50,10 +66,6 @@ pub(in crate::cli) struct FileArgs {
     #[arg(long, value_name = "N", default_value = "720", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(in crate::cli) samples: u32,
 
-    /// Template of the SVG review sheet instead of the built-in one, templates/sheet.svg
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) template: Option<PathBuf>,
-
     /// Side of the exact curve the outline keeps to: both, inside (never metal in the way) or outside (never cut too deep)
     #[arg(long, value_name = "SIDE", default_value = "both", ignore_case = true)]
     pub(in crate::cli) side: SideOf,
@@ -62,13 +74,8 @@ pub(in crate::cli) struct FileArgs {
     #[arg(long, value_name = "KIND", default_value = "arcs", ignore_case = true)]
     pub(in crate::cli) outline: LaidOf,
 
-    /// Write the files although a check failed (the exit code stays 1)
-    #[arg(long)]
-    pub(in crate::cli) force: bool,
-
-    /// Replace files that were edited, or not written by camgen; its own are replaced without
-    #[arg(long)]
-    pub(in crate::cli) overwrite: bool,
+    #[command(flatten)]
+    pub(in crate::cli) to: OutArgs,
 
     #[command(flatten)]
     pub(in crate::cli) points: PointsArgs,

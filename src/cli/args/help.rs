@@ -34,6 +34,20 @@ Examples:
   camgen make lifter.toml --set follower.roller.radius=8mm --dry-run --json
       the report for another roller, without files";
 
+pub(super) const REGIMES: &str = "\
+Examples:
+  camgen regimes --rpm 20,25,30,35
+      column, added volume and residual force at four speeds, as a table and a plot
+  camgen regimes dpi-paper --rpm 25 --reset level --dry-run
+      the column that leaves as much force at the end of the stroke as at the worst place; only the report";
+
+pub(super) const SPRING: &str = "\
+Examples:
+  camgen spring dpi-paper --stiffness 68kgf/cm,82.5kgf/cm,165kgf/cm
+      three springs at the design speed, as a table and a plot
+  camgen spring dpi-paper --residual 50kgf --rpm 25,35 --dry-run
+      the spring that leaves 50 kgf at the design speed, and what it leaves at 25 rpm; only the report";
+
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
   camgen side-by-side dpi dpi-paper

@@ -1,13 +1,15 @@
 //! What the user typed.
 
+mod analyses;
 mod common;
 mod files;
 mod help;
 mod parse;
 
-pub(super) use common::CommonArgs;
+pub(super) use analyses::{AnalysisArgs, RegimesArgs, ResetOf, SpringArgs};
+pub(super) use common::{CommonArgs, ToldArgs};
 pub(super) use files::{
-    CutterArgs, FileArgs, LaidOf, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
+    CutterArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
 };
 pub(super) use parse::Speed;
 
@@ -37,7 +39,7 @@ pub(super) enum Command {
     ///
     /// The cam moves the bottom of the air buffers so that the air force equals the inertia force of the bed.
     #[command(after_help = help::ROTARY)]
-    Rotary(DiscArgs),
+    Rotary(RotaryArgs),
     /// Wedge cam of a press: a plate on the bed, by equation (18)
     ///
     /// The plate rides on the bed and moves the bottom through a bell crank with a roller on each flank.
@@ -53,6 +55,17 @@ pub(super) enum Command {
     /// The file has a program of segments, `[motion]` and `[[motion.segment]]`, and a follower.
     #[command(after_help = help::MAKE)]
     Make(DiscArgs),
+    /// One cam of a press at other speeds: the column is reset, or air is added
+    ///
+    /// The cam stays as it is cut. Equations (14) and (15) give the column and the volume for each speed, and the residual force that
+    /// is left then.
+    #[command(after_help = help::REGIMES)]
+    Regimes(RegimesArgs),
+    /// Buffers of a press whose bottoms rest on springs, without a cam
+    ///
+    /// Equations (26) to (28): travel of the springs, air, residual force and setting of the screw, for each stiffness and speed.
+    #[command(after_help = help::SPRING)]
+    Spring(SpringArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -92,14 +105,27 @@ impl Command {
     /// The files that `--watch` looks at, when it is asked for: the machine file, and the file that is checked.
     pub(super) fn watched(&self) -> Option<Vec<PathBuf>> {
         let (common, more) = match self {
-            Command::Rotary(args) | Command::Make(args) => (&args.common, args.files.template.as_ref()),
-            Command::Translating(args) => (&args.common, args.files.template.as_ref()),
-            Command::Conoid(args) => (&args.common, args.files.template.as_ref()),
+            Command::Rotary(RotaryArgs { disc: args, .. }) | Command::Make(args) => {
+                (&args.common, args.files.to.template.as_ref())
+            }
+            Command::Translating(args) => (&args.common, args.files.to.template.as_ref()),
+            Command::Conoid(args) => (&args.common, args.files.to.template.as_ref()),
             Command::Check(args) => (&args.common, Some(&args.file)),
             Command::Trade(args) => (&args.common, None),
+            other => return other.analysis_watched(),
+        };
+        common.told.watch.then(|| std::iter::once(PathBuf::from(&common.machine)).chain(more.cloned()).collect())
+    }
+
+    /// The same of an analysis.
+    fn analysis_watched(&self) -> Option<Vec<PathBuf>> {
+        let (machine, args) = match self {
+            Command::Regimes(args) => (&args.machine, &args.analysis),
+            Command::Spring(args) => (&args.machine, &args.analysis),
             _ => return None,
         };
-        common.watch.then(|| std::iter::once(PathBuf::from(&common.machine)).chain(more.cloned()).collect())
+        let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();
+        args.told.watch.then(files)
     }
 }
 
@@ -128,6 +154,17 @@ pub(super) struct ManArgs {
 pub(super) struct ExplainArgs {
     /// Name of the check, as in reports; all in short when it is left out
     pub(super) check: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RotaryArgs {
+    #[command(flatten)]
+    pub(super) disc: DiscArgs,
+
+    /// Also makes a second disc whose spring takes the torque of the camshaft, with these keys of the table [compensator], e.g.
+    /// spring_rate=100N/mm,preload=10kN; its files are STEM-compensator.*
+    #[arg(long, value_name = "KEY=VALUE,…", value_delimiter = ',')]
+    pub(super) compensator: Vec<String>,
 }
 
 #[derive(Debug, Args)]
@@ -172,6 +209,7 @@ pub(super) struct CheckArgs {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Checked {
     Rotary,
+    Compensator,
     Translating,
     Conoid,
     Make,

@@ -106,6 +106,12 @@ pub(super) fn force(text: &str) -> Result<f64, String> {
     if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
 }
 
+pub(super) fn stiffness(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Stiffness)
+        .map_err(|error| format!("{error}; a stiffness has one of {}", Dimension::Stiffness.unit_list()))?;
+    if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
+}
+
 pub(in crate::cli) fn rpm(text: &str) -> Result<f64, String> {
     let number =
         units::parse_bare(text).map_err(|error| format!("{error}; a speed is a bare number, e.g. --rpm 35"))?;

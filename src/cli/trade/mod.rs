@@ -164,7 +164,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     };
     let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
     let output = |ending: &str, bytes: Vec<u8>| Output { name: format!("{stem}.{ending}"), bytes };
-    if !args.overwrite && !args.common.dry_run {
+    if !args.overwrite && !args.common.told.dry_run {
         refuse_kept(&args.out, &["csv", "svg"].map(|ending| output(ending, Vec::new()))).map_err(Failure::new)?;
     }
     let inertia = machine.press().map_err(Failure::new)?.bed.largest_inertia(rpm);
@@ -192,10 +192,10 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
         advice,
         files,
     };
-    if args.common.json {
+    if args.common.told.json {
         let bytes = json::write(&report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&bytes))?;
-    } else if !args.common.quiet {
+    } else if !args.common.told.quiet {
         print(&tell::words(&report))?;
     }
     Ok(Outcome::Fine)
@@ -203,7 +203,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
 
 /// Writes the files; none in a dry run.
 fn written(args: &TradeArgs, outputs: Vec<Output>, run: &Run<'_>) -> Result<Vec<String>, Failure> {
-    if args.common.dry_run {
+    if args.common.told.dry_run {
         return Ok(Vec::new());
     }
     let files = outputs.iter().map(|output| args.out.join(&output.name).display().to_string()).collect();
@@ -227,7 +227,7 @@ struct Measured {
 }
 
 fn measured(args: &TradeArgs, laws: &[Law], settings: &[Setting], limits: Limits) -> Result<Measured, Failure> {
-    let progress = Progress::of_steps(args.common.shows_progress(), MOST_ROUNDS * settings.len());
+    let progress = Progress::of_steps(args.common.told.shows_progress(), MOST_ROUNDS * settings.len());
     progress.stage("measuring; it ends when the order has settled");
     measure(laws, settings, limits, &progress)
 }
@@ -428,7 +428,7 @@ fn rolled(row: Row, law: &Law, rolled: Option<&Rolled>) -> Row {
 
 /// Largest roller force times velocity error over the rows of the table, N·m; `None` of a plate, which turns nothing.
 fn torque_error(law: &Law, outlines: &[WrittenOutline]) -> Option<f64> {
-    let table = write::csv::table(law.cam.body(), outlines, SAMPLES);
+    let table = write::csv::table(law.cam.body(), None, outlines, SAMPLES);
     let column = |name: &str| table.columns.iter().position(|column| *column == name);
     let [force, motion, cut] = ["roller_force_n", "velocity_mm_per_rad", "velocity_cut_mm_per_rad"].map(column);
     let (force, motion, cut) = (force?, motion?, cut?);

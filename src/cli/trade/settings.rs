@@ -64,7 +64,7 @@ fn ladder() -> Vec<Setting> {
 /// The disc cam over the ladder; its law is a closed form, exact to rounding.
 pub(super) fn rotary(machine: &Machine, rpm: f64) -> Result<Ladder, Failure> {
     let machine = machine.clone();
-    let solve = move || Spec::rotary(machine.clone(), rpm).solve().map_err(Failure::new);
+    let solve = move || Spec::rotary(machine.clone(), rpm).alone().solve().map_err(Failure::new);
     let law = Law { cam: solve()?, solve: Box::new(solve), error_mm: 0.0, residual_n: 0.0 };
     let points = POINTS.iter().map(|(name, tolerance, share, between)| Setting {
         name: (*name).into(),

@@ -28,6 +28,7 @@ pub const FORMAT: Format = Format {
         let warning = cam.report.warning().unwrap_or_default();
         Ok(cam.cut_files.iter().map(|file| marked(file.clone(), &warning)).collect())
     },
+    of_analysis: None,
 };
 
 /// The path of a cutter's centre.
@@ -44,6 +45,7 @@ pub const CUTTER_PATH: Format = Format {
         };
         cam.drawn.cutter_path.iter().map(path).collect()
     },
+    of_analysis: None,
 };
 
 /// The file of a cutter's path.

@@ -1,11 +1,12 @@
 //! What the page shows of a cam, as JSON: numbers rounded to what can be seen, everything else as the report has it.
 
-use super::super::Rendering;
 use super::super::csv;
 use super::super::path_data::PathData;
+use super::super::{Account, Rendering};
 use super::{panels, units};
+use crate::analysis::Analysis;
 use crate::report::mechanism::{Mechanism, Rigid, Solid, Track, View};
-use crate::report::{Bound, Finding, Place, Report, Section, Verdict, worst_first};
+use crate::report::{Bound, Finding, Place, Report, Section, Verdict, shown, worst_first};
 use crate::table::Table;
 use crate::verify::CHECKS;
 use serde_json::{Map, Value, json};
@@ -53,9 +54,58 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
     let sections = u32::try_from(drawn.parts.len()).unwrap_or(1).max(1);
     let steps = cam.samples.clamp(1, STEPS).min((ROWS / sections).max(FEWEST));
     let mechanism = body.mechanism(&drawn, steps);
-    let table = csv::table(body, cam.outlines, steps);
+    let table = csv::table(body, cam.second, cam.outlines, steps);
     let roller = body.roller_radius().map(|radius| radius * crate::geometry::MILLIMETRES);
-    let inputs = serde_json::to_value(report).ok().and_then(|all| all.get("inputs").cloned()).unwrap_or(Value::Null);
+    let mut page = told(report);
+    page["notModelled"] = json!(body.not_modelled());
+    page["pictureNotes"] = json!(mechanism.notes);
+    page["views"] = json!(views(&mechanism, &table, &report.checks, roller));
+    page["solid"] = mechanism.solid.as_ref().map_or(Value::Null, solid);
+    page
+}
+
+/// All that the page shows of an analysis: its curves are views without a mechanism.
+pub(super) fn of_analysis(account: &Account<'_>) -> Value {
+    let (analysis, report) = (account.analysis, account.report);
+    let views = analysis.tables.last().map_or_else(Vec::new, |(_, table)| curves(analysis, table, &report.checks));
+    let mut page = told(report);
+    page["notModelled"] = json!(analysis.not_modelled);
+    page["pictureNotes"] = json!([]);
+    page["views"] = json!(views);
+    page["solid"] = Value::Null;
+    page
+}
+
+/// A view of each of the curves that the first value of a row tells apart.
+fn curves(analysis: &Analysis, table: &Table, checks: &[Finding]) -> Vec<Value> {
+    let apart = analysis.by.len();
+    let first = |row: &Vec<f64>| row.iter().take(apart).map(|value| value.to_bits()).collect::<Vec<u64>>();
+    let names = table.columns.get(apart..).unwrap_or_default();
+    let of = |rows: &[Vec<f64>]| {
+        let values = rows.first().map(Vec::as_slice).unwrap_or_default();
+        let name = |(by, value): (&&str, &f64)| format!("{} {}", shown(*value), units::named(by).unit);
+        let names_of: Vec<String> = analysis.by.iter().zip(values).map(name).collect();
+        let along = names.iter().position(|name| *name == analysis.along).unwrap_or(0);
+        let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.get(apart..).unwrap_or_default().to_vec()).collect();
+        let at: Vec<f64> = rows.iter().filter_map(|row| row.get(along).copied()).collect();
+        let mut view = columns(names, &rows);
+        view["name"] = json!(names_of.join(", "));
+        view["rpm"] = Value::Null;
+        view["shaftSpeed"] = Value::Null;
+        view["returns"] = Value::Bool(true);
+        view["place"] = json!(analysis.along);
+        view["at"] = rounded(&at, ANGLES);
+        view["turn"] = rounded(&at, ANGLES);
+        view["box"] = json!([0, 0, 1, 1]);
+        view["parts"] = json!([]);
+        view["panels"] = json!(panels::of(names, analysis.along, checks, None));
+        view
+    };
+    table.rows.chunk_by(|a, b| first(a) == first(b)).map(of).collect()
+}
+
+/// What the page tells of any report.
+fn told(report: &Report) -> Value {
     json!({
         "title": report.title(),
         "machine": report.machine,
@@ -63,16 +113,12 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
         "command": report.command,
         "speeds": report.rpm.to_string().trim(),
         "passed": report.passed(),
-        "inputs": inputs,
+        "inputs": report.inputs,
         "checks": worst_first(report.checks.clone()).iter().map(check).collect::<Vec<Value>>(),
         "sections": report.sections.iter().map(section).collect::<Vec<Value>>(),
         "notes": report.notes,
         "files": report.files.iter().filter_map(|file| file.rsplit(['/', '\\']).next()).collect::<Vec<&str>>(),
-        "notModelled": body.not_modelled(),
         "notRun": not_run(report),
-        "pictureNotes": mechanism.notes,
-        "views": views(&mechanism, &table, &report.checks, roller),
-        "solid": mechanism.solid.as_ref().map(solid),
     })
 }
 
@@ -145,6 +191,24 @@ fn view_of(
     rows: &[Vec<f64>],
     (checks, roller): (&[Finding], Option<f64>),
 ) -> Value {
+    let extents = view.extents;
+    let size = extents.size();
+    let mut shown = columns(names, rows);
+    shown["name"] = json!(view.rpm.map(|rpm| format!("{rpm} rpm")));
+    shown["rpm"] = json!(view.rpm);
+    shown["shaftSpeed"] = json!(view.shaft_speed);
+    shown["returns"] = json!(view.returns);
+    shown["place"] = json!(view.place);
+    shown["at"] = rounded(&view.at, ANGLES);
+    shown["turn"] = rounded(&view.turn_deg, ANGLES);
+    shown["box"] = rounded(&[extents.least.x, -extents.largest.y, size.x, size.y], PLACES);
+    shown["parts"] = json!(view.parts.iter().map(rigid).collect::<Vec<Value>>());
+    shown["panels"] = json!(panels::of(names, view.place, checks, roller));
+    shown
+}
+
+/// The values of a table by their names, and what each is.
+fn columns(names: &[&'static str], rows: &[Vec<f64>]) -> Value {
     let column = |index: usize| -> Vec<Value> {
         rows.iter().map(|row| digits(row.get(index).copied().unwrap_or(f64::NAN))).collect()
     };
@@ -155,21 +219,7 @@ fn view_of(
         ((*name).to_owned(), json!([units::words(name), named.unit, named.order]))
     };
     let kinds: Map<String, Value> = names.iter().map(kind).collect();
-    let extents = view.extents;
-    let size = extents.size();
-    json!({
-        "rpm": view.rpm,
-        "shaftSpeed": view.shaft_speed,
-        "returns": view.returns,
-        "place": view.place,
-        "at": rounded(&view.at, ANGLES),
-        "turn": rounded(&view.turn_deg, ANGLES),
-        "box": rounded(&[extents.least.x, -extents.largest.y, size.x, size.y], PLACES),
-        "parts": view.parts.iter().map(rigid).collect::<Vec<Value>>(),
-        "columns": columns,
-        "kinds": kinds,
-        "panels": panels::of(names, view.place, checks, roller),
-    })
+    json!({"columns": columns, "kinds": kinds})
 }
 
 fn track(track: &Track, scale: f64) -> Value {

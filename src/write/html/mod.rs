@@ -19,6 +19,10 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".html".into()],
     write: |cam| Ok(vec![page(&cam.report.title(), &[data::of(cam)])?]),
+    of_analysis: Some(|account| {
+        let title = account.report.title();
+        Ok(vec![(".html".into(), page(&title, &[data::of_analysis(account)])?)])
+    }),
 };
 
 const PAGE: &str = include_str!("../../../templates/report.html");

@@ -20,11 +20,15 @@ const UNITS: &[Unit] = &[
     ("mm3", "mm³", 0),
     ("mm", "mm", 0),
     ("deg", "°", 0),
+    ("rad_per_s", "rad/s", 0),
+    ("n_per_mm", "N/mm", 0),
     ("nm", "N·m", 0),
     ("n", "N", 0),
     ("mpa", "MPa", 0),
     ("kg", "kg", 0),
     ("rpm", "rpm", 0),
+    ("per_mm", "1/mm", 0),
+    ("pa", "Pa", 0),
 ];
 
 /// A name taken apart.

@@ -1,0 +1,132 @@
+//! The second disc of a press: its spring takes the torque that the first one asks of the camshaft.
+
+use super::{COMPENSATOR, Disc, DiscError};
+use crate::body::Body;
+use crate::buffer::regime::{self, Reset};
+use crate::machine::NoPress;
+use crate::motion::Motion;
+use crate::motion::counter_torque::CounterMotion;
+use crate::numeric::extremum;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+/// Places of a piece at which the torque left by the law is looked at: it is rounding, or the smooth torque of inertia.
+const PLACES: u32 = 256;
+/// Places of a quarter turn of the crank at which torques at other speeds are looked at: their largest is told to a millionth.
+const QUARTER: u32 = 2000;
+/// Cells and golden sections in which the preload for another speed is searched.
+const CELLS: u32 = 8;
+const SECTIONS: u32 = 40;
+/// Other speeds that are looked at, in sevenths of the cam's own: 20, 25 and 30 rpm of the paper's 35.
+const SEVENTHS: [f64; 3] = [4.0, 5.0, 6.0];
+
+/// The torques on a camshaft at a speed, with the column reset for it, N·m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AtSpeed {
+    /// Speed of the main shaft, rpm.
+    pub rpm: f64,
+    /// The preload with which least is left, N.
+    pub preload: f64,
+    /// Largest without the compensating cam.
+    pub before: f64,
+    /// Largest with it, its preload as it is.
+    pub unchanged: f64,
+    /// Largest with it and that preload.
+    pub after: f64,
+}
+
+/// What a compensating cam does by its law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compensated {
+    /// Work that the spring takes up and gives back, J.
+    pub work: f64,
+    /// Largest torque on the camshaft without it, N·m.
+    pub before: f64,
+    /// The same with it.
+    pub after: f64,
+    /// Largest force of its spring, N.
+    pub spring_force: f64,
+    /// At other speeds.
+    pub by_speed: Vec<AtSpeed>,
+}
+
+impl Disc {
+    /// The compensating cam that the machine file describes.
+    ///
+    /// # Errors
+    /// [`DiscError`] when none is described, its law has no solution or no radius keeps the limits.
+    pub fn compensating_disc(&self) -> Result<Self, DiscError> {
+        let machine = self.machine.of_compensator().ok_or(DiscError::NoCompensator)?;
+        let motion: Arc<dyn Motion> = Arc::new(self.counter_torque()?);
+        let (rpm, speed) = (self.rpm, self.speed);
+        Self { rpm, speed, kind: &COMPENSATOR, ..Self::unsized_of(&machine, motion) }.sized()
+    }
+
+    /// The law of its motion.
+    fn counter_torque(&self) -> Result<CounterMotion, DiscError> {
+        let data = self.machine.compensator().ok_or(DiscError::NoCompensator)?;
+        let load = self.load.as_ref().ok_or(NoPress)?;
+        let follower = &self.machine.follower;
+        let mass = follower.mass.zip(self.speed).unwrap_or((0.0, 0.0));
+        let work = load.shaft_work(follower.preload.unwrap_or(0.0), mass).ok_or(NoPress)?;
+        Ok(CounterMotion::new(work, data.spring_rate, data.preload)?)
+    }
+
+    /// What a compensating cam, made for this one, does by its law.
+    ///
+    /// # Errors
+    /// As [`Disc::compensating_disc`].
+    pub fn compensated_by(&self, second: &Disc) -> Result<Compensated, DiscError> {
+        let law = self.counter_torque()?;
+        let left = |angle: f64| {
+            let torque = |disc: &Disc| disc.force_and_torque(angle).map_or(0.0, |[_, torque]| torque);
+            (torque(self) + torque(second)).abs()
+        };
+        let after = second.motion.distinct().iter().flat_map(|piece| {
+            let place = |i: u32| piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(PLACES);
+            (0..=PLACES).map(place)
+        });
+        Ok(Compensated {
+            work: law.stored(),
+            before: self.torque_max().map_or(0.0, |torque| torque.value),
+            after: after.map(left).fold(0.0, f64::max),
+            spring_force: law.law().spring_force(second.max_lift()),
+            by_speed: self.at_other_speeds(&law, second),
+        })
+    }
+
+    /// The torques at other speeds of the press, the column reset by (14): of the air and of the springs, by the crank angle over a
+    /// quarter of its turn, whose mirrors have the same.
+    fn at_other_speeds(&self, law: &CounterMotion, second: &Disc) -> Vec<AtSpeed> {
+        let (Ok(press), Some(own)) = (self.machine.press(), self.rpm) else { return Vec::new() };
+        let (design, cylinder) = (press.bottom_law(own), press.cylinder());
+        let (rate, own_preload) = (law.law().rate(), law.law().preload());
+        let lobes = f64::from(self.motion.lobes());
+        // Lift of the second disc and its slope do not depend on the speed.
+        let lifts: Vec<(f64, f64, f64, f64)> = (0..=QUARTER)
+            .map(|i| {
+                let crank = FRAC_PI_2 * f64::from(i) / f64::from(QUARTER);
+                let x = design.stroke * libm::sin(crank);
+                let (piece, angle) = second.motion.locate(crank / lobes);
+                let lift = second.motion.jet(piece, angle);
+                let (first, at) = self.motion.locate(crank / lobes);
+                (x, self.motion.jet(first, at).ds / self.machine.cam.lever, lift.s, lift.ds)
+            })
+            .collect();
+        let at = |sevenths: f64| {
+            let rpm = own * sevenths / 7.0;
+            let regime = regime::reset(&design, &cylinder, rpm, Reset::End);
+            let torques: Vec<(f64, f64, f64)> =
+                lifts.iter().map(|(x, bottom, y, slope)| (regime.air(*x) * bottom, rate * y * slope, *slope)).collect();
+            let largest = |preload: f64, share: f64| {
+                let left = torques.iter().map(|(air, spring, slope)| (air + share * (spring + preload * slope)).abs());
+                left.fold(0.0, f64::max)
+            };
+            let range = (0.0, 2.0 * own_preload);
+            let best = extremum::largest_without_slope(|preload| -largest(preload, 1.0), range, CELLS, SECTIONS);
+            let (before, unchanged) = (largest(0.0, 0.0), largest(own_preload, 1.0));
+            AtSpeed { rpm, preload: best.at, before, unchanged, after: -best.value }
+        };
+        SEVENTHS.into_iter().map(at).collect()
+    }
+}

@@ -1,0 +1,70 @@
+//! The commands that analyse a machine and cut nothing.
+
+use super::args::{AnalysisArgs, RegimesArgs, ResetOf, SpringArgs};
+use super::cams::show;
+use super::{Failure, Outcome, tell};
+use camgen::analysis::{Analysis, regimes, spring};
+use camgen::buffer::regime::Reset;
+use camgen::machine::Machine;
+use camgen::pipeline::{Judged, Writing};
+use camgen::report::Speeds;
+use camgen::write::number::names;
+
+/// The speeds of a press that are looked at by default, in sevenths of its design speed: 20, 25, 30 and 35 rpm of the paper's.
+const SEVENTHS: [f64; 4] = [4.0, 5.0, 6.0, 7.0];
+
+pub(super) fn regimes(args: &RegimesArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = args.analysis.machine(&args.machine)?;
+    let design = machine.press().map_err(Failure::new)?.design_rpm;
+    let speeds = match args.rpm.as_slice() {
+        [] => SEVENTHS.map(|sevenths| design * sevenths / 7.0).to_vec(),
+        given => given.to_vec(),
+    };
+    let reset = match args.reset {
+        ResetOf::End => Reset::End,
+        ResetOf::Half => Reset::Half,
+        ResetOf::Level => Reset::Level,
+    };
+    let analysis = regimes::analysis(&machine, args.cut_for.unwrap_or(design), &speeds, reset).map_err(Failure::new)?;
+    written(analysis, &args.analysis, &name)
+}
+
+pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = args.analysis.machine(&args.machine)?;
+    let analysis = spring::analysis(&machine, &args.rpm, &args.stiffness, args.residual).map_err(Failure::new)?;
+    written(analysis, &args.analysis, &name)
+}
+
+impl AnalysisArgs {
+    fn machine(&self, name: &str) -> Result<(Machine, String), Failure> {
+        Machine::load(name, &self.set).map_err(Failure::new)
+    }
+}
+
+/// Judges, writes and reports.
+fn written(analysis: Analysis, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
+    let judged = Judged::new(analysis);
+    let analysis = judged.analysis();
+    let command = analysis.kind.command;
+    let speeds = match &analysis.speeds {
+        Speeds::Any(()) => String::new(),
+        Speeds::One(rpm) => format!("-{}rpm", names(&[*rpm]).concat()),
+        Speeds::Several(speeds) => format!("-{}rpm", names(speeds).join("-")),
+    };
+    let writing = Writing {
+        formats: args.format.clone(),
+        template: args.to.template()?,
+        force: args.to.force,
+        overwrite: args.to.overwrite,
+        ..Writing::to(&args.to.out, args.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}{speeds}")))
+    };
+    let report = if judged.passed() || writing.force {
+        let files = judged.files(&writing).map_err(Failure::new)?;
+        if args.told.dry_run { judged.report() } else { files.commit().map_err(Failure::new)? }
+    } else {
+        tell("refused: a check failed, nothing was written (--force writes nevertheless; camgen explain CHECK)");
+        judged.report()
+    };
+    show(&report, &args.told)?;
+    Ok(if judged.passed() { Outcome::Fine } else { Outcome::CheckFailed })
+}

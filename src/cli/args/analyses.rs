@@ -1,0 +1,77 @@
+//! Flags of the commands that analyse a machine and cut nothing.
+
+use super::common::ToldArgs;
+use super::files::OutArgs;
+use super::parse::{force, format, rpm, stiffness};
+use clap::{Args, ValueEnum, ValueHint};
+
+/// Flags of every analysis.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct AnalysisArgs {
+    /// Overrides one key of the machine file, e.g. --set buffer.lead=10mm; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(in crate::cli) set: Vec<String>,
+
+    /// What to write: csv, svg, json, html (the report with its curves) and pdf [default: csv,svg]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
+    pub(in crate::cli) format: Option<Vec<String>>,
+
+    #[command(flatten)]
+    pub(in crate::cli) to: OutArgs,
+
+    #[command(flatten)]
+    pub(in crate::cli) told: ToldArgs,
+}
+
+/// What the reset of a column keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum ResetOf {
+    End,
+    Half,
+    Level,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct RegimesArgs {
+    /// An embedded machine or the path of a machine file
+    #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Speeds of the main shaft, rpm [default: 4, 5, 6 and 7 sevenths of the design speed]
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Vec<f64>,
+
+    /// Speed the cam is cut for, rpm [default: the design speed]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) cut_for: Option<f64>,
+
+    /// What the reset keeps: end (no residual force at the end of the stroke), half (the paper's rule: half of the largest one there)
+    /// or level (as much there as at the worst place, which is least)
+    #[arg(long, value_name = "RULE", default_value = "end", ignore_case = true)]
+    pub(in crate::cli) reset: ResetOf,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SpringArgs {
+    /// An embedded machine or the path of a machine file
+    #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Stiffness of each of the two springs, e.g. 68kgf/cm,165kgf/cm [default: 1.125, 1.375 and 2.75 times the least one]
+    #[arg(long, value_name = "STIFFNESS,…", value_delimiter = ',', value_parser = stiffness, allow_hyphen_values = true)]
+    pub(in crate::cli) stiffness: Vec<f64>,
+
+    /// Largest residual force at the design speed: also takes the stiffness that leaves it, e.g. 50kgf
+    #[arg(long, value_name = "FORCE", value_parser = force, allow_hyphen_values = true)]
+    pub(in crate::cli) residual: Option<f64>,
+
+    /// Speeds of the main shaft, rpm [default: the design speed]
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Vec<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}

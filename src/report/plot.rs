@@ -1,0 +1,258 @@
+//! Curves over a common quantity, panel below panel on a sheet of paper.
+
+use super::sheet::paper::{PAPERS, Paper, furniture};
+use super::sheet::{Group, STROKE, Shape, Sheet, TextAnchor, font, rounded, words};
+use super::trace::round_step;
+use crate::geometry::contour::Extents;
+use nalgebra::Vector2;
+
+/// Height of the texts and of the title, mm.
+const TEXT: f64 = 2.8;
+const TITLE: f64 = 4.5;
+/// Room of a panel for values and names: to the left, above, below; and for the names of the curves to the right, mm.
+const LEFT: f64 = 17.0;
+const ABOVE: f64 = 9.0;
+const BELOW: f64 = 11.0;
+const NAMES: f64 = 30.0;
+/// Length of the line that leads from a curve to its name, mm.
+const LEADER: f64 = 4.0;
+/// Most lines across for the values of a panel, and along.
+const LINES: f64 = 7.0;
+const PLACES: f64 = 10.0;
+/// Colours of the curves, dark enough for white paper.
+const COLOURS: [&str; 6] = ["#0a5cad", "#b3541e", "#17692b", "#7a3ea1", "#b3261e", "#555555"];
+
+/// A curve of a plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Its name, at its end; none where another curve of the same colour bears it.
+    pub name: String,
+    /// Which of the colours it has.
+    pub colour: usize,
+    /// Drawn as a thick line.
+    pub bold: bool,
+    /// Place and value, in the order of the places.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Curves of one quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// The quantity with its unit, and what thin and thick lines are.
+    pub name: String,
+    /// The curves.
+    pub curves: Vec<Curve>,
+}
+
+/// Panels below each other, over the same places.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plot {
+    /// Head of the sheet.
+    pub title: String,
+    /// What the places are, with their unit.
+    pub places: String,
+    /// The panels.
+    pub panels: Vec<Panel>,
+}
+
+/// The plot on a sheet; values that are not finite are left out.
+#[must_use]
+pub fn sheet(plot: &Plot, mark: &str) -> Sheet {
+    let paper = PAPERS.first().copied().unwrap_or(Paper { name: "", size: Vector2::repeat(1.0), lettering: &[] });
+    let frame = paper.frame(Vector2::zeros());
+    let mut groups = furniture(&paper, Vector2::zeros());
+    let room = frame.size().x - 4.0 * TEXT;
+    let (lines, size) = font::fitted(&plot.title, TITLE, room, 3.0 * TITLE);
+    let mut top = frame.largest.y - 2.0 * TEXT;
+    let mut heads = Vec::new();
+    for line in lines {
+        top -= font::LEADING * size;
+        heads.push(words(Vector2::new(frame.least.x + 2.0 * TEXT, top), size, TextAnchor::Start, line));
+    }
+    let foot = frame.least + Vector2::new(2.0 * TEXT, 1.5 * TEXT);
+    heads.push(words(foot, TEXT, TextAnchor::Start, mark));
+    groups.push(Group { class: "facts", ..Group::new("title", "title", heads) });
+    let (low, bottom) = (top - TEXT, frame.least.y + 4.0 * TEXT);
+    #[expect(clippy::cast_precision_loss, reason = "a few panels")]
+    let each = (low - bottom) / plot.panels.len().max(1) as f64;
+    let places = range(plot.panels.iter().flat_map(|panel| &panel.curves).flat_map(finite).map(|[place, _]| place));
+    let mut upper = low;
+    for (index, panel) in plot.panels.iter().enumerate() {
+        let field = Extents {
+            least: Vector2::new(frame.least.x + LEFT, upper - each + BELOW),
+            largest: Vector2::new(frame.largest.x - NAMES, upper - ABOVE),
+        };
+        if let Some(places) = places {
+            groups.extend(drawn(panel, index, &plot.places, places, &field));
+        }
+        upper -= each;
+    }
+    Sheet {
+        title: plot.title.clone(),
+        extents: Extents { least: Vector2::zeros(), largest: paper.size },
+        stroke: STROKE,
+        scale: 1.0,
+        groups,
+    }
+}
+
+fn finite(curve: &Curve) -> impl Iterator<Item = [f64; 2]> + '_ {
+    curve.points.iter().copied().filter(|point| point.iter().all(|value| value.is_finite()))
+}
+
+/// The least and the largest of some values, where they differ.
+fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    (high > low && (high - low).is_finite()).then_some((low, high))
+}
+
+/// What a panel shows of its quantity: from 0 on, but where that would leave more than half of it empty.
+fn values_of(panel: &Panel) -> (f64, f64) {
+    let values = || panel.curves.iter().flat_map(finite).map(|[_, value]| value);
+    let far = |(low, high): &(f64, f64)| low * high > 0.0 && high - low < low.abs().min(high.abs());
+    let own = range(values()).filter(far);
+    own.or_else(|| range(values().chain([0.0]))).unwrap_or((-1.0, 1.0))
+}
+
+/// One panel in its field.
+fn drawn(panel: &Panel, index: usize, places: &str, along: (f64, f64), field: &Extents) -> Vec<Group> {
+    let (low, high) = values_of(panel);
+    let step = round_step(high - low, LINES);
+    let across = ((low / step).floor() * step, (high / step).ceil() * step);
+    let at = |place: f64, value: f64| {
+        let share = Vector2::new((place - along.0) / (along.1 - along.0), (value - across.0) / (across.1 - across.0));
+        field.least + field.size().component_mul(&share)
+    };
+    let mut grid = Vec::new();
+    let mut value = across.0;
+    while value <= across.1 + 0.5 * step {
+        grid.push(Shape::Line(at(along.0, value), at(along.1, value)));
+        let (text, size) = (rounded((value / step).round() * step), TEXT);
+        let (text, size) = font::fitted_in_one(&text, size, LEFT - 3.0);
+        let place = at(along.0, value) - Vector2::new(0.5, 0.35) * size;
+        grid.push(words(place, size, TextAnchor::End, text));
+        value += step;
+    }
+    let step = round_step(along.1 - along.0, PLACES);
+    let mut place = (along.0 / step).ceil() * step;
+    while place <= along.1 + 1e-9 * step {
+        grid.push(Shape::Line(at(place, across.0), at(place, across.1)));
+        let below = at(place, across.0) - Vector2::new(0.0, 1.3 * TEXT);
+        grid.push(words(below, TEXT, TextAnchor::Middle, rounded((place / step).round() * step)));
+        place += step;
+    }
+    let (head, size) = font::fitted_in_one(&panel.name, TEXT, field.size().x + NAMES - TEXT);
+    let below = Vector2::new(0.5 * (field.least.x + field.largest.x), field.least.y - 2.8 * TEXT);
+    let names = vec![
+        words(Vector2::new(field.least.x, field.largest.y + 0.8 * TEXT), size, TextAnchor::Start, head),
+        words(below, TEXT, TextAnchor::Middle, places),
+    ];
+    let named = |group: Group| Group { id: format!("{}-{index}", group.id), ..group };
+    let mut groups = vec![named(Group { class: "trace-grid", ..Group::new("grid", "lines of the diagram", grid) })];
+    groups.extend(panel.curves.iter().enumerate().map(|(number, curve)| Group {
+        id: format!("curve-{index}-{number}"),
+        class: if curve.bold { "curve-bold" } else { "curve" },
+        label: if curve.name.is_empty() { panel.name.clone() } else { curve.name.clone() },
+        colour: Some(colour(curve).into()),
+        shapes: vec![Shape::Path(finite(curve).map(|[place, value]| at(place, value)).collect())],
+        in_legend: false,
+    }));
+    groups.extend(labels(panel, index, &at));
+    groups.push(named(Group { class: "facts", ..Group::new("names", "names of the diagram", names) }));
+    groups
+}
+
+fn colour(curve: &Curve) -> &'static str {
+    COLOURS.get(curve.colour % COLOURS.len()).copied().unwrap_or_default()
+}
+
+/// The names of the curves to the right of their ends, pushed apart, each with a line in the colour of its curve.
+fn labels(panel: &Panel, index: usize, at: &impl Fn(f64, f64) -> Vector2<f64>) -> Vec<Group> {
+    let mut ends: Vec<(&Curve, Vector2<f64>)> = panel
+        .curves
+        .iter()
+        .filter(|curve| !curve.name.is_empty())
+        .filter_map(|curve| finite(curve).last().map(|[place, value]| (curve, at(place, value))))
+        .collect();
+    ends.sort_by(|a, b| b.1.y.total_cmp(&a.1.y));
+    let heights = apart(&ends.iter().map(|(_, end)| end.y).collect::<Vec<_>>(), font::LEADING * TEXT);
+    let right = ends.iter().map(|(_, end)| end.x).fold(f64::NEG_INFINITY, f64::max);
+    let label = |(number, ((curve, end), height)): (usize, (&(&Curve, Vector2<f64>), &f64))| {
+        let start = Vector2::new(right + LEADER, *height);
+        let (text, size) = font::fitted_in_one(&curve.name, TEXT, NAMES - LEADER - 2.0);
+        let place = start + Vector2::new(0.3 * TEXT, -0.35 * size);
+        Group {
+            id: format!("name-{index}-{number}"),
+            class: "curve",
+            label: format!("name of {}", curve.name),
+            colour: Some(colour(curve).into()),
+            shapes: vec![Shape::Line(*end, start), words(place, size, TextAnchor::Start, text)],
+            in_legend: false,
+        }
+    };
+    ends.iter().zip(&heights).enumerate().map(label).collect()
+}
+
+/// Falling heights at least so far apart, each as near its own as the others let it: those in a cluster about their middle.
+fn apart(wanted: &[f64], least: f64) -> Vec<f64> {
+    // A cluster: the sum of what its heights would like its top to be, and how many they are.
+    let mut clusters: Vec<(f64, f64)> = Vec::new();
+    let top = |(sum, count): (f64, f64)| sum / count;
+    for height in wanted {
+        let mut cluster = (*height, 1.0);
+        while let Some(above) = clusters.last().copied()
+            && top(above) - least * above.1 < top(cluster)
+        {
+            clusters.pop();
+            cluster = (above.0 + cluster.0 + least * above.1 * cluster.1, above.1 + cluster.1);
+        }
+        clusters.push(cluster);
+    }
+    let mut heights = Vec::with_capacity(wanted.len());
+    for cluster in clusters {
+        let mut member = 0.0;
+        while member < cluster.1 {
+            heights.push(top(cluster) - least * member);
+            member += 1.0;
+        }
+    }
+    heights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_pushed_apart_and_stay_in_order() {
+        for wanted in [vec![], vec![5.0], vec![9.0, 5.0, 1.0], vec![5.0, 5.0, 5.0], vec![8.0, 7.5, 7.0, 1.0, 0.5]] {
+            let placed = apart(&wanted, 2.0);
+            assert_eq!(placed.len(), wanted.len());
+            assert!(placed.windows(2).all(|two| two[0] - two[1] >= 2.0 - 1e-12), "{wanted:?}: {placed:?}");
+            let middle = |heights: &[f64]| heights.iter().sum::<f64>();
+            assert!((middle(&placed) - middle(&wanted)).abs() < 1e-9, "about their middle: {placed:?}");
+        }
+        assert_eq!(apart(&[9.0, 5.0, 1.0], 2.0), [9.0, 5.0, 1.0]);
+    }
+
+    #[test]
+    fn a_plot_draws_what_is_finite_and_names_its_curves() {
+        let curve = |name: &str, slope: f64| Curve {
+            name: name.into(),
+            colour: 7,
+            bold: true,
+            points: (0..=10).map(|i| [f64::from(i), if i == 3 { f64::NAN } else { slope * f64::from(i) }]).collect(),
+        };
+        let panel = Panel { name: "force, N".into(), curves: vec![curve("a", 1.0), curve("b", -2.0)] };
+        let flat = Panel { name: "nothing".into(), curves: vec![curve("c", 0.0)] };
+        let plot = Plot { title: "t".into(), places: "x, mm".into(), panels: vec![panel, flat] };
+        let sheet = sheet(&plot, "mark");
+        let paths = sheet.groups.iter().flat_map(|group| &group.shapes);
+        let lengths: Vec<usize> =
+            paths.filter_map(|shape| if let Shape::Path(points) = shape { Some(points.len()) } else { None }).collect();
+        assert_eq!(lengths, [10, 10, 10]);
+        let names: Vec<&str> =
+            sheet.groups.iter().filter(|group| group.id.starts_with("name-")).map(|g| &*g.label).collect();
+        assert_eq!(names, ["name of a", "name of b", "name of c"]);
+    }
+}
