@@ -248,8 +248,7 @@ mod tests {
         assert!((least_work(&law, &cylinder).value + 380.576).abs() < 5.1e-4);
     }
 
-    /// At the design speed of a returning column the first cam takes the work that a plain buffer of the same column leaves to the
-    /// crank, and for every column E(r) is the work of compression less the energy of the bed.
+    /// For every column E(r) is the work that compresses the air less the energy of the bed.
     #[test]
     fn energy_is_kept() {
         for (q, column) in [(2.0, Column::Matched), (5.0, Column::Return), (2.0, Column::Length(0.5))] {

@@ -1,11 +1,11 @@
 //! The commands that analyse a machine and cut nothing.
 
-use super::args::{AnalysisArgs, RegimesArgs, ResetOf, SpringArgs};
+use super::args::{AnalysisArgs, DriveArgs, DriveSolver, RegimesArgs, ResetOf, SpringArgs};
 use super::cams::show;
 use super::{Failure, Outcome, tell};
-use camgen::analysis::{Analysis, regimes, spring};
+use camgen::analysis::{Analysis, drive, regimes, spring};
 use camgen::buffer::regime::Reset;
-use camgen::machine::Machine;
+use camgen::machine::{DriveMachine, Machine};
 use camgen::pipeline::{Judged, Writing};
 use camgen::report::Speeds;
 use camgen::write::number::names;
@@ -33,6 +33,15 @@ pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
     let analysis = spring::analysis(&machine, &args.rpm, &args.stiffness, args.residual).map_err(Failure::new)?;
     written(analysis, &args.analysis, &name)
+}
+
+pub(super) fn drive(args: &DriveArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = DriveMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
+    let solver = match args.solver {
+        DriveSolver::Energy => drive::Solver::Energy,
+        DriveSolver::Paper => drive::Solver::Paper,
+    };
+    written(drive::analysis(&machine, solver, args.step).map_err(Failure::new)?, &args.analysis, &name)
 }
 
 impl AnalysisArgs {

@@ -64,6 +64,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Make(args) => cams::make(args),
         Command::Regimes(args) => analyses::regimes(args),
         Command::Spring(args) => analyses::spring(args),
+        Command::Drive(args) => analyses::drive(args),
         Command::SideBySide(args) => side_by_side::run(args),
         Command::Check(args) => check::run(args),
         Command::Trade(args) => trade::run(args),

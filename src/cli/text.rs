@@ -50,7 +50,9 @@ pub(super) fn check_report(file: &str, report: &Report, page: Page) -> String {
 fn written(first: String, report: &Report, page: Page) -> String {
     let mut lines = vec![first];
     lines.extend(report.sections.iter().flat_map(|of| section(of, page)));
-    lines.push("  checks".into());
+    if !report.checks.is_empty() {
+        lines.push("  checks".into());
+    }
     lines.extend(checks(&report.checks, page));
     let entries = |entries: &[String]| -> Vec<String> {
         entries.iter().map(|entry| wrapped(&format!("    {entry}"), 6, page)).collect()

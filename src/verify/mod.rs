@@ -8,6 +8,7 @@ mod air;
 mod balance;
 mod between_sections;
 mod bore;
+mod closing;
 mod compensator;
 mod contact_stress;
 mod curvature;
@@ -184,6 +185,7 @@ pub const CHECKS: &[Check] = &[
     balance::CHECK,
     compensator::CHECK,
     added_volume::CHECK,
+    closing::CHECK,
 ];
 
 /// Runs every check that applies: failures first, then warnings, then the rest, each in the order of the list.

@@ -2,7 +2,7 @@
 
 use super::common::ToldArgs;
 use super::files::OutArgs;
-use super::parse::{force, format, rpm, stiffness};
+use super::parse::{crank_step, force, format, rpm, stiffness};
 use clap::{Args, ValueEnum, ValueHint};
 
 /// Flags of every analysis.
@@ -71,6 +71,31 @@ pub(in crate::cli) struct SpringArgs {
     /// Speeds of the main shaft, rpm [default: the design speed]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Vec<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+/// How the law of a drive is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum DriveSolver {
+    Energy,
+    Paper,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct DriveArgs {
+    /// An embedded machine or the path of a machine file with the table [drive]
+    #[arg(default_value = "dp", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// energy (in closed form) or paper (the paper's sections, of second order in the step)
+    #[arg(long, value_name = "SOLVER", default_value = "energy", ignore_case = true)]
+    pub(in crate::cli) solver: DriveSolver,
+
+    /// Crank angle from row to row, and of the paper's sections, 0.01deg to 90deg
+    #[arg(long, value_name = "ANGLE", default_value = "10deg", value_parser = crank_step, allow_hyphen_values = true)]
+    pub(in crate::cli) step: f64,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

@@ -48,6 +48,13 @@ Examples:
   camgen spring dpi-paper --residual 50kgf --rpm 25,35 --dry-run
       the spring that leaves 50 kgf at the design speed, and what it leaves at 25 rpm; only the report";
 
+pub(super) const DRIVE: &str = "\
+Examples:
+  camgen drive
+      the drive of the embedded press dp, as a table and a plot
+  camgen drive --solver paper --step 5deg --set buffer.column=500mm --dry-run
+      another column, as the paper solves it; only the report";
+
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
   camgen side-by-side dpi dpi-paper

@@ -6,7 +6,7 @@ mod files;
 mod help;
 mod parse;
 
-pub(super) use analyses::{AnalysisArgs, RegimesArgs, ResetOf, SpringArgs};
+pub(super) use analyses::{AnalysisArgs, DriveArgs, DriveSolver, RegimesArgs, ResetOf, SpringArgs};
 pub(super) use common::{CommonArgs, ToldArgs};
 pub(super) use files::{
     CutterArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
@@ -66,6 +66,11 @@ pub(super) enum Command {
     /// Equations (26) to (28): travel of the springs, air, residual force and setting of the screw, for each stiffness and speed.
     #[command(after_help = help::SPRING)]
     Spring(SpringArgs),
+    /// Drive of a bed without a cam: the speed of the crank that plain buffers ask for
+    ///
+    /// The drive slows down so that the crank carries nothing while plain buffers brake the bed.
+    #[command(after_help = help::DRIVE)]
+    Drive(DriveArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -122,6 +127,7 @@ impl Command {
         let (machine, args) = match self {
             Command::Regimes(args) => (&args.machine, &args.analysis),
             Command::Spring(args) => (&args.machine, &args.analysis),
+            Command::Drive(args) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();

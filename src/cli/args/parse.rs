@@ -6,6 +6,7 @@ use camgen::machine::valid_rpm;
 use camgen::units::{self, Dimension};
 use camgen::write::by_name;
 use camgen::write::dxf::Version;
+use std::f64::consts::PI;
 
 /// A tolerance of velocity or acceleration, or that there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,6 +105,17 @@ pub(super) fn force(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Force)
         .map_err(|error| format!("{error}; a force has one of {}", Dimension::Force.unit_list()))?;
     if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
+}
+
+/// Widest and narrowest step of the crank angle, rad.
+const STEPS: (f64, f64) = (1.0e-2 * PI / 180.0, PI / 2.0);
+
+pub(super) fn crank_step(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Angle)
+        .map_err(|error| format!("{error}; an angle has one of {}", Dimension::Angle.unit_list()))?;
+    // With a hair for the rounding of the conversion.
+    let (least, most) = (STEPS.0 * (1.0 - 1e-12), STEPS.1 * (1.0 + 1e-12));
+    if (least..=most).contains(&quantity.si) { Ok(quantity.si) } else { Err("must be from 0.01 deg to 90 deg".into()) }
 }
 
 pub(super) fn stiffness(text: &str) -> Result<f64, String> {

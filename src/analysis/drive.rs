@@ -1,0 +1,356 @@
+//! The drive of a bed without a cam: its speed through the reversal, by energy and by the paper's sections.
+
+use super::{Analysis, Measure};
+use crate::body::Kind;
+use crate::buffer::drive::{self, CLOSING, Drive, DriveError, Node, NodeSpeed, Phase, State};
+use crate::document::{Input, cams};
+use crate::geometry::MILLIMETRES;
+use crate::machine::DriveMachine;
+use crate::report::plot::{Curve, Panel, Plot};
+use crate::report::{Section, Speeds, shown};
+use crate::table::{Table, Told};
+use serde::Serialize;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Drives without a cam.
+pub const KIND: Kind = Kind { command: "drive", noun: "drive without a cam", keys: cams::DRIVE };
+
+/// The check that the bed arrives at the end of its stroke at rest.
+pub const CLOSING_CHECK: &str = "closing";
+
+/// Rows between the ends of the phases in the plot.
+const PLACES: u32 = 240;
+
+/// How the law is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Solver {
+    /// By energy, in closed form.
+    Energy,
+    /// By the paper's sections.
+    Paper,
+}
+
+/// A row of the table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Row {
+    crank: f64,
+    phase: Phase,
+    x: f64,
+    force: f64,
+    velocity: f64,
+    omega: f64,
+    motor_rpm: Option<f64>,
+    torque: Option<f64>,
+    time: f64,
+}
+
+/// Degrees without the rounding of the conversion: 60, not 59.99999999999999.
+fn degrees(angle: f64) -> f64 {
+    const DIGITS: f64 = 1e11;
+    (angle.to_degrees() * DIGITS).round() / DIGITS
+}
+
+const TOLD: &[Told<Row>] = &[
+    ("crank_deg", |row| degrees(row.crank)),
+    ("phase", |row| match row.phase {
+        Phase::Lead => 1.0,
+        Phase::Crank => 2.0,
+    }),
+    ("x_mm", |row| MILLIMETRES * row.x),
+    ("force_n", |row| row.force),
+    ("velocity_m_per_s", |row| row.velocity),
+    ("omega_rad_per_s", |row| row.omega),
+    ("motor_rpm", |row| row.motor_rpm.unwrap_or(f64::NAN)),
+    ("torque_nm", |row| row.torque.unwrap_or(f64::NAN)),
+    ("time_s", |row| row.time),
+];
+
+/// The section `drive`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Figures {
+    bore_mm: f64,
+    piston_area_mm2: f64,
+    stroke_mm: f64,
+    work_over_energy: f64,
+    end_force_n: f64,
+    omega_before_rad_per_s: f64,
+    /// These and what follows from them of a machine that closes only.
+    omega_least_rad_per_s: Option<f64>,
+    omega_least_at_phase_deg: Option<f64>,
+    omega_end_rad_per_s: Option<f64>,
+    speed_drop: Option<f64>,
+    lead_time_s: f64,
+    crank_time_s: f64,
+    motor_rpm_before: Option<f64>,
+    motor_rpm_least: Option<f64>,
+    torque_max_nm: Option<f64>,
+    energy_swing_j: Option<f64>,
+    paper: Sections,
+}
+
+/// What the paper's sections give beside it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Sections {
+    step_deg: f64,
+    /// Largest error of ω over it, where there is one.
+    omega_error_share: f64,
+    /// Power of the step with which that error falls, from the step and its half.
+    order: Option<f64>,
+    /// What is wrong at the last node.
+    failure: Option<String>,
+    failure_radicand_per_s2: Option<f64>,
+}
+
+/// The drive of a bed by one of the solvers, at steps of the crank angle (rad).
+///
+/// # Errors
+/// [`DriveError`] when the column is used up within the stroke. A bed that does not arrive at its end at rest fails the check.
+pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Analysis, DriveError> {
+    let data = machine.data;
+    let of = drive::Machine {
+        bed_mass: machine.mass,
+        crank_radius: machine.crank_radius,
+        lead_angle: data.lead_angle,
+        bed_speed: data.bed_speed,
+        column: machine.column,
+        ambient_pressure: machine.ambient_pressure,
+        exponent: machine.exponent,
+    };
+    let (drive, open) = match data.bore {
+        Some(bore) => closed_or_open(of, 0.25 * PI * bore * bore)?,
+        None => (Drive::by_closing(of)?, None),
+    };
+    let row = |state: State, crank: f64| Row {
+        crank,
+        phase: state.phase,
+        x: state.x,
+        force: state.force,
+        velocity: state.velocity,
+        omega: state.omega,
+        motor_rpm: data.motor_ratio.map(|ratio| state.motor_rpm(ratio)),
+        torque: data.inertia.map(|inertia| state.torque(inertia)),
+        time: state.time,
+    };
+    let nodes = drive::sections(&drive, step);
+    let exact = |crank: f64| drive.at(crank).map(|state| row(state, crank));
+    let rows: Vec<Row> = match solver {
+        Solver::Energy => ends(data.lead_angle, step).into_iter().filter_map(exact).collect(),
+        Solver::Paper => by_sections(machine, &drive, &nodes),
+    };
+    let fine: Vec<Row> =
+        (0..=PLACES).filter_map(|i| exact((data.lead_angle + FRAC_PI_2) * f64::from(i) / f64::from(PLACES))).collect();
+    let told = told(machine, (&drive, open.is_none()), step, &nodes, &fine);
+    let mut inputs = vec![Input::word("command", KIND.command)];
+    inputs.extend(machine.inputs().iter().cloned());
+    let word = if solver == Solver::Energy { "energy" } else { "paper" };
+    inputs.extend([Input::word("solver", word), Input::quantity("step", step, ("deg", PI / 180.0))]);
+    let table = Table::listed(TOLD, &rows).without_empty();
+    Ok(Analysis {
+        kind: &KIND,
+        machine: machine.name().to_owned(),
+        speeds: Speeds::Any(()),
+        inputs,
+        sections: vec![Section::new(KIND.command, &told).with_words(words(&told))],
+        measures: vec![Measure {
+            check: CLOSING_CHECK,
+            value: (told.work_over_energy - 1.0).abs(),
+            limit: CLOSING,
+            unit: "1",
+            note: open.map(|why| why.to_string()),
+        }],
+        notes: Vec::new(),
+        plot: plot(machine, &fine, &nodes),
+        tables: vec![("", table)],
+        by: &[],
+        along: "crank_deg",
+        not_modelled: NOT_MODELLED.to_vec(),
+    })
+}
+
+/// The drive with this piston area (m²), and why it does not close where it does not.
+fn closed_or_open(of: drive::Machine, area: f64) -> Result<(Drive, Option<DriveError>), DriveError> {
+    match Drive::with_area(of, area) {
+        Ok(drive) => Ok((drive, None)),
+        Err(why @ (DriveError::StopsEarly { .. } | DriveError::ArrivesWithSpeed { .. })) => {
+            Ok((Drive::open(of, area)?, Some(why)))
+        }
+        Err(why) => Err(why),
+    }
+}
+
+const NOT_MODELLED: &[&str] = &[
+    "The motor: the drive is taken to follow the law; the torque told is that of its own inertia.",
+    "Friction of bed and pistons, leakage and the flow of heat.",
+    "Acceleration after the reversal: it mirrors the braking.",
+];
+
+/// Crank angles at which rows stand: the ends of the sections of both phases.
+fn ends(lead: f64, step: f64) -> Vec<f64> {
+    let of = |from: f64, length: f64| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at least 0.01 degrees")]
+        let count = (length / step - 1e-9).ceil().max(0.0) as u32;
+        (1..=count).map(move |i| if i == count { from + length } else { from + step * f64::from(i) })
+    };
+    std::iter::once(0.0).chain(of(0.0, lead)).chain(of(lead, FRAC_PI_2)).collect()
+}
+
+/// The rows of the paper's sections that have a speed; the time by the mean speed of a section, its torque by the difference.
+fn by_sections(machine: &DriveMachine, drive: &Drive, nodes: &[Node]) -> Vec<Row> {
+    let (r, lead, data) = (machine.crank_radius, machine.data.lead_angle, machine.data);
+    let mut rows: Vec<Row> = Vec::new();
+    for node in nodes {
+        let Some(omega) = node.speed.omega() else { continue };
+        let crank = if node.phase == Phase::Lead { node.angle } else { lead + node.angle };
+        let (step, before, since) =
+            rows.last().map_or((0.0, omega, 0.0), |last| (crank - last.crank, last.omega, last.time));
+        let lever = if node.phase == Phase::Lead { 1.0 } else { libm::cos(node.angle) };
+        let slope = if step > 0.0 { (omega - before) / step } else { 0.0 };
+        rows.push(Row {
+            crank,
+            phase: node.phase,
+            x: node.x,
+            force: drive.force(node.x),
+            velocity: r * omega * lever,
+            omega,
+            motor_rpm: data.motor_ratio.map(|ratio| 30.0 / PI * ratio * omega),
+            torque: data.inertia.map(|inertia| inertia * omega * slope),
+            time: since + step / (0.5 * (omega + before)),
+        });
+    }
+    rows
+}
+
+/// Largest error of the speed by sections over it, at the nodes that have one.
+fn error(drive: &Drive, nodes: &[Node], within: f64) -> f64 {
+    let lead = drive.machine.lead_angle;
+    let of = |node: &Node| {
+        let crank = if node.phase == Phase::Lead { node.angle } else { lead + node.angle };
+        let exact = drive.at(crank).filter(|_| crank <= within)?.omega;
+        Some((node.speed.omega()? / exact - 1.0).abs())
+    };
+    nodes.iter().filter_map(of).fold(0.0, f64::max)
+}
+
+fn told(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, nodes: &[Node], fine: &[Row]) -> Figures {
+    let (of, data) = (&drive.machine, machine.data);
+    let least = closes.then(|| drive.least_speed());
+    let motor = |omega: f64| data.motor_ratio.map(|ratio| 30.0 / PI * ratio * omega);
+    let end = drive.at(data.lead_angle + FRAC_PI_2).filter(|_| closes).map(|state| state.omega);
+    // Where the crank begins to turn the bed every step is compared at the same angle.
+    let [whole, half] = [1.0, 0.5].map(|share| error(drive, &drive::sections(drive, share * step), data.lead_angle));
+    let failed = nodes.iter().find(|node| node.speed.omega().is_none());
+    let failure = failed.map(|node| {
+        let at = format!(
+            "at {} deg of phase {}",
+            shown(node.angle.to_degrees()),
+            if node.phase == Phase::Lead { 1 } else { 2 }
+        );
+        match node.speed {
+            NodeSpeed::Negative { radicand } => {
+                (format!("{at} the radicand of the speed is negative, {radicand:.8} s⁻²: no speed"), radicand)
+            }
+            NodeSpeed::Unbounded { radicand } | NodeSpeed::Omega(radicand) => {
+                (format!("{at} a radicand of {radicand:.8} s⁻² is left over a cosine of 0: no speed"), radicand)
+            }
+        }
+    });
+    Figures {
+        bore_mm: MILLIMETRES * drive.bore(),
+        piston_area_mm2: MILLIMETRES * MILLIMETRES * drive.piston_area,
+        stroke_mm: MILLIMETRES * of.stroke(),
+        work_over_energy: drive.work(of.stroke()) / of.energy(),
+        end_force_n: drive.force(of.stroke()),
+        omega_before_rad_per_s: drive.omega_before(),
+        omega_least_rad_per_s: least.map(|least| least.omega),
+        omega_least_at_phase_deg: least.map(|least| least.phase_angle.to_degrees()),
+        omega_end_rad_per_s: end,
+        speed_drop: least.map(|least| least.drop),
+        lead_time_s: drive.time_of(Phase::Lead, data.lead_angle),
+        crank_time_s: drive.time_of(Phase::Crank, FRAC_PI_2),
+        motor_rpm_before: motor(drive.omega_before()),
+        motor_rpm_least: least.and_then(|least| motor(least.omega)),
+        torque_max_nm: data
+            .inertia
+            .filter(|_| closes)
+            .map(|_| fine.iter().filter_map(|row| row.torque).map(f64::abs).fold(0.0, f64::max)),
+        energy_swing_j: data.inertia.filter(|_| closes).map(|inertia| drive.energy_swing(inertia)),
+        paper: Sections {
+            step_deg: step.to_degrees(),
+            omega_error_share: error(drive, nodes, f64::INFINITY),
+            order: (whole > 0.0 && half > 0.0).then(|| libm::log2(whole / half)),
+            failure: failure.as_ref().map(|(words, _)| words.clone()),
+            failure_radicand_per_s2: failure.map(|(_, radicand)| radicand),
+        },
+    }
+}
+
+/// How slow the crank becomes, where the machine closes.
+fn slowest(told: &Figures) -> String {
+    let figures =
+        (told.omega_least_rad_per_s, told.omega_least_at_phase_deg, told.speed_drop, told.omega_end_rad_per_s);
+    let (Some(least), Some(at), Some(drop), Some(end)) = figures else { return String::new() };
+    format!(", least {least:.5} at {at:.3}° of phase 2 (−{:.3} %), {end:.5} at the end", 100.0 * drop)
+}
+
+fn words(told: &Figures) -> Vec<String> {
+    let mut lines = vec![
+        format!(
+            "bore {:.4} mm, stroke {:.4} mm, force at its end {:.2} N, work over the bed's energy {:.9}",
+            told.bore_mm, told.stroke_mm, told.end_force_n, told.work_over_energy
+        ),
+        format!("crank {:.5} rad/s before the braking", told.omega_before_rad_per_s) + &slowest(told),
+        format!("times of the phases {:.6} s and {:.6} s", told.lead_time_s, told.crank_time_s),
+    ];
+    if let (Some(before), Some(least)) = (told.motor_rpm_before, told.motor_rpm_least) {
+        lines.push(format!("motor {before:.1} rpm, least {least:.1} rpm"));
+    }
+    if let (Some(torque), Some(swing)) = (told.torque_max_nm, told.energy_swing_j) {
+        lines.push(format!("for its own inertia the drive needs {torque:.2} N·m at most, {swing:.3} J to and fro"));
+    }
+    let paper = &told.paper;
+    let order = paper.order.map_or(String::new(), |order| format!(", of order {order:.2} in the step"));
+    lines.push(format!(
+        "the paper's sections of {}° err by {:.4} % of the speed{order}",
+        shown(paper.step_deg),
+        100.0 * paper.omega_error_share
+    ));
+    lines.extend(paper.failure.clone());
+    lines
+}
+
+fn plot(machine: &DriveMachine, fine: &[Row], nodes: &[Node]) -> Plot {
+    let lead = machine.data.lead_angle;
+    let curve = |name: &str, colour: usize, value: &dyn Fn(&Row) -> f64| Curve {
+        name: name.into(),
+        colour,
+        bold: true,
+        points: fine.iter().map(|row| [row.crank.to_degrees(), value(row)]).collect(),
+    };
+    let by_sections = Curve {
+        name: "by sections".into(),
+        colour: 1,
+        bold: false,
+        points: nodes
+            .iter()
+            .filter_map(|node| {
+                let crank = if node.phase == Phase::Lead { node.angle } else { lead + node.angle };
+                Some([crank.to_degrees(), node.speed.omega()?])
+            })
+            .collect(),
+    };
+    let panel = |name: &str, curves: Vec<Curve>| Panel { name: name.into(), curves };
+    let mut panels = vec![
+        panel("Speed of the crank, rad/s", vec![curve("by energy", 0, &|row| row.omega), by_sections]),
+        panel("Speed of the bed, m/s", vec![curve("bed", 0, &|row| row.velocity)]),
+        panel("Force of the buffers, N", vec![curve("air", 0, &|row| row.force)]),
+    ];
+    if machine.data.inertia.is_some() {
+        let torque = curve("drive", 0, &|row| row.torque.unwrap_or(f64::NAN));
+        panels.push(panel("Torque for the inertia of the drive, N·m", vec![torque]));
+    }
+    Plot {
+        title: format!("{}: the drive through a reversal", machine.name()),
+        places: "crank angle from the start of braking, degrees".into(),
+        panels,
+    }
+}
