@@ -6,7 +6,7 @@ use crate::buffer::spring::{self, NoStiffness, SpringBuffer, TooSoft};
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, NoPress, Press};
-use crate::report::plot::{Curve, Panel, Plot};
+use crate::report::plot::{self, Curve, Panel, Plot};
 use crate::report::{Section, Speeds, shown};
 use crate::table::{Table, Told};
 use serde::Serialize;
@@ -140,7 +140,7 @@ pub fn analysis(
         sections: vec![Section::new(KIND.command, &springs).with_words(words(&springs, press.design_rpm))],
         measures: Vec::new(),
         notes: machine.idle_keys_told(KIND.keys, KIND.noun),
-        plot: plot(machine.name(), press, &sets),
+        plot: curves_of(machine.name(), press, &sets),
         tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(CURVES, &curves))],
         by: &["stiffness_n_per_mm", "rpm"],
         along: "x_mm",
@@ -211,10 +211,10 @@ fn words(told: &Springs<'_>, design: f64) -> Vec<String> {
 }
 
 /// Figure 11 of the paper, with the residual below.
-fn plot(machine: &str, press: &Press, sets: &[(f64, SpringBuffer)]) -> Plot {
+fn curves_of(machine: &str, press: &Press, sets: &[(f64, SpringBuffer)]) -> Plot {
     let stroke = press.bed.crank_radius;
     let name =
-        |rpm: f64, spring: &SpringBuffer| format!("{} N/mm, {} rpm", shown(spring.stiffness / MILLIMETRES), shown(rpm));
+        |rpm: f64, spring: &SpringBuffer| format!("{:.2} N/mm, {} rpm", spring.stiffness / MILLIMETRES, shown(rpm));
     let curve = |colour: usize, (rpm, spring): &(f64, SpringBuffer), value: fn(&SpringBuffer, f64) -> f64| Curve {
         name: name(*rpm, spring),
         colour,
@@ -229,7 +229,7 @@ fn plot(machine: &str, press: &Press, sets: &[(f64, SpringBuffer)]) -> Plot {
     speeds.dedup();
     let inertia = |rpm: f64| Curve {
         name: format!("inertia, {} rpm", shown(rpm)),
-        colour: 5,
+        colour: plot::GREY,
         bold: false,
         points: vec![[0.0, 0.0], [MILLIMETRES * stroke, press.bed.largest_inertia(rpm)]],
     };

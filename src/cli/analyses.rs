@@ -16,14 +16,17 @@ const SEVENTHS: [f64; 4] = [4.0, 5.0, 6.0, 7.0];
 pub(super) fn regimes(args: &RegimesArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
     let design = machine.press().map_err(Failure::new)?.design_rpm;
-    let speeds = match args.rpm.as_slice() {
+    let of_file = machine.regimes();
+    let given = if args.rpm.is_empty() { &of_file.speeds } else { &args.rpm };
+    let speeds = match given.as_slice() {
         [] => SEVENTHS.map(|sevenths| design * sevenths / 7.0).to_vec(),
         given => given.to_vec(),
     };
     let reset = match args.reset {
-        ResetOf::End => Reset::End,
-        ResetOf::Half => Reset::Half,
-        ResetOf::Level => Reset::Level,
+        None => of_file.reset.unwrap_or(Reset::End),
+        Some(ResetOf::End) => Reset::End,
+        Some(ResetOf::Half) => Reset::Half,
+        Some(ResetOf::Level) => Reset::Level,
     };
     let analysis = regimes::analysis(&machine, args.cut_for.unwrap_or(design), &speeds, reset).map_err(Failure::new)?;
     written(analysis, &args.analysis, &name)
@@ -31,7 +34,9 @@ pub(super) fn regimes(args: &RegimesArgs) -> Result<Outcome, Failure> {
 
 pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
-    let analysis = spring::analysis(&machine, &args.rpm, &args.stiffness, args.residual).map_err(Failure::new)?;
+    let of_file: Vec<f64> = machine.spring_stiffness().filter(|_| args.residual.is_none()).into_iter().collect();
+    let stiffnesses = if args.stiffness.is_empty() { &of_file } else { &args.stiffness };
+    let analysis = spring::analysis(&machine, &args.rpm, stiffnesses, args.residual).map_err(Failure::new)?;
     written(analysis, &args.analysis, &name)
 }
 

@@ -1,6 +1,6 @@
 //! The air buffer: cylinder, column, and the speed it is sized for.
 
-use super::press::Press;
+use super::press::{AirColumn, Press};
 use crate::buffer::Bed;
 use crate::buffer::bottom_law::Column;
 use crate::document::Presence::{Default, Required, RequiredUnless};
@@ -30,12 +30,16 @@ const END_PRESSURE: Field<f64> = Field::quantity(
     PRESSURE,
 )
 .only(OF_A_DESIGN);
-pub(super) const COLUMN: Field<Column> = Field::words_or_quantity(
+pub(super) const COLUMN: Field<AirColumn> = Field::words_or_quantity(
     "column",
-    "air column: \"matched\" (the law starts with slope 0), \"return\" (the bottom comes back) or a length",
+    "air column: \"matched\" (the law starts with slope 0), \"return\" (the bottom comes back), \"least-torque\" (on the camshaft) or \
+     a length",
     Default("matched"),
-    (&["matched", "return"], &[Column::Matched, Column::Return]),
-    (Length, above(0.0, LONGEST), Column::Length),
+    (
+        &["matched", "return", "least-torque"],
+        &[AirColumn::Of(Column::Matched), AirColumn::Of(Column::Return), AirColumn::LeastTorque],
+    ),
+    (Length, above(0.0, LONGEST), |length| AirColumn::Of(Column::Length(length))),
 )
 .only(OF_A_COLUMN);
 const LEAD: Field<f64> = Field::quantity(

@@ -1,6 +1,7 @@
 //! The compensating cam: a second disc on the camshaft whose spring takes the torque of the first.
 
 use super::disc::CamData;
+use super::settings::STIFFEST;
 use super::{FollowerData, Machine};
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::ROTARY;
@@ -10,9 +11,6 @@ use crate::follower::{Crown, RollerData, TranslatingRoller};
 use crate::units::Dimension::{Angle, Force, Length, Mass, Stiffness};
 use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// Stiffest spring, N/m.
-const STIFFEST: f64 = 1e12;
 
 /// `[compensator]`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,7 @@
 //! A bed that is braked by plain buffers alone, and driven so that its crank carries nothing: no cam.
 
 use super::buffer::{AMBIENT_PRESSURE, COLUMN, POLYTROPIC_EXPONENT};
+use super::press::AirColumn;
 use super::{MachineError, NAME, ROOT, bed, buffer, load_as, read_as, sections};
 use crate::buffer::bottom_law::Column;
 use crate::document::Presence::{Optional, Required};
@@ -123,8 +124,8 @@ impl DriveMachine {
             return None;
         };
         let column = match buffer.get(&COLUMN)? {
-            Column::Length(length) => length,
-            Column::Matched | Column::Return => {
+            AirColumn::Of(Column::Length(length)) => length,
+            AirColumn::Of(Column::Matched | Column::Return) | AirColumn::LeastTorque => {
                 let help = Some("give the length of the air column, e.g. column = \"485 mm\"".into());
                 buffer.fail(&COLUMN, "a drive has no cam that a column could match".into(), help);
                 return None;

@@ -14,6 +14,7 @@ mod drive;
 mod embedded;
 mod limits;
 mod press;
+mod settings;
 mod title;
 mod transition;
 mod translating;
@@ -26,7 +27,8 @@ pub use disc::{CamData, Keyway, Material, Rotation};
 pub use drive::{DriveData, DriveMachine};
 pub use embedded::{EMBEDDED, Embedded};
 pub use limits::{Limits, Touching, customary_stress};
-pub use press::{NoPress, NoRoller, Press};
+pub use press::{AirColumn, NoPress, NoRoller, Press};
+pub use settings::RegimesData;
 pub use title::Title;
 pub use translating::TranslatingData;
 
@@ -66,6 +68,8 @@ const BODY_TABLES: &[&Section] = &[
     &translating::SECTION,
     &conoid::SECTION,
     &compensator::SECTION,
+    &settings::REGIMES_SECTION,
+    &settings::SPRING_SECTION,
     &drive::SECTION,
     &limits::SECTION,
     &title::SECTION,
@@ -146,6 +150,10 @@ pub struct Machine {
     pub(crate) conoid: Option<ConoidData>,
     /// Compensating cam, when described.
     compensator: Option<CompensatorData>,
+    /// Other speeds.
+    regimes: RegimesData,
+    /// Stiffness of springs under the bottoms, N/m.
+    spring_stiffness: Option<f64>,
     /// Limits.
     pub(crate) limits: Limits,
     /// Title block.
@@ -179,6 +187,7 @@ impl Machine {
         let (follower, cam) = (follower?, cam?);
         disc::reached_by(reader, &cam, &follower);
         let radius = follower.roller.map(|roller| roller.radius);
+        let (regimes, spring_stiffness) = settings::read(reader);
         Some(Self {
             name: reader.table(&ROOT).get(&NAME)?,
             press,
@@ -188,6 +197,8 @@ impl Machine {
             translating: translating::read(reader, radius),
             conoid: conoid::read(reader),
             compensator: compensator::read(reader),
+            regimes,
+            spring_stiffness,
             limits: limits::read(reader)?,
             title: title::read(reader),
             given: reader.given(own),
@@ -221,6 +232,18 @@ impl Machine {
     /// [`NoPress`] when the machine file describes none.
     pub fn press(&self) -> Result<&Press, NoPress> {
         self.press.as_ref().ok_or(NoPress)
+    }
+
+    /// The other speeds that the file names.
+    #[must_use]
+    pub fn regimes(&self) -> &RegimesData {
+        &self.regimes
+    }
+
+    /// The stiffness of springs under the bottoms that the file names, N/m.
+    #[must_use]
+    pub fn spring_stiffness(&self) -> Option<f64> {
+        self.spring_stiffness
     }
 
     /// The motion program of the file, with the speed of the cam where it gives one, rpm.

@@ -1,7 +1,16 @@
 //! The press: what makes the motion of its cams and what presses on them.
 
 use crate::buffer::bottom_law::{BottomLaw, Column};
-use crate::buffer::{Bed, Cylinder};
+use crate::buffer::{Bed, Cylinder, camshaft};
+
+/// How the air column of a press is chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AirColumn {
+    /// By the law of the bottom, or given.
+    Of(Column),
+    /// With the least largest torque on the camshaft.
+    LeastTorque,
+}
 
 /// A flat-bed press with air buffers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +24,7 @@ pub struct Press {
     /// End pressure at the design speed, Pa, absolute.
     pub end_pressure: f64,
     /// Air column.
-    pub column: Column,
+    pub column: AirColumn,
     /// Lead e, m.
     pub lead: f64,
     /// Design speed of the main shaft, rpm.
@@ -43,7 +52,15 @@ impl Press {
     /// The law of the bottom at a speed of the main shaft, rpm.
     #[must_use]
     pub fn bottom_law(&self, rpm: f64) -> BottomLaw {
-        self.with_column(rpm, self.column)
+        let column = match self.column {
+            AirColumn::Of(column) => column,
+            AirColumn::LeastTorque => {
+                let loading = self.cylinder().loading(rpm);
+                let (k, stroke) = (self.polytropic_exponent, self.bed.crank_radius);
+                Column::Length(camshaft::least_torque_column(loading, k, stroke))
+            }
+        };
+        self.with_column(rpm, column)
     }
 
     /// The same with another air column.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::analysis;
 use crate::body::KINDS;
 use crate::buffer::bottom_law::Column;
 use crate::document::cams::{CONOID, MAKE, ROTARY, TRANSLATING};
@@ -18,6 +19,11 @@ fn message(overrides: &[&str]) -> String {
 #[test]
 fn every_embedded_machine_and_the_template_read() {
     for embedded in EMBEDDED {
+        if embedded.toml.contains("\n[drive]") {
+            let (drive, stem) = DriveMachine::load(embedded.name, &[]).expect("a drive");
+            assert_eq!((stem.as_str(), drive.column), (embedded.name, 0.485));
+            continue;
+        }
         let (machine, stem) = Machine::load(embedded.name, &[]).unwrap_or_else(|e| panic!("{}: {e}", embedded.name));
         assert_eq!(stem, embedded.name);
         assert!(machine.translating.is_some() && machine.conoid.is_some());
@@ -239,6 +245,15 @@ const OTHERS: &[(&str, &str)] = &[
     ("conoid.mode", "fixed"),
     ("conoid.shift", "square"),
     ("conoid.overhang", "3 mm"),
+    ("compensator.spring_rate", "90 N/mm"),
+    ("compensator.preload", "9 kN"),
+    ("compensator.roller_radius", "20 mm"),
+    ("compensator.base_radius", "90 mm"),
+    ("compensator.angle", "90 deg"),
+    ("compensator.mass", "40 kg"),
+    ("regimes.rpm", "[20, 25]"),
+    ("regimes.reset", "half"),
+    ("spring_buffer.stiffness", "100 N/mm"),
     ("limits.pressure_angle", "29 deg"),
     ("limits.min_convex_pitch_radius_over_roller", "3"),
     ("limits.cutter_radius", "9 mm"),
@@ -266,7 +281,7 @@ fn every_key() -> Vec<String> {
 
 /// All of a machine but the list of keys that were given. What the follower and the motion are, only their text tells.
 fn alike(machine: Machine) -> String {
-    format!("{:#?}", Machine { given: Vec::new(), inputs: Vec::new(), ..machine })
+    format!("{:#?}", Machine { given: Vec::new(), overridden: Vec::new(), inputs: Vec::new(), ..machine })
 }
 
 /// A file of a press and a motion program, with the follower that a key belongs to, or a roller.
@@ -281,7 +296,9 @@ fn file_for(path: &str) -> String {
     let press = without(EMBEDDED[0].toml, "follower.roller");
     // A cylindrical crown asks for a width.
     let width = if section.path == "follower.roller" { "width = \"10 mm\"\n" } else { "" };
-    format!("{press}\n[cam.keyway]\nwidth = \"8 mm\"\ndepth = \"3 mm\"\n[{}]\n{keys}{width}{MOTION}", section.path)
+    let compensator = "[compensator]\nspring_rate = \"100 N/mm\"\npreload = \"10 kN\"\n";
+    let keyway = "[cam.keyway]\nwidth = \"8 mm\"\ndepth = \"3 mm\"\n";
+    format!("{press}\n{keyway}{compensator}[{}]\n{keys}{width}{MOTION}", section.path)
 }
 
 /// A file without one of its tables.
@@ -300,7 +317,9 @@ fn without(text: &str, table: &str) -> String {
 #[test]
 fn every_key_of_the_table_reaches_the_machine() {
     let keys: Vec<String> = OTHERS.iter().map(|(key, _)| key.replace("[0]", "[]")).collect();
-    assert_eq!(keys, every_key());
+    // A drive is read by itself.
+    let all: Vec<String> = every_key().into_iter().filter(|key| !key.starts_with("drive.")).collect();
+    assert_eq!(keys, all);
     for (key, value) in OTHERS {
         let text = file_for(key);
         let with = |sets: &[String]| {
@@ -315,6 +334,31 @@ fn every_key_of_the_table_reaches_the_machine() {
         assert!(other.given().contains(&(*key).to_owned()), "{key}");
         assert_ne!(alike(other), alike(with(&[])), "{key}");
     }
+}
+
+#[test]
+fn every_key_of_a_drive_reaches_it() {
+    let with = |sets: &[String]| format!("{:?}", DriveMachine::load("dp", sets).expect("valid").0);
+    for (key, value) in [
+        ("drive.lead_angle", "50 deg"),
+        ("drive.bed_speed", "1.5 m/s"),
+        ("drive.motor_ratio", "17"),
+        ("drive.inertia", "20 kg*m2"),
+        ("drive.bore", "145 mm"),
+        ("bed.mass", "900 kg"),
+        ("bed.crank_radius", "170 mm"),
+        ("buffer.polytropic_exponent", "1.4"),
+        ("buffer.ambient_pressure", "1.1 at"),
+        ("buffer.column", "500 mm"),
+    ] {
+        assert_ne!(with(&[format!("{key}={value}")]), with(&[]), "{key}");
+    }
+    let error = |name: &str, set: &str| DriveMachine::load(name, &[set.to_owned()]).expect_err("a fault").to_string();
+    assert!(error("dp", "buffer.column=matched").contains("no cam that a column could match"));
+    assert!(error("dp", "drive.bed_speed=1.6 m").contains("a unit of length, not of speed"));
+    assert!(error("dpi", "bed.mass=1 kg").contains("describes no drive"));
+    let press = Machine::load("dp", &["follower.roller.radius=30mm".into()]).expect("read");
+    assert!(press.0.press().is_err(), "a drive has no end pressure");
 }
 
 #[test]
@@ -339,7 +383,8 @@ fn every_key_tells_what_it_is_and_for_which_cams() {
         for key in section.keys {
             assert!(!key.about.is_empty() && !key.presence.text().is_empty(), "{}", section.path_of(key));
             for cam in section.cams_of(key) {
-                assert!(KINDS.iter().any(|kind| kind.command == *cam), "{}: {cam}", section.path_of(key));
+                let known = KINDS.iter().chain(analysis::KINDS).any(|kind| kind.command == *cam);
+                assert!(known, "{}: {cam}", section.path_of(key));
             }
         }
     }
@@ -352,7 +397,7 @@ fn defaults_are_what_they_were() {
                 bottom_arm = \"1 m\"\ndelta = \"90 deg\"\n[conoid]\naxial_travel = \"1 m\"\n";
     let machine = Machine::from_toml("least.toml", toml, &[]).expect("valid");
     let press = machine.press().expect("a press");
-    assert_eq!((press.polytropic_exponent, press.column, press.lead), (1.35, Column::Matched, 0.0));
+    assert_eq!((press.polytropic_exponent, press.column, press.lead), (1.35, AirColumn::Of(Column::Matched), 0.0));
     assert_eq!((press.bed.crank_turns_per_main_shaft_turn, press.design_rpm), (3.0, 35.0));
     let roller = RollerData { radius: 0.03, offset: 0.0, crown: Crown::Sphere, width: None };
     assert_eq!(machine.roller().expect("a roller"), &roller);
@@ -409,11 +454,12 @@ fn template_and_profiles_have_every_key() {
         keys
     };
     // A profile is a press; the template has motion programs and their followers too.
-    let (all, of_a_press) = (keys_of(|_| true), keys_of(|section| section.cams != [MAKE]));
+    let (all, of_a_press) = (keys_of(|_| true), keys_of(|section| section.cams != [MAKE] && section.path != "drive"));
     // Of a program the template shows one segment, which is none yet.
     let whole = ["motion.segment[0].over=360 deg".to_owned(), "motion.segment[0].to=0 mm".to_owned()];
     let template = template();
-    let profiles = EMBEDDED.iter().map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
+    let presses = EMBEDDED.iter().filter(|machine| !machine.toml.contains("\n[drive]"));
+    let profiles = presses.map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
     for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &all, &whole[..])]) {
         let text = with_everything(text);
         let sections: Vec<Section> = sections().iter().map(|section| Section { cams: &[], ..**section }).collect();

@@ -13,14 +13,17 @@ const TITLE: f64 = 4.5;
 const LEFT: f64 = 17.0;
 const ABOVE: f64 = 9.0;
 const BELOW: f64 = 11.0;
-const NAMES: f64 = 30.0;
+const NAMES: f64 = 34.0;
 /// Length of the line that leads from a curve to its name, mm.
 const LEADER: f64 = 4.0;
 /// Most lines across for the values of a panel, and along.
 const LINES: f64 = 7.0;
 const PLACES: f64 = 10.0;
 /// Colours of the curves, dark enough for white paper.
-const COLOURS: [&str; 6] = ["#0a5cad", "#b3541e", "#17692b", "#7a3ea1", "#b3261e", "#555555"];
+const COLOURS: [&str; 10] =
+    ["#0a5cad", "#b3541e", "#17692b", "#7a3ea1", "#b3261e", "#00808a", "#8a6d00", "#c2185b", "#37474f", "#5d8a00"];
+/// The colour of what is compared with.
+pub const GREY: usize = 8;
 
 /// A curve of a plot.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,7 +160,7 @@ fn drawn(panel: &Panel, index: usize, places: &str, along: (f64, f64), field: &E
         shapes: vec![Shape::Path(finite(curve).map(|[place, value]| at(place, value)).collect())],
         in_legend: false,
     }));
-    groups.extend(labels(panel, index, &at));
+    groups.extend(labels(panel, index, field.least.y, &at));
     groups.push(named(Group { class: "facts", ..Group::new("names", "names of the diagram", names) }));
     groups
 }
@@ -167,7 +170,7 @@ fn colour(curve: &Curve) -> &'static str {
 }
 
 /// The names of the curves to the right of their ends, pushed apart, each with a line in the colour of its curve.
-fn labels(panel: &Panel, index: usize, at: &impl Fn(f64, f64) -> Vector2<f64>) -> Vec<Group> {
+fn labels(panel: &Panel, index: usize, bottom: f64, at: &impl Fn(f64, f64) -> Vector2<f64>) -> Vec<Group> {
     let mut ends: Vec<(&Curve, Vector2<f64>)> = panel
         .curves
         .iter()
@@ -175,7 +178,10 @@ fn labels(panel: &Panel, index: usize, at: &impl Fn(f64, f64) -> Vector2<f64>) -
         .filter_map(|curve| finite(curve).last().map(|[place, value]| (curve, at(place, value))))
         .collect();
     ends.sort_by(|a, b| b.1.y.total_cmp(&a.1.y));
-    let heights = apart(&ends.iter().map(|(_, end)| end.y).collect::<Vec<_>>(), font::LEADING * TEXT);
+    let mut heights = apart(&ends.iter().map(|(_, end)| end.y).collect::<Vec<_>>(), font::LEADING * TEXT);
+    // None beside the names of the places.
+    let below = heights.last().map_or(0.0, |lowest| (bottom + 0.5 * TEXT - lowest).max(0.0));
+    heights.iter_mut().for_each(|height| *height += below);
     let right = ends.iter().map(|(_, end)| end.x).fold(f64::NEG_INFINITY, f64::max);
     let label = |(number, ((curve, end), height)): (usize, (&(&Curve, Vector2<f64>), &f64))| {
         let start = Vector2::new(right + LEADER, *height);

@@ -37,7 +37,7 @@ pub(in crate::cli) struct RegimesArgs {
     #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
 
-    /// Speeds of the main shaft, rpm [default: 4, 5, 6 and 7 sevenths of the design speed]
+    /// Speeds of the main shaft, rpm [default: those of the file, else 4, 5, 6 and 7 sevenths of the design speed]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Vec<f64>,
 
@@ -47,8 +47,9 @@ pub(in crate::cli) struct RegimesArgs {
 
     /// What the reset keeps: end (no residual force at the end of the stroke), half (the paper's rule: half of the largest one there)
     /// or level (as much there as at the worst place, which is least)
-    #[arg(long, value_name = "RULE", default_value = "end", ignore_case = true)]
-    pub(in crate::cli) reset: ResetOf,
+    /// [default: that of the file, else end]
+    #[arg(long, value_name = "RULE", ignore_case = true)]
+    pub(in crate::cli) reset: Option<ResetOf>,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,
@@ -60,7 +61,8 @@ pub(in crate::cli) struct SpringArgs {
     #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
 
-    /// Stiffness of each of the two springs, e.g. 68kgf/cm,165kgf/cm [default: 1.125, 1.375 and 2.75 times the least one]
+    /// Stiffness of each of the two springs, e.g. 68kgf/cm,165kgf/cm [default: that of the file, else 1.125, 1.375 and
+    /// 2.75 times the least one]
     #[arg(long, value_name = "STIFFNESS,…", value_delimiter = ',', value_parser = stiffness, allow_hyphen_values = true)]
     pub(in crate::cli) stiffness: Vec<f64>,
 
