@@ -132,7 +132,12 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
         time: state.time,
     };
     let nodes = drive::sections(&drive, step);
-    let exact = |crank: f64| drive.at(crank).map(|state| row(state, crank));
+    let lead = data.lead_angle;
+    // The row where the crank begins to turn the bed is the last of the first phase.
+    let exact = |crank: f64| {
+        let state = if crank <= lead { drive.at_phase(Phase::Lead, crank) } else { drive.at(crank) };
+        state.map(|state| row(state, crank))
+    };
     let rows: Vec<Row> = match solver {
         Solver::Energy => ends(data.lead_angle, step).into_iter().filter_map(exact).collect(),
         Solver::Paper => by_sections(machine, &drive, &nodes),

@@ -12,6 +12,7 @@ mod picture;
 pub mod points;
 mod sheet;
 mod stress;
+pub mod torque;
 pub mod wedge;
 
 pub use balance::{AsCut, Balance, USEFUL};

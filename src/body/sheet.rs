@@ -182,7 +182,10 @@ pub fn acceleration_as_cut(body: &dyn Body, outline: &Contour) -> Option<Trace> 
     let (place, value) = (if turns { 1.0_f64.to_degrees() } else { 1e3 }, if swings { 1.0 } else { 1e3 });
     let points = followed.accelerations(TRACE_SHARE);
     Some(Trace {
-        title: format!("acceleration, {}", if swings { "rad/rad²" } else { "mm/rad²" }),
+        head: format!(
+            "Follower's acceleration, {}: motion (thin), as cut (bold)",
+            if swings { "rad/rad²" } else { "mm/rad²" }
+        ),
         places: if turns { "cam angle, deg" } else { "overrun of the bed, mm" },
         step: if turns { 30.0 } else { 20.0 },
         period: turns.then_some(360.0),

@@ -135,3 +135,89 @@ impl Work for ShaftWork {
         self.of_air(origin, angle) + self.of_follower(origin, angle)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::buffer::Bed;
+    use crate::buffer::bottom_law::{BottomLaw, Column};
+    use crate::motion::{ReversalLaw, Transition};
+
+    /// Every kind of transition, column, number of lobes, lever and load.
+    fn works() -> Vec<(String, ShaftWork)> {
+        let mut works = Vec::new();
+        let width = 0.35;
+        for transition in [Transition::None, Transition::RunUp { width }, Transition::Blend { width }] {
+            for (column, lead) in [(Column::Matched, 0.0), (Column::Return, 0.0), (Column::Length(0.2), 0.01)] {
+                for (lobes, lever) in [(1, 1.0), (3, 0.7)] {
+                    for (preload, mass) in [(0.0, 0.0), (1500.0, 0.0), (1500.0, 40.0)] {
+                        let bed = Bed { mass: 978.2, crank_radius: 0.18, crank_turns_per_main_shaft_turn: 3.0 };
+                        let cylinder = Cylinder::sized(&bed, 35.0, 1.35, 98_066.5, 2.0 * 98_066.5);
+                        let bottom_law = BottomLaw::new(cylinder.loading(35.0), 1.35, 0.18, column, lead);
+                        let law = ReversalLaw { bottom_law, lever, lobes, transition };
+                        // A blend with a lead is none.
+                        let Ok(reversal) = Reversal::new(law) else { continue };
+                        let speed = 11.0 / f64::from(lobes);
+                        let work = ShaftWork::new(cylinder, Arc::new(reversal), preload, mass, speed);
+                        let name = format!("{transition:?} {column:?} {lobes} lobes, {preload} N, {mass} kg");
+                        works.push((name, work));
+                    }
+                }
+            }
+        }
+        works
+    }
+
+    /// Each derivative against the central difference of the one before, of fourth order in the step: h⁴/30 of a derivative five
+    /// orders on, which grows with the fifth power of the lobes, and rounding over h.
+    #[test]
+    fn derivatives_belong_to_their_values() {
+        let h = 1e-4;
+        for (name, work) in works() {
+            let scale = f64::from(work.lobes()).powi(5);
+            for (index, piece) in work.pieces().iter().enumerate() {
+                // The middle of a blend is where the air begins to be compressed: the curvature of the work jumps there.
+                for i in (1..12).filter(|i| *i != 6) {
+                    let angle = piece.start + (piece.end - piece.start) * f64::from(i) / 12.0;
+                    let at = |n: f64| work.at(index, angle + n * h);
+                    let difference = |f: fn(WorkJet) -> f64| {
+                        (8.0 * (f(at(1.0)) - f(at(-1.0))) - (f(at(2.0)) - f(at(-2.0)))) / (12.0 * h)
+                    };
+                    let here = at(0.0);
+                    for (exact, near) in [
+                        (here.torque, difference(|w| w.energy)),
+                        (here.torque_slope, difference(|w| w.torque)),
+                        (here.torque_second, difference(|w| w.torque_slope)),
+                    ] {
+                        let error = (exact - near).abs();
+                        assert!(error < 1e-7 * scale * (1.0 + exact.abs()), "{name} at {angle}: {exact} {near}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// The pieces cover a turn, the work is the same at both sides of each joint, and what is marked as rest is constant.
+    #[test]
+    fn the_work_is_continuous_and_rests_where_it_says() {
+        for (name, work) in works() {
+            let pieces = work.pieces();
+            let turn = pieces[pieces.len() - 1].end - pieces[0].start;
+            assert!((turn - std::f64::consts::TAU).abs() < 1e-13, "{name}: {turn}");
+            for (index, piece) in pieces.iter().enumerate() {
+                let next = (index + 1) % pieces.len();
+                let (before, after) = (work.at(index, piece.end), work.at(next, pieces[next].start));
+                // A corner of the law without transition jumps in velocity: only its work of air is continuous.
+                let smooth = work.inertia == 0.0 || !name.starts_with("None") && !name.contains("Length");
+                if smooth {
+                    assert!((before.energy - after.energy).abs() < 1e-9, "{name}: {before:?} {after:?}");
+                }
+                if piece.dwell {
+                    let middle = work.at(index, 0.5 * (piece.start + piece.end));
+                    assert_eq!((middle.torque, middle.torque_slope), (0.0, 0.0), "{name}");
+                    assert!((middle.energy - before.energy).abs() < 1e-12, "{name}");
+                }
+            }
+        }
+    }
+}

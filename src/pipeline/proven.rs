@@ -3,7 +3,7 @@
 use super::{Cam, Drawing, Error, FileSet, Writing, file_set, report};
 use crate::body::disc::AtSpeed;
 use crate::body::points::{Judged, PointTable, swings};
-use crate::body::{Body, Drawn, Found, Request};
+use crate::body::{Body, Drawn, Found, Request, torque};
 use crate::document::Input;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Between, Interpolant};
@@ -208,7 +208,7 @@ impl Proven<'_> {
             torque_before_max_nm: told.before,
             torque_after_max_nm: told.after,
             torque_as_cut_max_nm: both
-                .and_then(|(first, second)| verify::torque_as_cut([(self.cam.body(), first), (body, second)])),
+                .and_then(|(first, second)| torque::left((self.cam.body(), &first.contour), (body, &second.contour))),
             preload_by_rpm: told.by_speed.iter().map(preload_at).collect(),
             outline: part.map(|part| part.measures(tolerance_mm, |_| false)),
             rolling: second.rolled.clone(),
@@ -277,7 +277,7 @@ impl Proven<'_> {
         let (body, cut_files, dxf_version) = (self.cam.body(), &self.cut_files, self.version);
         Ok(Rendering {
             body,
-            second: self.second_body(),
+            second: self.second.as_ref().map(|second| (second.cam.body(), second.outlines())),
             drawn,
             outlines: &self.outlines,
             cut_files,

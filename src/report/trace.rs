@@ -1,4 +1,4 @@
-//! The acceleration as cut beside that of the motion, as a diagram of a sheet.
+//! A curve as cut beside that of the law, as a diagram of a sheet.
 
 use super::sheet::{Group, Shape, TextAnchor, font, rounded, words};
 use crate::geometry::contour::Extents;
@@ -16,8 +16,8 @@ const RIGHT: f64 = 6.0;
 /// A curve over another: a place, and two values there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// What the values are, with their unit.
-    pub title: String,
+    /// What the values are, with their unit, and what the thin and the bold line are.
+    pub head: String,
     /// What the places are, with their unit.
     pub places: &'static str,
     /// Distance of the lines along, in the unit of the places.
@@ -73,8 +73,7 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
         };
         vec![Shape::Path(trace.points.iter().filter_map(point).collect())]
     };
-    let head = format!("Follower's {}: motion (thin), as cut (bold)", trace.title);
-    let (head, head_size) = font::fitted_in_one(&head, size, width);
+    let (head, head_size) = font::fitted_in_one(&trace.head, size, width);
     let below = Vector2::new(0.5 * (inner.least.x + inner.largest.x), inner.least.y - 2.7 * size);
     let names = vec![
         words(Vector2::new(inner.least.x, inner.largest.y + 0.8 * size), head_size, TextAnchor::Start, head),
@@ -82,8 +81,8 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
     ];
     vec![
         Group::new("trace-grid", "lines of the diagram", grid),
-        Group::new("trace-cut", "acceleration as cut", curve(2)),
-        Group::new("trace-motion", "acceleration of the motion", curve(1)),
+        Group::new("trace-cut", "as cut", curve(2)),
+        Group::new("trace-motion", "by the law", curve(1)),
         Group { class: "facts", ..Group::new("trace-names", "names of the diagram", names) },
     ]
 }

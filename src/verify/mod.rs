@@ -33,7 +33,6 @@ mod sphere;
 mod tangency;
 mod wall;
 
-pub use compensator::torque_as_cut;
 pub use cutter_path::WrittenPath;
 pub use file::join_reach;
 pub use points::WrittenPoints;

@@ -17,7 +17,7 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".csv".into()],
-    write: |cam| Ok(vec![write(&table(cam.body, cam.second, cam.outlines, cam.samples))]),
+    write: |cam| Ok(vec![write(&table(cam.body, cam.second.map(|(body, _)| body), cam.outlines, cam.samples))]),
     of_analysis: Some(|account| {
         let tables = account.analysis.tables.iter();
         Ok(tables.map(|(ending, table)| (format!("{ending}.csv"), write(table))).collect())

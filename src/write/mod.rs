@@ -29,8 +29,8 @@ use crate::verify::WrittenOutline;
 pub struct Rendering<'a> {
     /// The solved cam.
     pub body: &'a dyn Body,
-    /// The disc on the same shaft that takes its torque.
-    pub second: Option<&'a dyn Body>,
+    /// The disc on the same shaft that takes its torque, and its outlines as read back.
+    pub second: Option<(&'a dyn Body, &'a [WrittenOutline])>,
     /// Its drawing.
     pub drawn: &'a Drawn,
     /// The outlines as read back from them.

@@ -68,7 +68,14 @@ function sectionsOf(cam) {
   const boxes = cam.sections.filter((section) => section.values.length).map((section) => make("div", {},
     make("h3", {}, section.key), ...section.words.map((line) => make("p", { className: "muted" }, line)),
     table([["Value"], ["", "number"], ["Unit"]], section.values.map(([label, value, unit]) => ({ cells: [[label], [valueText(value), "number"], [unit]] })))));
-  return make("div", { className: "columns" }, ...boxes);
+  return make("div", {}, make("div", { className: "columns" }, ...boxes), ...cam.sections.flatMap(listsOf));
+}
+
+/** The lists of a section, a table each. */
+function listsOf(section) {
+  return section.tables.map(({ name, heads, rows }) => make("div", {}, make("h3", {}, `${section.key}: ${name}`),
+    table(heads.map(([label, unit]) => [unit ? `${label}, ${unit}` : label, "number"]),
+      rows.map((row) => ({ cells: row.map((value) => [value === null ? "–" : valueText(value), "number"]) })))));
 }
 
 function sectionsBeside([a, b]) {
@@ -94,7 +101,7 @@ const MOST_COLUMNS = 13;
 function rowsOf(cam, index) {
   const view = viewOf(cam);
   const skipped = /^(position|pitch_x|pitch_y|profile_|contact_|z_mm|rpm|psi|.*_cut_|air|lift_per|axial|principal|inertia)/;
-  const names = Object.keys(view.columns).filter((name) => !skipped.test(name)).slice(0, MOST_COLUMNS);
+  const names = Object.keys(view.columns).filter((name) => !view.parts.length || !skipped.test(name)).slice(0, MOST_COLUMNS);
   const last = view.columns[view.place].length - 1;
   const step = Math.max(1, Math.round(last / 36));
   const rows = [];
@@ -155,10 +162,10 @@ function plotOf(panel, width, height) {
   const data = same ? [lists[0][0], ...lists.map(([, values]) => values)] : uPlot.join(lists.map(([places, values]) => [places, values]));
   if (!same) series.forEach((one) => (one.spanGaps = true));
   const view = views[0];
-  const turning = view.place === "cam_deg";
+  const turning = view.place.endsWith("_deg");
   const axis = { stroke: colour("ink"), grid: { stroke: colour("faint"), width: 1 }, ticks: { stroke: colour("line"), width: 1 }, font: "12px system-ui, sans-serif" };
   const options = {
-    width, height, series: [{ label: turning ? "θ" : "x", value: (_, value) => (value === null ? "–" : `${steady(value)} ${turning ? "°" : "mm"}`) }, ...series],
+    width, height, series: [{ label: view.place === "cam_deg" ? "θ" : turning ? "φ" : "x", value: (_, value) => (value === null ? "–" : `${steady(value)} ${turning ? "°" : "mm"}`) }, ...series],
     // What is nothing but rounding is drawn as nothing.
     scales: { x: { time: false }, y: { range: (_, low, high) => (low === null || high - low < 1e-9 && Math.abs(high) < 1e-9 ? [-1, 1] : uPlot.rangeNum(low, high, 0.1, true)) } },
     axes: [{ ...axis, ...(turning ? { incrs: [5, 10, 15, 30, 45, 60, 90, 120, 180], space: 42 } : {}), size: 30 },
@@ -225,7 +232,7 @@ function show(except) {
   const scrub = byId("scrub");
   scrub.value = state.cycle;
   const view = first();
-  const at = `${steady(placeOf(view))} ${view.place === "cam_deg" ? "degrees" : "millimetres"}`;
+  const at = `${steady(placeOf(view))} ${view.place.endsWith("_deg") ? "degrees" : "millimetres"}`;
   scrub.setAttribute("aria-valuetext", at);
 }
 
@@ -317,6 +324,12 @@ function start() {
   const [, , wide, high] = first().box;
   byId("moving").classList.toggle("tall", !beside && wide < 1.6 * high);
   byId("mechanisms").append(...movers.map((mover) => mover.figure));
+  // An analysis has curves and no mechanism.
+  if (cams.every((cam) => cam.views.every((view) => !view.parts.length))) {
+    byId("mechanisms").hidden = true;
+    byId("moving-title").textContent = "Along the curves";
+    byId("section-choice").firstChild.textContent = "Curve ";
+  }
   byId("readouts").append(...readouts.map((one) => one.box));
   const inputs = cams.map((cam) => cam.inputs).filter(Boolean);
   if (inputs.length) {
@@ -333,7 +346,8 @@ function start() {
   if (sections > 1) {
     const views = cams.find((cam) => cam.views.length === sections).views;
     byId("section").append(...views.map((view, index) => make("option", { value: String(index) }, view.name)));
-    byId("section").value = String((state.section = sections - 1));
+    // Of an analysis the first curve: the last is often that of the design, where nothing is left.
+    byId("section").value = String((state.section = views[0].parts.length ? sections - 1 : 0));
     byId("section-choice").hidden = false;
     byId("section").addEventListener("change", (event) => {
       state.section = Number(event.target.value);

@@ -26,7 +26,7 @@ pub struct Extras<'a> {
     /// The tolerance of the profile, in words.
     pub profile_tolerance: &'a str,
     /// A diagram below the view.
-    pub trace: Option<&'a Trace>,
+    pub traces: &'a [Trace],
 }
 
 /// The regions of a sheet, millimetres of paper; the origin is that of the drawing.
@@ -96,7 +96,7 @@ impl<'a> Tried<'a> {
         let k = self.k;
         let frame = self.paper.frame(Vector2::zeros()).size();
         let upright = self.paper.size.x < self.paper.size.y;
-        let diagram = if self.extras.trace.is_some() { DIAGRAM * k } else { 0.0 };
+        let diagram = if !self.extras.traces.is_empty() { DIAGRAM * k } else { 0.0 };
         let stamp = if self.report.passed() { 0.0 } else { STAMP * k };
         let needed = self.covered.size() * self.scale + 2.0 * k * ROOM + self.dimensions();
         let block = Vector2::new(block::WIDTH, block::HEIGHT) * k;
@@ -190,6 +190,21 @@ impl<'a> Tried<'a> {
     }
 }
 
+/// The diagrams in equal parts of a field.
+fn beside_each_other(field: &Extents, traces: &[Trace], k: f64) -> Vec<Group> {
+    #[expect(clippy::cast_precision_loss, reason = "a few diagrams")]
+    let each = field.size().x / traces.len().max(1) as f64;
+    let mut left = field.least.x;
+    let mut groups = Vec::new();
+    for trace in traces {
+        let part =
+            Extents { least: Vector2::new(left, field.least.y), largest: Vector2::new(left + each, field.largest.y) };
+        groups.extend(trace::within(&part, k, trace));
+        left += each;
+    }
+    groups
+}
+
 /// Puts panels into stacks one below the other; `None` where they do not fit.
 fn flow(list: &[Panel], stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
     let (mut column, mut down, mut placed) = (0, 0.0, Vec::new());
@@ -225,9 +240,7 @@ impl Layout<'_> {
         }
         groups.push(Group::new("scale", "ruler of the paper", ruler));
         groups.extend(self.marks(view, covered, &mut taken));
-        groups.extend(
-            self.diagram.zip(extras.trace).into_iter().flat_map(|(field, trace)| trace::within(&field, k, trace)),
-        );
+        groups.extend(self.diagram.iter().flat_map(|field| beside_each_other(field, extras.traces, k)));
         if let Some(field) = self.stamp {
             groups.extend(stamp(&field, k, report));
         }

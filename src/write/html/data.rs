@@ -54,7 +54,7 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
     let sections = u32::try_from(drawn.parts.len()).unwrap_or(1).max(1);
     let steps = cam.samples.clamp(1, STEPS).min((ROWS / sections).max(FEWEST));
     let mechanism = body.mechanism(&drawn, steps);
-    let table = csv::table(body, cam.second, cam.outlines, steps);
+    let table = csv::table(body, cam.second.map(|(body, _)| body), cam.outlines, steps);
     let roller = body.roller_radius().map(|radius| radius * crate::geometry::MILLIMETRES);
     let mut page = told(report);
     page["notModelled"] = json!(body.not_modelled());
@@ -148,9 +148,42 @@ fn not_run(report: &Report) -> Vec<Value> {
 
 /// A section with its values one by one: name, value, unit.
 fn section(section: &Section) -> Value {
-    let mut values = Vec::new();
-    flatten(&section.key, &section.value, &mut values);
-    json!({"key": section.key, "words": section.words, "values": values})
+    let (mut values, mut tables) = (Vec::new(), Vec::new());
+    let value = match &section.value {
+        Value::Object(map) => {
+            let (lists, rest): (Map<String, Value>, Map<String, Value>) =
+                map.clone().into_iter().partition(|(_, value)| is_list(value));
+            tables.extend(lists.iter().map(|(key, rows)| list(key, rows)));
+            Value::Object(rest)
+        }
+        other => other.clone(),
+    };
+    flatten(&section.key, &value, &mut values);
+    // A line in columns is the table's own.
+    let words: Vec<&String> = section.words.iter().filter(|line| !line.contains("   ")).collect();
+    json!({"key": section.key, "words": words, "values": values, "tables": tables})
+}
+
+/// Whether a value is a list of objects of plain values: a table.
+fn is_list(value: &Value) -> bool {
+    let plain = |value: &Value| !value.is_object() && !value.is_array();
+    let row = |row: &Value| row.as_object().is_some_and(|row| row.values().all(plain));
+    value.as_array().is_some_and(|rows| rows.len() > 1 && rows.iter().all(row))
+}
+
+/// A list of objects with its heads, name and unit.
+fn list(name: &str, rows: &Value) -> Value {
+    let rows: Vec<&Map<String, Value>> = rows.as_array().into_iter().flatten().filter_map(Value::as_object).collect();
+    let keys: Vec<&String> = rows.first().map(|row| row.keys().collect()).unwrap_or_default();
+    let heads: Vec<Value> = keys.iter().map(|key| json!([units::words(key), units::named(key).unit])).collect();
+    let cell = |value: Option<&Value>| match value {
+        Some(Value::Number(number)) => number.as_f64().map_or(Value::Null, digits),
+        Some(other) => other.clone(),
+        None => Value::Null,
+    };
+    let cells: Vec<Vec<Value>> =
+        rows.iter().map(|row| keys.iter().map(|key| cell(row.get(key.as_str()))).collect()).collect();
+    json!({"name": units::words(name), "heads": heads, "rows": cells})
 }
 
 fn flatten(name: &str, value: &Value, found: &mut Vec<Value>) {

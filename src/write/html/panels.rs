@@ -88,7 +88,13 @@ const PANELS: &[Panel] = &[
         &[],
         As::Itself,
     ),
-    panel("torque", "Torque on the camshaft", &[("torque", "torque")], &[], As::Itself),
+    panel(
+        "torque",
+        "Torque on the camshaft",
+        &[("torque", "of this cam"), ("compensator_torque", "of the compensating cam"), ("torque_left", "of both")],
+        &[],
+        As::Itself,
+    ),
     panel("press", "Bed and bottom", &[("x", "overrun x"), ("dx", "Δx of the bottom")], &[], As::Itself),
 ];
 

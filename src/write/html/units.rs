@@ -5,6 +5,8 @@ type Unit = (&'static str, &'static str, u8);
 
 /// Longer ends before those that they end in.
 const UNITS: &[Unit] = &[
+    ("n_per_mm", "N/mm", 0),
+    ("per_mm", "1/mm", 0),
     ("mm_per_rad3", "mm/rad³", 3),
     ("mm_per_rad2", "mm/rad²", 2),
     ("mm_per_rad", "mm/rad", 1),
@@ -21,13 +23,11 @@ const UNITS: &[Unit] = &[
     ("mm", "mm", 0),
     ("deg", "°", 0),
     ("rad_per_s", "rad/s", 0),
-    ("n_per_mm", "N/mm", 0),
     ("nm", "N·m", 0),
     ("n", "N", 0),
     ("mpa", "MPa", 0),
     ("kg", "kg", 0),
     ("rpm", "rpm", 0),
-    ("per_mm", "1/mm", 0),
     ("pa", "Pa", 0),
 ];
 

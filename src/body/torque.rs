@@ -1,0 +1,81 @@
+//! The torque on a shaft, with the followers where outlines as written put them.
+
+use super::Body;
+use crate::geometry::contour::Contour;
+use crate::profile::followed::Followed;
+use crate::report::trace::Trace;
+
+/// Places of a stretch of an outline at which the largest torque is looked for.
+const PLACES: u32 = 8;
+/// Places of a stretch at which a torque is shown.
+const SHOWN: u32 = 4;
+
+/// A disc that turns, and its outline, mm.
+pub type Cut<'a> = (&'a dyn Body, &'a Contour);
+
+/// A disc whose follower is on its outline.
+struct Turning<'a> {
+    body: &'a dyn Body,
+    followed: Followed<'a>,
+}
+
+impl<'a> Turning<'a> {
+    /// `None` where it does not turn.
+    fn new((body, outline): Cut<'a>) -> Option<Self> {
+        let curves = body.plane()?;
+        curves.motion.period()?;
+        Some(Self { body, followed: Followed::on(curves, outline, body.mirrored()) })
+    }
+
+    /// Force along the follower's path times the slope that the normal gives where it touches, N·m; `None` where the force is not known
+    /// or the follower is not in touch.
+    fn torque(&self, angle: f64) -> Option<f64> {
+        let [force, _] = self.body.force_and_torque(angle)?;
+        Some(force * self.followed.at(angle)?.ds)
+    }
+
+    /// Places between the ends of its stretches, those included.
+    fn places(&self, each: u32) -> impl Iterator<Item = f64> + '_ {
+        self.followed.ranges().flat_map(move |(from, to)| {
+            (0..=each).map(move |place| from + (to - from) * f64::from(place) / f64::from(each))
+        })
+    }
+}
+
+/// Largest torque that two discs on one shaft leave together as cut, N·m; `None` where a force is not known or a follower is not in
+/// touch.
+#[must_use]
+pub fn left(first: Cut<'_>, second: Cut<'_>) -> Option<f64> {
+    let (one, two) = (Turning::new(first)?, Turning::new(second)?);
+    let both = |angle: f64| Some((one.torque(angle)? + two.torque(angle)?).abs());
+    let mut all = one.places(PLACES).chain(two.places(PLACES)).map(both);
+    all.try_fold(0.0_f64, |largest, torque| Some(largest.max(torque?)))
+}
+
+/// The torque of the shaft of a disc by its law, and as cut; with a second disc on the same shaft that of both as cut. `None` where no
+/// force is known.
+#[must_use]
+pub fn trace(first: Cut<'_>, second: Option<Cut<'_>>) -> Option<Trace> {
+    first.0.force_and_torque(0.0)?;
+    let one = Turning::new(first)?;
+    let two = match second {
+        Some(second) => Some(Turning::new(second)?),
+        None => None,
+    };
+    let point = |angle: f64| {
+        let [_, law] = one.body.force_and_torque(angle)?;
+        let beside = two.as_ref().map_or(Some(0.0), |two| two.torque(angle))?;
+        Some([angle.to_degrees(), law, one.torque(angle)? + beside])
+    };
+    let lines = match &two {
+        Some(_) => "without (thin), with the compensating cam as cut (bold)",
+        None => "by the law (thin), as cut (bold)",
+    };
+    Some(Trace {
+        head: format!("Torque on the shaft, N·m: {lines}"),
+        places: "cam angle, deg",
+        step: 30.0,
+        period: Some(360.0),
+        points: one.places(SHOWN).filter_map(point).collect(),
+    })
+}
