@@ -159,11 +159,12 @@ fn the_drive_has_the_known_figures() {
     let told = report(&run(0, &["drive", "--solver", "paper", "--dry-run", "--json"]));
     let drive = &told["drive"];
     close(drive["bore_mm"].as_f64().expect("a number"), 145.193_517_085_133);
-    close(drive["speed_drop"].as_f64().expect("a number"), 0.102_371_932_117);
+    // Known to twelve decimals.
+    assert!((drive["speed_drop"].as_f64().expect("a number") - 0.102_371_932_117).abs() < 1e-12);
     let paper = &drive["paper"];
     assert!((paper["failure_radicand_per_s2"].as_f64().expect("a number") + 0.183_469_69).abs() < 1e-8);
     assert!((paper["order"].as_f64().expect("a number") - 2.0).abs() < 0.01);
-    for (bore, why) in [("145mm", "arrives at the end of its stroke with 0.0826"), ("160mm", "the bed stops at")] {
+    for (bore, why) in [("145mm", "arrives at the end of its stroke with 0.0825"), ("160mm", "the bed stops at")] {
         let set = format!("drive.bore={bore}");
         let refused = run(1, &["drive", "--set", &set]);
         assert!(

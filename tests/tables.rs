@@ -6,15 +6,18 @@
 #[path = "common/program.rs"]
 mod program;
 
+use camgen::analysis;
+use camgen::body::disc;
 use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::body::{KINDS, Kind, Request};
+use camgen::buffer::regime::Reset;
 use camgen::document::Key;
 use camgen::document::Presence::Required;
 use camgen::follower::{FOLLOWERS, FollowerKind};
-use camgen::machine::Machine;
+use camgen::machine::{DriveMachine, Machine};
 use camgen::motion::equation_18::{ExactOn, Solver};
 use camgen::motion::laws::LAWS;
-use camgen::pipeline::{Cam, Error, Spec, Writing};
+use camgen::pipeline::{Cam, Error, Judged, Spec, Writing};
 use camgen::report::{Report, Verdict};
 use camgen::table::COLUMNS;
 use camgen::verify::{CHECKS, On};
@@ -25,6 +28,7 @@ use std::fs;
 const LIFTER: &str = include_str!("common/lifter.toml");
 const TOLERANCE: f64 = 5e-6;
 const SPEEDS: [f64; 2] = [20.0, 35.0];
+const SPRING: [&str; 2] = ["compensator.spring_rate=100N/mm", "compensator.preload=10kN"];
 
 fn lifter(text: &str, overrides: &[&str]) -> Spec {
     let overrides: Vec<String> = overrides.iter().map(|&set| set.to_owned()).collect();
@@ -39,6 +43,10 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
     let dpi = || Machine::load("dpi", &owned).unwrap_or_else(|error| panic!("{error}")).0;
     let spec = match kind.command {
         "rotary" => Spec::rotary(dpi(), 35.0),
+        "compensator" => {
+            let sets = SPRING.map(str::to_owned).into_iter().chain(owned.iter().cloned()).collect::<Vec<_>>();
+            Spec::compensator(Machine::load("dpi", &sets).unwrap_or_else(|error| panic!("{error}")).0, 35.0)
+        }
         "translating" => Spec::translating(dpi(), 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking),
         "conoid" => Spec::conoid(dpi(), SPEEDS.to_vec(), None),
         "make" => lifter(LIFTER, overrides),
@@ -71,6 +79,11 @@ fn cams_of_followers() -> Vec<(&'static str, Cam)> {
     FOLLOWERS.iter().map(cam_of).collect()
 }
 
+/// The kinds that a command makes by itself: the compensating cam is made with the cam whose torque it takes.
+fn commands() -> impl Iterator<Item = &'static &'static Kind> {
+    KINDS.iter().filter(|kind| kind.command == kind.keys)
+}
+
 /// The same cam as a user asks for it.
 fn command_of(kind: &Kind) -> Vec<&'static str> {
     match kind.command {
@@ -94,7 +107,7 @@ fn names_are_distinct(mut names: Vec<&str>) {
 
 #[test]
 fn every_format_is_written_for_every_cam_it_fits_and_refused_for_the_others() {
-    for kind in KINDS {
+    for kind in commands() {
         let cam = cam_of(kind, &[]);
         let drawing = cam.draw(Request { flank: true, ..Request::within(TOLERANCE) }).expect("a drawing");
         let drawn = drawing.drawn().expect("an outline");
@@ -151,7 +164,8 @@ fn formats_are_chosen_by_what_fits() {
 fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
     let order: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
     let mut seen: Vec<&str> = Vec::new();
-    let of_kinds = KINDS.iter().map(|kind| (kind.noun, cam_of(kind, &[])));
+    let both = ("rotary cam with its compensator", cam_of(&disc::ROTARY, &SPRING));
+    let of_kinds = KINDS.iter().map(|kind| (kind.noun, cam_of(kind, &[]))).chain([both]);
     for (what, cam) in of_kinds.chain(cams_of_followers()) {
         let proven = cam.draw(TOLERANCE).expect("an outline").prove().expect("a proof");
         let table = proven.table(36);
@@ -176,7 +190,12 @@ fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
 fn every_check_is_run_for_some_cam() {
     names_are_distinct(CHECKS.iter().map(|check| check.name).collect());
     let order: Vec<&str> = CHECKS.iter().map(|check| check.name).collect();
-    let mut reports = Vec::new();
+    let mut reports = vec![("two discs".into(), report_of(&cam_of(&disc::ROTARY, &SPRING)))];
+    let press = Machine::load("dpi", &[]).expect("valid").0;
+    let regimes = analysis::regimes::analysis(&press, 35.0, &SPEEDS, Reset::End).expect("a press");
+    let drive = DriveMachine::load("dp", &[]).expect("valid").0;
+    let drive = analysis::drive::analysis(&drive, analysis::drive::Solver::Energy, 0.1).expect("it closes");
+    reports.extend([regimes, drive].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
     for kind in KINDS {
         let crowned = ["follower.roller.crown=cylinder", "follower.roller.width=20mm", "cam.balance=40mm .. 85mm"];
         let cam = cam_of(kind, &crowned);
@@ -288,8 +307,9 @@ fn every_follower_makes_a_cam_of_its_required_keys() {
 
 #[test]
 fn every_kind_is_a_command() {
-    names_are_distinct(KINDS.iter().map(|kind| kind.command).collect());
-    for kind in KINDS {
+    let all = || KINDS.iter().chain(analysis::KINDS);
+    names_are_distinct(all().map(|kind| kind.command).collect());
+    for kind in commands().chain(analysis::KINDS) {
         assert_eq!(camgen(&[kind.command, "--help"]).code, 0, "{}", kind.command);
     }
 }

@@ -5,7 +5,7 @@ use crate::body::Kind;
 use crate::buffer::drive::{self, CLOSING, Drive, DriveError, Node, NodeSpeed, Phase, State};
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
-use crate::machine::DriveMachine;
+use crate::machine::{DriveData, DriveMachine};
 use crate::report::plot::{Curve, Panel, Plot};
 use crate::report::{Section, Speeds, shown};
 use crate::table::{Table, Told};
@@ -48,6 +48,22 @@ struct Row {
 fn degrees(angle: f64) -> f64 {
     const DIGITS: f64 = 1e11;
     (angle.to_degrees() * DIGITS).round() / DIGITS
+}
+
+impl Row {
+    fn of(state: &State, crank: f64, data: &DriveData) -> Self {
+        Self {
+            crank,
+            phase: state.phase,
+            x: state.x,
+            force: state.force,
+            velocity: state.velocity,
+            omega: state.omega,
+            motor_rpm: data.motor_ratio.map(|ratio| state.motor_rpm(ratio)),
+            torque: data.inertia.map(|inertia| state.torque(inertia)),
+            time: state.time,
+        }
+    }
 }
 
 const TOLD: &[Told<Row>] = &[
@@ -120,23 +136,12 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
         Some(bore) => closed_or_open(of, 0.25 * PI * bore * bore)?,
         None => (Drive::by_closing(of)?, None),
     };
-    let row = |state: State, crank: f64| Row {
-        crank,
-        phase: state.phase,
-        x: state.x,
-        force: state.force,
-        velocity: state.velocity,
-        omega: state.omega,
-        motor_rpm: data.motor_ratio.map(|ratio| state.motor_rpm(ratio)),
-        torque: data.inertia.map(|inertia| state.torque(inertia)),
-        time: state.time,
-    };
     let nodes = drive::sections(&drive, step);
     let lead = data.lead_angle;
     // The row where the crank begins to turn the bed is the last of the first phase.
     let exact = |crank: f64| {
         let state = if crank <= lead { drive.at_phase(Phase::Lead, crank) } else { drive.at(crank) };
-        state.map(|state| row(state, crank))
+        state.map(|state| Row::of(&state, crank, &data))
     };
     let rows: Vec<Row> = match solver {
         Solver::Energy => ends(data.lead_angle, step).into_iter().filter_map(exact).collect(),

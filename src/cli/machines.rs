@@ -3,7 +3,7 @@
 use super::args::{MachinesArgs, MachinesCommand};
 use super::{Failure, Outcome, print};
 use camgen::document::similar;
-use camgen::machine::{self, EMBEDDED, Machine};
+use camgen::machine::{self, EMBEDDED};
 use camgen::write::json;
 
 pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
@@ -11,8 +11,7 @@ pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
         None | Some(MachinesCommand::List) => {
             let mut text = String::new();
             for embedded in EMBEDDED {
-                let (machine, _) = Machine::load(embedded.name, &[]).map_err(Failure::new)?;
-                text.push_str(&format!("{:<12} {}\n", embedded.name, machine.name()));
+                text.push_str(&format!("{:<12} {}\n", embedded.name, embedded.title()));
             }
             print(&text)?;
         }

@@ -16,6 +16,15 @@ pub const EMBEDDED: &[Embedded] = &[
     Embedded { name: "dp", toml: include_str!("../../profiles/dp.toml") },
 ];
 
+impl Embedded {
+    /// What its file calls the machine.
+    #[must_use]
+    pub fn title(&self) -> &'static str {
+        let name = self.toml.lines().find_map(|line| line.strip_prefix("name = \""));
+        name.and_then(|rest| rest.split('"').next()).unwrap_or(self.name)
+    }
+}
+
 /// Their names in one list for a message.
 pub(crate) fn names() -> String {
     EMBEDDED.iter().map(|machine| machine.name).collect::<Vec<_>>().join(", ")

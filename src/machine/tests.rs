@@ -22,10 +22,11 @@ fn every_embedded_machine_and_the_template_read() {
         if embedded.toml.contains("\n[drive]") {
             let (drive, stem) = DriveMachine::load(embedded.name, &[]).expect("a drive");
             assert_eq!((stem.as_str(), drive.column), (embedded.name, 0.485));
+            assert_eq!(drive.name(), embedded.title());
             continue;
         }
         let (machine, stem) = Machine::load(embedded.name, &[]).unwrap_or_else(|e| panic!("{}: {e}", embedded.name));
-        assert_eq!(stem, embedded.name);
+        assert_eq!((stem.as_str(), machine.name()), (embedded.name, embedded.title()));
         assert!(machine.translating.is_some() && machine.conoid.is_some());
     }
     let template = include_str!("../../templates/machine.toml");

@@ -11,7 +11,7 @@ pub(super) const CHECK: Check = Check {
     explained: Explained {
         bound: Bound::AtMost,
         formula: "the failed checks in `compensator.checks` of the report",
-        usual: "0",
+        usual: "0: both discs are cut, or none",
         change: "what each of them says; mostly `compensator.preload`, `compensator.spring_rate` or `compensator.base_radius`",
     },
     run: check,
