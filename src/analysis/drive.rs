@@ -6,6 +6,7 @@ use crate::buffer::drive::{self, CLOSING, Drive, DriveError, Node, NodeSpeed, Ph
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{DriveData, DriveMachine};
+use crate::numeric::extremum;
 use crate::report::plot::{Curve, Panel, Plot};
 use crate::report::{Section, Speeds, shown};
 use crate::table::{Table, Told};
@@ -17,6 +18,12 @@ pub const KIND: Kind = Kind { command: "drive", noun: "drive without a cam", key
 
 /// The check that the bed arrives at the end of its stroke at rest.
 pub const CLOSING_CHECK: &str = "closing";
+
+/// An error of the speed of less than this share is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Cells of a phase in which its largest torque is searched: it has a hump or two.
+const CELLS: u32 = 64;
 
 /// Rows between the ends of the phases in the plot.
 const PLACES: u32 = 240;
@@ -96,7 +103,7 @@ struct Figures {
     omega_end_rad_per_s: Option<f64>,
     speed_drop: Option<f64>,
     lead_time_s: f64,
-    crank_time_s: f64,
+    crank_time_s: Option<f64>,
     motor_rpm_before: Option<f64>,
     motor_rpm_least: Option<f64>,
     torque_max_nm: Option<f64>,
@@ -139,9 +146,13 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
     let nodes = drive::sections(&drive, step);
     let lead = data.lead_angle;
     // The row where the crank begins to turn the bed is the last of the first phase.
+    // An open machine has no speed at the end of its stroke, and no time of the second phase that is worth its digits.
+    let closes = open.is_none();
     let exact = |crank: f64| {
         let state = if crank <= lead { drive.at_phase(Phase::Lead, crank) } else { drive.at(crank) };
-        state.map(|state| Row::of(&state, crank, &data))
+        let row = state.map(|state| Row::of(&state, crank, &data));
+        let time = |row: Row| Row { time: if closes { row.time } else { f64::NAN }, ..row };
+        row.filter(|row| closes || row.crank < lead + FRAC_PI_2).map(time)
     };
     let rows: Vec<Row> = match solver {
         Solver::Energy => ends(data.lead_angle, step).into_iter().filter_map(exact).collect(),
@@ -149,7 +160,7 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
     };
     let fine: Vec<Row> =
         (0..=PLACES).filter_map(|i| exact((data.lead_angle + FRAC_PI_2) * f64::from(i) / f64::from(PLACES))).collect();
-    let told = told(machine, (&drive, open.is_none()), step, &nodes, &fine);
+    let told = told(machine, (&drive, closes), step, &nodes);
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs().iter().cloned());
     let word = if solver == Solver::Energy { "energy" } else { "paper" };
@@ -213,8 +224,13 @@ fn by_sections(machine: &DriveMachine, drive: &Drive, nodes: &[Node]) -> Vec<Row
         let crank = if node.phase == Phase::Lead { node.angle } else { lead + node.angle };
         let (step, before, since) =
             rows.last().map_or((0.0, omega, 0.0), |last| (crank - last.crank, last.omega, last.time));
-        let lever = if node.phase == Phase::Lead { 1.0 } else { libm::cos(node.angle) };
-        let slope = if step > 0.0 { (omega - before) / step } else { 0.0 };
+        let (sin, cos) = (libm::sin(node.angle), libm::cos(node.angle));
+        // (7), and (8) divided by cos φ': ω dω/dφ.
+        let by_force = -node.deceleration / r;
+        let (lever, product) = match node.phase {
+            Phase::Lead => (1.0, by_force),
+            Phase::Crank => (cos, (by_force + omega * omega * sin) / cos),
+        };
         rows.push(Row {
             crank,
             phase: node.phase,
@@ -223,7 +239,7 @@ fn by_sections(machine: &DriveMachine, drive: &Drive, nodes: &[Node]) -> Vec<Row
             velocity: r * omega * lever,
             omega,
             motor_rpm: data.motor_ratio.map(|ratio| 30.0 / PI * ratio * omega),
-            torque: data.inertia.map(|inertia| inertia * omega * slope),
+            torque: data.inertia.map(|inertia| inertia * product),
             time: since + step / (0.5 * (omega + before)),
         });
     }
@@ -241,7 +257,16 @@ fn error(drive: &Drive, nodes: &[Node], within: f64) -> f64 {
     nodes.iter().filter_map(of).fold(0.0, f64::max)
 }
 
-fn told(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, nodes: &[Node], fine: &[Row]) -> Figures {
+/// Largest size of the torque that the inertia of the drive needs, N·m: at either side of the seam of the phases, or within one.
+fn largest_torque(drive: &Drive, inertia: f64) -> f64 {
+    let of = |phase: Phase, end: f64| {
+        let torque = |angle: f64| drive.at_phase(phase, angle).map_or(0.0, |state| state.torque(inertia).abs());
+        extremum::largest_without_slope(torque, (0.0, end), CELLS, extremum::TO_ROUNDING).value
+    };
+    of(Phase::Lead, drive.machine.lead_angle).max(of(Phase::Crank, FRAC_PI_2))
+}
+
+fn told(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, nodes: &[Node]) -> Figures {
     let (of, data) = (&drive.machine, machine.data);
     let least = closes.then(|| drive.least_speed());
     let motor = |omega: f64| data.motor_ratio.map(|ratio| 30.0 / PI * ratio * omega);
@@ -272,22 +297,19 @@ fn told(machine: &DriveMachine, (drive, closes): (&Drive, bool), step: f64, node
         end_force_n: drive.force(of.stroke()),
         omega_before_rad_per_s: drive.omega_before(),
         omega_least_rad_per_s: least.map(|least| least.omega),
-        omega_least_at_phase_deg: least.map(|least| least.phase_angle.to_degrees()),
+        omega_least_at_phase_deg: least.map(|least| degrees(least.phase_angle) + 0.0),
         omega_end_rad_per_s: end,
-        speed_drop: least.map(|least| least.drop),
+        speed_drop: least.map(|least| least.drop.max(0.0)),
         lead_time_s: drive.time_of(Phase::Lead, data.lead_angle),
-        crank_time_s: drive.time_of(Phase::Crank, FRAC_PI_2),
+        crank_time_s: closes.then(|| drive.time_of(Phase::Crank, FRAC_PI_2)),
         motor_rpm_before: motor(drive.omega_before()),
         motor_rpm_least: least.and_then(|least| motor(least.omega)),
-        torque_max_nm: data
-            .inertia
-            .filter(|_| closes)
-            .map(|_| fine.iter().filter_map(|row| row.torque).map(f64::abs).fold(0.0, f64::max)),
+        torque_max_nm: data.inertia.filter(|_| closes).map(|inertia| largest_torque(drive, inertia)),
         energy_swing_j: data.inertia.filter(|_| closes).map(|inertia| drive.energy_swing(inertia)),
         paper: Sections {
             step_deg: step.to_degrees(),
             omega_error_share: error(drive, nodes, f64::INFINITY),
-            order: (whole > 0.0 && half > 0.0).then(|| libm::log2(whole / half)),
+            order: (whole > ROUNDING && half > ROUNDING).then(|| libm::log2(whole / half)),
             failure: failure.as_ref().map(|(words, _)| words.clone()),
             failure_radicand_per_s2: failure.map(|(_, radicand)| radicand),
         },
@@ -309,7 +331,8 @@ fn words(told: &Figures) -> Vec<String> {
             told.bore_mm, told.stroke_mm, told.end_force_n, told.work_over_energy
         ),
         format!("crank {:.5} rad/s before the braking", told.omega_before_rad_per_s) + &slowest(told),
-        format!("times of the phases {:.6} s and {:.6} s", told.lead_time_s, told.crank_time_s),
+        format!("time of the first phase {:.6} s", told.lead_time_s)
+            + &told.crank_time_s.map_or(String::new(), |time| format!(", of the second {time:.6} s")),
     ];
     if let (Some(before), Some(least)) = (told.motor_rpm_before, told.motor_rpm_least) {
         lines.push(format!("motor {before:.1} rpm, least {least:.1} rpm"));
@@ -318,9 +341,11 @@ fn words(told: &Figures) -> Vec<String> {
         lines.push(format!("for its own inertia the drive needs {torque:.2} N·m at most, {swing:.3} J to and fro"));
     }
     let paper = &told.paper;
-    let order = paper.order.map_or(String::new(), |order| format!(", of order {order:.2} in the step"));
+    let order = paper
+        .order
+        .map_or(String::new(), |order| format!("; in the first phase they are of order {order:.2} in the step"));
     lines.push(format!(
-        "the paper's sections of {}° err by {:.4} % of the speed{order}",
+        "the paper's sections of {}° err by up to {:.4} % of the speed{order}",
         shown(paper.step_deg),
         100.0 * paper.omega_error_share
     ));

@@ -6,6 +6,7 @@ use crate::buffer::regime::{self, Regime, Reset};
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, NoPress, Press};
+use crate::motion::Transition;
 use crate::report::plot::{Curve, Panel, Plot};
 use crate::report::{Section, Speeds, shown};
 use crate::table::{Table, Told};
@@ -118,13 +119,30 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         inputs,
         sections: vec![Section::new(KIND.command, &told).with_words(words(&told))],
         measures: vec![volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column)],
-        notes: machine.idle_keys_told(KIND.keys, KIND.noun),
+        notes: notes(machine),
         plot: plot(machine.name(), cam_rpm, &all, press.bed.crank_radius),
         tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(CURVES, &curves))],
         by: &["rpm"],
         along: "x_mm",
         not_modelled: NOT_MODELLED.to_vec(),
     })
+}
+
+fn notes(machine: &Machine) -> Vec<String> {
+    let blend = matches!(machine.transition, Transition::Blend { .. });
+    let follower = &machine.follower;
+    let more = follower.mass.is_some() || follower.preload.is_some();
+    let told = [
+        (
+            blend,
+            "a blend leaves a residual force of its own, which `camgen rotary` tells: here the cam is taken as its law",
+        ),
+        (more, "the torque of the camshaft is that of the air alone, without preload and mass of the follower"),
+    ];
+    let of_press = told.into_iter().filter_map(|(holds, words)| holds.then(|| words.to_owned()));
+    // What is told here need not be called idle.
+    let idle = machine.idle_keys_told(KIND.keys, KIND.noun).into_iter();
+    idle.filter(|note| !note.contains("`transition.") && !note.contains("`follower.")).chain(of_press).collect()
 }
 
 const NOT_MODELLED: &[&str] = &[

@@ -114,6 +114,12 @@ pub fn analysis(
         let highest = speeds.iter().map(|rpm| spring::least_stiffness(&bed, *rpm)).fold(least, f64::max);
         all.extend(USUAL.map(|over| over * highest));
     }
+    // The speed that needs the stiffest spring comes first: what is told there does for all.
+    let fastest = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for stiffness in &all {
+        spring::set_for(&bed, &cylinder, *stiffness, fastest)
+            .map_err(|soft| SpringError::TooSoft { rpm: fastest, soft })?;
+    }
     let mut sets = Vec::new();
     for stiffness in &all {
         for rpm in speeds {

@@ -10,6 +10,9 @@ const PLACES: u32 = 8;
 /// Places of a stretch at which a torque is shown.
 const SHOWN: u32 = 4;
 
+/// How far within a stretch its first and last place lie, as a share of it.
+const INSET: f64 = 1e-6;
+
 /// A disc that turns, and its outline, mm.
 pub type Cut<'a> = (&'a dyn Body, &'a Contour);
 
@@ -34,10 +37,12 @@ impl<'a> Turning<'a> {
         Some(force * self.followed.at(angle)?.ds)
     }
 
-    /// Places between the ends of its stretches, those included.
+    /// Places of its stretches, from a hair behind the one end to a hair before the other.
     fn places(&self, each: u32) -> impl Iterator<Item = f64> + '_ {
         self.followed.ranges().flat_map(move |(from, to)| {
-            (0..=each).map(move |place| from + (to - from) * f64::from(place) / f64::from(each))
+            // At an end itself the force of one disc may have jumped already and that of the other not yet.
+            let inset = INSET * (to - from);
+            (0..=each).map(move |place| from + inset + (to - from - 2.0 * inset) * f64::from(place) / f64::from(each))
         })
     }
 }

@@ -10,6 +10,35 @@ use std::sync::Arc;
 /// Panels over which the work on a blend is integrated: its force is smooth there, and eight points are exact to degree 15.
 const PANELS: u32 = 4;
 
+/// What a piece of the work shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Origin {
+    /// The piece of the motion.
+    piece: usize,
+    /// By how much its angle is shifted, rad.
+    shift: f64,
+    /// The air acts on it.
+    compressed: bool,
+}
+
+/// The pieces of a motion, those of a blend divided where the air begins and ends to act: there the force jumps.
+fn divided(reversal: &Reversal) -> (Vec<Piece>, Vec<(usize, bool)>) {
+    let (mut pieces, mut shown) = (Vec::new(), Vec::new());
+    for (index, piece) in reversal.pieces().iter().enumerate() {
+        let compresses = reversal.compresses(index);
+        let inside = reversal.air_begins_or_ends(index).filter(|at| piece.start < *at && *at < piece.end);
+        let Some(at) = inside.filter(|_| compresses) else {
+            pieces.push(*piece);
+            shown.push((index, compresses));
+            continue;
+        };
+        let begins = reversal.crank_in(index, piece.start) < 0.0;
+        pieces.extend([Piece { end: at, ..*piece }, Piece { start: at, ..*piece }]);
+        shown.extend([(index, !begins), (index, begins)]);
+    }
+    (pieces, shown)
+}
+
 /// The work of the shaft on the follower of a disc cam of a press.
 #[derive(Debug, Clone)]
 pub struct ShaftWork {
@@ -20,8 +49,8 @@ pub struct ShaftWork {
     /// Mass on the follower's path times the square of the angular speed of the cam, N/m.
     inertia: f64,
     pieces: Vec<Piece>,
-    /// The piece of the motion of each piece, and the shift of its angle.
-    origins: Vec<(usize, f64)>,
+    /// What each piece shows.
+    origins: Vec<Origin>,
     /// Work of the air where the law begins, J: not 0 behind a blend.
     blended: f64,
 }
@@ -31,15 +60,17 @@ impl ShaftWork {
     #[must_use]
     pub fn new(cylinder: Cylinder, reversal: Arc<Reversal>, preload: f64, mass: f64, speed: f64) -> Self {
         let inertia = mass * speed * speed;
-        let rests: Vec<bool> = (0..reversal.pieces().len())
-            .map(|index| {
-                let dwell = reversal.pieces().get(index).is_some_and(|piece| piece.dwell);
-                dwell || (preload == 0.0 && inertia == 0.0 && !reversal.compresses(index))
-            })
-            .collect();
-        let all = merged(reversal.pieces(), &rests);
+        let (divided, shown) = divided(&reversal);
+        let idle = preload == 0.0 && inertia == 0.0;
+        let rests: Vec<bool> =
+            divided.iter().zip(&shown).map(|(piece, (_, compressed))| piece.dwell || (idle && !compressed)).collect();
+        let all = merged(&divided, &rests);
         let pieces = all.iter().map(|(piece, ..)| *piece).collect();
-        let origins = all.iter().map(|(_, index, shift)| (*index, *shift)).collect();
+        let origin = |(_, index, shift): &(Piece, usize, f64)| {
+            let (piece, compressed) = shown.get(*index).copied().unwrap_or((0, false));
+            Origin { piece, shift: *shift, compressed }
+        };
+        let origins = all.iter().map(origin).collect();
         let mut work = Self { reversal, cylinder, preload, inertia, pieces, origins, blended: 0.0 };
         if let Some(from) = work.reversal.law_begins().filter(|from| *from > 0.0) {
             let closed = camshaft::work(&work.reversal.law().bottom_law, &work.cylinder, from).value;
@@ -62,9 +93,6 @@ impl ShaftWork {
     /// Work of the air at an angle of a piece of the motion.
     fn of_air(&self, piece: usize, angle: f64) -> WorkJet {
         let count = f64::from(self.reversal.law().lobes.max(1));
-        if !self.reversal.compresses(piece) {
-            return WorkJet::default();
-        }
         let (crank, bottom) = (self.reversal.crank_in(piece, angle), self.reversal.bottom(piece, angle));
         if self.reversal.follows_law(piece) {
             let work = camshaft::work(&self.reversal.law().bottom_law, &self.cylinder, crank);
@@ -75,10 +103,8 @@ impl ShaftWork {
                 torque_second: count * count * count * work.torque_second,
             };
         }
-        // A blend about the start or the end of the reversal; before and behind it the air is at rest.
-        if !(0.0..=PI).contains(&crank) {
-            return WorkJet::default();
-        }
+        // A blend about the start or the end of the reversal.
+        let crank = crank.clamp(0.0, PI);
         let [force, slope, second] = self.air_force(crank, bottom, count);
         WorkJet {
             energy: self.by_quadrature(crank.min(PI - crank)),
@@ -130,9 +156,12 @@ impl Work for ShaftWork {
     }
 
     fn at(&self, piece: usize, angle: f64) -> WorkJet {
-        let Some((origin, shift)) = self.origins.get(piece).copied() else { return WorkJet::default() };
+        let Some(Origin { piece, shift, compressed }) = self.origins.get(piece).copied() else {
+            return WorkJet::default();
+        };
         let angle = angle - shift;
-        self.of_air(origin, angle) + self.of_follower(origin, angle)
+        let air = if compressed { self.of_air(piece, angle) } else { WorkJet::default() };
+        air + self.of_follower(piece, angle)
     }
 }
 
@@ -176,8 +205,7 @@ mod tests {
         for (name, work) in works() {
             let scale = f64::from(work.lobes()).powi(5);
             for (index, piece) in work.pieces().iter().enumerate() {
-                // The middle of a blend is where the air begins to be compressed: the curvature of the work jumps there.
-                for i in (1..12).filter(|i| *i != 6) {
+                for i in 1..12 {
                     let angle = piece.start + (piece.end - piece.start) * f64::from(i) / 12.0;
                     let at = |n: f64| work.at(index, angle + n * h);
                     let difference = |f: fn(WorkJet) -> f64| {

@@ -214,6 +214,15 @@ impl Reversal {
         part.is_some_and(|part| part.end > 0.0 && part.start < PI)
     }
 
+    /// The cam angle at which the air begins or ends to be compressed in the lobe of a piece, whichever is nearer to its middle, rad.
+    #[must_use]
+    pub fn air_begins_or_ends(&self, piece: usize) -> Option<f64> {
+        let lobe = u32::try_from(piece.checked_div(self.parts.len())?).ok()?;
+        let part = self.parts.get(piece % self.parts.len())?;
+        let crank = if part.start + part.end < PI { 0.0 } else { PI };
+        Some(self.origin(lobe) + crank / self.count())
+    }
+
     /// Whether the force balance is exact on a piece.
     #[must_use]
     pub fn follows_law(&self, piece: usize) -> bool {

@@ -369,9 +369,8 @@ def spring(binary, directory, number, rng):
     if not named or got.stdout or list(Path(directory).glob(f"{name}-soft*")):
         wrong.append(f"too soft a spring: {got.stderr.strip()!r}")
     else:
-        # That of the first speed that it is too soft for.
-        first = next(n for n in speeds if least(n) >= X(soft) * size)
-        wrong.close(named[1], least(first) / 1000, "least stiffness named", 1e-9)
+        # That of the fastest speed, which does for all.
+        wrong.close(named[1], least(fastest) / 1000, "least stiffness named", 1e-9)
     return "spring", wrong, words
 
 
@@ -572,7 +571,7 @@ def drive(binary, directory, number, rng):
     expected += [(2, lead + step * i) for i in range(1, math.ceil(90 / step - 1e-9))] + [(2, lead + 90)]
     for row, (phase, angle) in zip(rows, expected):
         # At the seam the paper's table still has the first phase.
-        if int(row["phase"]) != phase and not (solver == "paper" and angle == lead):
+        if int(row["phase"]) != phase and angle != lead:
             wrong.append(f"phase {row['phase']} at {angle}")
         # Written to ten decimals.
         wrong.close(row["crank_deg"], angle, "row angle", 0, 1e-10)
@@ -594,9 +593,12 @@ def drive(binary, directory, number, rng):
                 wrong.append(f"a speed where the paper's radicand is negative, row {i}")
                 continue
             omega, time = v / (d.r * cos) if cos > 1e-12 else None, paper[i][1]
-            if d.inertia and i and omega is not None:
-                slack = 1e-12 * d.inertia * omega**2 / (places[i][1] - (places[i - 1][1] if places[i - 1][0] == phase else 0))
-                wrong.close(row["torque_nm"], paper[i][2], "drive torque paper", 1e-8, slack)
+            if d.inertia and omega is not None:
+                # (7), and (8) over cos φ': ω dω/dφ at the node with its own deceleration.
+                by_force = -d.force(left) / d.mass / d.r
+                torque = d.inertia * (by_force if phase == 1 else (by_force + omega**2 * math.sin(angle)) / cos)
+                slack = 1e-11 * d.inertia * (abs(by_force) + omega**2) / cos
+                wrong.close(row["torque_nm"], torque, "drive torque paper", 1e-8, slack)
         else:
             if all[left] is None:
                 wrong.append(f"a row where the bed does not come, {float(row['crank_deg'])}")
@@ -606,7 +608,8 @@ def drive(binary, directory, number, rng):
             omega = d.omega(phase, angle, v) if d.closed or cos > 1e-12 else None
         close_to_stop = DYNAMICS * max(1, (0.03 * d.v0 / max(v, 1e-30)) ** 2) if not d.closed or solver == "paper" else DYNAMICS
         wrong.close(row["velocity_m_per_s"], v, f"drive speed", close_to_stop, 1e-12 * d.v0)
-        wrong.close(row["time_s"], time, f"drive time {solver}", max(DYNAMICS * 10, close_to_stop), 1e-13)
+        if "time_s" in row:
+            wrong.close(row["time_s"], time, f"drive time {solver}", max(DYNAMICS * 10, close_to_stop), 1e-13)
         if omega is None:
             if row["omega_rad_per_s"] is not None and np.isfinite(row["omega_rad_per_s"]):
                 wrong.append(f"not closed, yet ω = {float(row['omega_rad_per_s']):.3g} rad/s told at the dead point")
@@ -681,7 +684,8 @@ def drive(binary, directory, number, rng):
     value = next(c["value"] for c in report["checks"] if c["check"] == "closing")
     wrong.close(value, abs(d.work / d.energy - 1), "closing", 1e-6, 1e-12 * tight)
     if not d.closed:
-        wrong.close(told["crank_time_s"], d.until(), "time of phase 2, open", DYNAMICS * 100)
+        if told["crank_time_s"] is not None:
+            wrong.append("a time of a phase that does not end as it should")
         remedies(binary, directory, machine, words, note, wrong)
     judge_paper(d, told["paper"], step, lead, wrong)
     return f"drive {solver}{'' if d.closed else ' open'}", wrong, words

@@ -3,17 +3,20 @@
 use super::{COMPENSATOR, Disc, DiscError};
 use crate::body::Body;
 use crate::buffer::regime::{self, Reset};
+use crate::load::Load;
 use crate::machine::NoPress;
-use crate::motion::Motion;
 use crate::motion::counter_torque::CounterMotion;
+use crate::motion::{Jet, Motion};
 use crate::numeric::extremum;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Places of a piece at which the torque left by the law is looked at: it is rounding, or the smooth torque of inertia.
 const PLACES: u32 = 256;
-/// Places of a quarter turn of the crank at which torques at other speeds are looked at: their largest is told to a millionth.
-const QUARTER: u32 = 2000;
+/// How far within a piece its first and last place lie, as a share of it.
+const INSET: f64 = 1e-9;
+/// Places of a piece at which torques at other speeds are looked at: their largest is told to a millionth.
+const TURN: u32 = 2000;
 /// Cells and golden sections in which the preload for another speed is searched.
 const CELLS: u32 = 8;
 const SECTIONS: u32 = 40;
@@ -83,7 +86,9 @@ impl Disc {
             (torque(self) + torque(second)).abs()
         };
         let after = second.motion.distinct().iter().flat_map(|piece| {
-            let place = |i: u32| piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(PLACES);
+            // A hair within the ends, where the force of one disc may have jumped already and that of the other not yet.
+            let (inset, whole) = (INSET * (piece.end - piece.start), piece.end - piece.start);
+            let place = move |i: u32| piece.start + inset + (whole - 2.0 * inset) * f64::from(i) / f64::from(PLACES);
             (0..=PLACES).map(place)
         });
         Ok(Compensated {
@@ -95,31 +100,49 @@ impl Disc {
         })
     }
 
-    /// The torques at other speeds of the press, the column reset by (14): of the air and of the springs, by the crank angle over a
-    /// quarter of its turn, whose mirrors have the same.
+    /// The torques at other speeds of the press, the column reset by (14): air, preload and inertia of this disc, spring and inertia
+    /// of the second.
     fn at_other_speeds(&self, law: &CounterMotion, second: &Disc) -> Vec<AtSpeed> {
-        let (Ok(press), Some(own)) = (self.machine.press(), self.rpm) else { return Vec::new() };
+        let (Ok(press), Some(own), Some(load)) = (self.machine.press(), self.rpm, &self.load) else {
+            return Vec::new();
+        };
         let (design, cylinder) = (press.bottom_law(own), press.cylinder());
         let (rate, own_preload) = (law.law().rate(), law.law().preload());
-        let lobes = f64::from(self.motion.lobes());
-        // Lift of the second disc and its slope do not depend on the speed.
-        let lifts: Vec<(f64, f64, f64, f64)> = (0..=QUARTER)
-            .map(|i| {
-                let crank = FRAC_PI_2 * f64::from(i) / f64::from(QUARTER);
-                let x = design.stroke * libm::sin(crank);
-                let (piece, angle) = second.motion.locate(crank / lobes);
-                let lift = second.motion.jet(piece, angle);
-                let (first, at) = self.motion.locate(crank / lobes);
-                (x, self.motion.jet(first, at).ds / self.machine.cam.lever, lift.s, lift.ds)
+        let inertia = |disc: &Disc| {
+            let mass = disc.machine.follower.mass.zip(disc.speed);
+            mass.map_or(0.0, |(mass, speed)| mass * speed * speed)
+        };
+        let (first_preload, masses) = (self.machine.follower.preload.unwrap_or(0.0), (inertia(self), inertia(second)));
+        // Where the followers are does not depend on the speed.
+        let places: Vec<AtPlace> = second
+            .motion
+            .distinct()
+            .iter()
+            .filter(|piece| !piece.dwell)
+            .flat_map(|piece| {
+                let place = |i: u32| piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(TURN);
+                (0..=TURN).map(place)
             })
+            .map(|angle| AtPlace::of(self, second, &**load, angle))
             .collect();
         let at = |sevenths: f64| {
             let rpm = own * sevenths / 7.0;
-            let regime = regime::reset(&design, &cylinder, rpm, Reset::End);
-            let torques: Vec<(f64, f64, f64)> =
-                lifts.iter().map(|(x, bottom, y, slope)| (regime.air(*x) * bottom, rate * y * slope, *slope)).collect();
+            let (column, slower) =
+                (regime::reset(&design, &cylinder, rpm, Reset::End).column, sevenths * sevenths / 49.0);
+            // What does not depend on the preload of the second disc, with and without that disc, and the slope the preload works on.
+            let torques: Vec<(f64, f64, f64)> = places
+                .iter()
+                .map(|place| {
+                    let left = column - (place.overrun + design.lead) - place.displacement;
+                    let ratio = libm::exp(design.exponent * libm::log(column / left));
+                    let air = if place.reversing { cylinder.force(ratio) / self.machine.cam.lever } else { 0.0 };
+                    let (one, two) = (place.first, place.second);
+                    let alone = (air + first_preload + slower * masses.0 * one.dds) * one.ds;
+                    (alone, (rate * two.s + slower * masses.1 * two.dds) * two.ds, two.ds)
+                })
+                .collect();
             let largest = |preload: f64, share: f64| {
-                let left = torques.iter().map(|(air, spring, slope)| (air + share * (spring + preload * slope)).abs());
+                let left = torques.iter().map(|(alone, two, slope)| (alone + share * (two + preload * slope)).abs());
                 left.fold(0.0, f64::max)
             };
             let range = (0.0, 2.0 * own_preload);
@@ -128,5 +151,32 @@ impl Disc {
             AtSpeed { rpm, preload: best.at, before, unchanged, after: -best.value }
         };
         SEVENTHS.into_iter().map(at).collect()
+    }
+}
+
+/// Where bed and followers are at a cam angle.
+struct AtPlace {
+    overrun: f64,
+    displacement: f64,
+    reversing: bool,
+    first: Jet,
+    second: Jet,
+}
+
+impl AtPlace {
+    fn of(first: &Disc, second: &Disc, load: &dyn Load, angle: f64) -> Self {
+        let jet = |disc: &Disc| {
+            let (piece, inside) = disc.motion.locate(angle);
+            disc.motion.jet(piece, inside)
+        };
+        let (piece, inside) = first.motion.locate(angle);
+        let state = load.state(piece, inside);
+        Self {
+            overrun: state.overrun,
+            displacement: state.displacement,
+            reversing: state.crank <= PI,
+            first: jet(first),
+            second: jet(second),
+        }
     }
 }

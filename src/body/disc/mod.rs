@@ -84,7 +84,7 @@ pub enum DiscError {
     /// The machine file describes no compensating cam.
     #[error(
         "the machine file describes no compensating cam: add the table [compensator] with spring_rate and preload, or give \
-         --compensator spring_rate=100N/mm,preload=10kN"
+         --set compensator.spring_rate=100N/mm --set compensator.preload=10kN"
     )]
     NoCompensator,
     /// The law of the compensating cam has no solution.

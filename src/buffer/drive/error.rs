@@ -11,14 +11,15 @@ pub struct Remedies {
     pub ambient_pressure: f64,
 }
 
+/// With as many digits as it takes to close within [`super::CLOSING`] when they are typed.
 impl std::fmt::Display for Remedies {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "a bore of {:.4} mm closes it, or ", 1e3 * self.bore)?;
+        write!(f, "a bore of {:.10} mm closes it, or ", 1e3 * self.bore)?;
         match self.column {
-            Some(column) => write!(f, "an air column of {:.4} mm", 1e3 * column)?,
+            Some(column) => write!(f, "an air column of {:.10} mm", 1e3 * column)?,
             None => write!(f, "no column longer than the stroke does")?,
         }
-        write!(f, ", or an ambient pressure of {:.6} bar", 1e-5 * self.ambient_pressure)
+        write!(f, ", or an ambient pressure of {:.13} bar", 1e-5 * self.ambient_pressure)
     }
 }
 

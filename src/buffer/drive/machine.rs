@@ -110,7 +110,8 @@ impl Machine {
         if !(self.exponent >= 1.0 && self.exponent.is_finite()) {
             return Err(DriveError::Exponent { exponent: self.exponent });
         }
-        if !(self.column > self.stroke()) {
+        // Nearer the force at the end is beyond any machine.
+        if !(self.column > self.stroke() * (1.0 + 1e-9)) {
             return Err(DriveError::ColumnTooShort { column: self.column, stroke: self.stroke() });
         }
         Ok(())
