@@ -168,7 +168,7 @@ fn the_drive_has_the_known_figures() {
         let set = format!("drive.bore={bore}");
         let refused = run(1, &["drive", "--set", &set]);
         assert!(
-            refused.out.contains(why) && refused.out.contains("a bore of 145.1935 mm closes it"),
+            refused.out.contains(why) && refused.out.contains("a bore of 145.1935170851 mm closes it"),
             "{}",
             refused.out
         );

@@ -25,6 +25,9 @@ const ROUNDING: f64 = 1e-12;
 /// Cells of a phase in which its largest torque is searched: it has a hump or two.
 const CELLS: u32 = 64;
 
+/// Panels of eight points between two rows for the time.
+const PANELS: u32 = 6;
+
 /// Rows between the ends of the phases in the plot.
 const PLACES: u32 = 240;
 
@@ -68,7 +71,7 @@ impl Row {
             omega: state.omega,
             motor_rpm: data.motor_ratio.map(|ratio| state.motor_rpm(ratio)),
             torque: data.inertia.map(|inertia| state.torque(inertia)),
-            time: state.time,
+            time: f64::NAN,
         }
     }
 }
@@ -130,32 +133,22 @@ struct Sections {
 /// [`DriveError`] when the column is used up within the stroke. A bed that does not arrive at its end at rest fails the check.
 pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Analysis, DriveError> {
     let data = machine.data;
-    let of = drive::Machine {
-        bed_mass: machine.mass,
-        crank_radius: machine.crank_radius,
-        lead_angle: data.lead_angle,
-        bed_speed: data.bed_speed,
-        column: machine.column,
-        ambient_pressure: machine.ambient_pressure,
-        exponent: machine.exponent,
-    };
-    let (drive, open) = match data.bore {
-        Some(bore) => closed_or_open(of, 0.25 * PI * bore * bore)?,
-        None => (Drive::by_closing(of)?, None),
-    };
+    let (drive, open) = solved(machine)?;
     let nodes = drive::sections(&drive, step);
     let lead = data.lead_angle;
     // The row where the crank begins to turn the bed is the last of the first phase.
-    // An open machine has no speed at the end of its stroke, and no time of the second phase that is worth its digits.
+    // An open machine has no speed at the end of its stroke.
     let closes = open.is_none();
     let exact = |crank: f64| {
         let state = if crank <= lead { drive.at_phase(Phase::Lead, crank) } else { drive.at(crank) };
         let row = state.map(|state| Row::of(&state, crank, &data));
-        let time = |row: Row| Row { time: if closes { row.time } else { f64::NAN }, ..row };
-        row.filter(|row| closes || row.crank < lead + FRAC_PI_2).map(time)
+        row.filter(|row| closes || row.crank < lead + FRAC_PI_2)
     };
     let rows: Vec<Row> = match solver {
-        Solver::Energy => ends(data.lead_angle, step).into_iter().filter_map(exact).collect(),
+        Solver::Energy => {
+            let rows = ends(data.lead_angle, step).into_iter().filter_map(exact).collect();
+            if closes { timed(&drive, rows) } else { rows }
+        }
         Solver::Paper => by_sections(machine, &drive, &nodes),
     };
     let fine: Vec<Row> =
@@ -188,6 +181,24 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
     })
 }
 
+/// The drive of a machine, and why it does not close where it does not.
+fn solved(machine: &DriveMachine) -> Result<(Drive, Option<DriveError>), DriveError> {
+    let data = machine.data;
+    let of = drive::Machine {
+        bed_mass: machine.mass,
+        crank_radius: machine.crank_radius,
+        lead_angle: data.lead_angle,
+        bed_speed: data.bed_speed,
+        column: machine.column,
+        ambient_pressure: machine.ambient_pressure,
+        exponent: machine.exponent,
+    };
+    match data.bore {
+        Some(bore) => closed_or_open(of, 0.25 * PI * bore * bore),
+        None => Ok((Drive::by_closing(of)?, None)),
+    }
+}
+
 /// The drive with this piston area (m²), and why it does not close where it does not.
 fn closed_or_open(of: drive::Machine, area: f64) -> Result<(Drive, Option<DriveError>), DriveError> {
     match Drive::with_area(of, area) {
@@ -204,6 +215,18 @@ const NOT_MODELLED: &[&str] = &[
     "Friction of bed and pistons, leakage and the flow of heat.",
     "Acceleration after the reversal: it mirrors the braking.",
 ];
+
+/// The rows with their times, each by the quadrature from the one before: of an open machine they are not worth their digits.
+fn timed(drive: &Drive, mut rows: Vec<Row>) -> Vec<Row> {
+    let lead = drive.machine.lead_angle;
+    let (mut crank, mut time) = (0.0, 0.0);
+    for row in &mut rows {
+        let before = if row.phase == Phase::Lead { 0.0 } else { lead };
+        time += drive.time_between(row.phase, (crank - before, row.crank - before), PANELS);
+        (crank, row.time) = (row.crank, time);
+    }
+    rows
+}
 
 /// Crank angles at which rows stand: the ends of the sections of both phases.
 fn ends(lead: f64, step: f64) -> Vec<f64> {

@@ -139,7 +139,7 @@ fn notes(machine: &Machine) -> Vec<String> {
         ),
         (more, "the torque of the camshaft is that of the air alone, without preload and mass of the follower"),
     ];
-    let of_press = told.into_iter().filter_map(|(holds, words)| holds.then(|| words.to_owned()));
+    let of_press = told.into_iter().filter(|(holds, _)| *holds).map(|(_, words)| words.to_owned());
     // What is told here need not be called idle.
     let idle = machine.idle_keys_told(KIND.keys, KIND.noun).into_iter();
     idle.filter(|note| !note.contains("`transition.") && !note.contains("`follower.")).chain(of_press).collect()

@@ -97,7 +97,7 @@ fn property(key: &Key) -> Value {
     match key.presence {
         Presence::Default(_) => property["default"] = value,
         Presence::Required(_) | Presence::RequiredUnless(..) | Presence::Optional(_) => {
-            property["examples"] = json!([value])
+            property["examples"] = json!([value]);
         }
     }
     property

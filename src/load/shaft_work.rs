@@ -93,7 +93,7 @@ impl ShaftWork {
     /// Work of the air at an angle of a piece of the motion.
     fn of_air(&self, piece: usize, angle: f64) -> WorkJet {
         let count = f64::from(self.reversal.law().lobes.max(1));
-        let (crank, bottom) = (self.reversal.crank_in(piece, angle), self.reversal.bottom(piece, angle));
+        let crank = self.reversal.crank_in(piece, angle);
         if self.reversal.follows_law(piece) {
             let work = camshaft::work(&self.reversal.law().bottom_law, &self.cylinder, crank);
             return WorkJet {
@@ -104,7 +104,7 @@ impl ShaftWork {
             };
         }
         // A blend about the start or the end of the reversal.
-        let crank = crank.clamp(0.0, PI);
+        let (crank, bottom) = (crank.clamp(0.0, PI), self.reversal.bottom(piece, angle));
         let [force, slope, second] = self.air_force(crank, bottom, count);
         WorkJet {
             energy: self.by_quadrature(crank.min(PI - crank)),

@@ -106,7 +106,7 @@ impl Machine {
         };
         // The angle of the disc is counted from its own follower, the keyway on the shaft is one.
         let keyway = self.cam.keyway.map(|keyway| super::Keyway { angle: keyway.angle - data.angle, ..keyway });
-        let cam = CamData { base_radius: data.base_radius, keyway, ..self.cam.clone() };
+        let cam = CamData { base_radius: data.base_radius, keyway, ..self.cam };
         let mut title = self.title.clone();
         title.part_number = title.part_number.map(|number| format!("{number}-{}", SECTION.path));
         Some(Self { follower, cam, title, ..self.clone() })

@@ -21,6 +21,23 @@ fn map_on<T: Sync, R: Send>(
     }
 }
 
+/// The results of two functions, at the same time where there is a second one and a thread can be started.
+pub fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: Option<impl FnOnce() -> B + Send>,
+) -> (A, Option<B>) {
+    match second {
+        None => (first(), None),
+        Some(second) => match threads() {
+            Some(pool) => {
+                let (a, b) = pool.install(|| rayon::join(first, second));
+                (a, Some(b))
+            }
+            None => (first(), Some(second())),
+        },
+    }
+}
+
 /// The threads, started at the first use: as many as there are processors, or as `RAYON_NUM_THREADS` says. `None` where the
 /// system starts none; rayon's own pool would end the program there.
 fn threads() -> Option<&'static ThreadPool> {
@@ -41,5 +58,7 @@ mod tests {
             assert_eq!(map_on(pool, &items, |item| item * 3), expected);
         }
         assert_eq!(map(&items, |item| item * 3), expected);
+        assert_eq!(both(|| 1, Some(|| 2)), (1, Some(2)));
+        assert_eq!(both(|| 1, None::<fn() -> u8>), (1, None));
     }
 }

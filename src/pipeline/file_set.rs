@@ -3,6 +3,7 @@
 use super::{Error, Proven};
 use crate::body::Body;
 use crate::document::Input;
+use crate::numeric::parallel;
 use crate::report::{Report, failed};
 use crate::write::files;
 use crate::write::record::{Run, write_recorded};
@@ -95,6 +96,22 @@ pub struct FileSet {
 
 /// Makes the files of a proven cam.
 pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, Error> {
+    let of_second = |second: &Proven<'_>| {
+        let stem = format!("{}-{}", writing.stem, second.cam.body().kind().command);
+        files(second, &Writing { stem, ..writing.clone() })
+    };
+    let second = proven.second().map(|second| || of_second(second));
+    let (all, second) = parallel::both(|| files_alone(proven, writing), second);
+    let mut all = all?;
+    if let Some(second) = second.transpose()? {
+        all.outputs.extend(second.outputs);
+        all.report.files.extend(second.report.files);
+    }
+    Ok(all)
+}
+
+/// Without those of the second disc.
+fn files_alone(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, Error> {
     let drawn = proven.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
     if !proven.passed() && !writing.force {
         return Err(Error::Refused(failed(proven.findings()).join(", ")));
@@ -114,15 +131,7 @@ pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, E
     for format in formats {
         bytes.extend((format.write)(&rendering)?);
     }
-    let mut all = set(writing, proven.inputs.clone(), report, names.into_iter().zip(bytes).collect());
-    if let Some(second) = proven.second() {
-        let of_second =
-            Writing { stem: format!("{}-{}", writing.stem, second.cam.body().kind().command), ..writing.clone() };
-        let second = files(second, &of_second)?;
-        all.outputs.extend(second.outputs);
-        all.report.files.extend(second.report.files);
-    }
-    Ok(all)
+    Ok(set(writing, proven.inputs.clone(), report, names.into_iter().zip(bytes).collect()))
 }
 
 /// Named bytes where they are to be written.

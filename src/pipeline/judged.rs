@@ -69,17 +69,17 @@ impl Judged {
             None => format.when == When::Usual,
         });
         let chosen: Vec<_> = chosen.filter_map(|format| format.of_analysis).collect();
-        let files = |report: &Report| {
-            let account = Account { analysis: &self.analysis, report, template: &writing.template };
-            let each = chosen.iter().map(|write| write(&account));
-            Ok::<_, Error>(each.collect::<Result<Vec<_>, _>>()?.concat())
-        };
+        let endings = chosen.iter().flat_map(|format| (format.endings)(&self.analysis));
+        let names: Vec<String> = endings.map(|ending| format!("{}{ending}", writing.stem)).collect();
         // A report in a file names the files.
         let mut report = self.report();
-        let ending = |(ending, _): &(String, Vec<u8>)| format!("{}{ending}", writing.stem);
-        let names: Vec<String> = files(&report)?.iter().map(ending).collect();
         report.files = names.iter().map(|name| writing.directory.join(name).display().to_string()).collect();
-        let outputs = names.into_iter().zip(files(&report)?.into_iter().map(|(_, bytes)| bytes)).collect();
+        let account = Account { analysis: &self.analysis, report: &report, template: &writing.template };
+        let mut bytes = Vec::with_capacity(names.len());
+        for format in chosen {
+            bytes.extend((format.write)(&account)?);
+        }
+        let outputs = names.into_iter().zip(bytes).collect();
         Ok(file_set::set(writing, self.analysis.inputs.clone(), report, outputs))
     }
 }

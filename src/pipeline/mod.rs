@@ -24,6 +24,7 @@ use crate::body::disc::Compensated;
 use crate::body::points::{self, PointTable, TableError};
 use crate::body::{Body, DrawError, Drawn, Request};
 use crate::document::Input;
+use crate::numeric::parallel;
 use crate::report::{Inputs, Report, Section};
 
 /// A solved cam: exact curves, nothing drawn yet.
@@ -52,7 +53,14 @@ impl Cam {
     /// far, gives a drawing without one: its checks say why, and it cannot be written.
     pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
         let request = request.into();
-        let asked = request;
+        let second = self.second.as_ref().map(|(cam, _)| || cam.draw(request));
+        let (drawing, second) = parallel::both(|| self.draw_alone(request), second);
+        let second = second.transpose()?.map(Box::new);
+        Ok(Drawing { second, ..drawing? })
+    }
+
+    /// Without the second disc.
+    fn draw_alone(&self, request: Request) -> Result<Drawing<'_>, Error> {
         let inputs = self.inputs_for(&request);
         let request = request.resolved(&*self.body)?;
         let (drawn, points) = match self.body.draw(&request) {
@@ -67,11 +75,7 @@ impl Cam {
             Err(DrawError::NoOutline(why)) => (Err(why), Ok(Vec::new())),
             Err(error) => return Err(error.into()),
         };
-        let second = match &self.second {
-            Some((cam, _)) => Some(Box::new(cam.draw(asked)?)),
-            None => None,
-        };
-        Ok(Drawing { cam: self, request, inputs, drawn, points, second })
+        Ok(Drawing { cam: self, request, inputs, drawn, points, second: None })
     }
 
     /// Everything that determines the part as it is drawn.

@@ -7,6 +7,7 @@ use crate::body::{Body, Drawn, Found, Request, torque};
 use crate::document::Input;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Between, Interpolant};
+use crate::numeric::parallel;
 use crate::profile::lifts;
 use crate::report::{Compensation, Finding, Inputs, PointMeasures, PreloadAt, Report, Rolled, passed};
 use crate::table::Table;
@@ -38,6 +39,13 @@ pub struct Proven<'c> {
     second: Option<Box<Self>>,
 }
 
+/// The cut files of a drawing in memory, and what is in them.
+struct Written {
+    cut_files: Vec<Vec<u8>>,
+    outlines: Vec<WrittenOutline>,
+    rolled: Option<Rolled>,
+}
+
 impl<'c> Drawing<'c> {
     /// Writes the cut files to memory as R2000, reads the outlines back from their bytes, and checks the cam.
     ///
@@ -52,10 +60,15 @@ impl<'c> Drawing<'c> {
     /// # Errors
     /// As [`Drawing::prove`].
     pub fn prove_as(self, version: Version) -> Result<Proven<'c>, Error> {
-        let second = match self.second {
-            Some(second) => Some(Box::new(second.prove_as(version)?)),
-            None => None,
-        };
+        let mut drawing = self;
+        let second = drawing.second.take().map(|second| || second.prove_as(version));
+        let (written, second) = parallel::both(|| drawing.written(version), second);
+        let second = second.transpose()?.map(Box::new);
+        drawing.judged(version, written?, second)
+    }
+
+    /// The cut files in memory as they are read back, and what rolling on the first shows.
+    fn written(&self, version: Version) -> Result<Written, Error> {
         let body = self.cam.body();
         let mark = Inputs::of(&self.inputs).to_string();
         let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
@@ -68,6 +81,14 @@ impl<'c> Drawing<'c> {
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let plane = body.plane().zip(outlines.first());
         let rolled = plane.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
+        Ok(Written { cut_files, outlines, rolled })
+    }
+
+    /// Every check, of what was written.
+    fn judged(self, version: Version, written: Written, second: Option<Box<Proven<'c>>>) -> Result<Proven<'c>, Error> {
+        let Written { cut_files, outlines, rolled } = written;
+        let body = self.cam.body();
+        let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let (middle, _) = self.request.fit.band();
         let path = self.drawn.as_ref().ok().and_then(|drawn| drawn.cutter_path.as_ref()).zip(self.request.cutter);
         let cutter_path = path.map(|(outline, radius)| {

@@ -181,7 +181,9 @@ fn labels(panel: &Panel, index: usize, bottom: f64, at: &impl Fn(f64, f64) -> Ve
     let mut heights = apart(&ends.iter().map(|(_, end)| end.y).collect::<Vec<_>>(), font::LEADING * TEXT);
     // None beside the names of the places.
     let below = heights.last().map_or(0.0, |lowest| (bottom + 0.5 * TEXT - lowest).max(0.0));
-    heights.iter_mut().for_each(|height| *height += below);
+    for height in &mut heights {
+        *height += below;
+    }
     let right = ends.iter().map(|(_, end)| end.x).fold(f64::NEG_INFINITY, f64::max);
     let label = |(number, ((curve, end), height)): (usize, (&(&Curve, Vector2<f64>), &f64))| {
         let start = Vector2::new(right + LEADER, *height);

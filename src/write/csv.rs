@@ -1,7 +1,7 @@
 //! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted.
 
 use super::number::push_shortest;
-use super::{Format, When, fits_all};
+use super::{Format, OfAnalysis, When, fits_all};
 use crate::body::Body;
 use crate::geometry::MILLIMETRES;
 use crate::motion::Quantity;
@@ -18,9 +18,9 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".csv".into()],
     write: |cam| Ok(vec![write(&table(cam.body, cam.second.map(|(body, _)| body), cam.outlines, cam.samples))]),
-    of_analysis: Some(|account| {
-        let tables = account.analysis.tables.iter();
-        Ok(tables.map(|(ending, table)| (format!("{ending}.csv"), write(table))).collect())
+    of_analysis: Some(OfAnalysis {
+        endings: |analysis| analysis.tables.iter().map(|(ending, _)| format!("{ending}.csv")).collect(),
+        write: |account| Ok(account.analysis.tables.iter().map(|(_, table)| write(table)).collect()),
     }),
 };
 

@@ -1,6 +1,6 @@
 //! The report as JSON.
 
-use super::{Format, When, fits_all};
+use super::{Format, OfAnalysis, When, fits_all};
 use serde::Serialize;
 
 /// The report.
@@ -11,7 +11,10 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".json".into()],
     write: |cam| Ok(vec![write(cam.report)?]),
-    of_analysis: Some(|account| Ok(vec![(".json".into(), write(account.report)?)])),
+    of_analysis: Some(OfAnalysis {
+        endings: |_| vec![".json".into()],
+        write: |account| Ok(vec![write(account.report)?]),
+    }),
 };
 
 /// A report, indented, with a line feed at the end.

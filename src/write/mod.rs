@@ -64,8 +64,14 @@ pub struct Account<'a> {
     pub template: &'a str,
 }
 
-/// What the name of a file ends with, and its bytes.
-pub type Named = (String, Vec<u8>);
+/// How an analysis has a format.
+#[derive(Debug, Clone, Copy)]
+pub struct OfAnalysis {
+    /// What its files add to the stem of their names.
+    pub endings: fn(&Analysis) -> Vec<String>,
+    /// The files, in the same order.
+    pub write: fn(&Account<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
+}
 
 /// Why a format could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -117,8 +123,8 @@ pub struct Format {
     pub endings: fn(&Drawn) -> Vec<String>,
     /// The files, in the same order.
     pub write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
-    /// The files of an analysis, where it can have any.
-    pub of_analysis: Option<fn(&Account<'_>) -> Result<Vec<Named>, FormatError>>,
+    /// How an analysis has it, where it can.
+    pub of_analysis: Option<OfAnalysis>,
 }
 
 /// Every format, in the order in which files are listed.

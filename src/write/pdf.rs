@@ -1,6 +1,6 @@
 //! The review sheet as PDF: the SVG of the sheet on a page of its size, with the font in the file.
 
-use super::{Format, FormatError, Rendering, When, fits_all, svg};
+use super::{Format, FormatError, OfAnalysis, Rendering, When, fits_all, svg};
 use crate::report::plot;
 use crate::report::sheet::Sheet;
 use crate::report::sheet::font::FONT;
@@ -19,9 +19,12 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".pdf".into()],
     write: |cam: &Rendering<'_>| Ok(vec![write(&svg::sheet(cam)?, cam.template)?]),
-    of_analysis: Some(|account| {
-        let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
-        Ok(vec![(".pdf".into(), write(&sheet, account.template)?)])
+    of_analysis: Some(OfAnalysis {
+        endings: |_| vec![".pdf".into()],
+        write: |account| {
+            let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
+            Ok(vec![write(&sheet, account.template)?])
+        },
     }),
 };
 

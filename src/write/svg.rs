@@ -2,7 +2,7 @@
 //! coordinates.
 
 use super::path_data::PathData;
-use super::{Format, FormatError, Rendering, When, fits_all};
+use super::{Format, FormatError, OfAnalysis, Rendering, When, fits_all};
 use crate::body::{self, torque};
 use crate::geometry::contour::Segment;
 use crate::geometry::{Entity, MILLIMETRES};
@@ -20,9 +20,12 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
     write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
-    of_analysis: Some(|account| {
-        let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
-        Ok(vec![(".svg".into(), marked(&write(&sheet, account.template)?, &account.report.mark()))])
+    of_analysis: Some(OfAnalysis {
+        endings: |_| vec![".svg".into()],
+        write: |account| {
+            let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
+            Ok(vec![marked(&write(&sheet, account.template)?, &account.report.mark())])
+        },
     }),
 };
 

@@ -15,8 +15,9 @@ use std::sync::Arc;
 const PLACES: u32 = 256;
 /// How far within a piece its first and last place lie, as a share of it.
 const INSET: f64 = 1e-9;
-/// Places of a piece at which torques at other speeds are looked at: their largest is told to a millionth.
-const TURN: u32 = 2000;
+/// Places of a piece at which torques at other speeds are looked at; the top between three of them is that of their parabola, so that
+/// the largest is told to a millionth.
+const TURN: u32 = 360;
 /// Cells and golden sections in which the preload for another speed is searched.
 const CELLS: u32 = 8;
 const SECTIONS: u32 = 40;
@@ -142,8 +143,9 @@ impl Disc {
                 })
                 .collect();
             let largest = |preload: f64, share: f64| {
-                let left = torques.iter().map(|(alone, two, slope)| (alone + share * (two + preload * slope)).abs());
-                left.fold(0.0, f64::max)
+                let left: Vec<f64> =
+                    torques.iter().map(|(alone, two, slope)| (alone + share * (two + preload * slope)).abs()).collect();
+                left.windows(3).map(top).fold(0.0, f64::max)
             };
             let range = (0.0, 2.0 * own_preload);
             let best = extremum::largest_without_slope(|preload| -largest(preload, 1.0), range, CELLS, SECTIONS);
@@ -152,6 +154,14 @@ impl Disc {
         };
         SEVENTHS.into_iter().map(at).collect()
     }
+}
+
+/// The largest of three neighbouring values, or the top of the parabola through them.
+fn top(three: &[f64]) -> f64 {
+    let &[before, at, after] = three else { return 0.0 };
+    let (slope, bend) = (0.5 * (after - before), before - 2.0 * at + after);
+    let inside = bend < 0.0 && slope.abs() <= -bend;
+    if inside { at - 0.5 * slope * slope / bend } else { before.max(at).max(after) }
 }
 
 /// Where bed and followers are at a cam angle.

@@ -96,7 +96,7 @@ impl<'a> Tried<'a> {
         let k = self.k;
         let frame = self.paper.frame(Vector2::zeros()).size();
         let upright = self.paper.size.x < self.paper.size.y;
-        let diagram = if !self.extras.traces.is_empty() { DIAGRAM * k } else { 0.0 };
+        let diagram = if self.extras.traces.is_empty() { 0.0 } else { DIAGRAM * k };
         let stamp = if self.report.passed() { 0.0 } else { STAMP * k };
         let needed = self.covered.size() * self.scale + 2.0 * k * ROOM + self.dimensions();
         let block = Vector2::new(block::WIDTH, block::HEIGHT) * k;

@@ -8,7 +8,7 @@ mod data;
 mod panels;
 mod units;
 
-use super::{Format, FormatError, Rendering, When, fits_all};
+use super::{Format, FormatError, OfAnalysis, Rendering, When, fits_all};
 use serde_json::{Value, json};
 
 /// The moving report.
@@ -19,9 +19,9 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".html".into()],
     write: |cam| Ok(vec![page(&cam.report.title(), &[data::of(cam)])?]),
-    of_analysis: Some(|account| {
-        let title = account.report.title();
-        Ok(vec![(".html".into(), page(&title, &[data::of_analysis(account)])?)])
+    of_analysis: Some(OfAnalysis {
+        endings: |_| vec![".html".into()],
+        write: |account| Ok(vec![page(&account.report.title(), &[data::of_analysis(account)])?]),
     }),
 };
 
