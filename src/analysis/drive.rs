@@ -40,7 +40,7 @@ pub enum Solver {
     Paper,
 }
 
-/// A row of the table.
+/// A row of the table; what needs a motor ratio or an inertia that are not given is not a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Row {
     crank: f64,
@@ -158,7 +158,7 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
     inputs.extend(machine.inputs().iter().cloned());
     let word = if solver == Solver::Energy { "energy" } else { "paper" };
     inputs.extend([Input::word("solver", word), Input::quantity("step", step, ("deg", PI / 180.0))]);
-    let table = Table::listed(TOLD, &rows).without_empty();
+    let table = Table::listed(TOLD, &rows);
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),

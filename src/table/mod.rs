@@ -211,16 +211,6 @@ impl Table {
         let values = |row: &T| told.iter().map(|(_, value)| value(row) + 0.0).collect();
         Self { columns: told.iter().map(|(name, _)| *name).collect(), rows: rows.iter().map(values).collect() }
     }
-
-    /// Without the values that no row has.
-    #[must_use]
-    pub fn without_empty(self) -> Self {
-        let kept = |index: usize| self.rows.iter().any(|row| row.get(index).is_some_and(|value| !value.is_nan()));
-        let indices: Vec<usize> = (0..self.columns.len()).filter(|index| kept(*index)).collect();
-        let of = |row: &Vec<f64>| indices.iter().filter_map(|index| row.get(*index).copied()).collect();
-        let names = indices.iter().filter_map(|index| self.columns.get(*index).copied()).collect();
-        Self { rows: self.rows.iter().map(of).collect(), columns: names }
-    }
 }
 
 /// The name of a value with its unit, and the value of a row.

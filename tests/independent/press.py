@@ -608,7 +608,7 @@ def drive(binary, directory, number, rng):
             omega = d.omega(phase, angle, v) if d.closed or cos > 1e-12 else None
         close_to_stop = DYNAMICS * max(1, (0.03 * d.v0 / max(v, 1e-30)) ** 2) if not d.closed or solver == "paper" else DYNAMICS
         wrong.close(row["velocity_m_per_s"], v, f"drive speed", close_to_stop, 1e-12 * d.v0)
-        if "time_s" in row:
+        if np.isfinite(row["time_s"]):
             wrong.close(row["time_s"], time, f"drive time {solver}", max(DYNAMICS * 10, close_to_stop), 1e-13)
         if omega is None:
             if row["omega_rad_per_s"] is not None and np.isfinite(row["omega_rad_per_s"]):

@@ -3,11 +3,14 @@
 use super::{COMPENSATOR, Disc, DiscError};
 use crate::body::Body;
 use crate::buffer::regime::{self, Reset};
+use crate::geometry::MILLIMETRES;
 use crate::load::Load;
 use crate::machine::NoPress;
 use crate::motion::counter_torque::CounterMotion;
 use crate::motion::{Jet, Motion};
 use crate::numeric::extremum;
+use crate::report::{Section, shown};
+use serde_json::json;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -64,6 +67,17 @@ impl Disc {
         let motion: Arc<dyn Motion> = Arc::new(self.counter_torque()?);
         let (rpm, speed) = (self.rpm, self.speed);
         Self { rpm, speed, kind: &COMPENSATOR, ..Self::unsized_of(&machine, motion) }.sized()
+    }
+
+    /// How a compensating cam stands on the shaft, and its spring.
+    pub(super) fn mounting(&self) -> Option<Section> {
+        let data = self.machine.compensator().filter(|_| *self.kind == COMPENSATOR)?;
+        let (angle, rate) = (data.angle.to_degrees(), data.spring_rate / MILLIMETRES);
+        let value = json!({"angle_deg": angle, "spring_rate_n_per_mm": rate, "preload_n": data.preload});
+        let spring = format!("spring {} N/mm, preload {} N", shown(rate), shown(data.preload));
+        let place = format!("its follower stands at {}° from the first one", shown(angle));
+        let section = Section::new("mounting", &value).with_words(vec![format!("{place}, {spring}")]);
+        Some(section.with_figures(vec![place, spring]))
     }
 
     /// The law of its motion.

@@ -486,6 +486,7 @@ impl Body for Disc {
         let outline = part.map(|part| part.measures(found.tolerance_mm, |_| false));
         let residual = found.rolled.map_or_else(|| self.residual_max().value, |rolled| rolled.residual_max_n);
         let mut sections = vec![cam.section()];
+        sections.extend(self.mounting());
         sections.extend(self.load.as_ref().map(|load| load.section()));
         sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
         sections.push(Section::new("rolling", &found.rolled));
