@@ -281,6 +281,17 @@ fn a_compensating_cam_is_judged_with_its_cam() {
         let refused = run(2, &["rotary", "--dry-run", "--compensator", keys]);
         assert!(refused.err.contains(why), "{}", refused.err);
     }
+    let blow = [
+        "rotary",
+        "--set",
+        "transition.kind=none",
+        "--set",
+        "buffer.column=return",
+        "--set",
+        "follower.roller.mass=20kg",
+    ];
+    let refused = run(2, &[&blow[..], &SPRING].concat());
+    assert!(refused.err.contains("the velocity of the follower jumps at"), "{}", refused.err);
     let made = run(0, &["rotary"]);
     let checked = camgen_in(made.directory, &["check", "output/dpi-rotary-35rpm.dxf", "--cam", "compensator"]);
     assert!(checked.code == 2 && checked.err.contains("describes no compensating cam"), "{}", checked.err);

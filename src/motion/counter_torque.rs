@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Cells in which the extrema of the work in a piece are searched: a handful a piece.
-const CELLS: u32 = 32;
+const CELLS: u32 = 64;
 
 /// Work given elsewhere and its derivatives by the cam angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -7,20 +7,22 @@ use crate::geometry::MILLIMETRES;
 use crate::load::Load;
 use crate::machine::NoPress;
 use crate::motion::counter_torque::CounterMotion;
-use crate::motion::{Jet, Motion};
+use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::extremum;
-use crate::report::{Section, shown};
+use crate::report::{Section, degrees, shown};
 use serde_json::json;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// A jump of the velocity of less than this share of the lift a radian is rounding.
+const ROUNDING: f64 = 1e-9;
 /// Places of a piece at which the torque left by the law is looked at: it is rounding, or the smooth torque of inertia.
-const PLACES: u32 = 256;
+const PLACES: usize = 256;
 /// How far within a piece its first and last place lie, as a share of it.
 const INSET: f64 = 1e-9;
 /// Places of a piece at which torques at other speeds are looked at; the top between three of them is that of their parabola, so that
 /// the largest is told to a millionth.
-const TURN: u32 = 360;
+const TURN: usize = 720;
 /// Cells and golden sections in which the preload for another speed is searched.
 const CELLS: u32 = 8;
 const SECTIONS: u32 = 40;
@@ -86,8 +88,23 @@ impl Disc {
         let load = self.load.as_ref().ok_or(NoPress)?;
         let follower = &self.machine.follower;
         let mass = follower.mass.zip(self.speed).unwrap_or((0.0, 0.0));
+        if let Some(at) = self.velocity_jump().filter(|_| follower.mass.is_some()) {
+            return Err(DiscError::Blow { cam_deg: degrees(at) });
+        }
         let work = load.shaft_work(follower.preload.unwrap_or(0.0), mass).ok_or(NoPress)?;
         Ok(CounterMotion::new(work, data.spring_rate, data.preload)?)
+    }
+
+    /// The first joint of the motion at which its velocity jumps.
+    fn velocity_jump(&self) -> Option<f64> {
+        let pieces = self.motion.pieces();
+        let jump = |index: usize| {
+            let next = (index + 1) % pieces.len();
+            let (end, start) = (pieces.get(index)?.end, pieces.get(next)?.start);
+            let (before, after) = (self.motion.jet(index, end).ds, self.motion.jet(next, start).ds);
+            ((before - after).abs() > ROUNDING * self.max_lift()).then_some(end)
+        };
+        (0..pieces.len()).find_map(jump)
     }
 
     /// What a compensating cam, made for this one, does by its law.
@@ -100,12 +117,7 @@ impl Disc {
             let torque = |disc: &Disc| disc.force_and_torque(angle).map_or(0.0, |[_, torque]| torque);
             (torque(self) + torque(second)).abs()
         };
-        let after = second.motion.distinct().iter().flat_map(|piece| {
-            // A hair within the ends, where the force of one disc may have jumped already and that of the other not yet.
-            let (inset, whole) = (INSET * (piece.end - piece.start), piece.end - piece.start);
-            let place = move |i: u32| piece.start + inset + (whole - 2.0 * inset) * f64::from(i) / f64::from(PLACES);
-            (0..=PLACES).map(place)
-        });
+        let after = second.motion.distinct().iter().flat_map(|piece| within(piece, PLACES));
         Ok(Compensated {
             work: law.stored(),
             before: self.torque_max().map_or(0.0, |torque| torque.value),
@@ -134,10 +146,7 @@ impl Disc {
             .distinct()
             .iter()
             .filter(|piece| !piece.dwell)
-            .flat_map(|piece| {
-                let place = |i: u32| piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(TURN);
-                (0..=TURN).map(place)
-            })
+            .flat_map(|piece| within(piece, TURN))
             .map(|angle| AtPlace::of(self, second, &**load, angle))
             .collect();
         let at = |sevenths: f64| {
@@ -158,8 +167,9 @@ impl Disc {
                 .collect();
             let largest = |preload: f64, share: f64| {
                 let left: Vec<f64> =
-                    torques.iter().map(|(alone, two, slope)| (alone + share * (two + preload * slope)).abs()).collect();
-                left.windows(3).map(top).fold(0.0, f64::max)
+                    torques.iter().map(|(alone, two, slope)| alone + share * (two + preload * slope)).collect();
+                let of_piece = |left: &[f64]| left.windows(3).map(top).fold(0.0, f64::max);
+                left.chunks(TURN + 1).map(of_piece).fold(0.0, f64::max)
             };
             let range = (0.0, 2.0 * own_preload);
             let best = extremum::largest_without_slope(|preload| -largest(preload, 1.0), range, CELLS, SECTIONS);
@@ -170,12 +180,21 @@ impl Disc {
     }
 }
 
-/// The largest of three neighbouring values, or the top of the parabola through them.
+/// The largest size of three neighbouring values, or that of the top of the parabola through them.
 fn top(three: &[f64]) -> f64 {
     let &[before, at, after] = three else { return 0.0 };
     let (slope, bend) = (0.5 * (after - before), before - 2.0 * at + after);
-    let inside = bend < 0.0 && slope.abs() <= -bend;
-    if inside { at - 0.5 * slope * slope / bend } else { before.max(at).max(after) }
+    let inside = at.abs() >= before.abs().max(after.abs()) && slope.abs() <= bend.abs() && bend * at < 0.0;
+    if inside { (at - 0.5 * slope * slope / bend).abs() } else { before.abs().max(at.abs()).max(after.abs()) }
+}
+
+/// Equal parts of a piece from a hair behind its start to a hair before its end, where the force of one disc may have jumped already and
+/// that of the other not yet.
+fn within(piece: &Piece, parts: usize) -> impl Iterator<Item = f64> + use<> {
+    let (start, whole) = (piece.start, piece.end - piece.start);
+    #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
+    let place = move |i: usize| start + whole * (INSET + (1.0 - 2.0 * INSET) * i as f64 / parts as f64);
+    (0..=parts).map(place)
 }
 
 /// Where bed and followers are at a cam angle.

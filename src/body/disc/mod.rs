@@ -87,6 +87,15 @@ pub enum DiscError {
          --set compensator.spring_rate=100N/mm --set compensator.preload=10kN"
     )]
     NoCompensator,
+    /// A mass that is thrown, which no spring can give back.
+    #[error(
+        "the velocity of the follower jumps at {cam_deg:.3} deg: with its mass no compensating cam can take that blow; give \
+         transition.kind = \"run-up\", or no follower mass"
+    )]
+    Blow {
+        /// Where, degrees of cam angle.
+        cam_deg: f64,
+    },
     /// The law of the compensating cam has no solution.
     #[error("no compensating cam: {0}; see compensator.spring_rate and compensator.preload")]
     CounterTorque(#[from] CounterTorqueError),
