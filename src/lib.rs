@@ -61,6 +61,9 @@ pub mod document;
 pub mod geometry;
 
 #[doc(hidden)]
+pub mod linkage;
+
+#[doc(hidden)]
 pub mod buffer;
 
 #[doc(hidden)]

@@ -8,8 +8,8 @@ mod source;
 use source::{Token, closing, code, sources, src, tokens};
 use std::path::{Path, PathBuf};
 
-const ROOMS: [&str; 18] = [
-    "units", "numeric", "document", "geometry", "buffer", "motion", "follower", "machine", "profile", "report",
+const ROOMS: [&str; 19] = [
+    "units", "numeric", "document", "geometry", "linkage", "buffer", "motion", "follower", "machine", "profile", "report",
     "table", "load", "body", "analysis", "reading", "verify", "write", "pipeline",
 ];
 
