@@ -177,6 +177,51 @@ fn the_drive_has_the_known_figures() {
     assert!(run(2, &["drive", "--set", "buffer.column=300mm"]).err.contains("used up within the stroke"));
 }
 
+#[test]
+fn a_linkage_has_the_known_figures_and_no_cam() {
+    let told = run(0, &["linkage", "--json"]);
+    let figures = report(&told)["linkage"].clone();
+    let number = |name: &str| figures[name].as_f64().unwrap_or_else(|| panic!("{name}"));
+    close(number("c_plus"), 4.596_204_416_582_2);
+    close(number("c_minus"), 4.519_792_585_881_9);
+    close(number("w"), 4.467_893_312_283_2);
+    assert!((number("inner_deg") - number("outer_deg") - 179.793_695_453_01).abs() < 1e-10);
+    assert!((number("inertia_max_n") - 19_827.0).abs() < 0.5, "as the six-bar's table has it");
+    let rows = table(&file(&told, "dpi-six-bar-linkage-35rpm.csv"));
+    assert_eq!(rows.len(), 720);
+    // Newton's law and power at every place.
+    let omega = 3.5 * std::f64::consts::PI;
+    for row in &rows {
+        let force = 978.2 * of(row, "acceleration_m_per_s2");
+        assert!((force + of(row, "inertia_n")).abs() < 1e-7);
+        let power = force * of(row, "velocity_m_per_s");
+        assert!((power - of(row, "power_w")).abs() < 1e-7 * 25_000.0);
+        assert!((of(row, "velocity_m_per_s") - 1e-3 * omega * of(row, "velocity_mm_per_rad")).abs() < 1e-12);
+    }
+    let plain = report(&run(0, &["linkage", "dpi-crank-slider", "--dry-run", "--json"]));
+    close(plain["linkage"]["c_plus"].as_f64().expect("a number"), 6.579_736_267_392_9);
+    close(plain["linkage"]["k_c"].as_f64().expect("a number"), 1.911_519_489_723_9);
+    for command in ["rotary", "translating", "conoid", "regimes", "spring"] {
+        let refused = run(2, &[command, "dpi-six-bar"]);
+        assert!(
+            refused.err.contains("moved by a linkage") && written(&refused).is_empty(),
+            "{command}: {}",
+            refused.err
+        );
+    }
+    let steep = run(1, &["linkage", "--set", "linkage.rod_ratio=1.5"]);
+    assert!(steep.out.contains("FAIL  rod_angle"), "{}", steep.out);
+    for (set, why) in [
+        ("linkage.base_ratio=0.9", "would turn"),
+        ("linkage.rod_ratio=0.9", "must be above 1"),
+        ("linkage.rod=540mm", "the same is given twice"),
+        ("linkage.kind=yoke", "a yoke has no rod and no drag link"),
+    ] {
+        let refused = run(2, &["linkage", "--set", set]);
+        assert!(refused.err.contains(why), "{set}: {}", refused.err);
+    }
+}
+
 const SPRING: [&str; 2] = ["--compensator", "spring_rate=100N/mm,preload=10kN"];
 
 #[test]

@@ -29,6 +29,13 @@ const BESIDE: [(&str, &str); 1] = [("follower.roller.crown", "follower.roller.wi
 fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
     let keys = section.keys.iter().filter(|key| matches!(key.presence, Required(_)));
     let examples = keys.clone().map(|key| format!("{}={}", section.path_of(key), key.presence.text()));
+    if section.path == "linkage" {
+        // A rod is given as a ratio or as a length.
+        let by_length = sets.iter().any(|set| set.starts_with("linkage.rod="));
+        let rod = if by_length { "" } else { "rod_ratio = 3\n" };
+        let text = include_str!("../profiles/dpi-six-bar.toml").replace("rod_ratio = 3 ", &format!("{rod}# "));
+        return Machine::from_toml("six-bar.toml", &text, sets).ok();
+    }
     if section.path.starts_with("motion") {
         return Machine::from_toml("lifter.toml", LIFTER, sets).ok();
     }

@@ -195,7 +195,9 @@ fn every_check_is_run_for_some_cam() {
     let regimes = analysis::regimes::analysis(&press, 35.0, &SPEEDS, Reset::End).expect("a press");
     let drive = DriveMachine::load("dp", &[]).expect("valid").0;
     let drive = analysis::drive::analysis(&drive, analysis::drive::Solver::Energy, 0.1).expect("it closes");
-    reports.extend([regimes, drive].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
+    let six_bar = Machine::load("dpi-six-bar", &[]).expect("valid").0;
+    let linkage = analysis::linkage::analysis(&six_bar, 35.0).expect("a linkage");
+    reports.extend([regimes, drive, linkage].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
     for kind in KINDS {
         let crowned = ["follower.roller.crown=cylinder", "follower.roller.width=20mm", "cam.balance=40mm .. 85mm"];
         let cam = cam_of(kind, &crowned);

@@ -168,7 +168,7 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
         measures: vec![Measure {
             check: CLOSING_CHECK,
             value: (told.work_over_energy - 1.0).abs(),
-            limit: CLOSING,
+            limit: Some(CLOSING),
             unit: "1",
             note: open.map(|why| why.to_string()),
         }],

@@ -4,6 +4,7 @@
 //! plot. A new one is a file here, one line in [`KINDS`] and its command.
 
 pub mod drive;
+pub mod linkage;
 pub mod regimes;
 pub mod spring;
 
@@ -14,7 +15,7 @@ use crate::report::{Section, Speeds};
 use crate::table::Table;
 
 /// Every kind of analysis.
-pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND];
+pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND];
 
 /// A figure that a check judges.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,8 +24,8 @@ pub struct Measure {
     pub check: &'static str,
     /// The figure.
     pub value: f64,
-    /// What it is held against.
-    pub limit: f64,
+    /// What it is held against, where it has a limit.
+    pub limit: Option<f64>,
     /// Unit of both.
     pub unit: &'static str,
     /// Where it is, and what would keep the limit.

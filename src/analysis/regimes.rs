@@ -192,7 +192,7 @@ fn volume(rows: &[AtSpeed], own: f64) -> Measure {
     Measure {
         check: ADDED_VOLUME,
         value: if least.abs() <= rounding { 0.0 } else { least },
-        limit: 0.0,
+        limit: Some(0.0),
         unit: "mm3",
         note: (!below.is_empty()).then_some(note),
     }

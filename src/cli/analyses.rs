@@ -1,9 +1,9 @@
 //! The commands that analyse a machine and cut nothing.
 
-use super::args::{AnalysisArgs, DriveArgs, DriveSolver, RegimesArgs, ResetOf, SpringArgs};
+use super::args::{AnalysisArgs, DriveArgs, DriveSolver, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
 use super::cams::show;
 use super::{Failure, Outcome, tell};
-use camgen::analysis::{Analysis, drive, regimes, spring};
+use camgen::analysis::{Analysis, drive, linkage, regimes, spring};
 use camgen::buffer::regime::Reset;
 use camgen::machine::{DriveMachine, Machine};
 use camgen::pipeline::{Judged, Writing};
@@ -47,6 +47,12 @@ pub(super) fn drive(args: &DriveArgs) -> Result<Outcome, Failure> {
         DriveSolver::Paper => drive::Solver::Paper,
     };
     written(drive::analysis(&machine, solver, args.step).map_err(Failure::new)?, &args.analysis, &name)
+}
+
+pub(super) fn linkage(args: &LinkageArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = args.analysis.machine(&args.machine)?;
+    let rpm = args.rpm.or(machine.design_rpm()).unwrap_or(f64::NAN);
+    written(linkage::analysis(&machine, rpm).map_err(Failure::new)?, &args.analysis, &name)
 }
 
 impl AnalysisArgs {

@@ -65,6 +65,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Regimes(args) => analyses::regimes(args),
         Command::Spring(args) => analyses::spring(args),
         Command::Drive(args) => analyses::drive(args),
+        Command::Linkage(args) => analyses::linkage(args),
         Command::SideBySide(args) => side_by_side::run(args),
         Command::Check(args) => check::run(args),
         Command::Trade(args) => trade::run(args),

@@ -14,17 +14,23 @@ pub const REGIMES: &str = "regimes";
 pub const SPRING: &str = "spring";
 /// The drive of a bed without a cam.
 pub const DRIVE: &str = "drive";
+/// The linkage that moves a bed.
+pub const LINKAGE: &str = "linkage";
 
 /// The kinds that turn about a shaft.
 pub const TURNING: &[&str] = &[ROTARY, CONOID, MAKE];
 /// Disc cams.
 pub const DISCS: &[&str] = &[ROTARY, MAKE];
 /// What is analysed and not cut: a key that is of every cam has no effect there.
-pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE];
+pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE, LINKAGE];
 /// The cams of a press.
 pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
 /// Whatever the bed and its air act on.
-pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE];
+pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, LINKAGE];
+/// Whatever has air.
+pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE];
+/// Whatever runs at a speed of the main shaft.
+pub const OF_A_SPEED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, LINKAGE];
 /// Whatever has a column of air.
 pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, DRIVE];
 /// Whatever the law of a bottom acts on.

@@ -3,7 +3,7 @@
 use super::buffer::PRESS;
 use crate::buffer::Bed;
 use crate::document::Presence::{Default, Required};
-use crate::document::cams::{OF_A_BED, OF_A_DESIGN};
+use crate::document::cams::{OF_A_BED, OF_A_SPEED};
 use crate::document::range::{HEAVIEST, LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, above};
 use crate::units::Dimension::{Length, Mass};
@@ -23,7 +23,7 @@ const CRANK_TURNS: Field<f64> = Field::number(
     Default("3"),
     above(0.0, LARGEST_NUMBER),
 )
-.only(OF_A_DESIGN);
+.only(OF_A_SPEED);
 
 /// `[bed]`.
 pub(super) const SECTION: Section = Section {

@@ -4,7 +4,7 @@ use super::press::{AirColumn, Press};
 use crate::buffer::Bed;
 use crate::buffer::bottom_law::Column;
 use crate::document::Presence::{Default, Required, RequiredUnless};
-use crate::document::cams::{OF_A_BED, OF_A_COLUMN, OF_A_DESIGN, OF_A_LAW};
+use crate::document::cams::{OF_A_COLUMN, OF_A_DESIGN, OF_A_LAW, OF_A_SPEED, OF_AIR};
 use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST};
 use crate::document::{Bounds, Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Length, Pressure};
@@ -56,7 +56,7 @@ pub(super) const SECTION: Section = Section {
     path: "buffer",
     about: "the air buffer",
     occurs: Occurs::With(PRESS),
-    cams: OF_A_BED,
+    cams: OF_AIR,
     keys: &[POLYTROPIC_EXPONENT.key, AMBIENT_PRESSURE.key, END_PRESSURE.key, COLUMN.key, LEAD.key],
 };
 
@@ -72,7 +72,7 @@ pub(super) const DESIGN: Section = Section {
     path: "design",
     about: "what the machine is built for",
     occurs: Occurs::With(PRESS),
-    cams: OF_A_DESIGN,
+    cams: OF_A_SPEED,
     keys: &[RPM.key],
 };
 

@@ -13,6 +13,8 @@ pub struct Embedded {
 pub const EMBEDDED: &[Embedded] = &[
     Embedded { name: "dpi", toml: include_str!("../../profiles/dpi.toml") },
     Embedded { name: "dpi-paper", toml: include_str!("../../profiles/dpi-paper.toml") },
+    Embedded { name: "dpi-crank-slider", toml: include_str!("../../profiles/dpi-crank-slider.toml") },
+    Embedded { name: "dpi-six-bar", toml: include_str!("../../profiles/dpi-six-bar.toml") },
     Embedded { name: "dp", toml: include_str!("../../profiles/dp.toml") },
 ];
 

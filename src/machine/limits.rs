@@ -2,7 +2,7 @@
 
 use super::disc::Material;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::OF_A_PRESS;
+use crate::document::cams::{LINKAGE, OF_A_PRESS};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Angle, Length, Pressure};
@@ -44,6 +44,41 @@ pub fn customary_stress(material: Material, touching: Touching) -> f64 {
     }
 }
 
+/// The limits of a linkage.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkageLimits {
+    /// Least transmission angle of the drag link, rad.
+    pub transmission_angle: f64,
+    /// Largest angle of the connecting rod from the line of the slider, rad.
+    pub rod_angle: f64,
+    /// Least coupler and follower over the driving crank.
+    pub link_ratio: f64,
+}
+
+const TRANSMISSION_ANGLE: Field<f64> = Field::quantity(
+    "transmission_angle",
+    "least angle between coupler and driven crank of the drag link",
+    Default("45 deg"),
+    Angle,
+    within(0.0, FRAC_PI_2),
+)
+.only(&[LINKAGE]);
+const ROD_ANGLE: Field<f64> = Field::quantity(
+    "rod_angle",
+    "largest angle of the connecting rod from the line of the slider",
+    Default("30 deg"),
+    Angle,
+    above(0.0, FRAC_PI_2),
+)
+.only(&[LINKAGE]);
+const LINK_RATIO: Field<f64> = Field::number(
+    "link_ratio",
+    "least coupler and driven crank over the driving crank",
+    Default("0.5"),
+    within(0.0, LARGEST_NUMBER),
+)
+.only(&[LINKAGE]);
+
 /// The limits of a cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -62,6 +97,8 @@ pub struct Limits {
     /// Largest error of the follower's acceleration as cut over the largest acceleration of the motion; where it is absent a
     /// tenth is told.
     pub acceleration_share: Option<f64>,
+    /// Of the linkage that moves a bed.
+    pub linkage: LinkageLimits,
 }
 
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
@@ -126,6 +163,9 @@ pub(super) const SECTION: Section = Section {
         CONTACT_STRESS.key,
         RESIDUAL_SHARE.key,
         ACCELERATION_SHARE.key,
+        TRANSMISSION_ANGLE.key,
+        ROD_ANGLE.key,
+        LINK_RATIO.key,
     ],
 };
 
@@ -139,5 +179,10 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
         contact_stress: table.get(&CONTACT_STRESS),
         residual_share: table.get(&RESIDUAL_SHARE),
         acceleration_share: table.get(&ACCELERATION_SHARE),
+        linkage: LinkageLimits {
+            transmission_angle: table.get(&TRANSMISSION_ANGLE)?,
+            rod_angle: table.get(&ROD_ANGLE)?,
+            link_ratio: table.get(&LINK_RATIO)?,
+        },
     })
 }

@@ -13,6 +13,7 @@ mod disc;
 mod drive;
 mod embedded;
 mod limits;
+mod linkage;
 mod press;
 mod settings;
 mod title;
@@ -26,17 +27,20 @@ pub use conoid::{ConoidData, ConoidMode, Shift};
 pub use disc::{CamData, Keyway, Material, Rotation};
 pub use drive::{DriveData, DriveMachine};
 pub use embedded::{EMBEDDED, Embedded};
-pub use limits::{Limits, Touching, customary_stress};
+pub use limits::{Limits, LinkageLimits, Touching, customary_stress};
+pub use linkage::LinkageData;
 pub use press::{AirColumn, NoPress, NoRoller, Press};
 pub use settings::RegimesData;
 pub use title::Title;
 pub use translating::TranslatingData;
 
+use crate::buffer::Bed;
 use crate::document::Presence::Required;
 use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
 use crate::document::{self, Field, Input, Occurs, Reader, Section};
 use crate::follower::{self, FOLLOWERS};
+use crate::linkage::Linkage;
 use crate::motion::{Motion, Transition, program};
 use std::fmt;
 use std::io::Read;
@@ -58,7 +62,7 @@ const ROOT: Section = Section { path: "", about: "", occurs: Occurs::Once, cams:
 
 /// The tables of a machine file before those of the followers, in the order of the template.
 const MOTION_TABLES: &[&Section] =
-    &[&ROOT, &bed::SECTION, &buffer::SECTION, &buffer::DESIGN, &program::SECTION, &program::SEGMENT];
+    &[&ROOT, &bed::SECTION, &linkage::SECTION, &buffer::SECTION, &buffer::DESIGN, &program::SECTION, &program::SEGMENT];
 
 /// The tables after those of the followers.
 const BODY_TABLES: &[&Section] = &[
@@ -136,6 +140,8 @@ pub struct Machine {
     pub(crate) name: String,
     /// The press, when described.
     press: Option<Press>,
+    /// What moves its bed, when described.
+    linkage: Option<LinkageData>,
     /// The motion program, when described.
     motion: Option<Arc<program::Program>>,
     /// Follower.
@@ -182,7 +188,9 @@ impl Machine {
 
     fn parts(reader: &Reader<'_>, own: bool) -> Option<Self> {
         // Every part is read before the first `?`, so that each reports what is wrong between its keys.
-        let (press, motion) = (buffer::read(reader, bed::read(reader)), program::read(reader));
+        let bed = bed::read(reader);
+        let linkage = linkage::read(reader, bed.as_ref());
+        let (press, motion) = (buffer::read(reader, bed), program::read(reader));
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let (follower, cam) = (follower?, cam?);
         disc::reached_by(reader, &cam, &follower);
@@ -191,6 +199,7 @@ impl Machine {
         Some(Self {
             name: reader.table(&ROOT).get(&NAME)?,
             press,
+            linkage,
             motion: motion.map(Arc::new),
             cam,
             transition: transition::read(reader)?,
@@ -229,9 +238,36 @@ impl Machine {
     /// The press.
     ///
     /// # Errors
-    /// [`NoPress`] when the machine file describes none.
+    /// [`NoPress`] when the machine file describes none, or one whose bed is not moved by a yoke.
     pub fn press(&self) -> Result<&Press, NoPress> {
-        self.press.as_ref().ok_or(NoPress)
+        match &self.linkage {
+            Some(data) if data.linkage != Linkage::Yoke => Err(NoPress::Linkage),
+            _ => self.press.as_ref().ok_or(NoPress::None),
+        }
+    }
+
+    /// The bed of the press, whatever moves it.
+    #[must_use]
+    pub fn bed(&self) -> Option<&Bed> {
+        self.press.as_ref().map(|press| &press.bed)
+    }
+
+    /// Design speed of the press, rpm, whatever moves its bed.
+    #[must_use]
+    pub fn design_rpm(&self) -> Option<f64> {
+        self.press.as_ref().map(|press| press.design_rpm)
+    }
+
+    /// What moves the bed.
+    #[must_use]
+    pub fn linkage(&self) -> Option<&LinkageData> {
+        self.linkage.as_ref()
+    }
+
+    /// The limits that a linkage must keep.
+    #[must_use]
+    pub fn linkage_limits(&self) -> LinkageLimits {
+        self.limits.linkage
     }
 
     /// The other speeds that the file names.

@@ -31,10 +31,20 @@ pub struct Press {
     pub design_rpm: f64,
 }
 
-/// The machine file describes no press.
+/// Why there is no press whose cams could be solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the machine file describes no press: add the tables [bed], [buffer] and [design], or use `camgen make`")]
-pub struct NoPress;
+#[non_exhaustive]
+pub enum NoPress {
+    /// The machine file describes none.
+    #[error("the machine file describes no press: add the tables [bed], [buffer] and [design], or use `camgen make`")]
+    None,
+    /// Its bed moves otherwise than x = r sin φ.
+    #[error(
+        "the bed of this machine is moved by a linkage, and cams, resets and springs are solved for a yoke, x = r sin φ: such a cam \
+         would leave a large part of the inertia force at the dead point; `camgen linkage` analyses the drive"
+    )]
+    Linkage,
+}
 
 /// The follower of the machine file is not the roller that the cam needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

@@ -20,6 +20,7 @@ mod felt_sections;
 mod file;
 mod flank;
 mod force_closure;
+mod linkage;
 mod outline;
 mod plate_ends;
 mod points;
@@ -185,6 +186,12 @@ pub const CHECKS: &[Check] = &[
     compensator::CHECK,
     added_volume::CHECK,
     closing::CHECK,
+    linkage::GRASHOF,
+    linkage::LINK_RATIO,
+    linkage::TRANSMISSION_ANGLE,
+    linkage::ROD_ANGLE,
+    linkage::DEAD_POINTS,
+    linkage::REVERSALS,
 ];
 
 /// Runs every check that applies: failures first, then warnings, then the rest, each in the order of the list.
@@ -205,15 +212,16 @@ pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
 pub fn judge(measures: &[Measure]) -> Vec<Finding> {
     let judged = |measure: &Measure| {
         let check = CHECKS.iter().find(|check| check.name == measure.check)?;
-        let (value, limit) = (measure.value, measure.limit);
+        let value = measure.value;
         // What is not a number keeps no limit.
-        let kept = match check.explained.bound {
+        let kept = |limit: f64| match check.explained.bound {
             Bound::AtMost => value <= limit,
             Bound::AtLeast => value >= limit,
             Bound::Above => value > limit,
             Bound::Exactly => value == limit,
         };
-        let found = check.found(value, Some(limit), measure.unit, Verdict::of(kept));
+        let verdict = measure.limit.map_or(Verdict::Info, |limit| Verdict::of(kept(limit)));
+        let found = check.found(value, measure.limit, measure.unit, verdict);
         Some(Finding { note: measure.note.clone(), ..found })
     };
     worst_first(measures.iter().filter_map(judged).collect())

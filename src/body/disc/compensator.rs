@@ -85,13 +85,13 @@ impl Disc {
     /// The law of its motion.
     fn counter_torque(&self) -> Result<CounterMotion, DiscError> {
         let data = self.machine.compensator().ok_or(DiscError::NoCompensator)?;
-        let load = self.load.as_ref().ok_or(NoPress)?;
+        let load = self.load.as_ref().ok_or(NoPress::None)?;
         let follower = &self.machine.follower;
         let mass = follower.mass.zip(self.speed).unwrap_or((0.0, 0.0));
         if let Some(at) = self.velocity_jump().filter(|_| follower.mass.is_some()) {
             return Err(DiscError::Blow { cam_deg: degrees(at) });
         }
-        let work = load.shaft_work(follower.preload.unwrap_or(0.0), mass).ok_or(NoPress)?;
+        let work = load.shaft_work(follower.preload.unwrap_or(0.0), mass).ok_or(NoPress::None)?;
         Ok(CounterMotion::new(work, data.spring_rate, data.preload)?)
     }
 

@@ -102,3 +102,17 @@ pub(in crate::cli) struct DriveArgs {
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,
 }
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct LinkageArgs {
+    /// An embedded machine or the path of a machine file with the table [linkage]
+    #[arg(default_value = "dpi-six-bar", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Speed of the main shaft, rpm [default: the design speed]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Option<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}

@@ -55,6 +55,13 @@ Examples:
   camgen drive --solver paper --step 5deg --set buffer.column=500mm --dry-run
       another column, as the paper solves it; only the report";
 
+pub(super) const LINKAGE: &str = "\
+Examples:
+  camgen linkage
+      the six-bar of the embedded press dpi-six-bar, as a table and a plot
+  camgen linkage dpi-crank-slider --set linkage.rod_ratio=5 --rpm 30 --dry-run
+      another rod and speed; only the report";
+
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
   camgen side-by-side dpi dpi-paper

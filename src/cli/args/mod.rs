@@ -6,7 +6,7 @@ mod files;
 mod help;
 mod parse;
 
-pub(super) use analyses::{AnalysisArgs, DriveArgs, DriveSolver, RegimesArgs, ResetOf, SpringArgs};
+pub(super) use analyses::{AnalysisArgs, DriveArgs, DriveSolver, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
 pub(super) use common::{CommonArgs, ToldArgs};
 pub(super) use files::{
     CutterArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
@@ -71,6 +71,11 @@ pub(super) enum Command {
     /// The drive slows down so that the crank carries nothing while plain buffers brake the bed.
     #[command(after_help = help::DRIVE)]
     Drive(DriveArgs),
+    /// Linkage that moves a bed: dead points, accelerations, transmission angles, torque
+    ///
+    /// A crank-slider, or a six-bar whose drag link turns the crank of the slider unevenly.
+    #[command(after_help = help::LINKAGE)]
+    Linkage(LinkageArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -128,6 +133,7 @@ impl Command {
             Command::Regimes(args) => (&args.machine, &args.analysis),
             Command::Spring(args) => (&args.machine, &args.analysis),
             Command::Drive(args) => (&args.machine, &args.analysis),
+            Command::Linkage(args) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();

@@ -1,0 +1,291 @@
+//! The linkage that moves the bed: its motion over a turn, dead points, largest accelerations, transmission angles, torque.
+
+use super::{Analysis, Measure};
+use crate::body::Kind;
+use crate::buffer::Bed;
+use crate::document::{Input, cams};
+use crate::geometry::MILLIMETRES;
+use crate::linkage::{self, Characteristics, Linkage};
+use crate::machine::{LinkageData, Machine};
+use crate::report::plot::{self, Curve, Panel, Plot};
+use crate::report::{Section, Speeds, degrees, shown};
+use crate::table::{Table, Told};
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// Drives of the bed.
+pub const KIND: Kind = Kind { command: "linkage", noun: "drive of the bed", keys: cams::LINKAGE };
+
+/// The checks of a linkage.
+pub const GRASHOF: &str = "grashof";
+/// Of the drag link.
+pub const TRANSMISSION_ANGLE: &str = "transmission_angle";
+/// Of the connecting rod.
+pub const ROD_ANGLE: &str = "rod_angle";
+/// Angles of the dead points.
+pub const DEAD_POINTS: &str = "dead_points";
+/// Of the inertia force.
+pub const REVERSALS: &str = "reversals";
+/// Shortest link of the drag link.
+pub const LINK_RATIO: &str = "link_ratio";
+
+/// Rows of the table over a turn.
+const ROWS: u32 = 720;
+
+/// Why there is no such analysis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LinkageError {
+    /// The file describes no linkage.
+    #[error("the machine file describes no linkage: add the table [linkage], or take dpi-crank-slider or dpi-six-bar")]
+    NoLinkage,
+    /// The file describes no bed.
+    #[error("the machine file describes no bed: add the tables [bed], [buffer] and [design]")]
+    NoBed,
+}
+
+/// A place of the turn.
+struct Row {
+    crank: f64,
+    /// Position of the bed and its derivatives by the crank angle, m.
+    motion: [f64; 6],
+    speed: f64,
+    inertia: f64,
+    torque: f64,
+    transmission: f64,
+    rod: f64,
+}
+
+const TOLD: &[Told<Row>] = &[
+    ("crank_deg", |row| row.crank),
+    ("x_mm", |row| MILLIMETRES * row.motion[0]),
+    ("velocity_mm_per_rad", |row| MILLIMETRES * row.motion[1]),
+    ("acceleration_mm_per_rad2", |row| MILLIMETRES * row.motion[2]),
+    ("jerk_mm_per_rad3", |row| MILLIMETRES * row.motion[3]),
+    ("velocity_m_per_s", |row| row.speed * row.motion[1]),
+    ("acceleration_m_per_s2", |row| row.speed * row.speed * row.motion[2]),
+    ("inertia_n", |row| row.inertia),
+    ("torque_nm", |row| row.torque),
+    ("power_w", |row| row.torque * row.speed),
+    ("transmission_deg", |row| row.transmission),
+    ("rod_deg", |row| row.rod),
+];
+
+/// The section `linkage`.
+#[derive(Debug, Serialize)]
+struct Figures {
+    stroke_mm: f64,
+    c_plus: f64,
+    c_minus: f64,
+    k_c: f64,
+    k_phi: f64,
+    w: f64,
+    velocity_coefficient: f64,
+    outer_deg: f64,
+    inner_deg: f64,
+    zero_deg: Vec<f64>,
+    transmission_min_deg: Option<f64>,
+    rod_angle_max_deg: f64,
+    inertia_max_n: f64,
+    torque_max_nm: f64,
+    power_max_w: f64,
+    compared: Shares,
+}
+
+/// Beside the same crank-slider without drag link, shares.
+#[derive(Debug, Serialize)]
+struct Shares {
+    c: f64,
+    w: f64,
+    speed: f64,
+}
+
+/// The linkage of a machine at a speed of its main shaft, rpm.
+///
+/// # Errors
+/// [`LinkageError`] when the machine file describes none.
+pub fn analysis(machine: &Machine, rpm: f64) -> Result<Analysis, LinkageError> {
+    let data = machine.linkage().ok_or(LinkageError::NoLinkage)?;
+    let bed = machine.bed().ok_or(LinkageError::NoBed)?;
+    let found = linkage::characteristics(&data.linkage);
+    let (speed, told) = (bed.crank_speed(rpm), figures(data, &found, (bed, rpm)));
+    let rows: Vec<Row> = (0..ROWS).map(|i| row(data, bed, speed, f64::from(i) / f64::from(ROWS))).collect();
+    let mut inputs = vec![Input::word("command", KIND.command)];
+    inputs.extend(machine.inputs(KIND.keys));
+    inputs.push(Input::number("rpm", rpm));
+    Ok(Analysis {
+        kind: &KIND,
+        machine: machine.name().to_owned(),
+        speeds: Speeds::One(rpm),
+        inputs,
+        sections: vec![Section::new(KIND.command, &told).with_words(words(&told))],
+        measures: measures(machine, data, &found),
+        notes: machine.idle_keys_told(KIND.keys, KIND.noun),
+        plot: curves(machine.name(), data, bed, &rows),
+        tables: vec![("", Table::listed(TOLD, &rows))],
+        by: &[],
+        along: "crank_deg",
+        not_modelled: NOT_MODELLED.to_vec(),
+    })
+}
+
+const NOT_MODELLED: &[&str] = &[
+    "Masses of the links: the torque is that of the bed.",
+    "The air buffers and their cam: those are solved for a yoke only, and refused for any other linkage.",
+    "Elasticity and play of the joints.",
+];
+
+/// Angle of the driving crank from the base, at an angle from the line of the slider.
+fn from_base(data: &LinkageData, crank: f64) -> f64 {
+    if matches!(data.linkage, Linkage::SixBar(..)) { crank - data.base_angle } else { crank }
+}
+
+/// The other way round.
+fn to_line(data: &LinkageData, theta: f64) -> f64 {
+    if matches!(data.linkage, Linkage::SixBar(..)) { theta + data.base_angle } else { theta }
+}
+
+fn row(data: &LinkageData, bed: &Bed, speed: f64, turn: f64) -> Row {
+    let theta = from_base(data, TAU * turn);
+    let motion = data.linkage.position(theta).map(|value| bed.crank_radius * value);
+    let [_, first, second, ..] = motion;
+    let force = bed.mass * speed * speed * second;
+    Row {
+        crank: 360.0 * turn,
+        motion,
+        speed,
+        inertia: -force,
+        torque: force * first,
+        transmission: data.linkage.transmission_angle(theta).map_or(f64::NAN, f64::to_degrees),
+        rod: data.linkage.rod_angle(theta).to_degrees(),
+    }
+}
+
+fn figures(data: &LinkageData, found: &Characteristics, (bed, rpm): (&Bed, f64)) -> Figures {
+    let linkage = &data.linkage;
+    let (stroke, speed) = (bed.crank_radius * found.stroke, bed.crank_speed(rpm));
+    let pi = std::f64::consts::PI;
+    let torque = bed.mass * speed * speed * stroke * stroke * found.power.value / (pi * pi * pi);
+    let beside = linkage::compared(linkage);
+    Figures {
+        stroke_mm: MILLIMETRES * stroke,
+        c_plus: found.outer_acceleration.value,
+        c_minus: found.inner_acceleration.value,
+        k_c: found.acceleration_ratio,
+        k_phi: found.time_ratio,
+        w: found.power.value,
+        velocity_coefficient: found.velocity.value,
+        outer_deg: degrees(to_line(data, found.outer)),
+        inner_deg: degrees(to_line(data, found.inner)),
+        zero_deg: found.zeros.iter().map(|zero| degrees(to_line(data, *zero))).collect(),
+        transmission_min_deg: least_transmission(linkage).map(|(angle, _)| angle.to_degrees()),
+        rod_angle_max_deg: linkage.largest_rod_angle().to_degrees(),
+        inertia_max_n: bed.mass * speed * speed * stroke * found.acceleration() / (pi * pi),
+        torque_max_nm: torque,
+        power_max_w: torque * speed,
+        compared: Shares { c: beside.acceleration, w: beside.power, speed: beside.speed },
+    }
+}
+
+/// Least transmission angle of a drag link, and the angle of the driving crank from the base there.
+fn least_transmission(linkage: &Linkage) -> Option<(f64, f64)> {
+    let Linkage::SixBar(link, _) = linkage else { return None };
+    let [near, far] = link.transmission_angles();
+    Some(if near <= far { (near, 0.0) } else { (far, 0.5 * TAU) })
+}
+
+fn measures(machine: &Machine, data: &LinkageData, found: &Characteristics) -> Vec<Measure> {
+    let limits = machine.linkage_limits();
+    let mut all = Vec::new();
+    let mut add = |check, value, limit, unit, note| all.push(Measure { check, value, limit, unit, note });
+    if let Linkage::SixBar(link, _) = data.linkage {
+        let margins = [
+            1.0 - link.base,
+            1.0 - link.base - (link.coupler - link.follower).abs(),
+            link.coupler + link.follower - 1.0 - link.base,
+        ];
+        let passing = link.remedies().base;
+        let note = format!("of driving cranks; with the other links a base below {} turns", shown(passing.below));
+        add(GRASHOF, margins.into_iter().fold(f64::INFINITY, f64::min), Some(0.0), "1", Some(note));
+        add(LINK_RATIO, link.coupler.min(link.follower), Some(limits.link_ratio), "1", None);
+    }
+    if let Some((angle, at)) = least_transmission(&data.linkage) {
+        let place = format!("where the driving crank stands at {}° from the base", shown(at.to_degrees()));
+        let limit = Some(limits.transmission_angle.to_degrees());
+        add(TRANSMISSION_ANGLE, angle.to_degrees(), limit, "deg", Some(place));
+    }
+    if data.linkage != Linkage::Yoke {
+        let angle = data.linkage.largest_rod_angle().to_degrees();
+        add(ROD_ANGLE, angle, Some(limits.rod_angle.to_degrees()), "deg", None);
+    }
+    let [outer, inner] = [found.outer, found.inner].map(|at| shown(degrees(to_line(data, at))));
+    let place = format!("from the outer one at {outer}° to the inner at {inner}°");
+    add(DEAD_POINTS, found.forward_angle.to_degrees(), None, "deg", Some(place));
+    #[expect(clippy::cast_precision_loss, reason = "a handful")]
+    add(REVERSALS, found.zeros.len() as f64, Some(2.0), "1", None);
+    all
+}
+
+fn words(told: &Figures) -> Vec<String> {
+    let share = |share: f64| format!("{:+.2} %", 100.0 * share);
+    let mut lines = vec![
+        format!(
+            "stroke {:.4} mm, dead points at {:.4}° (outer) and {:.4}°, K_φ {:.6}",
+            told.stroke_mm, told.outer_deg, told.inner_deg, told.k_phi
+        ),
+        format!(
+            "C⁺ {:.6}, C⁻ {:.6}, K_c {:.6}, W {:.6}, velocity coefficient {:.6}",
+            told.c_plus, told.c_minus, told.k_c, told.w, told.velocity_coefficient
+        ),
+        format!(
+            "inertia at most {:.1} N, torque {:.2} N·m, power {:.1} W; rod at most {:.2}°",
+            told.inertia_max_n, told.torque_max_nm, told.power_max_w, told.rod_angle_max_deg
+        ),
+    ];
+    if let Some(angle) = told.transmission_min_deg {
+        let beside = &told.compared;
+        lines.push(format!(
+            "transmission angle at least {angle:.3}°; beside the crank-slider alone C {}, W {}, speed {} at equal force",
+            share(beside.c),
+            share(beside.w),
+            share(beside.speed)
+        ));
+    }
+    lines
+}
+
+/// x, x' and x'' over a turn, with those of the crank-slider alone behind: figure 3 of the paper.
+fn curves(machine: &str, data: &LinkageData, bed: &Bed, rows: &[Row]) -> Plot {
+    let alone = match data.linkage {
+        Linkage::SixBar(_, slider) => Some(Linkage::CrankSlider(slider)),
+        _ => None,
+    };
+    let panel = |name: &str, order: usize| {
+        let value = |motion: &[f64; 6]| MILLIMETRES * motion.get(order).copied().unwrap_or(f64::NAN);
+        let own = rows.iter().map(|row| [row.crank, value(&row.motion)]).collect();
+        let mut curves = vec![Curve { name: "bed".into(), colour: 0, bold: true, points: own }];
+        curves.extend(alone.as_ref().map(|plain| {
+            Curve {
+                name: "crank-slider".into(),
+                colour: plot::GREY,
+                bold: false,
+                points: rows
+                    .iter()
+                    .map(|row| {
+                        [row.crank, value(&plain.position(row.crank.to_radians()).map(|x| bed.crank_radius * x))]
+                    })
+                    .collect(),
+            }
+        }));
+        Panel { name: name.into(), curves }
+    };
+    Plot {
+        title: format!("{machine}: the bed over a turn of the driving crank"),
+        places: "crank angle from the line of the slider, degrees".into(),
+        panels: vec![
+            panel("Position of the bed, mm", 0),
+            panel("Velocity, mm/rad", 1),
+            panel("Acceleration, mm/rad²", 2),
+        ],
+    }
+}
