@@ -21,6 +21,7 @@
 pub mod characteristics;
 mod error;
 mod power;
+pub mod synthesis;
 
 pub use characteristics::{Characteristics, Compared, characteristics, compared};
 pub use error::{LinkageError, Passing, Remedies};
@@ -247,7 +248,10 @@ impl DragLink {
             below: if base < 1.0 { other + (1.0 - base) } else { 0.0 },
         };
         Remedies {
-            base: Passing { above: 0.0, below: 1.0_f64.min(1.0 - (coupler - follower).abs()).min(coupler + follower - 1.0) },
+            base: Passing {
+                above: 0.0,
+                below: 1.0_f64.min(1.0 - (coupler - follower).abs()).min(coupler + follower - 1.0),
+            },
             coupler: beside(follower),
             follower: beside(coupler),
         }
@@ -292,11 +296,7 @@ impl DragLink {
     fn crank(&self, theta: f64) -> Crank {
         let (cos, sin) = self.links().follower_crank::<3>(theta);
         let ([cos, cos1, cos2], [sin, sin1, sin2]) = (cos.derivatives(), sin.derivatives());
-        Crank {
-            angle: self.follower_angle(theta),
-            first: cos * sin1 - sin * cos1,
-            second: cos * sin2 - sin * cos2,
-        }
+        Crank { angle: self.follower_angle(theta), first: cos * sin1 - sin * cos1, second: cos * sin2 - sin * cos2 }
     }
 
     /// cos μ of the angle at B for a distance d = O2A.
@@ -475,4 +475,4 @@ impl Linkage {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

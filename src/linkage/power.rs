@@ -200,9 +200,7 @@ impl<T: Number, const N: usize> Neg for Power<T, N> {
 impl<T: Number, const N: usize> Mul for Power<T, N> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self(array::from_fn(|n| {
-            convolved(self.0.get(..=n).unwrap_or_default(), other.0.get(..=n).unwrap_or_default())
-        }))
+        Self(array::from_fn(|n| convolved(self.0.get(..=n).unwrap_or_default(), other.0.get(..=n).unwrap_or_default())))
     }
 }
 
