@@ -90,9 +90,7 @@ pub(super) fn roots(
     // 0 counts as positive, so that a root on a point of the grid is found in one of its two cells.
     let negative = |motion: &Motion| value(motion) < 0.0;
     for ((low, before), (high, behind)) in grid.iter().zip(grid.iter().skip(1)) {
-        if negative(before) != negative(behind) {
-            solve(*low, *high);
-        } else {
+        if negative(before) == negative(behind) {
             let toward = if negative(before) { -1.0 } else { 1.0 };
             if toward * slope(before) < 0.0
                 && toward * slope(behind) > 0.0
@@ -102,6 +100,8 @@ pub(super) fn roots(
                 solve(*low, middle);
                 solve(middle, *high);
             }
+        } else {
+            solve(*low, *high);
         }
     }
     for root in &mut found {

@@ -268,7 +268,7 @@ fn figures_bound_what_a_turn_shows() {
         let (drag_link, slider) = random.six_bar();
         let linkage = Linkage::SixBar(drag_link, slider);
         let figures = characteristics(&linkage);
-        assert!(figures.zeros.len() >= 2 && figures.zeros.len() % 2 == 0, "{linkage:?}");
+        assert!(figures.zeros.len() >= 2 && figures.zeros.len().is_multiple_of(2), "{linkage:?}");
         let normal = PI * PI / figures.stroke;
         for step in 0..720 {
             let m = linkage.position(f64::from(step) * TAU / 720.0);

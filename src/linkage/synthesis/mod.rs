@@ -178,11 +178,7 @@ fn smallest_base(most: f64, ratio: impl Fn(f64) -> [f64; 2]) -> Result<f64, Synt
         let behind = (base, ratio(base));
         note(base, behind.1[0]);
         let ((low, [low_ratio, low_slope]), (high, [high_ratio, high_slope])) = (before, behind);
-        if (low_ratio < 1.0) != (high_ratio < 1.0) {
-            if let Some(found) = solve(low, high) {
-                return Ok(found);
-            }
-        } else {
+        if (low_ratio < 1.0) == (high_ratio < 1.0) {
             let toward = if low_ratio < 1.0 { -1.0 } else { 1.0 };
             if toward * low_slope < 0.0
                 && toward * high_slope > 0.0
@@ -195,6 +191,8 @@ fn smallest_base(most: f64, ratio: impl Fn(f64) -> [f64; 2]) -> Result<f64, Synt
                     return Ok(found);
                 }
             }
+        } else if let Some(found) = solve(low, high) {
+            return Ok(found);
         }
         before = behind;
     }

@@ -37,13 +37,17 @@ impl Tableau {
     fn pivot(&mut self, row: usize, column: usize) {
         let Some(own) = self.rows.get_mut(row) else { return };
         let factor = 1.0 / own.get(column).copied().unwrap_or(f64::NAN);
-        own.iter_mut().for_each(|value| *value *= factor);
+        for value in own.iter_mut() {
+            *value *= factor;
+        }
         let own = own.clone();
         let others = self.rows.iter_mut().enumerate().filter(|(index, _)| *index != row).map(|(_, other)| other);
         for other in others.chain([&mut self.costs]) {
             let factor = other.get(column).copied().unwrap_or(0.0);
             if factor != 0.0 {
-                other.iter_mut().zip(&own).for_each(|(value, own)| *value -= factor * own);
+                for (value, own) in other.iter_mut().zip(&own) {
+                    *value -= factor * own;
+                }
             }
         }
         if let Some(basic) = self.basis.get_mut(row) {
