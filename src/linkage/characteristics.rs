@@ -15,8 +15,8 @@ use std::f64::consts::{PI, TAU};
 /// Cells of a turn.
 const CELLS: u32 = 96;
 
-/// x and its derivatives up to the fifth.
-type Motion = [f64; 6];
+/// x and its derivatives up to the fourth.
+type Motion = [f64; 5];
 
 /// The figures of a linkage; angles of the driving crank from the base (from the slider's line without a drag link), in [0, 2π).
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +68,7 @@ pub struct Compared {
 pub(super) fn grid(linkage: &Linkage) -> Vec<(f64, Motion)> {
     let node = |cell: u32| {
         let theta = TAU * (f64::from(cell) / f64::from(CELLS));
-        (theta, linkage.position(turned(theta)))
+        (theta, linkage.motion(turned(theta)))
     };
     (0..=CELLS).map(node).collect()
 }
@@ -80,7 +80,7 @@ pub(super) fn roots(
     value: impl Fn(&Motion) -> f64,
     slope: impl Fn(&Motion) -> f64,
 ) -> Vec<f64> {
-    let at = |theta: f64| value(&linkage.position(turned(theta)));
+    let at = |theta: f64| value(&linkage.motion(turned(theta)));
     let mut found = Vec::new();
     let mut solve = |low: f64, high: f64| {
         if let Ok(root) = root::bracketed(at, low, high, 0.0) {
@@ -90,18 +90,18 @@ pub(super) fn roots(
     // 0 counts as positive, so that a root on a point of the grid is found in one of its two cells.
     let negative = |motion: &Motion| value(motion) < 0.0;
     for ((low, before), (high, behind)) in grid.iter().zip(grid.iter().skip(1)) {
-        if negative(before) != negative(behind) {
-            solve(*low, *high);
-        } else {
+        if negative(before) == negative(behind) {
             let toward = if negative(before) { -1.0 } else { 1.0 };
             if toward * slope(before) < 0.0
                 && toward * slope(behind) > 0.0
-                && let Ok(middle) = root::bracketed(|theta| slope(&linkage.position(theta)), *low, *high, 0.0)
+                && let Ok(middle) = root::bracketed(|theta| slope(&linkage.motion(theta)), *low, *high, 0.0)
                 && toward * at(middle) < 0.0
             {
                 solve(*low, middle);
                 solve(middle, *high);
             }
+        } else {
+            solve(*low, *high);
         }
     }
     for root in &mut found {

@@ -1,7 +1,8 @@
 //! Bed drives of a press: the yoke, the crank-slider, and the six-bar whose crank is turned unevenly by a drag link.
 //!
 //! V. O. Kuznetsov (1997) compares a crank-slider (КПМ-4/2) with a six-bar (КПМ-6/2) in which a double crank O1–A–B–O2 turns
-//! the crank O2–C of the same slider. He prints no formula; all kinematics here is derived here and reproduces his numbers.
+//! the crank O2–C of the same slider. He prints no formula; all kinematics is derived here. It has his accelerations and
+//! shares, not his K_c = 1.96 and 1.506 of the plain crank-slider: exact kinematics gives 1.9115 and 1.5.
 //!
 //! Lengths of the drag link are in units of the driving crank O1A, those of the slider in units of its crank O2C:
 //!
@@ -21,6 +22,7 @@
 pub mod characteristics;
 mod error;
 mod power;
+pub mod synthesis;
 
 pub use characteristics::{Characteristics, Compared, characteristics, compared};
 pub use error::{LinkageError, Passing, Remedies};
@@ -474,4 +476,4 @@ impl Linkage {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

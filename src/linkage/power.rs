@@ -79,6 +79,7 @@ impl Sub for Dual {
 
 impl Mul for Dual {
     type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule")]
     fn mul(self, other: Self) -> Self {
         Self::with(self.value * other.value, |(a, b)| a * other.value + self.value * b, self, other)
     }
@@ -86,6 +87,7 @@ impl Mul for Dual {
 
 impl Div for Dual {
     type Output = Self;
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the quotient rule")]
     fn div(self, other: Self) -> Self {
         let quotient = self.value / other.value;
         Self::with(quotient, |(a, b)| (a - quotient * b) / other.value, self, other)

@@ -1,0 +1,143 @@
+//! Linear programs of a few unknowns: the simplex method on a dense tableau (G. B. Dantzig 1951; against circling, R. G.
+//! Bland's rule, Mathematics of Operations Research 2 (1977) 103–107).
+
+/// Pivots by the steepest cost; then as many again by Bland's rule.
+const PIVOTS: usize = 100;
+
+/// Costs and coefficients below this count as zero.
+const SMALL: f64 = 1e-11;
+
+/// coefficients · x ≤ right.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row {
+    pub(super) coefficients: Vec<f64>,
+    pub(super) right: f64,
+}
+
+struct Tableau {
+    /// Coefficients, those of the slacks, the right side.
+    rows: Vec<Vec<f64>>,
+    costs: Vec<f64>,
+    basis: Vec<usize>,
+}
+
+impl Tableau {
+    fn new(costs: &[f64], rows: &[Row]) -> Self {
+        let slack = |row: usize| (0..rows.len()).map(move |other| if other == row { 1.0 } else { 0.0 });
+        let full = |(index, row): (usize, &Row)| {
+            row.coefficients.iter().copied().chain(slack(index)).chain([row.right]).collect()
+        };
+        Self {
+            rows: rows.iter().enumerate().map(full).collect(),
+            costs: costs.iter().copied().chain(vec![0.0; rows.len() + 1]).collect(),
+            basis: (0..rows.len()).map(|row| costs.len() + row).collect(),
+        }
+    }
+
+    fn pivot(&mut self, row: usize, column: usize) {
+        let Some(own) = self.rows.get_mut(row) else { return };
+        let factor = 1.0 / own.get(column).copied().unwrap_or(f64::NAN);
+        for value in own.iter_mut() {
+            *value *= factor;
+        }
+        let own = own.clone();
+        let others = self.rows.iter_mut().enumerate().filter(|(index, _)| *index != row).map(|(_, other)| other);
+        for other in others.chain([&mut self.costs]) {
+            let factor = other.get(column).copied().unwrap_or(0.0);
+            if factor != 0.0 {
+                for (value, own) in other.iter_mut().zip(&own) {
+                    *value -= factor * own;
+                }
+            }
+        }
+        if let Some(basic) = self.basis.get_mut(row) {
+            *basic = column;
+        }
+    }
+
+    /// Makes every right side of the rows that hold −1 in a column positive.
+    fn relieve(&mut self, column: usize) {
+        let right = |row: &Vec<f64>| row.last().copied().unwrap_or(0.0);
+        let holds = |row: &Vec<f64>| row.get(column).is_some_and(|value| *value == -1.0);
+        let worst = self
+            .rows
+            .iter()
+            .enumerate()
+            .filter(|(_, row)| holds(row) && right(row) < 0.0)
+            .min_by(|(_, a), (_, b)| right(a).total_cmp(&right(b)));
+        if let Some(row) = worst.map(|(row, _)| row) {
+            self.pivot(row, column);
+        }
+    }
+
+    fn entering(&self, steepest: bool) -> Option<usize> {
+        let count = self.costs.len().saturating_sub(1);
+        let mut falling = self.costs.iter().copied().take(count).enumerate().filter(|(_, cost)| *cost < -SMALL);
+        let chosen = if steepest { falling.min_by(|(_, a), (_, b)| a.total_cmp(b)) } else { falling.next() };
+        chosen.map(|(column, _)| column)
+    }
+
+    fn leaving(&self, column: usize) -> Option<usize> {
+        let ratio = |row: &Vec<f64>| {
+            let coefficient = row.get(column).copied().unwrap_or(0.0);
+            (coefficient > SMALL).then(|| row.last().copied().unwrap_or(0.0).max(0.0) / coefficient)
+        };
+        self.rows
+            .iter()
+            .zip(&self.basis)
+            .enumerate()
+            .filter_map(|(index, (row, basic))| Some((index, ratio(row)?, *basic)))
+            .min_by(|a, b| a.1.total_cmp(&b.1).then(a.2.cmp(&b.2)))
+            .map(|(index, ..)| index)
+    }
+}
+
+/// x ≥ 0 with the least costs · x under the rows; `None` where it is without bound or does not end.
+///
+/// A row with a negative right side must hold −1 in exactly one of the `elastic` columns, and no row may hold two of them.
+pub(super) fn least(costs: &[f64], rows: &[Row], elastic: &[usize]) -> Option<Vec<f64>> {
+    let mut tableau = Tableau::new(costs, rows);
+    for column in elastic {
+        tableau.relieve(*column);
+    }
+    for pivot in 0..2 * PIVOTS {
+        let Some(column) = tableau.entering(pivot < PIVOTS) else {
+            let mut found = vec![0.0; costs.len()];
+            for (row, basic) in tableau.rows.iter().zip(&tableau.basis) {
+                if let Some(place) = found.get_mut(*basic) {
+                    *place = row.last().copied().unwrap_or(f64::NAN);
+                }
+            }
+            return Some(found);
+        };
+        let row = tableau.leaving(column)?;
+        tableau.pivot(row, column);
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(coefficients: &[f64], right: f64) -> Row {
+        Row { coefficients: coefficients.to_vec(), right }
+    }
+
+    #[test]
+    fn finds_corners() {
+        // Dantzig's book: 3x + 5y largest under x ≤ 4, 2y ≤ 12, 3x + 2y ≤ 18.
+        let rows = [row(&[1.0, 0.0], 4.0), row(&[0.0, 2.0], 12.0), row(&[3.0, 2.0], 18.0)];
+        let found = least(&[-3.0, -5.0], &rows, &[]).expect("bounded");
+        assert!((found[0] - 2.0).abs() < 1e-14 && (found[1] - 6.0).abs() < 1e-14, "{found:?}");
+        assert_eq!(least(&[-1.0, 0.0], &rows[1..2], &[]), None);
+    }
+
+    #[test]
+    fn an_epigraph_begins_below() {
+        // The least of max(2 − x, x − 1, 0.2 + x/10) over 0 ≤ x ≤ 3 by t ≥ each: x = 1.5, t = 0.5.
+        let rows = [row(&[-1.0, -1.0], -2.0), row(&[1.0, -1.0], 1.0), row(&[0.1, -1.0], -0.2), row(&[1.0, 0.0], 3.0)];
+        let found = least(&[0.0, 1.0], &rows, &[1]).expect("bounded");
+        assert!((found[0] - 1.5).abs() < 1e-14 && (found[1] - 0.5).abs() < 1e-14, "{found:?}");
+    }
+}
