@@ -209,6 +209,27 @@ fn a_linkage_has_the_known_figures_and_no_cam() {
             refused.err
         );
     }
+    for (goal, c) in [("equal", 5.016_901_073_051), ("symmetric", 4.554_830_706_734_38), ("least", 4.409_315_4)] {
+        let told = report(&run(0, &["linkage", "dpi-crank-slider", "--synthesize", goal, "--dry-run", "--json"]));
+        let figures = &told["linkage"];
+        let found = figures["c_plus"].as_f64().expect("a number").max(figures["c_minus"].as_f64().expect("a number"));
+        // The last to the digits known of it; none worse.
+        assert!(found < c * (1.0 + 1e-6), "{goal}: {found}");
+        // The design is what a file with it has.
+        let design = &told["design"];
+        let keys = [("base_ratio", ""), ("coupler_ratio", ""), ("follower_ratio", "")];
+        let mut sets: Vec<String> =
+            keys.iter().map(|(key, unit)| format!("linkage.{key}={}{unit}", design[*key])).collect();
+        sets.push(format!("linkage.follower_angle={} deg", design["follower_angle_deg"]));
+        let args: Vec<&str> = sets.iter().flat_map(|set| ["--set", set.as_str()]).collect();
+        let again = report(&run(0, &[&["linkage", "--dry-run", "--json"], &args[..]].concat()));
+        assert!(
+            (again["linkage"]["c_plus"].as_f64().expect("a number") / figures["c_plus"].as_f64().expect("a number")
+                - 1.0)
+                .abs()
+                < 1e-12
+        );
+    }
     let steep = run(1, &["linkage", "--set", "linkage.rod_ratio=1.5"]);
     assert!(steep.out.contains("FAIL  rod_angle"), "{}", steep.out);
     for (set, why) in [

@@ -196,7 +196,7 @@ fn every_check_is_run_for_some_cam() {
     let drive = DriveMachine::load("dp", &[]).expect("valid").0;
     let drive = analysis::drive::analysis(&drive, analysis::drive::Solver::Energy, 0.1).expect("it closes");
     let six_bar = Machine::load("dpi-six-bar", &[]).expect("valid").0;
-    let linkage = analysis::linkage::analysis(&six_bar, 35.0).expect("a linkage");
+    let linkage = analysis::linkage::analysis(&six_bar, 35.0, None).expect("a linkage");
     reports.extend([regimes, drive, linkage].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
     for kind in KINDS {
         let crowned = ["follower.roller.crown=cylinder", "follower.roller.width=20mm", "cam.balance=40mm .. 85mm"];

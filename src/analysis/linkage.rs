@@ -5,13 +5,15 @@ use crate::body::Kind;
 use crate::buffer::Bed;
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
-use crate::linkage::{self, Characteristics, Linkage};
+use crate::linkage::synthesis::{self, SynthesisError};
+use crate::linkage::{self, Branch, Characteristics, DragLink, Linkage};
 use crate::machine::{LinkageData, Machine};
 use crate::report::plot::{self, Curve, Panel, Plot};
 use crate::report::{Section, Speeds, degrees, shown};
 use crate::table::{Table, Told};
 use serde::Serialize;
-use std::f64::consts::TAU;
+use serde_json::json;
+use std::f64::consts::{PI, TAU};
 
 /// Drives of the bed.
 pub const KIND: Kind = Kind { command: "linkage", noun: "drive of the bed", keys: cams::LINKAGE };
@@ -33,12 +35,18 @@ pub const LINK_RATIO: &str = "link_ratio";
 const ROWS: u32 = 720;
 
 /// Why there is no such analysis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinkageError {
     /// The file describes no linkage.
     #[error("the machine file describes no linkage: add the table [linkage], or take dpi-crank-slider or dpi-six-bar")]
     NoLinkage,
+    /// There is no crank whose drag link could be designed.
+    #[error("a yoke has no drag link to design: give linkage.kind = \"crank-slider\" and linkage.rod_ratio")]
+    NoSlider,
+    /// No design was found.
+    #[error(transparent)]
+    Synthesis(#[from] SynthesisError),
     /// The file describes no bed.
     #[error("the machine file describes no bed: add the tables [bed], [buffer] and [design]")]
     NoBed,
@@ -100,12 +108,79 @@ struct Shares {
     speed: f64,
 }
 
-/// The linkage of a machine at a speed of its main shaft, rpm.
+/// What a drag link is designed for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Goal {
+    /// The smallest base with equal largest accelerations at both ends.
+    Equal,
+    /// Equal accelerations and equal times out and back.
+    Symmetric,
+    /// The least largest acceleration within the limits of the machine.
+    Least {
+        /// Out and back take the same time.
+        symmetric: bool,
+        /// Largest peak of power over that of the crank-slider alone.
+        power: Option<f64>,
+    },
+}
+
+/// Coupler and driven crank of a design where the file gives none: those that give the paper's figures.
+const LINKS: (f64, f64) = (1.0, 1.1);
+/// Driven crank of a symmetric design where the file gives none.
+const CENTRIC: f64 = 0.6;
+
+/// The linkage of a machine with a drag link designed for its slider.
 ///
 /// # Errors
-/// [`LinkageError`] when the machine file describes none.
-pub fn analysis(machine: &Machine, rpm: f64) -> Result<Analysis, LinkageError> {
+/// [`LinkageError`] when there is no slider, or no design.
+pub fn designed(machine: &Machine, goal: Goal) -> Result<LinkageData, LinkageError> {
     let data = machine.linkage().ok_or(LinkageError::NoLinkage)?;
+    let slider = data.linkage.slider().ok_or(LinkageError::NoSlider)?;
+    let given = data.linkage.drag_link();
+    let plain = DragLink { base: 0.0, coupler: LINKS.0, follower: LINKS.1, turn: PI, branch: Branch::Leading };
+    let linkage = match (goal, given) {
+        (Goal::Equal, given) => synthesis::equal(given.unwrap_or(plain), slider)?,
+        (Goal::Symmetric, Some(link)) => synthesis::symmetric(link.coupler, link.follower, link.branch, slider)?,
+        (Goal::Symmetric, None) => synthesis::centric(CENTRIC, slider.rod_ratio)?,
+        (Goal::Least { symmetric, power }, _) => {
+            let own = machine.linkage_limits();
+            let (transmission_angle, link_ratio) = (own.transmission_angle, own.link_ratio);
+            synthesis::least(slider, synthesis::Limits { transmission_angle, link_ratio, power, symmetric })?
+        }
+    };
+    Ok(LinkageData { linkage, base_angle: 0.0, ..*data })
+}
+
+/// A design as a table of a machine file.
+fn design(data: &LinkageData) -> Option<Section> {
+    let (link, slider) = (data.linkage.drag_link()?, data.linkage.slider()?);
+    let angle = link.turn.to_degrees();
+    let value = json!({
+        "base_ratio": link.base, "coupler_ratio": link.coupler, "follower_ratio": link.follower,
+        "follower_angle_deg": angle, "rod_ratio": slider.rod_ratio, "offset_ratio": slider.offset_ratio,
+    });
+    let words = vec![
+        "[linkage]".into(),
+        "kind = \"six-bar\"".into(),
+        format!("rod_ratio = {}", slider.rod_ratio),
+        format!("offset_ratio = {}", slider.offset_ratio),
+        format!("base_ratio = {}", link.base),
+        format!("coupler_ratio = {}", link.coupler),
+        format!("follower_ratio = {}", link.follower),
+        format!("follower_angle = \"{angle} deg\""),
+    ];
+    Some(Section::new("design", &value).with_words(words))
+}
+
+/// The linkage of a machine at a speed of its main shaft, rpm, or one that is designed for its slider.
+///
+/// # Errors
+/// [`LinkageError`] when the machine file describes none, or there is no design.
+pub fn analysis(machine: &Machine, rpm: f64, goal: Option<Goal>) -> Result<Analysis, LinkageError> {
+    let data = &match goal {
+        Some(goal) => designed(machine, goal)?,
+        None => *machine.linkage().ok_or(LinkageError::NoLinkage)?,
+    };
     let bed = machine.bed().ok_or(LinkageError::NoBed)?;
     let found = linkage::characteristics(&data.linkage);
     let (speed, told) = (bed.crank_speed(rpm), figures(data, &found, (bed, rpm)));
@@ -113,12 +188,15 @@ pub fn analysis(machine: &Machine, rpm: f64) -> Result<Analysis, LinkageError> {
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.push(Input::number("rpm", rpm));
+    inputs.extend(goal.map(|goal| Input::word("synthesize", format!("{goal:?}"))));
+    let mut sections = vec![Section::new(KIND.command, &told).with_words(words(&told))];
+    sections.extend(goal.and_then(|_| design(data)));
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
         speeds: Speeds::One(rpm),
         inputs,
-        sections: vec![Section::new(KIND.command, &told).with_words(words(&told))],
+        sections,
         measures: measures(machine, data, &found),
         notes: machine.idle_keys_told(KIND.keys, KIND.noun),
         plot: curves(machine.name(), data, bed, &rows),
@@ -164,8 +242,7 @@ fn row(data: &LinkageData, bed: &Bed, speed: f64, turn: f64) -> Row {
 fn figures(data: &LinkageData, found: &Characteristics, (bed, rpm): (&Bed, f64)) -> Figures {
     let linkage = &data.linkage;
     let (stroke, speed) = (bed.crank_radius * found.stroke, bed.crank_speed(rpm));
-    let pi = std::f64::consts::PI;
-    let torque = bed.mass * speed * speed * stroke * stroke * found.power.value / (pi * pi * pi);
+    let torque = bed.mass * speed * speed * stroke * stroke * found.power.value / (PI * PI * PI);
     let beside = linkage::compared(linkage);
     Figures {
         stroke_mm: MILLIMETRES * stroke,
@@ -180,7 +257,7 @@ fn figures(data: &LinkageData, found: &Characteristics, (bed, rpm): (&Bed, f64))
         zero_deg: found.zeros.iter().map(|zero| degrees(to_line(data, *zero))).collect(),
         transmission_min_deg: least_transmission(linkage).map(|(angle, _)| angle.to_degrees()),
         rod_angle_max_deg: linkage.largest_rod_angle().to_degrees(),
-        inertia_max_n: bed.mass * speed * speed * stroke * found.acceleration() / (pi * pi),
+        inertia_max_n: bed.mass * speed * speed * stroke * found.acceleration() / (PI * PI),
         torque_max_nm: torque,
         power_max_w: torque * speed,
         compared: Shares { c: beside.acceleration, w: beside.power, speed: beside.speed },

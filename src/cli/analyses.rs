@@ -1,8 +1,9 @@
 //! The commands that analyse a machine and cut nothing.
 
-use super::args::{AnalysisArgs, DriveArgs, DriveSolver, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
+use super::args::{AnalysisArgs, DriveArgs, DriveSolver, GoalOf, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
 use super::cams::show;
 use super::{Failure, Outcome, tell};
+use camgen::analysis::linkage::Goal;
 use camgen::analysis::{Analysis, drive, linkage, regimes, spring};
 use camgen::buffer::regime::Reset;
 use camgen::machine::{DriveMachine, Machine};
@@ -52,7 +53,17 @@ pub(super) fn drive(args: &DriveArgs) -> Result<Outcome, Failure> {
 pub(super) fn linkage(args: &LinkageArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
     let rpm = args.rpm.or(machine.design_rpm()).unwrap_or(f64::NAN);
-    written(linkage::analysis(&machine, rpm).map_err(Failure::new)?, &args.analysis, &name)
+    let (keep, power) = (args.keep.is_some(), args.power_limit);
+    let goal = match args.synthesize {
+        Some(GoalOf::Least) => Some(Goal::Least { symmetric: keep, power }),
+        _ if keep || power.is_some() => {
+            return Err(Failure("--keep and --power-limit belong to --synthesize least".into()));
+        }
+        Some(GoalOf::Equal) => Some(Goal::Equal),
+        Some(GoalOf::Symmetric) => Some(Goal::Symmetric),
+        None => None,
+    };
+    written(linkage::analysis(&machine, rpm, goal).map_err(Failure::new)?, &args.analysis, &name)
 }
 
 impl AnalysisArgs {

@@ -83,7 +83,7 @@ fn golden_six_bars() {
     let crank = g.crank(theta);
     close(crank.angle, 1.840_031_499_347_474, 1e-15);
     close(crank.first, 1.074_452_375_875_315, 2e-15);
-    close(crank.second, -0.199_818_909_857_317_2, 1e-14);
+    close(crank.second, -0.199_818_909_857_317_2, 3e-14);
     let want = [
         2.551_895_509_244_78,
         0.936_902_532_502_508_6,
@@ -93,18 +93,18 @@ fn golden_six_bars() {
         3.610_219_073_115_795,
     ];
     for (got, want) in g.position(theta).into_iter().zip(want) {
-        close(got, want, 1e-14);
+        close(got, want, 3e-14);
     }
     let figures = characteristics(&g);
-    close(figures.outer_acceleration.value, 4.773_888_310_500_60, 1e-14);
+    close(figures.outer_acceleration.value, 4.773_888_310_500_60, 3e-14);
     close(figures.outer_acceleration.at.to_degrees(), 159.377_522_785_569, 1e-13);
-    close(figures.inner_acceleration.value, 4.718_195_952_537_78, 1e-14);
+    close(figures.inner_acceleration.value, 4.718_195_952_537_78, 3e-14);
     close(figures.inner_acceleration.at.to_degrees(), 353.633_117_915_612, 1e-13);
-    close(figures.power.value, 4.559_917_798_569_74, 1e-14);
-    close(figures.forward_angle.to_degrees(), 181.756_642_566_234, 1e-14);
+    close(figures.power.value, 4.559_917_798_569_74, 3e-14);
+    close(figures.forward_angle.to_degrees(), 181.756_642_566_234, 3e-14);
     let [near, far] = g.transmission_angles().expect("a drag link");
-    close(near.to_degrees(), 47.457_542_346_649_2, 1e-14);
-    close(far.to_degrees(), 66.208_529_054_528_9, 1e-14);
+    close(near.to_degrees(), 47.457_542_346_649_2, 3e-14);
+    close(far.to_degrees(), 66.208_529_054_528_9, 3e-14);
     let rational = characteristics(&six_bar([0.1, 0.8, 0.6], 180.0, 3.0, 0.0));
     close(rational.outer_acceleration.value, 4.596_204_416_582_2, 1e-13);
     close(rational.inner_acceleration.value, 4.519_792_585_881_9, 1e-13);
@@ -158,7 +158,7 @@ fn closed_forms_of_a_centric_crank_slider() {
     for _ in 0..300 {
         let rod = random.between(1.3, 12.0);
         let figures = characteristics(&Linkage::crank_slider(rod, 0.0).expect("turns"));
-        close(figures.outer_acceleration.value, 0.5 * PI * PI * (1.0 + 1.0 / rod), 1e-14);
+        close(figures.outer_acceleration.value, 0.5 * PI * PI * (1.0 + 1.0 / rod), 3e-14);
         let inner = 0.5 * PI * PI * (1.0 - 1.0 / rod);
         if rod > limit {
             close(figures.inner_acceleration.value, inner, 1e-13);

@@ -2,7 +2,7 @@
 
 use super::common::ToldArgs;
 use super::files::OutArgs;
-use super::parse::{crank_step, force, format, rpm, stiffness};
+use super::parse::{crank_step, force, format, power_share, rpm, stiffness};
 use clap::{Args, ValueEnum, ValueHint};
 
 /// Flags of every analysis.
@@ -103,6 +103,20 @@ pub(in crate::cli) struct DriveArgs {
     pub(in crate::cli) analysis: AnalysisArgs,
 }
 
+/// What a drag link is designed for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum GoalOf {
+    Equal,
+    Symmetric,
+    Least,
+}
+
+/// What a design keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum KeepOf {
+    Symmetric,
+}
+
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LinkageArgs {
     /// An embedded machine or the path of a machine file with the table [linkage]
@@ -112,6 +126,19 @@ pub(in crate::cli) struct LinkageArgs {
     /// Speed of the main shaft, rpm [default: the design speed]
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Option<f64>,
+
+    /// Designs the drag link for the slider of the file: equal (largest accelerations equal at both ends), symmetric (also as long out as
+    /// back) or least (the least largest acceleration within [limits]), and prints it as a table to paste
+    #[arg(long, value_name = "GOAL", ignore_case = true)]
+    pub(in crate::cli) synthesize: Option<GoalOf>,
+
+    /// With --synthesize least: as long out as back
+    #[arg(long, value_name = "WHAT", ignore_case = true)]
+    pub(in crate::cli) keep: Option<KeepOf>,
+
+    /// With --synthesize least: largest peak of power over that of the crank-slider alone, e.g. 0.831
+    #[arg(long, value_name = "SHARE", value_parser = power_share, allow_hyphen_values = true)]
+    pub(in crate::cli) power_limit: Option<f64>,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

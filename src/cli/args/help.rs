@@ -59,8 +59,8 @@ pub(super) const LINKAGE: &str = "\
 Examples:
   camgen linkage
       the six-bar of the embedded press dpi-six-bar, as a table and a plot
-  camgen linkage dpi-crank-slider --set linkage.rod_ratio=5 --rpm 30 --dry-run
-      another rod and speed; only the report";
+  camgen linkage dpi-crank-slider --synthesize least --keep symmetric --dry-run
+      the drag link with the least acceleration for that crank-slider, as a table to paste; only the report";
 
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:

@@ -6,7 +6,9 @@ mod files;
 mod help;
 mod parse;
 
-pub(super) use analyses::{AnalysisArgs, DriveArgs, DriveSolver, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
+pub(super) use analyses::{
+    AnalysisArgs, DriveArgs, DriveSolver, GoalOf, LinkageArgs, RegimesArgs, ResetOf, SpringArgs,
+};
 pub(super) use common::{CommonArgs, ToldArgs};
 pub(super) use files::{
     CutterArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,

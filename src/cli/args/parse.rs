@@ -118,6 +118,11 @@ pub(super) fn crank_step(text: &str) -> Result<f64, String> {
     if (least..=most).contains(&quantity.si) { Ok(quantity.si) } else { Err("must be from 0.01 deg to 90 deg".into()) }
 }
 
+pub(super) fn power_share(text: &str) -> Result<f64, String> {
+    let share = units::parse_bare(text).map_err(|error| format!("{error}; a share is a bare number, e.g. 0.831"))?;
+    if share > 0.0 && share <= 10.0 { Ok(share) } else { Err("must be above 0 and at most 10".into()) }
+}
+
 pub(super) fn stiffness(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Stiffness)
         .map_err(|error| format!("{error}; a stiffness has one of {}", Dimension::Stiffness.unit_list()))?;
