@@ -199,7 +199,7 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<Goal>) -> Result<Analy
         sections,
         measures: measures(machine, data, &found),
         notes: machine.idle_keys_told(KIND.keys, KIND.noun),
-        plot: curves(machine.name(), data, bed, &rows),
+        plot: curves(machine.name(), data, (bed, to_line(data, found.outer)), &rows),
         tables: vec![("", Table::listed(TOLD, &rows))],
         by: &[],
         along: "crank_deg",
@@ -331,8 +331,8 @@ fn words(told: &Figures) -> Vec<String> {
     lines
 }
 
-/// x, x' and x'' over a turn, with those of the crank-slider alone behind: figure 3 of the paper.
-fn curves(machine: &str, data: &LinkageData, bed: &Bed, rows: &[Row]) -> Plot {
+/// x, x' and x'' over a turn, with those of the crank-slider alone behind, from the same outer dead point on: figure 3 of the paper.
+fn curves(machine: &str, data: &LinkageData, (bed, outer): (&Bed, f64), rows: &[Row]) -> Plot {
     let alone = match data.linkage {
         Linkage::SixBar(_, slider) => Some(Linkage::CrankSlider(slider)),
         _ => None,
@@ -342,17 +342,10 @@ fn curves(machine: &str, data: &LinkageData, bed: &Bed, rows: &[Row]) -> Plot {
         let own = rows.iter().map(|row| [row.crank, value(&row.motion)]).collect();
         let mut curves = vec![Curve { name: "bed".into(), colour: 0, bold: true, points: own }];
         curves.extend(alone.as_ref().map(|plain| {
-            Curve {
-                name: "crank-slider".into(),
-                colour: plot::GREY,
-                bold: false,
-                points: rows
-                    .iter()
-                    .map(|row| {
-                        [row.crank, value(&plain.position(row.crank.to_radians()).map(|x| bed.crank_radius * x))]
-                    })
-                    .collect(),
-            }
+            let [own_outer, _] = plain.dead_points();
+            let at = |crank: f64| plain.position(crank.to_radians() - outer + own_outer).map(|x| bed.crank_radius * x);
+            let points = rows.iter().map(|row| [row.crank, value(&at(row.crank))]).collect();
+            Curve { name: "crank-slider".into(), colour: plot::GREY, bold: false, points }
         }));
         Panel { name: name.into(), curves }
     };
