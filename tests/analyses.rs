@@ -265,6 +265,10 @@ fn a_compensating_cam_takes_the_torque() {
     let mut names = written(&made);
     names.retain(|name| name.contains("-compensator."));
     assert_eq!(names.len(), 4, "{names:?}");
+    assert_eq!(told["files"].as_array().map(Vec::len), Some(8), "those of both discs");
+    let kept = run(0, &[&["rotary", "--format", "dxf,json"], &SPRING[..]].concat());
+    let inside = fs::read_to_string(file(&kept, "dpi-rotary-35rpm.json")).expect("a report");
+    assert_eq!(inside.matches("-compensator.").count(), 2, "its own report names the files of the second disc");
     let rows = table(&file(&made, "dpi-rotary-35rpm-compensator.csv"));
     for (degrees, lift) in [
         (10.0, 0.982_327_851_304_808_177),

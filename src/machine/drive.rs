@@ -161,3 +161,35 @@ impl DriveMachine {
         &self.inputs
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::Machine;
+
+    #[test]
+    fn every_key_of_a_drive_reaches_it() {
+        let with = |sets: &[String]| format!("{:?}", DriveMachine::load("dp", sets).expect("valid").0);
+        for (key, value) in [
+            ("drive.lead_angle", "50 deg"),
+            ("drive.bed_speed", "1.5 m/s"),
+            ("drive.motor_ratio", "17"),
+            ("drive.inertia", "20 kg*m2"),
+            ("drive.bore", "145 mm"),
+            ("bed.mass", "900 kg"),
+            ("bed.crank_radius", "170 mm"),
+            ("buffer.polytropic_exponent", "1.4"),
+            ("buffer.ambient_pressure", "1.1 at"),
+            ("buffer.column", "500 mm"),
+        ] {
+            assert_ne!(with(&[format!("{key}={value}")]), with(&[]), "{key}");
+        }
+        let error =
+            |name: &str, set: &str| DriveMachine::load(name, &[set.to_owned()]).expect_err("a fault").to_string();
+        assert!(error("dp", "buffer.column=matched").contains("no cam that a column could match"));
+        assert!(error("dp", "drive.bed_speed=1.6 m").contains("a unit of length, not of speed"));
+        assert!(error("dpi", "bed.mass=1 kg").contains("describes no drive"));
+        let press = Machine::load("dp", &["follower.roller.radius=30mm".into()]).expect("read");
+        assert!(press.0.press().is_err(), "a drive has no end pressure");
+    }
+}

@@ -96,35 +96,42 @@ pub struct FileSet {
 
 /// Makes the files of a proven cam.
 pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, Error> {
-    let of_second = |second: &Proven<'_>| {
+    let of_second = proven.second().map(|second| {
         let stem = format!("{}-{}", writing.stem, second.cam.body().kind().command);
-        files(second, &Writing { stem, ..writing.clone() })
+        (second, Writing { stem, ..writing.clone() })
+    });
+    // The report of the first, which stands in some of its files, names those of both.
+    let beside = match &of_second {
+        Some((second, writing)) => names(second, writing)?,
+        None => Vec::new(),
     };
-    let second = proven.second().map(|second| || of_second(second));
-    let (all, second) = parallel::both(|| files_alone(proven, writing), second);
+    let second = of_second.as_ref().map(|(second, writing)| || files(second, writing));
+    let (all, second) = parallel::both(|| files_alone(proven, writing, &beside), second);
     let mut all = all?;
     if let Some(second) = second.transpose()? {
         all.outputs.extend(second.outputs);
-        all.report.files.extend(second.report.files);
     }
     Ok(all)
 }
 
-/// Without those of the second disc.
-fn files_alone(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, Error> {
+/// The names of the files of a cam without those of its second disc.
+fn names(proven: &Proven<'_>, writing: &Writing) -> Result<Vec<String>, Error> {
     let drawn = proven.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
+    let (formats, _) = writing.chosen(proven.cam.body())?;
+    let endings = formats.iter().flat_map(|format| (format.endings)(drawn));
+    Ok(endings.map(|ending| format!("{}{ending}", writing.stem)).collect())
+}
+
+/// Without those of the second disc.
+fn files_alone(proven: &Proven<'_>, writing: &Writing, beside: &[String]) -> Result<FileSet, Error> {
     if !proven.passed() && !writing.force {
         return Err(Error::Refused(failed(proven.findings()).join(", ")));
     }
-    let body = proven.cam.body();
-    let (formats, _) = writing.chosen(body)?;
-    let names: Vec<String> = formats
-        .iter()
-        .flat_map(|format| (format.endings)(drawn))
-        .map(|ending| format!("{}{ending}", writing.stem))
-        .collect();
+    let (formats, _) = writing.chosen(proven.cam.body())?;
+    let names = names(proven, writing)?;
     let mut report = proven.report();
-    report.files = names.iter().map(|name| writing.directory.join(name).display().to_string()).collect();
+    let placed = names.iter().chain(beside).map(|name| writing.directory.join(name).display().to_string());
+    report.files = placed.collect();
     let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
     let rendering = Rendering { created: writing.created, ..rendering };
     let mut bytes = Vec::with_capacity(names.len());
