@@ -1,7 +1,8 @@
 //! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
 
-use super::{Analysis, Measure, places};
+use super::{Analysis, Measure, PLACES, places};
 use crate::body::Kind;
+use crate::buffer::crank_law::CrankLaw;
 use crate::buffer::regime::{self, Regime, Reset};
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
@@ -59,6 +60,8 @@ const TOLD: &[Told<AtSpeed>] = &[
 /// A place of a curve.
 struct AtPlace {
     rpm: f64,
+    /// Crank angle from the start of the reversal, rad; not told under a yoke.
+    crank: f64,
     x: f64,
     inertia: f64,
     air: f64,
@@ -72,6 +75,43 @@ const CURVES: &[Told<AtPlace>] = &[
     ("air_n", |row| row.air),
     ("residual_n", |row| row.residual),
 ];
+
+/// Under a linkage the bed comes to one place with two forces: the curves run along the crank angle.
+const CURVES_OF_A_LINKAGE: &[Told<AtPlace>] = &[
+    ("rpm", |row| row.rpm),
+    ("crank_deg", |row| row.crank.to_degrees()),
+    ("x_mm", |row| MILLIMETRES * row.x),
+    ("inertia_n", |row| row.inertia),
+    ("air_n", |row| row.air),
+    ("residual_n", |row| row.residual),
+];
+
+/// What the curves run along.
+struct Along {
+    told: &'static [Told<AtPlace>],
+    column: &'static str,
+    words: &'static str,
+    value: fn(&AtPlace) -> f64,
+}
+
+impl Along {
+    fn of(design: &CrankLaw) -> Self {
+        match design {
+            CrankLaw::Yoke(_) => Self {
+                told: CURVES,
+                column: "x_mm",
+                words: "overrun x of the bed, mm",
+                value: |place| MILLIMETRES * place.x,
+            },
+            CrankLaw::Linkage(_) => Self {
+                told: CURVES_OF_A_LINKAGE,
+                column: "crank_deg",
+                words: "crank angle from the start of the reversal, degrees",
+                value: |place| place.crank.to_degrees(),
+            },
+        }
+    }
+}
 
 /// The section `regimes`.
 #[derive(Debug, Serialize)]
@@ -101,10 +141,10 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
     let all: Vec<(f64, Regime)> =
         speeds.iter().map(|rpm| (*rpm, regime::reset(&design, &cylinder, *rpm, reset))).collect();
     let lobes = f64::from(machine.cam.lobes);
-    let rows: Vec<AtSpeed> = all.iter().map(|(rpm, regime)| at_speed(press, *rpm, regime, lobes)).collect();
-    let curves: Vec<AtPlace> =
-        all.iter().flat_map(|(rpm, regime)| curve(press.bed.crank_radius, *rpm, regime)).collect();
-    let told = Regimes { cam_rpm, reset: word(reset), column_length_mm: MILLIMETRES * design.column, speeds: &rows };
+    let rows: Vec<AtSpeed> = all.iter().map(|(rpm, regime)| at_speed((press, &design), *rpm, regime, lobes)).collect();
+    let curves: Vec<AtPlace> = all.iter().flat_map(|(rpm, regime)| curve(&design, *rpm, regime)).collect();
+    let along = Along::of(&design);
+    let told = Regimes { cam_rpm, reset: word(reset), column_length_mm: MILLIMETRES * design.column(), speeds: &rows };
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.extend([
@@ -118,12 +158,12 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
         sections: vec![Section::new(KIND.command, &told).with_words(words(&told))],
-        measures: vec![volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column)],
+        measures: vec![volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column())],
         notes: notes(machine),
-        plot: plot(machine.name(), cam_rpm, &all, press.bed.crank_radius),
-        tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(CURVES, &curves))],
+        plot: plot(machine.name(), cam_rpm, &curves, &along),
+        tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(along.told, &curves))],
         by: &["rpm"],
-        along: "x_mm",
+        along: along.column,
         not_modelled: NOT_MODELLED.to_vec(),
     })
 }
@@ -151,15 +191,19 @@ const NOT_MODELLED: &[&str] = &[
     "Elasticity and play of what is between cam and bottom.",
 ];
 
-fn at_speed(press: &Press, rpm: f64, regime: &Regime, lobes: f64) -> AtSpeed {
+fn at_speed((press, design): (&Press, &CrankLaw), rpm: f64, regime: &Regime, lobes: f64) -> AtSpeed {
+    let residual_at = match design {
+        CrankLaw::Yoke(_) => regime.residual_at,
+        CrankLaw::Linkage(_) => design.bed(design.where_decelerated(regime.residual_at))[0],
+    };
     AtSpeed {
         rpm,
         a_per_mm: regime.loading / MILLIMETRES,
         column_length_mm: MILLIMETRES * regime.column,
         added_volume_mm3: CUBIC * regime.added_volume,
         residual_max_n: regime.residual.abs(),
-        residual_share: regime.residual.abs() / press.bed.largest_inertia(rpm),
-        residual_at_mm: MILLIMETRES * regime.residual_at,
+        residual_share: regime.residual.abs() / press.largest_inertia(rpm),
+        residual_at_mm: MILLIMETRES * residual_at,
         end_residual_n: regime.end_residual,
         lambda: regime.length_ratio,
         end_pressure_pa: regime.end_pressure,
@@ -168,14 +212,20 @@ fn at_speed(press: &Press, rpm: f64, regime: &Regime, lobes: f64) -> AtSpeed {
     }
 }
 
-fn curve(stroke: f64, rpm: f64, regime: &Regime) -> impl Iterator<Item = AtPlace> + '_ {
-    places(stroke).map(move |x| AtPlace {
+/// Over the braking half under a yoke, whose other half is its mirror; over the whole reversal under a linkage.
+fn curve(design: &CrankLaw, rpm: f64, regime: &Regime) -> Vec<AtPlace> {
+    let at = |crank: f64, [x, a]: [f64; 2]| AtPlace {
         rpm,
+        crank,
         x,
-        inertia: regime.inertia(x),
-        air: regime.air(x),
-        residual: regime.residual(x),
-    })
+        inertia: regime.inertia(a),
+        air: regime.air(a),
+        residual: regime.residual(a),
+    };
+    match design {
+        CrankLaw::Yoke(law) => places(law.stroke).map(|x| at(f64::NAN, [x, x])).collect(),
+        CrankLaw::Linkage(law) => places(law.end.angle()).map(|crank| at(crank, design.bed(crank))).collect(),
+    }
 }
 
 /// The least volume to add, mm³, to that of the cylinders: air cannot be taken away from a cylinder at ambient pressure.
@@ -227,23 +277,24 @@ fn words(told: &Regimes<'_>) -> Vec<String> {
 }
 
 /// Figure 5 of the paper, with the residual below.
-fn plot(machine: &str, cam_rpm: f64, all: &[(f64, Regime)], stroke: f64) -> Plot {
-    let curve = |(colour, (rpm, regime)): (usize, &(f64, Regime)), bold: bool, value: fn(&Regime, f64) -> f64| Curve {
-        name: if bold { format!("{} rpm", shown(*rpm)) } else { String::new() },
+fn plot(machine: &str, cam_rpm: f64, all: &[AtPlace], along: &Along) -> Plot {
+    let speeds: Vec<&[AtPlace]> = all.chunks(PLACES as usize + 1).collect();
+    let curve = |(colour, places): (usize, &&[AtPlace]), bold: bool, value: fn(&AtPlace) -> f64| Curve {
+        name: places.first().filter(|_| bold).map_or_else(String::new, |place| format!("{} rpm", shown(place.rpm))),
         colour,
         bold,
-        points: places(stroke).map(|x| [MILLIMETRES * x, value(regime, x)]).collect(),
+        points: places.iter().map(|place| [(along.value)(place), value(place)]).collect(),
     };
-    let of = |bold, value: fn(&Regime, f64) -> f64| -> Vec<Curve> {
-        all.iter().enumerate().map(|one| curve(one, bold, value)).collect()
+    let of = |bold, value: fn(&AtPlace) -> f64| -> Vec<Curve> {
+        speeds.iter().enumerate().map(|one| curve(one, bold, value)).collect()
     };
-    let forces = [of(false, Regime::inertia), of(true, Regime::air)].concat();
+    let forces = [of(false, |place| place.inertia), of(true, |place| place.air)].concat();
     Plot {
         title: format!("{machine}: the cam for {} rpm at other speeds, column reset", shown(cam_rpm)),
-        places: "overrun x of the bed, mm".into(),
+        places: along.words.into(),
         panels: vec![
             Panel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
-            Panel { name: "Residual force, inertia less air, N".into(), curves: of(true, Regime::residual) },
+            Panel { name: "Residual force, inertia less air, N".into(), curves: of(true, |place| place.residual) },
         ],
     }
 }

@@ -104,6 +104,10 @@ pub fn analysis(
     residual: Option<f64>,
 ) -> Result<Analysis, SpringError> {
     let press = machine.press()?;
+    if press.stroke_end.is_some() {
+        let why = "the travel of the spring has no closed form";
+        return Err(NoPress::Linkage { what: "springs are set", why }.into());
+    }
     let (bed, cylinder, own) = (press.bed, press.cylinder(), [press.design_rpm]);
     let speeds = if speeds.is_empty() { &own[..] } else { speeds };
     let least = spring::least_stiffness(&bed, press.design_rpm);

@@ -1,7 +1,7 @@
 //! What a cam of a press is for: that the air balances the inertia of the bed. The measures on which its verdicts rest.
 
 use crate::buffer::Cylinder;
-use crate::buffer::bottom_law::BottomLaw;
+use crate::buffer::crank_law::CrankLaw;
 use crate::numeric::root;
 
 /// The force balance a cam is made for, N.
@@ -31,21 +31,17 @@ pub const USEFUL: f64 = 0.5;
 /// a share of the largest inertia.
 ///
 /// With air a under the piston an error e of the bottom changes the force (1 + A x) by its multiple (1 − e/a)^(−k) − 1, which
-/// grows with x; over the inertia A r it is largest at the end of the stroke.
-fn share_of_air(law: &BottomLaw, share: f64) -> f64 {
-    let end = law.loading * law.stroke;
-    -libm::expm1(-libm::log1p(share * end / (1.0 + end)) / law.exponent)
-}
-
-/// Air at the end of the stroke where the forces balance, m: L (1 + A r)^(−1/k).
-fn air_at_end(law: &BottomLaw) -> f64 {
-    law.column * libm::exp(-libm::log1p(law.loading * law.stroke) / law.exponent)
+/// grows with x; over the inertia A r it is largest at the end of the stroke. Under a linkage it is so where the deceleration is
+/// largest.
+fn share_of_air(law: &CrankLaw, share: f64) -> f64 {
+    let end = law.loading() * law.largest_deceleration();
+    -libm::expm1(-libm::log1p(share * end / (1.0 + end)) / law.exponent())
 }
 
 /// By how much the bottom may miss a law, m, so that the residual stays a useful one.
-pub(super) fn allowed_error(cylinder: &Cylinder, law: &BottomLaw) -> f64 {
+pub(super) fn allowed_error(cylinder: &Cylinder, law: &CrankLaw) -> f64 {
     let share = USEFUL * cylinder.residual_fixed_bottom(law) / cylinder.largest_load(law);
-    air_at_end(law) * share_of_air(law, share)
+    law.air_left(law.largest_deceleration()) * share_of_air(law, share)
 }
 
 /// Ratio of the speeds that are tried downwards, and how many.
@@ -71,7 +67,7 @@ pub(super) fn three_digits_down(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::buffer::bottom_law::Column;
+    use crate::buffer::bottom_law::{BottomLaw, Column};
     use crate::machine::Machine;
 
     /// By equation (8) itself: with the bottom as far off as allowed, half of what a fixed bottom leaves is left at the end of
@@ -81,12 +77,12 @@ mod tests {
         let cylinder = Machine::load("dpi", &[]).expect("valid").0.press().expect("a press").cylinder();
         for (rpm, column) in [(35.0, Column::Matched), (350.0, Column::Matched), (35.0, Column::Return)] {
             let law = BottomLaw::new(cylinder.loading(rpm), 1.35, 0.18, column, 0.0);
-            let error = allowed_error(&cylinder, &law);
+            let error = allowed_error(&cylinder, &law.into());
             let left = |x: f64| {
                 let air = law.column - x - law.displacement(x) - error;
                 cylinder.unit_force() * (libm::pow(law.column / air, 1.35) - 1.0 - law.loading * x)
             };
-            let half = 0.5 * cylinder.residual_fixed_bottom(&law);
+            let half = 0.5 * cylinder.residual_fixed_bottom(&law.into());
             // The air is a difference of lengths up to ten thousand times as long.
             assert!((left(0.18) / half - 1.0).abs() < 1e-8, "{rpm} rpm: {} {half}", left(0.18));
             assert!(left(0.09) < half);

@@ -275,7 +275,7 @@ mod tests {
             (25.0, 637.870_234_784_720_117, 550.750_992_947_320_793, 1e-10),
             (20.0, 417.6, 770.9, 0.051),
         ] {
-            let regime = reset(&law, &cylinder, rpm, Reset::End);
+            let regime = reset(&law.into(), &cylinder, rpm, Reset::End);
             let left = |crank: f64| {
                 let x = 0.18 * libm::sin(crank);
                 let first = regime.air(x) * law.bottom(x, 0.18 - x).slope * 0.18 * libm::cos(crank);

@@ -5,12 +5,13 @@
 
 pub mod bottom_law;
 pub mod camshaft;
+pub mod crank_law;
 pub mod drive;
 pub mod energy;
 pub mod regime;
 pub mod spring;
 
-use bottom_law::BottomLaw;
+use crank_law::CrankLaw;
 use std::f64::consts::PI;
 
 /// The bed and the crank that reverses it.
@@ -31,11 +32,17 @@ impl Bed {
         2.0 * PI * rpm * self.crank_turns_per_main_shaft_turn / 60.0
     }
 
-    /// Largest inertia force m ω² r, N: equation (1) at the end of the overrun.
+    /// Largest inertia force m ω² r of a bed that is moved by a yoke, N: equation (1) at the end of the overrun.
     #[must_use]
     pub fn largest_inertia(&self, rpm: f64) -> f64 {
+        self.inertia(rpm, self.crank_radius)
+    }
+
+    /// Inertia force m ω² a, N, at a deceleration a over the square of the crank speed, m.
+    #[must_use]
+    pub fn inertia(&self, rpm: f64, deceleration: f64) -> f64 {
         let omega = self.crank_speed(rpm);
-        self.mass * omega * omega * self.crank_radius
+        self.mass * omega * omega * deceleration
     }
 }
 
@@ -58,8 +65,19 @@ impl Cylinder {
     /// equations (3), (4) and (13): A = (q − 1)/r.
     #[must_use]
     pub fn sized(bed: &Bed, design_rpm: f64, exponent: f64, ambient_pressure: f64, end_pressure: f64) -> Self {
-        let piston_area = bed.largest_inertia(design_rpm) / (2.0 * (end_pressure - ambient_pressure));
-        let design_loading = (end_pressure / ambient_pressure - 1.0) / bed.crank_radius;
+        Self::sized_for(bed, bed.crank_radius, (design_rpm, exponent), (ambient_pressure, end_pressure))
+    }
+
+    /// The same for a bed whose largest deceleration over the square of the crank speed is a length, m: A = (q − 1)/a.
+    #[must_use]
+    pub fn sized_for(
+        bed: &Bed,
+        deceleration: f64,
+        (design_rpm, exponent): (f64, f64),
+        (ambient_pressure, end_pressure): (f64, f64),
+    ) -> Self {
+        let piston_area = bed.inertia(design_rpm, deceleration) / (2.0 * (end_pressure - ambient_pressure));
+        let design_loading = (end_pressure / ambient_pressure - 1.0) / deceleration;
         Self { piston_area, exponent, ambient_pressure, design_loading, design_rpm }
     }
 
@@ -82,17 +100,16 @@ impl Cylinder {
         self.unit_force() * (pressure_ratio - 1.0)
     }
 
-    /// Inertia force of the bed at the end of the stroke, N, by the loading of a law.
+    /// Largest inertia force of the bed, N, by the loading of a law.
     #[must_use]
-    pub fn largest_load(&self, bottom_law: &BottomLaw) -> f64 {
-        bottom_law.loading * bottom_law.stroke * self.unit_force()
+    pub fn largest_load(&self, law: &CrankLaw) -> f64 {
+        law.loading() * law.largest_deceleration() * self.unit_force()
     }
 
-    /// Residual force of a plain buffer with fixed bottom and column by (7) at the speed of a law, N.
+    /// Largest size of the residual force of a plain buffer with fixed bottom and column by (7) at the speed of a law, N.
     #[must_use]
-    pub fn residual_fixed_bottom(&self, bottom_law: &BottomLaw) -> f64 {
-        let plain = PlainBuffer::new(bottom_law.loading, bottom_law.exponent, bottom_law.stroke);
-        plain.largest_residual().1 * self.unit_force()
+    pub fn residual_fixed_bottom(&self, law: &CrankLaw) -> f64 {
+        law.left_by_fixed_bottom().value * self.unit_force()
     }
 
     /// 2 p0 F, N: what every dimensionless force is multiplied by.

@@ -11,10 +11,13 @@
 //! λ − 1 = −expm1(p ln((1 + V)/(1 + U)))/(g − 1) has full accuracy near v = 1. The residual has one stationary point, where
 //! ((λ − 1 + w)/w)^(k+1) = λ^k/v.
 //!
+//! Under a linkage the deceleration a stands for x in u, and its largest value for r: all of this holds unchanged, but the torques.
+//!
 //! The paper prints (14) without lead; with lead the net shortening is r + e + Δx(r) = L (1 − q^−p), as here.
 
 use super::Cylinder;
-use super::bottom_law::{BottomLaw, SERIES_LIMIT, g_divided_difference, g_minus_one};
+use super::bottom_law::{SERIES_LIMIT, g_divided_difference, g_minus_one};
+use super::crank_law::CrankLaw;
 use crate::numeric::{extremum, root};
 use std::f64::consts::FRAC_PI_2;
 
@@ -51,11 +54,11 @@ pub struct Regime {
     pub end_pressure: f64,
     /// Inertia − air where its size is largest over the stroke, N, signed.
     pub residual: f64,
-    /// Where it is, m of overrun; 0 where there is none.
+    /// Where it is, m of deceleration over the square of the crank speed, which under a yoke is the overrun; 0 where there is none.
     pub residual_at: f64,
     /// Inertia − air at x = r, N, signed.
     pub end_residual: f64,
-    design: BottomLaw,
+    design: CrankLaw,
     unit_force: f64,
     curve: Curve,
 }
@@ -186,24 +189,25 @@ fn reset_curve(k: f64, end: f64, square: f64, excess: f64, reset: Reset) -> (Cur
 
 /// Resets the column of the unchanged cam of `design` for `rpm` > 0. The design may be the law for any speed of the cylinder.
 #[must_use]
-pub fn reset(design: &BottomLaw, cylinder: &Cylinder, rpm: f64, reset: Reset) -> Regime {
+pub fn reset(design: &CrankLaw, cylinder: &Cylinder, rpm: f64, reset: Reset) -> Regime {
     let (loading, unit_force) = (cylinder.loading(rpm), cylinder.unit_force());
-    let end = design.loading * design.stroke;
-    let (square, excess) = (loading / design.loading, (loading - design.loading) / design.loading);
+    let (own, stroke) = (design.loading(), design.largest_deceleration());
+    let end = own * stroke;
+    let (square, excess) = (loading / own, (loading - own) / own);
     let (curve, share) = if excess == 0.0 {
-        (Curve::new(design.exponent, end, 1.0, 0.0, 0.0), 0.0)
+        (Curve::new(design.exponent(), end, 1.0, 0.0, 0.0), 0.0)
     } else {
-        reset_curve(design.exponent, end, square, excess, reset)
+        reset_curve(design.exponent(), end, square, excess, reset)
     };
     let (at, hump) = if excess == 0.0 { (0.0, 0.0) } else { curve.hump() };
     // A levelled residual has the same size at both places but for rounding: the place within the stroke is told.
     let at_end = curve.give.abs() > hump.abs() && (reset != Reset::Level || hump == 0.0);
-    let (residual, residual_at) = if at_end { (curve.give, design.stroke) } else { (hump, at / design.loading) };
+    let (residual, residual_at) = if at_end { (curve.give, stroke) } else { (hump, at / own) };
     Regime {
         loading,
-        column: design.column + curve.longer * design.column,
+        column: design.column() + curve.longer * design.column(),
         length_ratio: 1.0 + curve.longer,
-        added_volume: curve.longer * design.column * 2.0 * cylinder.piston_area,
+        added_volume: curve.longer * design.column() * 2.0 * cylinder.piston_area,
         share,
         end_pressure: cylinder.ambient_pressure * (1.0 + curve.end_rise),
         residual: residual * unit_force,
@@ -218,10 +222,11 @@ pub fn reset(design: &BottomLaw, cylinder: &Cylinder, rpm: f64, reset: Reset) ->
 impl Regime {
     /// u and U − u.
     fn place(&self, x: f64) -> (f64, f64) {
-        (self.design.loading * x, self.design.loading * (self.design.stroke - x))
+        let loading = self.design.loading();
+        (loading * x, loading * (self.design.largest_deceleration() - x))
     }
 
-    /// Force of the air of the pair of cylinders at overrun x in [0, r], N.
+    /// Force of the air of the pair of cylinders at overrun x in [0, r], N. Under a linkage x is the deceleration, here and below.
     #[must_use]
     pub fn air(&self, x: f64) -> f64 {
         let (u, rest) = self.place(x);
@@ -241,58 +246,67 @@ impl Regime {
         self.unit_force * self.curve.residual(u, rest)
     }
 
-    /// Largest size of residual · dx/dφ over the reversal, N·m of the crank, x = r sin φ.
+    /// Largest size of residual · dx/dφ over the reversal, N·m of the crank.
     #[must_use]
     pub fn crank_torque_max(&self) -> f64 {
-        let (a, r, curve) = (self.design.loading, self.design.stroke, &self.curve);
+        let (loading, curve) = (self.design.loading(), &self.curve);
         let torque = |crank: f64| {
-            let (u, rest, travel) = self.crank_place(crank);
-            (curve.residual(u, rest) * travel, curve.residual_slope(u, rest) * a * travel * travel, u, rest)
+            let ([_, first, second], [_, slope], _, (u, rest)) = self.travels(crank);
+            let residual = curve.residual(u, rest);
+            (residual * first, curve.residual_slope(u, rest) * loading * slope * first + residual * second)
         };
-        let slope = |crank: f64| {
-            let (_, slope, u, rest) = torque(crank);
-            slope - curve.residual(u, rest) * r * libm::sin(crank)
-        };
-        self.unit_force * largest_size(|crank| torque(crank).0, slope)
+        self.unit_force * self.largest_size(torque)
     }
 
     /// Largest size of air force · dΔx/dφ over the reversal at this speed with the unchanged cam, N·m per radian of crank
     /// angle.
     #[must_use]
     pub fn camshaft_torque_max(&self) -> f64 {
-        let (a, r, curve) = (self.design.loading, self.design.stroke, &self.curve);
-        let value = |crank: f64| {
-            let (u, rest, travel) = self.crank_place(crank);
-            curve.air(u, rest) * self.design.bottom(u / a, rest / a).slope * travel
+        let (loading, curve) = (self.design.loading(), &self.curve);
+        let torque = |crank: f64| {
+            let (_, [_, slope], [_, first, second], (u, rest)) = self.travels(crank);
+            let air = curve.air(u, rest);
+            (air * first, curve.air_slope(u, rest) * loading * slope * first + air * second)
         };
-        let slope = |crank: f64| {
-            let (u, rest, travel) = self.crank_place(crank);
-            let (air, bottom) = (curve.air(u, rest), self.design.bottom(u / a, rest / a));
-            let by_x = curve.air_slope(u, rest) * a * bottom.slope + air * bottom.second;
-            by_x * travel * travel - air * bottom.slope * r * libm::sin(crank)
-        };
-        self.unit_force * largest_size(value, slope)
+        self.unit_force * self.largest_size(torque)
     }
 
-    /// u, U − u and dx/dφ at a crank angle up to 90°; the second by the half angle, without loss near 90°.
-    fn crank_place(&self, crank: f64) -> (f64, f64, f64) {
-        let (a, r) = (self.design.loading, self.design.stroke);
-        let half = libm::sin(0.5 * (FRAC_PI_2 - crank));
-        (a * r * libm::sin(crank), 2.0 * a * r * half * half, r * libm::cos(crank))
+    /// What moves at a crank angle, with u and U − u; under a yoke the latter by the half angle, without loss near 90°.
+    fn travels(&self, crank: f64) -> ([f64; 3], [f64; 2], [f64; 3], (f64, f64)) {
+        let (a, largest) = (self.design.loading(), self.design.largest_deceleration());
+        match &self.design {
+            CrankLaw::Yoke(law) => {
+                let half = libm::sin(0.5 * (FRAC_PI_2 - crank));
+                let (u, rest) = (a * largest * libm::sin(crank), 2.0 * a * largest * half * half);
+                let (x, first) = (largest * libm::sin(crank), largest * libm::cos(crank));
+                let bottom = law.bottom(u / a, rest / a);
+                let second = bottom.second * first * first - bottom.slope * x;
+                ([x, first, -x], [x, first], [bottom.value, bottom.slope * first, second], (u, rest))
+            }
+            CrankLaw::Linkage(law) => {
+                let (bed, deceleration, bottom) = law.travels(crank);
+                let u = a * deceleration[0];
+                (bed, deceleration, bottom, (u, (a * largest - u).max(0.0)))
+            }
+        }
     }
-}
 
-/// Largest |value| over the braking half of the reversal; the other half mirrors it.
-fn largest_size(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64) -> f64 {
-    let above = extremum::largest(&value, &slope, (0.0, FRAC_PI_2), CELLS);
-    let below = extremum::largest(|crank| -value(crank), |crank| -slope(crank), (0.0, FRAC_PI_2), CELLS);
-    extremum::larger(above.value, below.value)
+    /// Largest size of a value, given with its slope, over the reversal; under a yoke over its braking half, which the other mirrors.
+    fn largest_size(&self, of: impl Fn(f64) -> (f64, f64)) -> f64 {
+        let whole = match self.design {
+            CrankLaw::Yoke(_) => (0.0, FRAC_PI_2),
+            CrankLaw::Linkage(_) => (0.0, self.design.angle()),
+        };
+        let above = extremum::largest(|crank| of(crank).0, |crank| of(crank).1, whole, CELLS);
+        let below = extremum::largest(|crank| -of(crank).0, |crank| -of(crank).1, whole, CELLS);
+        extremum::larger(above.value, below.value)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::buffer::bottom_law::{Column, column_for};
+    use crate::buffer::bottom_law::{BottomLaw, Column, column_for};
     use crate::buffer::tests::{Random, reference};
     use crate::units::KILOGRAM_FORCE;
 
@@ -300,7 +314,7 @@ mod tests {
         let (_, cylinder) = reference(q);
         let column = if q == 2.0 { Column::Matched } else { Column::Return };
         let design = BottomLaw::new(cylinder.loading(35.0), 1.35, 0.18, column, 0.0);
-        (design, cylinder, reset(&design, &cylinder, rpm, rule))
+        (design, cylinder, reset(&design.into(), &cylinder, rpm, rule))
     }
 
     /// Relative; a handful of roundings of powers and logarithms.
@@ -382,12 +396,12 @@ mod tests {
                 let (_, cylinder) = reference(5.0);
                 let design = BottomLaw::new(cylinder.loading(own), 1.35, 0.18, Column::Return, lead);
                 for rule in [Reset::End, Reset::Half, Reset::Level] {
-                    let same = reset(&design, &cylinder, own, rule);
+                    let same = reset(&design.into(), &cylinder, own, rule);
                     assert_eq!((same.length_ratio, same.added_volume, same.residual), (1.0, 0.0, 0.0));
                     assert!((0..=18).all(|i| same.residual(0.01 * f64::from(i)) == 0.0));
                     assert_eq!((same.crank_torque_max(), same.column), (0.0, design.column));
                     // The residual falls in proportion to the distance; 1e-4 is the second order at the first step.
-                    let share = |off: f64| reset(&design, &cylinder, own * (1.0 + off), rule).residual / off;
+                    let share = |off: f64| reset(&design.into(), &cylinder, own * (1.0 + off), rule).residual / off;
                     for off in [1e-7, 1e-9, 1e-11] {
                         // The distance itself is known to 2e-16 of the speed.
                         let expected = share(1e-5);
@@ -417,7 +431,7 @@ mod tests {
             let own = random.of_size(20.0, 50.0);
             let design = BottomLaw::new(cylinder.loading(own), k, 0.18, column, lead);
             let rpm = own * random.of_size(0.2, 4.0);
-            let regime = reset(&design, &cylinder, rpm, Reset::End);
+            let regime = reset(&design.into(), &cylinder, rpm, Reset::End);
             let shortening = 0.18 + lead + design.displacement(0.18);
             let printed = column_for(shortening, cylinder.loading(rpm) * 0.18, k);
             let rounding = 1e-14 * (design.column + shortening.abs() + 0.18) / shortening.abs();
@@ -453,7 +467,7 @@ mod tests {
             let cylinder = Cylinder::sized(&bed, 35.0, k, 98_066.5, (1.0 + rise) * 98_066.5);
             let design = BottomLaw::new(cylinder.loading(35.0), k, 0.18, Column::Matched, 0.0);
             for rule in [Reset::End, Reset::Half, Reset::Level] {
-                let regime = reset(&design, &cylinder, 35.0 * f64::sqrt(square), rule);
+                let regime = reset(&design.into(), &cylinder, 35.0 * f64::sqrt(square), rule);
                 let name = format!("k {k}, q − 1 {rise}, v {square}, {rule:?}: {regime:?}");
                 assert!(regime.length_ratio > 0.0 && regime.residual.is_finite(), "{name}");
                 // Rounding of the larger of both forces.
@@ -486,7 +500,7 @@ mod tests {
             let (_, cylinder) = reference(random.between(1.2, 20.0));
             let column = Column::Length(random.between(0.15, 0.6));
             let design = BottomLaw::new(cylinder.loading(35.0), 1.35, 0.18, column, 0.0);
-            let regime = reset(&design, &cylinder, random.between(15.0, 60.0), Reset::Level);
+            let regime = reset(&design.into(), &cylinder, random.between(15.0, 60.0), Reset::Level);
             let crank = |at: f64| (regime.residual(0.18 * libm::sin(at)) * 0.18 * libm::cos(at)).abs();
             let cam = |at: f64| {
                 let x = 0.18 * libm::sin(at);

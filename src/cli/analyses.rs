@@ -1,6 +1,6 @@
 //! The commands that analyse a machine and cut nothing.
 
-use super::args::{AnalysisArgs, DriveArgs, DriveSolver, GoalOf, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
+use super::args::{AnalysisArgs, DriveArgs, DriveSolver, EndOf, GoalOf, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
 use super::cams::show;
 use super::{Failure, Outcome, tell};
 use camgen::analysis::linkage::Goal;
@@ -15,7 +15,7 @@ use camgen::write::number::names;
 const SEVENTHS: [f64; 4] = [4.0, 5.0, 6.0, 7.0];
 
 pub(super) fn regimes(args: &RegimesArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = args.analysis.machine(&args.machine)?;
+    let (machine, name) = EndOf::of(args.end, args.analysis.machine(&args.machine)?)?;
     let design = machine.press().map_err(Failure::new)?.design_rpm;
     let of_file = machine.regimes();
     let given = if args.rpm.is_empty() { &of_file.speeds } else { &args.rpm };

@@ -1,8 +1,8 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
 use super::args::{
-    CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween,
-    PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
+    CommonArgs, ConoidArgs, CutterArgs, DiscArgs, EndOf, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs,
+    PointsBetween, PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
 };
 use super::progress::Progress;
 use super::{Failure, Outcome, print, tell, text};
@@ -32,7 +32,8 @@ pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let keys = args.compensator.iter().map(|key| format!("compensator.{}", key.trim()));
     let args = &args.disc;
     let overrides: Vec<String> = args.common.set.iter().cloned().chain(keys).collect();
-    let (mut machine, name) = Machine::load(&args.common.machine, &overrides).map_err(Failure::new)?;
+    let loaded = Machine::load(&args.common.machine, &overrides).map_err(Failure::new)?;
+    let (mut machine, name) = EndOf::of(args.common.end, loaded)?;
     let rpm = args.common.one_speed(&machine)?;
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     cut(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
@@ -61,6 +62,9 @@ pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
 /// The cam of a motion program.
 pub(super) fn make(args: &DiscArgs) -> Result<Outcome, Failure> {
     let (mut machine, name) = args.common.machine()?;
+    if args.common.end.is_some() {
+        return Err(Failure("--end belongs to the cams of a press: a motion program has no ends of a stroke".into()));
+    }
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     let spec = of_program(&args.common, machine)?;
     cut(spec, request, &args.common, &args.files, &name)

@@ -22,10 +22,12 @@
 pub mod characteristics;
 mod error;
 mod power;
+mod stroke_end;
 pub mod synthesis;
 
 pub use characteristics::{Characteristics, Compared, characteristics, compared};
 pub use error::{LinkageError, Passing, Remedies};
+pub use stroke_end::{End, Overrun, StrokeEnd};
 
 use power::{Number, Power};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -372,14 +374,19 @@ impl Linkage {
         }
     }
 
-    /// x and its first N − 1 derivatives.
-    fn motion<const N: usize>(&self, theta: f64) -> [f64; N] {
+    /// x as a power series about θ.
+    fn series<const N: usize>(&self, theta: f64) -> Power<f64, N> {
         let (crank, slider) = match self {
-            Self::Yoke => return Power::cos_sin(theta).0.derivatives(),
+            Self::Yoke => return Power::cos_sin(theta).0,
             Self::CrankSlider(slider) => (Power::cos_sin(theta), slider),
             Self::SixBar(drag_link, slider) => (drag_link.links().crank(theta), slider),
         };
-        slider.slide(crank.0, crank.1).derivatives()
+        slider.slide(crank.0, crank.1)
+    }
+
+    /// x and its first N − 1 derivatives.
+    fn motion<const N: usize>(&self, theta: f64) -> [f64; N] {
+        self.series(theta).derivatives()
     }
 
     /// Place of the bed x and its first five derivatives by θ at the driving crank's angle θ, rad, in units of the slider's

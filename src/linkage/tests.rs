@@ -3,7 +3,7 @@
 use super::*;
 
 /// SplitMix64 (G. L. Steele et al. 2014), for mechanisms by chance.
-pub(super) struct Random(pub(super) u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// In [low, high).
@@ -17,7 +17,7 @@ impl Random {
     }
 
     /// A six-bar that turns, well away from where it locks.
-    fn six_bar(&mut self) -> (DragLink, Slider) {
+    pub(crate) fn six_bar(&mut self) -> (DragLink, Slider) {
         let offset_ratio = self.between(-0.8, 0.8);
         let slider = Slider { rod_ratio: 1.0 + offset_ratio.abs() + self.between(0.2, 6.0), offset_ratio };
         loop {

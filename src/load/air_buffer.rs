@@ -2,8 +2,8 @@
 //! force is to equal the inertia force of the bed.
 
 use super::{Load, RunUp, ShaftWork};
-use crate::buffer::bottom_law::BottomLaw;
-use crate::buffer::{Cylinder, PlainBuffer};
+use crate::buffer::Cylinder;
+use crate::buffer::crank_law::CrankLaw;
 use crate::geometry::MILLIMETRES;
 use crate::motion::counter_torque::Work;
 use crate::motion::{Motion, Reversal, State, Transition};
@@ -29,36 +29,41 @@ impl AirBuffer {
         Self { cylinder, reversal }
     }
 
-    fn bottom_law(&self) -> &BottomLaw {
+    fn bottom_law(&self) -> &CrankLaw {
         &self.reversal.law().bottom_law
     }
 }
 
 /// What is reported of a pair of cylinders under a law; slope and jump as they are where the law starts.
 #[must_use]
-pub(crate) fn air_law(cylinder: &Cylinder, law: &BottomLaw, (dx_max_at_x, dx_max): (f64, f64)) -> AirLaw {
+pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max): (f64, f64)) -> AirLaw {
     AirLaw {
         dx_max_mm: MILLIMETRES * dx_max,
         dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
-        column_length_mm: MILLIMETRES * law.column,
+        column_length_mm: MILLIMETRES * law.column(),
         piston_area_mm2: MILLIMETRES * MILLIMETRES * cylinder.piston_area,
         bore_mm: MILLIMETRES * cylinder.bore(),
-        start_slope: law.start_slope,
+        start_slope: law.start_slope(),
         velocity_jump_mm_per_rad: 0.0,
         column_closed_at_crank_deg: None,
         equation_18: None,
     }
 }
 
-/// The force balance of a pair of cylinders under a law at an overrun (m), with this pressure ratio; outside the reversal nothing
-/// is to balance.
+/// The force balance of a pair of cylinders under a law in a state; outside the reversal nothing is to balance.
 #[must_use]
-pub(crate) fn balance_row(cylinder: &Cylinder, law: &BottomLaw, reversing: bool, x: f64, ratio: f64) -> BalanceRow {
-    let plain = PlainBuffer::new(law.loading, law.exponent, law.stroke);
-    let (unit, x) = (cylinder.unit_force(), if reversing { x } else { 0.0 });
-    let (inertia, air) = (unit * law.loading * x, cylinder.force(ratio));
+pub(crate) fn balance_row(cylinder: &Cylinder, law: &CrankLaw, state: &State) -> BalanceRow {
+    let (deceleration, crank) = if state.reversing { (state.deceleration, state.crank) } else { (0.0, 0.0) };
+    let inertia = cylinder.unit_force() * law.loading() * deceleration;
+    balance_of(cylinder, state.reversing, (inertia, law.air_of_fixed_bottom(crank)), state.pressure_ratio)
+}
+
+/// The same from the inertia, N, and the air of a plain buffer over 2 p0 F.
+#[must_use]
+pub(crate) fn balance_of(cylinder: &Cylinder, reversing: bool, (inertia, fixed): (f64, f64), ratio: f64) -> BalanceRow {
+    let air = cylinder.force(ratio);
     let residual = Some(if reversing { inertia - air } else { 0.0 });
-    BalanceRow { inertia, air, air_fixed_bottom: unit * plain.air(x), residual }
+    BalanceRow { inertia, air, air_fixed_bottom: cylinder.unit_force() * fixed, residual }
 }
 
 /// Crank angle at which a blend closes the column, degrees.
@@ -73,7 +78,7 @@ impl Load for AirBuffer {
     /// The reversal of the first lobe. A blend moves the bottom before: the column then is closed from the start of the blend on, but the
     /// inertia that it is to balance begins with the reversal.
     fn acting(&self) -> Vec<Acting> {
-        vec![(0.0, PI / f64::from(self.reversal.law().lobes.max(1)))]
+        vec![(0.0, self.bottom_law().angle() / f64::from(self.reversal.law().lobes.max(1)))]
     }
 
     /// 2 (p − p0) F / lever.
@@ -84,24 +89,27 @@ impl Load for AirBuffer {
     /// Inertia less air; 0 outside the reversal, at its ends what it is inside.
     fn residual(&self, piece: usize, at: f64, moved: f64, _: Vector2<f64>) -> f64 {
         let state = self.state(piece, at);
-        if state.crank > PI {
+        if !state.reversing {
             return 0.0;
         }
         let law = self.bottom_law();
         let bottom = state.displacement + moved / self.reversal.law().lever;
-        let air = law.pressure_ratio(state.overrun, bottom) - 1.0;
-        let left = law.loading * state.overrun - air;
+        let air = law.pressure_ratio(state.crank, bottom) - 1.0;
+        let left = law.loading() * state.deceleration - air;
         // A bottom that is beyond the piston leaves no air.
         if left.is_nan() { f64::NEG_INFINITY } else { self.cylinder.unit_force() * left }
     }
 
     fn balance_row(&self, piece: usize, at: f64) -> BalanceRow {
-        let state = self.state(piece, at);
-        balance_row(&self.cylinder, self.bottom_law(), state.crank <= PI, state.overrun, state.pressure_ratio)
+        balance_row(&self.cylinder, self.bottom_law(), &self.state(piece, at))
     }
 
     fn state(&self, piece: usize, at: f64) -> State {
         self.reversal.state(piece, at)
+    }
+
+    fn place(&self, crank: f64) -> f64 {
+        self.bottom_law().place(crank)
     }
 
     fn largest(&self) -> f64 {
@@ -121,13 +129,17 @@ impl Load for AirBuffer {
             // The piston is farther off while the bottom rests; nearest where the dwell begins and ends.
             let dwell = self.reversal.pieces().get(piece).filter(|piece| piece.dwell);
             let state = self.state(piece, dwell.map_or(at, |dwell| dwell.start));
-            if state.crank <= PI {
-                let x = state.overrun;
-                let balanced = law.column * libm::exp(-libm::log1p(law.loading * x) / law.exponent);
-                return balanced - (state.displacement - law.displacement(x));
+            if state.reversing {
+                let balanced = law.air_left(state.deceleration);
+                return balanced - (state.displacement - law.displacement(state.crank));
             }
-            let before = if state.crank > 1.5 * PI { state.crank - TAU } else { PI - state.crank };
-            law.column - law.lead - law.stroke * before - state.displacement
+            let before = match law {
+                CrankLaw::Linkage(_) => state.overrun,
+                CrankLaw::Yoke(law) => {
+                    law.stroke * if state.crank > 1.5 * PI { state.crank - TAU } else { PI - state.crank }
+                }
+            };
+            law.column() - law.lead() - before - state.displacement
         };
         let least = extremes::largest_of_motion(&*self.reversal, (&self.acting(), 0.0), |piece, at| -air(piece, at));
         Some(Worst { value: -least.value, at: least.at, z: 0.0 })
@@ -136,19 +148,14 @@ impl Load for AirBuffer {
     fn run_up(&self) -> Option<RunUp> {
         let law = self.bottom_law();
         let Transition::RunUp { width } = self.reversal.law().transition else { return None };
-        let start = law.bottom(0.0, law.stroke);
-        // By the crank angle, x' = r and x'' = 0 at the start of the reversal; a lead ends with the bed's own speed.
-        let end = if law.lead > 0.0 {
-            [-law.stroke, 0.0]
-        } else {
-            [start.slope * law.stroke, start.second * law.stroke * law.stroke]
-        };
-        Some(RunUp::new(law.stroke, width, end))
+        let ends = self.reversal.ends_of_run_ups();
+        let run_ups = ends.into_iter().map(|end| RunUp::new(law.stroke(), width, end));
+        run_ups.reduce(|best, next| if next.travel > best.travel { next } else { best })
     }
 
     fn shaft_work(&self, preload: f64, (mass, speed): (f64, f64)) -> Option<Arc<dyn Work>> {
         let reversal = Arc::clone(&self.reversal);
-        Some(Arc::new(ShaftWork::new(self.cylinder, reversal, preload, mass, speed)))
+        Some(Arc::new(ShaftWork::new(self.cylinder, reversal, preload, mass, speed)?))
     }
 
     fn section(&self) -> Section {

@@ -4,7 +4,7 @@ mod air_buffer;
 mod shaft_work;
 
 pub use air_buffer::AirBuffer;
-pub(crate) use air_buffer::{air_law, balance_row, closed_at};
+pub(crate) use air_buffer::{air_law, balance_of, balance_row, closed_at};
 pub use shaft_work::ShaftWork;
 
 use crate::motion::State;
@@ -56,6 +56,9 @@ pub trait Load: std::fmt::Debug + Send + Sync {
 
     /// The state of the machine.
     fn state(&self, piece: usize, at: f64) -> State;
+
+    /// Overrun of the bed at any angle of the crank, rad, in strokes.
+    fn place(&self, crank: f64) -> f64;
 
     /// Largest inertia force that the load counteracts, N.
     fn largest(&self) -> f64;

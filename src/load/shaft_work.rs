@@ -1,5 +1,6 @@
 //! The work that the camshaft gives to the follower of a press: air, preload and inertia together.
 
+use crate::buffer::bottom_law::BottomLaw;
 use crate::buffer::{Cylinder, camshaft};
 use crate::motion::counter_torque::{Work, WorkJet, merged};
 use crate::motion::{Jet, Motion, Piece, Reversal};
@@ -43,6 +44,8 @@ fn divided(reversal: &Reversal) -> (Vec<Piece>, Vec<(usize, bool)>) {
 #[derive(Debug, Clone)]
 pub struct ShaftWork {
     reversal: Arc<Reversal>,
+    /// Its law.
+    law: BottomLaw,
     cylinder: Cylinder,
     /// Force on the follower beside the air, N.
     preload: f64,
@@ -56,9 +59,11 @@ pub struct ShaftWork {
 }
 
 impl ShaftWork {
-    /// The work on a follower with this preload (N) and mass (kg) on its path, on a cam that turns at this speed (rad/s).
+    /// The work on a follower with this preload (N) and mass (kg) on its path, on a cam that turns at this speed (rad/s). `None` for a
+    /// bed that is not moved by a yoke: where its motion is not symmetric, work is left over at the end of the turn.
     #[must_use]
-    pub fn new(cylinder: Cylinder, reversal: Arc<Reversal>, preload: f64, mass: f64, speed: f64) -> Self {
+    pub fn new(cylinder: Cylinder, reversal: Arc<Reversal>, preload: f64, mass: f64, speed: f64) -> Option<Self> {
+        let law = *reversal.law().bottom_law.of_yoke()?;
         let inertia = mass * speed * speed;
         let (divided, shown) = divided(&reversal);
         let idle = preload == 0.0 && inertia == 0.0;
@@ -71,12 +76,12 @@ impl ShaftWork {
             Origin { piece, shift: *shift, compressed }
         };
         let origins = all.iter().map(origin).collect();
-        let mut work = Self { reversal, cylinder, preload, inertia, pieces, origins, blended: 0.0 };
+        let mut work = Self { reversal, law, cylinder, preload, inertia, pieces, origins, blended: 0.0 };
         if let Some(from) = work.reversal.law_begins().filter(|from| *from > 0.0) {
-            let closed = camshaft::work(&work.reversal.law().bottom_law, &work.cylinder, from).value;
+            let closed = camshaft::work(&work.law, &work.cylinder, from).value;
             work.blended = work.by_quadrature(from) - closed;
         }
-        work
+        Some(work)
     }
 
     /// Work of the air from the start of the reversal to a crank angle of the blend behind it, J.
@@ -95,7 +100,7 @@ impl ShaftWork {
         let count = f64::from(self.reversal.law().lobes.max(1));
         let crank = self.reversal.crank_in(piece, angle);
         if self.reversal.follows_law(piece) {
-            let work = camshaft::work(&self.reversal.law().bottom_law, &self.cylinder, crank);
+            let work = camshaft::work(&self.law, &self.cylinder, crank);
             return WorkJet {
                 energy: self.blended + work.value,
                 torque: count * work.torque,
@@ -116,7 +121,7 @@ impl ShaftWork {
 
     /// Force of the air with its first two derivatives by the cam angle, N: U (ρ − 1), ρ = (L/l)^k, l the length of the air.
     fn air_force(&self, crank: f64, bottom: Jet, count: f64) -> [f64; 3] {
-        let law = &self.reversal.law().bottom_law;
+        let law = &self.law;
         let (k, unit, r) = (law.exponent, self.cylinder.unit_force(), law.stroke);
         let (x, x1) = (r * libm::sin(crank), r * libm::cos(crank) * count);
         let ratio = law.pressure_ratio(x, bottom.s);
@@ -183,11 +188,11 @@ mod tests {
                         let bed = Bed { mass: 978.2, crank_radius: 0.18, crank_turns_per_main_shaft_turn: 3.0 };
                         let cylinder = Cylinder::sized(&bed, 35.0, 1.35, 98_066.5, 2.0 * 98_066.5);
                         let bottom_law = BottomLaw::new(cylinder.loading(35.0), 1.35, 0.18, column, lead);
-                        let law = ReversalLaw { bottom_law, lever, lobes, transition };
+                        let law = ReversalLaw { bottom_law: bottom_law.into(), lever, lobes, transition };
                         // A blend with a lead is none.
                         let Ok(reversal) = Reversal::new(law) else { continue };
                         let speed = 11.0 / f64::from(lobes);
-                        let work = ShaftWork::new(cylinder, Arc::new(reversal), preload, mass, speed);
+                        let work = ShaftWork::new(cylinder, Arc::new(reversal), preload, mass, speed).expect("a yoke");
                         let name = format!("{transition:?} {column:?} {lobes} lobes, {preload} N, {mass} kg");
                         works.push((name, work));
                     }

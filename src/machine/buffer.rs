@@ -7,6 +7,7 @@ use crate::document::Presence::{Default, Required, RequiredUnless};
 use crate::document::cams::{OF_A_COLUMN, OF_A_DESIGN, OF_A_LAW, OF_A_SPEED, OF_AIR};
 use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST};
 use crate::document::{Bounds, Field, Occurs, Reader, Section, above, within};
+use crate::linkage::StrokeEnd;
 use crate::units::Dimension::{Length, Pressure};
 
 /// The tables that describe a press together.
@@ -77,7 +78,7 @@ pub(super) const DESIGN: Section = Section {
 };
 
 /// The press with its bed, when the tables stand and have no fault.
-pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>) -> Option<Press> {
+pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>, stroke_end: Option<StrokeEnd>) -> Option<Press> {
     let table = reader.table(&SECTION);
     if let (Some(ambient), Some(end)) = (table.get(&AMBIENT_PRESSURE), table.get(&END_PRESSURE))
         && end <= ambient
@@ -89,6 +90,7 @@ pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>) -> Option<Press> {
     }
     Some(Press {
         bed: bed?,
+        stroke_end,
         polytropic_exponent: table.get(&POLYTROPIC_EXPONENT)?,
         ambient_pressure: table.get(&AMBIENT_PRESSURE)?,
         end_pressure: table.get(&END_PRESSURE)?,

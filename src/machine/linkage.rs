@@ -2,10 +2,10 @@
 
 use crate::buffer::Bed;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::LINKAGE;
+use crate::document::cams::{LINKAGE, OF_A_LINKAGE};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, Table, above, within};
-use crate::linkage::{Branch, DragLink, Linkage, LinkageError, Slider};
+use crate::linkage::{Branch, DragLink, End, Linkage, LinkageError, Slider, StrokeEnd};
 use crate::units::Dimension::{Angle, Length};
 use std::f64::consts::PI;
 
@@ -18,6 +18,16 @@ pub struct LinkageData {
     pub driving_crank: Option<f64>,
     /// Angle of the base O1O2 from the line of the slider, rad.
     pub base_angle: f64,
+}
+
+impl LinkageData {
+    /// An end of the stroke of a bed; `None` under a yoke, and where no buffer can balance it.
+    pub(super) fn stroke_end(&self, bed: &Bed, end: End) -> Option<StrokeEnd> {
+        match self.linkage {
+            Linkage::Yoke => None,
+            linkage => StrokeEnd::new(linkage, bed.crank_radius, end),
+        }
+    }
 }
 
 /// Kinds by their names.
@@ -88,14 +98,15 @@ const DRIVING_CRANK: Field<f64> = Field::quantity(
     Optional("180 mm"),
     Length,
     above(0.0, LONGEST),
-);
+)
+.only(&[LINKAGE]);
 
 /// `[linkage]`.
 pub(super) const SECTION: Section = Section {
     path: "linkage",
     about: "what moves the bed between its cranks",
     occurs: Occurs::Optional,
-    cams: &[LINKAGE],
+    cams: OF_A_LINKAGE,
     keys: &[
         KIND.key,
         ROD_RATIO.key,

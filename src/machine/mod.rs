@@ -40,7 +40,7 @@ use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
 use crate::document::{self, Field, Input, Occurs, Reader, Section};
 use crate::follower::{self, FOLLOWERS};
-use crate::linkage::Linkage;
+use crate::linkage::{End, Linkage};
 use crate::motion::{Motion, Transition, program};
 use std::fmt;
 use std::io::Read;
@@ -52,6 +52,8 @@ const LARGEST_FILE: u64 = 1 << 20;
 
 /// What is changed of a machine after it was read, as an input.
 const OPPOSITE: &str = "follower (opposite offset)";
+/// The input that [`Machine::at_end`] changes.
+const END: &str = "end";
 /// The key that [`Machine::ask_for_cutter`] changes.
 const LARGEST_CUTTER: &str = "limits.cutter_radius";
 
@@ -190,7 +192,8 @@ impl Machine {
         // Every part is read before the first `?`, so that each reports what is wrong between its keys.
         let bed = bed::read(reader);
         let linkage = linkage::read(reader, bed.as_ref());
-        let (press, motion) = (buffer::read(reader, bed), program::read(reader));
+        let stroke_end = linkage.zip(bed).and_then(|(data, bed)| data.stroke_end(&bed, End::Outer));
+        let (press, motion) = (buffer::read(reader, bed, stroke_end), program::read(reader));
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let (follower, cam) = (follower?, cam?);
         disc::reached_by(reader, &cam, &follower);
@@ -238,12 +241,26 @@ impl Machine {
     /// The press.
     ///
     /// # Errors
-    /// [`NoPress`] when the machine file describes none, or one whose bed is not moved by a yoke.
+    /// [`NoPress`] when the machine file describes none, or one whose linkage no buffer can balance.
     pub fn press(&self) -> Result<&Press, NoPress> {
-        match &self.linkage {
-            Some(data) if data.linkage != Linkage::Yoke => Err(NoPress::Linkage),
-            _ => self.press.as_ref().ok_or(NoPress::None),
+        let press = self.press.as_ref().ok_or(NoPress::None)?;
+        let moved = self.linkage.is_some_and(|data| data.linkage != Linkage::Yoke);
+        if moved && press.stroke_end.is_none() { Err(NoPress::Reversals) } else { Ok(press) }
+    }
+
+    /// The machine with its buffers at an end of the stroke of its linkage, the outer one unless another is chosen.
+    ///
+    /// # Errors
+    /// [`NoPress`] when there is no linkage, or none whose ends can have buffers.
+    pub fn at_end(mut self, end: End) -> Result<Self, NoPress> {
+        let data = self.linkage.filter(|data| data.linkage != Linkage::Yoke).ok_or(NoPress::NoEnds)?;
+        self.press()?;
+        if let Some(press) = &mut self.press {
+            press.stroke_end = data.stroke_end(&press.bed, end);
         }
+        self.inputs.retain(|input| input.key != END);
+        self.inputs.push(Input::word(END, end.word()));
+        Ok(self)
     }
 
     /// The bed of the press, whatever moves it.

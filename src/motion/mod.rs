@@ -178,14 +178,16 @@ mod tests {
         for (q, column) in [(2.0, Column::Matched), (5.0, Column::Return), (2.0, Column::Length(0.2))] {
             for transition in [Transition::None, Transition::RunUp { width }, Transition::Blend { width }] {
                 for lobes in [1, 2, 3] {
-                    let law = ReversalLaw { bottom_law: bottom_law(q, column, 0.0), lever: 1.5, lobes, transition };
+                    let law =
+                        ReversalLaw { bottom_law: bottom_law(q, column, 0.0).into(), lever: 1.5, lobes, transition };
                     let name = format!("{column:?} {transition:?}, {lobes} lobes");
                     laws.push((name, Box::new(Reversal::new(law).expect("fits into a turn"))));
                 }
             }
         }
         let transition = Transition::RunUp { width };
-        let law = ReversalLaw { bottom_law: bottom_law(2.0, Column::Matched, 0.01), lever: 1.0, lobes: 1, transition };
+        let law =
+            ReversalLaw { bottom_law: bottom_law(2.0, Column::Matched, 0.01).into(), lever: 1.0, lobes: 1, transition };
         laws.push(("lead".into(), Box::new(Reversal::new(law).expect("fits"))));
         laws
     }

@@ -1,16 +1,21 @@
 //! The motion of one cam turn: dwell, transition, the press's law of the bottom over the reversal, mirrored transition.
 //!
-//! Everything is described by the crank angle φ of the braking half; the return half is its mirror, φ → π − φ, evaluated
+//! Under a yoke everything is described by the crank angle φ of the braking half; the return half is its mirror, φ → π − φ, evaluated
 //! through the same code so that both halves agree to the last bit. A cam that turns once in n crank turns carries the
 //! motion n times, in n equal lobes, so that it stands right at every reversal. With lead, the bottom must retreat together with
 //! the piston while x = r φ is still ahead of the reversal, from 0 at φ = −e/r to −e at φ = 0, or the air would be
 //! compressed before; the ramp (key `run-up`) then ends at the start of that retreat.
+//!
+//! Under any other linkage φ runs from the start of the reversal of one end of the stroke, and each of its two sides has a run-up, a
+//! blend or a retreat of its own. A motion that is not symmetric leaves the bottom elsewhere than it took it: instead of a dwell a
+//! ramp brings it back, with no air to compress.
 
 use super::transition::{Derivatives, Quintic, Transition};
 use super::{Jet, Motion, Piece};
 use crate::buffer::bottom_law::BottomLaw;
+use crate::buffer::crank_law::{CrankLaw, LinkageLaw};
 use crate::numeric::extremum;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Cells for the search of the lowest point in a piece: the smooth pieces have two extrema at most.
 const CELLS: u32 = 16;
@@ -22,7 +27,7 @@ const SAME_ANGLE: f64 = 1e-12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReversalLaw {
     /// The law of the bottom.
-    pub bottom_law: BottomLaw,
+    pub bottom_law: CrankLaw,
     /// Roller travel per bottom travel, > 0.
     pub lever: f64,
     /// Equal lobes of the cam, one for each crank turn in a turn of the cam; 0 counts as 1.
@@ -42,10 +47,12 @@ pub enum MotionError {
         needed_deg: f64,
     },
     /// A blend reaches past the middle of the reversal.
-    #[error("a blend of {width_deg:.3} deg reaches past the middle of the reversal; at most 180 deg")]
+    #[error("a blend of {width_deg:.3} deg reaches past the middle of the reversal; at most {most_deg} deg")]
     BlendTooWide {
         /// Its width, degrees of crank angle.
         width_deg: f64,
+        /// What would not, degrees of crank angle.
+        most_deg: f64,
     },
     /// A blend cannot start from the retreat that a lead requires.
     #[error(
@@ -53,13 +60,29 @@ pub enum MotionError {
          transition.kind = \"run-up\" or \"none\""
     )]
     BlendWithLead,
+    /// The piston is in the cylinder all the time.
+    #[error(
+        "a lead of {lead_mm} mm is longer than the bed moves from the start of its reversal to the other end of its stroke"
+    )]
+    LeadTooLong {
+        /// The lead, mm.
+        lead_mm: f64,
+    },
+    /// The bottom ends elsewhere than it began, and nothing is left of the turn to bring it back.
+    #[error(
+        "reversal and transitions take the whole turn of the crank, and the bottom ends {apart_mm:.6} mm from where it began;          a ramp has to bring it back"
+    )]
+    NoWayBack {
+        /// How far, mm.
+        apart_mm: f64,
+    },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Shape {
     Dwell(f64),
     Polynomial(Quintic),
-    /// The retreat of a lead: −(lead + r φ).
+    /// The retreat of a lead: −(lead + x), under a yoke −(lead + r φ).
     Retreat,
     Reversal,
 }
@@ -69,8 +92,12 @@ enum Shape {
 pub struct State {
     /// Crank angle, rad, in [0, 2π).
     pub crank: f64,
-    /// Bed overrun x, m; 0 outside the reversal.
+    /// The bed is reversed at this angle: the air acts.
+    pub reversing: bool,
+    /// Bed overrun x, m; under a yoke 0 outside the reversal.
     pub overrun: f64,
+    /// Deceleration a of the bed over the square of the crank speed, m; 0 outside the reversal. x itself under a yoke.
+    pub deceleration: f64,
     /// Δx of the bottom, m.
     pub displacement: f64,
     /// p/p0 in the cylinders; 1 outside the reversal.
@@ -170,19 +197,24 @@ impl Reversal {
         let Some((&Part { shape, mirrored, .. }, crank)) = self.part_at(piece, angle) else {
             return Jet::default();
         };
-        // The reversal is one smooth piece whose later half is the mirror of the earlier.
-        let mirrored = mirrored || (shape == Shape::Reversal && crank > FRAC_PI_2);
-        let crank = if mirrored { PI - crank } else { crank };
-        let [s, ds, dds, ddds] = match shape {
-            Shape::Dwell(level) => [level, 0.0, 0.0, 0.0],
-            Shape::Polynomial(quintic) => quintic.at(crank),
-            Shape::Retreat => {
-                [-self.law.bottom_law.lead - self.law.bottom_law.stroke * crank, -self.law.bottom_law.stroke, 0.0, 0.0]
-            }
-            Shape::Reversal => bottom_law_at(&self.law.bottom_law, crank),
+        let (mirrored, crank) = self.seen(shape, mirrored, crank);
+        let [s, ds, dds, ddds] = match (shape, &self.law.bottom_law) {
+            (Shape::Dwell(level), _) => [level, 0.0, 0.0, 0.0],
+            (Shape::Polynomial(quintic), _) => quintic.at(crank),
+            (Shape::Retreat, CrankLaw::Yoke(law)) => [-law.lead - law.stroke * crank, -law.stroke, 0.0, 0.0],
+            (Shape::Retreat, CrankLaw::Linkage(law)) => law.retreat(crank),
+            (Shape::Reversal, law) => law_at(law, crank),
         };
         let jet = Jet { s, ds, dds, ddds }.by_angle_times(1.0 / self.count());
         if mirrored { jet.mirrored() } else { jet }
+    }
+
+    /// Whether a shape is seen mirrored at a crank angle, and the angle at which it is evaluated. The reversal of a yoke is one smooth
+    /// piece whose later half is the mirror of the earlier.
+    fn seen(&self, shape: Shape, mirrored: bool, crank: f64) -> (bool, f64) {
+        let of_yoke = matches!(self.law.bottom_law, CrankLaw::Yoke(_));
+        let mirrored = mirrored || (of_yoke && shape == Shape::Reversal && crank > FRAC_PI_2);
+        (mirrored, if mirrored { self.law.bottom_law.angle() - crank } else { crank })
     }
 
     /// The state of bed, bottom and air at a cam angle of a piece.
@@ -190,15 +222,16 @@ impl Reversal {
     pub fn state(&self, piece: usize, angle: f64) -> State {
         let crank = self.part_at(piece, angle).map_or(0.0, |(_, crank)| crank);
         let displacement = self.bottom(piece, angle).s;
-        let (overrun, pressure_ratio) = if (0.0..=PI).contains(&crank) {
-            let (x, _) = overrun(self.law.bottom_law.stroke, if crank > FRAC_PI_2 { PI - crank } else { crank });
-            (x, self.law.bottom_law.pressure_ratio(x, displacement))
+        let law = &self.law.bottom_law;
+        let ([overrun, deceleration], pressure_ratio) = if (0.0..=law.angle()).contains(&crank) {
+            (law.bed(crank), law.pressure_ratio(crank, displacement))
         } else {
-            (0.0, 1.0)
+            let place = if matches!(law, CrankLaw::Yoke(_)) { 0.0 } else { law.place(crank) * law.stroke() };
+            ([place, 0.0], 1.0)
         };
         let turn = if crank < 0.0 { crank + TAU } else { crank };
         let crank = turn % TAU;
-        State { crank, overrun, displacement, pressure_ratio }
+        State { crank, reversing: crank <= law.angle(), overrun, deceleration, displacement, pressure_ratio }
     }
 
     /// The crank angle of the braking or returning half at an angle of a piece, rad; below 0 before the reversal.
@@ -211,7 +244,7 @@ impl Reversal {
     #[must_use]
     pub fn compresses(&self, piece: usize) -> bool {
         let part = self.parts.get(piece % self.parts.len().max(1));
-        part.is_some_and(|part| part.end > 0.0 && part.start < PI)
+        part.is_some_and(|part| part.end > 0.0 && part.start < self.law.bottom_law.angle())
     }
 
     /// The cam angle at which the air begins or ends to be compressed in the lobe of a piece, whichever is nearer to its middle, rad.
@@ -219,7 +252,8 @@ impl Reversal {
     pub fn air_begins_or_ends(&self, piece: usize) -> Option<f64> {
         let lobe = u32::try_from(piece.checked_div(self.parts.len())?).ok()?;
         let part = self.parts.get(piece % self.parts.len())?;
-        let crank = if part.start + part.end < PI { 0.0 } else { PI };
+        let whole = self.law.bottom_law.angle();
+        let crank = if part.start + part.end < whole { 0.0 } else { whole };
         Some(self.origin(lobe) + crank / self.count())
     }
 
@@ -239,16 +273,35 @@ impl Reversal {
     #[must_use]
     pub fn fourth(&self, piece: usize, angle: f64) -> f64 {
         let Some((&Part { shape, mirrored, .. }, crank)) = self.part_at(piece, angle) else { return 0.0 };
-        let mirrored = mirrored || (shape == Shape::Reversal && crank > FRAC_PI_2);
-        let crank = if mirrored { PI - crank } else { crank };
         // An even derivative is the same in the mirror.
-        let by_crank = match shape {
-            Shape::Dwell(_) | Shape::Retreat => 0.0,
-            Shape::Polynomial(quintic) => quintic.fourth(crank),
-            Shape::Reversal => fourth_of_law(&self.law.bottom_law, crank),
+        let (_, crank) = self.seen(shape, mirrored, crank);
+        let by_crank = match (shape, &self.law.bottom_law) {
+            (Shape::Dwell(_), _) | (Shape::Retreat, CrankLaw::Yoke(_)) => 0.0,
+            (Shape::Retreat, CrankLaw::Linkage(law)) => -law.end.at(crank).x[4],
+            (Shape::Polynomial(quintic), _) => quintic.fourth(crank),
+            (Shape::Reversal, CrankLaw::Yoke(law)) => fourth_of_law(law, crank),
+            (Shape::Reversal, CrankLaw::Linkage(law)) => law.at(crank)[4],
         };
         let square = self.count() * self.count();
         self.law.lever * by_crank * square * square
+    }
+
+    /// Slope and curvature of the bottom by the crank angle where the run-ups end, m/rad and m/rad²; the one after the reversal is seen in
+    /// its mirror, and left out where it is that before. A lead ends its run-up with the speed of the bed.
+    #[must_use]
+    pub fn ends_of_run_ups(&self) -> Vec<[f64; 2]> {
+        match &self.law.bottom_law {
+            CrankLaw::Yoke(law) if law.lead > 0.0 => vec![[-law.stroke, 0.0]],
+            CrankLaw::Yoke(law) => {
+                let start = law.bottom(0.0, law.stroke);
+                vec![[start.slope * law.stroke, start.second * law.stroke * law.stroke]]
+            }
+            CrankLaw::Linkage(law) => {
+                let Ok(sides) = sides_of_linkage(&self.law, law) else { return Vec::new() };
+                let ends = sides.map(|side| [side.end_of_rise[1], side.end_of_rise[2]]);
+                if law.end.symmetric() { ends.into_iter().take(1).collect() } else { ends.to_vec() }
+            }
+        }
     }
 
     /// The lowest Δx of the turn, m: where the lift is counted from.
@@ -263,61 +316,167 @@ impl Reversal {
         &self.law
     }
 
-    /// Jump of the bottom's velocity by the crank angle at the start of the reversal, m/rad: what the transition `none` leaves.
+    /// Jump of the bottom's velocity by the crank angle at the start of the reversal, m/rad: what the transition `none` leaves. Under
+    /// a linkage whose motion is not symmetric, the larger one of start and end.
     #[must_use]
     pub fn velocity_jump(&self) -> f64 {
-        match (self.law.transition, self.law.bottom_law.lead > 0.0) {
-            (_, true) => self.law.bottom_law.stroke * (1.0 + self.law.bottom_law.start_slope),
-            (Transition::None, false) => self.law.bottom_law.stroke * self.law.bottom_law.start_slope,
-            _ => 0.0,
+        let law = &self.law.bottom_law;
+        let leads = law.lead() > 0.0;
+        if !leads && self.law.transition != Transition::None {
+            return 0.0;
         }
+        let at_start = law.start_speed() * (f64::from(u8::from(leads)) + law.start_slope());
+        let CrankLaw::Linkage(linkage) = law else { return at_start };
+        let [_, after, ..] = linkage.at(linkage.end.angle());
+        let at_end = if leads { linkage.retreat(linkage.end.angle())[1] - after } else { -after };
+        if at_end.abs() > at_start.abs() { at_end } else { at_start }
     }
+}
+
+/// What lies before the law on one side of the reversal, by the crank angle of that side as if it were the braking one.
+struct Side {
+    /// The parts before the law, with their first angles.
+    before: Vec<(f64, Shape)>,
+    /// Where the law begins.
+    law_start: f64,
+    /// Δx of the rest outside, m.
+    level: f64,
+    /// What the bottom does where a run-up ends.
+    end_of_rise: Derivatives,
+}
+
+impl Side {
+    /// `retreat`: the angle that a lead takes; `end_of_rise` is what the bottom does there, `law_at` what the law does at an angle.
+    fn new(
+        transition: Transition,
+        retreat: f64,
+        level: f64,
+        end_of_rise: Derivatives,
+        law_at: impl Fn(f64) -> Derivatives,
+    ) -> Self {
+        let mut side = Self { before: Vec::new(), law_start: 0.0, level, end_of_rise };
+        match transition {
+            Transition::None => {}
+            Transition::RunUp { width } => {
+                let quintic = Quintic::run_up(-retreat - width, width, end_of_rise);
+                side.level = quintic.level();
+                side.before.push((-retreat - width, Shape::Polynomial(quintic)));
+            }
+            Transition::Blend { width } => {
+                side.law_start = 0.5 * width;
+                let quintic = Quintic::blend(-side.law_start, width, level, law_at(side.law_start));
+                side.before.push((-side.law_start, Shape::Polynomial(quintic)));
+            }
+        }
+        if retreat > 0.0 {
+            side.before.push((-retreat, Shape::Retreat));
+        }
+        side
+    }
+
+    fn first(&self) -> f64 {
+        self.before.first().map_or(0.0, |piece| piece.0)
+    }
+
+    /// The parts up to the law, in order.
+    fn rise(&self) -> Vec<Part> {
+        let ends = self.before.iter().skip(1).map(|piece| piece.0).chain([self.law_start]);
+        self.before.iter().zip(ends).map(|(&(start, shape), end)| Part { start, end, shape, mirrored: false }).collect()
+    }
+}
+
+/// The two sides of the reversal of a yoke, which are one.
+fn side_of_yoke(law: &ReversalLaw, bottom_law: &BottomLaw) -> Side {
+    let retreat = bottom_law.lead / bottom_law.stroke;
+    let end = if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { bottom_law_at(bottom_law, 0.0) };
+    Side::new(law.transition, retreat, 0.0, end, |angle| bottom_law_at(bottom_law, angle))
+}
+
+/// The sides of the reversal of a linkage, the second one mirrored; of a symmetric motion they are one.
+fn sides_of_linkage(law: &ReversalLaw, of: &LinkageLaw) -> Result<[Side; 2], MotionError> {
+    let whole = of.end.angle();
+    let [before, after] = if of.lead > 0.0 {
+        let lead_mm = 1e3 * of.lead;
+        of.end.ahead(of.lead).ok_or(MotionError::LeadTooLong { lead_mm })?
+    } else {
+        [0.0, whole]
+    };
+    let in_mirror = |[value, first, second, third]: Derivatives| [value, -first, second, -third];
+    let first_three = |angle: f64| {
+        let [value, first, second, third, _] = of.at(angle);
+        [value, first, second, third]
+    };
+    let rise = |angle: f64| if of.lead > 0.0 { of.retreat(angle) } else { first_three(angle) };
+    let side = |retreat: f64, level: f64, mirrored: bool| {
+        let seen = move |angle: f64, of: &dyn Fn(f64) -> Derivatives| {
+            if mirrored { in_mirror(of(whole - angle)) } else { of(angle) }
+        };
+        let mut end = seen(-retreat, &rise);
+        // With a lead the bottom retreats from where its column is closed.
+        end[0] = level;
+        Side::new(law.transition, retreat, level, end, |angle| seen(angle, &first_three))
+    };
+    let left = if of.lead > 0.0 || of.end.symmetric() { 0.0 } else { -of.end.overrun_at_end() };
+    let first = side(-before, 0.0, false);
+    let second = if of.end.symmetric() { side(-before, 0.0, false) } else { side(after - whole, left, true) };
+    Ok([first, second])
 }
 
 /// The parts of one lobe by the crank angle: one turn of it, the dwell last.
 fn parts(law: &ReversalLaw) -> Result<Vec<Part>, MotionError> {
-    let bottom_law = &law.bottom_law;
-    let retreat = bottom_law.lead / bottom_law.stroke;
-    let mut before: Vec<(f64, Shape)> = Vec::new();
-    let level;
-    let mut law_start = 0.0;
+    let (whole, lead) = (law.bottom_law.angle(), law.bottom_law.lead());
+    let (most, retreats) = (law.bottom_law.widest_blend(), lead > 0.0);
     match law.transition {
-        Transition::None => level = 0.0,
-        Transition::RunUp { width } => {
-            let end = if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { bottom_law_at(bottom_law, 0.0) };
-            let quintic = Quintic::run_up(-retreat - width, width, end);
-            level = quintic.level();
-            before.push((-retreat - width, Shape::Polynomial(quintic)));
+        Transition::Blend { .. } if retreats => return Err(MotionError::BlendWithLead),
+        Transition::Blend { width } if width > most => {
+            return Err(MotionError::BlendTooWide { width_deg: width.to_degrees(), most_deg: most.to_degrees() });
         }
-        Transition::Blend { .. } if retreat > 0.0 => return Err(MotionError::BlendWithLead),
-        Transition::Blend { width } if width > PI => {
-            return Err(MotionError::BlendTooWide { width_deg: width.to_degrees() });
-        }
-        Transition::Blend { width } => {
-            level = 0.0;
-            let half = 0.5 * width;
-            law_start = half;
-            let quintic = Quintic::blend(-half, width, level, bottom_law_at(bottom_law, half));
-            before.push((-half, Shape::Polynomial(quintic)));
-        }
+        _ => {}
     }
-    if retreat > 0.0 {
-        before.push((-retreat, Shape::Retreat));
-    }
-    let first = before.first().map_or(0.0, |piece| piece.0);
-    let needed = PI - 2.0 * first;
+    let [first, second] = match &law.bottom_law {
+        CrankLaw::Yoke(of) => [side_of_yoke(law, of), side_of_yoke(law, of)],
+        CrankLaw::Linkage(of) => sides_of_linkage(law, of)?,
+    };
+    let needed = whole - (first.first() + second.first());
     if needed > TAU + SAME_ANGLE {
         return Err(MotionError::NoRoom { needed_deg: needed.to_degrees() });
     }
-    let ends: Vec<f64> = before.iter().skip(1).map(|piece| piece.0).chain([law_start]).collect();
-    let rise = before.iter().zip(&ends).map(|(&(start, shape), &end)| Part { start, end, shape, mirrored: false });
-    let reversal = Part { start: law_start, end: PI - law_start, shape: Shape::Reversal, mirrored: false };
-    let mirror = |part: Part| Part { start: PI - part.end, end: PI - part.start, mirrored: true, ..part };
-    let fall: Vec<Part> = rise.clone().rev().map(mirror).collect();
-    let dwell = Part { start: PI - first, end: TAU + first, shape: Shape::Dwell(level), mirrored: false };
-    let mut parts: Vec<Part> = rise.chain([reversal]).chain(fall).chain([dwell]).collect();
+    let reversal =
+        Part { start: first.law_start, end: whole - second.law_start, shape: Shape::Reversal, mirrored: false };
+    let of_yoke = matches!(law.bottom_law, CrankLaw::Yoke(_));
+    let mirror = |part: Part| {
+        // The retreat of a linkage is told by the crank angle itself.
+        let mirrored = of_yoke || part.shape != Shape::Retreat;
+        Part { start: whole - part.end, end: whole - part.start, mirrored, ..part }
+    };
+    let fall = second.rise().into_iter().rev().map(mirror);
+    let (start, end) = (whole - second.first(), TAU + first.first());
+    let back = Part { start, end, shape: rest((start, end), second.level, first.level)?, mirrored: false };
+    let mut parts: Vec<Part> = first.rise().into_iter().chain([reversal]).chain(fall).chain([back]).collect();
     parts.retain(|part| part.end - part.start > SAME_ANGLE);
     Ok(parts)
+}
+
+/// The rest of the turn: a dwell, or a ramp from one level to another.
+fn rest((start, end): (f64, f64), from: f64, to: f64) -> Result<Shape, MotionError> {
+    if from == to {
+        return Ok(Shape::Dwell(from));
+    }
+    if end - start <= SAME_ANGLE {
+        return Err(MotionError::NoWayBack { apart_mm: 1e3 * (to - from) });
+    }
+    Ok(Shape::Polynomial(Quintic::blend(start, end - start, from, [to, 0.0, 0.0, 0.0])))
+}
+
+/// Δx by the crank angle of the reversal. The later half of a yoke's is asked for in its mirror.
+fn law_at(law: &CrankLaw, crank: f64) -> Derivatives {
+    match law {
+        CrankLaw::Yoke(law) => bottom_law_at(law, crank),
+        CrankLaw::Linkage(law) => {
+            let [value, first, second, third, _] = law.at(crank);
+            [value, first, second, third]
+        }
+    }
 }
 
 /// x = r sin φ and y = r − x, both to full relative accuracy, for φ in [0, π/2].
@@ -368,10 +527,11 @@ impl Motion for Reversal {
 mod tests {
     use super::*;
     use crate::buffer::bottom_law::Column;
+    use std::f64::consts::PI;
 
     fn law(column: Column, lead: f64, transition: Transition) -> ReversalLaw {
         let bottom_law = BottomLaw::new(1.0 / 0.18, 1.35, 0.18, column, lead);
-        ReversalLaw { bottom_law, lever: 1.0, lobes: 1, transition }
+        ReversalLaw { bottom_law: bottom_law.into(), lever: 1.0, lobes: 1, transition }
     }
 
     #[test]

@@ -20,7 +20,7 @@ impl Conoid {
         let law = bottom_law_at(&self.press, &self.data, self.left().rpm);
         let fastest = self.speeds.last().copied().unwrap_or(0.0);
         let without_cam = self.cylinder.residual_fixed_bottom(&law);
-        Balance { inertia: self.press.bed.largest_inertia(fastest), without_cam, mean: false }
+        Balance { inertia: self.press.largest_inertia(fastest), without_cam, mean: false }
     }
 
     /// Least air: of the sections, and of the speed between them at which the forces balance worst.

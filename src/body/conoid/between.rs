@@ -6,7 +6,6 @@ use crate::machine::Machine;
 use crate::motion::Motion;
 use crate::numeric::{extremum, parallel};
 use crate::profile::extremes;
-use std::f64::consts::PI;
 
 /// Speeds looked at between two sections, and golden sections at the worst: the residual of a strip is a smooth hump or two
 /// across it, whose top is told to 1e-9 when its place is known to a millionth of the strip.
@@ -51,18 +50,18 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual
     let (unit, slice) = (conoid.cylinder.unit_force(), conoid.slice(z));
     let left = |piece: usize, angle: f64| {
         let state = section.state(piece, angle);
-        if state.crank > PI {
+        if !state.reversing {
             return 0.0;
         }
         let bottom = match interpolation {
             Interpolation::Smooth => slice.bottom(piece, angle),
             Interpolation::Straight => conoid.displacement(piece, angle, z, interpolation),
         };
-        let left = bottom_law.loading * state.overrun - (bottom_law.pressure_ratio(state.overrun, bottom) - 1.0);
+        let left = bottom_law.loading() * state.deceleration - (bottom_law.pressure_ratio(state.crank, bottom) - 1.0);
         // A bottom that is beyond the piston leaves no air.
         if left.is_nan() { f64::NEG_INFINITY } else { unit * left }
     };
-    let negligible = ROUNDING_OF_BALANCE * unit * bottom_law.loading * bottom_law.stroke;
+    let negligible = ROUNDING_OF_BALANCE * unit * bottom_law.loading() * bottom_law.largest_deceleration();
     let worst = extremes::largest_size_of_motion(section, (&conoid.acting(), negligible), left);
     Residual { force: worst.value.max(0.0), rpm, angle: worst.at }
 }
@@ -82,13 +81,11 @@ pub(super) fn air_at(conoid: &Conoid, rpm: f64) -> (f64, f64) {
     let used = |piece: usize, angle: f64| {
         let state = section.state(piece, angle);
         let bottom = conoid.displacement(piece, angle, z, Interpolation::Smooth);
-        if state.crank > PI {
+        if !state.reversing {
             // The piston is no nearer than at the start of the stroke.
-            return bottom - bottom_law.column;
+            return bottom - bottom_law.column();
         }
-        let balanced =
-            bottom_law.column * libm::exp(-libm::log1p(bottom_law.loading * state.overrun) / bottom_law.exponent);
-        bottom - bottom_law.displacement(state.overrun) - balanced
+        bottom - bottom_law.displacement(state.crank) - bottom_law.air_left(state.deceleration)
     };
     let least = extremes::largest_of_motion(section, (&conoid.acting(), 0.0), used);
     (-least.value, least.at)
@@ -108,12 +105,12 @@ fn exceeds(conoid: &Conoid, limit: f64) -> bool {
         let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
         let z = conoid.position(rpm);
         (1..TRIED).any(|i| {
-            let crank = std::f64::consts::PI * f64::from(i) / f64::from(TRIED);
+            let crank = bottom_law.angle() * f64::from(i) / f64::from(TRIED);
             let (piece, angle) = section.locate(crank / f64::from(conoid.machine.cam.lobes));
-            let overrun = section.state(piece, angle).overrun;
+            let state = section.state(piece, angle);
             let bottom = conoid.displacement(piece, angle, z, Interpolation::Smooth);
-            let air = bottom_law.pressure_ratio(overrun, bottom) - 1.0;
-            conoid.cylinder.unit_force() * (bottom_law.loading * overrun - air).abs() > limit
+            let air = bottom_law.pressure_ratio(state.crank, bottom) - 1.0;
+            conoid.cylinder.unit_force() * (bottom_law.loading() * state.deceleration - air).abs() > limit
         })
     };
     // The strips at the ends are mostly the worst.

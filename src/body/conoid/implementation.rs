@@ -23,7 +23,7 @@ use crate::report::sheet::View;
 use crate::report::{Section, Speeds};
 use crate::table::{BalanceRow, BedRow, ForceRow, Row, SurfaceRow, Turned, turned};
 use nalgebra::{Vector2, Vector3};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Share of the error of the heading that is seen where the arcs are compared with a cut.
 const SEEN_AT_NODES: f64 = 0.99;
@@ -172,7 +172,7 @@ impl Conoid {
     /// The force balance at the speed of a section.
     fn balance_row(&self, section: &Reversal, state: &State) -> BalanceRow {
         let law = &section.law().bottom_law;
-        load::balance_row(&self.cylinder, law, state.crank <= PI, state.overrun, state.pressure_ratio)
+        load::balance_row(&self.cylinder, law, state)
     }
 }
 

@@ -115,7 +115,7 @@ impl Conoid {
     /// Whether straight strips from section to section would leave less between the sections.
     #[must_use]
     pub fn is_worse_than_strips(&self) -> bool {
-        let inertia = self.press.bed.largest_inertia(self.speeds.last().copied().unwrap_or(0.0));
+        let inertia = self.press.largest_inertia(self.speeds.last().copied().unwrap_or(0.0));
         self.left_between().force > self.left_by_strips().force * (1.0 + ROUNDING) + ROUNDING * inertia
     }
 

@@ -46,7 +46,8 @@ fn view(conoid: &Conoid, (rpm, z, section): (f64, f64, &Reversal), part: &Part, 
         let (piece, angle) = section.locate(if wrapped { 0.0 } else { at.angle });
         let (state, contact) = (section.state(piece, angle), conoid.contact(piece, angle, z));
         let crank = f64::from(lobes) * if wrapped { TAU } else { at.angle };
-        let stand = Stand { crank, bottom: state.displacement, ratio: state.pressure_ratio };
+        let overrun = section.law().bottom_law.place(crank);
+        let stand = Stand { crank, overrun, bottom: state.displacement, ratio: state.pressure_ratio };
         let (curve, outward) = (contact.centre.xy(), contact.normal.xy().normalize());
         Placed { angle, cam_deg, curve, outward, stand: Some(stand) }
     };

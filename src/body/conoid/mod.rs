@@ -32,7 +32,8 @@ pub use surface::SpatialContact;
 
 use super::{Body, Kind};
 use crate::buffer::Cylinder;
-use crate::buffer::bottom_law::{BottomLaw, Column, column_for};
+use crate::buffer::bottom_law::{Column, column_for};
+use crate::buffer::crank_law::CrankLaw;
 use crate::document::cams;
 use crate::follower::{Follower, TranslatingRoller};
 use crate::machine::{ConoidData, ConoidMode, Machine, NoPress, NoRoller, Press, RollerData, Shift};
@@ -158,19 +159,23 @@ pub enum ConoidError {
 }
 
 /// The law of a press at a speed of a conoid.
-fn bottom_law_at(press: &Press, data: &ConoidData, rpm: f64) -> BottomLaw {
+fn bottom_law_at(press: &Press, data: &ConoidData, rpm: f64) -> CrankLaw {
     let design = press.bottom_law(press.design_rpm);
     if rpm == press.design_rpm {
         return design;
     }
     match data.mode {
-        ConoidMode::Fixed => press.with_column(rpm, Column::Length(design.column)),
+        ConoidMode::Fixed => press.with_column(rpm, Column::Length(design.column())),
         // (14): the column is reset by its screw so that every section ends where the design does.
         ConoidMode::Adjusted => {
-            let r = press.bed.crank_radius;
-            let shortening = r + press.lead + design.displacement(r);
+            let a = press.largest_deceleration();
+            let shortening = match &design {
+                CrankLaw::Yoke(law) => a + press.lead + law.displacement(a),
+                // x + Δx depends on the deceleration alone.
+                CrankLaw::Linkage(law) => law.column - design.air_left(a),
+            };
             let loading = press.cylinder().loading(rpm);
-            press.with_column(rpm, Column::Length(column_for(shortening, loading * r, press.polytropic_exponent)))
+            press.with_column(rpm, Column::Length(column_for(shortening, loading * a, press.polytropic_exponent)))
         }
     }
 }

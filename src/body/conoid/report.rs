@@ -121,8 +121,8 @@ impl SectionMeasures {
         Self {
             rpm,
             z_mm: MILLIMETRES * z,
-            column_length_mm: MILLIMETRES * law.column,
-            start_slope: law.start_slope,
+            column_length_mm: MILLIMETRES * law.column(),
+            start_slope: law.start_slope(),
             dx_max_mm: MILLIMETRES * dx_max,
             dx_max_at_x_mm: MILLIMETRES * dx_max_at_x,
             inertia_max_n: conoid.cylinder.largest_load(&law),
@@ -266,7 +266,7 @@ impl Between {
 impl Forces {
     fn new(conoid: &Conoid, left: Residual) -> Self {
         Self {
-            inertia_max_n: conoid.press.bed.largest_inertia(conoid.speeds.last().copied().unwrap_or(0.0)),
+            inertia_max_n: conoid.press.largest_inertia(conoid.speeds.last().copied().unwrap_or(0.0)),
             residual_max_n: left.force,
             axial_force_max_n: conoid.axial_force().value,
         }

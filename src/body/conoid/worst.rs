@@ -68,7 +68,8 @@ impl Conoid {
 
     /// The range at whose ends forces may jump: the reversal of the first lobe.
     pub(super) fn acting(&self) -> [Acting; 1] {
-        [(0.0, PI / f64::from(self.machine.cam.lobes.max(1)))]
+        let angle = self.sections.first().map_or(PI, |section| section.law().bottom_law.angle());
+        [(0.0, angle / f64::from(self.machine.cam.lobes.max(1)))]
     }
 
     /// The largest of something over the turns of the sections, each at its own speed; smooth but for the ends of the reversal.

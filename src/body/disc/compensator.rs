@@ -11,7 +11,6 @@ use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::extremum;
 use crate::report::{Section, degrees, shown};
 use serde_json::json;
-use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// A jump of the velocity of less than this share of the lift a radian is rounding.
@@ -134,6 +133,7 @@ impl Disc {
             return Vec::new();
         };
         let (design, cylinder) = (press.bottom_law(own), press.cylinder());
+        let Some(law_of_x) = design.of_yoke() else { return Vec::new() };
         let (rate, own_preload) = (law.law().rate(), law.law().preload());
         let inertia = |disc: &Disc| {
             let mass = disc.machine.follower.mass.zip(disc.speed);
@@ -157,8 +157,8 @@ impl Disc {
             let torques: Vec<(f64, f64, f64)> = places
                 .iter()
                 .map(|place| {
-                    let left = column - (place.overrun + design.lead) - place.displacement;
-                    let ratio = libm::exp(design.exponent * libm::log(column / left));
+                    let left = column - (place.overrun + law_of_x.lead) - place.displacement;
+                    let ratio = libm::exp(law_of_x.exponent * libm::log(column / left));
                     let air = if place.reversing { cylinder.force(ratio) / self.machine.cam.lever } else { 0.0 };
                     let (one, two) = (place.first, place.second);
                     let alone = (air + first_preload + slower * masses.0 * one.dds) * one.ds;
@@ -217,7 +217,7 @@ impl AtPlace {
         Self {
             overrun: state.overrun,
             displacement: state.displacement,
-            reversing: state.crank <= PI,
+            reversing: state.reversing,
             first: jet(first),
             second: jet(second),
         }

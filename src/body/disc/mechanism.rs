@@ -29,7 +29,7 @@ pub(super) fn of(disc: &Disc, drawn: &Drawn, samples: u32) -> Mechanism {
         let stand = disc.load.as_ref().map(|load| {
             let state = load.state(piece, angle);
             let crank = f64::from(lobes) * if wrapped { TAU } else { at.angle };
-            Stand { crank, bottom: state.displacement, ratio: state.pressure_ratio }
+            Stand { crank, overrun: load.place(crank), bottom: state.displacement, ratio: state.pressure_ratio }
         });
         Placed { angle, cam_deg, curve: touch.curve.point, outward: touch.curve.outward(), stand }
     };

@@ -2,11 +2,10 @@
 
 use super::{Cover, range};
 use crate::buffer::Cylinder;
-use crate::buffer::bottom_law::BottomLaw;
+use crate::buffer::crank_law::CrankLaw;
 use crate::geometry::MILLIMETRES;
 use crate::report::mechanism::{Rigid, Track, circle, rectangle};
 use nalgebra::Vector2;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Pascals in a bar.
 const BAR: f64 = 1e5;
@@ -19,17 +18,20 @@ pub(in crate::body) struct Buffer {
     column: f64,
     bore: f64,
     ambient: f64,
+    /// A crank in a slot of the bed moves it.
+    yoke: bool,
 }
 
 impl Buffer {
     /// Of a cylinder under a law.
-    pub(in crate::body) fn new(cylinder: &Cylinder, law: &BottomLaw) -> Self {
+    pub(in crate::body) fn new(cylinder: &Cylinder, law: &CrankLaw) -> Self {
         Self {
-            stroke: MILLIMETRES * law.stroke,
-            lead: MILLIMETRES * law.lead,
-            column: MILLIMETRES * law.column,
+            stroke: MILLIMETRES * law.stroke(),
+            lead: MILLIMETRES * law.lead(),
+            column: MILLIMETRES * law.column(),
             bore: MILLIMETRES * cylinder.bore(),
             ambient: cylinder.ambient_pressure,
+            yoke: matches!(law, CrankLaw::Yoke(_)),
         }
     }
 
@@ -63,23 +65,12 @@ impl Buffer {
 pub(in crate::body) struct Stand {
     /// Crank angle, rad, 0 at the start of a reversal, growing over all turns.
     pub(in crate::body) crank: f64,
+    /// How far the bed has run into the buffer, in strokes; negative before and after the reversal.
+    pub(in crate::body) overrun: f64,
     /// Δx of the bottom, m.
     pub(in crate::body) bottom: f64,
     /// p/p0 in the cylinder.
     pub(in crate::body) ratio: f64,
-}
-
-/// How far the bed has run into the buffer at a crank angle, in crank radii; negative before and after the reversal, where it runs
-/// at constant speed. The part of its way about its other end is not shown.
-pub(in crate::body) fn overrun(crank: f64) -> f64 {
-    let turn = crank.rem_euclid(TAU);
-    if turn <= PI {
-        libm::sin(turn)
-    } else if turn > PI + FRAC_PI_2 {
-        turn - TAU
-    } else {
-        PI - turn
-    }
 }
 
 /// The buffer with its bottom at a place (mm) where Δx is 0: cylinder, air, bottom, bed with piston. The bed has a slot for the
@@ -95,7 +86,7 @@ pub(in crate::body) fn buffer(
     let thick = 0.04 * buffer.bore + 0.02 * buffer.stroke;
     let bottoms: Vec<f64> = stands.iter().map(|stand| place.x + MILLIMETRES * stand.bottom).collect();
     let open = place.x + buffer.column - buffer.lead;
-    let pistons: Vec<f64> = stands.iter().map(|stand| open - buffer.stroke * overrun(stand.crank)).collect();
+    let pistons: Vec<f64> = stands.iter().map(|stand| open - buffer.stroke * stand.overrun).collect();
     let lengths: Vec<f64> = bottoms.iter().zip(&pistons).map(|(bottom, piston)| piston - bottom).collect();
     let pressures: Vec<f64> = stands.iter().map(|stand| stand.ratio * buffer.ambient / BAR).collect();
     let (nearest, _) = range(bottoms.iter().copied());
@@ -163,7 +154,9 @@ pub(super) fn behind(of: &Buffer, stands: &[Stand], driven: &Driven, reach: f64,
     };
     let width = 0.5 * of.stroke;
     parts.extend(buffer(of, stands, place, (of.rod(), width), cover));
-    parts.extend(crank(of, stands, place, width, cover));
+    if of.yoke {
+        parts.extend(crank(of, stands, place, width, cover));
+    }
     parts
 }
 

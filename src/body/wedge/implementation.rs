@@ -7,10 +7,11 @@ use crate::body::picture::{OF_A_PRESS, RIGID};
 use crate::body::{
     Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress,
 };
+use crate::buffer::PlainBuffer;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Edge, Segment, Vertex};
-use crate::load::{RunUp, air_law, balance_row, closed_at};
+use crate::load::{RunUp, air_law, balance_of, closed_at};
 use crate::machine::Machine;
 use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver, Trend, Way};
 use crate::motion::{Jet, Motion};
@@ -87,7 +88,7 @@ impl Wedge {
             velocity_jump_mm_per_rad: MILLIMETRES * self.stroke() * self.motion.slope_jump(),
             column_closed_at_crank_deg: closed_at(self.machine.transition),
             equation_18: Some(self.solved()),
-            ..air_law(&self.cylinder, &mechanism.bottom_law, self.largest_displacement())
+            ..air_law(&self.cylinder, &mechanism.bottom_law.into(), self.largest_displacement())
         }
     }
 
@@ -191,7 +192,12 @@ impl Wedge {
     fn balance_row(&self, x: f64, bottom: f64) -> BalanceRow {
         let law = &self.mechanism().bottom_law;
         let ratio = if x < 0.0 { 1.0 } else { 1.0 + self.mechanism().air(x, bottom) };
-        BalanceRow { residual: None, ..balance_row(&self.cylinder, law, x >= 0.0, x, ratio) }
+        let over = x.max(0.0);
+        let fixed = PlainBuffer::new(law.loading, law.exponent, law.stroke).air(over);
+        BalanceRow {
+            residual: None,
+            ..balance_of(&self.cylinder, x >= 0.0, (self.cylinder.unit_force() * law.loading * over, fixed), ratio)
+        }
     }
 
     /// A jet by x as one by the angle φ of the crank: the pace of the motion has dx/dφ and d²x/dφ², and with x = r sin φ the third

@@ -75,7 +75,7 @@ fn sample(plate: &Wedge, x: f64, crank: f64) -> At {
         roller: roller * MILLIMETRES,
         normal_deg: libm::atan2(normal.y, normal.x).to_degrees(),
         psi_deg: plate.mechanism().psi(bottom.s).to_degrees(),
-        stand: Stand { crank, bottom: bottom.s, ratio },
+        stand: Stand { crank, overrun: plate.place(crank), bottom: bottom.s, ratio },
     }
 }
 
@@ -86,7 +86,7 @@ fn parts(plate: &Wedge, samples: &[At], outline: Shape, cover: &mut Cover) -> Ve
     let away = MILLIMETRES * plate.follower.axis_distance + l1 * libm::cos(delta);
     let pivot = Vector2::new(-l1 * libm::sin(delta), -away);
     let stands: Vec<Stand> = samples.iter().map(|at| at.stand).collect();
-    let of = Buffer::new(&plate.cylinder, &plate.mechanism().bottom_law);
+    let of = Buffer::new(&plate.cylinder, &plate.mechanism().bottom_law.into());
     let plate_end = MILLIMETRES * plate.run_out().x;
     let half_height = 0.5 * MILLIMETRES * plate.height;
     let clear = half_height + 2.4 * radius + 0.55 * of.bore();

@@ -7,6 +7,7 @@ mod sheet;
 
 use super::{Kind, ROUNDING_OF_BALANCE, WorstPlaces, largest, plane};
 use crate::buffer::Cylinder;
+use crate::buffer::crank_law::CrankLaw;
 use crate::document::cams;
 use crate::follower::BellCrank;
 use crate::machine::{Machine, NoPress, TranslatingData};
@@ -83,7 +84,9 @@ impl Wedge {
         if press.lead > 0.0 {
             return Err(WedgeError::Lead);
         }
-        let bottom_law = press.bottom_law(rpm);
+        let why = "the plate meets the bed at one place with two decelerations, out and back";
+        let under_linkage = NoPress::Linkage { what: "plates are solved", why };
+        let bottom_law = *press.bottom_law(rpm).of_yoke().ok_or(under_linkage)?;
         let mechanism = Mechanism {
             bottom_law,
             bottom_arm: data.bottom_arm,
@@ -171,6 +174,11 @@ impl Wedge {
         self.mechanism().bottom_law.stroke
     }
 
+    /// Overrun of the bed at a crank angle from the start of its reversal, in strokes.
+    pub(super) fn place(&self, crank: f64) -> f64 {
+        CrankLaw::from(self.mechanism().bottom_law).place(crank)
+    }
+
     /// The machine of (18).
     #[must_use]
     pub fn mechanism(&self) -> &Mechanism {
@@ -202,7 +210,7 @@ impl Wedge {
     /// Inertia force of the bed at its largest, N.
     #[must_use]
     pub fn inertia_max(&self) -> f64 {
-        self.cylinder.largest_load(&self.mechanism().bottom_law)
+        self.cylinder.largest_load(&self.mechanism().bottom_law.into())
     }
 
     /// Left side less right side of (18), N, in a direction of the bed; 0 before the reversal.
@@ -232,7 +240,7 @@ impl Wedge {
     /// Residual force of a plain buffer with fixed bottom and column by (7) at this speed, N.
     #[must_use]
     pub fn residual_fixed_bottom(&self) -> f64 {
-        self.cylinder.residual_fixed_bottom(&self.mechanism().bottom_law)
+        self.cylinder.residual_fixed_bottom(&self.mechanism().bottom_law.into())
     }
 
     /// Normal force of one roller on its flank in a direction of the bed, N, equation (17); 0 before the reversal.

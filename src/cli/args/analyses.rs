@@ -1,6 +1,6 @@
 //! Flags of the commands that analyse a machine and cut nothing.
 
-use super::common::ToldArgs;
+use super::common::{EndOf, ToldArgs};
 use super::files::OutArgs;
 use super::parse::{crank_step, force, format, power_share, rpm, stiffness};
 use clap::{Args, ValueEnum, ValueHint};
@@ -50,6 +50,10 @@ pub(in crate::cli) struct RegimesArgs {
     /// [default: that of the file, else end]
     #[arg(long, value_name = "RULE", ignore_case = true)]
     pub(in crate::cli) reset: Option<ResetOf>,
+
+    /// End of the bed's stroke at which the buffers stand; only with [linkage] in the machine file [default: outer]
+    #[arg(long, value_name = "END", ignore_case = true)]
+    pub(in crate::cli) end: Option<EndOf>,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

@@ -4,6 +4,7 @@ use super::super::Failure;
 use super::super::text::Page;
 use super::parse::{Rate, Speed, acceleration_error, speed, tolerance, velocity_error};
 use camgen::body::RateTolerance;
+use camgen::linkage::End;
 use camgen::machine::Machine;
 use clap::{Args, ValueEnum, ValueHint};
 use std::io::IsTerminal;
@@ -73,6 +74,10 @@ pub(in crate::cli) struct CommonArgs {
     #[arg(long, value_name = "ERROR", value_parser = acceleration_error, allow_hyphen_values = true)]
     pub(in crate::cli) tolerance_acceleration: Option<Rate>,
 
+    /// End of the bed's stroke at which the buffers stand; only with [linkage] in the machine file [default: outer]
+    #[arg(long, value_name = "END", ignore_case = true)]
+    pub(in crate::cli) end: Option<EndOf>,
+
     /// Overrides one key of the machine file, e.g. --set follower.roller.radius=25mm; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub(in crate::cli) set: Vec<String>,
@@ -81,10 +86,33 @@ pub(in crate::cli) struct CommonArgs {
     pub(in crate::cli) told: ToldArgs,
 }
 
+/// An end of the stroke of the bed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum EndOf {
+    /// Where the bed is farthest from the shaft of the crank.
+    Outer,
+    /// Where it is nearest.
+    Inner,
+}
+
+impl EndOf {
+    /// The machine with its buffers there, and the word that names its files: the inner end has a name of its own.
+    pub(in crate::cli) fn of(
+        end: Option<Self>,
+        (machine, name): (Machine, String),
+    ) -> Result<(Machine, String), Failure> {
+        match end {
+            None => Ok((machine, name)),
+            Some(Self::Outer) => Ok((machine.at_end(End::Outer).map_err(Failure::new)?, name)),
+            Some(Self::Inner) => Ok((machine.at_end(End::Inner).map_err(Failure::new)?, format!("{name}-inner"))),
+        }
+    }
+}
+
 impl CommonArgs {
     /// The machine with its overrides, and the word that names its files.
     pub(in crate::cli) fn machine(&self) -> Result<(Machine, String), Failure> {
-        Machine::load(&self.machine, &self.set).map_err(Failure::new)
+        EndOf::of(self.end, Machine::load(&self.machine, &self.set).map_err(Failure::new)?)
     }
 
     /// The one speed of a cam that is not a conoid.

@@ -9,7 +9,7 @@ mod parse;
 pub(super) use analyses::{
     AnalysisArgs, DriveArgs, DriveSolver, GoalOf, LinkageArgs, RegimesArgs, ResetOf, SpringArgs,
 };
-pub(super) use common::{CommonArgs, ToldArgs};
+pub(super) use common::{CommonArgs, EndOf, ToldArgs};
 pub(super) use files::{
     CutterArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
 };

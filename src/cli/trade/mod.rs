@@ -167,7 +167,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     if !args.overwrite && !args.common.told.dry_run {
         refuse_kept(&args.out, &["csv", "svg"].map(|ending| output(ending, Vec::new()))).map_err(Failure::new)?;
     }
-    let inertia = machine.press().map_err(Failure::new)?.bed.largest_inertia(rpm);
+    let inertia = machine.press().map_err(Failure::new)?.largest_inertia(rpm);
     let limits = Limits { residual: args.residual.unwrap_or(SHARE * inertia), acceleration: args.acceleration };
     let Measured { rows, rounds, stable } = measured(args, &laws, &settings, limits)?;
     let advice = tell::advice(&rows, limits, stable);
