@@ -24,8 +24,8 @@ pub use inputs::{Inputs, sha256};
 pub use point_measures::PointMeasures;
 pub use rolled::Rolled;
 pub use values::{
-    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, lobes_words,
-    shown,
+    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, ReversalOfBed,
+    Weight, lobes_words, shown,
 };
 
 use serde::de::{Error, MapAccess, Visitor};
