@@ -6,6 +6,7 @@
 mod program;
 
 use program::{Run, camgen, camgen_in, files, report};
+use std::path::Path;
 
 /// A run that ends with this code.
 fn run(code: i32, args: &[&str]) -> Run {
@@ -113,7 +114,8 @@ fn a_lead_retreats_as_the_linkage_moves_the_bed() {
         let args = ["rotary", machine, "--end", end, "--set", "buffer.lead=12mm", "--format", "csv", "--force"];
         let made = camgen(&args);
         let output = made.directory.path().join("output");
-        let name = files(&output).into_iter().find(|name| name.ends_with(".csv")).expect("a table");
+        let table = |name: &String| Path::new(name).extension().is_some_and(|ending| ending == "csv");
+        let name = files(&output).into_iter().find(table).expect("a table");
         let text = std::fs::read_to_string(output.join(name)).expect("a table");
         let names: Vec<&str> = text.lines().next().expect("a head").split(',').collect();
         let column = |name: &str| names.iter().position(|other| *other == name).expect("a column");
