@@ -121,6 +121,8 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         measures: vec![volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column)],
         notes: notes(machine),
         plot: plot(machine.name(), cam_rpm, &all, press.bed.crank_radius),
+        mechanism: None,
+        document: None,
         tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(CURVES, &curves))],
         by: &["rpm"],
         along: "x_mm",
@@ -245,5 +247,6 @@ fn plot(machine: &str, cam_rpm: f64, all: &[(f64, Regime)], stroke: f64) -> Plot
             Panel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
             Panel { name: "Residual force, inertia less air, N".into(), curves: of(true, Regime::residual) },
         ],
+        ..Plot::default()
     }
 }

@@ -16,6 +16,7 @@ pub mod record;
 pub mod step;
 pub mod stl;
 pub mod svg;
+pub mod toml;
 
 use crate::analysis::Analysis;
 use crate::body::{Body, Drawn, Part};
@@ -67,7 +68,7 @@ pub struct Account<'a> {
 /// How an analysis has a format.
 #[derive(Debug, Clone, Copy)]
 pub struct OfAnalysis {
-    /// What its files add to the stem of their names.
+    /// What its files add to the stem of their names; none where the analysis has nothing for it.
     pub endings: fn(&Analysis) -> Vec<String>,
     /// The files, in the same order.
     pub write: fn(&Account<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
@@ -92,6 +93,9 @@ pub enum FormatError {
     /// Points are drawn and proved with the cam.
     #[error("no table of points was requested with the drawing, or the cutter has no path")]
     NoPoints,
+    /// A table of a machine file was asked of what describes none.
+    #[error("there is nothing that a table of a machine file would describe")]
+    NothingDescribed,
     /// The report could not be serialised.
     #[error(transparent)]
     Json(#[from] serde_json::Error),
@@ -138,6 +142,7 @@ pub const FORMATS: &[Format] = &[
     pdf::FORMAT,
     stl::FORMAT,
     points::FORMAT,
+    toml::FORMAT,
     dxf::CUTTER_PATH,
 ];
 

@@ -64,13 +64,17 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
     page
 }
 
-/// All that the page shows of an analysis: its curves are views without a mechanism.
+/// All that the page shows of an analysis: its curves are views, without a mechanism where nothing moves.
 pub(super) fn of_analysis(account: &Account<'_>) -> Value {
     let (analysis, report) = (account.analysis, account.report);
-    let views = analysis.tables.last().map_or_else(Vec::new, |(_, table)| curves(analysis, table, &report.checks));
+    let views = analysis.tables.last().map_or_else(Vec::new, |(_, table)| match &analysis.mechanism {
+        Some(mechanism) => views(mechanism, table, &report.checks, None),
+        None => curves(analysis, table, &report.checks),
+    });
+    let notes = analysis.mechanism.as_ref().map(|mechanism| &mechanism.notes);
     let mut page = told(report);
     page["notModelled"] = json!(analysis.not_modelled);
-    page["pictureNotes"] = json!([]);
+    page["pictureNotes"] = json!(notes.map_or_else(Vec::new, Vec::clone));
     page["views"] = json!(views);
     page["solid"] = Value::Null;
     page
