@@ -4,6 +4,8 @@ mod described;
 mod moving;
 mod over_base;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use super::{Analysis, Measure};
 use crate::body::Kind;

@@ -55,10 +55,11 @@ fn parts(lying: &Lying<'_>, cranks: &[f64]) -> Vec<Rigid> {
         Rigid::new("mark", vec![line((from.x, from.y), (to.x, to.y))]),
         bed(lying, &slider),
     ];
-    let mut pins = vec![("C", crank.clone())];
+    let mut pins = vec![("C", LETTER, crank.clone())];
     if lying.data.linkage != Linkage::Yoke {
         parts.push(between(&crank, &slider, half));
-        pins.push(("D", slider));
+        // Its letter stands above the slider.
+        pins.push(("D", 0.5 * SLIDER[1] + LETTER, slider));
     }
     match lying.data.linkage {
         Linkage::SixBar(link, _) => {
@@ -72,7 +73,7 @@ fn parts(lying: &Lying<'_>, cranks: &[f64]) -> Vec<Rigid> {
             let arm = bar(&[Vector2::zeros(), Vector2::new(lying.driving_crank(), 0.0)], half);
             parts.push(Rigid::new("crank", vec![arm]).at(shaft.x, shaft.y).turned(cranks.to_vec()));
             parts.push(shaft_at("O1", shaft, -1.0, lying.crank));
-            pins.extend([("A", driving), ("B", driven)]);
+            pins.extend([("A", LETTER, driving), ("B", LETTER, driven)]);
         }
         Linkage::Yoke | Linkage::CrankSlider(_) => {
             let arm = bar(&[Vector2::zeros(), Vector2::new(lying.crank, 0.0)], half);
@@ -80,7 +81,7 @@ fn parts(lying: &Lying<'_>, cranks: &[f64]) -> Vec<Rigid> {
         }
     }
     parts.push(shaft_at("O2", Vector2::zeros(), 1.0, lying.crank));
-    parts.extend(pins.into_iter().map(|(letter, at)| pin(letter, &at, lying.crank)));
+    parts.extend(pins.into_iter().map(|(letter, above, at)| pin((letter, above), &at, lying.crank)));
     parts
 }
 
@@ -129,9 +130,9 @@ fn moved(part: Rigid, joint: &[Vector2<f64>]) -> Rigid {
     part.at(x, y)
 }
 
-/// A pin with its letter above it.
-fn pin(letter: &str, at: &[Vector2<f64>], crank: f64) -> Rigid {
-    moved(Rigid::new("roller", vec![circle(0.0, 0.0, PIN * HALF * crank)]), at).named(letter, 0.0, LETTER * crank)
+/// A pin with its letter so far above it, over the crank O2C.
+fn pin((letter, above): (&str, f64), at: &[Vector2<f64>], crank: f64) -> Rigid {
+    moved(Rigid::new("roller", vec![circle(0.0, 0.0, PIN * HALF * crank)]), at).named(letter, 0.0, above * crank)
 }
 
 /// A shaft in the frame with its letter below it, to one side.
