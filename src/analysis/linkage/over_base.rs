@@ -35,6 +35,6 @@ pub(super) fn diagram(link: DragLink, slider: Slider) -> (String, Panel) {
         curve("this design".into(), 1, true, vec![[link.base, own]]),
     ];
     let (base, found) = (shown(link.base), shown(own));
-    let name = format!("K_c = C⁺/C⁻, the other links as they are; ring: this design, λ1 = {base}, K_c = {found}");
+    let name = format!("K_c over the base, the other links as they are; ring: this design, λ1 = {base}, K_c = {found}");
     ("base of the drag link over its driving crank, λ1".into(), Panel { name, curves })
 }

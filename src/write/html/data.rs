@@ -102,7 +102,7 @@ fn curves(analysis: &Analysis, table: &Table, checks: &[Finding]) -> Vec<Value> 
         view["turn"] = rounded(&at, ANGLES);
         view["box"] = json!([0, 0, 1, 1]);
         view["parts"] = json!([]);
-        view["panels"] = json!(panels::of(panels::OF_AN_ANALYSIS, names, analysis.along, (checks, None)));
+        view["panels"] = json!(panels::of(names, panels::OF_AN_ANALYSIS, analysis.along, (checks, None)));
         view
     };
     table.rows.chunk_by(|a, b| first(a) == first(b)).map(of).collect()
@@ -243,7 +243,7 @@ fn view_of(
     shown["turn"] = rounded(&view.turn_deg, ANGLES);
     shown["box"] = rounded(&[extents.least.x, -extents.largest.y, size.x, size.y], PLACES);
     shown["parts"] = json!(view.parts.iter().map(rigid).collect::<Vec<Value>>());
-    shown["panels"] = json!(panels::of(known, names, view.place, held));
+    shown["panels"] = json!(panels::of(names, known, view.place, held));
     shown
 }
 

@@ -137,8 +137,8 @@ const NOT_DRAWN: &[&str] = &[
 
 /// The diagrams of the columns that there are, `place` the column along which they are drawn, under a roller of this radius.
 pub(super) fn of(
-    known: &[Panel],
     columns: &[&'static str],
+    known: &[Panel],
     place: &str,
     (checks, roller_mm): (&[Finding], Option<f64>),
 ) -> Vec<Value> {
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn every_column_is_drawn_once_or_is_a_place() {
         let columns = ["cam_deg", "lift_mm", "velocity_mm_per_rad", "surprise_n", "riddle_n", "pitch_x_mm"];
-        let panels = of(OF_A_CAM, &columns, "cam_deg", (&[], None));
+        let panels = of(&columns, OF_A_CAM, "cam_deg", (&[], None));
         let drawn: Vec<&str> = panels
             .iter()
             .flat_map(|panel| panel["series"].as_array().expect("a list"))
@@ -233,7 +233,7 @@ mod tests {
         };
         let checks = [finding("pressure_angle", 30.0), finding("undercut", 0.0), finding("cutter_radius", 10.0)];
         let columns = ["cam_deg", "pressure_angle_deg", "pitch_curvature_radius_mm", "profile_curvature_radius_mm"];
-        let panels = of(OF_A_CAM, &columns, "cam_deg", (&checks, Some(20.0)));
+        let panels = of(&columns, OF_A_CAM, "cam_deg", (&checks, Some(20.0)));
         let values = |index: usize| -> Vec<f64> {
             let limits = panels[index]["limits"].as_array().expect("a list");
             limits.iter().map(|limit| limit["value"].as_f64().expect("a number")).collect()
