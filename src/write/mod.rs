@@ -93,9 +93,6 @@ pub enum FormatError {
     /// Points are drawn and proved with the cam.
     #[error("no table of points was requested with the drawing, or the cutter has no path")]
     NoPoints,
-    /// A table of a machine file was asked of what describes none.
-    #[error("there is nothing that a table of a machine file would describe")]
-    NothingDescribed,
     /// The report could not be serialised.
     #[error(transparent)]
     Json(#[from] serde_json::Error),

@@ -1,6 +1,6 @@
 //! What an analysis describes as a table of a machine file, to paste there.
 
-use super::{Format, FormatError, OfAnalysis, When};
+use super::{Format, OfAnalysis, When};
 
 /// A table of a machine file.
 pub const FORMAT: Format = Format {
@@ -9,7 +9,7 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: |_| Some("it is for a linkage; a cam is described by its machine file"),
     endings: |_| Vec::new(),
-    write: |_| Err(FormatError::NothingDescribed),
+    write: |_| Ok(Vec::new()),
     of_analysis: Some(OfAnalysis {
         endings: |analysis| analysis.document.iter().map(|_| ".toml".into()).collect(),
         write: |account| {

@@ -148,3 +148,38 @@ fn class(kind: Kind) -> &'static str {
         Kind::Guide => "axis",
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The largest scale of ISO 5455 that fits, for a watch and for a ship, and what fits none as large as it can be.
+    #[test]
+    fn scales_are_standard() {
+        let room = Vector2::new(200.0, 70.0);
+        for (width, known) in [
+            (1e-3, "Scale 50:1"),
+            (90.0, "Scale 2:1"),
+            (200.0, "Scale 1:1"),
+            (201.0, "Scale 1:2"),
+            (1e3, "Scale 1:5"),
+            (1e6, "Scale 1:5000"),
+        ] {
+            let reduction = reduction(Vector2::new(width, 0.0), room);
+            assert!(width / reduction <= room.x, "{width} mm");
+            assert_eq!(scale(reduction), known);
+        }
+        assert_eq!(reduction(Vector2::new(0.0, 7e12), room), 1e11);
+    }
+
+    /// A ruler is as long on paper as the scale has it.
+    #[test]
+    fn a_ruler_is_of_its_length() {
+        let field = Extents { least: Vector2::zeros(), largest: Vector2::new(200.0, 20.0) };
+        let group = ruler(&field, 5.0);
+        let Some(Shape::Line(from, to)) = group.shapes.first() else { panic!("a line") };
+        assert!(((to - from).norm() - 40.0).abs() < 1e-12);
+        let told = |shape: &Shape| matches!(shape, Shape::Text { text, .. } if text == "200 mm; scale 1:5");
+        assert!(group.shapes.iter().any(told));
+    }
+}
