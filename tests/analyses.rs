@@ -281,7 +281,11 @@ fn a_linkage_is_drawn_and_moves() {
             "{name}"
         );
     }
-    let steep = run(0, &["linkage", "dpi-crank-slider", "--set", "linkage.driving_crank=100 mm", "--name", "plain"]);
+    let args = ["--set", "linkage.driving_crank=100 mm", "--name", "plain", "--format", "svg,html"];
+    let steep = run(0, &[&["linkage", "dpi-crank-slider"], &args[..]].concat());
+    assert!(
+        html.contains("\"id\":\"transmission\"") && !text(&steep, "plain.html").contains("\"id\":\"transmission\"")
+    );
     let svg = text(&steep, "plain.svg");
     assert!(
         svg.contains("steepest rod, 19.4712°") && !svg.contains("K_c") && !svg.contains("drawn as long"),

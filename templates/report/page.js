@@ -101,8 +101,7 @@ const MOST_COLUMNS = 13;
 function rowsOf(cam, index) {
   const view = viewOf(cam);
   const skipped = /^(position|pitch_x|pitch_y|profile_|contact_|z_mm|rpm|psi|.*_cut_|air|lift_per|axial|principal|inertia)/;
-  const all = Object.keys(view.columns);
-  const names = all.filter((name) => all.length <= MOST_COLUMNS || !skipped.test(name)).slice(0, MOST_COLUMNS);
+  const names = Object.keys(view.columns).filter((name) => !view.parts.length || !skipped.test(name)).slice(0, MOST_COLUMNS);
   const last = view.columns[view.place].length - 1;
   const step = Math.max(1, Math.round(last / 36));
   const rows = [];

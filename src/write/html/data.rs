@@ -102,7 +102,8 @@ fn curves(analysis: &Analysis, table: &Table, checks: &[Finding]) -> Vec<Value> 
         view["turn"] = rounded(&at, ANGLES);
         view["box"] = json!([0, 0, 1, 1]);
         view["parts"] = json!([]);
-        view["panels"] = json!(panels::of(names, panels::OF_AN_ANALYSIS, analysis.along, (checks, None)));
+        view["panels"] =
+            json!(panels::of(&valued(names, &rows), panels::OF_AN_ANALYSIS, analysis.along, (checks, None)));
         view
     };
     table.rows.chunk_by(|a, b| first(a) == first(b)).map(of).collect()
@@ -243,8 +244,14 @@ fn view_of(
     shown["turn"] = rounded(&view.turn_deg, ANGLES);
     shown["box"] = rounded(&[extents.least.x, -extents.largest.y, size.x, size.y], PLACES);
     shown["parts"] = json!(view.parts.iter().map(rigid).collect::<Vec<Value>>());
-    shown["panels"] = json!(panels::of(names, known, view.place, held));
+    shown["panels"] = json!(panels::of(&valued(names, rows), known, view.place, held));
     shown
+}
+
+/// The columns that have a value in some row: a crank-slider has no transmission angle.
+fn valued(names: &[&'static str], rows: &[Vec<f64>]) -> Vec<&'static str> {
+    let has = |index: usize| rows.iter().any(|row| row.get(index).is_some_and(|value| !value.is_nan()));
+    names.iter().enumerate().filter(|(index, _)| has(*index)).map(|(_, name)| *name).collect()
 }
 
 /// The values of a table by their names, and what each is.
