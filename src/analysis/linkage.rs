@@ -1,5 +1,12 @@
 //! The linkage that moves the bed: its motion over a turn, dead points, largest accelerations, transmission angles, torque.
 
+mod described;
+mod moving;
+mod over_base;
+mod picture;
+#[cfg(test)]
+mod tests;
+
 use super::{Analysis, Measure};
 use crate::body::Kind;
 use crate::buffer::Bed;
@@ -11,6 +18,7 @@ use crate::machine::{LinkageData, Machine};
 use crate::report::plot::{self, Curve, Panel, Plot};
 use crate::report::{Section, Speeds, degrees, shown};
 use crate::table::{Table, Told};
+use picture::Lying;
 use serde::Serialize;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
@@ -159,17 +167,7 @@ fn design(data: &LinkageData) -> Option<Section> {
         "base_ratio": link.base, "coupler_ratio": link.coupler, "follower_ratio": link.follower,
         "follower_angle_deg": angle, "rod_ratio": slider.rod_ratio, "offset_ratio": slider.offset_ratio,
     });
-    let words = vec![
-        "[linkage]".into(),
-        "kind = \"six-bar\"".into(),
-        format!("rod_ratio = {}", slider.rod_ratio),
-        format!("offset_ratio = {}", slider.offset_ratio),
-        format!("base_ratio = {}", link.base),
-        format!("coupler_ratio = {}", link.coupler),
-        format!("follower_ratio = {}", link.follower),
-        format!("follower_angle = \"{angle} deg\""),
-    ];
-    Some(Section::new("design", &value).with_words(words))
+    Some(Section::new("design", &value).with_words(described::lines(data)?))
 }
 
 /// The linkage of a machine at a speed of its main shaft, rpm, or one that is designed for its slider.
@@ -183,6 +181,11 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<Goal>) -> Result<Analy
     };
     let bed = machine.bed().ok_or(LinkageError::NoBed)?;
     let found = linkage::characteristics(&data.linkage);
+    let lying = Lying::new(data, bed);
+    let own = match data.linkage {
+        Linkage::SixBar(link, slider) => Some(over_base::diagram(link, slider)),
+        Linkage::Yoke | Linkage::CrankSlider(_) => None,
+    };
     let (speed, told) = (bed.crank_speed(rpm), figures(data, &found, (bed, rpm)));
     let rows: Vec<Row> = (0..ROWS).map(|i| row(data, bed, speed, f64::from(i) / f64::from(ROWS))).collect();
     let mut inputs = vec![Input::word("command", KIND.command)];
@@ -199,7 +202,13 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<Goal>) -> Result<Analy
         sections,
         measures: measures(machine, data, &found),
         notes: machine.idle_keys_told(KIND.keys, KIND.noun),
-        plot: curves(machine.name(), data, (bed, to_line(data, found.outer)), &rows),
+        plot: Plot {
+            own: own.into_iter().collect(),
+            scheme: Some(picture::scheme(&lying)),
+            ..curves(machine.name(), data, (bed, to_line(data, found.outer)), &rows)
+        },
+        mechanism: Some(moving::mechanism(&lying, ROWS, speed)),
+        document: described::lines(data).map(|lines| lines.join("\n") + "\n"),
         tables: vec![("", Table::listed(TOLD, &rows))],
         by: &[],
         along: "crank_deg",
@@ -357,5 +366,6 @@ fn curves(machine: &str, data: &LinkageData, (bed, outer): (&Bed, f64), rows: &[
             panel("Velocity, mm/rad", 1),
             panel("Acceleration, mm/rad²", 2),
         ],
+        ..Plot::default()
     }
 }

@@ -163,6 +163,8 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         measures: vec![volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column())],
         notes: notes(machine),
         plot: plot(machine.name(), cam_rpm, &curves, &along),
+        mechanism: None,
+        document: None,
         tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(along.told, &curves))],
         by: &["rpm"],
         along: along.column,
@@ -298,5 +300,6 @@ fn plot(machine: &str, cam_rpm: f64, all: &[AtPlace], along: &Along) -> Plot {
             Panel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
             Panel { name: "Residual force, inertia less air, N".into(), curves: of(true, |place| place.residual) },
         ],
+        ..Plot::default()
     }
 }

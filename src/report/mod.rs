@@ -13,6 +13,7 @@ pub mod mechanism;
 pub mod plot;
 mod point_measures;
 mod rolled;
+pub mod scheme;
 pub mod sheet;
 pub mod trace;
 mod values;
