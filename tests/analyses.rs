@@ -197,6 +197,8 @@ fn a_linkage_has_the_known_figures() {
         let power = force * of(row, "velocity_m_per_s");
         assert!((power - of(row, "power_w")).abs() < 1e-7 * 25_000.0);
         assert!((of(row, "velocity_m_per_s") - 1e-3 * omega * of(row, "velocity_mm_per_rad")).abs() < 1e-12);
+        // The buffers of both ends balance it over the whole turn, to rounding.
+        assert!(of(row, "residual_n").abs() < 1e-9 && of(row, "air_n") * of(row, "inertia_n") > -1e-9, "{row:?}");
     }
     let plain = report(&run(0, &["linkage", "dpi-crank-slider", "--dry-run", "--json"]));
     close(plain["linkage"]["c_plus"].as_f64().expect("a number"), 6.579_736_267_392_9);

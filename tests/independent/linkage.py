@@ -13,6 +13,7 @@ import csv
 import json
 import math
 import random
+import re
 import subprocess
 import sys
 import time
@@ -26,13 +27,12 @@ from outline import Chain, polyline
 X = np.longdouble
 PI = X("3.14159265358979323846264338327950288")
 DEG, AT = PI / 180, X("98066.5")
-# A double's rounding times the few dozen operations a figure takes.
-CLOSE = 1e-11
-# An extreme of a scan that is zoomed in until the values are flat; a sum of a double's roundings, seen through a division by S or A.
-EXTREME = 1e-11
-# Derivatives of the fifth order cancel more: a few digits for the sharpest dead points (short rods, δ far from 180°) in doubles.
-SLOPES = {1: 1e-11, 2: 1e-10, 3: 1e-9}
-# The place of an extreme is known to the root of the rounding only, when it is searched by value; where by a root, far better.
+# A double's rounding, 1e-16, times the few hundred operations from the machine file to a figure; 500 machines came to 3e-15.
+CLOSE = 1e-13
+# Each derivative of the law takes one more of the bed, and each of those divides once more by what is small near a dead point: a power
+# of ten an order; 500 machines came to 3e-14, 6e-14 and 8e-14 of the largest.
+SLOPES = {1: 3e-13, 2: 2e-12, 3: 1e-11}
+# The place of an extreme that is searched by value is known to the root of the rounding of the value only.
 PLACE = 3e-8
 
 
@@ -370,35 +370,35 @@ def judge_linkage(m, drive, report, wrong, rpm):
         wrong.append("a crank-slider with a transmission angle of a drag link")
     figures, peaks = drive_figures(m, drive)
     for key in ("c_plus", "c_minus", "k_c", "w", "velocity_coefficient", "stroke_mm"):
-        wrong.close(told[key], figures[key], f"linkage {key}", EXTREME)
-    wrong.close(told["k_phi"], figures["k_phi"], "linkage k_phi", 1e-10)
+        wrong.close(told[key], figures[key], f"linkage {key}", CLOSE)
+    wrong.close(told["k_phi"], figures["k_phi"], "linkage k_phi", 1e-12)
     for key in ("outer_deg", "inner_deg"):
         turn = (X(told[key]) * DEG - figures[key] + PI) % (2 * PI) - PI
-        wrong.close(turn, 0, f"linkage {key}", 0, 1e-11)
+        wrong.close(turn, 0, f"linkage {key}", 0, 1e-12)
     zeros = drive.roots(2)
     for one in told["zero_deg"]:
         off = np.abs((zeros - X(one) * DEG + PI) % (2 * PI) - PI).min()
-        wrong.close(off, 0, "linkage zero_deg", 0, 1e-10)
+        wrong.close(off, 0, "linkage zero_deg", 0, 1e-12)
     if len(told["zero_deg"]) != len(zeros):
         wrong.append(f"{len(told['zero_deg'])} zeros told, there are {len(zeros)}")
-    wrong.close(told["inertia_max_n"], mass * omega**2 * peaks["a"] / 1000, "linkage inertia_max_n", EXTREME)
-    wrong.close(told["torque_max_nm"], mass * omega**2 * peaks["va"] / 1e6, "linkage torque_max_nm", EXTREME)
-    wrong.close(told["power_max_w"], mass * omega**3 * peaks["va"] / 1e6, "linkage power_max_w", EXTREME)
+    wrong.close(told["inertia_max_n"], mass * omega**2 * peaks["a"] / 1000, "linkage inertia_max_n", CLOSE)
+    wrong.close(told["torque_max_nm"], mass * omega**2 * peaks["va"] / 1e6, "linkage torque_max_nm", CLOSE)
+    wrong.close(told["power_max_w"], mass * omega**3 * peaks["va"] / 1e6, "linkage power_max_w", CLOSE)
     rod_most = largest(lambda f: np.abs(drive.angles(f)[1]), 0, 2 * PI)[0]
-    wrong.close(told["rod_angle_max_deg"], rod_most / DEG, "linkage rod_angle_max_deg", EXTREME)
+    wrong.close(told["rod_angle_max_deg"], rod_most / DEG, "linkage rod_angle_max_deg", CLOSE)
     if transmission is not None:
         least = -largest(lambda f: -drive.angles(f)[0], 0, 2 * PI)[0]
-        wrong.close(told["transmission_min_deg"], least / DEG, "linkage transmission_min_deg", EXTREME)
+        wrong.close(told["transmission_min_deg"], least / DEG, "linkage transmission_min_deg", CLOSE)
         plain, _ = drive_figures(m, Drive(dict(m, kind="crank-slider")))
         c, c0 = (max(f["c_plus"], f["c_minus"]) for f in (figures, plain))
-        wrong.close(told["compared"]["c"], c / c0 - 1, "linkage compared c", 0, EXTREME)
-        wrong.close(told["compared"]["w"], figures["w"] / plain["w"] - 1, "linkage compared w", 0, EXTREME)
-        wrong.close(told["compared"]["speed"], np.sqrt(c0 / c) - 1, "linkage compared speed", 0, EXTREME)
+        wrong.close(told["compared"]["c"], c / c0 - 1, "linkage compared c", 0, CLOSE)
+        wrong.close(told["compared"]["w"], figures["w"] / plain["w"] - 1, "linkage compared w", 0, CLOSE)
+        wrong.close(told["compared"]["speed"], np.sqrt(c0 / c) - 1, "linkage compared speed", 0, CLOSE)
     check = {c["check"]: c for c in report["checks"]}
     wrong.close(check["reversals"]["value"], len(zeros), "linkage reversals", 0, 0)
     if (check["reversals"]["verdict"] == "pass") != (len(zeros) == 2):
         wrong.append(f"reversals {check['reversals']['verdict']} with {len(zeros)} changes of sign")
-    wrong.close(X(check["dead_points"]["value"]) * DEG, figures["outward"], "linkage dead_points", 0, 1e-10)
+    wrong.close(X(check["dead_points"]["value"]) * DEG, figures["outward"], "linkage dead_points", 0, 1e-12)
 
 
 def drive_figures(m, drive):
@@ -469,10 +469,11 @@ def judge_balance(m, end, rows, rpm, column, wrong, what, lobes):
     bottom = end.bottom(turn[exact], rpm, length)
     # The law is a difference of the column and the way: roundings of both.
     size = length + stroke
-    wrong.close(told_bottom[exact], bottom[0], f"{what} dx", 0, 1e-12 * size)
+    wrong.close(told_bottom[exact], bottom[0], f"{what} dx", 0, 1e-13 * size)
     # Equal forces at every angle: the gas at the told bottom, the bed by the linkage.
-    wrong.close(air[exact], inertia[exact], f"{what} air and inertia", 0, 1e-9 * force_most)
-    slack = 1e-10 * force_most
+    wrong.close(air[exact], inertia[exact], f"{what} air and inertia", 0, 1e-11 * force_most)
+    # The rounding of the way, through the slope of the force.
+    slack = 1e-12 * force_most
     wrong.close(rows["inertia_n"], inertia, f"{what} inertia_n", 0, slack)
     wrong.close(rows["air_n"], air, f"{what} air_n", 0, slack)
     wrong.close(rows["residual_n"], inertia - air, f"{what} residual_n", 0, slack)
@@ -481,7 +482,7 @@ def judge_balance(m, end, rows, rpm, column, wrong, what, lobes):
     fixed = np.where(inside, end.air(plain, np.where(inside, way[0], 0)), 0)
     wrong.close(rows["air_fixed_bottom_n"], fixed, f"{what} fixed bottom", 0, slack)
     wrong.close(rows["air_n"][outside], 0, f"{what} air outside", 0, 0)
-    wrong.close(rows["roller_force_n"], rows["air_n"] / m["lever"], f"{what} roller_force_n", 1e-13, 1e-9 * slack)
+    wrong.close(rows["roller_force_n"], rows["air_n"] / m["lever"], f"{what} roller_force_n", 1e-14)
     # Outside the reversal nothing is compressed, so that the pressure is ambient when it begins; a blend rounds just that.
     if m["transition"] != "blend":
         wrong.close(np.maximum(shorter[outside], 0), 0, f"{what} compressed outside", 0, 1e-12 * size)
@@ -496,7 +497,7 @@ def judge_balance(m, end, rows, rpm, column, wrong, what, lobes):
     size_of = [1000 * lever * lobes**n * np.abs(bottom[n]).max() for n in range(4)]
     for n, name in [(1, "velocity_mm_per_rad"), (2, "acceleration_mm_per_rad2"), (3, "jerk_mm_per_rad3")]:
         true = 1000 * lever * lobes**n * bottom[n]
-        wrong.close(rows[name][exact], true, f"{what} {name}", 0, SLOPES[n] * (size_of[n] + size_of[1]) + 1e-10 * 1000 * size * (n == 3))
+        wrong.close(rows[name][exact], true, f"{what} {name}", 0, SLOPES[n] * size_of[n] + 1e-13 * 1000 * float(lever) * size * lobes**n)
     wrong.close(rows["torque_nm"], rows["roller_force_n"] * rows["velocity_mm_per_rad"] / 1000, f"{what} torque_nm", 1e-12,
                 1e-13 * float(force_most * stroke))
     at_rest(m, end, rpm, length, turn, told_bottom, wrong, what, lobes, size)
@@ -555,7 +556,7 @@ def at_rest(m, end, rpm, column, turn, told, wrong, what, lobes, size):
             continue
         ((a, sa), (b, sb)), misfit = got
         # A polynomial's slope at its end is worse than its misfit by the square of its degree over the width.
-        fits = 1e-9 * size
+        fits = 1e-12 * size
         wrong.close(misfit, 0, f"{what} polynomial at rest", 0, fits)
         slopes = 400 * fits / float(high - low)
         for known, slope, value, its in [(v0, s0, a, sa), (v1, s1, b, sb)]:
@@ -626,12 +627,12 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
     law, lobes = report["law"], m["lobes"]
     rows = table(next(f for f in report["files"] if f.endswith(".csv")))
     column = end.column(rpm)
-    wrong.close(law["column_length_mm"], 1000 * column, "rotary column", EXTREME)
+    wrong.close(law["column_length_mm"], 1000 * column, "rotary column", CLOSE)
     area = end.both / 2
-    wrong.close(law["piston_area_mm2"], area * 1e6, "rotary piston area", EXTREME)
-    wrong.close(law["bore_mm"], 2000 * np.sqrt(area / PI), "rotary bore", EXTREME)
+    wrong.close(law["piston_area_mm2"], area * 1e6, "rotary piston area", CLOSE)
+    wrong.close(law["bore_mm"], 2000 * np.sqrt(area / PI), "rotary bore", CLOSE)
     force_most = m["mass"] * end.omega(rpm) ** 2 * end.most
-    wrong.close(report["force"]["inertia_max_n"], force_most, "rotary inertia_max_n", EXTREME)
+    wrong.close(report["force"]["inertia_max_n"], force_most, "rotary inertia_max_n", CLOSE)
     judge_balance(m, end, rows, rpm, column, wrong, "rotary", lobes)
     one = len(rows["cam_deg"]) // lobes
     wrong.close(rows["crank_deg"], (rows["cam_deg"] * lobes) % 360 % (360 - 1e-9), "rotary crank_deg", 0, 1e-9)
@@ -653,16 +654,16 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
             wrong.append(f"lowest place told {float(lowest)} mm, the law goes to {float(-worst * 1000)}")
         way, slack = lambda f: end.way(f, 2), 1e-12 * float(force_most)
         torque = lambda f: np.abs(end.inertia(rpm, way(f)) * end.bottom(f, rpm, column, 2)[1]) * lobes
-        wrong.close(report["force"]["torque_max_nm"], largest(torque, 0, end.whole)[0], "rotary torque_max_nm", 1e-9)
-        wrong.close(report["force"]["roller_force_max_n"], force_most / m["lever"], "rotary roller_force_max_n", EXTREME)
+        wrong.close(report["force"]["torque_max_nm"], largest(torque, 0, end.whole)[0], "rotary torque_max_nm", 1e-12)
+        wrong.close(report["force"]["roller_force_max_n"], force_most / m["lever"], "rotary roller_force_max_n", CLOSE)
         plain = end.returning(rpm)
         left = lambda f: np.abs(end.inertia(rpm, way(f)) - end.air(plain, way(f)[0]))
-        wrong.close(report["force"]["residual_fixed_bottom_max_n"], largest(left, 0, end.whole)[0], "rotary fixed bottom max", EXTREME, slack)
+        wrong.close(report["force"]["residual_fixed_bottom_max_n"], largest(left, 0, end.whole)[0], "rotary fixed bottom max", CLOSE, slack)
         moved = lambda f: np.abs(end.bottom(f, rpm, column, 1)[0])
         most, place = largest(moved, 0, end.whole)
         if np.abs(rows["dx_mm"][rows["crank_deg"] > end.whole / DEG]).max() < most * 1000:
             there = end.bottom(place, rpm, column, 1)[0][0]
-            wrong.close(law["dx_max_mm"], 1000 * there, "rotary dx_max_mm", EXTREME, 1e-12 * size)
+            wrong.close(law["dx_max_mm"], 1000 * there, "rotary dx_max_mm", CLOSE, 1e-12 * size)
             if np.abs(there) < most * (1 - 1e-9) or end.whole > place > 0:
                 # A place that is told by the way: as flat there as the largest is.
                 wrong.close(law["dx_max_at_x_mm"], 1000 * way(place)[0][0], "rotary dx_max_at_x", 0, PLACE * float(m["r"]) * 10)
@@ -673,7 +674,7 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
             beside = -way_[1] if m["lead"] and way_[0] > -m["lead"] else slope if m["transition"] == "run-up" else X(0)
             jumps.append(np.abs(slope - beside))
         if not m["lead"] or end.way(end.whole)[0][0] >= -m["lead"]:
-            wrong.close(abs(law["velocity_jump_mm_per_rad"]), 1000 * max(jumps), "rotary velocity jump", EXTREME, 1e-11 * size)
+            wrong.close(abs(law["velocity_jump_mm_per_rad"]), 1000 * max(jumps), "rotary velocity jump", CLOSE, 1e-11 * size)
         wrong.close(law["start_slope"], end.bottom(X(0), rpm, column, 2)[1][0] / end.way(X(0))[1][0] , "rotary start_slope", 0, 1e-11)
     # The roller's centre and the contact angle: from the lift and its slope.
     prime = X(report["cam"]["prime_radius_mm"])
@@ -688,12 +689,16 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
     wrong.close(rows["pitch_y_mm"], centre[1], "rotary pitch y", 0, 1e-13 * float(height.max()))
     # Along the path the roller goes v a radian, while the cam's own point goes height across and −side along it.
     slope = np.arctan2(np.abs(rows["velocity_mm_per_rad"] - m["side"]), height) / DEG
-    wrong.close(np.abs(rows["pressure_angle_deg"]), slope, "rotary pressure angle", 0, 1e-10 * 90)
-    wrong.close(rows["contact_force_n"], rows["roller_force_n"] / np.cos(slope * DEG), "rotary contact_force_n", 1e-10, 1e-9)
+    wrong.close(np.abs(rows["pressure_angle_deg"]), slope, "rotary pressure angle", 0, CLOSE * 90)
+    wrong.close(rows["contact_force_n"], rows["roller_force_n"] / np.cos(slope * DEG), "rotary contact_force_n", 1e-12)
     checks = {c["check"]: c["verdict"] for c in report["checks"]}
-    if any(checks.get(c) == "fail" for c in ("undercut", "cutter_radius", "outline", "rolling")):
+    if checks.get("undercut") == "fail":
         wrong.notes.append("not rolled: undercut")
         return
+    for check in ("outline", "rolling", "tangency"):
+        if checks.get(check) == "fail":
+            wrong.append(f"{check} fails, though no motion is lost to an undercut")
+            return
     judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
 
 
@@ -721,7 +726,7 @@ def judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
         return
     off = np.abs(height - base - rows["lift_mm"])
     # The worst place may lie between the rows; none of them may be beyond it. DXF coordinates have twelve decimals.
-    wrong.below(off.max(), told["lift_error_max_mm"] * (1 + 1e-3) + 1e-9, "cut lift error over the told one")
+    wrong.below(off.max(), told["lift_error_max_mm"] * (1 + 1e-5) + 1e-9, "cut lift error over the told one")
     tolerance = report["outline"]["tolerance_mm"]
     steep = np.cos(np.radians(np.abs(rows["pressure_angle_deg"])))
     # Along the normal; the normal turns a little over the tolerance.
@@ -731,7 +736,7 @@ def judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
         i, a = force(rows["crank_deg"][inside].astype(X) * DEG, (height[inside] - base) / lever / 1000 + lowest / 1000)
         stiff = float((end.both * m["k"] * (m["p0"] + force_most / end.both) / (column - end.shorter(force_most, column))))
         # A lift that is found from coordinates of 1e-12 mm and of a size of meters, times the stiffness of the air.
-        slack = 1e-8 * force_most + stiff / 1000 * 2e-10 * float(prime)
+        slack = 1e-9 * force_most + stiff / 1000 * 2e-10 * float(prime)
         wrong.close(rows["residual_cut_n"][inside], np.abs(i - a), "cut residual_cut_n", 0, slack)
     at = np.linspace(0, float(end.whole), 2401)[:-1]
     at = at + (at[1] - at[0]) * 0.37
@@ -739,14 +744,15 @@ def judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
     i, a = force(at.astype(X), cut(at, lobe))
     most = np.abs(i - a).max()
     # Told is the largest at the places it was rolled at, of which there are as many as arcs and more; mine are others.
-    wrong.below(most, told["residual_max_n"] * 1.01 + 1e-7 * force_most, "cut residual over the told one")
+    wrong.below(most, told["residual_max_n"] * 1.001 + 1e-7 * force_most, "cut residual over the told one")
     lobe, place = np.divmod(told["residual_cam_deg"] * lobes, 360)
     place = np.radians([place])
-    if place[0] < end.whole:
+    # With a blend it is often at the very start or end.
+    if place[0] < end.whole + 1e-12:
         i, a = force(place.astype(X), cut(place, lobe))
         wrong.close(told["residual_max_n"], np.abs(i - a)[0], "cut residual at its place", 1e-6, 1e-7 * force_most)
     else:
-        wrong.notes.append("largest residual as cut told outside the reversal")
+        wrong.append(f"largest residual as cut told at {np.degrees(place[0])}° of the crank, the reversal ends at {float(end.whole / DEG)}°")
     wrong.close(report["force"]["residual_max_n"], told["residual_max_n"], "cut residual in force", 1e-12)
     if m["transition"] == "blend":
         return
@@ -779,8 +785,8 @@ def judge_conoid(m, end, report, wrong, speeds):
     for section in report["sections"]:
         rpm = X(section["rpm"])
         column = end.column(m["rpm"]) if m["mode"] == "fixed" else end.reset(rpm, m["rpm"])
-        wrong.close(section["column_length_mm"], 1000 * column, "conoid column", EXTREME)
-        wrong.close(section["inertia_max_n"], m["mass"] * end.omega(rpm) ** 2 * end.most, "conoid inertia", EXTREME)
+        wrong.close(section["column_length_mm"], 1000 * column, "conoid column", CLOSE)
+        wrong.close(section["inertia_max_n"], m["mass"] * end.omega(rpm) ** 2 * end.most, "conoid inertia", CLOSE)
         slope = end.bottom(X(0), rpm, column, 2)[1][0] / end.way(X(0))[1][0]
         if m["transition"] != "blend":
             wrong.close(section["start_slope"], slope, "conoid start_slope", 0, 1e-11)
@@ -793,7 +799,7 @@ def judge_conoid(m, end, report, wrong, speeds):
 def judge_regimes(m, end, report, wrong, speeds):
     told, cut, lobes = report["regimes"], m["rpm"], m["lobes"]
     column = end.column(cut)
-    wrong.close(told["column_length_mm"], 1000 * column, "regimes column", EXTREME)
+    wrong.close(told["column_length_mm"], 1000 * column, "regimes column", CLOSE)
     most_cut = m["mass"] * end.omega(cut) ** 2 * end.most
     way = lambda f: end.way(f, 2)
     seen = {}
@@ -802,11 +808,11 @@ def judge_regimes(m, end, report, wrong, speeds):
         same = rpm == cut
         reset = column if same else end.reset(rpm, cut)
         most = m["mass"] * end.omega(rpm) ** 2 * end.most
-        slack = 1e-12 * float(max(most, most_cut))
-        wrong.close(row["column_length_mm"], 1000 * reset, "regimes reset column", EXTREME)
-        wrong.close(row["lambda"], reset / column, "regimes lambda", EXTREME)
-        wrong.close(row["a_per_mm"], most / (m["p0"] * end.both * end.most) / 1000, "regimes a", EXTREME)
-        wrong.close(row["added_volume_mm3"], (reset - column) * end.both * 1e9, "regimes added volume", 1e-9, 1e-11 * float(column * end.both * 1e9))
+        slack = 1e-13 * float(max(most, most_cut))
+        wrong.close(row["column_length_mm"], 1000 * reset, "regimes reset column", CLOSE)
+        wrong.close(row["lambda"], reset / column, "regimes lambda", CLOSE)
+        wrong.close(row["a_per_mm"], most / (m["p0"] * end.both * end.most) / 1000, "regimes a", CLOSE)
+        wrong.close(row["added_volume_mm3"], (reset - column) * end.both * 1e9, "regimes added volume", 1e-12, 1e-13 * float(column * end.both * 1e9))
 
         def left(f):
             w = way(f)
@@ -816,12 +822,12 @@ def judge_regimes(m, end, report, wrong, speeds):
         residual, place = largest(lambda f: np.abs(left(f)), 0, end.whole)
         at_hardest = left(end.hardest)[0]
         wrong.close(at_hardest, 0, "regimes my end residual", 0, slack)
-        wrong.close(row["end_residual_n"], 0, "regimes end residual", 0, slack * 10)
+        wrong.close(row["end_residual_n"], 0, "regimes end residual", 0, slack)
         pressure = m["p0"] + end.air(reset, end.shorter(most_cut, column)) / end.both
-        wrong.close(row["end_pressure_pa"], pressure, "regimes end pressure", EXTREME)
-        wrong.close(pressure, m["p0"] + most / end.both, "regimes my end pressure", EXTREME)
-        wrong.close(row["residual_max_n"], 0 if same else residual, "regimes residual", 1e-9, slack * 10)
-        wrong.close(row["residual_share"], 0 if same else residual / most, "regimes residual share", 1e-9, slack * 10 / float(most))
+        wrong.close(row["end_pressure_pa"], pressure, "regimes end pressure", CLOSE)
+        wrong.close(pressure, m["p0"] + most / end.both, "regimes my end pressure", CLOSE)
+        wrong.close(row["residual_max_n"], 0 if same else residual, "regimes residual", 1e-11, slack)
+        wrong.close(row["residual_share"], 0 if same else residual / most, "regimes residual share", 1e-11, slack / float(most))
         if not same and residual > 1e-3 * most:
             # The ways out and back have equal forces at different places: on one of the two it must be the worst.
             x = X(row["residual_at_mm"]) / 1000
@@ -832,16 +838,16 @@ def judge_regimes(m, end, report, wrong, speeds):
                 there = way(places)
                 places = places - (there[0] - x) / there[1]
             there = np.abs(left(places)).max() if len(places) else X(0)
-            wrong.close(there, residual, "regimes residual at its place", 1e-9)
+            wrong.close(there, residual, "regimes residual at its place", 1e-10)
         speed = lambda f: way(f)[1]
         crank = largest(lambda f: np.abs(left(f) * speed(f)), 0, end.whole)[0]
-        wrong.close(row["crank_torque_max_nm"], 0 if same else crank, "regimes crank torque", 1e-8, slack * float(m["r"]) / 100)
+        wrong.close(row["crank_torque_max_nm"], 0 if same else crank, "regimes crank torque", 1e-11, slack * float(m["r"]) / 100)
 
         def shaft(f):
             w = way(f)
             return np.abs(end.air(reset, end.shorter(end.inertia(cut, w), column)) * end.bottom(f, cut, column, 2)[1]) * lobes
 
-        wrong.close(row["camshaft_torque_max_nm"], largest(shaft, 0, end.whole)[0], "regimes camshaft torque", 1e-9)
+        wrong.close(row["camshaft_torque_max_nm"], largest(shaft, 0, end.whole)[0], "regimes camshaft torque", 1e-11)
         seen[float(rpm)] = reset, left, slack, most
     if sorted(seen) != sorted(float(s) for s in speeds):
         wrong.append(f"speeds {sorted(seen)}, asked for {sorted(float(s) for s in speeds)}")
@@ -852,7 +858,7 @@ def judge_regimes(m, end, report, wrong, speeds):
         if f.max() < end.whole * X(1 - 1e-12):
             wrong.append(f"the curve ends at {float(f.max() / DEG)}°, the reversal at {float(end.whole / DEG)}°")
         w = way(f)
-        ulps = 1e-11 * float(max(most, most_cut))
+        ulps = 1e-12 * float(max(most, most_cut))
         wrong.close(rows["x_mm"][mine], 1000 * w[0], "regimes curve x", 0, 1e-12 * float(m["r"] * (2 + m["rod"])))
         wrong.close(rows["inertia_n"][mine], end.inertia(rpm, w), "regimes curve inertia", 0, ulps)
         wrong.close(rows["residual_n"][mine], 0 if X(rpm) == cut else left(f), "regimes curve residual", 0, ulps)
@@ -887,7 +893,9 @@ def task(arguments):
         ("rotary", ["--rpm", repr(float(rpm)), *side, "--samples", str(720 * m["lobes"])], "csv,dxf"),
         ("regimes", ["--rpm", ",".join(repr(float(n)) for n in other), *side], "csv"),
     ]
-    if number % 3 == 0 or number < 4:
+    smooth = m["transition"] == "blend" or m["transition"] == "run-up" and not m["lead"]
+    if number % 3 == 0 and (smooth or rng.random() < 0.15) or number < 4:
+        # A conoid has no corners, so it is refused with a lead, and without a transition.
         jobs.append(("conoid", ["--rpm", ",".join(repr(float(n)) for n in sections), *side, "--samples", str(720 * m["lobes"])], "csv"))
     end = None
     for command, more, formats in jobs:
@@ -900,7 +908,9 @@ def task(arguments):
                 wrong.append(f"exit {got.returncode}: {got.stderr.strip()[:300]}")
             if got.returncode == 2 or report is None or not report.get("files"):
                 states.append(f"{command} refused")
-                wrong.notes.append(f"{command} refused: {got.stderr.strip().splitlines()[0][:170] if got.stderr.strip() else f'exit {got.returncode}, no words'}")
+                if "changes its sign" in got.stderr and len(drive.roots(2)) == 2:
+                    wrong.append(f"refused for reversals, of which there are two: {got.stderr.strip()[:200]}")
+                wrong.notes.append(f"{command} refused: {re.sub(r'[0-9.]+', '…', (got.stderr.strip() or 'no words').splitlines()[0])[:170]}")
                 continue
             failing = [c["check"] for c in report["checks"] if c["verdict"] == "fail"]
             if bool(failing) != (got.returncode == 1):

@@ -1,6 +1,6 @@
 //! The linkage as it lies and as it moves, in millimetres: O2 at the origin, the slider's outward direction along +x.
 
-use super::{least_transmission, to_line};
+use super::least_transmission;
 use crate::buffer::Bed;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Extents;
@@ -133,7 +133,7 @@ pub(super) fn scheme(lying: &Lying<'_>) -> Scheme {
         moments.push((format!("steepest rod, {angle}°"), data.linkage.steepest_rod()));
     }
     let stands = moments.iter().map(|(name, theta)| {
-        let crank = shown(degrees(to_line(data, *theta)));
+        let crank = shown(degrees(data.to_line(*theta)));
         stand(lying, format!("{name}: driving crank at {crank}°"), &lying.places(*theta))
     });
     let mut notes = vec![match data.linkage {
