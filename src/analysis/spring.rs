@@ -92,6 +92,13 @@ struct Springs<'a> {
     settings: &'a [Set],
 }
 
+/// The press, where a yoke moves its bed.
+fn under_a_yoke(machine: &Machine) -> Result<&Press, NoPress> {
+    let press = machine.press()?;
+    let why = "the travel of the spring has no closed form";
+    if press.stroke_end.is_some() { Err(NoPress::Linkage { what: "springs are set", why }) } else { Ok(press) }
+}
+
 /// Buffers on springs of these stiffnesses (N/m), and of that which leaves a wanted residual force (N) at the design speed, at
 /// some speeds of the main shaft (rpm; none: the design speed).
 ///
@@ -103,11 +110,7 @@ pub fn analysis(
     stiffnesses: &[f64],
     residual: Option<f64>,
 ) -> Result<Analysis, SpringError> {
-    let press = machine.press()?;
-    if press.stroke_end.is_some() {
-        let why = "the travel of the spring has no closed form";
-        return Err(NoPress::Linkage { what: "springs are set", why }.into());
-    }
+    let press = under_a_yoke(machine)?;
     let (bed, cylinder, own) = (press.bed, press.cylinder(), [press.design_rpm]);
     let speeds = if speeds.is_empty() { &own[..] } else { speeds };
     let least = spring::least_stiffness(&bed, press.design_rpm);

@@ -11,15 +11,23 @@ pub struct Passing {
 
 impl std::fmt::Display for Passing {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        if !(self.below > self.above) {
+        // To six digits, inwards.
+        let (above, below) = ((1e6 * self.above).ceil() / 1e6, (1e6 * self.below + 1e-3).floor() / 1e6);
+        if self.is_empty() {
             write!(f, "of no length at all")
         } else if self.below.is_infinite() {
-            write!(f, "above {}", self.above)
+            write!(f, "above {above}")
         } else if self.above <= 0.0 {
-            write!(f, "below {}", self.below)
+            write!(f, "below {below}")
         } else {
-            write!(f, "between {} and {}", self.above, self.below)
+            write!(f, "between {above} and {below}")
         }
+    }
+}
+
+impl Passing {
+    fn is_empty(&self) -> bool {
+        !(self.below > self.above)
     }
 }
 
@@ -36,7 +44,13 @@ pub struct Remedies {
 
 impl std::fmt::Display for Remedies {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "a base {}, or a coupler {}, or a follower {}", self.base, self.coupler, self.follower)
+        let all = [("a base", self.base), ("a coupler", self.coupler), ("a follower", self.follower)];
+        let lengths: Vec<String> = all
+            .iter()
+            .filter(|(_, passing)| !passing.is_empty())
+            .map(|(name, passing)| format!("{name} {passing}"))
+            .collect();
+        f.write_str(&if lengths.is_empty() { "two other lengths at least".to_owned() } else { lengths.join(", or ") })
     }
 }
 

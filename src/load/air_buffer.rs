@@ -45,6 +45,7 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max)
         bore_mm: MILLIMETRES * cylinder.bore(),
         start_slope: law.start_slope(),
         velocity_jump_mm_per_rad: 0.0,
+        jumps_at_end: false,
         column_closed_at_crank_deg: None,
         equation_18: None,
     }
@@ -160,8 +161,10 @@ impl Load for AirBuffer {
 
     fn section(&self) -> Section {
         let law = self.bottom_law();
+        let (jump, jumps_at_end) = self.reversal.velocity_jump();
         AirLaw {
-            velocity_jump_mm_per_rad: MILLIMETRES * self.reversal.velocity_jump(),
+            velocity_jump_mm_per_rad: MILLIMETRES * jump,
+            jumps_at_end,
             column_closed_at_crank_deg: closed_at(self.reversal.law().transition),
             ..air_law(&self.cylinder, law, law.largest_displacement())
         }

@@ -151,6 +151,9 @@ pub struct AirLaw {
     pub start_slope: f64,
     /// Jump of the bottom's velocity at the start of the reversal.
     pub velocity_jump_mm_per_rad: f64,
+    /// The larger jump is that at the end of the reversal.
+    #[serde(skip)]
+    pub jumps_at_end: bool,
     /// Where a blend closes the air column at ambient pressure: the crank angle at which it starts to move the bottom.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column_closed_at_crank_deg: Option<f64>,
@@ -236,8 +239,9 @@ impl AirLaw {
         )];
         if self.velocity_jump_mm_per_rad != 0.0 {
             words.push(format!(
-                "its velocity jumps by {:.2} mm/rad of crank at the start of the reversal",
-                self.velocity_jump_mm_per_rad
+                "its velocity jumps by {:.2} mm/rad of crank at the {} of the reversal",
+                self.velocity_jump_mm_per_rad,
+                if self.jumps_at_end { "end" } else { "start" }
             ));
         }
         if let Some(degrees) = self.column_closed_at_crank_deg {

@@ -17,6 +17,7 @@ import re
 import subprocess
 import sys
 import time
+import traceback
 from collections import Counter, defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -243,7 +244,9 @@ class Wrong(list):
             i = int(np.argmax(np.where(np.isfinite(off), used, np.inf)))
             self.largest[what] = max(self.largest[what], float(used.flat[i]))
             if not off.flat[i] <= slack.flat[i]:
-                self.append(f"{what} told {float(told.flat[i])!r}, is {float(true.flat[i])!r} (off {float(off.flat[i]):.1e}, allowed {float(slack.flat[i]):.1e}, {i} of {off.size})")
+                place = f", {i} of {off.size}" if off.size > 1 else ""
+                self.append(f"{what} told {float(told.flat[i])!r}, is {float(true.flat[i])!r} (off {float(off.flat[i]):.1e}, "
+                            f"allowed {float(slack.flat[i]):.1e}{place})")
 
     def below(self, value, limit, what):
         self.largest[what] = max(self.largest[what], float(value / limit) if limit else float(value))
@@ -272,28 +275,33 @@ def settings(m):
     """The --set words of a machine, as decimals that are the very numbers used here."""
     of = lambda value, unit="": f"{float(value)!r}{unit}"
     pairs = {
-        "bed.mass": of(m["mass"], "kg"), "bed.crank_radius": of(m["r"], "mm"), "bed.crank_turns_per_main_shaft_turn": of(m["turns"]),
+        "bed.mass": of(m["mass"], "kg"), "bed.crank_radius": of(m["r"], "mm"),
+        "bed.crank_turns_per_main_shaft_turn": of(m["turns"]),
         "linkage.rod_ratio": of(m["rod"]), "linkage.offset_ratio": of(m["offset"]), "design.rpm": of(m["rpm"]),
         "buffer.polytropic_exponent": of(m["k"]), "buffer.ambient_pressure": of(m["p0"] / AT, "at"),
         "buffer.end_pressure": of(m["p1"] / AT, "at"),
         "buffer.column": m["column"] if isinstance(m["column"], str) else of(1000 * m["column"], "mm"),
-        "buffer.lead": of(1000 * m["lead"], "mm"), "cam.cam_turns_per_crank_turn": repr(1 / m["lobes"]), "cam.lever": of(m["lever"]),
-        "cam.rotation": m["rotation"], "transition.kind": m["transition"], "transition.width": of(m["width"] / DEG, "deg"),
-        "follower.roller.radius": of(m["roller"], "mm"), "follower.roller.offset": of(m["side"], "mm"), "conoid.mode": m["mode"],
+        "buffer.lead": of(1000 * m["lead"], "mm"), "cam.cam_turns_per_crank_turn": repr(1 / m["lobes"]),
+        "cam.lever": of(m["lever"]), "cam.rotation": m["rotation"], "transition.kind": m["transition"],
+        "transition.width": of(m["width"] / DEG, "deg"), "follower.roller.radius": of(m["roller"], "mm"),
+        "follower.roller.offset": of(m["side"], "mm"), "conoid.mode": m["mode"],
     }
     if m["kind"] == "six-bar":
-        pairs |= {"linkage.base_ratio": of(m["base"]), "linkage.coupler_ratio": of(m["coupler"]), "linkage.follower_ratio": of(m["follower"]),
-                  "linkage.follower_angle": of(m["follower_angle"] / DEG, "deg"), "linkage.base_angle": of(m["base_angle"] / DEG, "deg")}
+        pairs |= {"linkage.base_ratio": of(m["base"]), "linkage.coupler_ratio": of(m["coupler"]),
+                  "linkage.follower_ratio": of(m["follower"]),
+                  "linkage.follower_angle": of(m["follower_angle"] / DEG, "deg"),
+                  "linkage.base_angle": of(m["base_angle"] / DEG, "deg")}
     return [m["file"], *(word for key, value in pairs.items() for word in ("--set", f"{key}={value}"))]
 
 
-EMBEDDED = dict(mass=978.2, r=180.0, turns=3.0, rod=3.0, offset=0.0, rpm=35.0, k=1.35, q=2.0, p0=1.0, column="matched", lead=0.0, lobes=1, lever=1.0,
-                rotation="cw", transition="run-up", width=20.0, roller=30.0, side=0.0, mode="adjusted")
+EMBEDDED = dict(mass=978.2, r=180.0, turns=3.0, rod=3.0, offset=0.0, rpm=35.0, k=1.35, q=2.0, p0=1.0, column="matched", lead=0.0,
+                lobes=1, lever=1.0, rotation="cw", transition="run-up", width=20.0, roller=30.0, side=0.0, mode="adjusted")
 DRAG = dict(kind="six-bar", file="dpi-six-bar", base=0.1, coupler=0.8, follower=0.6, follower_angle=180.0, base_angle=0.0)
 SLIDER = dict(kind="crank-slider", file="dpi-crank-slider")
 
 
-# A bed that is beyond the lead when the air is at rest, and a lead without a run-up: no outline follows that corner, which must be said.
+# 4: a bed that is beyond the lead when the air is at rest again, 8.66 mm before where it began: the bottom must not jump there.
+# 5, 6: a lead without a run-up. No outline follows that corner; it may be refused, but in words a user understands.
 CORNERS = {4: dict(SLIDER, ends="outer", offset=-0.4, lead=3.0), 5: dict(DRAG, ends="outer", lead=3.0, transition="none"),
            6: dict(SLIDER, ends="inner", lead=20.0, transition="none")}
 
@@ -308,7 +316,8 @@ def machine(number, rng):
         near = lambda low, high, digits=3: float(round(rng.uniform(low, high), digits))
         m = dict(DRAG if rng.random() < 0.6 else SLIDER)
         m |= dict(mass=near(50, 4000), r=near(40, 300), turns=rng.choice([1.0, 3.0, near(0.5, 5)]), rod=near(1.7, 6), rpm=near(8, 80),
-                  offset=rng.choice([0.0, 0.0, near(-0.6, 0.6)]), k=rng.choice([1.35, 1.0, near(1.0, 1.7)]), p0=rng.choice([1.0, near(0.5, 2)]),
+                  offset=rng.choice([0.0, 0.0, near(-0.6, 0.6)]), k=rng.choice([1.35, 1.0, near(1.0, 1.7)]),
+                  p0=rng.choice([1.0, near(0.5, 2)]),
                   q=rng.choice([2.0, 5.0, near(1.1, 6)]), column=rng.choice(["matched", "matched", "return", "length"]), lead=0.0,
                   lobes=rng.choice([1, 1, 1, 2, 3]), lever=rng.choice([1.0, near(0.4, 1.6)]), rotation=rng.choice(["cw", "ccw"]),
                   transition=rng.choice(["run-up", "run-up", "none", "blend"]), width=near(8, 30), roller=near(12, 40),
@@ -350,12 +359,13 @@ def judge_linkage(m, drive, report, wrong, rpm):
     crank = rows["crank_deg"].astype(X) * DEG
     d = drive.bed(crank, 3)
     scale = [np.abs(v).max() for v in d]
-    # Ways are of the size of crank and rod; every derivative is judged against its largest: rounding of the sum does not shrink with it.
+    # Every derivative is judged against its largest: the rounding of a sum does not shrink with it.
     for n, name in enumerate(["x_mm", "velocity_mm_per_rad", "acceleration_mm_per_rad2", "jerk_mm_per_rad3"]):
         wrong.close(rows[name], d[n], f"linkage {name}", 0, SLOPES.get(n, CLOSE) * scale[n])
     force, mass = -m["mass"] * omega**2 * d[2] / 1000, m["mass"]
     wrong.close(rows["velocity_m_per_s"], omega * d[1] / 1000, "linkage velocity", 0, CLOSE * omega * scale[1] / 1000)
-    wrong.close(rows["acceleration_m_per_s2"], omega**2 * d[2] / 1000, "linkage acceleration", 0, SLOPES[2] * omega**2 * scale[2] / 1000)
+    wrong.close(rows["acceleration_m_per_s2"], omega**2 * d[2] / 1000, "linkage acceleration", 0,
+                SLOPES[2] * omega**2 * scale[2] / 1000)
     wrong.close(rows["inertia_n"], force, "linkage inertia", 0, SLOPES[2] * np.abs(force).max())
     # The drive gives what the inertia takes: power is what it works against the bed a second.
     power_ = -force * omega * d[1] / 1000
@@ -368,6 +378,8 @@ def judge_linkage(m, drive, report, wrong, rpm):
         wrong.close(rows["transmission_deg"], transmission / DEG, "linkage transmission_deg", 0, CLOSE * 90)
     elif "transmission_deg" in rows and not np.isnan(rows["transmission_deg"]).all():
         wrong.append("a crank-slider with a transmission angle of a drag link")
+    if "air_n" in rows:
+        judge_both_ends(m, drive, rows, crank, force, wrong, rpm)
     figures, peaks = drive_figures(m, drive)
     for key in ("c_plus", "c_minus", "k_c", "w", "velocity_coefficient", "stroke_mm"):
         wrong.close(told[key], figures[key], f"linkage {key}", CLOSE)
@@ -399,6 +411,32 @@ def judge_linkage(m, drive, report, wrong, rpm):
     if (check["reversals"]["verdict"] == "pass") != (len(zeros) == 2):
         wrong.append(f"reversals {check['reversals']['verdict']} with {len(zeros)} changes of sign")
     wrong.close(X(check["dead_points"]["value"]) * DEG, figures["outward"], "linkage dead_points", 0, 1e-12)
+
+
+def judge_both_ends(m, drive, rows, crank, force, wrong, rpm):
+    """The air of the end whose reversal a row stands in, as a force along the bed's way, and the bottom that cam would need."""
+    ends = [End(m, drive, name) for name in ("outer", "inner")]
+    if ends[0].changes != 2:
+        if not np.isnan(rows["air_n"]).all():
+            wrong.append(f"air told of a bed whose acceleration changes its sign {ends[0].changes} times")
+        return
+    left = np.ones(len(crank), dtype=bool)
+    for end in ends:
+        angle = (crank - end.start) % (2 * PI)
+        # A row at the very change of sign has no force in either.
+        mine = (angle > 1e-9) & (angle < end.whole - 1e-9)
+        left &= ~mine
+        column, way = end.column(rpm), end.way(angle[mine], 2)
+        bottom = end.bottom(angle[mine], rpm, column, 1)[0]
+        told = rows["dx_mm"][mine].astype(X) / 1000
+        air = end.sign * end.air(column, way[0] + told + m["lead"])
+        slack = 1e-12 * np.abs(force).max()
+        wrong.close(told, bottom, "linkage dx", 0, 1e-13 * (column + 2 * m["r"] / 1000))
+        wrong.close(air, force[mine], "linkage air and inertia", 0, 1e-11 * np.abs(force).max())
+        wrong.close(rows["air_n"][mine], air, "linkage air_n", 0, slack)
+        wrong.close(rows["residual_n"][mine], force[mine] - air, "linkage residual_n", 0, slack)
+    if left.sum() > 2:
+        wrong.append(f"{left.sum()} rows in no reversal")
 
 
 def drive_figures(m, drive):
@@ -497,7 +535,8 @@ def judge_balance(m, end, rows, rpm, column, wrong, what, lobes):
     size_of = [1000 * lever * lobes**n * np.abs(bottom[n]).max() for n in range(4)]
     for n, name in [(1, "velocity_mm_per_rad"), (2, "acceleration_mm_per_rad2"), (3, "jerk_mm_per_rad3")]:
         true = 1000 * lever * lobes**n * bottom[n]
-        wrong.close(rows[name][exact], true, f"{what} {name}", 0, SLOPES[n] * size_of[n] + 1e-13 * 1000 * float(lever) * size * lobes**n)
+        rounding = 1e-13 * 1000 * float(lever) * size * lobes**n
+        wrong.close(rows[name][exact], true, f"{what} {name}", 0, SLOPES[n] * size_of[n] + rounding)
     wrong.close(rows["torque_nm"], rows["roller_force_n"] * rows["velocity_mm_per_rad"] / 1000, f"{what} torque_nm", 1e-12,
                 1e-13 * float(force_most * stroke))
     at_rest(m, end, rpm, length, turn, told_bottom, wrong, what, lobes, size)
@@ -527,7 +566,8 @@ def at_rest(m, end, rpm, column, turn, told, wrong, what, lobes, size):
     kinds = m["transition"]
     if kinds == "blend":
         half = width / 2
-        knots = [(end.whole - half, *law(end.whole - half)), (end.whole + half, None, None), (whole - half, None, None), (whole + half, *law(half))]
+        knots = [(end.whole - half, *law(end.whole - half)), (end.whole + half, None, None), (whole - half, None, None),
+                 (whole + half, *law(half))]
         turn, told = np.concatenate([turn, turn + whole]), np.concatenate([told, told])
     else:
         first, last = X(0), end.whole
@@ -541,8 +581,8 @@ def at_rest(m, end, rpm, column, turn, told, wrong, what, lobes, size):
             way = end.way(np.array([first, last]), 1)
             start, stop = (X(0), -way[1][0]), (X(0), -way[1][1])
             if end.way(end.whole)[0][0] < -lead:
-                # The bed has gone beyond the lead when the air is at rest: no way back on the lead, and whether the bottom goes on with its
-                # law or with the piston is camgen's to choose; it cannot jump.
+                # The bed has gone beyond the lead when the air is at rest: no way back on the lead. Whether the bottom goes on with
+                # its law or with the piston is camgen's to choose; it cannot jump.
                 last, stop = end.whole, (law(end.whole)[0], None)
         ramp = width if kinds == "run-up" else X(0)
         knots = [(last, *stop), (last + ramp, None, None), (whole + first - ramp, None, None), (whole + first, *start)]
@@ -658,7 +698,8 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
         wrong.close(report["force"]["roller_force_max_n"], force_most / m["lever"], "rotary roller_force_max_n", CLOSE)
         plain = end.returning(rpm)
         left = lambda f: np.abs(end.inertia(rpm, way(f)) - end.air(plain, way(f)[0]))
-        wrong.close(report["force"]["residual_fixed_bottom_max_n"], largest(left, 0, end.whole)[0], "rotary fixed bottom max", CLOSE, slack)
+        most_left = largest(left, 0, end.whole)[0]
+        wrong.close(report["force"]["residual_fixed_bottom_max_n"], most_left, "rotary fixed bottom max", CLOSE, slack)
         moved = lambda f: np.abs(end.bottom(f, rpm, column, 1)[0])
         most, place = largest(moved, 0, end.whole)
         if np.abs(rows["dx_mm"][rows["crank_deg"] > end.whole / DEG]).max() < most * 1000:
@@ -667,7 +708,7 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
             if np.abs(there) < most * (1 - 1e-9) or end.whole > place > 0:
                 # A place that is told by the way: as flat there as the largest is.
                 wrong.close(law["dx_max_at_x_mm"], 1000 * way(place)[0][0], "rotary dx_max_at_x", 0, PLACE * float(m["r"]) * 10)
-        # Where the reversal begins or ends: the bottom runs before the piston on a lead, rests without a transition, and is met by a run-up.
+        # Where the reversal begins or ends the bottom runs before the piston on a lead, rests without a transition, is met by a run-up.
         jumps = []
         for place in (X(0), end.whole):
             slope, way_ = end.bottom(place, rpm, column, 2)[1][0], end.way(place, 1)[:, 0]
@@ -675,7 +716,7 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
             jumps.append(np.abs(slope - beside))
         if not m["lead"] or end.way(end.whole)[0][0] >= -m["lead"]:
             wrong.close(abs(law["velocity_jump_mm_per_rad"]), 1000 * max(jumps), "rotary velocity jump", CLOSE, 1e-11 * size)
-        wrong.close(law["start_slope"], end.bottom(X(0), rpm, column, 2)[1][0] / end.way(X(0))[1][0] , "rotary start_slope", 0, 1e-11)
+        wrong.close(law["start_slope"], end.bottom(X(0), rpm, column, 2)[1][0] / end.way(X(0))[1][0], "rotary start_slope", 0, 1e-11)
     # The roller's centre and the contact angle: from the lift and its slope.
     prime = X(report["cam"]["prime_radius_mm"])
     height = np.sqrt(prime**2 - m["side"] ** 2) + rows["lift_mm"]
@@ -691,6 +732,14 @@ def judge_rotary(m, end, report, wrong, rpm, embedded):
     slope = np.arctan2(np.abs(rows["velocity_mm_per_rad"] - m["side"]), height) / DEG
     wrong.close(np.abs(rows["pressure_angle_deg"]), slope, "rotary pressure angle", 0, CLOSE * 90)
     wrong.close(rows["contact_force_n"], rows["roller_force_n"] / np.cos(slope * DEG), "rotary contact_force_n", 1e-12)
+    values = {c["check"]: c["value"] for c in report["checks"]}
+    if m["transition"] != "blend":
+        # The least air is at the largest deceleration.
+        wrong.close(values["air"], 1000 * (column - end.shorter(force_most, column)), "rotary least air", CLOSE, 1e-13 * size)
+    wrong.close(values["residual"], report["force"]["residual_max_n"] / force_most, "rotary residual share", 1e-12)
+    highest = X(report["cam"]["max_lift_mm"]) - X(rows["lift_mm"].max())
+    if not -1e-13 * size <= highest <= gap / lobes * steep + bend * (gap / lobes) ** 2:
+        wrong.append(f"largest lift told {float(highest)} mm above the highest row")
     checks = {c["check"]: c["verdict"] for c in report["checks"]}
     if checks.get("undercut") == "fail":
         wrong.notes.append("not rolled: undercut")
@@ -712,7 +761,8 @@ def judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
 
     def cut(angle, lobe=0):
         """Bottom, m, by the crank's angle; the lobes are alike, but not their arcs."""
-        return (rolled.height((np.asarray(angle, dtype=float) + 2 * np.pi * lobe) / lobes) - base) / float(lever) / 1000 + float(lowest) / 1000
+        height = rolled.height((np.asarray(angle, dtype=float) + 2 * np.pi * lobe) / lobes)
+        return ((height - base) / float(lever) + float(lowest)) / 1000
 
     def force(angle, bottom):
         way = end.way(angle, 2)
@@ -726,7 +776,7 @@ def judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
         return
     off = np.abs(height - base - rows["lift_mm"])
     # The worst place may lie between the rows; none of them may be beyond it. DXF coordinates have twelve decimals.
-    wrong.below(off.max(), told["lift_error_max_mm"] * (1 + 1e-5) + 1e-9, "cut lift error over the told one")
+    wrong.below(off.max(), told["lift_error_max_mm"] * (1 + 1e-4) + 1e-9, "cut lift error over the told one")
     tolerance = report["outline"]["tolerance_mm"]
     steep = np.cos(np.radians(np.abs(rows["pressure_angle_deg"])))
     # Along the normal; the normal turns a little over the tolerance.
@@ -748,11 +798,14 @@ def judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
     lobe, place = np.divmod(told["residual_cam_deg"] * lobes, 360)
     place = np.radians([place])
     # With a blend it is often at the very start or end.
+    if 2 * np.pi - place[0] < 1e-12:
+        place[0] = 0
     if place[0] < end.whole + 1e-12:
         i, a = force(place.astype(X), cut(place, lobe))
         wrong.close(told["residual_max_n"], np.abs(i - a)[0], "cut residual at its place", 1e-6, 1e-7 * force_most)
     else:
-        wrong.append(f"largest residual as cut told at {np.degrees(place[0])}° of the crank, the reversal ends at {float(end.whole / DEG)}°")
+        ends = float(end.whole / DEG)
+        wrong.append(f"largest residual as cut told at {np.degrees(place[0])}° of the crank, the reversal ends at {ends}°")
     wrong.close(report["force"]["residual_max_n"], told["residual_max_n"], "cut residual in force", 1e-12)
     if m["transition"] == "blend":
         return
@@ -772,7 +825,8 @@ def judge_cut(m, end, report, rows, wrong, rpm, column, prime, lowest, embedded)
     bound = integrate(stiffness * speed) * told["lift_error_max_mm"] / lever / 1000 / energy
     share = float(np.abs(work / energy - 1))
     wrong.below(share, float(bound) * 1.01 + 1e-6, "cut work beyond its bound")
-    wrong.largest["= cut work off, of the 0.02 % asked for"] = max(wrong.largest["= cut work off, of the 0.02 % asked for"], share / 2e-4)
+    # Not judged by itself: a short column is stiff, and 5 µm are more force there.
+    wrong.largest["(cut work off, of 0.02 %)"] = max(wrong.largest["(cut work off, of 0.02 %)"], share / 2e-4)
     if embedded:
         wrong.below(share, 2e-4, "cut work of an embedded press")
     elif share > 2e-4:
@@ -796,8 +850,9 @@ def judge_conoid(m, end, report, wrong, speeds):
         wrong.append(f"sections at {[s['rpm'] for s in report['sections']]}, asked for {[float(s) for s in speeds]}")
 
 
-def judge_regimes(m, end, report, wrong, speeds):
-    told, cut, lobes = report["regimes"], m["rpm"], m["lobes"]
+def judge_regimes(m, end, report, wrong, speeds, cut):
+    told, lobes = report["regimes"], m["lobes"]
+    wrong.close(told["cam_rpm"], cut, "regimes cam_rpm", 1e-15)
     column = end.column(cut)
     wrong.close(told["column_length_mm"], 1000 * column, "regimes column", CLOSE)
     most_cut = m["mass"] * end.omega(cut) ** 2 * end.most
@@ -812,7 +867,8 @@ def judge_regimes(m, end, report, wrong, speeds):
         wrong.close(row["column_length_mm"], 1000 * reset, "regimes reset column", CLOSE)
         wrong.close(row["lambda"], reset / column, "regimes lambda", CLOSE)
         wrong.close(row["a_per_mm"], most / (m["p0"] * end.both * end.most) / 1000, "regimes a", CLOSE)
-        wrong.close(row["added_volume_mm3"], (reset - column) * end.both * 1e9, "regimes added volume", 1e-12, 1e-13 * float(column * end.both * 1e9))
+        added, volume = (reset - column) * end.both * 1e9, float(column * end.both * 1e9)
+        wrong.close(row["added_volume_mm3"], added, "regimes added volume", 1e-12, 1e-13 * volume)
 
         def left(f):
             w = way(f)
@@ -865,6 +921,54 @@ def judge_regimes(m, end, report, wrong, speeds):
         wrong.close(rows["air_n"][mine], end.inertia(rpm, w) - (0 if X(rpm) == cut else left(f)), "regimes curve air", 0, ulps)
 
 
+def synthesis(binary, directory):
+    """What is designed does what it is designed for, and no random drag link within the limits is better than the least."""
+    wrong, rng, least = Wrong(), random.Random("synthesis"), {}
+    for goal, more in [("equal", []), ("symmetric", []), ("least", []), ("least", ["--keep", "symmetric"])]:
+        name = f"{goal}{len(more)}"
+        got, report = run(binary, "linkage", ["dpi-six-bar", "--synthesize", goal, *more], directory, name, "csv")
+        if got.returncode or not report:
+            wrong.append(f"{goal}: exit {got.returncode}: {got.stderr.strip()[:200]}")
+            continue
+        d = report["design"]
+        m = dict(machine(0, None), base=X(d["base_ratio"]), coupler=X(d["coupler_ratio"]), follower=X(d["follower_ratio"]))
+        # An angle, as a number of degrees or a text that has its unit.
+        told = d.get("follower_angle_deg", d.get("follower_angle"))
+        m["follower_angle"] = X(str(told).split()[0]) * DEG
+        drive = Drive(m)
+        judge_linkage(m, drive, report, wrong, m["rpm"])
+        figures, _ = drive_figures(m, drive)
+        # Solved to rounding, or by steps until 1e-10 of the links.
+        if goal != "least":
+            wrong.close(figures["k_c"], 1, f"synthesis {goal} K_c", 1e-9)
+        if goal == "symmetric" or more:
+            wrong.close(figures["k_phi"], 1, f"synthesis {goal} K_φ", 1e-9)
+        if goal == "least":
+            angle = -largest(lambda f: -drive.angles(f)[0], 0, 2 * PI)[0] / DEG
+            wrong.below(45 - angle, 1e-9, "synthesis transmission angle below 45°")
+            wrong.below(X("0.5") - min(m["coupler"], m["follower"]), 1e-12, "synthesis link below its limit")
+            if not more:
+                least = dict(m, c=max(figures["c_plus"], figures["c_minus"]))
+    for _ in range(150 if least else 0):
+        # Half of them anywhere, half of them close to the told one.
+        near = rng.random() < 0.5
+        around = lambda key, low, high, by: least[key] * X(1 + rng.uniform(-by, by)) if near else X(rng.uniform(low, high))
+        m = dict(least, base=around("base", 0.02, 0.3, 0.03), coupler=around("coupler", 0.5, 1.3, 0.03),
+                 follower=around("follower", 0.5, 1.3, 0.03), follower_angle=around("follower_angle", 1.5, 5, 0.01))
+        base, coupler, follower = (m[key] for key in ("base", "coupler", "follower"))
+        # Both cranks turn; the angle between coupler and driven crank is least where the driving crank lies along the base.
+        if min(coupler, follower) < 0.5 or abs(coupler - follower) >= 1 - base or coupler + follower <= 1 + base:
+            continue
+        drive = Drive(m)
+        if drive.angles(np.array([0, PI]))[0].min() < 45 * DEG:
+            continue
+        a = np.abs(drive.bed(drive.roots(3), 2)[2]).max()
+        ways = drive.bed(drive.roots(1), 0)[0]
+        c = PI**2 * a / (ways.max() - ways.min())
+        wrong.below(least["c"] * (1 - X(1e-7)), c, "synthesis least C")
+    return wrong
+
+
 # ---- the sample
 
 
@@ -883,15 +987,17 @@ def task(arguments):
         # The machine file as it is carried.
         words = [m["file"]]
     rpm = m["rpm"] if number < 4 or rng.random() < 0.7 else X(float(m["rpm"] * X(rng.uniform(0.6, 1.0))))
-    other = [m["rpm"] * X(rng.choice([4 / 7, 0.85, rng.uniform(0.4, 0.99)])), m["rpm"]]
+    cut = m["rpm"] if number < 4 or rng.random() < 0.7 else X(float(m["rpm"] * X(rng.uniform(0.7, 1.1))))
+    other = [cut * X(rng.choice([4 / 7, 0.85, rng.uniform(0.4, 0.99)])), cut]
     if rng.random() < 0.3:
-        other.insert(1, m["rpm"] * X(rng.uniform(1.0, 1.2)))
+        other.insert(1, cut * X(rng.uniform(1.0, 1.2)))
     other = [X(float(n)) for n in other]
     sections = sorted({X(float(m["rpm"] * X(s))) for s in [rng.uniform(0.6, 0.75), rng.uniform(0.8, 0.95), rng.choice([1.0, 0.97])]})
     jobs = [
         ("linkage", ["--rpm", repr(float(rpm))], "csv"),
         ("rotary", ["--rpm", repr(float(rpm)), *side, "--samples", str(720 * m["lobes"])], "csv,dxf"),
-        ("regimes", ["--rpm", ",".join(repr(float(n)) for n in other), *side], "csv"),
+        ("regimes", ["--rpm", ",".join(repr(float(n)) for n in other), *side,
+                     *(["--cut-for", repr(float(cut))] if cut != m["rpm"] else [])], "csv"),
     ]
     smooth = m["transition"] == "blend" or m["transition"] == "run-up" and not m["lead"]
     if number % 3 == 0 and (smooth or rng.random() < 0.15) or number < 4:
@@ -910,7 +1016,8 @@ def task(arguments):
                 states.append(f"{command} refused")
                 if "changes its sign" in got.stderr and len(drive.roots(2)) == 2:
                     wrong.append(f"refused for reversals, of which there are two: {got.stderr.strip()[:200]}")
-                wrong.notes.append(f"{command} refused: {re.sub(r'[0-9.]+', '…', (got.stderr.strip() or 'no words').splitlines()[0])[:170]}")
+                said = (got.stderr.strip() or "no words").splitlines()[0]
+                wrong.notes.append(f"{command} refused: {re.sub(r'[0-9.]*[0-9]', '…', said)[:170]}")
                 continue
             failing = [c["check"] for c in report["checks"] if c["verdict"] == "fail"]
             if bool(failing) != (got.returncode == 1):
@@ -931,9 +1038,8 @@ def task(arguments):
             elif command == "conoid":
                 judge_conoid(m, end, report, wrong, sections)
             else:
-                judge_regimes(m, end, report, wrong, other)
+                judge_regimes(m, end, report, wrong, other, cut)
         except (AssertionError, KeyError, IndexError, StopIteration, ValueError) as error:
-            import traceback
             wrong.append(f"{type(error).__name__}: {error} at {traceback.format_exc().strip().splitlines()[-3].strip()}")
         finally:
             if len(wrong) > before:
@@ -953,6 +1059,11 @@ def main():
     for old in directory.iterdir():
         old.unlink()
     began, failed, states, notes, biggest = time.time(), 0, Counter(), Counter(), defaultdict(float)
+    wrong = synthesis(binary, directory) if given.only is None else Wrong()
+    for line in wrong:
+        failed += 1
+        print(f"  synthesis: {line}")
+    biggest.update(wrong.largest)
     numbers = range(given.count) if given.only is None else [given.only]
     with ProcessPoolExecutor(given.jobs) as pool:
         for number, kind, did, wrong, largest_, noted in pool.map(task, [(n, given.seed, binary, directory) for n in numbers]):
