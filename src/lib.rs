@@ -64,6 +64,9 @@ pub mod geometry;
 pub mod linkage;
 
 #[doc(hidden)]
+pub mod shaft;
+
+#[doc(hidden)]
 pub mod buffer;
 
 #[doc(hidden)]

@@ -1,0 +1,318 @@
+//! Critical speeds, deflection and response by unit loads: Birger's equation as an eigenproblem of forces.
+//!
+//! The masses of the bent shaft make loads ω² W y; a load basis of Legendre polynomials on every panel, with the forces and
+//! couples of the discs, has the columns S of [`super::columns`]. Then
+//!
+//! ```text
+//! W = diag   ρA of a line of force, g ρJ of couples (Timoshenko only), m of a disc's force, I_t − γ I_p of its couple
+//!     planar γ = 0, g = 1      forward γ = 1, g = −1      backward γ = −1, g = 3
+//! 1/ω² = the positive eigenvalues of B = S W Sᵀ     (of √W SᵀS √W, smaller, where no W is negative)
+//! steady response at Ω:  (I − Ω² B) v = S f
+//! ```
+//!
+//! Negative W (forward whirl) is right and stays; negative eigenvalues are no critical speeds. Nothing is discretised but the
+//! load, whose series converges like that of an entire function: see [`GUARD`].
+
+use super::columns::{Column, Frame, Source};
+use super::curve::Curve;
+use super::panels::Panels;
+use super::{Beam, MOST_ORDER, MOST_RATIO, Part, Shaft, ShaftError, Whirl, valid};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// Order beyond the largest wave of a panel, z rad: order ⌈z⌉ + 6 leaves 2e-14 of a speed, + 4 1e-10, + 2 1e-6 (measured).
+const GUARD: usize = 6;
+
+/// The order tried first: it carries two radians, which most panels of a shaft with steps do not reach.
+const FIRST_ORDER: usize = 8;
+
+/// A panel with more of a wave, rad, is cut: two orders of half the size are cheaper than one, and better conditioned.
+const MOST_WAVES: f64 = 12.0;
+
+/// Below this part of the largest eigenvalue is rounding and no mode: some hundred times ε.
+const NOTHING: f64 = 1e-13;
+
+/// Rotations of the eigenvalue iteration, for each row; it takes about two.
+const ROTATIONS: usize = 100;
+
+/// A critical speed and how the shaft bends at it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// ω, rad/s.
+    pub speed: f64,
+    /// Largest |y| +1.
+    pub shape: Curve,
+}
+
+/// The lowest critical speeds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modes {
+    /// Rising.
+    pub modes: Vec<Mode>,
+    /// Load polynomials of a panel.
+    pub order: usize,
+    /// How many panels there were.
+    pub panels: usize,
+}
+
+/// The `count` lowest critical speeds, rising, with their modes.
+///
+/// `order` fixes the order of the load polynomials, for a study of its error; `None` takes as many as leave rounding only,
+/// and cuts panels that hold many waves.
+///
+/// # Errors
+/// A mode that does not exist or is lost in rounding, no mass, an order out of range: [`ShaftError`].
+pub fn modes(shaft: &Shaft, whirl: Whirl, count: usize, order: Option<usize>) -> Result<Modes, ShaftError> {
+    let panels = Panels::new(shaft, &[]);
+    if let Some(order) = order {
+        if !(1..=MOST_ORDER).contains(&order) {
+            return Err(ShaftError::Order { order });
+        }
+        let frame = Frame::new(shaft, panels, order);
+        return told(&frame, &eigen(shaft, &frame, whirl)?, count, shaft);
+    }
+    // The j-th mode of one uniform panel holds about j half waves.
+    let expected = f64::from(u32::try_from(count).unwrap_or(u32::MAX)).min(MODES_OF_A_PANEL) * std::f64::consts::PI;
+    let first = FIRST_ORDER.max(if panels.panels.len() < count { GUARD + upward(expected.min(MOST_WAVES)) } else { 0 });
+    let (mut panels, mut order) = (panels, first);
+    for _ in 0..REFINEMENTS {
+        let frame = Frame::new(shaft, panels.clone(), order);
+        let found = eigen(shaft, &frame, whirl)?;
+        // Too few modes of too coarse a load: the highest there is tells where to go.
+        let highest = found.values.get(count.saturating_sub(1)).or(found.values.last());
+        let omega = highest.map_or(0.0, |value| 1.0 / value.max(found.wall()).sqrt());
+        let cut = panels.clone().cut_to(omega, MOST_WAVES);
+        let wanted = GUARD + upward(cut.waves(omega));
+        if wanted <= order && cut.panels.len() == panels.panels.len() {
+            return told(&frame, &found, count, shaft);
+        }
+        (panels, order) = (cut, wanted.max(FIRST_ORDER));
+    }
+    let frame = Frame::new(shaft, panels, order);
+    told(&frame, &eigen(shaft, &frame, whirl)?, count, shaft)
+}
+
+/// Solutions before the last. The first tells the waves to a few per cent, the second to rounding.
+const REFINEMENTS: usize = 4;
+
+/// Modes of one panel below the wall of [`MOST_RATIO`], ω_j ~ j².
+const MODES_OF_A_PANEL: f64 = 100.0;
+
+/// ⌈x⌉ as a count.
+fn upward(x: f64) -> usize {
+    (0..=64_u32).find(|n| f64::from(*n) >= x).map_or(64, |n| n as usize)
+}
+
+/// The positive eigenvalues 1/ω², falling, each with its internal forces.
+struct Eigen {
+    values: Vec<f64>,
+    forces: Vec<Column>,
+    /// The largest of all sizes, also of the negative ones: what rounding is measured by.
+    size: f64,
+}
+
+impl Eigen {
+    /// The smallest eigenvalue that is told.
+    fn wall(&self) -> f64 {
+        self.size / (MOST_RATIO * MOST_RATIO)
+    }
+}
+
+/// The loads that masses make, each with what makes it; none without.
+fn loads(shaft: &Shaft, panels: &Panels, order: usize, whirl: Whirl) -> Vec<(Source, f64)> {
+    let gamma = whirl.gamma();
+    // The polar inertia of a round section is twice its diametral one.
+    let g = 1.0 - 2.0 * gamma;
+    let mut loads = Vec::new();
+    for (panel, section) in panels.panels.iter().enumerate() {
+        loads.extend((0..order).map(|k| (Source::Line { panel, k }, section.mass)));
+        if shaft.beam() == Beam::Timoshenko {
+            loads.extend((0..order).map(|k| (Source::Couples { panel, k }, g * section.rotary)));
+        }
+    }
+    for disc in shaft.discs() {
+        let cut = panels.cut(disc.at);
+        loads.push((Source::Force { cut }, disc.mass));
+        loads.push((Source::Couple { cut }, disc.diametral_inertia - gamma * disc.polar_inertia));
+    }
+    loads.retain(|(_, weight)| *weight != 0.0);
+    loads
+}
+
+/// S and W.
+fn matrix(shaft: &Shaft, frame: &Frame, whirl: Whirl) -> (DMatrix<f64>, Vec<f64>) {
+    let loads = loads(shaft, &frame.panels, frame.order(), whirl);
+    let mut entries = Vec::with_capacity(frame.inner() * loads.len());
+    for (source, _) in &loads {
+        entries.extend(frame.column(*source).into_iter().take(frame.inner()));
+    }
+    let weights: Vec<f64> = loads.iter().map(|(_, weight)| *weight).collect();
+    (DMatrix::from_vec(frame.inner(), weights.len(), entries), weights)
+}
+
+/// Every column times the function of its weight.
+fn weighted(matrix: &DMatrix<f64>, weights: &[f64], of: impl Fn(f64) -> f64) -> DMatrix<f64> {
+    let mut scaled = matrix.clone();
+    for (mut column, weight) in scaled.column_iter_mut().zip(weights) {
+        column *= of(*weight);
+    }
+    scaled
+}
+
+fn eigen(shaft: &Shaft, frame: &Frame, whirl: Whirl) -> Result<Eigen, ShaftError> {
+    let (s, weights) = matrix(shaft, frame, whirl);
+    if weights.is_empty() {
+        return Err(ShaftError::NoMass);
+    }
+    let gram = weights.iter().all(|weight| *weight >= 0.0) && weights.len() <= frame.inner();
+    let rooted = weighted(&s, &weights, f64::sqrt);
+    let symmetric = if gram { rooted.tr_mul(&rooted) } else { weighted(&s, &weights, |w| w) * s.transpose() };
+    if !symmetric.iter().all(|entry| entry.is_finite()) {
+        return Err(ShaftError::Range);
+    }
+    let rotations = ROTATIONS * symmetric.nrows();
+    let found = SymmetricEigen::try_new(symmetric, f64::EPSILON, rotations).ok_or(ShaftError::Range)?;
+    let size = found.eigenvalues.amax();
+    let mut order: Vec<(usize, f64)> = found.eigenvalues.iter().copied().enumerate().collect();
+    order.retain(|(_, value)| *value > NOTHING * size);
+    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let forces = |(index, _): &(usize, f64)| {
+        let vector = found.eigenvectors.column(*index);
+        if gram { (&rooted * vector).iter().copied().collect() } else { vector.iter().copied().collect() }
+    };
+    let forces: Vec<Column> = order.iter().map(forces).collect();
+    Ok(Eigen { values: order.into_iter().map(|(_, value)| value).collect(), forces, size })
+}
+
+/// The first modes, or why there are not so many.
+fn told(frame: &Frame, found: &Eigen, count: usize, shaft: &Shaft) -> Result<Modes, ShaftError> {
+    if found.values.is_empty() {
+        return Err(ShaftError::NoMass);
+    }
+    let sure = found.values.iter().filter(|value| **value >= found.wall()).count();
+    if sure < count {
+        // A shaft with a mass of its own has modes without end; one without has those of its discs.
+        let endless = shaft.segments().iter().any(|segment| segment.density > 0.0);
+        return Err(if endless || sure < found.values.len() {
+            ShaftError::ModeTooHigh { mode: sure + 1 }
+        } else {
+            ShaftError::NoSuchMode { asked: count, exist: sure }
+        });
+    }
+    let mode =
+        |(value, forces): (&f64, &Column)| Mode { speed: 1.0 / value.sqrt(), shape: frame.curve(forces).normalized() };
+    let modes = found.values.iter().zip(&found.forces).take(count).map(mode).collect();
+    Ok(Modes { modes, order: frame.order(), panels: frame.panels.panels.len() })
+}
+
+/// The shaft under 1 N at one place, at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Statics {
+    /// Deflection, m/N, and slope, rad/N.
+    pub curve: Curve,
+    /// Force of the shaft on every support, N per N, in the order of the supports; their sum is 1.
+    pub reactions: Vec<f64>,
+    compliance: f64,
+}
+
+impl Statics {
+    /// Under 1 N at `at`, m from the left end.
+    ///
+    /// # Errors
+    /// A place beside the shaft.
+    pub fn new(shaft: &Shaft, at: f64) -> Result<Self, ShaftError> {
+        valid::within(Part::Asked, 0, at, shaft.length())?;
+        let frame = Frame::new(shaft, Panels::new(shaft, &[at]), 0);
+        let column = frame.column(Source::Force { cut: frame.panels.cut(at) });
+        let reactions: Vec<f64> = column.iter().skip(frame.inner()).map(|force| -force).collect();
+        let compliance = frame.dot(&column, &column);
+        if !compliance.is_finite() {
+            return Err(ShaftError::Range);
+        }
+        Ok(Self { curve: frame.curve(&column), reactions, compliance })
+    }
+
+    /// Deflection at x, m/N: by Maxwell also that at the load under 1 N at x.
+    #[must_use]
+    pub fn compliance(&self, x: f64) -> f64 {
+        self.curve.at(x)[0]
+    }
+
+    /// Deflection of the load, m/N, supports included: from the energy, never negative.
+    #[must_use]
+    pub fn own(&self) -> f64 {
+        self.compliance
+    }
+}
+
+/// The shaft turning with its unbalances, bent by them and turning as bent: two directions that turn with it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    curves: [Curve; 2],
+    /// Force of the shaft on every support, N, in the order of the supports.
+    pub support_forces: Vec<[f64; 2]>,
+}
+
+impl Response {
+    /// Deflection, m, at x, in the two directions of [`super::Disc::unbalance`].
+    #[must_use]
+    pub fn deflection_at(&self, x: f64) -> [f64; 2] {
+        self.curves.each_ref().map(|curve| curve.at(x)[0])
+    }
+
+    /// Slope, rad, at x, in the same directions.
+    #[must_use]
+    pub fn slope_at(&self, x: f64) -> [f64; 2] {
+        self.curves.each_ref().map(|curve| curve.at(x)[1])
+    }
+}
+
+/// Steady response to the unbalances of the discs at `speed`, rad/s, without damping: forward whirl.
+///
+/// # Errors
+/// A speed below 0, or one at which the response has no bound.
+pub fn response(shaft: &Shaft, speed: f64) -> Result<Response, ShaftError> {
+    if !(speed >= 0.0 && speed.is_finite()) {
+        return Err(ShaftError::Negative { part: Part::Asked, index: 0, name: "speed", value: speed });
+    }
+    let panels = Panels::new(shaft, &[]).cut_to(speed, MOST_WAVES);
+    let order = (GUARD + upward(panels.waves(speed))).max(FIRST_ORDER);
+    let frame = Frame::new(shaft, panels, order);
+    let (square, inner) = (speed * speed, frame.inner());
+    let made: Vec<(Column, f64)> = loads(shaft, &frame.panels, order, Whirl::Forward)
+        .into_iter()
+        .map(|(source, weight)| (frame.column(source), weight))
+        .collect();
+    let mut system = DMatrix::identity(inner, inner);
+    for (column, weight) in &made {
+        let column = DVector::from_iterator(inner, column.iter().copied().take(inner));
+        system.ger(-square * weight, &column, &column, 1.0);
+    }
+    let factors = system.lu();
+    let solved = |direction: usize| -> Result<Column, ShaftError> {
+        let mut forces = vec![0.0; inner + shaft.supports().len()];
+        for disc in shaft.discs() {
+            let unbalance = disc.unbalance.get(direction).copied().unwrap_or(0.0);
+            gather(&mut forces, unbalance * square, &frame.column(Source::Force { cut: frame.panels.cut(disc.at) }));
+        }
+        let mut inside = DVector::from_iterator(inner, forces.iter().copied().take(inner));
+        if !factors.solve_mut(&mut inside) || !inside.iter().all(|force| force.is_finite()) {
+            return Err(ShaftError::Resonance { speed });
+        }
+        let inside: Column = inside.iter().copied().collect();
+        // What the masses add, also at the rigid supports, which have no row of their own.
+        for (column, weight) in &made {
+            gather(&mut forces, square * weight * frame.dot(column, &inside), column);
+        }
+        Ok(inside.into_iter().chain(forces.into_iter().skip(inner)).collect())
+    };
+    let [x, y] = [solved(0)?, solved(1)?];
+    let on_supports = x.iter().zip(&y).skip(inner).map(|(x, y)| [-x, -y]).collect();
+    Ok(Response { curves: [frame.curve(&x), frame.curve(&y)], support_forces: on_supports })
+}
+
+/// Adds a column times a factor.
+fn gather(sum: &mut [f64], factor: f64, column: &[f64]) {
+    if factor != 0.0 {
+        sum.iter_mut().zip(column).for_each(|(sum, entry)| *sum += factor * entry);
+    }
+}
