@@ -26,6 +26,10 @@ pub enum Dimension {
     Speed,
     /// Kilograms times square metres inside.
     Inertia,
+    /// Kilograms per cubic metre inside.
+    Density,
+    /// Kilograms times metres inside.
+    Unbalance,
 }
 
 struct Unit {
@@ -60,6 +64,7 @@ const UNITS: &[Unit] = &[
     unit("Pa", Dimension::Pressure, 1.0, 1.0),
     unit("kPa", Dimension::Pressure, 1e3, 1.0),
     unit("MPa", Dimension::Pressure, 1e6, 1.0),
+    unit("GPa", Dimension::Pressure, 1e9, 1.0),
     unit("bar", Dimension::Pressure, 1e5, 1.0),
     unit("at", Dimension::Pressure, TECHNICAL_ATMOSPHERE, 1.0),
     unit("psi", Dimension::Pressure, 6_894.757_293_168_361, 1.0),
@@ -71,9 +76,16 @@ const UNITS: &[Unit] = &[
     unit("ms", Dimension::Time, 1.0, 1e3),
     unit("N/mm", Dimension::Stiffness, 1e3, 1.0),
     unit("kgf/cm", Dimension::Stiffness, 980.665, 1.0),
+    unit("N/m", Dimension::Stiffness, 1.0, 1.0),
+    unit("N/um", Dimension::Stiffness, 1e6, 1.0),
+    unit("kN/mm", Dimension::Stiffness, 1e6, 1.0),
+    unit("daN/cm", Dimension::Stiffness, 1e3, 1.0),
     unit("m/s", Dimension::Speed, 1.0, 1.0),
     unit("mm/s", Dimension::Speed, 1.0, 1e3),
     unit("kg*m2", Dimension::Inertia, 1.0, 1.0),
+    unit("kg/m3", Dimension::Density, 1.0, 1.0),
+    unit("g*mm", Dimension::Unbalance, 1.0, 1e6),
+    unit("kg*mm", Dimension::Unbalance, 1.0, 1e3),
 ];
 
 impl Dimension {
@@ -98,6 +110,8 @@ impl fmt::Display for Dimension {
             Dimension::Stiffness => "stiffness",
             Dimension::Speed => "speed",
             Dimension::Inertia => "moment of inertia",
+            Dimension::Density => "density",
+            Dimension::Unbalance => "unbalance",
         })
     }
 }

@@ -6,6 +6,7 @@
 pub mod drive;
 pub mod linkage;
 pub mod regimes;
+pub mod shaft;
 pub mod spring;
 
 use crate::body::Kind;
@@ -16,7 +17,7 @@ use crate::report::{Section, Speeds};
 use crate::table::Table;
 
 /// Every kind of analysis.
-pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND];
+pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND];
 
 /// A figure that a check judges.
 #[derive(Debug, Clone, PartialEq)]

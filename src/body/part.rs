@@ -56,6 +56,19 @@ pub struct Part {
     pub balancing: Option<Balancing>,
 }
 
+/// Mass and moments of a part, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia {
+    /// kg.
+    pub mass: f64,
+    /// About an axis along the shaft through the centre of mass, kg·m².
+    pub polar: f64,
+    /// About a diameter through the centre of mass, kg·m²: the mean of two across each other.
+    pub diametral: f64,
+    /// Mass times the place of its centre from the shaft, kg·m.
+    pub unbalance: [f64; 2],
+}
+
 impl Part {
     /// An outline and nothing else.
     pub(super) fn solid_plate(outline: Outline) -> Self {
@@ -142,6 +155,23 @@ impl Part {
             centre_of_mass_mm: Some((moment / area).into()),
             unbalance_g_mm: weight.map(|weight| GRAMS * weight * moment.norm()),
         }
+    }
+
+    /// Mass, inertia and unbalance, with the machine's thickness and material; `None` without a thickness.
+    #[must_use]
+    pub fn inertia(&self, machine: &Machine) -> Option<Inertia> {
+        let thickness = machine.cam.thickness?;
+        // kg per mm² of the drawing.
+        let weight = thickness * machine.cam.density() / (MILLIMETRES * MILLIMETRES);
+        let (area, moment) = self.area_and_moment();
+        let holes: f64 = self.holes().iter().map(|hole| hole.contour().polar_moment()).sum();
+        let square = MILLIMETRES * MILLIMETRES;
+        let about_shaft = weight * (self.outline.contour.polar_moment() - holes) / square;
+        let (mass, unbalance) = (weight * area, moment * (weight / MILLIMETRES));
+        let polar = about_shaft - unbalance.norm_squared() / mass;
+        // The mean of the two diameters.
+        let diametral = 0.5 * polar + mass * thickness * thickness / 12.0;
+        Some(Inertia { mass, polar, diametral, unbalance: unbalance.into() })
     }
 
     /// What is reported of the outline; `is_corner` is true at places (mm) where a corner is intended.

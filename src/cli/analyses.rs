@@ -1,15 +1,24 @@
 //! The commands that analyse a machine and cut nothing.
 
-use super::args::{AnalysisArgs, DriveArgs, DriveSolver, EndOf, GoalOf, LinkageArgs, RegimesArgs, ResetOf, SpringArgs};
+use super::args::{
+    AnalysisArgs, DriveArgs, DriveSolver, EndOf, GoalOf, LinkageArgs, Order, RegimesArgs, ResetOf, ShaftArgs,
+    ShaftSolver, SpringArgs, WhirlOf,
+};
 use super::cams::show;
 use super::{Failure, Outcome, tell};
 use camgen::analysis::linkage::Goal;
-use camgen::analysis::{Analysis, drive, linkage, regimes, spring};
+use camgen::analysis::shaft::{Asked, Solver};
+use camgen::analysis::{Analysis, drive, linkage, regimes, shaft, spring};
 use camgen::buffer::regime::Reset;
-use camgen::machine::{DriveMachine, Machine};
+use camgen::machine::{DriveMachine, Machine, ShaftMachine};
 use camgen::pipeline::{Judged, Writing};
 use camgen::report::Speeds;
+use camgen::shaft::Whirl;
 use camgen::write::number::names;
+
+/// Stations of the paper's shaft, and critical speeds of an exact one, by default.
+const STATIONS: usize = 18;
+const MODES: usize = 3;
 
 /// The speeds of a press that are looked at by default, in sevenths of its design speed: 20, 25, 30 and 35 rpm of the paper's.
 const SEVENTHS: [f64; 4] = [4.0, 5.0, 6.0, 7.0];
@@ -64,6 +73,42 @@ pub(super) fn linkage(args: &LinkageArgs) -> Result<Outcome, Failure> {
         None => None,
     };
     written(linkage::analysis(&machine, rpm, goal).map_err(Failure::new)?, &args.analysis, &name)
+}
+
+pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = ShaftMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
+    let order = match args.order {
+        Order::Auto => None,
+        Order::Of(order) => Some(order),
+    };
+    let solver = match (args.solver, args.stations) {
+        (ShaftSolver::Exact, Some(_)) => {
+            return Err(Failure("--stations belongs to --solver paper; the exact solver has --order".into()));
+        }
+        (ShaftSolver::Paper, _) if order.is_some() => {
+            return Err(Failure("--order belongs to --solver exact; the paper's solver has --stations".into()));
+        }
+        (ShaftSolver::Exact, None) => Solver::Exact { order },
+        (ShaftSolver::Paper, stations) => {
+            let stations = stations.map_or(STATIONS, |stations| usize::try_from(stations).unwrap_or(usize::MAX));
+            Solver::Paper { stations }
+        }
+    };
+    let usual = if args.solver == ShaftSolver::Paper { 1 } else { MODES };
+    let asked = Asked {
+        rpm: args.rpm,
+        modes: args.modes.map_or(usual, usize::from),
+        whirl: match args.whirl {
+            WhirlOf::Forward => Whirl::Forward,
+            WhirlOf::Planar => Whirl::Planar,
+            WhirlOf::Backward => Whirl::Backward,
+        },
+        solver,
+        sweep: args.sweep,
+        steps: args.steps,
+        samples: args.samples,
+    };
+    written(shaft::analysis(&machine, &asked).map_err(Failure::new)?, &args.analysis, &name)
 }
 
 impl AnalysisArgs {

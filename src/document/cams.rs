@@ -17,12 +17,15 @@ pub const DRIVE: &str = "drive";
 /// The linkage that moves a bed.
 pub const LINKAGE: &str = "linkage";
 
+/// The shaft under a cam.
+pub const SHAFT: &str = "shaft";
+
 /// The kinds that turn about a shaft.
 pub const TURNING: &[&str] = &[ROTARY, CONOID, MAKE];
 /// Disc cams.
 pub const DISCS: &[&str] = &[ROTARY, MAKE];
 /// What is analysed and not cut: a key that is of every cam has no effect there.
-pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE, LINKAGE];
+pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE, LINKAGE, SHAFT];
 /// The cams of a press.
 pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
 /// Whatever the bed and its air act on.

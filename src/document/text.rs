@@ -164,6 +164,21 @@ impl<'a> Document<'a> {
         }
     }
 
+    /// A key with the elements of arrays of tables counted from 0, as paths have them; a number between dots counts them from 1,
+    /// `shaft.segment.2.diameter` is `shaft.segment[1].diameter`.
+    fn indexed(&self, key: &str) -> String {
+        let mut path = String::new();
+        for part in key.split('.') {
+            match part.parse::<usize>() {
+                Ok(number) if number > 0 && self.arrays.contains_key(&path) => {
+                    path.push_str(&format!("[{}]", number - 1));
+                }
+                _ => path = join(&path, part),
+            }
+        }
+        path
+    }
+
     fn override_with(&mut self, text: &str) {
         let Some((key, value)) = text.split_once('=') else {
             self.faults.push(Found {
@@ -173,7 +188,7 @@ impl<'a> Document<'a> {
             });
             return;
         };
-        let (key, value) = (key.trim(), value.trim());
+        let (key, value) = (&self.indexed(key.trim()), value.trim());
         let value = value.strip_prefix('"').and_then(|v| v.strip_suffix('"')).unwrap_or(value).to_owned();
         let (index, length) = (self.flags.len(), key.chars().count());
         let at = Place::Flag { index, start: length + 1, width: value.chars().count() };

@@ -87,6 +87,15 @@ impl Load for AirBuffer {
         self.cylinder.force(self.state(piece, at).pressure_ratio) / self.reversal.law().lever
     }
 
+    fn pressing_when(&self, piece: usize, at: f64, moved: f64) -> f64 {
+        let (state, law) = (self.state(piece, at), self.reversal.law());
+        if !state.reversing {
+            return self.cylinder.force(state.pressure_ratio) / law.lever;
+        }
+        let bottom = state.displacement + moved / law.lever;
+        self.cylinder.force(law.bottom_law.pressure_ratio(state.crank, bottom)) / law.lever
+    }
+
     /// Inertia less air; 0 outside the reversal, at its ends what it is inside.
     fn residual(&self, piece: usize, at: f64, moved: f64, _: Vector2<f64>) -> f64 {
         let state = self.state(piece, at);

@@ -47,6 +47,9 @@ pub trait Load: std::fmt::Debug + Send + Sync {
     /// come on top.
     fn pressing(&self, piece: usize, at: f64) -> f64;
 
+    /// The same with the follower `moved` (m) along its path from where the motion puts it.
+    fn pressing_when(&self, piece: usize, at: f64, moved: f64) -> f64;
+
     /// The residual force that the force balance leaves, inertia less air, N, with the follower `moved` (m) along its path from where
     /// the motion puts it and touching where the cam's normal (a unit vector out of the metal) is.
     fn residual(&self, piece: usize, at: f64, moved: f64, normal: Vector2<f64>) -> f64;

@@ -46,16 +46,32 @@ impl Material {
         MATERIALS.get(index).copied().unwrap_or_default()
     }
 
+    /// E, Pa, customary values.
+    #[must_use]
+    pub fn modulus(self) -> f64 {
+        match self {
+            Material::Steel => 210e9,
+            Material::CastIron | Material::Bronze => 110e9,
+            Material::Aluminium => 70e9,
+        }
+    }
+
+    /// Poisson's ratio, customary values.
+    #[must_use]
+    pub fn poisson(self) -> f64 {
+        match self {
+            Material::Steel => 0.30,
+            Material::CastIron => 0.26,
+            Material::Bronze => 0.34,
+            Material::Aluminium => 0.33,
+        }
+    }
+
     /// E/(1 − ν²), Pa, customary values.
     #[must_use]
     pub fn contact_modulus(self) -> f64 {
-        let (modulus, poisson): (f64, f64) = match self {
-            Material::Steel => (210e9, 0.30),
-            Material::CastIron => (110e9, 0.26),
-            Material::Bronze => (110e9, 0.34),
-            Material::Aluminium => (70e9, 0.33),
-        };
-        modulus / (1.0 - poisson * poisson)
+        let poisson = self.poisson();
+        self.modulus() / (1.0 - poisson * poisson)
     }
 
     /// Density, kg/m³, customary values.

@@ -15,6 +15,8 @@ pub const EMBEDDED: &[Embedded] = &[
     Embedded { name: "dpi-paper", toml: include_str!("../../profiles/dpi-paper.toml") },
     Embedded { name: "dpi-crank-slider", toml: include_str!("../../profiles/dpi-crank-slider.toml") },
     Embedded { name: "dpi-six-bar", toml: include_str!("../../profiles/dpi-six-bar.toml") },
+    Embedded { name: "dpi-shaft", toml: include_str!("../../profiles/dpi-shaft.toml") },
+    Embedded { name: "press-cylinder", toml: include_str!("../../profiles/press-cylinder.toml") },
     Embedded { name: "dp", toml: include_str!("../../profiles/dp.toml") },
 ];
 

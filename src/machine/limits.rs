@@ -1,8 +1,9 @@
 //! The limits of a cam.
 
 use super::disc::Material;
+use super::shaft::ShaftLimits;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{LINKAGE, OF_A_PRESS};
+use crate::document::cams::{LINKAGE, OF_A_PRESS, SHAFT};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Angle, Length, Pressure};
@@ -79,6 +80,48 @@ const LINK_RATIO: Field<f64> = Field::number(
 )
 .only(&[LINKAGE]);
 
+const CRITICAL_SPEED_RATIO: Field<f64> = Field::number(
+    "critical_speed_ratio",
+    "largest speed of the shaft over its first critical speed",
+    Default("0.7"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(&[SHAFT]);
+const LIFT_ERROR: Field<f64> = Field::quantity(
+    "lift_error",
+    "by how much the follower may stand lower while shaft and supports give way; told only, when absent",
+    Optional("0.1 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(&[SHAFT]);
+const SUPPORT_SLOPE: Field<f64> = Field::quantity(
+    "support_slope",
+    "largest slope of the shaft at a support; told only, when absent",
+    Optional("0.001 rad"),
+    Angle,
+    above(0.0, FRAC_PI_2),
+)
+.only(&[SHAFT]);
+const BALANCE_GRADE: Field<f64> = Field::number(
+    "balance_grade",
+    "grade of balance G of ISO 21940-11, mm/s: 0.4, 1, 2.5, 6.3, 16, 40, 100, 250, 630, 1600 or 4000; told only, when absent",
+    Optional("16"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(&[SHAFT]);
+
+/// What a shaft must keep.
+pub(super) fn of_shaft(reader: &Reader<'_>) -> Option<ShaftLimits> {
+    let table = reader.table(&SECTION);
+    Some(ShaftLimits {
+        critical_speed_ratio: table.get(&CRITICAL_SPEED_RATIO)?,
+        lift_error: table.get(&LIFT_ERROR),
+        support_slope: table.get(&SUPPORT_SLOPE),
+        balance_grade: table.get(&BALANCE_GRADE),
+    })
+}
+
 /// The limits of a cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
@@ -99,6 +142,8 @@ pub struct Limits {
     pub acceleration_share: Option<f64>,
     /// Of the linkage that moves a bed.
     pub linkage: LinkageLimits,
+    /// Of the shaft.
+    pub shaft: ShaftLimits,
 }
 
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
@@ -166,6 +211,10 @@ pub(super) const SECTION: Section = Section {
         TRANSMISSION_ANGLE.key,
         ROD_ANGLE.key,
         LINK_RATIO.key,
+        CRITICAL_SPEED_RATIO.key,
+        LIFT_ERROR.key,
+        SUPPORT_SLOPE.key,
+        BALANCE_GRADE.key,
     ],
 };
 
@@ -184,5 +233,6 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
             rod_angle: table.get(&ROD_ANGLE)?,
             link_ratio: table.get(&LINK_RATIO)?,
         },
+        shaft: of_shaft(reader)?,
     })
 }

@@ -16,6 +16,7 @@ mod limits;
 mod linkage;
 mod press;
 mod settings;
+mod shaft;
 mod title;
 mod transition;
 mod translating;
@@ -31,6 +32,7 @@ pub use limits::{Limits, LinkageLimits, Touching, customary_stress};
 pub use linkage::LinkageData;
 pub use press::{AirColumn, NoPress, NoRoller, Press};
 pub use settings::RegimesData;
+pub use shaft::{ShaftData, ShaftLimits, ShaftMachine};
 pub use title::Title;
 pub use translating::TranslatingData;
 
@@ -74,6 +76,10 @@ const BODY_TABLES: &[&Section] = &[
     &translating::SECTION,
     &conoid::SECTION,
     &compensator::SECTION,
+    &shaft::SECTION,
+    &shaft::SEGMENT,
+    &shaft::SUPPORT,
+    &shaft::DISC,
     &settings::REGIMES_SECTION,
     &settings::SPRING_SECTION,
     &drive::SECTION,
@@ -158,6 +164,8 @@ pub struct Machine {
     pub(crate) conoid: Option<ConoidData>,
     /// Compensating cam, when described.
     compensator: Option<CompensatorData>,
+    /// The shaft that carries the cam, when described.
+    shaft: Option<Arc<ShaftData>>,
     /// Other speeds.
     regimes: RegimesData,
     /// Stiffness of springs under the bottoms, N/m.
@@ -199,6 +207,10 @@ impl Machine {
         disc::reached_by(reader, &cam, &follower);
         let radius = follower.roller.map(|roller| roller.radius);
         let (regimes, spring_stiffness) = settings::read(reader);
+        let shaft = shaft::read(reader);
+        if let Some(shaft) = &shaft {
+            shaft::carries(reader, shaft, cam.bore_radius);
+        }
         Some(Self {
             name: reader.table(&ROOT).get(&NAME)?,
             press,
@@ -209,6 +221,7 @@ impl Machine {
             translating: translating::read(reader, radius),
             conoid: conoid::read(reader),
             compensator: compensator::read(reader),
+            shaft: shaft.map(Arc::new),
             regimes,
             spring_stiffness,
             limits: limits::read(reader)?,
@@ -318,6 +331,12 @@ impl Machine {
     pub fn motion(&self) -> Option<(Arc<dyn Motion>, Option<f64>)> {
         let program = self.motion.as_ref()?;
         Some((Arc::clone(program) as Arc<dyn Motion>, program.rpm()))
+    }
+
+    /// The shaft that carries the cam, when the file describes one.
+    #[must_use]
+    pub fn shaft(&self) -> Option<&ShaftData> {
+        self.shaft.as_deref()
     }
 
     /// The translating roller.

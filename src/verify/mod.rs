@@ -28,6 +28,7 @@ mod pressure_angle;
 mod residual;
 pub mod rolling;
 mod run_up;
+mod shaft;
 mod shift;
 mod solid;
 mod sphere;
@@ -192,6 +193,10 @@ pub const CHECKS: &[Check] = &[
     linkage::ROD_ANGLE,
     linkage::DEAD_POINTS,
     linkage::REVERSALS,
+    shaft::CRITICAL_SPEED,
+    shaft::LIFT_ERROR,
+    shaft::SUPPORT_SLOPE,
+    shaft::UNBALANCE,
 ];
 
 /// Runs every check that applies: failures first, then warnings, then the rest, each in the order of the list.

@@ -2,8 +2,10 @@
 
 mod balance;
 mod compensator;
+mod loaded;
 mod mechanism;
 pub use compensator::{AtSpeed, Compensated};
+pub use loaded::{Lowered, Yielding};
 pub(in crate::body) use mechanism::of_press;
 mod sheet;
 
@@ -20,7 +22,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load, RunUp};
 use crate::machine::{Machine, NoPress, Press, Rotation};
 use crate::motion::counter_torque::CounterTorqueError;
-use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw};
+use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw, Transition};
 use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
@@ -70,6 +72,12 @@ pub enum DiscError {
     /// The parts of the motion do not fit together.
     #[error("{0}; see transition.width, buffer.lead and cam.cam_turns_per_crank_turn")]
     Motion(#[from] MotionError),
+    /// A corner of the pitch curve.
+    #[error(
+        "a lead without a transition has a corner where the bottom begins to retreat, and no outline guides a follower round it: give \
+         transition.kind = \"run-up\", or buffer.lead = \"0 mm\""
+    )]
+    CornerOfLead,
     /// `auto` found no radius.
     #[error("{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, or give cam.base_radius")]
     Size(#[from] NoRadius),
@@ -116,6 +124,9 @@ impl Disc {
     /// [`DiscError`] when the motion cannot be put together or no radius keeps the limits.
     pub fn solve(machine: &Machine, rpm: f64) -> Result<Self, DiscError> {
         let press = machine.press()?;
+        if press.lead > 0.0 && machine.transition == Transition::None {
+            return Err(DiscError::CornerOfLead);
+        }
         let reversal = Arc::new(Reversal::new(ReversalLaw {
             bottom_law: press.bottom_law(rpm),
             lever: machine.cam.lever,

@@ -2,7 +2,7 @@
 
 use super::common::{EndOf, ToldArgs};
 use super::files::OutArgs;
-use super::parse::{crank_step, force, format, power_share, rpm, stiffness};
+use super::parse::{Order, crank_step, force, format, order, power_share, rpm, stiffness, stiffnesses};
 use clap::{Args, ValueEnum, ValueHint};
 
 /// Flags of every analysis.
@@ -143,6 +143,67 @@ pub(in crate::cli) struct LinkageArgs {
     /// With --synthesize least: largest peak of power over that of the crank-slider alone, e.g. 0.831
     #[arg(long, value_name = "SHARE", value_parser = power_share, allow_hyphen_values = true)]
     pub(in crate::cli) power_limit: Option<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+/// How critical speeds are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum ShaftSolver {
+    Exact,
+    Paper,
+}
+
+/// How a shaft whirls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum WhirlOf {
+    Forward,
+    Planar,
+    Backward,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ShaftArgs {
+    /// An embedded machine or the path of a machine file with the table [shaft]
+    #[arg(default_value = "press-cylinder", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Speed of the main shaft of a press, of the cam of a motion program, or of a shaft alone, rpm [default: that of the file]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Option<f64>,
+
+    /// How many critical speeds, 1 to 12 [default: 3; 1 with --solver paper]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12))]
+    pub(in crate::cli) modes: Option<u8>,
+
+    /// Whirl with the shaft, in a plane, or against the shaft
+    #[arg(long, value_name = "WAY", default_value = "forward", ignore_case = true)]
+    pub(in crate::cli) whirl: WhirlOf,
+
+    /// exact (to rounding) or paper (the paper's iteration: one critical speed, two supports, without shear and gyroscopic moments)
+    #[arg(long, value_name = "SOLVER", default_value = "exact", ignore_case = true)]
+    pub(in crate::cli) solver: ShaftSolver,
+
+    /// Stations of --solver paper, 1 to 1000000 [default: 18]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(in crate::cli) stations: Option<u32>,
+
+    /// Order of the load polynomials of --solver exact, 1 to 24, or auto: as many as leave rounding only
+    #[arg(long, value_name = "N", default_value = "auto", value_parser = order)]
+    pub(in crate::cli) order: Order,
+
+    /// Gives every elastic support these stiffnesses in turn, e.g. "1e8 N/m .. 1e9 N/m"
+    #[arg(long, value_name = "FROM..TO", value_parser = stiffnesses, allow_hyphen_values = true)]
+    pub(in crate::cli) sweep: Option<(f64, f64)>,
+
+    /// Equal steps of the sweep, 1 to 1000
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(in crate::cli) steps: u32,
+
+    /// Rows of the tables, along the shaft and over a turn of the cam
+    #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(8..=100_000))]
+    pub(in crate::cli) samples: u32,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

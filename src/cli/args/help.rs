@@ -62,6 +62,13 @@ Examples:
   camgen linkage dpi-crank-slider --synthesize least --keep symmetric --dry-run
       the drag link with the least acceleration for that crank-slider, as a table to paste; only the report";
 
+pub(super) const SHAFT: &str = "\
+Examples:
+  camgen shaft --sweep \"1e8 N/m .. 1e9 N/m\"
+      the embedded printing cylinder over the stiffness of its bearings, as tables and a plot
+  camgen shaft dpi-shaft --rpm 35 --dry-run
+      what the shaft takes off the lift of the cam of a press; only the report";
+
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
   camgen side-by-side dpi dpi-paper

@@ -7,13 +7,14 @@ mod help;
 mod parse;
 
 pub(super) use analyses::{
-    AnalysisArgs, DriveArgs, DriveSolver, GoalOf, LinkageArgs, RegimesArgs, ResetOf, SpringArgs,
+    AnalysisArgs, DriveArgs, DriveSolver, GoalOf, LinkageArgs, RegimesArgs, ResetOf, ShaftArgs, ShaftSolver,
+    SpringArgs, WhirlOf,
 };
 pub(super) use common::{CommonArgs, EndOf, ToldArgs};
 pub(super) use files::{
     CutterArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
 };
-pub(super) use parse::Speed;
+pub(super) use parse::{Order, Speed};
 
 use camgen::motion::equation_18::ExactOn;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -78,6 +79,11 @@ pub(super) enum Command {
     /// A crank-slider, or a six-bar whose drag link turns the crank of the slider unevenly.
     #[command(after_help = help::LINKAGE)]
     Linkage(LinkageArgs),
+    /// The shaft under a cam, or alone: critical speeds, deflection, lift error under load, unbalance
+    ///
+    /// What bending and twist of the shaft take off the lift, and the force that this leaves, for the cam of the file.
+    #[command(after_help = help::SHAFT)]
+    Shaft(ShaftArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -136,6 +142,7 @@ impl Command {
             Command::Spring(args) => (&args.machine, &args.analysis),
             Command::Drive(args) => (&args.machine, &args.analysis),
             Command::Linkage(args) => (&args.machine, &args.analysis),
+            Command::Shaft(args) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();

@@ -3,6 +3,7 @@
 use camgen::body::RateTolerance;
 use camgen::document::similar;
 use camgen::machine::valid_rpm;
+use camgen::shaft::MOST_ORDER;
 use camgen::units::{self, Dimension};
 use camgen::write::by_name;
 use camgen::write::dxf::Version;
@@ -127,6 +128,33 @@ pub(super) fn stiffness(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Stiffness)
         .map_err(|error| format!("{error}; a stiffness has one of {}", Dimension::Stiffness.unit_list()))?;
     if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
+}
+
+/// Two stiffnesses, the first below the second, N/m.
+pub(super) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
+    let (from, to) =
+        text.split_once("..").ok_or("a sweep goes from one stiffness to another, e.g. \"1e8 N/m .. 1e9 N/m\"")?;
+    let (from, to) = (stiffness(from.trim())?, stiffness(to.trim())?);
+    if from < to { Ok((from, to)) } else { Err("a sweep goes from the smaller to the larger stiffness".into()) }
+}
+
+/// An order of load polynomials, or as many as it takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cli) enum Order {
+    Auto,
+    Of(usize),
+}
+
+pub(super) fn order(text: &str) -> Result<Order, String> {
+    if text.eq_ignore_ascii_case("auto") {
+        return Ok(Order::Auto);
+    }
+    let order = text.parse().map_err(|_| "must be auto or a whole number")?;
+    if (1..=MOST_ORDER).contains(&order) {
+        Ok(Order::Of(order))
+    } else {
+        Err(format!("must be from 1 to {MOST_ORDER}"))
+    }
 }
 
 pub(in crate::cli) fn rpm(text: &str) -> Result<f64, String> {

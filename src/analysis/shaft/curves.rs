@@ -1,0 +1,73 @@
+//! The curves of a shaft on paper: modes, deflection, lift error, sweep.
+
+use super::sweep::{self, Row};
+use super::{Found, along, picture, rpm};
+use crate::geometry::MILLIMETRES;
+use crate::report::plot::{self, Curve, Panel, Plot};
+use crate::report::shown;
+
+/// Meganewtons per metre, for the axis of a sweep.
+const MEGA: f64 = 1e-6;
+
+fn curve(name: String, colour: usize, points: Vec<[f64; 2]>) -> Curve {
+    Curve { name, colour, bold: true, points }
+}
+
+/// Modes and deflection along the shaft, lift error over a turn and the sweep below, the shaft to scale beside them.
+pub(super) fn plot(found: &Found<'_>, sweep: Option<&[Row]>) -> Plot {
+    let places: Vec<f64> = along::places(found).into_iter().map(|(x, _)| x).collect();
+    let modes = found.spectrum.modes.iter().zip(&found.spectrum.speeds).enumerate().map(|(index, (mode, speed))| {
+        let points = places.iter().map(|x| [MILLIMETRES * x, mode.shape.at(*x)[0]]).collect();
+        curve(format!("{} rpm", shown(rpm(*speed).round())), index, points)
+    });
+    let modes: Vec<Curve> = modes.collect();
+    let mut panels = Vec::new();
+    if !modes.is_empty() {
+        panels.push(Panel { name: "Modes, largest deflection 1".into(), curves: modes });
+    }
+    panels.extend(deflection(found, &places));
+    let mut own = Vec::new();
+    own.extend(found.under.as_ref().map(|under| {
+        let rows = under.rows(found.asked.samples);
+        let of = |name: &str, colour: usize, value: fn(&crate::body::disc::Lowered) -> f64| {
+            let points = rows.iter().map(|(cam_deg, lowered)| [*cam_deg, MILLIMETRES * value(lowered)]).collect();
+            curve(name.to_owned(), colour, points)
+        };
+        let mut curves = vec![of("in all", 0, |lowered| lowered.error())];
+        if under.shaft_twist.is_some() {
+            curves.extend([of("bending", 1, |lowered| lowered.bending), of("twist", 2, |lowered| lowered.twist)]);
+        }
+        ("cam angle, degrees".to_owned(), Panel { name: "Lift error under load, mm".into(), curves })
+    }));
+    own.extend(sweep.map(|rows| ("stiffness of the supports, MN/m".to_owned(), over_stiffness(found, rows))));
+    Plot {
+        title: format!("{}: shaft", found.machine.name()),
+        places: "from the left end of the shaft, mm".into(),
+        panels,
+        own,
+        scheme: Some(picture::scheme(found)),
+    }
+}
+
+/// Under the largest force of the cam, or a kilonewton where no force is known.
+fn deflection(found: &Found<'_>, places: &[f64]) -> Option<Panel> {
+    let statics = found.statics.as_ref()?;
+    let force = found.under.as_ref().map_or(1e3, |under| under.there.force);
+    let points = places.iter().map(|x| [MILLIMETRES * x, 1e6 * force * statics.curve.at(*x)[0]]).collect();
+    let name = format!("Deflection under {} N at the cam, µm", shown(force.round()));
+    Some(Panel { name, curves: vec![curve("deflection".into(), 0, points)] })
+}
+
+fn over_stiffness(found: &Found<'_>, rows: &[Row]) -> Panel {
+    let count = rows.first().map_or(0, |row| row.speeds.len());
+    let of = |index: usize| {
+        let point = |row: &Row| Some([MEGA * row.stiffness, rpm(*row.speeds.get(index)?)]);
+        curve(format!("n{}", index + 1), index, rows.iter().filter_map(point).collect())
+    };
+    let mut curves: Vec<Curve> = (0..count).map(of).collect();
+    if let (Some(rigid), Some(first), Some(last)) = (sweep::rigid(found), rows.first(), rows.last()) {
+        let points = [first, last].map(|row| [MEGA * row.stiffness, rpm(rigid)]).to_vec();
+        curves.push(Curve { name: "n1, rigid supports".into(), colour: plot::GREY, bold: false, points });
+    }
+    Panel { name: "Critical speeds, rpm".into(), curves }
+}
