@@ -132,15 +132,12 @@ impl PlaceLaw {
     #[must_use]
     pub fn by_time(&self, x: f64, crank_speed: f64) -> [f64; 2] {
         let square = crank_speed * crank_speed;
-        match self.in_line {
-            Some(in_line) => {
-                let speed = in_line.speed(x);
-                [square * speed * speed, square * in_line.deceleration(x)]
-            }
-            None => {
-                let (r, over) = (self.stroke(), x.max(0.0));
-                [square * (r - over) * (r + over), square * over]
-            }
+        if let Some(in_line) = self.in_line {
+            let speed = in_line.speed(x);
+            [square * speed * speed, square * in_line.deceleration(x)]
+        } else {
+            let (r, over) = (self.stroke(), x.max(0.0));
+            [square * (r - over) * (r + over), square * over]
         }
     }
 

@@ -17,14 +17,14 @@ fn end(rod_ratio: f64, end: End) -> StrokeEnd {
 }
 
 /// The law of a press that compresses to `q` times the ambient pressure.
-fn law(end: StrokeEnd, q: f64, column: Column) -> PlaceLaw {
+fn law(end: &StrokeEnd, q: f64, column: Column) -> PlaceLaw {
     let loading = (q - 1.0) / end.largest_deceleration().value;
-    PlaceLaw::new(CrankLaw::Linkage(LinkageLaw::new(loading, EXPONENT, end, column, 0.0))).expect("in line")
+    PlaceLaw::new(CrankLaw::Linkage(LinkageLaw::new(loading, EXPONENT, *end, column, 0.0))).expect("in line")
 }
 
-fn mechanism(bottom_law: PlaceLaw, friction_deg: f64, efficiency: f64, exact_on: ExactOn) -> Mechanism {
+fn mechanism(bottom_law: &PlaceLaw, friction_deg: f64, efficiency: f64, exact_on: ExactOn) -> Mechanism {
     Mechanism {
-        bottom_law,
+        bottom_law: *bottom_law,
         bottom_arm: 0.3,
         arm_ratio: 1.0,
         delta: FRAC_PI_2,
@@ -49,8 +49,8 @@ fn ends() -> impl Iterator<Item = StrokeEnd> {
 fn without_friction_the_energy_of_the_bed_is_in_the_air() {
     for of in ends() {
         for column in [Column::Matched, Column::Return, Column::Length(0.4)] {
-            let law = law(of, 2.0, column);
-            let solution = solved(&mechanism(law, 0.0, 1.0, ExactOn::Braking));
+            let law = law(&of, 2.0, column);
+            let solution = solved(&mechanism(&law, 0.0, 1.0, ExactOn::Braking));
             let (length, first) = (law.column(), of.at(0.0).x[1]);
             for i in 4..=40 {
                 let [x, speed, ..] = of.at(of.dead() * f64::from(i) / 40.0).x;
@@ -93,7 +93,7 @@ fn an_integration_in_the_crank_angle_has_the_same_bottom() {
         for (column, friction, efficiency) in
             [(Column::Matched, 3.0, 1.0), (Column::Return, 6.0, 1.0), (Column::Matched, 4.0, 0.9)]
         {
-            let mechanism = mechanism(law(of, 2.0, column), friction, efficiency, ExactOn::Braking);
+            let mechanism = mechanism(&law(&of, 2.0, column), friction, efficiency, ExactOn::Braking);
             let solution = solved(&mechanism);
             // A turn of the bottom is a kink of the slope, which costs the integration its order there.
             let near = if solution.breaks.is_empty() { 1e-11 } else { 1e-8 };
@@ -124,7 +124,7 @@ fn the_forces_balance_on_the_way_they_are_to() {
     for of in ends() {
         for column in [Column::Matched, Column::Return] {
             for exact_on in [ExactOn::Braking, ExactOn::Return, ExactOn::Mean] {
-                let mechanism = mechanism(law(of, 2.0, column), 3.0, 0.95, exact_on);
+                let mechanism = mechanism(&law(&of, 2.0, column), 3.0, 0.95, exact_on);
                 let solution = solved(&mechanism);
                 let stroke = mechanism.bottom_law.stroke();
                 for i in 1..=60 {
@@ -150,9 +150,9 @@ fn the_forces_balance_on_the_way_they_are_to() {
 fn a_long_rod_has_the_plate_of_a_yoke() {
     for column in [Column::Matched, Column::Return] {
         let yoke = BottomLaw::new(1.0 / RADIUS, EXPONENT, RADIUS, column, 0.0);
-        let yoke = solved(&mechanism(yoke.into(), 3.0, 0.95, ExactOn::Braking));
+        let yoke = solved(&mechanism(&yoke.into(), 3.0, 0.95, ExactOn::Braking));
         for which in [End::Outer, End::Inner] {
-            let long = solved(&mechanism(law(end(1e6, which), 2.0, column), 3.0, 0.95, ExactOn::Braking));
+            let long = solved(&mechanism(&law(&end(1e6, which), 2.0, column), 3.0, 0.95, ExactOn::Braking));
             for i in 0..=40 {
                 let x = 0.9999 * RADIUS * f64::from(i) / 40.0;
                 let (got, want) = (long.at(x, false), yoke.at(x, false));
@@ -166,7 +166,7 @@ fn a_long_rod_has_the_plate_of_a_yoke() {
 /// The paper's own method goes to the same bottom as its steps get smaller.
 #[test]
 fn stations_meet_the_solution_of_a_linkage() {
-    let mechanism = mechanism(law(end(3.0, End::Outer), 2.0, Column::Matched), 3.0, 0.95, ExactOn::Braking);
+    let mechanism = mechanism(&law(&end(3.0, End::Outer), 2.0, Column::Matched), 3.0, 0.95, ExactOn::Braking);
     let solution = solved(&mechanism);
     let stroke = mechanism.bottom_law.stroke();
     let off = |count: u32| {
@@ -181,7 +181,7 @@ fn stations_meet_the_solution_of_a_linkage() {
 #[test]
 fn a_run_up_lies_along_the_way_of_the_bed() {
     for of in ends() {
-        let mechanism = mechanism(law(of, 2.0, Column::Return), 3.0, 0.95, ExactOn::Braking);
+        let mechanism = mechanism(&law(&of, 2.0, Column::Return), 3.0, 0.95, ExactOn::Braking);
         let motion = |transition: Transition| WedgeMotion::new(mechanism, TOLERANCE, transition, 0.03);
         let width = 0.3;
         let run_up = motion(Transition::RunUp { width }).expect("it fits");
