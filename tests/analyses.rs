@@ -178,7 +178,7 @@ fn the_drive_has_the_known_figures() {
 }
 
 #[test]
-fn a_linkage_has_the_known_figures_and_no_cam() {
+fn a_linkage_has_the_known_figures() {
     let told = run(0, &["linkage", "--json"]);
     let figures = report(&told)["linkage"].clone();
     let number = |name: &str| figures[name].as_f64().unwrap_or_else(|| panic!("{name}"));
@@ -197,15 +197,18 @@ fn a_linkage_has_the_known_figures_and_no_cam() {
         let power = force * of(row, "velocity_m_per_s");
         assert!((power - of(row, "power_w")).abs() < 1e-7 * 25_000.0);
         assert!((of(row, "velocity_m_per_s") - 1e-3 * omega * of(row, "velocity_mm_per_rad")).abs() < 1e-12);
+        // The buffers of both ends balance it over the whole turn, to rounding.
+        assert!(of(row, "residual_n").abs() < 1e-9 && of(row, "air_n") * of(row, "inertia_n") > -1e-9, "{row:?}");
     }
     let plain = report(&run(0, &["linkage", "dpi-crank-slider", "--dry-run", "--json"]));
     close(plain["linkage"]["c_plus"].as_f64().expect("a number"), 6.579_736_267_392_9);
     close(plain["linkage"]["k_c"].as_f64().expect("a number"), 1.911_519_489_723_9);
-    for command in ["rotary", "translating", "conoid", "regimes", "spring"] {
-        let refused = run(2, &[command, "dpi-six-bar"]);
+    let compensator = ["rotary", "dpi-six-bar", "--compensator", "spring_rate=100N/mm,preload=10kN"];
+    for args in [&["translating", "dpi-six-bar"][..], &["spring", "dpi-six-bar"], &compensator] {
+        let refused = run(2, args);
         assert!(
             refused.err.contains("moved by a linkage") && written(&refused).is_empty(),
-            "{command}: {}",
+            "{args:?}: {}",
             refused.err
         );
     }
@@ -240,6 +243,95 @@ fn a_linkage_has_the_known_figures_and_no_cam() {
     ] {
         let refused = run(2, &["linkage", "--set", set]);
         assert!(refused.err.contains(why), "{set}: {}", refused.err);
+    }
+}
+
+/// The sheet has the mechanism with its letters and a ruler, the page a part for every link, and both are the same again.
+#[test]
+fn a_linkage_is_drawn_and_moves() {
+    let made = run(0, &["linkage", "--format", "svg,html,pdf", "--name", "six"]);
+    let text = |run: &Run, name: &str| fs::read_to_string(file(run, name)).expect("a file");
+    let svg = text(&made, "six.svg");
+    let letters: Vec<&str> =
+        svg.split("id=\"letters-").skip(1).filter_map(|group| group.split("</g>").next()).collect();
+    assert_eq!(letters.len(), 3);
+    for letter in ["O1", "O2", "A", "B", "C", "D"] {
+        let found: Vec<usize> = letters.iter().map(|of| of.matches(&format!(">\n{letter}\n<")).count()).collect();
+        assert_eq!(found, [1, 1, 1], "{letter}");
+    }
+    for words in
+        ["outer dead point", "inner dead point", "least transmission angle, 77.3644°", "200 mm; scale 1:5", "K_c = 1"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(svg.contains("O1A is drawn as long as O2C, 180 mm"), "what is assumed is told");
+    let html = text(&made, "six.html");
+    let (_, behind) = html.split_once("type=\"application/json\">").expect("data");
+    let data: serde_json::Value =
+        serde_json::from_str(behind.split("</script>").next().expect("an end")).expect("JSON");
+    let view = &data["cams"][0]["views"][0];
+    let of_role =
+        |role: &str| view["parts"].as_array().expect("parts").iter().filter(|part| part["role"] == role).count();
+    assert_eq!([of_role("crank"), of_role("follower"), of_role("bed")], [2, 2, 1]);
+    assert_eq!(view["at"].as_array().map(Vec::len), Some(721));
+    assert_eq!(view["columns"]["x_mm"].as_array().map(Vec::len), Some(720));
+    assert_eq!((&view["place"], &view["returns"]), (&"crank_deg".into(), &false.into()));
+    assert!(fs::metadata(file(&made, "six.pdf")).expect("a PDF").len() > 10_000);
+    let again = run(0, &["linkage", "--format", "svg,html,pdf", "--name", "six"]);
+    for name in ["six.svg", "six.html", "six.pdf"] {
+        assert!(
+            fs::read(file(&made, name)).expect("a file") == fs::read(file(&again, name)).expect("a file"),
+            "{name}"
+        );
+    }
+    let args = ["--set", "linkage.driving_crank=100 mm", "--name", "plain", "--format", "svg,html"];
+    let steep = run(0, &[&["linkage", "dpi-crank-slider"], &args[..]].concat());
+    assert!(
+        html.contains("\"id\":\"transmission\"") && !text(&steep, "plain.html").contains("\"id\":\"transmission\"")
+    );
+    let svg = text(&steep, "plain.svg");
+    assert!(
+        svg.contains("steepest rod, 19.4712°") && !svg.contains("K_c") && !svg.contains("drawn as long"),
+        "no drag link"
+    );
+    let yoke = run(0, &["linkage", "dpi", "--set", "linkage.kind=yoke", "--format", "svg,toml,html", "--name", "yoke"]);
+    assert!(text(&yoke, "yoke.toml").ends_with("[linkage]\nkind = \"yoke\"\n"));
+}
+
+/// A written table in the place of that of a machine file makes the same machine; no other analysis, and no cam, has one.
+#[test]
+fn the_table_of_a_linkage_can_be_pasted() {
+    let own = include_str!("../profiles/dpi-crank-slider.toml");
+    let (head, rest) = own.split_once("[linkage]").expect("a table");
+    let (_, behind) = rest.split_once("\n[").expect("another table");
+    let goals: [&[&str]; 4] = [
+        &[],
+        &["--synthesize", "equal"],
+        &["--synthesize", "least", "--keep", "symmetric"],
+        &["--synthesize", "symmetric", "--set", "linkage.driving_crank=150 mm"],
+    ];
+    for goal in goals {
+        let made =
+            run(0, &[&["linkage", "dpi-crank-slider", "--format", "toml", "--name", "made", "--json"], goal].concat());
+        assert_eq!(written(&made), ["made.toml"]);
+        let before = report(&made)["linkage"].clone();
+        let table = fs::read_to_string(file(&made, "made.toml")).expect("a table");
+        let pasted = format!("{head}{table}\n[{behind}");
+        fs::write(made.directory.path().join("pasted.toml"), &pasted).expect("written");
+        let again = camgen_in(made.directory, &["linkage", "pasted.toml", "--dry-run", "--json"]);
+        assert_eq!(again.code, 0, "{}\n{table}", again.err);
+        let after = report(&again)["linkage"].clone();
+        for (name, value) in before.as_object().expect("figures") {
+            let (Some(value), Some(found)) = (value.as_f64(), after[name].as_f64()) else { continue };
+            assert!((value - found).abs() <= 1e-11 * value.abs().max(1.0), "{name}: {found}, not {value}\n{table}");
+        }
+    }
+    for (args, why) in [
+        (["regimes", "dpi"], "no such format `toml`; one of svg, csv, json, html, pdf"),
+        (["rotary", "dpi"], "no toml file: it is for a linkage"),
+    ] {
+        let refused = run(2, &[&args[..], &["--format", "toml"]].concat());
+        assert!(refused.err.contains(why) && written(&refused).is_empty(), "{args:?}: {}", refused.err);
     }
 }
 

@@ -2,7 +2,9 @@
 
 #![allow(clippy::expect_used, clippy::panic, clippy::indexing_slicing, missing_docs, reason = "a test fails loudly")]
 
+use camgen::analysis::linkage::{self, Goal};
 use camgen::geometry::contour::Extents;
+use camgen::report::plot;
 use camgen::report::sheet::{Sheet, font, paper};
 use camgen::write::{pdf, svg};
 use camgen::{ExactOn, Machine, Solver, Spec};
@@ -145,6 +147,50 @@ fn nothing_overlaps_on_other_sheets() {
     looks_right("conoid", &solved("conoid", "dpi", &[], &[20.0, 25.0, 30.0, 35.0]));
     let ten: Vec<f64> = (0..10).map(|index| 20.0 + 1.5 * f64::from(index)).collect();
     looks_right("ten sections", &solved("conoid", "dpi", &["cam.rotation=ccw"], &ten));
+}
+
+/// The sheet of a linkage: letters and names keep clear of links and paths, at every size and in every shape.
+#[test]
+fn nothing_overlaps_on_the_sheet_of_a_linkage() {
+    let cases: [(&str, &[&str]); 9] = [
+        ("dpi-six-bar", &[]),
+        ("dpi-six-bar", &["linkage.base_angle=30 deg", "linkage.offset_ratio=-0.4", "linkage.driving_crank=140 mm"]),
+        ("dpi-six-bar", &["linkage.base_ratio=0"]),
+        ("dpi-six-bar", &["bed.crank_radius=2.5 mm", "linkage.rod_ratio=7"]),
+        ("dpi-six-bar", &["bed.crank_radius=40 m"]),
+        ("dpi-six-bar", &["name=Плоскопечатная машина ДПИ с воздушными буферами и шестизвенным приводом талера"]),
+        ("dpi-crank-slider", &[]),
+        ("dpi-crank-slider", &["linkage.offset_ratio=1.2"]),
+        ("dpi", &["linkage.kind=yoke"]),
+    ];
+    for (name, overrides) in cases {
+        let owned: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let machine = Machine::load(name, &owned).expect("valid").0;
+        let goals =
+            [None, Some(Goal::Equal), Some(Goal::Symmetric), Some(Goal::Least { symmetric: true, power: None })];
+        let designed = name == "dpi-crank-slider" && overrides.is_empty();
+        for goal in goals.into_iter().take(if designed { 4 } else { 1 }) {
+            let found = linkage::analysis(&machine, 35.0, goal).expect("a linkage");
+            let sheet = plot::sheet(&found.plot, "camgen 0.1.0, inputs 0123456789ab");
+            let mut faults = faults(&sheet);
+            // A PDF has no other font.
+            faults.extend(
+                fields(&sheet).iter().flat_map(|(_, text)| font::missing(text)).map(|c| format!("no glyph {c}")),
+            );
+            assert!(faults.is_empty(), "{name} {overrides:?} {goal:?}: {faults:#?}");
+            // Every letter finds its place, beside the head of its stand.
+            for (index, stand) in found.plot.scheme.iter().flat_map(|scheme| &scheme.stands).enumerate() {
+                let id = format!("letters-{index}");
+                let texts = sheet.groups.iter().filter(|group| group.id == id).flat_map(|group| &group.shapes);
+                let count = texts.filter(|shape| shape.text_field().is_some()).count();
+                assert_eq!(count, stand.joints.len() + 1, "{name} {overrides:?} {}", stand.name);
+            }
+            let mut ids: Vec<&str> = sheet.groups.iter().map(|group| &*group.id).collect();
+            ids.sort_unstable();
+            ids.dedup();
+            assert_eq!(ids.len(), sheet.groups.len(), "{name}: a name twice");
+        }
+    }
 }
 
 /// The smallest standard sheet is taken, true size wherever an A1 holds it, and the outline tells its scale.

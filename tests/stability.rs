@@ -119,7 +119,7 @@ fn the_reset_at_other_speeds() {
         let cylinder = Cylinder::sized(&bed, 35.0, k, 98_066.5, q * 98_066.5);
         let design = BottomLaw::new(cylinder.loading(35.0), k, 0.18, Column::Matched, 0.0);
         let rpm = 35.0 * random.log_between(0.01, 10.0);
-        let found = regime::reset(&design, &cylinder, rpm, regime::Reset::End);
+        let found = regime::reset(&design.into(), &cylinder, rpm, regime::Reset::End);
         let load = cylinder.loading(rpm) * 0.18;
         let shortening = 0.18 + design.displacement(0.18);
         let exact = big(shortening) / (big(1.0) - (-(big(1.0) + big(load)).ln() / big(k)).exp());
@@ -223,7 +223,8 @@ fn geometry_of_random_cams() {
         let bottom_law = BottomLaw::new(buffer.loading, buffer.k, buffer.r, column, 0.0);
         let (lever, lobes) = (random.log_between(0.05, 20.0), 1 + case % 5);
         let motion =
-            Reversal::new(ReversalLaw { bottom_law, lever, lobes, transition: Transition::None }).expect("fits");
+            Reversal::new(ReversalLaw { bottom_law: bottom_law.into(), lever, lobes, transition: Transition::None })
+                .expect("fits");
         let prime = random.log_between(1e-3, 1e3);
         let offset = if random.next() < 0.5 { 0.0 } else { prime * (1.8 * random.next() - 0.9) };
         let roller = prime * random.log_between(1e-3, 0.9);

@@ -138,6 +138,52 @@ fn every_format_is_written_for_every_cam_it_fits_and_refused_for_the_others() {
     }
 }
 
+/// An analysis of each kind. A new kind needs a line here.
+fn analysis_of(kind: &Kind) -> analysis::Analysis {
+    let press = || Machine::load("dpi", &[]).expect("valid").0;
+    let found = match kind.command {
+        "regimes" => analysis::regimes::analysis(&press(), 35.0, &SPEEDS, Reset::End).expect("a press"),
+        "spring" => analysis::spring::analysis(&press(), &SPEEDS, &[], None).expect("a press"),
+        "drive" => {
+            let drive = DriveMachine::load("dp", &[]).expect("valid").0;
+            analysis::drive::analysis(&drive, analysis::drive::Solver::Energy, 0.1).expect("it closes")
+        }
+        "linkage" => {
+            let six_bar = Machine::load("dpi-six-bar", &[]).expect("valid").0;
+            analysis::linkage::analysis(&six_bar, 35.0, None).expect("a linkage")
+        }
+        other => panic!("no analysis of the kind {other} here"),
+    };
+    assert_eq!(found.kind, kind);
+    found
+}
+
+/// A format has files for an analysis, or is refused by name with those that it can have.
+#[test]
+fn every_format_is_written_for_every_analysis_that_has_it_and_refused_for_the_others() {
+    for kind in analysis::KINDS {
+        let judged = Judged::new(analysis_of(kind));
+        for format in by_name() {
+            let writing = Writing::to("out", "found").formats(&[format.name]);
+            let endings = format.of_analysis.map_or_else(Vec::new, |of| (of.endings)(judged.analysis()));
+            let what = format!("{} of {}", format.name, kind.noun);
+            match judged.files(&writing) {
+                Ok(set) => {
+                    let names: Vec<&str> = set.outputs().iter().map(|output| &*output.name).collect();
+                    let expected: Vec<String> = endings.iter().map(|ending| format!("found{ending}")).collect();
+                    assert_eq!(names, expected, "{what}");
+                    assert!(!names.is_empty() && set.outputs().iter().all(|output| output.bytes.len() > 100), "{what}");
+                }
+                Err(Error::NoSuchFormat { name, known }) => {
+                    assert!(endings.is_empty() && name == format.name, "{what}");
+                    assert!(!known.split(", ").any(|other| other == name), "{what}: {known}");
+                }
+                Err(other) => panic!("{what}: {other}"),
+            }
+        }
+    }
+}
+
 /// What is asked of the library is told as the program tells it, and the usual formats are those that fit.
 #[test]
 fn formats_are_chosen_by_what_fits() {

@@ -174,6 +174,8 @@ pub fn analysis(machine: &DriveMachine, solver: Solver, step: f64) -> Result<Ana
         }],
         notes: Vec::new(),
         plot: plot(machine, &fine, &nodes),
+        mechanism: None,
+        document: None,
         tables: vec![("", table)],
         by: &[],
         along: "crank_deg",
@@ -410,5 +412,6 @@ fn plot(machine: &DriveMachine, fine: &[Row], nodes: &[Node]) -> Plot {
         title: format!("{}: the drive through a reversal", machine.name()),
         places: "crank angle from the start of braking, degrees".into(),
         panels,
+        ..Plot::default()
     }
 }

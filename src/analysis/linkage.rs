@@ -1,5 +1,13 @@
 //! The linkage that moves the bed: its motion over a turn, dead points, largest accelerations, transmission angles, torque.
 
+mod air;
+mod described;
+mod moving;
+mod over_base;
+mod picture;
+#[cfg(test)]
+mod tests;
+
 use super::{Analysis, Measure};
 use crate::body::Kind;
 use crate::buffer::Bed;
@@ -11,6 +19,8 @@ use crate::machine::{LinkageData, Machine};
 use crate::report::plot::{self, Curve, Panel, Plot};
 use crate::report::{Section, Speeds, degrees, shown};
 use crate::table::{Table, Told};
+use air::{Air, Buffers};
+use picture::Lying;
 use serde::Serialize;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
@@ -62,6 +72,8 @@ struct Row {
     torque: f64,
     transmission: f64,
     rod: f64,
+    /// Where a buffer acts.
+    air: Option<Air>,
 }
 
 const TOLD: &[Told<Row>] = &[
@@ -77,6 +89,13 @@ const TOLD: &[Told<Row>] = &[
     ("power_w", |row| row.torque * row.speed),
     ("transmission_deg", |row| row.transmission),
     ("rod_deg", |row| row.rod),
+];
+
+/// Behind them, where buffers balance the bed.
+const TOLD_OF_AIR: &[Told<Row>] = &[
+    ("air_n", |row| row.air.map_or(f64::NAN, |air| air.force)),
+    ("dx_mm", |row| row.air.map_or(f64::NAN, |air| MILLIMETRES * air.displacement)),
+    ("residual_n", |row| row.air.map_or(f64::NAN, |air| row.inertia - air.force)),
 ];
 
 /// The section `linkage`.
@@ -159,17 +178,7 @@ fn design(data: &LinkageData) -> Option<Section> {
         "base_ratio": link.base, "coupler_ratio": link.coupler, "follower_ratio": link.follower,
         "follower_angle_deg": angle, "rod_ratio": slider.rod_ratio, "offset_ratio": slider.offset_ratio,
     });
-    let words = vec![
-        "[linkage]".into(),
-        "kind = \"six-bar\"".into(),
-        format!("rod_ratio = {}", slider.rod_ratio),
-        format!("offset_ratio = {}", slider.offset_ratio),
-        format!("base_ratio = {}", link.base),
-        format!("coupler_ratio = {}", link.coupler),
-        format!("follower_ratio = {}", link.follower),
-        format!("follower_angle = \"{angle} deg\""),
-    ];
-    Some(Section::new("design", &value).with_words(words))
+    Some(Section::new("design", &value).with_words(described::lines(data)?))
 }
 
 /// The linkage of a machine at a speed of its main shaft, rpm, or one that is designed for its slider.
@@ -183,8 +192,16 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<Goal>) -> Result<Analy
     };
     let bed = machine.bed().ok_or(LinkageError::NoBed)?;
     let found = linkage::characteristics(&data.linkage);
+    let lying = Lying::new(data, bed);
+    let own = match data.linkage {
+        Linkage::SixBar(link, slider) => Some(over_base::diagram(link, slider)),
+        Linkage::Yoke | Linkage::CrankSlider(_) => None,
+    };
     let (speed, told) = (bed.crank_speed(rpm), figures(data, &found, (bed, rpm)));
-    let rows: Vec<Row> = (0..ROWS).map(|i| row(data, bed, speed, f64::from(i) / f64::from(ROWS))).collect();
+    let buffers = machine.press().ok().and_then(|press| Buffers::new(press, data.linkage, rpm));
+    let row = |i: u32| row(data, (bed, buffers.as_ref()), speed, f64::from(i) / f64::from(ROWS));
+    let rows: Vec<Row> = (0..ROWS).map(row).collect();
+    let of_air = if buffers.is_some() { TOLD_OF_AIR } else { &[] };
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.push(Input::number("rpm", rpm));
@@ -199,8 +216,14 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<Goal>) -> Result<Analy
         sections,
         measures: measures(machine, data, &found),
         notes: machine.idle_keys_told(KIND.keys, KIND.noun),
-        plot: curves(machine.name(), data, (bed, to_line(data, found.outer)), &rows),
-        tables: vec![("", Table::listed(TOLD, &rows))],
+        plot: Plot {
+            own: own.into_iter().collect(),
+            scheme: Some(picture::scheme(&lying)),
+            ..curves(machine.name(), data, (bed, data.to_line(found.outer)), &rows)
+        },
+        mechanism: Some(moving::mechanism(&lying, ROWS, speed)),
+        document: described::lines(data).map(|lines| lines.join("\n") + "\n"),
+        tables: vec![("", Table::listed(&[TOLD, of_air].concat(), &rows))],
         by: &[],
         along: "crank_deg",
         not_modelled: NOT_MODELLED.to_vec(),
@@ -209,21 +232,16 @@ pub fn analysis(machine: &Machine, rpm: f64, goal: Option<Goal>) -> Result<Analy
 
 const NOT_MODELLED: &[&str] = &[
     "Masses of the links: the torque is that of the bed.",
-    "The air buffers and their cam: those are solved for a yoke only, and refused for any other linkage.",
+    "Transitions of the cams of the buffers: each bottom is taken as its law.",
     "Elasticity and play of the joints.",
 ];
 
 /// Angle of the driving crank from the base, at an angle from the line of the slider.
 fn from_base(data: &LinkageData, crank: f64) -> f64 {
-    if matches!(data.linkage, Linkage::SixBar(..)) { crank - data.base_angle } else { crank }
+    crank - data.to_line(0.0)
 }
 
-/// The other way round.
-fn to_line(data: &LinkageData, theta: f64) -> f64 {
-    if matches!(data.linkage, Linkage::SixBar(..)) { theta + data.base_angle } else { theta }
-}
-
-fn row(data: &LinkageData, bed: &Bed, speed: f64, turn: f64) -> Row {
+fn row(data: &LinkageData, (bed, buffers): (&Bed, Option<&Buffers>), speed: f64, turn: f64) -> Row {
     let theta = from_base(data, TAU * turn);
     let motion = data.linkage.position(theta).map(|value| bed.crank_radius * value);
     let [_, first, second, ..] = motion;
@@ -236,6 +254,7 @@ fn row(data: &LinkageData, bed: &Bed, speed: f64, turn: f64) -> Row {
         torque: force * first,
         transmission: data.linkage.transmission_angle(theta).map_or(f64::NAN, f64::to_degrees),
         rod: data.linkage.rod_angle(theta).to_degrees(),
+        air: buffers.and_then(|buffers| buffers.at(theta)),
     }
 }
 
@@ -252,9 +271,9 @@ fn figures(data: &LinkageData, found: &Characteristics, (bed, rpm): (&Bed, f64))
         k_phi: found.time_ratio,
         w: found.power.value,
         velocity_coefficient: found.velocity.value,
-        outer_deg: degrees(to_line(data, found.outer)),
-        inner_deg: degrees(to_line(data, found.inner)),
-        zero_deg: found.zeros.iter().map(|zero| degrees(to_line(data, *zero))).collect(),
+        outer_deg: degrees(data.to_line(found.outer)),
+        inner_deg: degrees(data.to_line(found.inner)),
+        zero_deg: found.zeros.iter().map(|zero| degrees(data.to_line(*zero))).collect(),
         transmission_min_deg: least_transmission(linkage).map(|(angle, _)| angle.to_degrees()),
         rod_angle_max_deg: linkage.largest_rod_angle().to_degrees(),
         inertia_max_n: bed.mass * speed * speed * stroke * found.acceleration() / (PI * PI),
@@ -295,7 +314,7 @@ fn measures(machine: &Machine, data: &LinkageData, found: &Characteristics) -> V
         let angle = data.linkage.largest_rod_angle().to_degrees();
         add(ROD_ANGLE, angle, Some(limits.rod_angle.to_degrees()), "deg", None);
     }
-    let [outer, inner] = [found.outer, found.inner].map(|at| shown(degrees(to_line(data, at))));
+    let [outer, inner] = [found.outer, found.inner].map(|at| shown(degrees(data.to_line(at))));
     let place = format!("from the outer one at {outer}° to the inner at {inner}°");
     add(DEAD_POINTS, found.forward_angle.to_degrees(), None, "deg", Some(place));
     #[expect(clippy::cast_precision_loss, reason = "a handful")]
@@ -357,5 +376,6 @@ fn curves(machine: &str, data: &LinkageData, (bed, outer): (&Bed, f64), rows: &[
             panel("Velocity, mm/rad", 1),
             panel("Acceleration, mm/rad²", 2),
         ],
+        ..Plot::default()
     }
 }

@@ -10,6 +10,7 @@ pub mod spring;
 
 use crate::body::Kind;
 use crate::document::Input;
+use crate::report::mechanism::Mechanism;
 use crate::report::plot::Plot;
 use crate::report::{Section, Speeds};
 use crate::table::Table;
@@ -60,6 +61,10 @@ pub struct Analysis {
     pub along: &'static str,
     /// The curves on paper.
     pub plot: Plot,
+    /// The mechanism as it moves, with a sample at each row of the last table; none where nothing moves.
+    pub mechanism: Option<Mechanism>,
+    /// A table of a machine file that describes what was analysed; none where there is nothing to paste.
+    pub document: Option<String>,
     /// What is not modelled of the machine, a sentence each.
     pub not_modelled: Vec<&'static str>,
 }

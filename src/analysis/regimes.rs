@@ -1,7 +1,7 @@
 //! One cam at other speeds: the column is reset, or air is added, and a residual force is left. Equations (14) and (15), figure 5.
 
 use super::{Analysis, Measure, PLACES, places};
-use crate::body::Kind;
+use crate::body::{Kind, reversal_of_bed};
 use crate::buffer::crank_law::CrankLaw;
 use crate::buffer::regime::{self, Regime, Reset};
 use crate::document::{Input, cams};
@@ -157,10 +157,14 @@ pub fn analysis(machine: &Machine, cam_rpm: f64, speeds: &[f64], reset: Reset) -
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: vec![Section::new(KIND.command, &told).with_words(words(&told))],
+        sections: std::iter::once(Section::new(KIND.command, &told).with_words(words(&told)))
+            .chain(reversal_of_bed(machine))
+            .collect(),
         measures: vec![volume(&rows, CUBIC * 2.0 * cylinder.piston_area * design.column())],
         notes: notes(machine),
         plot: plot(machine.name(), cam_rpm, &curves, &along),
+        mechanism: None,
+        document: None,
         tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(along.told, &curves))],
         by: &["rpm"],
         along: along.column,
@@ -296,5 +300,6 @@ fn plot(machine: &str, cam_rpm: f64, all: &[AtPlace], along: &Along) -> Plot {
             Panel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
             Panel { name: "Residual force, inertia less air, N".into(), curves: of(true, |place| place.residual) },
         ],
+        ..Plot::default()
     }
 }

@@ -151,6 +151,8 @@ pub fn analysis(
         measures: Vec::new(),
         notes: machine.idle_keys_told(KIND.keys, KIND.noun),
         plot: curves_of(machine.name(), press, &sets),
+        mechanism: None,
+        document: None,
         tables: vec![("", Table::listed(TOLD, &rows)), ("-curves", Table::listed(CURVES, &curves))],
         by: &["stiffness_n_per_mm", "rpm"],
         along: "x_mm",
@@ -251,5 +253,6 @@ fn curves_of(machine: &str, press: &Press, sets: &[(f64, SpringBuffer)]) -> Plot
             Panel { name: "Force, N: inertia of the bed (thin), air of both cylinders (bold)".into(), curves: forces },
             Panel { name: "Residual force, inertia less air, N".into(), curves: of(SpringBuffer::residual) },
         ],
+        ..Plot::default()
     }
 }

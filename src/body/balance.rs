@@ -2,7 +2,10 @@
 
 use crate::buffer::Cylinder;
 use crate::buffer::crank_law::CrankLaw;
+use crate::geometry::MILLIMETRES;
+use crate::machine::Machine;
 use crate::numeric::root;
+use crate::report::{ReversalOfBed, Section, degrees};
 
 /// The force balance a cam is made for, N.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +47,21 @@ pub(super) fn allowed_error(cylinder: &Cylinder, law: &CrankLaw) -> f64 {
     law.air_left(law.largest_deceleration()) * share_of_air(law, share)
 }
 
+/// The section that tells the reversal of a bed that is not moved by a yoke.
+pub(crate) fn reversal_of_bed(machine: &Machine) -> Option<Section> {
+    let (end, start) = machine.stroke_end()?;
+    let told = ReversalOfBed {
+        end: end.end().word().to_owned(),
+        start_deg: degrees(start),
+        angle_deg: end.angle().to_degrees(),
+        dead_point_deg: end.dead().to_degrees(),
+        largest_deceleration_deg: end.largest_deceleration().at.to_degrees(),
+        overrun_mm: MILLIMETRES * end.stroke(),
+        overrun_left_mm: MILLIMETRES * end.overrun_at_end(),
+    };
+    Some(told.section())
+}
+
 /// Ratio of the speeds that are tried downwards, and how many.
 const SLOWER: f64 = 0.8;
 const SPEEDS: usize = 60;
@@ -68,7 +86,6 @@ pub(super) fn three_digits_down(value: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::buffer::bottom_law::{BottomLaw, Column};
-    use crate::machine::Machine;
 
     /// By equation (8) itself: with the bottom as far off as allowed, half of what a fixed bottom leaves is left at the end of
     /// the stroke, and less before.

@@ -15,6 +15,7 @@ mod stress;
 pub mod torque;
 pub mod wedge;
 
+pub(crate) use balance::reversal_of_bed;
 pub use balance::{AsCut, Balance, USEFUL};
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
 pub use sheet::acceleration_as_cut;

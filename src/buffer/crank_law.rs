@@ -28,6 +28,7 @@ const CELLS: u32 = 96;
 
 /// The law at one speed with one column.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "a law is made once for a cam; 300 bytes are copied a handful of times")]
 pub enum CrankLaw {
     /// Of a bed that is moved by a yoke, x = r sin φ.
     Yoke(BottomLaw),

@@ -30,12 +30,12 @@ pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DR
 /// Whatever a linkage moves.
 pub const OF_A_LINKAGE: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, LINKAGE];
 /// Whatever has air.
-pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE];
+pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, LINKAGE];
 /// Whatever runs at a speed of the main shaft.
 pub const OF_A_SPEED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, LINKAGE];
 /// Whatever has a column of air.
-pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, DRIVE];
+pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, DRIVE, LINKAGE];
 /// Whatever the law of a bottom acts on.
-pub const OF_A_LAW: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES];
+pub const OF_A_LAW: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, LINKAGE];
 /// Whatever depends on the design of a press.
-pub const OF_A_DESIGN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING];
+pub const OF_A_DESIGN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, LINKAGE];

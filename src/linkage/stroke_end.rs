@@ -34,6 +34,15 @@ impl End {
         }
     }
 
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Outer => Self::Inner,
+            Self::Inner => Self::Outer,
+        }
+    }
+
     /// As a file or a flag names it.
     #[must_use]
     pub fn word(self) -> &'static str {

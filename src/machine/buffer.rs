@@ -78,7 +78,7 @@ pub(super) const DESIGN: Section = Section {
 };
 
 /// The press with its bed, when the tables stand and have no fault.
-pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>, stroke_end: Option<StrokeEnd>) -> Option<Press> {
+pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>, stroke_end: Option<&StrokeEnd>) -> Option<Press> {
     let table = reader.table(&SECTION);
     if let (Some(ambient), Some(end)) = (table.get(&AMBIENT_PRESSURE), table.get(&END_PRESSURE))
         && end <= ambient
@@ -90,7 +90,7 @@ pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>, stroke_end: Option<Str
     }
     Some(Press {
         bed: bed?,
-        stroke_end,
+        stroke_end: stroke_end.copied(),
         polytropic_exponent: table.get(&POLYTROPIC_EXPONENT)?,
         ambient_pressure: table.get(&AMBIENT_PRESSURE)?,
         end_pressure: table.get(&END_PRESSURE)?,

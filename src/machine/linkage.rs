@@ -21,6 +21,12 @@ pub struct LinkageData {
 }
 
 impl LinkageData {
+    /// The angle of the driving crank from the line of the slider, rad, where it stands at θ from its base.
+    #[must_use]
+    pub fn to_line(&self, theta: f64) -> f64 {
+        if matches!(self.linkage, Linkage::SixBar(..)) { theta + self.base_angle } else { theta }
+    }
+
     /// An end of the stroke of a bed; `None` under a yoke, and where no buffer can balance it.
     pub(super) fn stroke_end(&self, bed: &Bed, end: End) -> Option<StrokeEnd> {
         match self.linkage {

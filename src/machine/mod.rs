@@ -40,7 +40,7 @@ use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
 use crate::document::{self, Field, Input, Occurs, Reader, Section};
 use crate::follower::{self, FOLLOWERS};
-use crate::linkage::{End, Linkage};
+use crate::linkage::{End, Linkage, StrokeEnd};
 use crate::motion::{Motion, Transition, program};
 use std::fmt;
 use std::io::Read;
@@ -193,7 +193,7 @@ impl Machine {
         let bed = bed::read(reader);
         let linkage = linkage::read(reader, bed.as_ref());
         let stroke_end = linkage.zip(bed).and_then(|(data, bed)| data.stroke_end(&bed, End::Outer));
-        let (press, motion) = (buffer::read(reader, bed, stroke_end), program::read(reader));
+        let (press, motion) = (buffer::read(reader, bed, stroke_end.as_ref()), program::read(reader));
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let (follower, cam) = (follower?, cam?);
         disc::reached_by(reader, &cam, &follower);
@@ -246,6 +246,20 @@ impl Machine {
         let press = self.press.as_ref().ok_or(NoPress::None)?;
         let moved = self.linkage.is_some_and(|data| data.linkage != Linkage::Yoke);
         if moved && press.stroke_end.is_none() { Err(NoPress::Reversals) } else { Ok(press) }
+    }
+
+    /// The end of the stroke at which its buffers stand, and the driving crank where the reversal starts there, rad from the line of the
+    /// slider; `None` under a yoke.
+    #[must_use]
+    pub fn stroke_end(&self) -> Option<(StrokeEnd, f64)> {
+        let (end, data) = (self.press.as_ref()?.stroke_end?, self.linkage?);
+        Some((end, data.to_line(end.start())))
+    }
+
+    /// The end of the stroke at which its buffers stand, where a linkage tells them apart.
+    #[must_use]
+    pub fn end(&self) -> Option<End> {
+        Some(self.press.as_ref()?.stroke_end?.end())
     }
 
     /// The machine with its buffers at an end of the stroke of its linkage, the outer one unless another is chosen.

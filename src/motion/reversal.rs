@@ -429,7 +429,8 @@ fn parts(law: &ReversalLaw) -> Result<Vec<Part>, MotionError> {
     match law.transition {
         Transition::Blend { .. } if retreats => return Err(MotionError::BlendWithLead),
         Transition::Blend { width } if width > most => {
-            return Err(MotionError::BlendTooWide { width_deg: width.to_degrees(), most_deg: most.to_degrees() });
+            let most_deg = (1e3 * most.to_degrees()).floor() / 1e3;
+            return Err(MotionError::BlendTooWide { width_deg: width.to_degrees(), most_deg });
         }
         _ => {}
     }

@@ -1,5 +1,5 @@
 //! What would explain an outline that is not this cam: mirrored, turned, shifted, scaled, offset, the motion run the other way
-//! round, another section, or the cam of another speed; and what remains then.
+//! round, another section, the cam of another speed or of the other end of the bed's stroke; and what remains then.
 //!
 //! The outline of the file is compared with camgen's own drawing of the cam, contour with contour. Each change is tried alone, and
 //! two together where none alone will do.
@@ -9,6 +9,7 @@ use crate::body::{Body, Drawn, Request};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
 use crate::geometry::likeness::{Free, Likeness, Shape};
+use crate::linkage::End;
 use crate::machine::{Machine, valid_rpm};
 use crate::numeric::extremum;
 use crate::report::{Finding, Section, Speeds, Verdict};
@@ -191,6 +192,7 @@ pub(super) fn of(
     search.alone();
     search.other_sections();
     search.reversed();
+    search.other_end();
     search.other_speeds();
     search.together();
     Some(search.told())
@@ -262,6 +264,18 @@ impl Search<'_> {
                 vec![change("reversed", None, "", "with its motion run the other way round".into())],
                 remaining,
             );
+        }
+    }
+
+    /// The cam of the other end of the bed's stroke.
+    fn other_end(&mut self) {
+        let machine = self.cam.body().machine();
+        let other = machine.end().map(End::other).and_then(|end| machine.clone().at_end(end).ok().zip(Some(end)));
+        let (Some((machine, end)), Some(rpm)) = (other, self.speed()) else { return };
+        if let Some(shape) = self.solved(&machine, rpm, FINER * self.tolerance).and_then(|own| Shape::new(&own)) {
+            let remaining = shape.remaining(&self.found, &Likeness::SAME);
+            let words = format!("for the {} end of the stroke (--end {})", end.word(), end.word());
+            self.consider(vec![change("end", None, "", words)], remaining);
         }
     }
 

@@ -4,7 +4,7 @@ use super::{Error, FileSet, Writing, file_set};
 use crate::analysis::Analysis;
 use crate::report::{Finding, Inputs, Report, failed, passed};
 use crate::verify;
-use crate::write::{Account, When, by_name};
+use crate::write::{Account, OfAnalysis, When, by_name};
 
 /// An analysis whose measures were judged.
 #[derive(Debug, Clone)]
@@ -50,7 +50,7 @@ impl Judged {
         }
     }
 
-    /// Makes the files in memory; of the formats those that an analysis can have.
+    /// Makes the files in memory; of the formats those that the analysis has something for.
     ///
     /// # Errors
     /// [`Error::Refused`] when a check failed and `writing.force` is not set; [`Error::NoSuchFormat`], [`Error::Format`].
@@ -58,7 +58,8 @@ impl Judged {
         if !self.passed() && !writing.force {
             return Err(Error::Refused(failed(&self.findings).join(", ")));
         }
-        let known = || by_name().filter(|format| format.of_analysis.is_some());
+        let has = |of: &OfAnalysis| !(of.endings)(&self.analysis).is_empty();
+        let known = || by_name().filter(|format| format.of_analysis.as_ref().is_some_and(has));
         if let Some(other) = writing.formats.iter().flatten().find(|name| !known().any(|format| format.name == **name))
         {
             let names: Vec<&str> = known().map(|format| format.name).collect();

@@ -13,6 +13,7 @@ pub mod mechanism;
 pub mod plot;
 mod point_measures;
 mod rolled;
+pub mod scheme;
 pub mod sheet;
 pub mod trace;
 mod values;
@@ -24,8 +25,8 @@ pub use inputs::{Inputs, sha256};
 pub use point_measures::PointMeasures;
 pub use rolled::Rolled;
 pub use values::{
-    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, Weight, lobes_words,
-    shown,
+    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, ReversalOfBed,
+    Weight, lobes_words, shown,
 };
 
 use serde::de::{Error, MapAccess, Visitor};

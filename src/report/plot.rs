@@ -1,8 +1,11 @@
 //! Curves over a common quantity, panel below panel on a sheet of paper.
 
+use super::scheme::Scheme;
 use super::sheet::paper::{PAPERS, Paper, furniture};
+use super::sheet::scheme;
 use super::sheet::{Group, STROKE, Shape, Sheet, TextAnchor, font, rounded, words};
 use super::trace::round_step;
+use crate::geometry::Entity;
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
@@ -22,6 +25,10 @@ const PLACES: f64 = 10.0;
 /// Colours of the curves, dark enough for white paper.
 const COLOURS: [&str; 10] =
     ["#0a5cad", "#b3541e", "#17692b", "#7a3ea1", "#b3261e", "#00808a", "#8a6d00", "#c2185b", "#37474f", "#5d8a00"];
+/// Radius of a mark, mm.
+const MARK: f64 = 1.1;
+/// Width of the panels where a mechanism stands beside them, mm: what is left to it holds a press at 1:5.
+const COLUMN: f64 = 165.0;
 /// The colour of what is compared with.
 pub const GREY: usize = 8;
 
@@ -34,7 +41,7 @@ pub struct Curve {
     pub colour: usize,
     /// Drawn as a thick line.
     pub bold: bool,
-    /// Place and value, in the order of the places.
+    /// Place and value, in the order of the places; a single one is a mark, which the name of the panel explains.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -47,21 +54,29 @@ pub struct Panel {
     pub curves: Vec<Curve>,
 }
 
-/// Panels below each other, over the same places.
-#[derive(Debug, Clone, PartialEq)]
+/// Panels below each other.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plot {
     /// Head of the sheet.
     pub title: String,
-    /// What the places are, with their unit.
+    /// What the places of the panels are, with their unit.
     pub places: String,
-    /// The panels.
+    /// The panels over these places.
     pub panels: Vec<Panel>,
+    /// Panels over places of their own below them: what their places are, and the panel.
+    pub own: Vec<(String, Panel)>,
+    /// A mechanism beside the panels, on a larger sheet.
+    pub scheme: Option<Scheme>,
 }
 
 /// The plot on a sheet; values that are not finite are left out.
 #[must_use]
 pub fn sheet(plot: &Plot, mark: &str) -> Sheet {
-    let paper = PAPERS.first().copied().unwrap_or(Paper { name: "", size: Vector2::repeat(1.0), lettering: &[] });
+    let paper = PAPERS.get(usize::from(plot.scheme.is_some())).copied().unwrap_or(Paper {
+        name: "",
+        size: Vector2::repeat(1.0),
+        lettering: &[],
+    });
     let frame = paper.frame(Vector2::zeros());
     let mut groups = furniture(&paper, Vector2::zeros());
     let room = frame.size().x - 4.0 * TEXT;
@@ -75,20 +90,16 @@ pub fn sheet(plot: &Plot, mark: &str) -> Sheet {
     let foot = frame.least + Vector2::new(2.0 * TEXT, 1.5 * TEXT);
     heads.push(words(foot, TEXT, TextAnchor::Start, mark));
     groups.push(Group { class: "facts", ..Group::new("title", "title", heads) });
-    let (low, bottom) = (top - TEXT, frame.least.y + 4.0 * TEXT);
-    #[expect(clippy::cast_precision_loss, reason = "a few panels")]
-    let each = (low - bottom) / plot.panels.len().max(1) as f64;
-    let places = range(plot.panels.iter().flat_map(|panel| &panel.curves).flat_map(finite).map(|[place, _]| place));
-    let mut upper = low;
-    for (index, panel) in plot.panels.iter().enumerate() {
-        let field = Extents {
-            least: Vector2::new(frame.least.x + LEFT, upper - each + BELOW),
-            largest: Vector2::new(frame.largest.x - NAMES, upper - ABOVE),
-        };
-        if let Some(places) = places {
-            groups.extend(drawn(panel, index, &plot.places, places, &field));
-        }
-        upper -= each;
+    let beside = plot.scheme.as_ref();
+    let field = Extents {
+        least: Vector2::new(frame.least.x, frame.least.y + 4.0 * TEXT),
+        largest: Vector2::new(if beside.is_some() { frame.least.x + COLUMN } else { frame.largest.x }, top - TEXT),
+    };
+    groups.extend(below_each_other(plot, &field));
+    if let Some(scheme) = beside {
+        let least = Vector2::new(field.largest.x + 2.0 * TEXT, field.least.y);
+        let field = Extents { least, largest: Vector2::new(frame.largest.x - 2.0 * TEXT, field.largest.y) };
+        groups.extend(scheme::drawn(scheme, &field, colour_of));
     }
     Sheet {
         title: plot.title.clone(),
@@ -97,6 +108,32 @@ pub fn sheet(plot: &Plot, mark: &str) -> Sheet {
         scale: 1.0,
         groups,
     }
+}
+
+/// The panels in their field, all as high.
+fn below_each_other(plot: &Plot, field: &Extents) -> Vec<Group> {
+    let common = range(plot.panels.iter().flat_map(places_of));
+    let panels = plot.panels.iter().map(|panel| (&plot.places, panel, common));
+    let own = plot.own.iter().map(|(places, panel)| (places, panel, range(places_of(panel))));
+    #[expect(clippy::cast_precision_loss, reason = "a few panels")]
+    let each = field.size().y / (plot.panels.len() + plot.own.len()).max(1) as f64;
+    let mut upper = field.largest.y;
+    let mut groups = Vec::new();
+    for (index, (places, panel, along)) in panels.chain(own).enumerate() {
+        let inner = Extents {
+            least: Vector2::new(field.least.x + LEFT, upper - each + BELOW),
+            largest: Vector2::new(field.largest.x - NAMES, upper - ABOVE),
+        };
+        if let Some(along) = along {
+            groups.extend(drawn(panel, index, places, along, &inner));
+        }
+        upper -= each;
+    }
+    groups
+}
+
+fn places_of(panel: &Panel) -> impl Iterator<Item = f64> + '_ {
+    panel.curves.iter().flat_map(finite).map(|[place, _]| place)
 }
 
 fn finite(curve: &Curve) -> impl Iterator<Item = [f64; 2]> + '_ {
@@ -154,10 +191,14 @@ fn drawn(panel: &Panel, index: usize, places: &str, along: (f64, f64), field: &E
     let mut groups = vec![named(Group { class: "trace-grid", ..Group::new("grid", "lines of the diagram", grid) })];
     groups.extend(panel.curves.iter().enumerate().map(|(number, curve)| Group {
         id: format!("curve-{index}-{number}"),
-        class: if curve.bold { "curve-bold" } else { "curve" },
+        class: match (is_mark(curve), curve.bold) {
+            (true, _) => "curve-mark",
+            (false, true) => "curve-bold",
+            (false, false) => "curve",
+        },
         label: if curve.name.is_empty() { panel.name.clone() } else { curve.name.clone() },
         colour: Some(colour(curve).into()),
-        shapes: vec![Shape::Path(finite(curve).map(|[place, value]| at(place, value)).collect())],
+        shapes: shapes(curve, &at),
         in_legend: false,
     }));
     groups.extend(labels(panel, index, field.least.y, &at));
@@ -165,8 +206,26 @@ fn drawn(panel: &Panel, index: usize, places: &str, along: (f64, f64), field: &E
     groups
 }
 
+/// Whether a curve is a single place.
+fn is_mark(curve: &Curve) -> bool {
+    curve.points.len() == 1
+}
+
+fn shapes(curve: &Curve, at: &impl Fn(f64, f64) -> Vector2<f64>) -> Vec<Shape> {
+    let mut places = finite(curve).map(|[place, value]| at(place, value));
+    if is_mark(curve) {
+        places.map(|place| Shape::Entity(Entity::Circle(place, MARK))).collect()
+    } else {
+        vec![Shape::Path(places.by_ref().collect())]
+    }
+}
+
 fn colour(curve: &Curve) -> &'static str {
-    COLOURS.get(curve.colour % COLOURS.len()).copied().unwrap_or_default()
+    colour_of(curve.colour)
+}
+
+fn colour_of(which: usize) -> &'static str {
+    COLOURS.get(which % COLOURS.len()).copied().unwrap_or_default()
 }
 
 /// The names of the curves to the right of their ends, pushed apart, each with a line in the colour of its curve.
@@ -174,7 +233,7 @@ fn labels(panel: &Panel, index: usize, bottom: f64, at: &impl Fn(f64, f64) -> Ve
     let mut ends: Vec<(&Curve, Vector2<f64>)> = panel
         .curves
         .iter()
-        .filter(|curve| !curve.name.is_empty())
+        .filter(|curve| !curve.name.is_empty() && !is_mark(curve))
         .filter_map(|curve| finite(curve).last().map(|[place, value]| (curve, at(place, value))))
         .collect();
     ends.sort_by(|a, b| b.1.y.total_cmp(&a.1.y));
@@ -253,7 +312,7 @@ mod tests {
         };
         let panel = Panel { name: "force, N".into(), curves: vec![curve("a", 1.0), curve("b", -2.0)] };
         let flat = Panel { name: "nothing".into(), curves: vec![curve("c", 0.0)] };
-        let plot = Plot { title: "t".into(), places: "x, mm".into(), panels: vec![panel, flat] };
+        let plot = Plot { title: "t".into(), places: "x, mm".into(), panels: vec![panel, flat], ..Plot::default() };
         let sheet = sheet(&plot, "mark");
         let paths = sheet.groups.iter().flat_map(|group| &group.shapes);
         let lengths: Vec<usize> =

@@ -158,6 +158,46 @@ pub struct AirLaw {
     pub equation_18: Option<Equation18>,
 }
 
+/// The reversal of a bed at one end of its stroke; angles of the crank from its start.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct ReversalOfBed {
+    /// "outer" or "inner".
+    pub end: String,
+    /// The driving crank where it starts, from the line of the slider.
+    pub start_deg: f64,
+    /// The crank angle it takes.
+    pub angle_deg: f64,
+    /// The dead point.
+    pub dead_point_deg: f64,
+    /// Where the bed is decelerated most.
+    pub largest_deceleration_deg: f64,
+    /// Overrun at the dead point, and what is left of it at the end of the reversal.
+    pub overrun_mm: f64,
+    pub overrun_left_mm: f64,
+}
+
+impl ReversalOfBed {
+    /// The section `reversal`.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let words = self.words();
+        Section::new("reversal", self).with_figures(vec![words.clone()]).with_words(vec![words])
+    }
+
+    fn words(&self) -> String {
+        let left = if self.overrun_left_mm.abs() < 1e-9 {
+            String::new()
+        } else {
+            format!("; it ends {:.3} mm from where it starts", self.overrun_left_mm)
+        };
+        format!(
+            "{} end: reversal from {:.3}° of the crank over {:.3}°, dead point {:.3}° after its start, overrun {:.3} mm{left}",
+            self.end, self.start_deg, self.angle_deg, self.dead_point_deg, self.overrun_mm
+        )
+    }
+}
+
 /// How equation (18) was solved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it, with their units")]

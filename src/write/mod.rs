@@ -16,6 +16,7 @@ pub mod record;
 pub mod step;
 pub mod stl;
 pub mod svg;
+pub mod toml;
 
 use crate::analysis::Analysis;
 use crate::body::{Body, Drawn, Part};
@@ -67,7 +68,7 @@ pub struct Account<'a> {
 /// How an analysis has a format.
 #[derive(Debug, Clone, Copy)]
 pub struct OfAnalysis {
-    /// What its files add to the stem of their names.
+    /// What its files add to the stem of their names; none where the analysis has nothing for it.
     pub endings: fn(&Analysis) -> Vec<String>,
     /// The files, in the same order.
     pub write: fn(&Account<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
@@ -138,6 +139,7 @@ pub const FORMATS: &[Format] = &[
     pdf::FORMAT,
     stl::FORMAT,
     points::FORMAT,
+    toml::FORMAT,
     dxf::CUTTER_PATH,
 ];
 

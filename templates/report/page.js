@@ -324,7 +324,7 @@ function start() {
   const [, , wide, high] = first().box;
   byId("moving").classList.toggle("tall", !beside && wide < 1.6 * high);
   byId("mechanisms").append(...movers.map((mover) => mover.figure));
-  // An analysis has curves and no mechanism.
+  // An analysis of what does not move has curves and no mechanism.
   if (cams.every((cam) => cam.views.every((view) => !view.parts.length))) {
     byId("mechanisms").hidden = true;
     byId("moving-title").textContent = "Along the curves";

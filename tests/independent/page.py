@@ -30,6 +30,7 @@ CASES = {
     "swinging": ["make", "swinging.toml"],
     "hostile": ["make", "hostile.toml"],
     "beside": ["side-by-side", "dpi", "lifter.toml"],
+    "linkage": ["linkage", "dpi-six-bar"],
 }
 LARGEST = 1_000_000
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--no-first-run"]
@@ -57,8 +58,8 @@ CONTRAST = """() => {
   return found;
 }"""
 STATE = """() => ({
-  roller: [...document.querySelectorAll('.part.normal')].map((p) => p.getAttribute('transform')).join(),
-  cam: document.querySelector('.part.cam').getAttribute('transform'),
+  roller: [...document.querySelectorAll('.part.normal, .part.follower')].map((p) => p.getAttribute('transform')).join(),
+  cam: document.querySelector('.part.cam, .part.crank').getAttribute('transform'),
   numbers: document.querySelector('.readout').innerText,
   legend: document.querySelector('.u-legend').innerText,
   scrub: Number(document.getElementById('scrub').value),
@@ -117,7 +118,7 @@ class Page:
 
 
 def uses(page):
-    """Play, pause, keys, the slider, a curve under the pointer: each moves the roller and the numbers."""
+    """Play, pause, keys, the slider, a curve under the pointer: each moves the roller, or the links, and the numbers."""
     start = page.state()
     page.page.wait_for_timeout(150)
     assert page.state() == start, "it plays by itself"

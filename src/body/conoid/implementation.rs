@@ -3,7 +3,7 @@
 use super::{Conoid, KIND, flank, mechanism, report, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::{self, Part, point_as_turned};
-use crate::body::picture::{OF_A_PRESS, RIGID};
+use crate::body::picture::{RIGID, of_its_press};
 use crate::body::{
     Body, DrawError, Drawn, Found, Kind, Request, broken_limit, mirrored, no_radius, passing, radius_of, stress,
 };
@@ -360,7 +360,7 @@ impl Body for Conoid {
     }
 
     fn not_modelled(&self) -> Vec<&'static str> {
-        [RIGID, OF_A_PRESS, mechanism::NOT_MODELLED].concat()
+        [RIGID, of_its_press(&self.machine), mechanism::NOT_MODELLED].concat()
     }
 
     fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {

@@ -30,7 +30,7 @@ pub(super) fn of(conoid: &Conoid, drawn: &Drawn, samples: u32) -> Mechanism {
     let cuts = conoid.cuts();
     let shown: Vec<(&(f64, f64, &Reversal), &Part)> = cuts.iter().zip(&drawn.parts).collect();
     let views = parallel::map(&shown, |(cut, part)| view(conoid, **cut, part, samples));
-    let mut notes = of_press();
+    let mut notes = of_press(&conoid.machine);
     notes.push(
         "The roller is a sphere; it is shown in the plane of its centre, where it may stand a little off the section."
             .into(),

@@ -3,7 +3,7 @@
 use super::Conoid;
 use super::between::Residual;
 use crate::body::part::{Part, bore};
-use crate::body::{Found, flank_of};
+use crate::body::{Found, flank_of, reversal_of_bed};
 use crate::geometry::MILLIMETRES;
 use crate::motion::Reversal;
 use crate::numeric::parallel;
@@ -104,14 +104,16 @@ pub(super) fn sections(conoid: &Conoid, found: &Found<'_>) -> Vec<Section> {
     let (left, straight) = (conoid.left_between(), conoid.left_by_strips());
     let words = all.iter().map(SectionMeasures::words).collect();
     let outlines = parts.map(Outlines::new);
-    vec![
-        Measures::new(conoid, found).section(),
+    let mut told = vec![Measures::new(conoid, found).section()];
+    told.extend(reversal_of_bed(&conoid.machine));
+    told.extend([
         Section::new("sections", &all).with_words(words),
         SurfaceMeasures::new(conoid, found, &errors).section(),
         Between::new(left, straight, conoid.interpolates_speed()).section(),
         Section::new("outline", &outlines),
         Section::new("force", &Forces::new(conoid, left)),
-    ]
+    ]);
+    told
 }
 
 impl SectionMeasures {

@@ -13,6 +13,12 @@ use crate::report::{Section, degrees, shown};
 use serde_json::json;
 use std::sync::Arc;
 
+/// What a motion that is not symmetric leaves over at the end of the turn no spring can take.
+const UNDER_A_LINKAGE: NoPress = NoPress::Linkage {
+    what: "compensating cams are solved",
+    why: "the air of one end gives a turn more work, or less, than it takes, and a spring gives back what it takes",
+};
+
 /// A jump of the velocity of less than this share of the lift a radian is rounding.
 const ROUNDING: f64 = 1e-9;
 /// Places of a piece at which the torque left by the law is looked at: it is rounding, or the smooth torque of inertia.
@@ -90,7 +96,7 @@ impl Disc {
         if let Some(at) = self.velocity_jump().filter(|_| follower.mass.is_some()) {
             return Err(DiscError::Blow { cam_deg: degrees(at) });
         }
-        let work = load.shaft_work(follower.preload.unwrap_or(0.0), mass).ok_or(NoPress::None)?;
+        let work = load.shaft_work(follower.preload.unwrap_or(0.0), mass).ok_or(UNDER_A_LINKAGE)?;
         Ok(CounterMotion::new(work, data.spring_rate, data.preload)?)
     }
 

@@ -2,9 +2,10 @@
 
 use super::Disc;
 use crate::body::picture::press::{Buffer, Stand};
-use crate::body::picture::{OF_A_PRESS, Placed, RIGID, Scene};
+use crate::body::picture::{Placed, RIGID, Scene, of_its_press};
 use crate::body::{Body, Drawn};
 use crate::follower::Carrier;
+use crate::machine::Machine;
 use crate::report::mechanism::Mechanism;
 use crate::table::turned;
 use std::f64::consts::TAU;
@@ -47,12 +48,19 @@ pub(super) fn of(disc: &Disc, drawn: &Drawn, samples: u32) -> Mechanism {
         shaft_speed: disc.shaft_speed(),
         rpm: None,
     };
-    let notes = scene.buffer.map_or_else(Vec::new, |_| of_press());
+    let notes = scene.buffer.map_or_else(Vec::new, |_| of_press(&disc.machine));
     Mechanism { views: vec![scene.view(|_, _| ())], notes, solid: None }
 }
 
 /// What is simplified in the picture of a press.
-pub(in crate::body) fn of_press() -> Vec<String> {
+pub(in crate::body) fn of_press(machine: &Machine) -> Vec<String> {
+    if machine.end().is_some() {
+        return vec![
+            "Cam, roller, bottom, air column and overrun are to one scale; rods, lever and bed are a scheme.".into(),
+            "One cylinder of the pair is shown. The linkage that moves the bed is not: `camgen linkage` shows it."
+                .into(),
+        ];
+    }
     vec![
         "Cam, roller, bottom, air column and overrun are to one scale; rods, lever and bed are a scheme.".into(),
         "One cylinder of the pair is shown; between its reversals the bed leaves the picture.".into(),
@@ -63,7 +71,7 @@ pub(in crate::body) fn of_press() -> Vec<String> {
 pub(super) fn not_modelled(disc: &Disc) -> Vec<&'static str> {
     let follower = &disc.machine.follower;
     match (&disc.load, follower.preload) {
-        (Some(_), _) => [RIGID, OF_A_PRESS, WITH_LOAD].concat(),
+        (Some(_), _) => [RIGID, of_its_press(&disc.machine), WITH_LOAD].concat(),
         (None, Some(_)) => [RIGID, WITH_LOAD].concat(),
         (None, None) => [RIGID, WITHOUT_FORCES].concat(),
     }

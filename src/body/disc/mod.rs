@@ -11,7 +11,7 @@ use super::balance::{AsCut, Balance};
 use super::part::{Part, point_as_turned};
 use super::{
     Body, DrawError, Drawn, Found, Kind, ROUNDING_OF_BALANCE, Request, WorstPlaces, broken_limit, no_radius, passing,
-    plane, stress,
+    plane, reversal_of_bed, stress,
 };
 use crate::document::cams;
 use crate::follower::Follower;
@@ -496,7 +496,10 @@ impl Body for Disc {
         let residual = found.rolled.map_or_else(|| self.residual_max().value, |rolled| rolled.residual_max_n);
         let mut sections = vec![cam.section()];
         sections.extend(self.mounting());
-        sections.extend(self.load.as_ref().map(|load| load.section()));
+        if let Some(load) = &self.load {
+            sections.push(load.section());
+            sections.extend(reversal_of_bed(&self.machine));
+        }
         sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
         sections.push(Section::new("rolling", &found.rolled));
         sections.extend(self.forces(residual).map(|forces| forces.section()));

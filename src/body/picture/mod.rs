@@ -24,10 +24,22 @@ pub(super) const RIGID: &[&str] = &[
 ];
 
 /// What is not modelled of a press.
-pub(super) const OF_A_PRESS: &[&str] = &[
+const OF_A_PRESS: &[&str] = &[
     "Air: it follows p·v^k = const without leakage or exchange of heat; k is that of the machine file.",
     "The bed between its reversals: it runs evenly, and its reversal at the other end is another cam's.",
 ];
+
+/// The same where a linkage moves its bed.
+const UNDER_A_LINKAGE: &[&str] = &[
+    "Air: it follows p·v^k = const without leakage or exchange of heat; k is that of the machine file.",
+    "The other end of the bed's stroke: its buffers have a cam of their own (--end).",
+    "Between its reversals the cylinders are open: how they are opened and closed is not modelled.",
+];
+
+/// What is not modelled of the press of a machine.
+pub(super) fn of_its_press(machine: &Machine) -> &'static [&'static str] {
+    if machine.end().is_some() { UNDER_A_LINKAGE } else { OF_A_PRESS }
+}
 
 /// Share of the prime radius and of the roller by which stems and guides reach beyond what moves.
 const MARGIN: f64 = 0.12;

@@ -3,9 +3,10 @@
 use super::{KIND, Wedge, mechanism, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::Part;
-use crate::body::picture::{OF_A_PRESS, RIGID};
+use crate::body::picture::{RIGID, of_its_press};
 use crate::body::{
-    Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress,
+    Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, reversal_of_bed,
+    stress,
 };
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
@@ -382,13 +383,14 @@ impl Body for Wedge {
         let reach = CORNER_REACH * found.tolerance_mm / MILLIMETRES;
         let corner = |point: Vector2<f64>| self.corner_within(point / MILLIMETRES, reach);
         let outline = part.map(|part| part.measures(found.tolerance_mm, corner).section());
-        vec![
-            cam.section(),
-            self.law().section(),
+        let mut sections = vec![cam.section(), self.law().section()];
+        sections.extend(reversal_of_bed(&self.machine));
+        sections.extend([
             outline.unwrap_or_else(|| Section::new("outline", &())),
             Section::new("rolling", &found.rolled),
             self.forces(found.rolled.map(|rolled| rolled.residual_max_n)).section(),
-        ]
+        ]);
+        sections
     }
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> Mechanism {
@@ -396,7 +398,7 @@ impl Body for Wedge {
     }
 
     fn not_modelled(&self) -> Vec<&'static str> {
-        [RIGID, OF_A_PRESS, mechanism::NOT_MODELLED].concat()
+        [RIGID, of_its_press(&self.machine), mechanism::NOT_MODELLED].concat()
     }
 
     fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {

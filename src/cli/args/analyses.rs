@@ -12,7 +12,7 @@ pub(in crate::cli) struct AnalysisArgs {
     #[arg(long, value_name = "KEY=VALUE")]
     pub(in crate::cli) set: Vec<String>,
 
-    /// What to write: csv, svg, json, html (the report with its curves) and pdf [default: csv,svg]
+    /// What to write: csv, svg, json, html (the report with its curves), pdf and, of a linkage, toml (its table of a machine file) [default: csv,svg]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(in crate::cli) format: Option<Vec<String>>,
 

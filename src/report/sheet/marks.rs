@@ -35,6 +35,48 @@ fn triangle(tip: Vector2<f64>, along: Vector2<f64>, length: f64) -> Shape {
     Shape::Triangle([tip, back + side, back - side])
 }
 
+/// A text where there is room for it, with its leader.
+pub(in crate::report) fn label(
+    taken: &mut Taken,
+    lettering: f64,
+    at: Vector2<f64>,
+    towards: Vector2<f64>,
+    text: &str,
+) -> Vec<Shape> {
+    let size = TEXT * lettering;
+    let half = half_field(text, size);
+    let wanted = libm::atan2(towards.y, towards.x);
+    for distance in DISTANCES {
+        for index in 0..DIRECTIONS {
+            // 0, +1, −1, +2, −2, …
+            let step = f64::from(index.div_ceil(2)) * if index % 2 == 0 { -1.0 } else { 1.0 };
+            let angle = wanted + step * std::f64::consts::TAU / f64::from(DIRECTIONS);
+            let along = Vector2::new(libm::cos(angle), libm::sin(angle));
+            let field = beside(at, along, distance * lettering, half);
+            let nearest = at.sup(&field.least).inf(&field.largest);
+            let apart = (nearest - at).norm();
+            if apart > distance * lettering * 1.01 + 1e-9 || !taken.free(&field) {
+                continue;
+            }
+            let tied = apart > TIED * lettering;
+            let towards = (at - nearest) / apart.max(1e-9);
+            let leader = Shape::Line(at, nearest + towards * (0.4 * lettering));
+            if tied && !taken.clear(at, nearest) {
+                continue;
+            }
+            let mut shapes = vec![filling(&field, size, text)];
+            if tied {
+                shapes.push(leader);
+            }
+            for shape in &shapes {
+                taken.put(shape);
+            }
+            return shapes;
+        }
+    }
+    Vec::new()
+}
+
 impl Marker<'_> {
     /// The groups of a mark whose places are millimetres of paper.
     pub(super) fn groups(&mut self, mark: &Mark) -> Vec<Group> {
@@ -58,38 +100,8 @@ impl Marker<'_> {
         }
     }
 
-    /// A text where there is room for it, with its leader.
     fn label(&mut self, at: Vector2<f64>, towards: Vector2<f64>, text: &str) -> Vec<Shape> {
-        let size = TEXT * self.lettering;
-        let half = half_field(text, size);
-        let wanted = libm::atan2(towards.y, towards.x);
-        for distance in DISTANCES {
-            for index in 0..DIRECTIONS {
-                // 0, +1, −1, +2, −2, …
-                let step = f64::from(index.div_ceil(2)) * if index % 2 == 0 { -1.0 } else { 1.0 };
-                let angle = wanted + step * std::f64::consts::TAU / f64::from(DIRECTIONS);
-                let along = Vector2::new(libm::cos(angle), libm::sin(angle));
-                let field = beside(at, along, distance * self.lettering, half);
-                let nearest = at.sup(&field.least).inf(&field.largest);
-                let apart = (nearest - at).norm();
-                if apart > distance * self.lettering * 1.01 + 1e-9 || !self.taken.free(&field) {
-                    continue;
-                }
-                let tied = apart > TIED * self.lettering;
-                let towards = (at - nearest) / apart.max(1e-9);
-                let leader = Shape::Line(at, nearest + towards * (0.4 * self.lettering));
-                if tied && !self.taken.clear(at, nearest) {
-                    continue;
-                }
-                let mut shapes = vec![filling(&field, size, text)];
-                if tied {
-                    shapes.push(leader);
-                }
-                self.put(&shapes);
-                return shapes;
-            }
-        }
-        Vec::new()
+        label(self.taken, self.lettering, at, towards, text)
     }
 
     /// A dimension line outside of the view, with its extension lines.

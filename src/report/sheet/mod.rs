@@ -7,10 +7,11 @@
 mod block;
 mod compose;
 pub mod font;
-mod marks;
+pub(super) mod marks;
 mod panels;
 pub mod paper;
 pub(super) mod placing;
+pub(super) mod scheme;
 mod view;
 
 pub use compose::{Extras, compose};

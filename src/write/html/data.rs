@@ -59,18 +59,22 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
     let mut page = told(report);
     page["notModelled"] = json!(body.not_modelled());
     page["pictureNotes"] = json!(mechanism.notes);
-    page["views"] = json!(views(&mechanism, &table, &report.checks, roller));
+    page["views"] = json!(views(panels::OF_A_CAM, &mechanism, &table, (&report.checks, roller)));
     page["solid"] = mechanism.solid.as_ref().map_or(Value::Null, solid);
     page
 }
 
-/// All that the page shows of an analysis: its curves are views without a mechanism.
+/// All that the page shows of an analysis: its curves are views, without a mechanism where nothing moves.
 pub(super) fn of_analysis(account: &Account<'_>) -> Value {
     let (analysis, report) = (account.analysis, account.report);
-    let views = analysis.tables.last().map_or_else(Vec::new, |(_, table)| curves(analysis, table, &report.checks));
+    let views = analysis.tables.last().map_or_else(Vec::new, |(_, table)| match &analysis.mechanism {
+        Some(mechanism) => views(panels::OF_AN_ANALYSIS, mechanism, table, (&report.checks, None)),
+        None => curves(analysis, table, &report.checks),
+    });
+    let notes = analysis.mechanism.as_ref().map(|mechanism| &mechanism.notes);
     let mut page = told(report);
     page["notModelled"] = json!(analysis.not_modelled);
-    page["pictureNotes"] = json!([]);
+    page["pictureNotes"] = json!(notes.map_or_else(Vec::new, Vec::clone));
     page["views"] = json!(views);
     page["solid"] = Value::Null;
     page
@@ -98,7 +102,8 @@ fn curves(analysis: &Analysis, table: &Table, checks: &[Finding]) -> Vec<Value> 
         view["turn"] = rounded(&at, ANGLES);
         view["box"] = json!([0, 0, 1, 1]);
         view["parts"] = json!([]);
-        view["panels"] = json!(panels::of(names, analysis.along, checks, None));
+        view["panels"] =
+            json!(panels::of(&valued(names, &rows), panels::OF_AN_ANALYSIS, analysis.along, (checks, None)));
         view
     };
     table.rows.chunk_by(|a, b| first(a) == first(b)).map(of).collect()
@@ -212,17 +217,20 @@ fn flatten(name: &str, value: &Value, found: &mut Vec<Value>) {
     }
 }
 
-fn views(mechanism: &Mechanism, table: &Table, checks: &[Finding], roller: Option<f64>) -> Vec<Value> {
+/// The checks whose limits are drawn, and the radius of the roller, mm.
+type Held<'a> = (&'a [Finding], Option<f64>);
+
+fn views(known: &[panels::Panel], mechanism: &Mechanism, table: &Table, held: Held<'_>) -> Vec<Value> {
     let each = table.rows.len() / mechanism.views.len().max(1);
-    let of = |(view, rows): (&View, &[Vec<f64>])| view_of(view, &table.columns, rows, (checks, roller));
+    let of = |(view, rows): (&View, &[Vec<f64>])| view_of(known, view, (&table.columns, rows), held);
     mechanism.views.iter().zip(table.rows.chunks(each.max(1))).map(of).collect()
 }
 
 fn view_of(
+    known: &[panels::Panel],
     view: &View,
-    names: &[&'static str],
-    rows: &[Vec<f64>],
-    (checks, roller): (&[Finding], Option<f64>),
+    (names, rows): (&[&'static str], &[Vec<f64>]),
+    held: Held<'_>,
 ) -> Value {
     let extents = view.extents;
     let size = extents.size();
@@ -236,8 +244,14 @@ fn view_of(
     shown["turn"] = rounded(&view.turn_deg, ANGLES);
     shown["box"] = rounded(&[extents.least.x, -extents.largest.y, size.x, size.y], PLACES);
     shown["parts"] = json!(view.parts.iter().map(rigid).collect::<Vec<Value>>());
-    shown["panels"] = json!(panels::of(names, view.place, checks, roller));
+    shown["panels"] = json!(panels::of(&valued(names, rows), known, view.place, held));
     shown
+}
+
+/// The columns that have a value in some row: a crank-slider has no transmission angle.
+fn valued(names: &[&'static str], rows: &[Vec<f64>]) -> Vec<&'static str> {
+    let has = |index: usize| rows.iter().any(|row| row.get(index).is_some_and(|value| !value.is_nan()));
+    names.iter().enumerate().filter(|(index, _)| has(*index)).map(|(_, name)| *name).collect()
 }
 
 /// The values of a table by their names, and what each is.

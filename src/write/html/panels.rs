@@ -21,7 +21,7 @@ enum As {
 
 /// A diagram: its name for programs, its title, its columns without their units and their names, the checks whose limits it shows,
 /// and whether it shows radii as curvatures.
-struct Panel {
+pub(super) struct Panel {
     id: &'static str,
     title: &'static str,
     stems: &'static [(&'static str, &'static str)],
@@ -42,7 +42,8 @@ const fn panel(
 const CUT: &str = "as cut";
 const MOTION: &str = "motion";
 
-const PANELS: &[Panel] = &[
+/// The diagrams of a cam.
+pub(super) const OF_A_CAM: &[Panel] = &[
     panel("lift", "Lift", &[("lift", MOTION)], &[], As::Itself),
     panel("velocity", "Velocity", &[("velocity", MOTION), ("velocity_cut", CUT)], &[], As::Itself),
     panel("acceleration", "Acceleration", &[("acceleration", MOTION), ("acceleration_cut", CUT)], &[], As::Itself),
@@ -98,6 +99,26 @@ const PANELS: &[Panel] = &[
     panel("press", "Bed and bottom", &[("x", "overrun x"), ("dx", "Δx of the bottom")], &[], As::Itself),
 ];
 
+/// The diagrams of an analysis, in which no cam is cut.
+pub(super) const OF_AN_ANALYSIS: &[Panel] = &[
+    panel("position", "Position of the bed", &[("x", "bed")], &[], As::Itself),
+    panel("velocity", "Velocity", &[("velocity", "bed")], &[], As::Itself),
+    panel("acceleration", "Acceleration", &[("acceleration", "bed")], &[], As::Itself),
+    panel("jerk", "Jerk", &[("jerk", "bed")], &[], As::Itself),
+    panel("balance", "Force balance", &[("inertia", "inertia"), ("air", "air")], &[], As::Itself),
+    panel("residual", "Residual force", &[("residual", "inertia less air")], &[], As::Itself),
+    panel("torque", "Torque on the driving crank", &[("torque", "torque")], &[], As::Itself),
+    panel("power", "Power of the driving crank", &[("power", "power")], &[], As::Itself),
+    panel(
+        "transmission",
+        "Transmission angle of the drag link",
+        &[("transmission", "coupler to driven crank")],
+        &[("transmission_angle", As::Itself)],
+        As::Itself,
+    ),
+    panel("rod", "Angle of the rod", &[("rod", "from the line of the slider")], &[("rod_angle", As::Both)], As::Itself),
+];
+
 /// Columns that are places or coordinates, or that say the same as another.
 const NOT_DRAWN: &[&str] = &[
     "z",
@@ -114,8 +135,13 @@ const NOT_DRAWN: &[&str] = &[
     "",
 ];
 
-/// The diagrams of the columns that a cam has, `place` the column along which they are drawn, under a roller of this radius.
-pub(super) fn of(columns: &[&'static str], place: &str, checks: &[Finding], roller_mm: Option<f64>) -> Vec<Value> {
+/// The diagrams of the columns that there are, `place` the column along which they are drawn, under a roller of this radius.
+pub(super) fn of(
+    columns: &[&'static str],
+    known: &[Panel],
+    place: &str,
+    (checks, roller_mm): (&[Finding], Option<f64>),
+) -> Vec<Value> {
     let drawn: Vec<&'static str> =
         columns.iter().copied().filter(|name| *name != place && !NOT_DRAWN.contains(&named(name).stem)).collect();
     let of_panel = |panel: &Panel| {
@@ -137,9 +163,9 @@ pub(super) fn of(columns: &[&'static str], place: &str, checks: &[Finding], roll
             "series": series, "limits": limits,
         }))
     };
-    let mut panels: Vec<Value> = PANELS.iter().filter_map(of_panel).collect();
+    let mut panels: Vec<Value> = known.iter().filter_map(of_panel).collect();
     let in_panel =
-        |name: &&&str| PANELS.iter().any(|panel| panel.stems.iter().any(|(stem, _)| named(name).stem == *stem));
+        |name: &&&str| known.iter().any(|panel| panel.stems.iter().any(|(stem, _)| named(name).stem == *stem));
     let others: Vec<&'static str> = drawn.iter().filter(|name| !in_panel(name)).copied().collect();
     let mut units: Vec<(&str, u8)> = others.iter().map(|name| (named(name).unit, named(name).order)).collect();
     units.sort_unstable();
@@ -183,7 +209,7 @@ mod tests {
     #[test]
     fn every_column_is_drawn_once_or_is_a_place() {
         let columns = ["cam_deg", "lift_mm", "velocity_mm_per_rad", "surprise_n", "riddle_n", "pitch_x_mm"];
-        let panels = of(&columns, "cam_deg", &[], None);
+        let panels = of(&columns, OF_A_CAM, "cam_deg", (&[], None));
         let drawn: Vec<&str> = panels
             .iter()
             .flat_map(|panel| panel["series"].as_array().expect("a list"))
@@ -207,7 +233,7 @@ mod tests {
         };
         let checks = [finding("pressure_angle", 30.0), finding("undercut", 0.0), finding("cutter_radius", 10.0)];
         let columns = ["cam_deg", "pressure_angle_deg", "pitch_curvature_radius_mm", "profile_curvature_radius_mm"];
-        let panels = of(&columns, "cam_deg", &checks, Some(20.0));
+        let panels = of(&columns, OF_A_CAM, "cam_deg", (&checks, Some(20.0)));
         let values = |index: usize| -> Vec<f64> {
             let limits = panels[index]["limits"].as_array().expect("a list");
             limits.iter().map(|limit| limit["value"].as_f64().expect("a number")).collect()

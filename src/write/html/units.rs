@@ -25,6 +25,7 @@ const UNITS: &[Unit] = &[
     ("rad_per_s", "rad/s", 0),
     ("nm", "N·m", 0),
     ("n", "N", 0),
+    ("w", "W", 0),
     ("mpa", "MPa", 0),
     ("kg", "kg", 0),
     ("rpm", "rpm", 0),
@@ -46,7 +47,9 @@ pub(super) struct Named<'a> {
 pub(super) fn named(name: &str) -> Named<'_> {
     let of = |(end, unit, order): &Unit| {
         let stem = name.strip_suffix(end)?;
-        let stem = if stem.is_empty() { stem } else { stem.strip_suffix('_')? };
+        // A single letter is a quantity, as W of a linkage.
+        let bare = stem.is_empty() && name.len() > 1;
+        let stem = if bare { stem } else { stem.strip_suffix('_')? };
         Some(Named { stem, unit, order: *order })
     };
     UNITS.iter().find_map(of).unwrap_or(Named { stem: name, unit: "", order: 0 })
@@ -78,6 +81,8 @@ mod tests {
         assert_eq!(apart("velocity_rad_per_rad"), ("velocity", "rad/rad", 1));
         assert_eq!(apart("torque_nm"), ("torque", "N·m", 0));
         assert_eq!(apart("inertia_n"), ("inertia", "N", 0));
+        assert_eq!(apart("power_w"), ("power", "W", 0));
+        assert_eq!(apart("w"), ("w", "", 0));
         assert_eq!(apart("slope"), ("slope", "", 0));
         assert_eq!(apart("rpm"), ("", "rpm", 0));
         assert_eq!(words("dx_max_at_x_mm"), "Δx max at x");
