@@ -70,6 +70,36 @@ fn a_plate_is_checked_against_the_law() {
     }
 }
 
+/// Under a crank-slider each end of the stroke has a plate of its own, and the rod is an input of it.
+#[test]
+fn a_crank_slider_moves_a_plate_at_either_end_and_an_offset_none() {
+    let high = ["--set", "translating.plate_height=280mm", "--set", "limits.pressure_angle=40deg"];
+    for (end, stroke, other) in [("outer", 156.124_242_481, "inner"), ("inner", 203.875_757_519, "outer")] {
+        let args =
+            [&["translating", "dpi-crank-slider", "--end", end, "--name", "plate", "--out", "."][..], &high].concat();
+        let made = camgen(&args);
+        assert_eq!(made.code, 0, "{}{}", made.out, made.err);
+        let csv = fs::read_to_string(made.directory.path().join("plate.csv")).expect("a table");
+        let last: f64 = csv.lines().last().and_then(|row| row.split(',').next()?.parse().ok()).expect("a place");
+        assert!((last - stroke).abs() < 1e-6, "{end}: {last}");
+        let check = |end: &'static str| {
+            [&["check", "plate.dxf", "dpi-crank-slider", "--cam", "translating", "--end", end][..], &high].concat()
+        };
+        let checked = camgen_in(made.directory, &check(end));
+        assert_eq!(checked.code, 0, "{}{}", checked.out, checked.err);
+        let checked = camgen_in(checked.directory, &check(other));
+        assert_eq!(checked.code, 1, "{}{}", checked.out, checked.err);
+    }
+    for (set, part) in [("linkage.offset_ratio=0.1", "an offset"), ("transition.width=120deg", "the bed takes 106.8")] {
+        let run = camgen(&["translating", "dpi-crank-slider", "--set", set]);
+        assert_eq!(run.code, 2, "{set}: {}", run.err);
+        assert!(run.err.contains(part) && files(run.directory.path()).is_empty(), "{set}: {}", run.err);
+    }
+    let idle = camgen(&["translating", "dpi-crank-slider", "--set", "linkage.rod_ratio=4", "--json"]);
+    assert_eq!(idle.code, 0, "{}", idle.err);
+    assert!(!idle.out.contains("has no effect"), "{}", idle.out);
+}
+
 /// Files of a conoid, the same on one thread and on four.
 #[test]
 fn a_conoid_has_a_cut_for_each_speed_and_the_same_bytes_on_any_number_of_threads() {

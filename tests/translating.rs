@@ -20,7 +20,7 @@ use std::f64::consts::FRAC_PI_2;
 
 fn mechanism(column: Column, model: EfficiencyModel) -> Mechanism {
     Mechanism {
-        bottom_law: BottomLaw::new(1.0 / 0.18, 1.35, 0.18, column, 0.0),
+        bottom_law: BottomLaw::new(1.0 / 0.18, 1.35, 0.18, column, 0.0).into(),
         bottom_arm: 0.3,
         arm_ratio: 1.0,
         delta: FRAC_PI_2,
@@ -76,7 +76,7 @@ fn extreme(random: &mut Random) -> Mechanism {
         [usize::from(random.next() < 0.5) + usize::from(random.next() < 0.3)];
     let model = if random.next() < 0.7 { EfficiencyModel::Consistent } else { EfficiencyModel::Printed };
     Mechanism {
-        bottom_law: BottomLaw::new((q - 1.0) / 0.18, 1.35, 0.18, column, 0.0),
+        bottom_law: BottomLaw::new((q - 1.0) / 0.18, 1.35, 0.18, column, 0.0).into(),
         bottom_arm: 0.3 * arm_ratio,
         arm_ratio,
         delta,
@@ -110,7 +110,7 @@ fn extremes_balance_or_name_their_wall() {
             }
             Ok(solution) => {
                 solved += 1;
-                let load = mechanism.bottom_law.loading * 0.18;
+                let load = mechanism.bottom_law.loading() * 0.18;
                 for i in 1..=60 {
                     let x = 0.18 * f64::from(i) / 60.0;
                     let [bottom, slope, second, third] = solution.at(x, false);
@@ -253,7 +253,7 @@ fn no_friction_and_no_loss_conserves_energy() {
             };
             let solution = ode(&free, 1e-15);
             assert!(solution.breaks.is_empty());
-            let (length, k, a) = (free.bottom_law.column, 1.35, free.bottom_law.loading);
+            let (length, k, a) = (free.bottom_law.column(), 1.35, free.bottom_law.loading());
             for i in 1..=90 {
                 let x = 0.002 * f64::from(i);
                 let s = x + solution.value(x);
@@ -322,7 +322,7 @@ fn walls_are_named() {
     let none = Mechanism { delta: 0.3, friction_angle: 0.34, ..base };
     assert!(matches!(Solution::new(&none, 1e-12), Err(Wall::NoStart { .. })));
     let used = Mechanism {
-        bottom_law: BottomLaw::new(9.0 / 0.18, 1.35, 0.18, Column::Matched, 0.0),
+        bottom_law: BottomLaw::new(9.0 / 0.18, 1.35, 0.18, Column::Matched, 0.0).into(),
         efficiency: 0.3,
         model: EfficiencyModel::Consistent,
         exact_on: ExactOn::Return,

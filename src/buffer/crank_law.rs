@@ -122,7 +122,7 @@ impl LinkageLaw {
 }
 
 /// Column of a plain buffer whose air balances the bed at the dead point, equation (7) with a in place of r, m.
-fn fixed_column(loading: f64, exponent: f64, end: &StrokeEnd) -> f64 {
+pub(super) fn fixed_column(loading: f64, exponent: f64, end: &StrokeEnd) -> f64 {
     let [a, ..] = end.at(end.dead()).deceleration();
     column_for(end.stroke(), loading * a, exponent)
 }

@@ -31,7 +31,7 @@ pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
 /// Whatever the bed and its air act on.
 pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, LINKAGE];
 /// Whatever a linkage moves.
-pub const OF_A_LINKAGE: &[&str] = &[ROTARY, CONOID, REGIMES, LINKAGE];
+pub const OF_A_LINKAGE: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, LINKAGE];
 /// Whatever has air.
 pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, LINKAGE];
 /// Whatever runs at a speed of the main shaft.

@@ -21,12 +21,14 @@
 
 pub mod characteristics;
 mod error;
+mod in_line;
 mod power;
 mod stroke_end;
 pub mod synthesis;
 
 pub use characteristics::{Characteristics, Compared, characteristics, compared};
 pub use error::{LinkageError, Passing, Remedies};
+pub use in_line::InLine;
 pub use stroke_end::{End, Overrun, StrokeEnd};
 
 use power::{Number, Power};

@@ -164,6 +164,11 @@ impl StrokeEnd {
         self.radius
     }
 
+    /// ±x of the slider at the start of the reversal, m, with the sign of the end.
+    pub(super) fn place(&self) -> f64 {
+        self.place
+    }
+
     /// θ_a, rad: the driving crank at the start of the reversal, from the base (from the slider's line without a drag link).
     #[must_use]
     pub fn start(&self) -> f64 {

@@ -24,7 +24,7 @@ pub(super) const RIGID: &[&str] = &[
 ];
 
 /// What is not modelled of a press.
-pub(super) const OF_A_PRESS: &[&str] = &[
+const OF_A_PRESS: &[&str] = &[
     "Air: it follows p·v^k = const without leakage or exchange of heat; k is that of the machine file.",
     "The bed between its reversals: it runs evenly, and its reversal at the other end is another cam's.",
 ];

@@ -24,9 +24,9 @@ impl Wedge {
         }
     }
 
-    /// Least air: as [`crate::body::Body::least_air`]. Before the reversal the bed runs at constant speed, x from below 0.
+    /// Least air: as [`crate::body::Body::least_air`]. Before the reversal x comes from below 0.
     pub(super) fn air(&self) -> Worst {
-        let column = self.mechanism().bottom_law.column;
+        let column = self.mechanism().bottom_law.column();
         let used = |piece: usize, x: f64| x + self.motion.bottom(piece, x).s - column;
         let least = extremes::largest_of_motion(&self.motion, (&self.acting(), 0.0), used);
         Worst { value: -least.value, at: least.at, z: 0.0 }
@@ -36,7 +36,15 @@ impl Wedge {
     pub(super) fn ramp(&self) -> Option<RunUp> {
         let Transition::RunUp { width } = self.machine.transition else { return None };
         let (stroke, [_, slope, second, _]) = (self.stroke(), self.motion.motion().at(0.0, false));
-        Some(RunUp::new(stroke, width, [slope * stroke, second * stroke * stroke]))
+        let bed = &self.mechanism().bottom_law;
+        if bed.in_line().is_none() {
+            return Some(RunUp::new(stroke, width, [slope * stroke, second * stroke * stroke]));
+        }
+        // The quintic runs along the way of the bed.
+        Some(RunUp::along(stroke, width, |width| {
+            let way = -bed.overrun(-width);
+            (0.4 * slope * way - second * way * way / 20.0).abs()
+        }))
     }
 
     /// Friction angle, efficiency and roller arm, each of which alone brings the residual force on the way in which the forces

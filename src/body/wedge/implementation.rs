@@ -3,11 +3,11 @@
 use super::{KIND, Wedge, mechanism, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::Part;
-use crate::body::picture::{OF_A_PRESS, RIGID};
+use crate::body::picture::{RIGID, of_its_press};
 use crate::body::{
-    Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, stress,
+    Body, CORNER_REACH, DrawError, Drawn, Found, Kind, Request, WorstPlaces, exact, largest, mirrored, reversal_of_bed,
+    stress,
 };
-use crate::buffer::PlainBuffer;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::boundary::{Boundary, Stretch};
 use crate::geometry::contour::{Contour, Edge, Segment, Vertex};
@@ -88,7 +88,7 @@ impl Wedge {
             velocity_jump_mm_per_rad: MILLIMETRES * self.stroke() * self.motion.slope_jump(),
             column_closed_at_crank_deg: closed_at(self.machine.transition),
             equation_18: Some(self.solved()),
-            ..air_law(&self.cylinder, &mechanism.bottom_law.into(), self.largest_displacement())
+            ..air_law(&self.cylinder, mechanism.bottom_law.by_crank(), self.largest_displacement())
         }
     }
 
@@ -193,18 +193,14 @@ impl Wedge {
         let law = &self.mechanism().bottom_law;
         let ratio = if x < 0.0 { 1.0 } else { 1.0 + self.mechanism().air(x, bottom) };
         let over = x.max(0.0);
-        let fixed = PlainBuffer::new(law.loading, law.exponent, law.stroke).air(over);
-        BalanceRow {
-            residual: None,
-            ..balance_of(&self.cylinder, x >= 0.0, (self.cylinder.unit_force() * law.loading * over, fixed), ratio)
-        }
+        let inertia = self.cylinder.unit_force() * law.loading() * law.deceleration(over);
+        let balance = balance_of(&self.cylinder, x >= 0.0, (inertia, law.air_of_fixed_bottom(over)), ratio);
+        BalanceRow { residual: None, ..balance }
     }
 
-    /// A jet by x as one by the angle φ of the crank: the pace of the motion has dx/dφ and d²x/dφ², and with x = r sin φ the third
-    /// derivative is that of the first with its sign turned.
-    fn by_crank(&self, x: f64, jet: Jet) -> Jet {
-        let (first, second) = self.motion.pace(x);
-        let third = if x < 0.0 { 0.0 } else { -first };
+    /// A jet by x as one by the angle of the crank.
+    pub(super) fn by_crank(&self, x: f64, jet: Jet) -> Jet {
+        let [first, second, third] = self.mechanism().bottom_law.pace(x);
         Jet {
             s: jet.s,
             ds: jet.ds * first,
@@ -358,7 +354,7 @@ impl Body for Wedge {
         Ok(Drawn { parts: vec![Part::solid_plate(outline)], flank: None, cutter_path: None })
     }
 
-    /// `samples` + 1 rows over the overrun, at x = r i/samples with both ends.
+    /// `samples` + 1 rows over the overrun, at equal steps of x with both ends.
     fn rows(&self, samples: u32) -> Vec<Row> {
         let place = |i: u32| MILLIMETRES * self.stroke() * (f64::from(i) / f64::from(samples));
         (0..=samples).map(|i| self.row(place(i))).collect()
@@ -387,13 +383,14 @@ impl Body for Wedge {
         let reach = CORNER_REACH * found.tolerance_mm / MILLIMETRES;
         let corner = |point: Vector2<f64>| self.corner_within(point / MILLIMETRES, reach);
         let outline = part.map(|part| part.measures(found.tolerance_mm, corner).section());
-        vec![
-            cam.section(),
-            self.law().section(),
+        let mut sections = vec![cam.section(), self.law().section()];
+        sections.extend(reversal_of_bed(&self.machine));
+        sections.extend([
             outline.unwrap_or_else(|| Section::new("outline", &())),
             Section::new("rolling", &found.rolled),
             self.forces(found.rolled.map(|rolled| rolled.residual_max_n)).section(),
-        ]
+        ]);
+        sections
     }
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> Mechanism {
@@ -401,7 +398,7 @@ impl Body for Wedge {
     }
 
     fn not_modelled(&self) -> Vec<&'static str> {
-        [RIGID, OF_A_PRESS, mechanism::NOT_MODELLED].concat()
+        [RIGID, of_its_press(&self.machine), mechanism::NOT_MODELLED].concat()
     }
 
     fn view(&self, drawn: &Drawn) -> Result<View, OutlineError> {

@@ -9,7 +9,6 @@ use crate::motion::Motion;
 use crate::report::mechanism::{Mechanism, Rigid, View, circle, line, rectangle};
 use crate::report::sheet::Shape;
 use nalgebra::Vector2;
-use std::f64::consts::FRAC_PI_2;
 
 /// What is not modelled of a plate.
 pub(super) const NOT_MODELLED: &[&str] = &[
@@ -31,13 +30,12 @@ struct At {
 pub(super) fn of(plate: &Wedge, drawn: &Drawn, samples: u32) -> Mechanism {
     let Some(part) = drawn.parts.first() else { return Mechanism::default() };
     let start = plate.motion.range().0;
-    let before = start / plate.stroke();
+    let bed = &plate.mechanism().bottom_law;
+    let before = bed.crank_before(start);
     let steps = samples.max(1);
     let at = |i: u32| {
-        let crank = before + (FRAC_PI_2 - before) * f64::from(i) / f64::from(steps);
-        // At constant speed before the reversal, x = r sin φ in it.
-        let x = if crank < 0.0 { plate.stroke() * crank } else { plate.stroke() * libm::sin(crank) };
-        sample(plate, if i == steps { plate.stroke() } else { x }, crank)
+        let crank = before + (bed.dead() - before) * f64::from(i) / f64::from(steps);
+        sample(plate, if i == steps { plate.stroke() } else { bed.overrun(crank) }, crank)
     };
     let samples: Vec<At> = (0..=steps).map(at).collect();
     let mut cover = Cover::nothing();
@@ -86,7 +84,7 @@ fn parts(plate: &Wedge, samples: &[At], outline: Shape, cover: &mut Cover) -> Ve
     let away = MILLIMETRES * plate.follower.axis_distance + l1 * libm::cos(delta);
     let pivot = Vector2::new(-l1 * libm::sin(delta), -away);
     let stands: Vec<Stand> = samples.iter().map(|at| at.stand).collect();
-    let of = Buffer::new(&plate.cylinder, &plate.mechanism().bottom_law.into());
+    let of = Buffer::new(&plate.cylinder, plate.mechanism().bottom_law.by_crank());
     let plate_end = MILLIMETRES * plate.run_out().x;
     let half_height = 0.5 * MILLIMETRES * plate.height;
     let clear = half_height + 2.4 * radius + 0.55 * of.bore();

@@ -7,10 +7,11 @@ mod sheet;
 
 use super::{Kind, ROUNDING_OF_BALANCE, WorstPlaces, largest, plane};
 use crate::buffer::Cylinder;
-use crate::buffer::crank_law::CrankLaw;
+use crate::buffer::place_law::PlaceLaw;
 use crate::document::cams;
 use crate::follower::BellCrank;
-use crate::machine::{Machine, NoPress, TranslatingData};
+use crate::linkage::Linkage;
+use crate::machine::{Machine, NoPress, Press, TranslatingData};
 use crate::motion::equation_18::{ExactOn, Mechanism, Solver, Way, WedgeMotionError};
 use crate::motion::{Motion, WedgeMotion};
 use crate::numeric::chebyshev;
@@ -69,6 +70,17 @@ pub enum WedgeError {
     /// (18) has no lead.
     #[error("equation (18) knows no lead: set buffer.lead to \"0 mm\" for a translating cam")]
     Lead,
+    /// The way back of the bed does not mirror its way out.
+    #[error(
+        "the bed of this machine is moved by a linkage whose way back does not mirror its way out ({which}): at one place it has two \
+         decelerations, and they meet at the dead point like a square root, where the flank of a plate that balances one of them \
+         would have no radius of curvature; a crank-slider without offset (linkage.kind = \"crank-slider\", linkage.offset_ratio = \
+         0) or a yoke moves a plate, and `camgen rotary` makes the cam of any linkage"
+    )]
+    Unsymmetric {
+        /// What keeps it from it.
+        which: &'static str,
+    },
     /// The motion.
     #[error(transparent)]
     Motion(#[from] WedgeMotionError),
@@ -84,9 +96,7 @@ impl Wedge {
         if press.lead > 0.0 {
             return Err(WedgeError::Lead);
         }
-        let why = "the plate meets the bed at one place with two decelerations, out and back";
-        let under_linkage = NoPress::Linkage { what: "plates are solved", why };
-        let bottom_law = *press.bottom_law(rpm).of_yoke().ok_or(under_linkage)?;
+        let bottom_law = PlaceLaw::new(press.bottom_law(rpm)).ok_or_else(|| unsymmetric(press))?;
         let mechanism = Mechanism {
             bottom_law,
             bottom_arm: data.bottom_arm,
@@ -168,15 +178,15 @@ impl Wedge {
         end.point + end.tangent * (RUN_OUT_OVER_ROLLER * self.data.roller_radius)
     }
 
-    /// The whole overrun r, m.
+    /// The whole overrun, m.
     #[must_use]
     pub fn stroke(&self) -> f64 {
-        self.mechanism().bottom_law.stroke
+        self.mechanism().bottom_law.stroke()
     }
 
     /// Overrun of the bed at a crank angle from the start of its reversal, in strokes.
     pub(super) fn place(&self, crank: f64) -> f64 {
-        CrankLaw::from(self.mechanism().bottom_law).place(crank)
+        self.mechanism().bottom_law.by_crank().place(crank)
     }
 
     /// The machine of (18).
@@ -210,7 +220,7 @@ impl Wedge {
     /// Inertia force of the bed at its largest, N.
     #[must_use]
     pub fn inertia_max(&self) -> f64 {
-        self.cylinder.largest_load(&self.mechanism().bottom_law.into())
+        self.cylinder.largest_load(self.mechanism().bottom_law.by_crank())
     }
 
     /// Left side less right side of (18), N, in a direction of the bed; 0 before the reversal.
@@ -240,7 +250,7 @@ impl Wedge {
     /// Residual force of a plain buffer with fixed bottom and column by (7) at this speed, N.
     #[must_use]
     pub fn residual_fixed_bottom(&self) -> f64 {
-        self.cylinder.residual_fixed_bottom(&self.mechanism().bottom_law.into())
+        self.cylinder.residual_fixed_bottom(self.mechanism().bottom_law.by_crank())
     }
 
     /// Normal force of one roller on its flank in a direction of the bed, N, equation (17); 0 before the reversal.
@@ -278,8 +288,7 @@ impl Wedge {
     }
 
     /// Force that presses a roller onto its flank along its path, N: the air's share by the lever, preload, and the inertia of
-    /// what moves with the roller, whose path is l1 ψ and whose time is that of the bed, x'' = −ω² x, at constant speed before
-    /// the reversal.
+    /// what moves with the roller, whose path is l1 ψ and whose time is that of the bed.
     fn path_force(&self, piece: usize, x: f64) -> f64 {
         let follower = &self.machine.follower;
         let bottom = self.motion.bottom(piece, x);
@@ -287,14 +296,18 @@ impl Wedge {
         let cosine = ((1.0 - sine) * (1.0 + sine)).sqrt();
         let first = bottom.ds / (arm * cosine);
         let second = (bottom.dds / arm + sine * first * first) / cosine;
-        let omega = self.crank_speed;
-        let (r, over) = (self.stroke(), x.max(0.0));
-        let (speed_squared, slowing) = (omega * omega * (r - over) * (r + over), omega * omega * over);
+        let [speed_squared, slowing] = self.mechanism().bottom_law.by_time(x, self.crank_speed);
         let inertia = follower.mass.unwrap_or(0.0) * self.data.roller_arm * (second * speed_squared - first * slowing);
         let air = if x >= 0.0 { self.mechanism().air(x, bottom.s) } else { 0.0 };
         let by_air = 0.5 * self.cylinder.unit_force() * air * self.mechanism().arm_ratio * cosine;
         by_air + follower.preload.unwrap_or(0.0) + inertia
     }
+}
+
+/// Why a machine whose bed has two decelerations at a place has no plate.
+fn unsymmetric(press: &Press) -> WedgeError {
+    let six_bar = press.stroke_end.is_some_and(|end| matches!(end.linkage(), Linkage::SixBar(..)));
+    WedgeError::Unsymmetric { which: if six_bar { "a six-bar" } else { "a crank-slider with an offset" } }
 }
 
 #[cfg(test)]

@@ -56,7 +56,11 @@ fn axes(plate: &Wedge, outline: &Extents) -> (Vec<Shape>, Vec<Mark>) {
     let mut shapes = vec![Shape::Line(Vector2::new(ends[0], 0.0), Vector2::new(ends[1], 0.0))];
     let mut marks = Vec::new();
     let stroke = MILLIMETRES * plate.stroke();
-    for (x, text) in [(0.0, "x = 0".to_owned()), (stroke, format!("x = r = {stroke} mm"))] {
+    let end = match plate.mechanism().bottom_law.in_line() {
+        None => format!("x = r = {stroke} mm"),
+        Some(_) => format!("x = {stroke:.3} mm"),
+    };
+    for (x, text) in [(0.0, "x = 0".to_owned()), (stroke, end)] {
         let (piece, at) = plate.motion.locate(x / MILLIMETRES);
         let centre = plate.curves().contact(piece, at).curve.point * MILLIMETRES;
         shapes.push(Shape::Line(centre, Vector2::new(centre.x, -centre.y)));

@@ -1,20 +1,21 @@
 //! Equation (18): the forces of a cam that rides on the bed and moves the bottom through a bell crank.
 //!
 //! ```text
-//! A x = P · {1 + λ cos ψ · sin(α+ρ)/(η sin[θ−(α+ρ)])},   P = (L/(L−x−Δx))^k − 1                     (18) over 2 p0 F
+//! A a = P · {1 + λ cos ψ · sin(α+ρ)/(η sin[θ−(α+ρ)])},   P = (L/(L−x−Δx))^k − 1                     (18) over 2 p0 F
 //! sin ψ = Δx/l2,   θ = Δ + ψ,   dΔx/dx = λ cos ψ · sin α/sin(θ−α)                                  (19), (21)–(24)
 //! ```
 //!
-//! With C = λ cos ψ, σ = (dΔx/dx)/C = sin α/sin(θ−α), s± = sin(θ±ρ), q = sin ρ the fraction of (18) is
+//! The deceleration a of the bed over the square of the crank speed is a function of its place, x itself under the yoke of the paper
+//! ([`PlaceLaw`]). With C = λ cos ψ, σ = (dΔx/dx)/C = sin α/sin(θ−α), s± = sin(θ±ρ), q = sin ρ the fraction of (18) is
 //!
 //! ```text
 //! T = sin(α+ρ)/sin(θ−α−ρ) = (σ s₊ + q)/(s₋ − σ q),   and back   σ = (T s₋ − q)/(s₊ + T q)
 //! ```
 //!
 //! so that neither α nor any angle but the given ones is needed, and without friction T is σ. Solved for the slope, with
-//! B = A x/P − 1:  dΔx/dx = C (η B s₋ − C q)/(C s₊ + η B q). On the way back ρ changes its sign.
+//! B = A a/P − 1:  dΔx/dx = C (η B s₋ − C q)/(C s₊ + η B q). On the way back ρ changes its sign.
 
-use crate::buffer::bottom_law::BottomLaw;
+use crate::buffer::place_law::PlaceLaw;
 use crate::numeric::taylor::{Tape, Term};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -64,8 +65,8 @@ pub enum Trend {
 /// The bell crank between plate and bottom, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mechanism {
-    /// Loading A, exponent k, stroke r and column L.
-    pub bottom_law: BottomLaw,
+    /// Loading A, exponent k and column L, and the bed's deceleration a(x) over its stroke.
+    pub bottom_law: PlaceLaw,
     /// Arm of the bottom l2, m.
     pub bottom_arm: f64,
     /// λ = l2/l1.
@@ -140,7 +141,13 @@ impl Mechanism {
     /// P = (L/(L−x−Δx))^k − 1: the air force over 2 p0 F; NaN when the column is used up.
     #[must_use]
     pub fn air(&self, x: f64, bottom: f64) -> f64 {
-        libm::expm1(-self.bottom_law.exponent * libm::log1p(-(x + bottom) / self.bottom_law.column))
+        libm::expm1(-self.bottom_law.exponent() * libm::log1p(-(x + bottom) / self.bottom_law.column()))
+    }
+
+    /// A a: the inertia force over 2 p0 F.
+    #[must_use]
+    pub fn load(&self, x: f64) -> f64 {
+        self.bottom_law.loading() * self.bottom_law.deceleration(x)
     }
 
     /// ψ, rad, by (19).
@@ -191,7 +198,7 @@ impl Mechanism {
     /// The same for a flank that was to make the bottom do what `side` says, whatever its own slope.
     #[must_use]
     pub fn residual_on(&self, side: Trend, x: f64, bottom: f64, slope: f64, way: Way) -> f64 {
-        let (lever, air, load) = (self.lever(bottom), self.air(x, bottom), self.bottom_law.loading * x);
+        let (lever, air, load) = (self.lever(bottom), self.air(x, bottom), self.load(x));
         let (fraction, efficiency) = self.fraction(&lever, slope, side, way);
         let with = |efficiency: f64| load - air * (1.0 + lever.ratio * fraction / efficiency);
         let balanced =
@@ -231,9 +238,10 @@ impl Mechanism {
         let mut tape = Tape::default();
         let (x, y) = (tape.abscissa(), tape.state());
         let shortened = tape.sum(x, y);
-        let argument = tape.scaled(shortened, self.bottom_law.stroke / self.bottom_law.column);
-        let air = tape.power_less_one(argument, self.bottom_law.exponent);
-        let load = tape.scaled(x, self.bottom_law.loading * self.bottom_law.stroke);
+        let argument = tape.scaled(shortened, self.bottom_law.stroke() / self.bottom_law.column());
+        let air = tape.power_less_one(argument, self.bottom_law.exponent());
+        let decelerated = self.share(&mut tape, x).map_or(x, |share| tape.product(x, share));
+        let load = tape.scaled(decelerated, self.bottom_law.loading() * self.bottom_law.stroke());
         let ratio = tape.quotient(load, air);
         let slope = self.slope(&mut tape, ratio, y, side);
         tape.finish(slope)
@@ -244,18 +252,28 @@ impl Mechanism {
         let mut tape = Tape::default();
         let (w, one) = (tape.state(), tape.constant(1.0));
         let shortened = tape.sum(one, w);
-        let argument = tape.scaled(shortened, self.bottom_law.stroke / self.bottom_law.column);
+        let argument = tape.scaled(shortened, self.bottom_law.stroke() / self.bottom_law.column());
         let argument = tape.times_abscissa(argument);
-        let air = tape.power_less_one(argument, self.bottom_law.exponent);
+        let air = tape.power_less_one(argument, self.bottom_law.exponent());
         let air = tape.over_abscissa(air);
-        let load = tape.constant(self.bottom_law.loading * self.bottom_law.stroke);
+        let (x, at_origin) = (tape.abscissa(), self.bottom_law.loading() * self.bottom_law.stroke());
+        let load = match self.share(&mut tape, x) {
+            None => tape.constant(at_origin),
+            Some(share) => tape.scaled(share, at_origin),
+        };
         let ratio = tape.quotient(load, air);
         let y = tape.times_abscissa(w);
         let slope = self.slope(&mut tape, ratio, y, side);
         tape.finish(slope)
     }
 
-    /// dΔx/dx from A x/P and Δx (in strokes). Without friction it is η B and does not depend on the lever.
+    /// a/x from the overrun in strokes; `None` under a yoke, where it is 1.
+    fn share(&self, tape: &mut Tape, x: Term) -> Option<Term> {
+        let in_line = self.bottom_law.in_line()?;
+        Some(in_line.share(tape, x, self.bottom_law.stroke()))
+    }
+
+    /// dΔx/dx from A a/P and Δx (in strokes). Without friction it is η B and does not depend on the lever.
     fn slope(&self, tape: &mut Tape, ratio: Term, y: Term, side: Trend) -> Term {
         let minus_one = tape.constant(-1.0);
         let surplus = tape.sum(ratio, minus_one);
@@ -269,7 +287,7 @@ impl Mechanism {
             return if efficiency == 1.0 { surplus } else { tape.scaled(surplus, efficiency) };
         }
         let one = tape.constant(1.0);
-        let sin_psi = tape.scaled(y, self.bottom_law.stroke / self.bottom_arm);
+        let sin_psi = tape.scaled(y, self.bottom_law.stroke() / self.bottom_arm);
         let square = tape.product(sin_psi, sin_psi);
         let less = tape.scaled(square, -1.0);
         let less = tape.sum(one, less);

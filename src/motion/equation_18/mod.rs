@@ -1,7 +1,7 @@
 //! The motion of the cam plate that rides on the bed: run-in, then the bottom's Δx over the overrun by equation (18).
 //!
-//! The parameter of the motion is the bed's position x in metres, 0 where the reversal starts. Before that the bed runs at
-//! constant speed, so that a crank angle w is a travel r w.
+//! The parameter of the motion is the bed's position x in metres, 0 where the reversal starts. Before that the bed of a yoke runs at
+//! constant speed, so that a crank angle w is a travel r w; a crank-slider holds its bed all the time.
 
 mod mechanism;
 mod ode;
@@ -16,7 +16,6 @@ pub use wall::Wall;
 use super::transition::{Derivatives, Quintic, Transition};
 use super::{Jet, Motion, Piece};
 use crate::numeric::extremum;
-use std::f64::consts::FRAC_PI_2;
 
 /// How (18) is solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,10 +43,25 @@ pub enum WedgeMotionError {
     #[error(transparent)]
     Wall(#[from] Wall),
     /// A blend reaches past the end of the stroke.
-    #[error("a blend of {width_deg:.3} deg reaches past the end of the stroke; at most 180 deg (transition.width)")]
+    #[error(
+        "a blend of {width_deg:.3} deg reaches past the end of the stroke; at most {most_deg} deg (transition.width)"
+    )]
     BlendTooWide {
         /// Its width, degrees of crank angle.
         width_deg: f64,
+        /// What would not, degrees of crank angle.
+        most_deg: f64,
+    },
+    /// A run-up begins before the bed has left its other end.
+    #[error(
+        "a run-up of {width_deg:.3} deg begins before the other end of the stroke, from which the bed takes {most_deg} deg of \
+         the crank to the start of the reversal (transition.width)"
+    )]
+    RunUpTooWide {
+        /// Its width, degrees of crank angle.
+        width_deg: f64,
+        /// What the bed takes, degrees of crank angle.
+        most_deg: f64,
     },
 }
 
@@ -130,21 +144,27 @@ impl WedgeMotion {
         flat: f64,
     ) -> Result<Self, WedgeMotionError> {
         let motion = BottomMotion::solve(&mechanism, solver)?;
-        let stroke = mechanism.bottom_law.stroke;
+        let bed = &mechanism.bottom_law;
+        let stroke = bed.stroke();
         let mut law = Self { mechanism, motion, pieces: Vec::new(), shapes: Vec::new(), lowest: 0.0 };
         let (start, shape, motion_start) = match transition {
             Transition::None => (0.0, None, 0.0),
             Transition::RunUp { width } => {
-                let way = stroke * width;
+                if width >= bed.before() {
+                    let most_deg = degrees_down(bed.before());
+                    return Err(WedgeMotionError::RunUpTooWide { width_deg: width.to_degrees(), most_deg });
+                }
+                let way = -bed.overrun(-width);
                 let quintic = Quintic::run_up(-way, way, law.motion.at(0.0, false));
                 (-way, Some(quintic), 0.0)
             }
             Transition::Blend { width } => {
                 let half = 0.5 * width;
-                if half > FRAC_PI_2 {
-                    return Err(WedgeMotionError::BlendTooWide { width_deg: width.to_degrees() });
+                if half > bed.dead() {
+                    let most_deg = degrees_down(2.0 * bed.dead());
+                    return Err(WedgeMotionError::BlendTooWide { width_deg: width.to_degrees(), most_deg });
                 }
-                let (start, end) = (-stroke * half, stroke * libm::sin(half));
+                let (start, end) = (bed.overrun(-half), bed.overrun(half));
                 (start, Some(Quintic::blend(start, end - start, 0.0, law.motion.at(end, false))), end)
             }
         };
@@ -254,6 +274,11 @@ impl WedgeMotion {
     }
 }
 
+/// An angle in degrees, as a value that may still be given.
+fn degrees_down(angle: f64) -> f64 {
+    (1e3 * angle.to_degrees()).floor() / 1e3
+}
+
 impl Motion for WedgeMotion {
     fn pieces(&self) -> &[Piece] {
         &self.pieces
@@ -268,9 +293,12 @@ impl Motion for WedgeMotion {
         None
     }
 
-    /// x = r sin φ over the reversal; before it the bed runs at the constant speed r.
+    /// That of the bed on its way out.
     fn pace(&self, x: f64) -> (f64, f64) {
-        let r = self.mechanism.bottom_law.stroke;
-        if x <= 0.0 { (r, 0.0) } else { (((r - x) * (r + x)).max(0.0).sqrt(), -x) }
+        let [first, second, _] = self.mechanism.bottom_law.pace(x);
+        (first, second)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,8 +1,8 @@
 //! The bottom moved by a wedge cam as the solution of (18) for the slope, by Taylor's method.
 //!
-//! x = 0 is a removable singularity: there A x/P is 0/0 and tends to c/(1+w), w the slope, c = L A/k; w is the root of
-//! the equation that this makes of (18), and the series is built on y = x w. With unequal efficiencies the slope has
-//! three laws: rising, falling, and between them a lever that sticks. The changes are found on the series and kept as
+//! x = 0 is a removable singularity: there A a/P is 0/0 and tends to c/(1+w), w the slope, c = L A κ/k, κ = da/dx (1 under a
+//! yoke); w is the root of the equation that this makes of (18), and the series is built on y = x w. With unequal efficiencies the
+//! slope has three laws: rising, falling, and between them a lever that sticks. The changes are found on the series and kept as
 //! breaks, so that every stretch is smooth.
 
 use super::mechanism::{ARM_SHARE, ExactOn, Mechanism, Trend};
@@ -63,7 +63,7 @@ impl Solution {
     /// # Errors
     /// The [`Wall`] the solution runs into.
     pub fn new(mechanism: &Mechanism, tolerance: f64) -> Result<Self, Wall> {
-        let stroke = mechanism.bottom_law.stroke;
+        let stroke = mechanism.bottom_law.stroke();
         let share = STEP_SHARE * tolerance / stroke;
         let mut run = Run {
             mechanism,
@@ -227,7 +227,7 @@ impl Run<'_> {
         let (x, y) = (self.x, self.y);
         let from = x.max(LEAST_OVERRUN);
         // A bottom that rests lets the column be used up at L − Δx.
-        let limit = (self.mechanism.bottom_law.column / self.solution.stroke - y).min(1.0);
+        let limit = (self.mechanism.bottom_law.column() / self.solution.stroke - y).min(1.0);
         let up = |at: f64| -self.rising.value(at, y);
         let down = |at: f64| self.falling.value(at, y);
         let free = |law: &dyn Fn(f64) -> f64, side: Trend| {
@@ -257,7 +257,7 @@ impl Run<'_> {
 
     /// Remaining share of the column.
     fn column_left(&self) -> f64 {
-        1.0 - (self.x + self.y) * self.solution.stroke / self.mechanism.bottom_law.column
+        1.0 - (self.x + self.y) * self.solution.stroke / self.mechanism.bottom_law.column()
     }
 
     fn sine(&self) -> f64 {
@@ -325,7 +325,7 @@ fn starting_slope(mechanism: &Mechanism, side: Trend) -> Option<f64> {
     let q = libm::sin(mechanism.friction_angle);
     let lever = mechanism.lever(0.0);
     let (plus, minus) = (lever.plus, lever.minus);
-    let surplus = mechanism.bottom_law.start_slope;
+    let surplus = mechanism.bottom_law.start_slope();
     let one = |eta: f64, plus: f64, minus: f64, q: f64| {
         if !(plus > 0.0 && minus > 0.0) {
             return None;

@@ -7,7 +7,7 @@
 //! and so does T. Written without the fraction, so that a jam is not a pole,
 //!
 //! ```text
-//! G(y) = (A x − P) (s₋ − σ q) − P C (σ s₊ + q)/η
+//! G(y) = (A a − P) (s₋ − σ q) − P C (σ s₊ + q)/η
 //! ```
 //!
 //! falls through zero once. At y₀, where σ = 0, the two laws of unequal efficiencies tell the side: G > 0 as the rising
@@ -45,7 +45,7 @@ impl Stations {
     /// # Errors
     /// The [`Wall`] a station runs into.
     pub fn new(mechanism: &Mechanism, count: u32) -> Result<Self, Wall> {
-        let stroke = mechanism.bottom_law.stroke;
+        let stroke = mechanism.bottom_law.stroke();
         let (mut overruns, mut bottoms) = (vec![0.0], vec![0.0]);
         let (mut before, mut bottom) = (0.0, 0.0);
         for station in 1..=count {
@@ -95,7 +95,7 @@ impl Station<'_> {
         let lever = mechanism.lever(y);
         let sigma = (y - self.before) / (self.step * lever.ratio);
         let (braking, returning) = mechanism.efficiencies(side);
-        let (air, load, c) = (mechanism.air(self.x, y), mechanism.bottom_law.loading * self.x, lever.ratio);
+        let (air, load, c) = (mechanism.air(self.x, y), mechanism.load(self.x), lever.ratio);
         let in_way = |plus: f64, minus: f64, q: f64, eta: f64| {
             (load - air) * (minus - sigma * q) - air * c * (sigma * plus + q) / eta
         };
@@ -120,7 +120,7 @@ impl Station<'_> {
         if line < arm {
             least = (line, Wall::Line { x_mm });
         }
-        let column = m.bottom_law.column * (1.0 - MARGIN) - self.x;
+        let column = m.bottom_law.column() * (1.0 - MARGIN) - self.x;
         if side == Trend::Rising && column < least.0 {
             least = (column, Wall::Column { x_mm });
         }
