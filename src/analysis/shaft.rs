@@ -7,6 +7,8 @@ mod picture;
 mod remedy;
 mod spectrum;
 mod sweep;
+#[cfg(test)]
+mod tests;
 mod unbalanced;
 
 use super::{Analysis, Measure};

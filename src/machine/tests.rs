@@ -25,6 +25,12 @@ fn every_embedded_machine_and_the_template_read() {
             assert_eq!(drive.name(), embedded.title());
             continue;
         }
+        if !embedded.toml.contains("\n[bed]") {
+            let (shaft, stem) = ShaftMachine::load(embedded.name, &[]).expect("a shaft");
+            assert_eq!((stem.as_str(), shaft.name()), (embedded.name, embedded.title()));
+            assert!(shaft.machine().is_none());
+            continue;
+        }
         let (machine, stem) = Machine::load(embedded.name, &[]).unwrap_or_else(|e| panic!("{}: {e}", embedded.name));
         assert_eq!((stem.as_str(), machine.name()), (embedded.name, embedded.title()));
         assert!(machine.translating.is_some() && machine.conoid.is_some());
@@ -263,6 +269,28 @@ const OTHERS: &[(&str, &str)] = &[
     ("compensator.base_radius", "90 mm"),
     ("compensator.angle", "90 deg"),
     ("compensator.mass", "40 kg"),
+    ("shaft.beam", "euler"),
+    ("shaft.cam_at", "140 mm"),
+    ("shaft.drive_at", "10 mm"),
+    ("shaft.segment[0].length", "310 mm"),
+    ("shaft.segment[0].diameter", "60 mm"),
+    ("shaft.segment[0].bore", "10 mm"),
+    ("shaft.segment[0].material", "bronze"),
+    ("shaft.segment[0].modulus", "200 GPa"),
+    ("shaft.segment[0].density", "7800 kg/m3"),
+    ("shaft.segment[0].poisson", "0.31"),
+    ("shaft.support[0].at", "30 mm"),
+    ("shaft.support[0].stiffness", "rigid"),
+    ("shaft.disc[0].at", "100 mm"),
+    ("shaft.disc[0].mass", "3 kg"),
+    ("shaft.disc[1].diameter", "130 mm"),
+    ("shaft.disc[1].bore", "20 mm"),
+    ("shaft.disc[1].width", "30 mm"),
+    ("shaft.disc[1].material", "bronze"),
+    ("shaft.disc[0].diametral_inertia", "0.003 kg*m2"),
+    ("shaft.disc[0].polar_inertia", "0.003 kg*m2"),
+    ("shaft.disc[0].unbalance", "10 g*mm"),
+    ("shaft.disc[2].angle", "10 deg"),
     ("regimes.rpm", "[20, 25]"),
     ("regimes.reset", "half"),
     ("spring_buffer.stiffness", "100 N/mm"),
@@ -276,6 +304,10 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.transmission_angle", "40 deg"),
     ("limits.rod_angle", "25 deg"),
     ("limits.link_ratio", "0.6"),
+    ("limits.critical_speed_ratio", "0.6"),
+    ("limits.lift_error", "0.2 mm"),
+    ("limits.support_slope", "0.002 rad"),
+    ("limits.balance_grade", "6.3"),
     ("title.owner", "Works"),
     ("title.part_number", "7"),
     ("title.revision", "B"),
@@ -289,6 +321,14 @@ const OTHERS: &[(&str, &str)] = &[
 /// A motion program behind a press, so that a file has every table that can stand in it.
 const MOTION: &str = "\n[motion]\nstart = \"0 mm\"\n[[motion.segment]]\nover = \"180 deg\"\nto = \"20 mm\"\n\
                       [[motion.segment]]\nto = \"0 mm\"\n";
+
+/// A shaft with every part, behind a press.
+const SHAFT: &str = "\n[shaft]\ncam_at = \"150 mm\"\n[[shaft.segment]]\nlength = \"300 mm\"\ndiameter = \"50 mm\"\n\
+                     [[shaft.support]]\nat = \"20 mm\"\nstiffness = \"5e8 N/m\"\n\
+                     [[shaft.support]]\nat = \"280 mm\"\nstiffness = \"5e8 N/m\"\n\
+                     [[shaft.disc]]\nat = \"290 mm\"\nmass = \"2 kg\"\ndiametral_inertia = \"0.002 kg*m2\"\npolar_inertia = \"0.002 kg*m2\"\n\
+                     [[shaft.disc]]\nat = \"290 mm\"\ndiameter = \"120 mm\"\nwidth = \"20 mm\"\n\
+                     [[shaft.disc]]\nat = \"290 mm\"\nmass = \"2 kg\"\nunbalance = \"9 g*mm\"\n";
 
 fn every_key() -> Vec<String> {
     sections().iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect()
@@ -318,7 +358,14 @@ fn file_for(path: &str) -> String {
     let linkage = if path.starts_with("linkage.") { six_bar } else { String::new() };
     let compensator = "[compensator]\nspring_rate = \"100 N/mm\"\npreload = \"10 kN\"\n";
     let keyway = "[cam.keyway]\nwidth = \"8 mm\"\ndepth = \"3 mm\"\n";
-    format!("{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{MOTION}", section.path)
+    // The cam sits on the shaft with its own bore only.
+    let press = if path == "shaft.segment[0].diameter" {
+        press.replace("bore_radius = \"25 mm\"", "bore_radius = \"30 mm\"")
+    } else {
+        press
+    };
+    let shaft = if path.starts_with("shaft.") { SHAFT } else { "" };
+    format!("{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{MOTION}{shaft}", section.path)
 }
 
 /// A file without one of its tables.
@@ -336,13 +383,19 @@ fn without(text: &str, table: &str) -> String {
 
 #[test]
 fn every_key_of_the_table_reaches_the_machine() {
-    let keys: Vec<String> = OTHERS.iter().map(|(key, _)| key.replace("[0]", "[]")).collect();
+    let open = |key: &str| ["[0]", "[1]", "[2]"].iter().fold(key.to_owned(), |key, index| key.replace(index, "[]"));
+    let keys: Vec<String> = OTHERS.iter().map(|(key, _)| open(key)).collect();
     // A drive is read by itself.
     let all: Vec<String> = every_key().into_iter().filter(|key| !key.starts_with("drive.")).collect();
     assert_eq!(keys, all);
     for (key, value) in OTHERS {
         let text = file_for(key);
         let with = |sets: &[String]| {
+            let text = if sets.is_empty() {
+                text.replace("bore_radius = \"30 mm\"", "bore_radius = \"25 mm\"")
+            } else {
+                text.clone()
+            };
             Machine::from_toml("press.toml", &text, sets).unwrap_or_else(|error| panic!("{sets:?}: {error}"))
         };
         let mut sets = vec![format!("{key}={value}")];
@@ -363,7 +416,9 @@ fn every_word_of_a_key_reads() {
             let (Form::Words(words) | Form::WordsOrQuantity(words, ..)) = key.form else { continue };
             for word in words {
                 let path = section.path_of(key);
-                let set = format!("{path}={word}");
+                // The first disc has a mass, the second a size.
+                let index = if path == "shaft.disc[].material" { "[1]" } else { "[0]" };
+                let set = format!("{}={word}", path.replace("[]", index));
                 // A yoke has no links.
                 let text = if *word == "yoke" { without(&file_for(&path), "linkage") } else { file_for(&path) };
                 let read = Machine::from_toml("press.toml", &text, std::slice::from_ref(&set));
@@ -455,12 +510,17 @@ fn template_and_profiles_have_every_key() {
     // Of a program the template shows one segment, which is none yet.
     let whole = ["motion.segment[0].over=360 deg".to_owned(), "motion.segment[0].to=0 mm".to_owned()];
     let template = template();
-    let presses = EMBEDDED.iter().filter(|machine| !machine.toml.contains("\n[drive]"));
+    let presses =
+        EMBEDDED.iter().filter(|machine| !machine.toml.contains("\n[drive]") && !machine.toml.contains("\n[shaft]"));
     let profiles = presses.map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
     for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &all, &whole[..])]) {
         let text = with_everything(text);
-        // Of a linkage not all keys go together.
-        let read_with = |text: &str| Machine::from_toml(name, &without(text, "linkage"), sets);
+        // Of a linkage, and of a shaft, not all keys go together.
+        let apart = ["linkage", "shaft", "[shaft.segment]", "[shaft.support]", "[shaft.disc]"];
+        let read_with = |text: &str| {
+            let text = apart.iter().fold(text.to_owned(), |text, table| without(&text, table));
+            Machine::from_toml(name, &text, sets)
+        };
         let sections: Vec<Section> = sections().iter().map(|section| Section { cams: &[], ..**section }).collect();
         let sections: Vec<&Section> = sections.iter().collect();
         let given = Reader::new(name, &text, &[], &sections).given(true);

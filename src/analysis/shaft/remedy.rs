@@ -6,17 +6,20 @@ use crate::shaft::exact;
 
 /// A shaft so many times as thick at the most.
 const LARGEST: f64 = 8.0;
+/// From one that is tried to the next.
+const GROWTH: f64 = 1.08;
 /// Digits of a factor, rounded upwards.
 const DIGITS: f64 = 1e3;
 
-/// The factor on every diameter at which a function of it falls to 0, rounded upwards; `None` where none up to the largest does.
+/// The smallest factor on every diameter at which a function of it is not above 0, rounded upwards; `None` where none is found up to the
+/// largest. A very thick shaft may be too heavy for its supports, so that it is looked for from below.
 fn factor(excess: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let value = |factor: f64| excess(factor).unwrap_or(f64::NAN);
-    if !(value(LARGEST) <= 0.0) {
-        return None;
-    }
-    let found = root::bracketed(value, 1.0, LARGEST, 1e-9).ok()?;
-    Some((found * DIGITS).ceil() / DIGITS)
+    let tried = std::iter::successors(Some(GROWTH), |factor| Some(factor * GROWTH));
+    let passing = tried.take_while(|factor| *factor <= LARGEST).find(|factor| value(*factor) <= 0.0)?;
+    let found = root::bracketed(value, passing / GROWTH, passing, 1e-9).ok()?;
+    let rounded = (found * DIGITS).ceil() / DIGITS;
+    Some(if value(rounded) <= 0.0 { rounded } else { passing })
 }
 
 /// For a first critical speed (rad/s) at the least.
