@@ -36,6 +36,21 @@ fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
         let text = include_str!("../profiles/dpi-six-bar.toml").replace("rod_ratio = 3 ", &format!("{rod}# "));
         return Machine::from_toml("six-bar.toml", &text, sets).ok();
     }
+    if section.path.starts_with("shaft") {
+        let by_size = sets.iter().any(|set| {
+            ["diameter", "bore", "width", "material"].iter().any(|key| set.contains(&format!("disc[0].{key}")))
+        });
+        let disc = if by_size {
+            "diameter = \"120 mm\"\nwidth = \"20 mm\""
+        } else {
+            "mass = \"2 kg\"\ndiametral_inertia = \"1 kg*m2\""
+        };
+        let text = format!(
+            "{}\n[[shaft.disc]]\nat = \"290 mm\"\n{disc}\n",
+            include_str!("../profiles/dpi-shaft.toml").replace("bore_radius = \"25 mm\"", "")
+        );
+        return Machine::from_toml("shaft.toml", &text, sets).ok();
+    }
     if section.path.starts_with("motion") {
         return Machine::from_toml("lifter.toml", LIFTER, sets).ok();
     }
