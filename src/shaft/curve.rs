@@ -9,8 +9,8 @@ const CELLS: u32 = 24;
 /// Golden sections from two cells, a twelfth of a panel, to where a flat top is level to rounding: 0.618³⁰/12 = 5e-8 of it.
 const SECTIONS: u32 = 30;
 
-/// Two extremes this near in size are equal, and the left one gives the sign: those of an antisymmetric mode differ by
-/// rounding only, and the sign of its curve must not.
+/// Crests up and down that differ by less than this part are equal: those of an antisymmetric mode differ by rounding, which must
+/// not give its curve a sign.
 const EQUAL: f64 = 1e-9;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -56,27 +56,58 @@ impl Curve {
         })
     }
 
-    /// Where |y| is largest, m, and y there: of two extremes that differ by rounding only, the left one.
+    /// Where |y| is largest, m, and y there; where both sides reach equally far, the side to which the left end goes.
     #[must_use]
     pub fn largest(&self) -> (f64, f64) {
-        let (up, down) = (self.highest(1.0), self.highest(-1.0));
-        let nearly = (up.1 - down.1).abs() <= EQUAL * up.1.max(down.1);
-        let is_up = if nearly { up.0 <= down.0 } else { up.1 > down.1 };
+        let [up, down] = self.crests();
+        let size = up.1.max(down.1);
+        let [end, turn] = self.at(0.0);
+        let is_up = if (up.1 - down.1).abs() > EQUAL * size {
+            up.1 > down.1
+        } else if end.abs() > EQUAL * size {
+            end > 0.0
+        } else {
+            turn >= 0.0
+        };
         if is_up { up } else { (down.0, -down.1) }
     }
 
-    /// Where sign · y is largest, m, and its value there.
-    fn highest(&self, sign: f64) -> (f64, f64) {
-        let mut best = (0.0, f64::NEG_INFINITY);
+    /// Where y is highest and where it is lowest, m, with the heights; up and down.
+    fn crests(&self) -> [(f64, f64); 2] {
+        let mut best = [(0.0, f64::NEG_INFINITY); 2];
+        let signs = [1.0, -1.0];
         for piece in &self.pieces {
-            // |P_k| ≤ 1: the coefficients bound the piece, and most are never searched.
+            // |P_k| ≤ 1: the coefficients bound the piece.
             let bound: f64 = piece.deflection.iter().map(|c| c.abs()).sum();
-            if bound > best.1 {
-                let height = |xi: f64| sign * legendre::value(&piece.deflection, xi);
-                let found = extremum::largest_without_slope(height, (0.0, 1.0), CELLS, SECTIONS);
-                if found.value > best.1 {
-                    best = (piece.at + piece.length * found.at, found.value);
+            if best.iter().all(|(_, height)| bound <= *height) {
+                continue;
+            }
+            for cell in 0..=CELLS {
+                let xi = f64::from(cell) / f64::from(CELLS);
+                let y = legendre::value(&piece.deflection, xi);
+                for (best, sign) in best.iter_mut().zip(signs) {
+                    if sign * y > best.1 {
+                        *best = (piece.at + piece.length * xi, sign * y);
+                    }
                 }
+            }
+        }
+        for (best, sign) in best.iter_mut().zip(signs) {
+            *best = self.crest(*best, sign);
+        }
+        best
+    }
+
+    /// The crest beside the best of the cells; on the pieces to both sides where that is an end.
+    fn crest(&self, (at, height): (f64, f64), sign: f64) -> (f64, f64) {
+        let mut best = (at, height);
+        for piece in self.pieces.iter().filter(|piece| piece.at <= at && at <= piece.at + piece.length) {
+            let (middle, cell) = (piece.xi(at), 1.0 / f64::from(CELLS));
+            let around = ((middle - cell).max(0.0), (middle + cell).min(1.0));
+            let y = |xi: f64| sign * legendre::value(&piece.deflection, xi);
+            let found = extremum::largest_without_slope(y, around, 2, SECTIONS);
+            if found.value > best.1 {
+                best = (piece.at + piece.length * found.at, found.value);
             }
         }
         best
