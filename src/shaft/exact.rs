@@ -70,27 +70,39 @@ pub fn modes(shaft: &Shaft, whirl: Whirl, count: usize, order: Option<usize>) ->
         }
         return Problem::new(shaft, panels, order, whirl)?.told(count, shaft);
     }
-    let mut order = first_order(panels.panels.len(), count);
-    let mut problem = Problem::new(shaft, panels.clone(), order, whirl)?;
+    let heavy = panels.panels.iter().filter(|panel| panel.mass > 0.0).count();
+    let mut order = first_order(heavy, count);
     for _ in 0..REFINEMENTS {
-        let omega = problem.highest(count);
-        let Some(cut) = panels.cut_to(omega, MOST_WAVES) else { break };
-        let wanted = GUARD + upward(cut.waves(omega));
+        let problem = Problem::new(shaft, panels.clone(), order, whirl)?;
+        // A coarse load puts the highest modes too high, by any factor: then more of it comes before more panels.
+        let Some(cut) = panels.cut_to(problem.highest(count), MOST_WAVES) else {
+            order = MOST_ORDER;
+            continue;
+        };
+        let wanted = carrying(cut.waves(problem.highest(count)));
         if wanted <= order && cut.panels.len() == panels.panels.len() {
-            break;
+            return problem.told(count, shaft);
         }
         (panels, order) = (cut, wanted.max(order));
-        problem = Problem::new(shaft, panels.clone(), order, whirl)?;
     }
-    problem.told(count, shaft)
+    Err(ShaftError::ModeTooHigh { mode: count.max(1) })
 }
 
-/// Solutions after the first, which tells the waves to a few per cent; the second tells them to rounding.
-const REFINEMENTS: usize = 4;
+/// Solutions at most. The first tells the waves to a few per cent, the second to rounding; a third comes where the first was so
+/// coarse that it saw fewer.
+const REFINEMENTS: usize = 8;
 
-/// The order of the first solution: as much as carries `count` half waves on so many panels alike.
+/// The order of the first solution: as much as carries `count` half waves on so many panels alike, each with mass.
 fn first_order(panels: usize, count: usize) -> usize {
-    (1..MOST_ORDER).find(|order| order * panels >= 4 * count).unwrap_or(MOST_ORDER).max(LEAST_ORDER)
+    match panels {
+        0 => 0,
+        _ => (LEAST_ORDER..MOST_ORDER).find(|order| order * panels >= 4 * count).unwrap_or(MOST_ORDER),
+    }
+}
+
+/// The order that carries so much of a wave, rad, to rounding; none is wanted where nothing has mass.
+fn carrying(waves: f64) -> usize {
+    if waves > 0.0 { GUARD + upward(waves) } else { 0 }
 }
 
 /// ⌈x⌉ as a count.
@@ -275,7 +287,7 @@ pub fn response(shaft: &Shaft, speed: f64) -> Result<Response, ShaftError> {
         return Err(ShaftError::Negative { part: Part::Asked, index: 0, name: "speed", value: speed });
     }
     let panels = Panels::new(shaft, &[]).cut_to(speed, MOST_WAVES).ok_or(ShaftError::TooFast { speed })?;
-    let order = GUARD + upward(panels.waves(speed));
+    let order = carrying(panels.waves(speed));
     let frame = Frame::new(shaft, panels, order);
     let (square, inner) = (speed * speed, frame.inner());
     let made: Vec<(Column, f64)> = loads(shaft, &frame.panels, order, Whirl::Forward)
