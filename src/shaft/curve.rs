@@ -9,6 +9,9 @@ const CELLS: u32 = 24;
 /// Golden sections from two cells, a twelfth of a panel, to where a flat top is level to rounding: 0.618³⁰/12 = 5e-8 of it.
 const SECTIONS: u32 = 30;
 
+/// What two samples may hide of a crest between them, of its height: 1 − cos ¼ = 0.03 of a wave of half a radian in a cell.
+const HIDDEN: f64 = 0.1;
+
 /// Crests up and down that differ by less than this part are equal: those of an antisymmetric mode differ by rounding, which must
 /// not give its curve a sign.
 const EQUAL: f64 = 1e-9;
@@ -24,6 +27,21 @@ pub(super) struct Piece {
 }
 
 impl Piece {
+    /// y at the ends of the cells.
+    fn samples(&self) -> Vec<f64> {
+        (0..=CELLS).map(|cell| legendre::value(&self.deflection, f64::from(cell) / f64::from(CELLS))).collect()
+    }
+
+    /// Where sign · y is highest in the cells beside the end of one, m, and its height.
+    fn crest(&self, cell: usize, sign: f64) -> (f64, f64) {
+        let width = 1.0 / f64::from(CELLS);
+        let middle = width * u32::try_from(cell).map_or(0.0, f64::from);
+        let around = ((middle - width).max(0.0), (middle + width).min(1.0));
+        let y = |xi: f64| sign * legendre::value(&self.deflection, xi);
+        let found = extremum::largest_without_slope(y, around, 2, SECTIONS);
+        (self.at + self.length * found.at, found.value)
+    }
+
     fn xi(&self, x: f64) -> f64 {
         ((x - self.at) / self.length).clamp(0.0, 1.0)
     }
@@ -74,43 +92,26 @@ impl Curve {
 
     /// Where y is highest and where it is lowest, m, with the heights; up and down.
     fn crests(&self) -> [(f64, f64); 2] {
-        let mut best = [(0.0, f64::NEG_INFINITY); 2];
-        let signs = [1.0, -1.0];
-        for piece in &self.pieces {
-            // |P_k| ≤ 1: the coefficients bound the piece.
-            let bound: f64 = piece.deflection.iter().map(|c| c.abs()).sum();
-            if best.iter().all(|(_, height)| bound <= *height) {
-                continue;
-            }
-            for cell in 0..=CELLS {
-                let xi = f64::from(cell) / f64::from(CELLS);
-                let y = legendre::value(&piece.deflection, xi);
-                for (best, sign) in best.iter_mut().zip(signs) {
-                    if sign * y > best.1 {
-                        *best = (piece.at + piece.length * xi, sign * y);
+        let samples: Vec<Vec<f64>> = self.pieces.iter().map(Piece::samples).collect();
+        [1.0, -1.0].map(|sign| {
+            let highest = samples.iter().flatten().fold(f64::NEG_INFINITY, |most, y| most.max(sign * y));
+            // A crest between two samples: any that can reach the highest is looked at.
+            let least = highest - HIDDEN * highest.abs();
+            let mut best = (0.0, f64::NEG_INFINITY);
+            for (piece, samples) in self.pieces.iter().zip(&samples) {
+                let height = |cell: usize| samples.get(cell).map_or(f64::NEG_INFINITY, |y| sign * y);
+                let tops = (0..samples.len()).filter(|cell| {
+                    let here = height(*cell);
+                    here >= least && here >= height(cell.wrapping_sub(1)) && here >= height(cell + 1)
+                });
+                for found in tops.map(|cell| piece.crest(cell, sign)) {
+                    if found.1 > best.1 {
+                        best = found;
                     }
                 }
             }
-        }
-        for (best, sign) in best.iter_mut().zip(signs) {
-            *best = self.crest(*best, sign);
-        }
-        best
-    }
-
-    /// The crest beside the best of the cells; on the pieces to both sides where that is an end.
-    fn crest(&self, (at, height): (f64, f64), sign: f64) -> (f64, f64) {
-        let mut best = (at, height);
-        for piece in self.pieces.iter().filter(|piece| piece.at <= at && at <= piece.at + piece.length) {
-            let (middle, cell) = (piece.xi(at), 1.0 / f64::from(CELLS));
-            let around = ((middle - cell).max(0.0), (middle + cell).min(1.0));
-            let y = |xi: f64| sign * legendre::value(&piece.deflection, xi);
-            let found = extremum::largest_without_slope(y, around, 2, SECTIONS);
-            if found.value > best.1 {
-                best = (piece.at + piece.length * found.at, found.value);
-            }
-        }
-        best
+            best
+        })
     }
 
     /// With the largest |y| at +1.

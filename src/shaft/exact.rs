@@ -1,7 +1,7 @@
 //! Critical speeds, deflection and response by unit loads: Birger's equation as an eigenproblem of forces.
 //!
 //! The masses of the bent shaft make loads ω² W y; a load basis of Legendre polynomials on every panel, with the forces and
-//! couples of the discs, has the columns S of [`super::columns`]. Then
+//! couples of the discs, has the columns S of `columns`. Then
 //!
 //! ```text
 //! W = diag   ρA of a line of force, g ρJ of couples (Timoshenko only), m of a disc's force, I_t − γ I_p of its couple
@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Negative W (forward whirl) is right and stays; negative eigenvalues are no critical speeds. Nothing is discretised but the
-//! load, whose series converges like that of an entire function: see [`GUARD`].
+//! load, whose series converges like that of an entire function: see `GUARD`.
 
 use super::columns::{Column, Frame, Source};
 use super::curve::Curve;
@@ -171,7 +171,7 @@ impl Problem {
         let gram = weights.iter().all(|weight| *weight >= 0.0) && weights.len() <= frame.inner();
         let rooted = gram.then(|| weighted(&s, &weights, f64::sqrt));
         let symmetric = match &rooted {
-            Some(rooted) => rooted.tr_mul(rooted),
+            Some(rooted) => rooted.transpose() * rooted,
             None => weighted(&s, &weights, |weight| weight) * s.transpose(),
         };
         let spectrum = Spectrum::new(&symmetric).ok_or(ShaftError::Range)?;

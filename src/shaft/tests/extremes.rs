@@ -186,3 +186,29 @@ fn one_heavy_panel_among_many() {
 fn massless_of(diameter: f64) -> Segment {
     Segment { density: 0.0, ..steel(0.05, diameter) }
 }
+
+/// A third support so soft that it is none, or so stiff that it is rigid; and whichever two hold the shaft first.
+#[test]
+fn a_third_support_from_nothing_to_rigid() {
+    let of = |middle: Option<f64>| {
+        let supports = vec![rigid(&[0.0])[0], Support { at: 0.4, stiffness: middle }, springs(&[1.0], 1e8)[0]];
+        speeds(&uniform(supports, Beam::Timoshenko), Whirl::Forward, 2)
+    };
+    let two = vec![rigid(&[0.0])[0], springs(&[1.0], 1e8)[0]];
+    let two = speeds(&uniform(two, Beam::Timoshenko), Whirl::Forward, 2);
+    // The bent shaft has 7e5 N/m in the middle, against 1e-3 and 1e17.
+    for (a, b) in of(Some(1e-3)).iter().zip(&two) {
+        close(*a, *b, 1e-8);
+    }
+    for (a, b) in of(Some(1e17)).iter().zip(of(None)) {
+        close(*a, b, 1e-9);
+    }
+    // Rigid ones at 0 and 0.4, a breath of a spring at the far end: an overhang.
+    let breath = |far: &[Support]| {
+        let supports = [rigid(&[0.0, 0.4]), far.to_vec()].concat();
+        speeds(&uniform(supports, Beam::Euler), Whirl::Planar, 2)
+    };
+    for (a, b) in breath(&springs(&[1.0], 1e-4)).iter().zip(breath(&[])) {
+        close(*a, b, 1e-8);
+    }
+}

@@ -349,3 +349,30 @@ fn sections_steps_and_mass_are_those_of_the_segments() {
     let stiffer = uniform(springs(&[0.0, 1.0], 1e3), Beam::Euler).with_stiffness(1e7).expect("in order");
     runs(&stiffer, Whirl::Planar, &[5_413.510_214_810_984], 1e-11);
 }
+
+/// A, J and κ of a tube: the difference of two circles, and Cowper's limits 6(1 + ν)/(7 + 6ν) and 2(1 + ν)/(4 + 3ν).
+#[test]
+fn the_section_of_a_tube() {
+    let tube = Segment { bore: 0.03, ..steel(1.0, 0.05) };
+    let circle = |d: f64| (0.25 * PI * d * d, PI * d.powi(4) / 64.0);
+    close(tube.area(), circle(0.05).0 - circle(0.03).0, 1e-14);
+    close(tube.second_moment(), circle(0.05).1 - circle(0.03).1, 1e-14);
+    close(steel(1.0, 0.05).shear_coefficient(), 6.0 * 1.3 / (7.0 + 6.0 * 0.3), 1e-15);
+    let thin = Segment { bore: 0.05 * (1.0 - 1e-9), ..tube };
+    close(thin.shear_coefficient(), 2.0 * 1.3 / (4.0 + 3.0 * 0.3), 1e-9);
+    close(tube.shear_modulus(), 210e9 / 2.6, 1e-15);
+}
+
+/// Crests that differ little hide between samples; the largest of all is 1, wherever it is.
+#[test]
+fn no_place_of_a_mode_is_beyond_one() {
+    each(12, true, |shaft, _| {
+        for mode in found(shaft, Whirl::Planar, 6).modes {
+            let places = (0..=4000_u32).map(|k| shaft.length() * f64::from(k) / 4000.0);
+            let most = places.map(|x| mode.shape.at(x)[0].abs()).fold(0.0, f64::max);
+            // A thousandth of a wave between the samples.
+            assert!(most <= 1.0 + 1e-12 && most > 1.0 - 1e-3, "{most}");
+            close(mode.shape.largest().1, 1.0, 1e-12);
+        }
+    });
+}
