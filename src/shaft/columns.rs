@@ -118,7 +118,9 @@ impl Frame {
             self.relieve(&mut column);
             let norm = self.dot(&column, &column).sqrt();
             if norm > 0.0 {
-                column.iter_mut().for_each(|entry| *entry /= norm);
+                for entry in &mut column {
+                    *entry /= norm;
+                }
                 self.redundant.push(column);
             }
         }

@@ -9,8 +9,11 @@ const CELLS: u32 = 24;
 /// Golden sections from two cells, a twelfth of a panel, to where a flat top is level to rounding: 0.618³⁰/12 = 5e-8 of it.
 const SECTIONS: u32 = 30;
 
-/// Two extremes this near in size are equal, and the left one gives the sign: those of an antisymmetric mode differ by
-/// rounding only, and the sign of its curve must not.
+/// What two samples may hide of a crest between them, of its height: 1 − cos ¼ = 0.03 of a wave of half a radian in a cell.
+const HIDDEN: f64 = 0.1;
+
+/// Crests up and down that differ by less than this part are equal: those of an antisymmetric mode differ by rounding, which must
+/// not give its curve a sign.
 const EQUAL: f64 = 1e-9;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +27,21 @@ pub(super) struct Piece {
 }
 
 impl Piece {
+    /// y at the ends of the cells.
+    fn samples(&self) -> Vec<f64> {
+        (0..=CELLS).map(|cell| legendre::value(&self.deflection, f64::from(cell) / f64::from(CELLS))).collect()
+    }
+
+    /// Where sign · y is highest in the cells beside the end of one, m, and its height.
+    fn crest(&self, cell: usize, sign: f64) -> (f64, f64) {
+        let width = 1.0 / f64::from(CELLS);
+        let middle = width * u32::try_from(cell).map_or(0.0, f64::from);
+        let around = ((middle - width).max(0.0), (middle + width).min(1.0));
+        let y = |xi: f64| sign * legendre::value(&self.deflection, xi);
+        let found = extremum::largest_without_slope(y, around, 2, SECTIONS);
+        (self.at + self.length * found.at, found.value)
+    }
+
     fn xi(&self, x: f64) -> f64 {
         ((x - self.at) / self.length).clamp(0.0, 1.0)
     }
@@ -56,30 +74,44 @@ impl Curve {
         })
     }
 
-    /// Where |y| is largest, m, and y there: of two extremes that differ by rounding only, the left one.
+    /// Where |y| is largest, m, and y there; where both sides reach equally far, the side to which the left end goes.
     #[must_use]
     pub fn largest(&self) -> (f64, f64) {
-        let (up, down) = (self.highest(1.0), self.highest(-1.0));
-        let nearly = (up.1 - down.1).abs() <= EQUAL * up.1.max(down.1);
-        let is_up = if nearly { up.0 <= down.0 } else { up.1 > down.1 };
+        let [up, down] = self.crests();
+        let size = up.1.max(down.1);
+        let [end, turn] = self.at(0.0);
+        let is_up = if (up.1 - down.1).abs() > EQUAL * size {
+            up.1 > down.1
+        } else if end.abs() > EQUAL * size {
+            end > 0.0
+        } else {
+            turn >= 0.0
+        };
         if is_up { up } else { (down.0, -down.1) }
     }
 
-    /// Where sign · y is largest, m, and its value there.
-    fn highest(&self, sign: f64) -> (f64, f64) {
-        let mut best = (0.0, f64::NEG_INFINITY);
-        for piece in &self.pieces {
-            // |P_k| ≤ 1: the coefficients bound the piece, and most are never searched.
-            let bound: f64 = piece.deflection.iter().map(|c| c.abs()).sum();
-            if bound > best.1 {
-                let height = |xi: f64| sign * legendre::value(&piece.deflection, xi);
-                let found = extremum::largest_without_slope(height, (0.0, 1.0), CELLS, SECTIONS);
-                if found.value > best.1 {
-                    best = (piece.at + piece.length * found.at, found.value);
+    /// Where y is highest and where it is lowest, m, with the heights; up and down.
+    fn crests(&self) -> [(f64, f64); 2] {
+        let samples: Vec<Vec<f64>> = self.pieces.iter().map(Piece::samples).collect();
+        [1.0, -1.0].map(|sign| {
+            let highest = samples.iter().flatten().fold(f64::NEG_INFINITY, |most, y| most.max(sign * y));
+            // A crest between two samples: any that can reach the highest is looked at.
+            let least = highest - HIDDEN * highest.abs();
+            let mut best = (0.0, f64::NEG_INFINITY);
+            for (piece, samples) in self.pieces.iter().zip(&samples) {
+                let height = |cell: usize| samples.get(cell).map_or(f64::NEG_INFINITY, |y| sign * y);
+                let tops = (0..samples.len()).filter(|cell| {
+                    let here = height(*cell);
+                    here >= least && here >= height(cell.wrapping_sub(1)) && here >= height(cell + 1)
+                });
+                for found in tops.map(|cell| piece.crest(cell, sign)) {
+                    if found.1 > best.1 {
+                        best = found;
+                    }
                 }
             }
-        }
-        best
+            best
+        })
     }
 
     /// With the largest |y| at +1.

@@ -1,6 +1,6 @@
 //! Why a shaft is refused or has no answer, with what would pass.
 
-use super::{LEAST_DISTANCE, MOST_ORDER, MOST_PANELS, MOST_RATIO, MOST_STATIONS};
+use super::{LEAST_DISTANCE, MOST_MODES, MOST_ORDER, MOST_PANELS, MOST_RATIO, MOST_STATIONS};
 
 /// A part of a shaft, for a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -169,6 +169,18 @@ pub enum ShaftError {
     /// The numbers of the shaft are beyond those of a computer.
     #[error("the numbers of the shaft leave the range of the arithmetic: check its units")]
     Range,
+    /// So many modes are no question of a shaft.
+    #[error("{asked} modes: at most {MOST_MODES}")]
+    Modes {
+        /// Found.
+        asked: usize,
+    },
+    /// The shaft would hold more waves than a mode below the wall.
+    #[error("{speed} rad/s is far above every critical speed that is told: the response is lost in rounding")]
+    TooFast {
+        /// rad/s.
+        speed: f64,
+    },
     /// At a critical speed the steady response is without bound.
     #[error("{speed} rad/s is a critical speed: the steady response has no bound there")]
     Resonance {

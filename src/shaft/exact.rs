@@ -1,7 +1,7 @@
 //! Critical speeds, deflection and response by unit loads: Birger's equation as an eigenproblem of forces.
 //!
 //! The masses of the bent shaft make loads ω² W y; a load basis of Legendre polynomials on every panel, with the forces and
-//! couples of the discs, has the columns S of [`super::columns`]. Then
+//! couples of the discs, has the columns S of `columns`. Then
 //!
 //! ```text
 //! W = diag   ρA of a line of force, g ρJ of couples (Timoshenko only), m of a disc's force, I_t − γ I_p of its couple
@@ -11,28 +11,26 @@
 //! ```
 //!
 //! Negative W (forward whirl) is right and stays; negative eigenvalues are no critical speeds. Nothing is discretised but the
-//! load, whose series converges like that of an entire function: see [`GUARD`].
+//! load, whose series converges like that of an entire function: see `GUARD`.
 
 use super::columns::{Column, Frame, Source};
 use super::curve::Curve;
+use super::eigen::Spectrum;
 use super::panels::Panels;
-use super::{Beam, MOST_ORDER, MOST_RATIO, Part, Shaft, ShaftError, Whirl, valid};
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use super::{Beam, MOST_MODES, MOST_ORDER, MOST_RATIO, Part, Shaft, ShaftError, Whirl, valid};
+use nalgebra::{DMatrix, DVector};
 
 /// Order beyond the largest wave of a panel, z rad: order ⌈z⌉ + 6 leaves 2e-14 of a speed, + 4 1e-10, + 2 1e-6 (measured).
 const GUARD: usize = 6;
 
-/// The order tried first: it carries two radians, which most panels of a shaft with steps do not reach.
-const FIRST_ORDER: usize = 8;
+/// The order tried first, to see the waves, where there are panels enough: it tells a speed to a few per cent.
+const LEAST_ORDER: usize = 2;
 
 /// A panel with more of a wave, rad, is cut: two orders of half the size are cheaper than one, and better conditioned.
 const MOST_WAVES: f64 = 12.0;
 
 /// Below this part of the largest eigenvalue is rounding and no mode: some hundred times ε.
 const NOTHING: f64 = 1e-13;
-
-/// Rotations of the eigenvalue iteration, for each row; it takes about two.
-const ROTATIONS: usize = 100;
 
 /// A critical speed and how the shaft bends at it.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,59 +60,54 @@ pub struct Modes {
 /// # Errors
 /// A mode that does not exist or is lost in rounding, no mass, an order out of range: [`ShaftError`].
 pub fn modes(shaft: &Shaft, whirl: Whirl, count: usize, order: Option<usize>) -> Result<Modes, ShaftError> {
-    let panels = Panels::new(shaft, &[]);
+    if count > MOST_MODES {
+        return Err(ShaftError::Modes { asked: count });
+    }
+    let mut panels = Panels::new(shaft, &[]);
     if let Some(order) = order {
         if !(1..=MOST_ORDER).contains(&order) {
             return Err(ShaftError::Order { order });
         }
-        let frame = Frame::new(shaft, panels, order);
-        return told(&frame, &eigen(shaft, &frame, whirl)?, count, shaft);
+        return Problem::new(shaft, panels, order, whirl)?.told(count, shaft);
     }
-    // The j-th mode of one uniform panel holds about j half waves.
-    let expected = f64::from(u32::try_from(count).unwrap_or(u32::MAX)).min(MODES_OF_A_PANEL) * std::f64::consts::PI;
-    let first = FIRST_ORDER.max(if panels.panels.len() < count { GUARD + upward(expected.min(MOST_WAVES)) } else { 0 });
-    let (mut panels, mut order) = (panels, first);
+    let heavy = panels.panels.iter().filter(|panel| panel.mass > 0.0).count();
+    let mut order = first_order(heavy, count);
     for _ in 0..REFINEMENTS {
-        let frame = Frame::new(shaft, panels.clone(), order);
-        let found = eigen(shaft, &frame, whirl)?;
-        // Too few modes of too coarse a load: the highest there is tells where to go.
-        let highest = found.values.get(count.saturating_sub(1)).or(found.values.last());
-        let omega = highest.map_or(0.0, |value| 1.0 / value.max(found.wall()).sqrt());
-        let cut = panels.clone().cut_to(omega, MOST_WAVES);
-        let wanted = GUARD + upward(cut.waves(omega));
+        let problem = Problem::new(shaft, panels.clone(), order, whirl)?;
+        // A coarse load puts the highest modes too high, by any factor: then more of it comes before more panels.
+        let Some(cut) = panels.cut_to(problem.highest(count), MOST_WAVES) else {
+            order = MOST_ORDER;
+            continue;
+        };
+        let wanted = carrying(cut.waves(problem.highest(count)));
         if wanted <= order && cut.panels.len() == panels.panels.len() {
-            return told(&frame, &found, count, shaft);
+            return problem.told(count, shaft);
         }
-        (panels, order) = (cut, wanted.max(FIRST_ORDER));
+        (panels, order) = (cut, wanted.max(order));
     }
-    let frame = Frame::new(shaft, panels, order);
-    told(&frame, &eigen(shaft, &frame, whirl)?, count, shaft)
+    Err(ShaftError::ModeTooHigh { mode: count.max(1) })
 }
 
-/// Solutions before the last. The first tells the waves to a few per cent, the second to rounding.
-const REFINEMENTS: usize = 4;
+/// Solutions at most. The first tells the waves to a few per cent, the second to rounding; a third comes where the first was so
+/// coarse that it saw fewer.
+const REFINEMENTS: usize = 8;
 
-/// Modes of one panel below the wall of [`MOST_RATIO`], ω_j ~ j².
-const MODES_OF_A_PANEL: f64 = 100.0;
+/// The order of the first solution: as much as carries `count` half waves on so many panels alike, each with mass.
+fn first_order(panels: usize, count: usize) -> usize {
+    match panels {
+        0 => 0,
+        _ => (LEAST_ORDER..MOST_ORDER).find(|order| order * panels >= 4 * count).unwrap_or(MOST_ORDER),
+    }
+}
+
+/// The order that carries so much of a wave, rad, to rounding; none is wanted where nothing has mass.
+fn carrying(waves: f64) -> usize {
+    if waves > 0.0 { GUARD + upward(waves) } else { 0 }
+}
 
 /// ⌈x⌉ as a count.
 fn upward(x: f64) -> usize {
     (0..=64_u32).find(|n| f64::from(*n) >= x).map_or(64, |n| n as usize)
-}
-
-/// The positive eigenvalues 1/ω², falling, each with its internal forces.
-struct Eigen {
-    values: Vec<f64>,
-    forces: Vec<Column>,
-    /// The largest of all sizes, also of the negative ones: what rounding is measured by.
-    size: f64,
-}
-
-impl Eigen {
-    /// The smallest eigenvalue that is told.
-    fn wall(&self) -> f64 {
-        self.size / (MOST_RATIO * MOST_RATIO)
-    }
 }
 
 /// The loads that masses make, each with what makes it; none without.
@@ -158,50 +151,69 @@ fn weighted(matrix: &DMatrix<f64>, weights: &[f64], of: impl Fn(f64) -> f64) -> 
     scaled
 }
 
-fn eigen(shaft: &Shaft, frame: &Frame, whirl: Whirl) -> Result<Eigen, ShaftError> {
-    let (s, weights) = matrix(shaft, frame, whirl);
-    if weights.is_empty() {
-        return Err(ShaftError::NoMass);
-    }
-    let gram = weights.iter().all(|weight| *weight >= 0.0) && weights.len() <= frame.inner();
-    let rooted = weighted(&s, &weights, f64::sqrt);
-    let symmetric = if gram { rooted.tr_mul(&rooted) } else { weighted(&s, &weights, |w| w) * s.transpose() };
-    if !symmetric.iter().all(|entry| entry.is_finite()) {
-        return Err(ShaftError::Range);
-    }
-    let rotations = ROTATIONS * symmetric.nrows();
-    let found = SymmetricEigen::try_new(symmetric, f64::EPSILON, rotations).ok_or(ShaftError::Range)?;
-    let size = found.eigenvalues.amax();
-    let mut order: Vec<(usize, f64)> = found.eigenvalues.iter().copied().enumerate().collect();
-    order.retain(|(_, value)| *value > NOTHING * size);
-    order.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let forces = |(index, _): &(usize, f64)| {
-        let vector = found.eigenvectors.column(*index);
-        if gram { (&rooted * vector).iter().copied().collect() } else { vector.iter().copied().collect() }
-    };
-    let forces: Vec<Column> = order.iter().map(forces).collect();
-    Ok(Eigen { values: order.into_iter().map(|(_, value)| value).collect(), forces, size })
+/// The eigenproblem of one set of loads.
+struct Problem {
+    frame: Frame,
+    spectrum: Spectrum,
+    /// S √W where the eigenvalues are those of √W SᵀS √W.
+    rooted: Option<DMatrix<f64>>,
+    /// The largest size of an eigenvalue, also of the negative ones: what rounding is measured by.
+    size: f64,
 }
 
-/// The first modes, or why there are not so many.
-fn told(frame: &Frame, found: &Eigen, count: usize, shaft: &Shaft) -> Result<Modes, ShaftError> {
-    if found.values.is_empty() {
-        return Err(ShaftError::NoMass);
+impl Problem {
+    fn new(shaft: &Shaft, panels: Panels, order: usize, whirl: Whirl) -> Result<Self, ShaftError> {
+        let frame = Frame::new(shaft, panels, order);
+        let (s, weights) = matrix(shaft, &frame, whirl);
+        if s.iter().all(|entry| *entry == 0.0) {
+            return Err(ShaftError::NoMass);
+        }
+        let gram = weights.iter().all(|weight| *weight >= 0.0) && weights.len() <= frame.inner();
+        let rooted = gram.then(|| weighted(&s, &weights, f64::sqrt));
+        let symmetric = match &rooted {
+            Some(rooted) => rooted.transpose() * rooted,
+            None => weighted(&s, &weights, |weight| weight) * s.transpose(),
+        };
+        let spectrum = Spectrum::new(&symmetric).ok_or(ShaftError::Range)?;
+        let size = spectrum.size();
+        Ok(Self { frame, spectrum, rooted, size })
     }
-    let sure = found.values.iter().filter(|value| **value >= found.wall()).count();
-    if sure < count {
-        // A shaft with a mass of its own has modes without end; one without has those of its discs.
-        let endless = shaft.segments().iter().any(|segment| segment.density > 0.0);
-        return Err(if endless || sure < found.values.len() {
-            ShaftError::ModeTooHigh { mode: sure + 1 }
-        } else {
-            ShaftError::NoSuchMode { asked: count, exist: sure }
+
+    /// The smallest eigenvalue that is told.
+    fn wall(&self) -> f64 {
+        self.size / (MOST_RATIO * MOST_RATIO)
+    }
+
+    /// ω of the highest of so many modes, or of the highest there is; never above the wall.
+    fn highest(&self, count: usize) -> f64 {
+        self.spectrum.last_of(count, self.wall()).map_or(0.0, |value| 1.0 / value.sqrt())
+    }
+
+    /// The first modes, or why there are not so many.
+    fn told(&self, count: usize, shaft: &Shaft) -> Result<Modes, ShaftError> {
+        let values = self.spectrum.largest(count, self.wall());
+        if values.len() < count {
+            let exist = self.spectrum.largest(count, NOTHING * self.size).len();
+            // A shaft with a mass of its own has modes without end; one without has those of its discs.
+            let endless = shaft.segments().iter().any(|segment| segment.density > 0.0);
+            return Err(if endless || values.len() < exist {
+                ShaftError::ModeTooHigh { mode: values.len() + 1 }
+            } else if exist == 0 {
+                ShaftError::NoMass
+            } else {
+                ShaftError::NoSuchMode { asked: count, exist }
+            });
+        }
+        let vectors = self.spectrum.vectors(&values).into_iter();
+        let modes = values.iter().zip(vectors).map(|(value, vector)| {
+            let forces = match &self.rooted {
+                Some(rooted) => rooted * vector,
+                None => vector,
+            };
+            Mode { speed: 1.0 / value.sqrt(), shape: self.frame.curve(forces.as_slice()).normalized() }
         });
+        Ok(Modes { modes: modes.collect(), order: self.frame.order(), panels: self.frame.panels.panels.len() })
     }
-    let mode =
-        |(value, forces): (&f64, &Column)| Mode { speed: 1.0 / value.sqrt(), shape: frame.curve(forces).normalized() };
-    let modes = found.values.iter().zip(&found.forces).take(count).map(mode).collect();
-    Ok(Modes { modes, order: frame.order(), panels: frame.panels.panels.len() })
 }
 
 /// The shaft under 1 N at one place, at rest.
@@ -274,8 +286,8 @@ pub fn response(shaft: &Shaft, speed: f64) -> Result<Response, ShaftError> {
     if !(speed >= 0.0 && speed.is_finite()) {
         return Err(ShaftError::Negative { part: Part::Asked, index: 0, name: "speed", value: speed });
     }
-    let panels = Panels::new(shaft, &[]).cut_to(speed, MOST_WAVES);
-    let order = (GUARD + upward(panels.waves(speed))).max(FIRST_ORDER);
+    let panels = Panels::new(shaft, &[]).cut_to(speed, MOST_WAVES).ok_or(ShaftError::TooFast { speed })?;
+    let order = carrying(panels.waves(speed));
     let frame = Frame::new(shaft, panels, order);
     let (square, inner) = (speed * speed, frame.inner());
     let made: Vec<(Column, f64)> = loads(shaft, &frame.panels, order, Whirl::Forward)

@@ -31,6 +31,7 @@
 
 mod columns;
 mod curve;
+mod eigen;
 mod error;
 pub mod exact;
 mod legendre;
@@ -47,17 +48,21 @@ use std::f64::consts::PI;
 /// Two supports must be further apart than this, m: nearer, they clamp, with a stiffness that is rounding.
 pub const LEAST_DISTANCE: f64 = 1e-6;
 
-/// Panels of a shaft: its steps, supports and discs cut it. Fifty take about a second.
+/// Panels of a shaft: its steps, supports and discs cut it. Fifty, Timoshenko, forward, take 0.3 s.
 pub const MOST_PANELS: usize = 50;
+
+/// Modes asked for at once: the thirtieth of a uniform beam stands at 900 times the first, and every twenty cost a cut.
+pub const MOST_MODES: usize = 30;
 
 /// The highest order of the load polynomials that may be fixed.
 pub const MOST_ORDER: usize = 24;
 
-/// ω_j/ω_1 of the highest mode that is told: the relative error of 1/ω_j² is ε (ω_j/ω_1)², 2e-8 there.
+/// ω_j/ω_1 of the highest mode that is told: the relative error of 1/ω_j² is ε (ω_j/ω_1)², 2e-8 there. Where a thin disc in forward
+/// whirl makes a negative 1/ω² larger than the first, that one takes the place of ω_1.
 pub const MOST_RATIO: f64 = 1e4;
 
-/// Stations of the paper's method: at 18 000 the error of the trapezoid is 1e-8, past a million rounding has won.
-pub const MOST_STATIONS: usize = 1_000_000;
+/// Stations of the paper's method: at 18 000 its error is 1e-8, and it takes longer than the exact one.
+pub const MOST_STATIONS: usize = 100_000;
 
 /// A length of one section and material.
 #[derive(Debug, Clone, Copy, PartialEq)]

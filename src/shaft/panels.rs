@@ -117,14 +117,21 @@ impl Panels {
         self.panels.iter().map(|panel| panel.waves(omega)).fold(0.0, f64::max)
     }
 
-    /// With every panel that holds more than `most` rad of a wave of ω cut into as many equal pieces as it needs.
-    pub(super) fn cut_to(self, omega: f64, most: f64) -> Self {
-        let count = |panel: &Panel| (1..MOST_PIECES).find(|n| panel.waves(omega) <= most * f64::from(*n));
-        let pieces = |panel: Panel| panel.pieces(count(&panel).unwrap_or(MOST_PIECES));
-        Self::of(self.panels.into_iter().flat_map(pieces).collect())
+    /// With every panel that holds more than `most` rad of a wave of ω cut into as many equal pieces as it needs; `None` if
+    /// that makes more than [`MOST_CUT`].
+    pub(super) fn cut_to(&self, omega: f64, most: f64) -> Option<Self> {
+        let mut pieces = Vec::with_capacity(self.panels.len());
+        for panel in &self.panels {
+            let waves = panel.waves(omega);
+            let count = (1..=MOST_CUT).find(|n| waves <= most * f64::from(*n))?;
+            pieces.extend(panel.pieces(count));
+            if pieces.len() > MOST_CUT as usize {
+                return None;
+            }
+        }
+        Some(Self::of(pieces))
     }
 }
 
-/// Pieces of one panel. A mode below the wall of 10⁴ ω_1 holds some 100 half waves, which 27 pieces of 12 rad carry; a
-/// limit is wanted only against a speed of response that no shaft turns at.
-const MOST_PIECES: u32 = 64;
+/// Panels with those that are cut for the waves they hold: twice as many as a shaft may have of itself.
+const MOST_CUT: u32 = 100;

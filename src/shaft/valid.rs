@@ -55,7 +55,10 @@ fn check_segment(index: usize, segment: &Segment) -> Result<(), ShaftError> {
     if !(poisson > -1.0 && poisson <= 0.5) {
         return Err(ShaftError::Poisson { index, value: poisson });
     }
-    Ok(())
+    // The fourth power of a diameter in the wrong unit overflows; a bore next to the diameter leaves an area of 0.
+    let made = [segment.second_moment(), segment.second_moment() * modulus, segment.area(), segment.mass()];
+    let fits = made.iter().take(3).all(|value| *value > 0.0) && made.iter().all(|value| value.is_finite());
+    if fits { Ok(()) } else { Err(ShaftError::Range) }
 }
 
 fn check_support(index: usize, support: &Support, length: f64) -> Result<(), ShaftError> {
