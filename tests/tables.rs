@@ -14,7 +14,7 @@ use camgen::buffer::regime::Reset;
 use camgen::document::Key;
 use camgen::document::Presence::Required;
 use camgen::follower::{FOLLOWERS, FollowerKind};
-use camgen::machine::{DriveMachine, Machine};
+use camgen::machine::{DriveMachine, Machine, ShaftMachine};
 use camgen::motion::equation_18::{ExactOn, Solver};
 use camgen::motion::laws::LAWS;
 use camgen::pipeline::{Cam, Error, Judged, Spec, Writing};
@@ -152,6 +152,11 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
             let six_bar = Machine::load("dpi-six-bar", &[]).expect("valid").0;
             analysis::linkage::analysis(&six_bar, 35.0, None).expect("a linkage")
         }
+        "shaft" => {
+            let shaft = ShaftMachine::load("dpi-shaft", &[]).expect("valid").0;
+            let asked = analysis::shaft::Asked { sweep: Some((1e8, 1e9)), ..Default::default() };
+            analysis::shaft::analysis(&shaft, &asked).expect("a shaft")
+        }
         other => panic!("no analysis of the kind {other} here"),
     };
     assert_eq!(found.kind, kind);
@@ -243,7 +248,8 @@ fn every_check_is_run_for_some_cam() {
     let drive = analysis::drive::analysis(&drive, analysis::drive::Solver::Energy, 0.1).expect("it closes");
     let six_bar = Machine::load("dpi-six-bar", &[]).expect("valid").0;
     let linkage = analysis::linkage::analysis(&six_bar, 35.0, None).expect("a linkage");
-    reports.extend([regimes, drive, linkage].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
+    let shaft = analysis_of(&analysis::shaft::KIND);
+    reports.extend([regimes, drive, linkage, shaft].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
     for kind in KINDS {
         let crowned = ["follower.roller.crown=cylinder", "follower.roller.width=20mm", "cam.balance=40mm .. 85mm"];
         let cam = cam_of(kind, &crowned);

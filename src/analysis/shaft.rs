@@ -291,12 +291,15 @@ fn words(found: &Found<'_>, told: &Figures) -> Vec<String> {
         ));
     }
     if let Some(compliance) = told.compliance_um_per_kn {
-        lines.push(format!("compliance at the cam {compliance:.4} µm/kN"));
+        let place = if found.carried.is_some() { "the cam" } else { "shaft.cam_at" };
+        lines.push(format!("compliance at {place} {compliance:.4} µm/kN"));
     }
     if let Some(under) = &found.under {
         lines.push(under.words());
     }
-    lines.push(found.unbalanced.words());
+    if told.unbalance_g_mm > 0.0 {
+        lines.push(found.unbalanced.words());
+    }
     lines
 }
 

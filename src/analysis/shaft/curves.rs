@@ -33,7 +33,7 @@ pub(super) fn plot(found: &Found<'_>, sweep: Option<&[Row]>) -> Plot {
             let points = rows.iter().map(|(cam_deg, lowered)| [*cam_deg, MILLIMETRES * value(lowered)]).collect();
             curve(name.to_owned(), colour, points)
         };
-        let mut curves = vec![of("in all", 0, |lowered| lowered.error())];
+        let mut curves = vec![of("in all", 0, crate::body::disc::Lowered::error)];
         if under.shaft_twist.is_some() {
             curves.extend([of("bending", 1, |lowered| lowered.bending), of("twist", 2, |lowered| lowered.twist)]);
         }
@@ -41,7 +41,7 @@ pub(super) fn plot(found: &Found<'_>, sweep: Option<&[Row]>) -> Plot {
     }));
     own.extend(sweep.map(|rows| ("stiffness of the supports, MN/m".to_owned(), over_stiffness(found, rows))));
     Plot {
-        title: format!("{}: shaft", found.machine.name()),
+        title: format!("{}: shaft, critical speeds and deflection", found.machine.name()),
         places: "from the left end of the shaft, mm".into(),
         panels,
         own,
@@ -54,20 +54,18 @@ fn deflection(found: &Found<'_>, places: &[f64]) -> Option<Panel> {
     let statics = found.statics.as_ref()?;
     let force = found.under.as_ref().map_or(1e3, |under| under.there.force);
     let points = places.iter().map(|x| [MILLIMETRES * x, 1e6 * force * statics.curve.at(*x)[0]]).collect();
-    let name = format!("Deflection under {} N at the cam, µm", shown(force.round()));
+    let place = if found.carried.is_some() { "at the cam" } else { "at shaft.cam_at" };
+    let name = format!("Deflection under {} N {place}, µm", shown(force.round()));
     Some(Panel { name, curves: vec![curve("deflection".into(), 0, points)] })
 }
 
 fn over_stiffness(found: &Found<'_>, rows: &[Row]) -> Panel {
-    let count = rows.first().map_or(0, |row| row.speeds.len());
-    let of = |index: usize| {
-        let point = |row: &Row| Some([MEGA * row.stiffness, rpm(*row.speeds.get(index)?)]);
-        curve(format!("n{}", index + 1), index, rows.iter().filter_map(point).collect())
-    };
-    let mut curves: Vec<Curve> = (0..count).map(of).collect();
+    // The others would hide how the first one bends.
+    let point = |row: &Row| Some([MEGA * row.stiffness, rpm(*row.speeds.first()?)]);
+    let mut curves = vec![curve("n1".into(), 0, rows.iter().filter_map(point).collect())];
     if let (Some(rigid), Some(first), Some(last)) = (sweep::rigid(found), rows.first(), rows.last()) {
         let points = [first, last].map(|row| [MEGA * row.stiffness, rpm(rigid)]).to_vec();
         curves.push(Curve { name: "n1, rigid supports".into(), colour: plot::GREY, bold: false, points });
     }
-    Panel { name: "Critical speeds, rpm".into(), curves }
+    Panel { name: "First critical speed, rpm".into(), curves }
 }

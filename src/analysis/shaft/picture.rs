@@ -69,7 +69,7 @@ pub(super) fn scheme(found: &Found<'_>) -> Scheme {
 fn notes(found: &Found<'_>) -> Vec<String> {
     let support = |(support, letter): (&crate::shaft::Support, &str)| match support.stiffness {
         None => format!("{letter} rigid"),
-        Some(stiffness) => format!("{letter} {} N/m", shown(stiffness)),
+        Some(stiffness) => format!("{letter} {} MN/m", shown(1e-6 * stiffness)),
     };
     let all: Vec<String> = found.shaft.supports().iter().zip(LETTERS).map(support).collect();
     let mut notes = vec![format!("Supports: {}.", all.join(", "))];

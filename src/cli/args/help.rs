@@ -64,7 +64,7 @@ Examples:
 
 pub(super) const SHAFT: &str = "\
 Examples:
-  camgen shaft --sweep \"1e8 N/m .. 1e9 N/m\"
+  camgen shaft --sweep 1e8N/m..1e9N/m
       the embedded printing cylinder over the stiffness of its bearings, as tables and a plot
   camgen shaft dpi-shaft --rpm 35 --dry-run
       what the shaft takes off the lift of the cam of a press; only the report";

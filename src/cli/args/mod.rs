@@ -79,7 +79,7 @@ pub(super) enum Command {
     /// A crank-slider, or a six-bar whose drag link turns the crank of the slider unevenly.
     #[command(after_help = help::LINKAGE)]
     Linkage(LinkageArgs),
-    /// The shaft under a cam, or alone: critical speeds, deflection, lift error under load, unbalance
+    /// The shaft under a cam, or alone: critical speeds, lift error, unbalance
     ///
     /// What bending and twist of the shaft take off the lift, and the force that this leaves, for the cam of the file.
     #[command(after_help = help::SHAFT)]
