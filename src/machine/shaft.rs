@@ -405,6 +405,12 @@ impl ShaftMachine {
         &self.name
     }
 
+    /// The shaft, without the cam on it.
+    #[must_use]
+    pub fn shaft(&self) -> &Shaft {
+        &self.data.shaft
+    }
+
     /// The machine whose cam the shaft carries.
     #[must_use]
     pub fn machine(&self) -> Option<&Machine> {

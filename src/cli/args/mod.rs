@@ -241,6 +241,8 @@ pub(super) enum Checked {
 pub(super) enum CamKind {
     Rotary,
     Translating,
+    /// The first critical speed of a shaft, press-cylinder by default.
+    Shaft,
 }
 
 #[derive(Debug, Args)]
@@ -267,7 +269,7 @@ pub(super) struct TranslatingArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct TradeArgs {
-    /// Kind of cam: rotary or translating
+    /// Kind of cam: rotary or translating; or shaft: the first critical speed of the shaft of a file (by default press-cylinder)
     #[arg(default_value = "rotary", value_name = "KIND", ignore_case = true)]
     pub(super) kind: CamKind,
 

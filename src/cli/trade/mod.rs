@@ -1,6 +1,7 @@
 //! `camgen trade`: speed against accuracy, measured on the user's computer.
 
 mod settings;
+mod shaft;
 mod tell;
 
 use super::args::{CamKind, TradeArgs};
@@ -152,15 +153,18 @@ struct TradeReport<'a> {
 }
 
 pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
+    if args.kind == CamKind::Shaft {
+        return shaft::run(args);
+    }
     let (machine, name) = args.common.machine()?;
     let rpm = args.common.one_speed(&machine)?;
     let (laws, settings) = match args.kind {
-        CamKind::Rotary => settings::rotary(&machine, rpm)?,
         CamKind::Translating => settings::translating(&machine, rpm)?,
+        CamKind::Rotary | CamKind::Shaft => settings::rotary(&machine, rpm)?,
     };
     let kind = match args.kind {
-        CamKind::Rotary => "rotary",
         CamKind::Translating => "translating",
+        CamKind::Rotary | CamKind::Shaft => "rotary",
     };
     let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
     let output = |ending: &str, bytes: Vec<u8>| Output { name: format!("{stem}.{ending}"), bytes };
