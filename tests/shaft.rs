@@ -38,10 +38,10 @@ fn the_program_tells_the_known_figures() {
         told["critical_rpm"].as_array().expect("a list").iter().map(|n| n.as_f64().expect("a number")).collect()
     };
     for (args, known) in [
-        (&["--whirl", "planar", "--set", "shaft.beam=euler"][..], &[9618.040_174_964_64, 25_152.413_948_500_9][..]),
+        (&["--whirl", "planar", "--set", "shaft.beam=euler"][..], &[9_618.040_174_964_64, 25_152.413_948_500_9][..]),
         (&[&["--whirl", "planar", "--set", "shaft.beam=euler"][..], &rigid].concat(), &[13_585.076_737_683_1]),
-        (&[], &[9213.269_309_052_77]),
-        (&["--whirl", "planar"], &[9207.225_635_194_39]),
+        (&[], &[9_213.269_309_052_77]),
+        (&["--whirl", "planar"], &[9_207.225_635_194_39]),
         (&rigid, &[12_509.278_239_698_3]),
     ] {
         for (found, known) in list(args).into_iter().zip(known) {
@@ -49,8 +49,8 @@ fn the_program_tells_the_known_figures() {
         }
     }
     let paper = shaft(&["--solver", "paper", "--stations", "36"]);
-    close(paper["critical_rpm"][0].as_f64().expect("a number"), 9629.206_696_326, 1e-9);
-    close(number(&paper, "exact_rpm"), 9213.269_309_052_77, 1e-11);
+    close(paper["critical_rpm"][0].as_f64().expect("a number"), 9_629.206_696_326, 1e-9);
+    close(number(&paper, "exact_rpm"), 9_213.269_309_052_77, 1e-11);
 
     let press = shaft(&["dpi-shaft"]);
     close(number(&press, "lift_error_max_mm"), 0.451_425_296_233_18, 1e-10);

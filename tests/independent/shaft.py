@@ -1166,6 +1166,23 @@ def golden(binary, directory):
                             (dict(unbalance_g_mm=part["unbalance_g_mm"], deg=part["unbalance_deg"]), 264.575131106, 40.8933946)):
         wrong.close(told["unbalance_g_mm"], true, "golden unbalance", 1e-11)
         wrong.close(told["deg"], deg, "golden angle", 2e-9)
+    # Massless pieces beside heavy ones under forward whirl: no speed of 0, none left out, and no "no mass".
+    for segments, supports in [([(265, 59, 7850), (66, 37, 0)], [(10, 1e9), (205, 5e7)]),
+                               ([(252, 166, 7850), (195, 85, 7850), (282, 118, 0)], [(401, None), (630, 5e7)])]:
+        text = plain("timoshenko", segments, [(at, "rigid" if k is None else f"{k!r} N/m") for at, k in supports])
+        shaft = Shaft([Segment(X(length) / 1000, X(d) / 1000, X(0), 210e9, rho, 0.3) for length, d, rho in segments],
+                      [(X(at) / 1000, k) for at, k in supports], [])
+        for order in ("auto", *range(8, 15)):
+            report = ask(text, "--modes", 3, "--order", order)
+            if report:
+                judge_speeds(shaft, report["shaft"]["critical_rpm"], "forward", wrong, f"massless piece, order {order}, speed", 1e-6)
+    # A support where the lengths of the segments end, as a reader adds them.
+    tenths = [(0.1, 50, 7850), (0.2, 50, 7850), (0.3, 50, 7850), (100.1, 50, 7850), (60.7, 50, 7850)]
+    ends = str(round(sum(length for length, *_ in tenths), 6))
+    ask(plain("euler", tenths, [(0, "rigid"), (ends, "rigid")]), "--modes", 1)
+    for lengths in ([33.3, 33.3, 33.4], [74.1, 105.6, 96.3], [249.84, 109.14]):
+        total = f"{sum(round(100 * length) for length in lengths) / 100:.2f}"
+        ask(plain("euler", [(length, 50, 7850) for length in lengths], [(0, "rigid"), (total, "rigid")]), "--modes", 1)
     return wrong
 
 
