@@ -165,7 +165,7 @@ fn faults_of_a_shaft_have_a_place_and_a_remedy() {
     let text = fs::read_to_string("profiles/press-cylinder.toml").expect("a profile");
     let disc = "[[shaft.disc]]\nat = \"500 mm\"\n";
     for (more, told) in [
-        (format!("{disc}"), "neither a mass nor a size"),
+        (disc.to_owned(), "neither a mass nor a size"),
         (format!("{disc}mass = \"2 kg\"\nwidth = \"20 mm\"\n"), "a mass or a size, not both"),
         (
             format!("{disc}mass = \"2 kg\"\ndiametral_inertia = \"1 kg*m2\"\npolar_inertia = \"3 kg*m2\"\n"),

@@ -13,7 +13,7 @@ mod unbalanced;
 
 use super::{Analysis, Measure};
 use crate::body::Kind;
-use crate::body::disc::{Lowered, Yielding};
+use crate::body::{Lowered, Yielding};
 use crate::document::{Input, cams};
 use crate::machine::ShaftMachine;
 use crate::report::{Section, Speeds, shown};
@@ -57,10 +57,10 @@ pub enum Solver {
 }
 
 /// What is asked of a shaft.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Asked {
-    /// Speed of the main shaft, or of the shaft itself where it stands alone, rpm.
-    pub rpm: Option<f64>,
+    /// Speeds of the main shaft, or the one of the shaft itself where it stands alone, rpm; several are the sections of a conoid.
+    pub rpm: Vec<f64>,
     /// How many critical speeds, 1 to [`MOST_MODES`].
     pub modes: usize,
     /// How the shaft whirls.
@@ -78,7 +78,7 @@ pub struct Asked {
 impl Default for Asked {
     fn default() -> Self {
         Self {
-            rpm: None,
+            rpm: Vec::new(),
             modes: 3,
             whirl: Whirl::Forward,
             solver: Solver::Exact { order: None },
@@ -102,6 +102,9 @@ pub enum ShaftAnalysisError {
     /// The paper finds one critical speed.
     #[error("--solver paper finds the first critical speed only: leave out --modes, or use --solver exact")]
     OneMode,
+    /// A shaft alone turns at one speed.
+    #[error("several speeds are the sections of a conoid: this file describes no press, or no [conoid]")]
+    OneSpeed,
     /// There is nothing to sweep.
     #[error("--sweep gives elastic supports their stiffness, and every support of this shaft is rigid")]
     NoElasticSupport,
@@ -126,6 +129,8 @@ struct Figures {
     twist_mm: Option<f64>,
     residual_max_n: Option<f64>,
     residual_cam_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    sections: Vec<load::Section>,
     unbalance_g_mm: f64,
     unbalance_deg: f64,
     permissible_g_mm: Option<f64>,
@@ -176,11 +181,14 @@ fn word_of_beam(beam: Beam) -> &'static str {
 /// # Errors
 /// [`ShaftAnalysisError`] when there is no such cam, mode or shaft.
 pub fn analysis(machine: &ShaftMachine, asked: &Asked) -> Result<Analysis, ShaftAnalysisError> {
-    let carried = Carried::of(machine, asked.rpm)?;
+    let carried = Carried::of(machine, &asked.rpm)?;
+    if carried.is_none() && asked.rpm.len() > 1 {
+        return Err(ShaftAnalysisError::OneSpeed);
+    }
     let mut discs = machine.data.shaft.discs().to_vec();
     discs.extend(carried.as_ref().and_then(|carried| carried.disc));
     let shaft = machine.data.shaft.with_discs(discs)?;
-    let own = asked.rpm.map(|rpm| rpm * PI / 30.0);
+    let own = asked.rpm.first().map(|rpm| rpm * PI / 30.0);
     let speed = carried.as_ref().map_or(own, |carried| carried.speed);
     let spectrum = Spectrum::of(&shaft, asked)?;
     let statics = machine.data.cam_at.map(|at| Statics::new(&shaft, at)).transpose()?;
@@ -206,7 +214,7 @@ pub fn analysis(machine: &ShaftMachine, asked: &Asked) -> Result<Analysis, Shaft
         mechanism: None,
         document: None,
         tables,
-        by: &[],
+        by: if found.under.as_ref().is_some_and(Under::has_sections) { &["rpm"] } else { &[] },
         along: match (&found.under, asked.sweep) {
             (Some(_), _) => "cam_deg",
             (None, Some(_)) => "stiffness_n_per_m",
@@ -224,14 +232,20 @@ const NOT_MODELLED: &[&str] = &[
 
 /// A cam of a press is told for the speed of its main shaft.
 fn speed_of(found: &Found<'_>) -> Speeds {
-    let own = found.carried.as_ref().map_or(found.asked.rpm, |carried| carried.rpm);
-    own.map_or(Speeds::Any(()), Speeds::One)
+    let own = found.carried.as_ref().map_or(&found.asked.rpm, |carried| &carried.rpm);
+    match own.as_slice() {
+        [] => Speeds::Any(()),
+        [rpm] => Speeds::One(*rpm),
+        several => Speeds::Several(several.to_vec()),
+    }
 }
 
 fn inputs(machine: &ShaftMachine, asked: &Asked) -> Vec<Input> {
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs().iter().cloned());
-    inputs.extend(asked.rpm.map(|rpm| Input::number("rpm", rpm)));
+    if !asked.rpm.is_empty() {
+        inputs.push(Input::numbers("rpm", &asked.rpm));
+    }
     inputs.push(Input::word("asked", format!("{:?} {:?} {}", asked.whirl, asked.solver, asked.modes)));
     inputs.extend(asked.sweep.map(|(from, to)| Input::numbers("sweep", &[from, to, f64::from(asked.steps)])));
     inputs.push(Input::number("samples", f64::from(asked.samples)));
@@ -260,6 +274,7 @@ fn figures(found: &Found<'_>) -> Figures {
         twist_mm: worst.filter(|under| under.shaft_twist.is_some()).map(|under| 1e3 * under.there.twist),
         residual_max_n: worst.and_then(|under| under.residual).map(|worst| worst.value),
         residual_cam_deg: worst.and_then(|under| under.residual).map(|worst| worst.at.to_degrees()),
+        sections: worst.map_or_else(Vec::new, Under::told),
         unbalance_g_mm: found.unbalanced.g_mm,
         unbalance_deg: found.unbalanced.deg,
         permissible_g_mm: found.unbalanced.permissible_g_mm,
@@ -295,7 +310,7 @@ fn words(found: &Found<'_>, told: &Figures) -> Vec<String> {
         lines.push(format!("compliance at {place} {compliance:.4} µm/kN"));
     }
     if let Some(under) = &found.under {
-        lines.push(under.words());
+        lines.extend(under.words());
     }
     if told.unbalance_g_mm > 0.0 {
         lines.push(found.unbalanced.words());
@@ -310,7 +325,12 @@ fn notes(found: &Found<'_>) -> Vec<String> {
         notes.push("twist is not modelled: shaft.drive_at does not tell where the torque comes in".to_owned());
     }
     if carried.is_some_and(|carried| carried.disc.is_none()) {
-        notes.push("the cam is on the shaft without its mass: cam.thickness is not given".to_owned());
+        let why = if found.carried.as_ref().is_some_and(Carried::is_conoid) {
+            "that of a conoid is not taken"
+        } else {
+            "cam.thickness is not given"
+        };
+        notes.push(format!("the cam is on the shaft without its mass: {why}"));
     }
     if carried.is_some() && found.under.is_none() {
         notes.push("no lift error: neither a press nor a preload tells the force on the follower".to_owned());

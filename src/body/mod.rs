@@ -7,6 +7,7 @@ mod balance;
 pub mod balancing;
 pub mod conoid;
 pub mod disc;
+mod loaded;
 mod part;
 mod picture;
 pub mod points;
@@ -17,6 +18,7 @@ pub mod wedge;
 
 pub(crate) use balance::reversal_of_bed;
 pub use balance::{AsCut, Balance, USEFUL};
+pub use loaded::{Lowered, Yielding};
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
 pub use sheet::acceleration_as_cut;
 

@@ -96,7 +96,7 @@ pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
     };
     let usual = if args.solver == ShaftSolver::Paper { 1 } else { MODES };
     let asked = Asked {
-        rpm: args.rpm,
+        rpm: args.rpm.clone(),
         modes: args.modes.map_or(usual, usize::from),
         whirl: match args.whirl {
             WhirlOf::Forward => Whirl::Forward,

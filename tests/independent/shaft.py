@@ -5,8 +5,9 @@ exponential of its equations (Timoshenko or Euler, with rotary inertia and gyros
 each support an unknown force of its own; a speed is right where the determinant of what is left changes its sign, from one side of
 the told speed to the other, and none is left out because the assembled dynamic stiffness has as many negative eigenvalues as
 there are told speeds below (Wittrick and Williams; its pieces are too short to resonate by themselves). Deflections are the same
-integration at rest. The paper's method is programmed from its text. The lift lost is a bisection of its balance at every place, largest
-values by scanning and zooming in. The cam's own unbalance and inertia are integrated along the outline and the holes of its DXF.
+integration at rest. The paper's method is programmed from its text. The lift lost is Newton's root of its balance at every place, largest
+values by scanning and zooming in. The cam's own mass, unbalance and inertias are integrated along the exact profile of its law, less its
+bore and the holes that the DXF of the disc shows, and what that DXF draws must be the same within its tolerance.
 
 usage: shaft.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
@@ -36,8 +37,8 @@ STEPS = np.array([10.0**-k for k in range(14, 4, -1)], dtype=X)
 # A double loses (ω_j/ω_1)² of its rounding in the weakest of many modes; the rest came to 1e-12.
 SPEED = 1e-9
 CLOSE = 1e-10
-# Shapes keep half the digits of the order of the loads, and those of the speed times how near the next one is.
-SHAPE = 1e-6
+# Shapes have about half the digits of the speeds; 4e-6 was the worst of 700, of a fifth mode 1500 times the first.
+SHAPE = 1e-5
 PAPER = 1e-9
 PLACE = 3e-6
 
@@ -220,8 +221,7 @@ class Shaft:
             for at, mass, across, along in self.discs:
                 if self.node(at) == i:
                     z[:, 3] -= (X(mass) * l**3 / unit * squares)[:, None] * z[:, 0]
-                    if self.whole:
-                        z[:, 2] -= ((X(across) - gamma * X(along)) * l / unit * squares)[:, None] * z[:, 1]
+                    z[:, 2] -= ((X(across) - gamma * X(along)) * l / unit * squares)[:, None] * z[:, 1]
             for j, (at, stiffness) in enumerate(self.supports):
                 if self.node(at) == i:
                     row = z[:, 0].copy()
@@ -235,8 +235,6 @@ class Shaft:
             states.append(z.copy())
         rows += [z[:, 2], z[:, 3]]
         return np.stack(rows, axis=1), states
-
-    whole = True
 
     def signs(self, rpm, whirl):
         squares = (np.atleast_1d(np.asarray(rpm, dtype=X)) / RPM) ** 2
@@ -287,8 +285,7 @@ class Shaft:
         for place, mass, across, along in self.discs:
             i = 2 * where[self.node(place)]
             k[i, i] -= X(mass) * l**3 / unit * square
-            if self.whole:
-                k[i + 1, i + 1] -= (X(across) - gamma * X(along)) * l / unit * square
+            k[i + 1, i + 1] -= (X(across) - gamma * X(along)) * l / unit * square
         keep = [i for i in range(len(k)) if i not in fixed]
         k = k[np.ix_(keep, keep)]
         d = np.sqrt(np.abs(np.diag(k)))
@@ -301,8 +298,8 @@ class Shaft:
             k[i + 1 : end, i:end] -= (k[i + 1 : end, i] / k[i, i])[:, None] * k[i, i:end]
         return int(negative)
 
-    def states_at(self, states, x, upper, square, g):
-        """States at places, of one march already combined; upper tells to stand right of a node."""
+    def states_at(self, states, x, square, g):
+        """States at places, of one march already combined."""
         out = np.zeros((len(x), 4), dtype=X)
         index = np.clip(np.searchsorted(np.array(self.nodes), np.asarray(x, dtype=float), side="right") - 1, 0, len(self.panels) - 1)
         for i in set(index):
@@ -310,6 +307,18 @@ class Shaft:
             t = self.carry(self.panels[i], np.maximum(x[mine] - self.panels[i][0], 0), square, g)
             out[mine] = np.matmul(t, states[i][:, None])[:, :, 0]
         return out
+
+    def root(self, rpm, whirl, share):
+        """The critical speed near a told one, or that where there is none."""
+        low, high = X(rpm) * (1 - X(share)), X(rpm) * (1 + X(share))
+        for _ in range(9):
+            at = low + (high - low) * np.arange(33, dtype=X) / 32
+            s = self.signs(at, whirl)
+            turn = np.nonzero(s[1:] * s[:-1] <= 0)[0]
+            if not len(turn):
+                return X(rpm)
+            low, high = at[turn[0]], at[turn[0] + 1]
+        return (low + high) / 2
 
     def mode(self, rpm, whirl, x):
         """Deflections of the mode at places; largest 1. And whether another place comes within a hair of it."""
@@ -319,7 +328,7 @@ class Shaft:
         v = np.append(null_vector(conditions[0][:, :-1]), X(0))
         nodes = [s[0] @ v for s in states]
         fine = np.concatenate([p[0] + p[1] * np.arange(0, 41, dtype=X) / 40 for p in self.panels])
-        y = lambda at: self.states_at(nodes, np.atleast_1d(at), None, square, g)[:, 0]
+        y = lambda at: self.states_at(nodes, np.atleast_1d(at), square, g)[:, 0]
         values = y(fine)
         peaks = []
         for sense in (1, -1):
@@ -341,7 +350,7 @@ class Shaft:
         conditions, states = self.march(0, "planar", force)
         v = np.append(solve(conditions[0][:, :-1], -conditions[0][:, -1]), X(1))
         nodes = [s[0] @ v for s in states]
-        at = self.states_at(nodes, x, None, X(0), 1)
+        at = self.states_at(nodes, x, X(0), 1)
         slopes = [nodes[self.node(p)][1] for p, _ in self.supports]
         forces = [-v[2 + j] * self.unit / self.length**2 for j in range(len(self.supports))]
         return at[:, 0] * self.length, at[:, 1], nodes[self.node(force)][0] * self.length, slopes, forces
@@ -422,7 +431,7 @@ def judge_speeds(shaft, told, whirl, wrong, what="critical speed", bound=SPEED):
         good = np.nonzero(s[: len(STEPS)] * s[len(STEPS) :] < 0)[0]
         off = float(STEPS[good[0]]) if len(good) else 1.0
         # Weak modes keep less of a double.
-        allowed = max(bound, 1e-15 * float(n / told[0]) ** 2 * 10)
+        allowed = max(bound, 1e-14 * float(n / max(told[0], X(1e-9))) ** 2) if n > 0 else bound
         wrong.largest[what] = max(wrong.largest[what], off)
         if off > allowed:
             wrong.append(f"{what} {j + 1} told {float(n)!r}: no root within {allowed:.0e}" + (f", but within {off:.0e}" if off < 1 else ""))
@@ -440,7 +449,7 @@ def judge_speeds(shaft, told, whirl, wrong, what="critical speed", bound=SPEED):
 class Machine:
     """Numbers in the units of the file."""
 
-    def __init__(self, rng, press, simple=False):
+    def __init__(self, rng, press):
         near = lambda low, high, digits=1: round(rng.uniform(low, high), digits)
         self.beam = rng.choice(["timoshenko", "timoshenko", "euler"])
         self.press = press
@@ -459,7 +468,8 @@ class Machine:
         length = sum(s["length"] for s in self.segments)
         self.length = length
         spots = sorted(rng.sample(range(0, 21), 4))
-        here = lambda f: min(round(length * f / 20 + (rng.uniform(-0.02, 0.02) * length if 0 < f < 20 else 0), 2), math.floor(length * 100) / 100)
+        last = math.floor(length * 100 + 1e-6) / 100
+        here = lambda f: min(round(length * f / 20 + (rng.uniform(-0.02, 0.02) * length if 0 < f < 20 else 0), 2), last)
         number = rng.choice([2, 2, 2, 3, 4])
         self.supports = [[max(here(f), 0.0), rng.choice(["rigid", 10 ** rng.uniform(6, 9.5), 10 ** rng.uniform(7, 9)])] for f in
                          sorted(rng.sample(spots, number))]
@@ -774,12 +784,10 @@ def judge_vectors(shaft, machine, told, checks, cam, speed, wrong):
         wrong.close(told["permissible_g_mm"], whole, "permissible", loose)
         wrong.close(check["limit"], whole, "permissible of the check", loose)
         share = (b - shaft.centre()) / (b - a)
-        between = 0 <= share <= 1
-        low, high = (X("0.3"), X("0.7")) if between else (X("0.3"), X("1.3"))
-        first = min(max(share, low), high)
-        if between:
-            for plane, part in zip(told["planes"], (first, 1 - first)):
-                wrong.close(plane["permissible_g_mm"], part * whole, "permissible of a plane", 10 * loose)
+        # The lever's shares, kept within 0.3 and 0.7 between the bearings, within 0.3 and 1.3 beyond them.
+        high = X("0.7") if 0 <= share <= 1 else X("1.3")
+        for plane, part in zip(told["planes"], (share, 1 - share)):
+            wrong.close(plane["permissible_g_mm"], min(max(part, X("0.3")), high) * whole, "permissible of a plane", 10 * loose)
         if abs(abs(total) / float(whole) - 1) > 1e-5:
             verdict = "fail" if abs(total) > whole else "pass"
             if check["verdict"] != verdict:
@@ -818,12 +826,14 @@ def judge_tables(shaft, machine, report, csv_path, whirl, wrong, words):
         beside = min((abs(m / n - 1) for i, m in enumerate(told["critical_rpm"]) if i != j), default=1.0)
         if beside < 1e-5:
             continue
-        true, tie = shaft.mode(n, whirl, x)
+        # With the cam's mass a little off the shape is that at its own speed.
+        true, tie = shaft.mode(shaft.root(n, whirl, 2e-5) if machine.press else n, whirl, x)
         mine = t[f"mode{j + 1}"]
         if tie and (mine * true).sum() < 0:
             true = -true
         weak = 1e-14 * (n / told["critical_rpm"][0]) ** 2
-        wrong.near(mine, true, X(1), "mode under a cam" if machine.press else "mode", max(1e-3 if machine.press else SHAPE, weak * 10, (1e-5 if machine.press else 1e-11) / beside))
+        what, least, shift = ("mode under a cam", 1e-3, 1e-5) if machine.press else ("mode", SHAPE, 1e-11)
+        wrong.near(mine, true, X(1), what, max(least, weak * 10, shift / beside))
     if machine.cam_at is not None:
         y, slope, c, *_ = shaft.under(X(machine.cam_at) / 1000, x)
         wrong.near(t["deflection_um_per_kn"], y * 1e9, np.abs(y).max() * 1e9, "deflection", 1e-9)
@@ -845,7 +855,9 @@ def judge_sweep(machine, cam, path, low, high, steps, whirl, modes, wrong, bound
         wrong.append(f"{len(k)} rows of the sweep, not {steps + 1}")
     wrong.near(k, X(low) + (X(high) - X(low)) * np.arange(len(k)) / max(len(k) - 1, 1), X(high), "sweep", 1e-12)
     for i in sorted({0, len(k) // 3, len(k) - 1}):
-        judge_speeds(machine.shaft(cam, stiffness=k[i]), [t[f"n{j + 1}_rpm"][i] for j in range(modes)], whirl, wrong, "swept speed under a cam" if machine.press else "swept speed", bound)
+        told = [t[f"n{j + 1}_rpm"][i] for j in range(modes)]
+        what = "swept speed under a cam" if machine.press else "swept speed"
+        judge_speeds(machine.shaft(cam, stiffness=k[i]), told, whirl, wrong, what, bound)
     return t
 
 
@@ -886,11 +898,12 @@ def sample(binary, directory, number, seed):
         if not paper and modes > 1 and re.search(r"digits|10.?000|does not exist|no such mode|critical speed", text):
             found = re.search(r"critical speed (\d+) is more than 10000 times", text)
             if found and not press and not sweep:
-                first = camgen(binary, ["shaft", str(path), "--json", "--dry-run", "--whirl", whirl, "--modes", 1])[1]["shaft"]["critical_rpm"][0]
+                _, one = camgen(binary, ["shaft", str(path), "--json", "--dry-run", "--whirl", whirl, "--modes", 1])
+                first = one["shaft"]["critical_rpm"][0]
                 if machine.shaft().below(10000 * X(first), whirl) >= int(found[1]):
                     wrong.append(f"refused, though speed {found[1]} is within 10000 times the first, {first}: {text}")
             return "refused: a wall", wrong, words, text
-        if press and re.search(r"cam|roller|outline|arcs", text):
+        if press and re.search(r"undercut|pressure angle|outline", text):
             return "refused: the cam", wrong, words, text
         if "apart" in text or "same place" in text or "one place" in text:
             return "refused: one place", wrong, words, text
@@ -899,7 +912,8 @@ def sample(binary, directory, number, seed):
     cam = inertia = None
     if press:
         cam_name = name + "-cam"
-        camgen(binary, ["rotary", str(path), "--json", "--out", str(directory), "--name", cam_name, "--overwrite", "--format", "dxf", "--force", *other])
+        camgen(binary, ["rotary", str(path), "--json", "--out", str(directory), "--name", cam_name, "--overwrite", "--format", "dxf",
+                        "--force", *other])
         m = machine.m
         cut = Cut(Path(directory) / f"{cam_name}.dxf", X(m["thickness"]) / 1000, STEEL["density"], m["rotation"] == "ccw")
         cam = Whole(m, machine.bore, STEEL["density"], cut.holes)

@@ -1,7 +1,9 @@
 //! The curves of a shaft on paper: modes, deflection, lift error, sweep.
 
-use super::sweep::{self, Row};
+use super::load::Row;
+use super::sweep;
 use super::{Found, along, picture, rpm};
+use crate::body::Lowered;
 use crate::geometry::MILLIMETRES;
 use crate::report::plot::{self, Curve, Panel, Plot};
 use crate::report::shown;
@@ -14,7 +16,7 @@ fn curve(name: String, colour: usize, points: Vec<[f64; 2]>) -> Curve {
 }
 
 /// Modes and deflection along the shaft, lift error over a turn and the sweep below, the shaft to scale beside them.
-pub(super) fn plot(found: &Found<'_>, sweep: Option<&[Row]>) -> Plot {
+pub(super) fn plot(found: &Found<'_>, sweep: Option<&[sweep::Row]>) -> Plot {
     let places: Vec<f64> = along::places(found).into_iter().map(|(x, _)| x).collect();
     let modes = found.spectrum.modes.iter().zip(&found.spectrum.speeds).enumerate().map(|(index, (mode, speed))| {
         let points = places.iter().map(|x| [MILLIMETRES * x, mode.shape.at(*x)[0]]).collect();
@@ -29,14 +31,22 @@ pub(super) fn plot(found: &Found<'_>, sweep: Option<&[Row]>) -> Plot {
     let mut own = Vec::new();
     own.extend(found.under.as_ref().map(|under| {
         let rows = under.rows(found.asked.samples);
-        let of = |name: &str, colour: usize, value: fn(&crate::body::disc::Lowered) -> f64| {
-            let points = rows.iter().map(|(cam_deg, lowered)| [*cam_deg, MILLIMETRES * value(lowered)]).collect();
-            curve(name.to_owned(), colour, points)
+        let of = |name: String, colour: usize, rows: &[Row], value: fn(&Lowered) -> f64| {
+            let points = rows.iter().map(|(_, cam_deg, lowered)| [*cam_deg, MILLIMETRES * value(lowered)]).collect();
+            curve(name, colour, points)
         };
-        let mut curves = vec![of("in all", 0, crate::body::disc::Lowered::error)];
-        if under.shaft_twist.is_some() {
-            curves.extend([of("bending", 1, |lowered| lowered.bending), of("twist", 2, |lowered| lowered.twist)]);
-        }
+        let curves = if under.has_sections() {
+            let sections = rows.chunk_by(|a, b| a.0 == b.0).enumerate();
+            let name = |rows: &[Row]| rows.first().map_or_else(String::new, |row| format!("{} rpm", shown(row.0)));
+            sections.map(|(colour, rows)| of(name(rows), colour, rows, Lowered::error)).collect()
+        } else {
+            let mut curves = vec![of("in all".into(), 0, &rows, Lowered::error)];
+            if under.shaft_twist.is_some() {
+                curves.push(of("bending".into(), 1, &rows, |lowered| lowered.bending));
+                curves.push(of("twist".into(), 2, &rows, |lowered| lowered.twist));
+            }
+            curves
+        };
         ("cam angle, degrees".to_owned(), Panel { name: "Lift error under load, mm".into(), curves })
     }));
     own.extend(sweep.map(|rows| ("stiffness of the supports, MN/m".to_owned(), over_stiffness(found, rows))));
@@ -59,9 +69,9 @@ fn deflection(found: &Found<'_>, places: &[f64]) -> Option<Panel> {
     Some(Panel { name, curves: vec![curve("deflection".into(), 0, points)] })
 }
 
-fn over_stiffness(found: &Found<'_>, rows: &[Row]) -> Panel {
+fn over_stiffness(found: &Found<'_>, rows: &[sweep::Row]) -> Panel {
     // The others would hide how the first one bends.
-    let point = |row: &Row| Some([MEGA * row.stiffness, rpm(*row.speeds.first()?)]);
+    let point = |row: &sweep::Row| Some([MEGA * row.stiffness, rpm(*row.speeds.first()?)]);
     let mut curves = vec![curve("n1".into(), 0, rows.iter().filter_map(point).collect())];
     if let (Some(rigid), Some(first), Some(last)) = (sweep::rigid(found), rows.first(), rows.last()) {
         let points = [first, last].map(|row| [MEGA * row.stiffness, rpm(rigid)]).to_vec();

@@ -45,9 +45,13 @@ pub(super) fn scheme(found: &Found<'_>) -> Scheme {
         ));
     }
     if let (Some(at), Some(carried)) = (cam, &found.carried) {
-        let thickness = found.machine.machine().and_then(|machine| machine.cam.thickness).unwrap_or(0.0);
+        let of_machine = found.machine.machine().and_then(|machine| match carried.is_conoid() {
+            true => machine.conoid.map(|conoid| conoid.axial_travel),
+            false => machine.cam.thickness,
+        });
+        let thickness = of_machine.unwrap_or(0.0);
         let half = 0.5 * MILLIMETRES * thickness.max(0.1 * largest / MILLIMETRES);
-        let reach = MILLIMETRES * (carried.body.base_radius() + carried.body.max_lift());
+        let reach = MILLIMETRES * carried.reach();
         strokes.push(box_at("cam", Kind::Link(CAM), (MILLIMETRES * at - half, MILLIMETRES * at + half), reach));
     }
     let length = MILLIMETRES * shaft.length();

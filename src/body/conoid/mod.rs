@@ -17,6 +17,7 @@ pub mod between;
 pub mod flank;
 mod implementation;
 mod interpolation;
+mod loaded;
 mod mechanism;
 pub mod mesh;
 mod missed;

@@ -1,82 +1,17 @@
-//! What the follower really does on a disc whose shaft bends and twists under its force.
-//!
-//! The force Φ along the follower's path, with the pressure angle α across it as well, moves a cam on a shaft of compliance C by
-//! C Φ along the path and C Φ tan α across it; the torque Φ s' turns a shaft of torsional stiffness k_t back by Φ s'/k_t. So the
-//! follower stands lower than the law by
-//!
-//! ```text
-//! Δs = Φ(Δs) [C (1 + tan² α) + s'²/k_t]
-//! ```
-//!
-//! where the force is that of the place at which it then stands: the air is less compressed, and a spring is longer. Φ falls as Δs
-//! grows, so that there is one root between 0 and what the force of a rigid shaft gives.
+//! A disc under load.
 
 use super::Disc;
-use crate::numeric::root;
+use crate::body::loaded::{Lowered, Pressed, Yielding};
 use crate::profile::Worst;
-use nalgebra::Vector2;
-
-/// How a shaft gives way at its cam.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Yielding {
-    /// Deflection of the shaft at the cam under a force there, m/N.
-    pub compliance: f64,
-    /// Twist from the drive to the cam under a torque, rad/(N·m); 0 where twist is not modelled.
-    pub twist: f64,
-}
-
-/// The follower at a place, under load.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lowered {
-    /// Force along its path, N.
-    pub force: f64,
-    /// Pressure angle, rad.
-    pub pressure_angle: f64,
-    /// What bending takes off the lift, m.
-    pub bending: f64,
-    /// What twist takes off it, m.
-    pub twist: f64,
-    /// What the force balance then leaves, inertia less air, N; 0 where nothing is to balance.
-    pub residual: f64,
-}
-
-impl Lowered {
-    /// By how much it stands lower than the law, m.
-    #[must_use]
-    pub fn error(&self) -> f64 {
-        self.bending + self.twist
-    }
-}
 
 impl Disc {
-    /// Force along the path with the follower this much (m) below the law, N; not below 0, where it would lift off.
-    fn force_below(&self, piece: usize, angle: f64, below: f64) -> f64 {
-        let follower = &self.machine.follower;
-        let load = self.load.as_ref().map_or(0.0, |load| load.pressing_when(piece, angle, -below));
-        let rigid = self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle));
-        let whole = self.path_force(piece, angle).unwrap_or(0.0);
-        (whole - rigid + load - follower.spring_rate * below).max(0.0)
-    }
-
     /// The follower at a place of the motion, the cam on a shaft; `None` where no force is known.
     #[must_use]
     pub fn lowered(&self, piece: usize, angle: f64, shaft: &Yielding) -> Option<Lowered> {
-        let rigid = self.path_force(piece, angle)?.max(0.0);
-        let contact = self.curves().contact(piece, angle);
-        let (lean, velocity) = (libm::tan(contact.pressure_angle), contact.lift.ds);
-        let (bending, twist) = (shaft.compliance * (1.0 + lean * lean), shaft.twist * velocity * velocity);
-        let give = bending + twist;
-        let missing = |below: f64| below - give * self.force_below(piece, angle, below);
-        let below = root::bracketed(missing, 0.0, give * rigid, 0.0).unwrap_or(give * rigid);
-        let force = if give == 0.0 { rigid } else { below / give };
-        let residual = |load: &dyn crate::load::Load| load.residual(piece, angle, -below, Vector2::zeros());
-        Some(Lowered {
-            force,
-            pressure_angle: contact.pressure_angle,
-            bending: force * bending,
-            twist: force * twist,
-            residual: self.load.as_deref().map_or(0.0, residual),
-        })
+        let rigid = self.path_force(piece, angle)?;
+        let spring_rate = self.machine.follower.spring_rate;
+        let pressed = Pressed { curves: self.curves(), load: self.load.as_deref(), spring_rate };
+        Some(pressed.lowered((piece, angle), rigid, shaft))
     }
 
     /// The largest of what is lowered, and where.

@@ -5,7 +5,6 @@ mod compensator;
 mod loaded;
 mod mechanism;
 pub use compensator::{AtSpeed, Compensated};
-pub use loaded::{Lowered, Yielding};
 pub(in crate::body) use mechanism::of_press;
 mod sheet;
 

@@ -169,9 +169,10 @@ pub(in crate::cli) struct ShaftArgs {
     #[arg(default_value = "press-cylinder", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
 
-    /// Speed of the main shaft of a press, of the cam of a motion program, or of a shaft alone, rpm [default: that of the file]
-    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
-    pub(in crate::cli) rpm: Option<f64>,
+    /// Speed of the main shaft of a press, of the cam of a motion program, or of a shaft alone, rpm [default: that of the file]; several are
+    /// the sections of the conoid of the file
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Vec<f64>,
 
     /// How many critical speeds, 1 to 12 [default: 3; 1 with --solver paper]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12))]
