@@ -61,8 +61,8 @@ pub enum Solver {
 pub struct Asked {
     /// Speeds of the main shaft, or the one of the shaft itself where it stands alone, rpm; several are the sections of a conoid.
     pub rpm: Vec<f64>,
-    /// How many critical speeds, 1 to [`MOST_MODES`].
-    pub modes: usize,
+    /// How many critical speeds, 1 to [`MOST_MODES`]; `None`: three, or as many as there are.
+    pub modes: Option<usize>,
     /// How the shaft whirls.
     pub whirl: Whirl,
     /// How they are found.
@@ -79,7 +79,7 @@ impl Default for Asked {
     fn default() -> Self {
         Self {
             rpm: Vec::new(),
-            modes: 3,
+            modes: None,
             whirl: Whirl::Forward,
             solver: Solver::Exact { order: None },
             sweep: None,
@@ -105,6 +105,14 @@ pub enum ShaftAnalysisError {
     /// A shaft alone turns at one speed.
     #[error("several speeds are the sections of a conoid: this file describes no press, or no [conoid]")]
     OneSpeed,
+    /// At one of its stiffnesses.
+    #[error("with supports of {stiffness:e} N/m: {why}")]
+    Swept {
+        /// N/m.
+        stiffness: f64,
+        /// Why not.
+        why: String,
+    },
     /// There is nothing to sweep.
     #[error("--sweep gives elastic supports their stiffness, and every support of this shaft is rigid")]
     NoElasticSupport,
@@ -185,9 +193,8 @@ pub fn analysis(machine: &ShaftMachine, asked: &Asked) -> Result<Analysis, Shaft
     if carried.is_none() && asked.rpm.len() > 1 {
         return Err(ShaftAnalysisError::OneSpeed);
     }
-    let mut discs = machine.data.shaft.discs().to_vec();
-    discs.extend(carried.as_ref().and_then(|carried| carried.disc));
-    let shaft = machine.data.shaft.with_discs(discs)?;
+    let own = machine.data.shaft.discs().to_vec();
+    let shaft = machine.data.shaft.with_discs(carried.as_ref().map_or(own, |carried| discs(machine, carried)))?;
     let own = asked.rpm.first().map(|rpm| rpm * PI / 30.0);
     let speed = carried.as_ref().map_or(own, |carried| carried.speed);
     let spectrum = Spectrum::of(&shaft, asked)?;
@@ -200,7 +207,7 @@ pub fn analysis(machine: &ShaftMachine, asked: &Asked) -> Result<Analysis, Shaft
     let sweep = asked.sweep.map(|range| sweep::rows(&found, range)).transpose()?;
     let told = figures(&found);
     let mut tables = vec![("", along::table(&found))];
-    tables.extend(sweep.as_ref().map(|rows| ("-sweep", sweep::table(rows, asked.modes))));
+    tables.extend(sweep.as_ref().map(|rows| ("-sweep", sweep::table(rows, found.spectrum.speeds.len()))));
     tables.extend(found.under.as_ref().map(|under| ("-lift", under.table(asked.samples))));
     Ok(Analysis {
         kind: &KIND,
@@ -222,6 +229,11 @@ pub fn analysis(machine: &ShaftMachine, asked: &Asked) -> Result<Analysis, Shaft
         },
         not_modelled: NOT_MODELLED.to_vec(),
     })
+}
+
+/// The discs on a shaft, and the cam as the last of them.
+fn discs(machine: &ShaftMachine, carried: &Carried) -> Vec<crate::shaft::Disc> {
+    machine.data.shaft.discs().iter().copied().chain(carried.disc).collect()
 }
 
 const NOT_MODELLED: &[&str] = &[
@@ -246,7 +258,7 @@ fn inputs(machine: &ShaftMachine, asked: &Asked) -> Vec<Input> {
     if !asked.rpm.is_empty() {
         inputs.push(Input::numbers("rpm", &asked.rpm));
     }
-    inputs.push(Input::word("asked", format!("{:?} {:?} {}", asked.whirl, asked.solver, asked.modes)));
+    inputs.push(Input::word("asked", format!("{:?} {:?} {:?}", asked.whirl, asked.solver, asked.modes)));
     inputs.extend(asked.sweep.map(|(from, to)| Input::numbers("sweep", &[from, to, f64::from(asked.steps)])));
     inputs.push(Input::number("samples", f64::from(asked.samples)));
     inputs
@@ -254,20 +266,23 @@ fn inputs(machine: &ShaftMachine, asked: &Asked) -> Vec<Input> {
 
 fn figures(found: &Found<'_>) -> Figures {
     let worst = found.under.as_ref();
-    let first = found.spectrum.first();
+    let first = found.spectrum.forward;
     Figures {
         mass_kg: found.shaft.mass(),
         speed_rpm: found.speed.map(rpm),
         critical_rpm: found.spectrum.speeds.iter().copied().map(rpm).collect(),
         whirl: word_of(found.asked.whirl),
-        beam: word_of_beam(found.shaft.beam()),
+        beam: match found.asked.solver {
+            Solver::Exact { .. } => word_of_beam(found.shaft.beam()),
+            Solver::Paper { .. } => word_of_beam(Beam::Euler),
+        },
         solver: match found.asked.solver {
             Solver::Exact { .. } => "exact",
             Solver::Paper { .. } => "paper",
         },
-        exact_rpm: found.spectrum.exact.map(rpm),
+        exact_rpm: matches!(found.asked.solver, Solver::Paper { .. }).then(|| rpm(found.spectrum.forward)),
         compliance_um_per_kn: found.statics.as_ref().map(|statics| 1e9 * statics.own()),
-        twist_compliance_urad_per_nm: worst.and_then(|under| under.shaft_twist).map(|twist| 1e6 * twist),
+        twist_compliance_urad_per_nm: drive_to_cam(found).map(|twist| 1e6 * twist),
         lift_error_max_mm: worst.map(|under| 1e3 * under.largest.value),
         lift_error_cam_deg: worst.map(|under| under.largest.at.to_degrees()),
         bending_mm: worst.map(|under| 1e3 * under.there.bending),
@@ -288,7 +303,7 @@ fn figures(found: &Found<'_>) -> Figures {
 fn words(found: &Found<'_>, told: &Figures) -> Vec<String> {
     let speeds: Vec<String> = told.critical_rpm.iter().map(|rpm| format!("{rpm:.2}")).collect();
     let order = found.spectrum.order.map_or(String::new(), |order| format!(", order {order}"));
-    let whirl = if found.spectrum.exact.is_some() { "planar" } else { told.whirl };
+    let whirl = if told.exact_rpm.is_some() { "planar" } else { told.whirl };
     let mut lines = vec![
         format!("mass {:.3} kg with all that is on it", told.mass_kg),
         format!(
@@ -332,6 +347,16 @@ fn notes(found: &Found<'_>) -> Vec<String> {
         };
         notes.push(format!("the cam is on the shaft without its mass: {why}"));
     }
+    if found.machine.machine().is_some_and(|machine| machine.compensator().is_some()) {
+        notes.push("the compensating cam is not on this shaft: neither its mass nor its torque is taken".to_owned());
+    }
+    let limits = &found.machine.limits;
+    if found.under.is_none() && (limits.lift_error.is_some() || limits.support_slope.is_some()) {
+        notes.push("limits.lift_error and limits.support_slope judge nothing: no force of a cam is known".to_owned());
+    }
+    if found.speed.is_none() {
+        notes.push("limits.critical_speed_ratio judges nothing: no speed is known (--rpm)".to_owned());
+    }
     if carried.is_some() && found.under.is_none() {
         notes.push("no lift error: neither a press nor a preload tells the force on the follower".to_owned());
     }
@@ -341,16 +366,17 @@ fn notes(found: &Found<'_>) -> Vec<String> {
 fn measures(found: &Found<'_>) -> Result<Vec<Measure>, ShaftAnalysisError> {
     let limits = &found.machine.limits;
     let mut all = Vec::new();
-    let first = found.spectrum.first();
     if let Some(speed) = found.speed {
+        // Unbalance whirls with the shaft, whatever whirl is asked for.
+        let first = found.spectrum.forward;
         let ratio = speed / first;
         let harmonic = (first / speed).ceil();
         let mut note =
             format!("first critical speed {} rpm, reached by harmonic {} of a turn", shown(rpm(first)), harmonic);
         if ratio > limits.critical_speed_ratio {
             let factor = remedy::for_speed(found, speed / limits.critical_speed_ratio);
-            let slower = shown((rpm(limits.critical_speed_ratio * first) * 1e3).floor() / 1e3);
-            note = format!("{note}; {slower} rpm would pass{}", thicker(factor));
+            let slower = remedy::slower(found).map_or(String::new(), |slower| format!("; --rpm {slower} would pass"));
+            note = format!("{note}{slower}{}", thicker(factor));
         }
         let limit = Some(limits.critical_speed_ratio);
         all.push(Measure { check: CRITICAL_SPEED, value: ratio, limit, unit: "1", note: Some(note) });
@@ -371,9 +397,16 @@ fn measures(found: &Found<'_>) -> Result<Vec<Measure>, ShaftAnalysisError> {
     Ok(all)
 }
 
-/// What would pass, in words; nothing where no factor was found.
+/// Twist from the drive to the cam, rad/(N·m).
+fn drive_to_cam(found: &Found<'_>) -> Option<f64> {
+    let data = &found.machine.data;
+    Some(data.shaft.twist_compliance(data.drive_at?, data.cam_at?))
+}
+
+/// What would pass, in words.
 fn thicker(factor: Option<f64>) -> String {
-    factor.map_or(String::new(), |factor| format!("; every diameter times {factor:.3} would pass"))
+    let none = || "; no thicker shaft on these supports would pass: they are too soft".to_owned();
+    factor.map_or_else(none, |factor| format!("; every diameter times {factor:.3} would pass"))
 }
 
 /// The cam on a shaft of the machine's, thicker by a factor.

@@ -16,9 +16,9 @@ use camgen::report::Speeds;
 use camgen::shaft::Whirl;
 use camgen::write::number::names;
 
-/// Stations of the paper's shaft, and critical speeds of an exact one, by default.
+/// Stations of the paper's shaft, and steps of a sweep, by default.
 const STATIONS: usize = 18;
-const MODES: usize = 3;
+const STEPS: u32 = 10;
 
 /// The speeds of a press that are looked at by default, in sevenths of its design speed: 20, 25, 30 and 35 rpm of the paper's.
 const SEVENTHS: [f64; 4] = [4.0, 5.0, 6.0, 7.0];
@@ -94,10 +94,9 @@ pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
             Solver::Paper { stations }
         }
     };
-    let usual = if args.solver == ShaftSolver::Paper { 1 } else { MODES };
     let asked = Asked {
         rpm: args.rpm.clone(),
-        modes: args.modes.map_or(usual, usize::from),
+        modes: args.modes.map(usize::from),
         whirl: match args.whirl {
             WhirlOf::Forward => Whirl::Forward,
             WhirlOf::Planar => Whirl::Planar,
@@ -105,7 +104,7 @@ pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
         },
         solver,
         sweep: args.sweep,
-        steps: args.steps,
+        steps: args.steps.unwrap_or(STEPS),
         samples: args.samples,
     };
     written(shaft::analysis(&machine, &asked).map_err(Failure::new)?, &args.analysis, &name)

@@ -215,6 +215,12 @@ impl<'a> Reader<'a> {
         self.misshapen.contains(section.path) || self.meant.contains(section.path)
     }
 
+    /// Whether no fault has been found so far.
+    #[must_use]
+    pub fn is_faultless(&self) -> bool {
+        self.faults.borrow().is_empty()
+    }
+
     /// Reports a fault of the whole file. What follows from a text that is not TOML is not reported.
     pub fn fail(&self, message: String, help: Option<String>) {
         if !self.document.broken {

@@ -219,11 +219,18 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<ShaftData> {
     for place in [&CAM_AT, &DRIVE_AT] {
         within_length(&table, place, length);
     }
-    let (cam_at, drive_at, beam) = (table.get(&CAM_AT), table.get(&DRIVE_AT), table.get(&BEAM)?);
-    match Shaft::new(known?, supports?, discs?, beam) {
+    // A place at the end is there, although decimal lengths do not add up exactly.
+    let on = |at: f64| length.map_or(at, |length| at.min(length));
+    let (cam_at, drive_at, beam) = (table.get(&CAM_AT).map(on), table.get(&DRIVE_AT).map(on), table.get(&BEAM)?);
+    let supports = supports?.into_iter().map(|support| Support { at: on(support.at), ..support }).collect();
+    let discs = discs?.into_iter().map(|disc| Disc { at: on(disc.at), ..disc }).collect();
+    match Shaft::new(known?, supports, discs, beam) {
         Ok(shaft) => Some(ShaftData { shaft, cam_at, drive_at }),
         Err(error) => {
-            table.fail(&BEAM, error.to_string(), None);
+            // What is wrong with a part has been told at its place.
+            if reader.is_faultless() {
+                table.fail(&BEAM, error.to_string(), None);
+            }
             None
         }
     }
@@ -232,7 +239,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<ShaftData> {
 /// Reports a place beyond the end of the shaft.
 fn within_length(table: &Table<'_>, place: &Field<f64>, length: Option<f64>) {
     if let (Some(at), Some(length)) = (table.get(place), length)
-        && at > length
+        && at > length + SAME_PLACE
     {
         let message = format!("the place lies beyond the end of the shaft: {}", table.typed(place));
         table.fail(place, message, Some(format!("its segments are {} mm long together", 1e3 * length)));

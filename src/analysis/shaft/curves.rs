@@ -62,7 +62,7 @@ pub(super) fn plot(found: &Found<'_>, sweep: Option<&[sweep::Row]>) -> Plot {
 /// Under the largest force of the cam, or a kilonewton where no force is known.
 fn deflection(found: &Found<'_>, places: &[f64]) -> Option<Panel> {
     let statics = found.statics.as_ref()?;
-    let force = found.under.as_ref().map_or(1e3, |under| under.there.force);
+    let force = found.under.as_ref().map_or(1e3, |under| under.force);
     let points = places.iter().map(|x| [MILLIMETRES * x, 1e6 * force * statics.curve.at(*x)[0]]).collect();
     let place = if found.carried.is_some() { "at the cam" } else { "at shaft.cam_at" };
     let name = format!("Deflection under {} N {place}, µm", shown(force.round()));

@@ -5,7 +5,7 @@ use crate::body::conoid::Conoid;
 use crate::body::disc::Disc;
 use crate::body::{Body, Lowered, Request, Yielding};
 use crate::geometry::MILLIMETRES;
-use crate::machine::{Machine, ShaftMachine};
+use crate::machine::{Machine, Rotation, ShaftMachine};
 use crate::motion::Reversal;
 use crate::profile::Worst;
 use crate::report::shown;
@@ -83,12 +83,14 @@ impl Carried {
 fn as_disc(body: &Disc, machine: &Machine, at: f64) -> Result<Option<shaft::Disc>, ShaftAnalysisError> {
     let drawn = body.draw(&Request::within(TOLERANCE)).map_err(|error| ShaftAnalysisError::Cam(error.to_string()))?;
     let inertia = drawn.parts.first().and_then(|part| part.inertia(machine));
+    // A cam that turns counter-clockwise is drawn in the mirror; angles of unbalance are those of the cam.
+    let side = if machine.cam.rotation == Rotation::CounterClockwise { -1.0 } else { 1.0 };
     Ok(inertia.map(|inertia| shaft::Disc {
         at,
         mass: inertia.mass,
         diametral_inertia: inertia.diametral,
         polar_inertia: inertia.polar,
-        unbalance: inertia.unbalance,
+        unbalance: [inertia.unbalance[0], side * inertia.unbalance[1]],
     }))
 }
 
@@ -129,6 +131,8 @@ pub(super) struct Under {
     pub(super) slope: f64,
     /// Forces of the supports under the largest force of the cam, N.
     pub(super) reactions: Vec<f64>,
+    /// That force, N.
+    pub(super) force: f64,
 }
 
 fn across(lowered: &Lowered) -> f64 {
@@ -186,6 +190,7 @@ impl Under {
             residual: balances.then_some(residual),
             slope: force * steepest(statics, shaft),
             reactions: statics.reactions.iter().map(|reaction| force * reaction).collect(),
+            force,
             found,
         })
     }

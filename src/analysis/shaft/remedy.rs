@@ -1,8 +1,10 @@
 //! By how much thicker a shaft would keep a limit.
 
-use super::{Found, yielding};
+use super::load::Carried;
+use super::{Found, discs, yielding};
 use crate::numeric::root;
-use crate::shaft::exact;
+use crate::shaft::{Whirl, exact};
+use std::f64::consts::PI;
 
 /// A shaft so many times as thick at the most.
 const LARGEST: f64 = 8.0;
@@ -26,9 +28,44 @@ fn factor(excess: impl Fn(f64) -> Option<f64>) -> Option<f64> {
 pub(super) fn for_speed(found: &Found<'_>, least: f64) -> Option<f64> {
     factor(|factor| {
         let shaft = found.shaft.scaled(factor).ok()?;
-        let modes = exact::modes(&shaft, found.asked.whirl, 1, None).ok()?;
+        let modes = exact::modes(&shaft, Whirl::Forward, 1, None).ok()?;
         Some(least - modes.modes.first()?.speed)
     })
+}
+
+/// Tries for a speed that passes.
+const TRIES: usize = 8;
+
+/// A speed of the main shaft, or of a shaft alone, rpm, that keeps the limit of the critical speed; another speed may have another cam,
+/// so that each is tried.
+pub(super) fn slower(found: &Found<'_>) -> Option<f64> {
+    let limit = found.machine.limits.critical_speed_ratio;
+    let own = found.carried.as_ref().map_or(&found.asked.rpm, |carried| &carried.rpm);
+    let (highest, mut ratio) = (own.iter().copied().fold(0.0, f64::max), found.speed? / found.spectrum.forward);
+    let mut rpm = highest;
+    for _ in 0..TRIES {
+        rpm = rounded_down(rpm * limit / ratio);
+        if own.len() > 1 {
+            return Some(rpm);
+        }
+        let (shaft, speed) = match Carried::of(found.machine, &[rpm]).ok()? {
+            None => (found.shaft.clone(), rpm * PI / 30.0),
+            Some(carried) => {
+                (found.machine.data.shaft.with_discs(discs(found.machine, &carried)).ok()?, carried.speed?)
+            }
+        };
+        ratio = speed / exact::modes(&shaft, Whirl::Forward, 1, None).ok()?.modes.first()?.speed;
+        if ratio <= limit {
+            return Some(rpm);
+        }
+    }
+    None
+}
+
+/// Rounded down to four digits.
+fn rounded_down(value: f64) -> f64 {
+    let digit = libm::pow(10.0, 3.0 - libm::log10(value).floor());
+    (value * digit).floor() / digit
 }
 
 /// For a lift error (m) at the most.

@@ -24,9 +24,15 @@ pub(super) fn rows(found: &Found<'_>, (from, to): (f64, f64)) -> Result<Vec<Row>
     }
     let steps = found.asked.steps.max(1);
     let at = |step: u32| if step == steps { to } else { from + (to - from) * f64::from(step) / f64::from(steps) };
+    let count = found.spectrum.speeds.len();
     let row = |step: u32| {
         let shaft = found.shaft.with_stiffness(at(step))?;
-        Ok(Row { stiffness: at(step), speeds: Spectrum::of(&shaft, found.asked)?.speeds })
+        let mut speeds = Spectrum::of(&shaft, found.asked)
+            .map_err(|why| ShaftAnalysisError::Swept { stiffness: at(step), why: why.to_string() })?
+            .speeds;
+        // A softer support may leave fewer that can be told.
+        speeds.resize(count, f64::NAN);
+        Ok(Row { stiffness: at(step), speeds })
     };
     (0..=steps).map(row).collect()
 }

@@ -174,7 +174,7 @@ pub(in crate::cli) struct ShaftArgs {
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Vec<f64>,
 
-    /// How many critical speeds, 1 to 12 [default: 3; 1 with --solver paper]
+    /// How many critical speeds, 1 to 12 [default: 3, or as many as there are; 1 with --solver paper]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12))]
     pub(in crate::cli) modes: Option<u8>,
 
@@ -198,9 +198,9 @@ pub(in crate::cli) struct ShaftArgs {
     #[arg(long, value_name = "FROM..TO", value_parser = stiffnesses, allow_hyphen_values = true)]
     pub(in crate::cli) sweep: Option<(f64, f64)>,
 
-    /// Equal steps of the sweep, 1 to 1000
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub(in crate::cli) steps: u32,
+    /// Equal steps of the sweep, 1 to 1000 [default: 10]
+    #[arg(long, value_name = "N", requires = "sweep", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(in crate::cli) steps: Option<u32>,
 
     /// Rows of the tables, along the shaft and over a turn of the cam
     #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(8..=100_000))]
