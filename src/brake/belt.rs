@@ -178,9 +178,9 @@ impl Belt {
                 return Ok(place);
             }
             if on && miss > 0.0 {
-                high = radius
+                high = radius;
             } else {
-                low = radius
+                low = radius;
             }
             let newton = radius - miss / place.wrap;
             let next = if on && newton > low && newton < high { newton } else { 0.5 * (low + high) };
@@ -212,9 +212,9 @@ impl Belt {
                 return Ok(place);
             }
             if miss > 0.0 {
-                high = turn
+                high = turn;
             } else {
-                low = turn
+                low = turn;
             }
             let newton = turn - miss / place.map_or(1.0, |place| place.both_arms());
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };

@@ -32,10 +32,13 @@
 mod belt;
 pub mod ends;
 mod error;
+pub mod holding;
 mod path;
 pub mod strain;
+pub mod synthesis;
 
 pub use error::{BrakeError, Pulley};
+pub use holding::{Hold, Holding};
 pub use strain::Web;
 
 use belt::{Belt, Place};
@@ -119,17 +122,17 @@ pub struct Stand {
 }
 
 impl Stand {
-    /// (1 + ε1) q_t + q_s, m: what the slack span's tension is multiplied with. Not above 0 where the brake jams.
+    /// q_t + (q_t + q_s)/ε1, m: moment about the pivot over web tension. Not above 0 where the brake jams.
     fn resisting_arm(&self, friction: f64) -> f64 {
-        self.q_tight + self.q_slack + libm::expm1(self.wrap * friction) * self.q_tight
+        self.q_tight + (self.q_tight + self.q_slack) / libm::expm1(self.wrap * friction)
     }
 
-    /// S_f = d ln P/d ln f: by how many per cent a per cent of friction raises the tension. Infinite or negative where it jams.
+    /// S_f = d ln P/d ln f: by how many per cent a per cent of friction raises the tension; negative where it jams.
     #[must_use]
     pub fn sensitivity(&self, friction: f64) -> f64 {
         let grip = self.wrap * friction;
         let more = libm::expm1(grip);
-        grip * (1.0 + more) * (self.q_tight + self.q_slack) / (more * self.resisting_arm(friction))
+        grip / more * (1.0 + 1.0 / more) * (self.q_tight + self.q_slack) / self.resisting_arm(friction)
     }
 
     /// f_lock = ln(−q_s/q_t)/a: the friction at which the brake jams; `None` where none does.
@@ -316,7 +319,7 @@ impl Brake {
     /// Moment about the pivot, N·m, that makes a web tension, N.
     #[must_use]
     pub fn moment_for(&self, tension: f64, stand: &Stand) -> f64 {
-        tension * stand.resisting_arm(self.grip.friction) / libm::expm1(stand.wrap * self.grip.friction)
+        tension * stand.resisting_arm(self.grip.friction)
     }
 
     /// Tension of the slack span and of the tight one, N, at a web tension, N.
@@ -328,7 +331,7 @@ impl Brake {
 }
 
 fn tension_of_moment(moment: f64, stand: &Stand, friction: f64) -> f64 {
-    moment * libm::expm1(stand.wrap * friction) / stand.resisting_arm(friction)
+    moment / stand.resisting_arm(friction)
 }
 
 #[cfg(test)]

@@ -29,10 +29,10 @@ impl Grip {
         if self.left_is_tight { (place.left_arm, place.right_arm) } else { (place.right_arm, place.left_arm) }
     }
 
-    /// (1 + ε1) q_t + q_s, m.
-    pub(super) fn resisting_arm(self, place: &Place, friction: f64) -> f64 {
+    /// q_t + (q_t + q_s)/ε1, m: moment about the pivot over web tension.
+    pub(super) fn resisting_arm(self, place: &Place) -> f64 {
         let (tight, slack) = self.arms(place);
-        tight + slack + libm::expm1(place.wrap * friction) * tight
+        tight + (tight + slack) / libm::expm1(place.wrap * self.friction)
     }
 
     /// The place, unless one of the walls of a brake is at it.
@@ -44,7 +44,7 @@ impl Grip {
             Err(BrakeError::BeltLeavesRoll { radius })
         } else if place.both_arms() <= 0.0 {
             Err(BrakeError::DeadPoint { radius, smallest })
-        } else if !(self.resisting_arm(&place, self.friction) > 0.0) {
+        } else if !(self.resisting_arm(&place) > 0.0) {
             Err(BrakeError::Jams { radius, friction: self.friction })
         } else if !(place.weight_arm > 0.0) {
             Err(BrakeError::WeightLifts { radius })

@@ -1,6 +1,10 @@
 //! Golden numbers of 30-digit arithmetic, first principles, random frames, and every refusal.
 
+mod disc;
+mod frames;
 mod golden;
+mod properties;
+mod refusals;
 
 use super::*;
 
