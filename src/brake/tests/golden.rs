@@ -98,3 +98,56 @@ fn the_web_without_slip() {
     close(drive, 600.0, ROUNDINGS);
     close(heat, 2400.0, ROUNDINGS);
 }
+
+/// What the paper claims, and how far it holds.
+#[test]
+fn the_papers_claims() {
+    // K changes within 7 % of its mean from 45° to 90°, and rises with the wrap all the way.
+    for (friction, of_start) in [(0.25, 0.0673), (0.30, 0.0634)] {
+        let k = |degrees: f64| euler_coefficient(degrees.to_radians(), friction);
+        assert!((1.0 - k(45.0) / k(90.0) - of_start).abs() < 5e-5);
+        assert!(2.0 * (k(90.0) - k(45.0)) / (k(90.0) + k(45.0)) < 0.07);
+        assert!((1..180).all(|degree| k(f64::from(degree)) < k(f64::from(degree + 1))));
+        close(k(1e-9), friction, 1e-14);
+    }
+    // Friction outweighs it: d ln K/d ln f = af/sinh(af), where the wrap costs 7 %.
+    for degrees in [45.0_f64, 90.0] {
+        let wrap = degrees.to_radians();
+        let grip = 0.25 * wrap;
+        let by_friction = grip / libm::sinh(grip);
+        assert!((0.96..=0.99 + 5e-3).contains(&by_friction), "{by_friction}");
+        let h = 1e-5;
+        let log = |share: f64| libm::log(euler_coefficient(wrap, 0.25 * share));
+        close((log(1.0 + h) - log(1.0 - h)) / (2.0 * h), by_friction, 1e-9);
+        let more = euler_coefficient(wrap, 0.30) / euler_coefficient(wrap, 0.25);
+        assert!((1.19..1.20).contains(&more), "{more}");
+    }
+    // A hinge with round numbers, never regulated: by the printed moment 18.6 %, of which K is 1.8 % and the arms 17.1 %.
+    let brake = brake();
+    let [full, empty] = [0.6, 0.05].map(|radius| at(&brake, radius));
+    let falls = |of: &dyn Fn(&Stand) -> f64| 1.0 - of(&empty) / of(&full);
+    assert!((falls(&|stand| brake.tension_printed(1.0, stand)) - 0.186).abs() < 5e-4);
+    assert!((falls(&|stand| stand.k) - 0.018).abs() < 5e-4);
+    assert!((falls(&|stand| stand.h1 / stand.h2) - 0.171).abs() < 5e-4);
+    // By the exact moment it is a little more.
+    assert!((falls(&|stand| brake.tension(1.0, stand)) - 0.189).abs() < 5e-4);
+    close(brake.weight_for_printed(300.0, &full) / brake.weight_for(300.0, &full), 1.049, 5e-4);
+    // What (3) leaves out: h1 G/P = h2/K ± h3 cos(a/2).
+    for stand in [full, empty] {
+        let h3_cos = 0.5 * (stand.q_tight - stand.q_slack);
+        close(brake.moment_for(1.0, &stand), stand.h2 / stand.k + h3_cos, ROUNDINGS);
+    }
+}
+
+/// S_f against the tension itself: a difference of second order.
+#[test]
+fn the_sensitivity_is_that_of_the_tension() {
+    let brake = brake();
+    for radius in [0.6, 0.3, 0.05] {
+        let stand = at(&brake, radius);
+        let log = |friction: f64| libm::log(brake.tension_with(1000.0, &stand, friction).expect("slips"));
+        let h = 1e-5;
+        let difference = (log(0.25 * (1.0 + h)) - log(0.25 * (1.0 - h))) / (2.0 * h);
+        close(stand.sensitivity(0.25), difference, 1e-9);
+    }
+}
