@@ -64,7 +64,7 @@ pub enum BrakeError {
     },
     /// a ≤ 0. It comes at the largest radius only: a taut belt that is longer than the distance of the pulleys stays so, because the
     /// frame changes neither.
-    #[error("the belt leaves the roll at a radius of {radius} m: set the pulleys lower, or further apart")]
+    #[error("the belt leaves the roll at a radius of {radius} m: set the pulleys further round it, or further apart")]
     BeltLeavesRoll {
         /// m.
         radius: f64,

@@ -24,10 +24,12 @@
 //! 2. **(3) takes both spans as equally tight** and loses the moment of the friction about O: [`Brake::tension_printed`], with
 //!    K = tanh(a f/2)/sin(a/2) of (7). For the brake of the tests that is 5 % of the weight.
 //! 3. **Friction outweighs the geometry.** d ln P/d ln f is af/sinh(af) = 0.96…0.99 by the printed moment: from 0.25 to 0.30 the
-//!    tension rises by a fifth, where the wrap costs 7 %. See [`Stand::sensitivity`]; no frame takes it away.
+//!    tension rises by a fifth, where the wrap costs 7 %. See [`Stand::sensitivity`]; no frame takes it away, [`synthesis`] finds those
+//!    that feel it least.
 //! 4. **(13), (14) are of first order** and leave out the strain wound into the roll: [`strain`].
 //!
-//! The belt's own mass acts on both spans alike and drops out of P. SI throughout, radians.
+//! The belt's own mass acts on both spans alike and drops out of P. [`holding`] is what a disc on the frame's shaft must add so that P
+//! stays the same over the whole roll. SI throughout, radians.
 
 mod belt;
 pub mod ends;
@@ -279,7 +281,7 @@ impl Brake {
         self.tension_under(weight * stand.h1, stand, friction)
     }
 
-    /// Web tension, N, under a moment about the pivot, N·m, from weight, springs and discs together.
+    /// Web tension, N, under a moment about the pivot, N·m, from weight, springs and discs together; a negative one lifts the belt.
     ///
     /// # Errors
     /// As [`Self::tension_with`].

@@ -6,7 +6,7 @@
 use super::belt::{Belt, Place};
 use super::{BrakeError, Roll};
 
-/// Longest step of the frame, rad: over one degree the cubic between two stations guesses a radius to 1e-8.
+/// Longest step of the frame, rad: from a tangent of one degree Newton's method closes the belt in three or four steps.
 const MOST_TURN: f64 = std::f64::consts::PI / 180.0;
 
 /// Beside the stations of equal steps of the radius, a whole turn of the frame in longest steps.
