@@ -67,6 +67,9 @@ pub mod linkage;
 pub mod shaft;
 
 #[doc(hidden)]
+pub mod brake;
+
+#[doc(hidden)]
 pub mod buffer;
 
 #[doc(hidden)]

@@ -8,8 +8,8 @@ mod source;
 use source::{Token, closing, code, sources, src, tokens};
 use std::path::{Path, PathBuf};
 
-const ROOMS: [&str; 20] = [
-    "units", "numeric", "document", "geometry", "linkage", "shaft", "buffer", "motion", "follower", "machine",
+const ROOMS: [&str; 21] = [
+    "units", "numeric", "document", "geometry", "linkage", "shaft", "brake", "buffer", "motion", "follower", "machine",
     "profile", "report", "table", "load", "body", "analysis", "reading", "verify", "write", "pipeline",
 ];
 

@@ -3,6 +3,7 @@
 //! A motion is smooth on each of its pieces and may jump between them. A motion is sampled piece by piece, so that
 //! both sides of a break are available: there is no evaluation "at" a break without saying from which side.
 
+mod brake_disc;
 pub mod counter_torque;
 mod eccentric;
 pub mod equation_18;
@@ -11,6 +12,7 @@ pub mod program;
 mod reversal;
 mod transition;
 
+pub use brake_disc::BrakeDisc;
 pub use eccentric::EccentricCircle;
 pub use equation_18::WedgeMotion;
 pub use reversal::{MotionError, Reversal, ReversalLaw, State};
@@ -189,6 +191,7 @@ mod tests {
         let law =
             ReversalLaw { bottom_law: bottom_law(2.0, Column::Matched, 0.01).into(), lever: 1.0, lobes: 1, transition };
         laws.push(("lead".into(), Box::new(Reversal::new(law).expect("fits"))));
+        laws.push(("brake disc".into(), Box::new(brake_disc::tests::disc())));
         laws
     }
 

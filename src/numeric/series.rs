@@ -31,6 +31,15 @@ impl Series {
         Self([libm::atan2(self.0[0], x.0[0]), first, 0.5 * second])
     }
 
+    /// e^self − 1, exact where self is small.
+    #[must_use]
+    pub fn exp_m1(self) -> Self {
+        let [value, first, second] = self.0;
+        let less = libm::expm1(value);
+        let whole = 1.0 + less;
+        Self([less, whole * first, whole * (second + 0.5 * first * first)])
+    }
+
     /// The derivative; its last coefficient is not known and 0.
     #[must_use]
     pub fn slope(self) -> Self {
@@ -99,6 +108,10 @@ mod tests {
         close((y / x) * x, y.0);
         close(y.sqrt() * y.sqrt(), y.0);
         close(x - x * 1.0, [0.0; 3]);
+        // e^t − 1 = t + t²/2 + …, and e^(2x) − 1 = (e^x − 1)(e^x + 1).
+        close(Series([0.0, 1.0, 0.0]).exp_m1(), [0.0, 1.0, 0.5]);
+        let half = (x * 0.05).exp_m1();
+        close((x * 0.1).exp_m1(), (half * (half + Series::constant(2.0))).0);
         // d atan(y/x) = (x y' − y x')/(x² + y²) = −5/13 at t = 0; its slope from the quotient rule is 110/169.
         close(y.atan2(x), [libm::atan2(3.0, 2.0), -5.0 / 13.0, 0.5 * (4.0 * 13.0 - (-5.0) * (-2.0)) / 169.0]);
     }

@@ -1,0 +1,97 @@
+//! The paper's own sizing from the two ends of the roll: (6)–(10).
+//!
+//! Kept to compare with. Each formula holds for a standing belt, V_z = 0; what it says about a running one is wrong, because the
+//! power P V_z that the belt carries to its drive is left out of (1). `n` is the full roll, `k` the empty one.
+//!
+//! ```text
+//! (7)  K = (e^(af) − 1)/((e^(af) + 1) cos((π − a)/2)) = tanh(af/2)/sin(a/2)
+//! (8)  N_n = (G h1/h2)_n = P/(K_n (1 − V_zn/V))
+//! (9)  (V_z/V)_k = 1 − P/(K_k N_k)
+//! (10) V_zk − V_zn = P V (K_k N_k − K_n N_n)/(K_k N_k K_n N_n)
+//! ```
+
+use super::BrakeError;
+use super::error::positive;
+use std::f64::consts::TAU;
+
+/// K of (7), for a wrap a, rad, between 0 and 2π: web tension of a standing belt over the press force G h1/h2. It goes to f as a
+/// goes to 0.
+#[must_use]
+pub fn euler_coefficient(wrap: f64, friction: f64) -> f64 {
+    libm::tanh(0.5 * wrap * friction) / libm::sin(0.5 * wrap)
+}
+
+/// The wraps at both ends of the roll, without a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ends {
+    friction: f64,
+    press_ratio: f64,
+    full: f64,
+    empty: f64,
+}
+
+/// What (8)–(10) ask for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Regulation {
+    /// N_n of (8), N.
+    pub press_full: f64,
+    /// N_k, N.
+    pub press_empty: f64,
+    /// V_zn/V, as given.
+    pub belt_speed_full: f64,
+    /// (V_z/V)_k of (9); negative where the belt would have to run backwards.
+    pub belt_speed_empty: f64,
+    /// (V_zk − V_zn)/V of (10): negative, the belt must run slower at the end.
+    pub range: f64,
+}
+
+impl Ends {
+    /// Wraps of the full and of the empty roll, rad, friction, and the press force of the empty roll over that of the full one.
+    ///
+    /// # Errors
+    /// [`BrakeError::Wrap`] unless both are between 0 and 2π, [`BrakeError::NotPositive`] for the others.
+    pub fn new(wraps: [f64; 2], friction: f64, press_ratio: f64) -> Result<Self, BrakeError> {
+        positive("friction", friction)?;
+        positive("press ratio", press_ratio)?;
+        for wrap in wraps {
+            if !(wrap > 0.0 && wrap < TAU) {
+                return Err(BrakeError::Wrap { wrap });
+            }
+        }
+        let [full, empty] = wraps;
+        Ok(Self { friction, press_ratio, full, empty })
+    }
+
+    /// K_n and K_k.
+    #[must_use]
+    pub fn coefficients(&self) -> (f64, f64) {
+        (euler_coefficient(self.full, self.friction), euler_coefficient(self.empty, self.friction))
+    }
+
+    /// K_n N_n/(K_k N_k) − 1: the range of (10) as a share of the starting slip 1 − V_zn/V. The paper's "15 %" is this, not a
+    /// share of V.
+    #[must_use]
+    pub fn range_of_slip(&self) -> f64 {
+        let (full, empty) = self.coefficients();
+        (full - empty * self.press_ratio) / (empty * self.press_ratio)
+    }
+
+    /// (8)–(10) for a web tension P, N, and the starting slip 1 − V_zn/V, above 0 and at most 1.
+    ///
+    /// # Errors
+    /// [`BrakeError::NotPositive`] for either of them.
+    pub fn regulation(&self, tension: f64, slip: f64) -> Result<Regulation, BrakeError> {
+        positive("tension", tension)?;
+        positive("starting slip", slip)?;
+        let (full, empty) = self.coefficients();
+        let press_full = tension / (full * slip);
+        let press_empty = self.press_ratio * press_full;
+        Ok(Regulation {
+            press_full,
+            press_empty,
+            belt_speed_full: 1.0 - slip,
+            belt_speed_empty: 1.0 - tension / (empty * press_empty),
+            range: -slip * self.range_of_slip(),
+        })
+    }
+}

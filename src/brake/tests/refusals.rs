@@ -1,0 +1,81 @@
+//! Every refusal, with one case that produces it and what its message names.
+
+use super::ends::Ends;
+use super::*;
+
+#[track_caller]
+fn refused(frame: Frame, roll: Roll, friction: f64, rotation: Rotation) -> BrakeError {
+    Brake::new(frame, roll, friction, rotation).expect_err("refused")
+}
+
+#[test]
+fn numbers_out_of_range() {
+    let cw = Rotation::Clockwise;
+    let error = refused(Frame { pivot: [f64::NAN, 0.0], ..frame() }, ROLL, 0.25, cw);
+    assert!(matches!(error, BrakeError::NotFinite { name: "pivot", .. }), "{error}");
+    let error = refused(Frame { pulley_radius: 0.0, ..frame() }, ROLL, 0.25, cw);
+    assert!(matches!(error, BrakeError::NotPositive { name: "pulley radius", .. }), "{error}");
+    for friction in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = refused(frame(), ROLL, friction, cw);
+        assert!(matches!(error, BrakeError::NotPositive { name: "friction", .. }), "{error}");
+    }
+    let error = refused(frame(), Roll { smallest_radius: 0.6, ..ROLL }, 0.25, cw);
+    assert_eq!(error, BrakeError::RollOrder { smallest: 0.6, largest: 0.6 });
+    for wrap in [0.0, std::f64::consts::TAU, f64::NAN] {
+        assert!(matches!(Ends::new([1.0, wrap], 0.25, 0.93), Err(BrakeError::Wrap { .. })));
+    }
+    assert!(Ends::new([1.0, 0.8], 0.25, 0.0).is_err());
+    let ends = Ends::new([1.0, 0.8], 0.25, 0.93).expect("in range");
+    assert!(ends.regulation(300.0, 0.0).is_err());
+    let web = Web { thickness: 0.07e-3, width: 0.84, modulus: 4.5e9, speed: 10.0, wound_strain: 0.0, length: None };
+    assert!(web.checked().is_ok() && web.stretch(300.0).is_none());
+    for wrong in [
+        Web { thickness: 0.0, ..web },
+        Web { wound_strain: -1.0, ..web },
+        Web { wound_strain: f64::NAN, ..web },
+        Web { length: Some(0.0), ..web },
+        Web { modulus: 1e308, width: 1e308, ..web },
+    ] {
+        assert!(wrong.checked().is_err(), "{wrong:?}");
+    }
+    let brake = brake();
+    for radius in [0.61, 0.04, f64::NAN] {
+        assert!(matches!(brake.at(radius), Err(BrakeError::OutsideRoll { .. })));
+    }
+    let weight = brake.weight_for(300.0, &at(&brake, 0.6));
+    assert!(Holding::new(brake.clone(), f64::NAN, 300.0, 10.0).is_err());
+    assert!(Holding::new(brake.clone(), weight, 0.0, 10.0).is_err());
+    assert!(brake.tension_with(weight, &at(&brake, 0.6), 0.0).is_err());
+}
+
+/// The others are found among random frames (`properties`).
+#[test]
+fn walls_at_the_full_roll() {
+    let cw = Rotation::Clockwise;
+    let near = Frame { left_pulley: [-0.4, 0.5], ..frame() };
+    let error = refused(near, ROLL, 0.25, cw);
+    assert_eq!(error, BrakeError::PulleyMeetsRoll { pulley: Pulley::Left, radius: 0.6 });
+    let error = refused(Frame { right_pulley: [0.66, 0.7], left_pulley: [-0.66, 0.7], ..frame() }, ROLL, 0.25, cw);
+    assert_eq!(error, BrakeError::BeltLeavesRoll { radius: 0.6 });
+}
+
+/// Sizes whose squares are no numbers, and a friction that outgrows them.
+#[test]
+fn extremes_are_refused_without_a_panic() {
+    for pivot in [[-1e200, 1e200], [-1e9, 1e9]] {
+        let far = refused(Frame { pivot, ..frame() }, ROLL, 0.25, Rotation::Clockwise);
+        assert!(matches!(far, BrakeError::PulleyMeetsRoll { .. } | BrakeError::Jams { .. }), "{far}");
+    }
+    let wide = Frame { right_pulley: [1e200, 1e200], left_pulley: [-1e200, 1e200], ..frame() };
+    let error = refused(wide, ROLL, 0.25, Rotation::Clockwise);
+    assert_eq!(error, BrakeError::NotReached { radius: 0.6, smallest: 0.05 });
+    for friction in [1e-300, 1e-9, 100.0, 1e300] {
+        let brake = Brake::new(frame(), ROLL, friction, Rotation::Clockwise).expect("reaches");
+        let stand = at(&brake, 0.3);
+        let tension = brake.tension(1000.0, &stand);
+        assert!(tension > 0.0 && tension.is_finite(), "{friction}: {tension}");
+        close(brake.weight_for(tension, &stand), 1000.0, 1e-14);
+        let sensitivity = stand.sensitivity(friction);
+        assert!((0.0..=1.1).contains(&sensitivity), "{friction}: {sensitivity}");
+    }
+}
