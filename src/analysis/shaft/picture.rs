@@ -2,6 +2,7 @@
 
 use super::Found;
 use crate::geometry::MILLIMETRES;
+use crate::machine::Machine;
 use crate::report::scheme::{Joint, Kind, Scheme, Stand, Stroke};
 use crate::report::shown;
 use nalgebra::Vector2;
@@ -45,11 +46,10 @@ pub(super) fn scheme(found: &Found<'_>) -> Scheme {
         ));
     }
     if let (Some(at), Some(carried)) = (cam, &found.carried) {
-        let of_machine = found.machine.machine().and_then(|machine| match carried.is_conoid() {
-            true => machine.conoid.map(|conoid| conoid.axial_travel),
-            false => machine.cam.thickness,
-        });
-        let thickness = of_machine.unwrap_or(0.0);
+        let of_machine = |machine: &Machine| {
+            if carried.is_conoid() { machine.conoid.map(|conoid| conoid.axial_travel) } else { machine.cam.thickness }
+        };
+        let thickness = found.machine.machine().and_then(of_machine).unwrap_or(0.0);
         let half = 0.5 * MILLIMETRES * thickness.max(0.1 * largest / MILLIMETRES);
         let reach = MILLIMETRES * carried.reach();
         strokes.push(box_at("cam", Kind::Link(CAM), (MILLIMETRES * at - half, MILLIMETRES * at + half), reach));
