@@ -139,6 +139,8 @@ struct Figures {
     residual_cam_deg: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     sections: Vec<load::Section>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    without_compensation: Option<Without>,
     unbalance_g_mm: f64,
     unbalance_deg: f64,
     permissible_g_mm: Option<f64>,
@@ -146,6 +148,13 @@ struct Figures {
     support_force_n: Vec<f64>,
     support_slope_rad: Option<f64>,
     first_harmonic: Option<f64>,
+}
+
+/// What a cam that is made for a rigid shaft would do on this one.
+#[derive(Debug, Serialize)]
+struct Without {
+    lift_error_max_mm: f64,
+    residual_max_n: Option<f64>,
 }
 
 /// All that was found, in SI units.
@@ -161,6 +170,8 @@ struct Found<'a> {
     spectrum: Spectrum,
     statics: Option<Statics>,
     under: Option<Under>,
+    /// The same of a cam that is made for a rigid shaft, where this one is cut for its own.
+    rigid: Option<Under>,
     unbalanced: Unbalanced,
 }
 
@@ -202,8 +213,17 @@ pub fn analysis(machine: &ShaftMachine, asked: &Asked) -> Result<Analysis, Shaft
     let under = carried.as_ref().zip(statics.as_ref()).and_then(|(carried, statics)| {
         Under::of(carried, statics, machine.data.drive_at.zip(machine.data.cam_at), &machine.data.shaft)
     });
+    let rigid = match machine.with_rigid_cam() {
+        Some(rigid) if carried.as_ref().is_some_and(|carried| !carried.is_conoid()) => {
+            let rigid = Carried::of(&rigid, &asked.rpm)?;
+            rigid.as_ref().zip(statics.as_ref()).and_then(|(rigid, statics)| {
+                Under::of(rigid, statics, machine.data.drive_at.zip(machine.data.cam_at), &machine.data.shaft)
+            })
+        }
+        _ => None,
+    };
     let unbalanced = Unbalanced::of(&shaft, speed, machine.limits.balance_grade)?;
-    let found = Found { machine, asked, shaft, carried, speed, spectrum, statics, under, unbalanced };
+    let found = Found { machine, asked, shaft, carried, speed, spectrum, statics, under, rigid, unbalanced };
     let sweep = asked.sweep.map(|range| sweep::rows(&found, range)).transpose()?;
     let told = figures(&found);
     let mut tables = vec![("", along::table(&found))];
@@ -290,6 +310,10 @@ fn figures(found: &Found<'_>) -> Figures {
         residual_max_n: worst.and_then(|under| under.residual).map(|worst| worst.value),
         residual_cam_deg: worst.and_then(|under| under.residual).map(|worst| worst.at.to_degrees()),
         sections: worst.map_or_else(Vec::new, Under::told),
+        without_compensation: found.rigid.as_ref().map(|rigid| Without {
+            lift_error_max_mm: 1e3 * rigid.largest.value,
+            residual_max_n: rigid.residual.map(|worst| worst.value),
+        }),
         unbalance_g_mm: found.unbalanced.g_mm,
         unbalance_deg: found.unbalanced.deg,
         permissible_g_mm: found.unbalanced.permissible_g_mm,
@@ -326,6 +350,13 @@ fn words(found: &Found<'_>, told: &Figures) -> Vec<String> {
     }
     if let Some(under) = &found.under {
         lines.extend(under.words());
+    }
+    if let Some(rigid) = &found.rigid {
+        let left = rigid.residual.map_or(String::new(), |worst| format!(", and {:.2} N would be left", worst.value));
+        lines.push(format!(
+            "the cam is cut for this shaft (shaft.compensate): one for a rigid shaft would let the follower stand {:.5} mm low{left}",
+            1e3 * rigid.largest.value
+        ));
     }
     if told.unbalance_g_mm > 0.0 {
         lines.push(found.unbalanced.words());
@@ -420,7 +451,7 @@ fn yielding(found: &Found<'_>, factor: f64) -> Option<(Yielding, Statics)> {
 
 /// What is told of a lowered follower, for the largest of it.
 fn error_of(lowered: &Lowered) -> f64 {
-    lowered.error()
+    lowered.error().abs()
 }
 
 /// A table whose columns are named by the list, as many as there are.

@@ -36,15 +36,17 @@ pub struct Lowered {
     pub bending: f64,
     /// What twist takes off it, m.
     pub twist: f64,
+    /// What the cam is cut higher for that, m.
+    pub raised: f64,
     /// What the force balance then leaves, inertia less air, N; 0 where nothing is to balance.
     pub residual: f64,
 }
 
 impl Lowered {
-    /// By how much it stands lower than the law, m.
+    /// By how much it stands lower than the law, m; with a cam that is cut for its shaft of either sign.
     #[must_use]
     pub fn error(&self) -> f64 {
-        self.bending + self.twist
+        self.bending + self.twist - self.raised
     }
 }
 
@@ -59,29 +61,32 @@ pub(super) struct Pressed<'a> {
 }
 
 impl Pressed<'_> {
-    /// Force along the path with the follower this much (m) below the law, N, from that on a rigid shaft; not below 0, where it would lift
-    /// off.
-    fn force_below(&self, (piece, angle): (usize, f64), rigid: f64, below: f64) -> f64 {
-        let gone = |load: &dyn Load| load.pressing(piece, angle) - load.pressing_when(piece, angle, -below);
-        (rigid - self.load.map_or(0.0, gone) - self.spring_rate * below).max(0.0)
+    /// Force along the path with the follower this much (m) below the cam as it is cut, N, from that by the law; not below 0, where it would
+    /// lift off.
+    fn force_below(&self, (piece, angle): (usize, f64), by_law: f64, below: f64) -> f64 {
+        let above = self.load.map_or(0.0, |load| load.raised(piece, angle)) - below;
+        let gone = |load: &dyn Load| load.pressing(piece, angle) - load.pressing_when(piece, angle, above);
+        (by_law - self.load.map_or(0.0, gone) + self.spring_rate * above).max(0.0)
     }
 
-    /// The follower at a place where a rigid shaft has this force along its path, N.
-    pub(super) fn lowered(&self, (piece, angle): (usize, f64), rigid: f64, shaft: &Yielding) -> Lowered {
-        let rigid = rigid.max(0.0);
+    /// The follower at a place where the law has this force along its path, N.
+    pub(super) fn lowered(&self, (piece, angle): (usize, f64), by_law: f64, shaft: &Yielding) -> Lowered {
+        let rigid = self.force_below((piece, angle), by_law.max(0.0), 0.0);
         let contact = self.curves.contact(piece, angle);
         let (lean, velocity) = (libm::tan(contact.pressure_angle), contact.lift.ds);
         let (bending, twist) = (shaft.compliance * (1.0 + lean * lean), shaft.twist * velocity * velocity);
         let give = bending + twist;
-        let missing = |below: f64| below - give * self.force_below((piece, angle), rigid, below);
+        let missing = |below: f64| below - give * self.force_below((piece, angle), by_law.max(0.0), below);
         let below = root::bracketed(missing, 0.0, give * rigid, 0.0).unwrap_or(give * rigid);
         let force = if give == 0.0 { rigid } else { below / give };
-        let residual = |load: &dyn Load| load.residual(piece, angle, -below, Vector2::zeros());
+        let raised = self.load.map_or(0.0, |load| load.raised(piece, angle));
+        let residual = |load: &dyn Load| load.residual(piece, angle, raised - below, Vector2::zeros());
         Lowered {
             force,
             pressure_angle: contact.pressure_angle,
             bending: force * bending,
             twist: force * twist,
+            raised,
             residual: self.load.map_or(0.0, residual),
         }
     }

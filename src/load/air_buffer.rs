@@ -96,6 +96,10 @@ impl Load for AirBuffer {
         self.cylinder.force(law.bottom_law.pressure_ratio(state.crank, bottom)) / law.lever
     }
 
+    fn raised(&self, piece: usize, at: f64) -> f64 {
+        self.reversal.law().lever * self.reversal.raised(piece, at)
+    }
+
     /// Inertia less air; 0 outside the reversal, at its ends what it is inside.
     fn residual(&self, piece: usize, at: f64, moved: f64, _: Vector2<f64>) -> f64 {
         let state = self.state(piece, at);

@@ -54,6 +54,11 @@ pub trait Load: std::fmt::Debug + Send + Sync {
     /// The same with the follower `moved` (m) along its path from where the motion puts it.
     fn pressing_when(&self, piece: usize, at: f64, moved: f64) -> f64;
 
+    /// What the motion is raised by over the law that the load is for, along the follower's path, m.
+    fn raised(&self, _piece: usize, _at: f64) -> f64 {
+        0.0
+    }
+
     /// The residual force that the force balance leaves, inertia less air, N, with the follower `moved` (m) along its path from where
     /// the motion puts it and touching where the cam's normal (a unit vector out of the metal) is.
     fn residual(&self, piece: usize, at: f64, moved: f64, normal: Vector2<f64>) -> f64;

@@ -333,6 +333,14 @@ impl Machine {
         Some((Arc::clone(program) as Arc<dyn Motion>, program.rpm()))
     }
 
+    /// The machine with its rotary cam made for a rigid shaft, where the file asks for one that is cut for its own.
+    #[must_use]
+    pub fn on_a_rigid_shaft(&self) -> Option<Self> {
+        let data = self.shaft.as_ref().filter(|data| data.compensate)?;
+        let rigid = ShaftData { compensate: false, ..ShaftData::clone(data) };
+        Some(Self { shaft: Some(Arc::new(rigid)), ..self.clone() })
+    }
+
     /// The shaft that carries the cam, when the file describes one.
     #[must_use]
     pub fn shaft(&self) -> Option<&ShaftData> {

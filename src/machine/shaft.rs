@@ -33,6 +33,8 @@ pub struct ShaftData {
     pub cam_at: Option<f64>,
     /// Where the torque comes in, m; without it twist is not modelled.
     pub drive_at: Option<f64>,
+    /// The rotary cam is cut so that its follower keeps the law on this shaft.
+    pub compensate: bool,
 }
 
 /// What a shaft must keep.
@@ -70,13 +72,19 @@ const DRIVE_AT: Field<f64> = Field::quantity(
     within(0.0, LONGEST),
 );
 
+const COMPENSATE: Field<bool> = Field::boolean(
+    "compensate",
+    "cut the rotary cam so that its follower keeps the law while the shaft gives way, exact at the design speed",
+    Default("false"),
+);
+
 /// `[shaft]`.
 pub(super) const SECTION: Section = Section {
     path: PATH,
     about: "the shaft that carries the cam, or a shaft alone: for `camgen shaft`",
     occurs: Occurs::Optional,
-    cams: &[SHAFT],
-    keys: &[BEAM.key, CAM_AT.key, DRIVE_AT.key],
+    cams: &[SHAFT, ROTARY],
+    keys: &[BEAM.key, CAM_AT.key, DRIVE_AT.key, COMPENSATE.key],
 };
 
 const LENGTH: Field<f64> =
@@ -120,7 +128,7 @@ pub(super) const SEGMENT: Section = Section {
     path: "shaft.segment",
     about: "a segment of the shaft, from left to right",
     occurs: Occurs::Repeated,
-    cams: &[SHAFT],
+    cams: &[SHAFT, ROTARY],
     keys: &[LENGTH.key, DIAMETER.key, BORE.key, MATERIAL.key, MODULUS.key, DENSITY.key, POISSON.key],
 };
 
@@ -139,7 +147,7 @@ pub(super) const SUPPORT: Section = Section {
     path: "shaft.support",
     about: "a support of the shaft, at least two",
     occurs: Occurs::Repeated,
-    cams: &[SHAFT],
+    cams: &[SHAFT, ROTARY],
     keys: &[SUPPORT_AT.key, STIFFNESS.key],
 };
 
@@ -189,7 +197,7 @@ pub(super) const DISC: Section = Section {
     path: "shaft.disc",
     about: "a gear, coupling or weight on the shaft; the cam is not one of them",
     occurs: Occurs::Repeated,
-    cams: &[SHAFT],
+    cams: &[SHAFT, ROTARY],
     keys: &[
         DISC_AT.key,
         MASS.key,
@@ -225,7 +233,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<ShaftData> {
     let supports = supports?.into_iter().map(|support| Support { at: on(support.at), ..support }).collect();
     let discs = discs?.into_iter().map(|disc| Disc { at: on(disc.at), ..disc }).collect();
     match Shaft::new(known?, supports, discs, beam) {
-        Ok(shaft) => Some(ShaftData { shaft, cam_at, drive_at }),
+        Ok(shaft) => Some(ShaftData { shaft, cam_at, drive_at, compensate: table.get(&COMPENSATE)? }),
         Err(error) => {
             // What is wrong with a part has been told at its place.
             if reader.is_faultless() {
@@ -375,7 +383,11 @@ impl ShaftMachine {
         if carries {
             let machine = Machine::read(source, text, overrides, own)?;
             let command = if machine.press().is_ok() { ROTARY } else { MAKE };
-            shaft.inputs.extend(machine.inputs(command));
+            let more = machine
+                .inputs(command)
+                .into_iter()
+                .filter(|input| !shaft.inputs.iter().any(|own| own.key == input.key));
+            shaft.inputs.extend(more.collect::<Vec<_>>());
             shaft.machine = Some(machine);
         }
         Ok(shaft)
@@ -422,6 +434,13 @@ impl ShaftMachine {
     #[must_use]
     pub fn machine(&self) -> Option<&Machine> {
         self.machine.as_ref()
+    }
+
+    /// The same with a cam that is made for a rigid shaft, where the file asks for one that is cut for its own.
+    #[must_use]
+    pub fn with_rigid_cam(&self) -> Option<Self> {
+        let machine = self.machine.as_ref()?.on_a_rigid_shaft()?;
+        Some(Self { machine: Some(machine), ..self.clone() })
     }
 
     /// Every value that has an effect, defaults too.

@@ -272,6 +272,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("shaft.beam", "euler"),
     ("shaft.cam_at", "140 mm"),
     ("shaft.drive_at", "10 mm"),
+    ("shaft.compensate", "true"),
     ("shaft.segment[0].length", "310 mm"),
     ("shaft.segment[0].diameter", "60 mm"),
     ("shaft.segment[0].bore", "10 mm"),

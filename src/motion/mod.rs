@@ -9,12 +9,14 @@ mod eccentric;
 pub mod equation_18;
 pub mod laws;
 pub mod program;
+mod raised;
 mod reversal;
 mod transition;
 
 pub use brake_disc::BrakeDisc;
 pub use eccentric::EccentricCircle;
 pub use equation_18::WedgeMotion;
+pub use raised::Raised;
 pub use reversal::{MotionError, Reversal, ReversalLaw, State};
 pub use transition::Transition;
 
@@ -66,6 +68,12 @@ impl Jet {
     pub fn by_angle_times(self, ratio: f64) -> Self {
         let n = 1.0 / ratio;
         Self { s: self.s, ds: self.ds * n, dds: self.dds * n * n, ddds: self.ddds * n * n * n }
+    }
+
+    /// The sum of two jets.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self { s: self.s + other.s, ds: self.ds + other.ds, dds: self.dds + other.dds, ddds: self.ddds + other.ddds }
     }
 
     /// The jet of the mirrored motion s(−θ).

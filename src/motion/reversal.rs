@@ -11,17 +11,21 @@
 //! ramp brings it back, with no air to compress.
 
 use super::transition::{Derivatives, Quintic, Transition};
-use super::{Jet, Motion, Piece};
+use super::{Jet, Motion, Piece, Raised};
 use crate::buffer::bottom_law::BottomLaw;
 use crate::buffer::crank_law::{CrankLaw, LinkageLaw};
 use crate::numeric::extremum;
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
 
 /// Cells for the search of the lowest point in a piece: the smooth pieces have two extrema at most.
 const CELLS: u32 = 16;
 
 /// Angle below which two breaks are one, rad: 1e-12 rad of a cam of a kilometre is a nanometre.
 const SAME_ANGLE: f64 = 1e-12;
+
+/// Levels nearer to each other than this are one, m: what is raised on either side agrees to its rounding.
+const SAME_LEVEL: f64 = 1e-15;
 
 /// What a reversal law is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,6 +112,8 @@ pub struct State {
 #[derive(Debug, Clone)]
 pub struct Reversal {
     law: ReversalLaw,
+    /// What the cam is cut higher than the law over the reversal.
+    raised: Option<Arc<Raised>>,
     /// Of all lobes, by the cam angle.
     pieces: Vec<Piece>,
     /// Of one lobe, by the crank angle.
@@ -132,8 +138,17 @@ impl Reversal {
     /// # Errors
     /// [`MotionError`] when they do not fit into a turn of the crank or exclude each other.
     pub fn new(law: ReversalLaw) -> Result<Self, MotionError> {
-        let parts = parts(&law)?;
-        let mut motion = Self { law, pieces: Vec::new(), parts, lowest: 0.0 };
+        Self::raised_by(law, None)
+    }
+
+    /// The same with a cam that is cut higher over the reversal. The state of the machine is that of the law: so high the follower stands
+    /// under load.
+    ///
+    /// # Errors
+    /// As [`Reversal::new`].
+    pub fn raised_by(law: ReversalLaw, raised: Option<Arc<Raised>>) -> Result<Self, MotionError> {
+        let parts = parts(&law, raised.as_deref())?;
+        let mut motion = Self { law, raised, pieces: Vec::new(), parts, lowest: 0.0 };
         motion.pieces = (0..law.lobes.max(1)).flat_map(|lobe| motion.lobe(lobe)).collect();
         motion.lowest = motion.find_lowest();
         Ok(motion)
@@ -194,10 +209,10 @@ impl Reversal {
     /// Δx and its derivatives by the cam angle; m.
     #[must_use]
     pub fn bottom(&self, piece: usize, angle: f64) -> Jet {
-        let Some((&Part { shape, mirrored, .. }, crank)) = self.part_at(piece, angle) else {
+        let Some((&Part { shape, mirrored, .. }, at)) = self.part_at(piece, angle) else {
             return Jet::default();
         };
-        let (mirrored, crank) = self.seen(shape, mirrored, crank);
+        let (mirrored, crank) = self.seen(shape, mirrored, at);
         let [s, ds, dds, ddds] = match (shape, &self.law.bottom_law) {
             (Shape::Dwell(level), _) => [level, 0.0, 0.0, 0.0],
             (Shape::Polynomial(quintic), _) => quintic.at(crank),
@@ -206,7 +221,26 @@ impl Reversal {
             (Shape::Reversal, law) => law_at(law, crank),
         };
         let jet = Jet { s, ds, dds, ddds }.by_angle_times(1.0 / self.count());
-        if mirrored { jet.mirrored() } else { jet }
+        let jet = if mirrored { jet.mirrored() } else { jet };
+        match &self.raised {
+            Some(raised) if shape == Shape::Reversal => jet.plus(raised.jet(at).by_angle_times(1.0 / self.count())),
+            _ => jet,
+        }
+    }
+
+    /// What the bottom is raised by at a cam angle of a piece, m: 0 outside the reversal.
+    #[must_use]
+    pub fn raised(&self, piece: usize, angle: f64) -> f64 {
+        match (&self.raised, self.part_at(piece, angle)) {
+            (Some(raised), Some((part, crank))) if part.shape == Shape::Reversal => raised.at(crank)[0],
+            _ => 0.0,
+        }
+    }
+
+    /// Whether the cam is cut higher than the law.
+    #[must_use]
+    pub fn is_raised(&self) -> bool {
+        self.raised.is_some()
     }
 
     /// Whether a shape is seen mirrored at a crank angle, and the angle at which it is evaluated. The reversal of a yoke is one smooth
@@ -221,7 +255,7 @@ impl Reversal {
     #[must_use]
     pub fn state(&self, piece: usize, angle: f64) -> State {
         let crank = self.part_at(piece, angle).map_or(0.0, |(_, crank)| crank);
-        let displacement = self.bottom(piece, angle).s;
+        let displacement = self.bottom(piece, angle).s - self.raised(piece, angle);
         let law = &self.law.bottom_law;
         let ([overrun, deceleration], pressure_ratio) = if (0.0..=law.angle()).contains(&crank) {
             (law.bed(crank), law.pressure_ratio(crank, displacement))
@@ -272,9 +306,9 @@ impl Reversal {
     /// Fourth derivative of the lift by the cam angle, m/rad⁴.
     #[must_use]
     pub fn fourth(&self, piece: usize, angle: f64) -> f64 {
-        let Some((&Part { shape, mirrored, .. }, crank)) = self.part_at(piece, angle) else { return 0.0 };
+        let Some((&Part { shape, mirrored, .. }, at)) = self.part_at(piece, angle) else { return 0.0 };
         // An even derivative is the same in the mirror.
-        let (_, crank) = self.seen(shape, mirrored, crank);
+        let (_, crank) = self.seen(shape, mirrored, at);
         let by_crank = match (shape, &self.law.bottom_law) {
             (Shape::Dwell(_), _) | (Shape::Retreat, CrankLaw::Yoke(_)) => 0.0,
             (Shape::Retreat, CrankLaw::Linkage(law)) => -law.end.at(crank).x[4],
@@ -282,8 +316,10 @@ impl Reversal {
             (Shape::Reversal, CrankLaw::Yoke(law)) => fourth_of_law(law, crank),
             (Shape::Reversal, CrankLaw::Linkage(law)) => law.at(crank)[4],
         };
+        let of_raised =
+            self.raised.as_ref().filter(|_| shape == Shape::Reversal).map_or(0.0, |raised| raised.at(at)[4]);
         let square = self.count() * self.count();
-        self.law.lever * by_crank * square * square
+        self.law.lever * (by_crank + of_raised) * square * square
     }
 
     /// Slope and curvature of the bottom by the crank angle where the run-ups end, m/rad and m/rad²; the one after the reversal is seen in
@@ -297,7 +333,7 @@ impl Reversal {
                 vec![[start.slope * law.stroke, start.second * law.stroke * law.stroke]]
             }
             CrankLaw::Linkage(law) => {
-                let Ok(sides) = sides_of_linkage(&self.law, law) else { return Vec::new() };
+                let Ok(sides) = sides_of_linkage(&self.law, law, self.raised.as_deref()) else { return Vec::new() };
                 let ends = sides.map(|side| [side.end_of_rise[1], side.end_of_rise[2]]);
                 if law.end.symmetric() { ends.into_iter().take(1).collect() } else { ends.to_vec() }
             }
@@ -389,15 +425,27 @@ impl Side {
     }
 }
 
-/// The two sides of the reversal of a yoke, which are one.
-fn side_of_yoke(law: &ReversalLaw, bottom_law: &BottomLaw) -> Side {
+/// A law with what the cam is raised by, at an angle of a side.
+fn with_raised(law: Derivatives, raised: Option<&Raised>, angle: f64, whole: Option<f64>) -> Derivatives {
+    let Some(raised) = raised else { return law };
+    let [value, first, second, third, _] = raised.at(whole.map_or(angle, |whole| whole - angle));
+    // A side behind the reversal is seen in its mirror.
+    let sign = if whole.is_some() { -1.0 } else { 1.0 };
+    let [s, ds, dds, ddds] = law;
+    [s + value, ds + sign * first, dds + second, ddds + sign * third]
+}
+
+/// A side of the reversal of a yoke; the one behind it, in its mirror, differs from the one before by what the cam is raised by.
+fn side_of_yoke(law: &ReversalLaw, bottom_law: &BottomLaw, raised: Option<&Raised>, whole: Option<f64>) -> Side {
     let retreat = bottom_law.lead / bottom_law.stroke;
-    let end = if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { bottom_law_at(bottom_law, 0.0) };
-    Side::new(law.transition, retreat, 0.0, end, |angle| bottom_law_at(bottom_law, angle))
+    let at = |angle: f64| with_raised(bottom_law_at(bottom_law, angle), raised, angle, whole);
+    let end = if retreat > 0.0 { [0.0, -bottom_law.stroke, 0.0, 0.0] } else { at(0.0) };
+    let level = if retreat > 0.0 || raised.is_none() { 0.0 } else { end[0] };
+    Side::new(law.transition, retreat, level, end, at)
 }
 
 /// The sides of the reversal of a linkage, the second one mirrored; of a symmetric motion they are one.
-fn sides_of_linkage(law: &ReversalLaw, of: &LinkageLaw) -> Result<[Side; 2], MotionError> {
+fn sides_of_linkage(law: &ReversalLaw, of: &LinkageLaw, raised: Option<&Raised>) -> Result<[Side; 2], MotionError> {
     let whole = of.end.angle();
     let [before, after] = if of.lead > 0.0 {
         let lead_mm = 1e3 * of.lead;
@@ -408,7 +456,7 @@ fn sides_of_linkage(law: &ReversalLaw, of: &LinkageLaw) -> Result<[Side; 2], Mot
     let in_mirror = |[value, first, second, third]: Derivatives| [value, -first, second, -third];
     let first_three = |angle: f64| {
         let [value, first, second, third, _] = of.at(angle);
-        [value, first, second, third]
+        with_raised([value, first, second, third], raised, angle, None)
     };
     let retreating = |angle: f64| of.retreat(angle);
     let side = |retreat: f64, level: f64, mirrored: bool| {
@@ -418,13 +466,16 @@ fn sides_of_linkage(law: &ReversalLaw, of: &LinkageLaw) -> Result<[Side; 2], Mot
         // The bottom retreats from where its column is closed, unless the piston is out of it at the end of the reversal already.
         let retreats = retreat > 0.0;
         let mut end = if retreats { seen(-retreat, &retreating) } else { seen(0.0, &first_three) };
+        let level = if retreats || raised.is_none() { level } else { end[0] };
         end[0] = level;
         Side::new(law.transition, retreat.max(0.0), level, end, |angle| seen(angle, &first_three))
     };
     let left = -(of.lead + of.end.overrun_at_end());
     let first = side(-before, 0.0, false);
     let second = match of.end.symmetric() {
-        true => side(-before, 0.0, false),
+        true if raised.is_none() => side(-before, 0.0, false),
+        true if of.lead > 0.0 => side(-before, 0.0, true),
+        true => side(0.0, 0.0, true),
         false if of.lead > 0.0 && left < 0.0 => side(after - whole, 0.0, true),
         false => side(0.0, left, true),
     };
@@ -432,7 +483,7 @@ fn sides_of_linkage(law: &ReversalLaw, of: &LinkageLaw) -> Result<[Side; 2], Mot
 }
 
 /// The parts of one lobe by the crank angle: one turn of it, the dwell last.
-fn parts(law: &ReversalLaw) -> Result<Vec<Part>, MotionError> {
+fn parts(law: &ReversalLaw, raised: Option<&Raised>) -> Result<Vec<Part>, MotionError> {
     let (whole, lead) = (law.bottom_law.angle(), law.bottom_law.lead());
     let (most, retreats) = (law.bottom_law.widest_blend(), lead > 0.0);
     match law.transition {
@@ -444,8 +495,8 @@ fn parts(law: &ReversalLaw) -> Result<Vec<Part>, MotionError> {
         _ => {}
     }
     let [first, second] = match &law.bottom_law {
-        CrankLaw::Yoke(of) => [side_of_yoke(law, of), side_of_yoke(law, of)],
-        CrankLaw::Linkage(of) => sides_of_linkage(law, of)?,
+        CrankLaw::Yoke(of) => [side_of_yoke(law, of, raised, None), side_of_yoke(law, of, raised, Some(whole))],
+        CrankLaw::Linkage(of) => sides_of_linkage(law, of, raised)?,
     };
     let needed = whole - (first.first() + second.first());
     if needed > TAU + SAME_ANGLE {
@@ -469,7 +520,7 @@ fn parts(law: &ReversalLaw) -> Result<Vec<Part>, MotionError> {
 
 /// The rest of the turn: a dwell, or a ramp from one level to another.
 fn rest((start, end): (f64, f64), from: f64, to: f64) -> Result<Shape, MotionError> {
-    if from == to {
+    if (from - to).abs() <= SAME_LEVEL {
         return Ok(Shape::Dwell(from));
     }
     if end - start <= SAME_ANGLE {

@@ -5,6 +5,7 @@
 pub mod banded;
 pub mod bernstein;
 pub mod chebyshev;
+pub mod chebyshev_series;
 pub mod double;
 pub mod extremum;
 pub mod parallel;

@@ -91,6 +91,9 @@ impl Disc {
     fn counter_torque(&self) -> Result<CounterMotion, DiscError> {
         let data = self.machine.compensator().ok_or(DiscError::NoCompensator)?;
         let load = self.load.as_ref().ok_or(NoPress::None)?;
+        if self.raised {
+            return Err(DiscError::CompensatorOnShaft);
+        }
         let follower = &self.machine.follower;
         let mass = follower.mass.zip(self.speed).unwrap_or((0.0, 0.0));
         if let Some(at) = self.velocity_jump().filter(|_| follower.mass.is_some()) {

@@ -4,6 +4,7 @@ mod balance;
 mod compensator;
 mod loaded;
 mod mechanism;
+mod raised;
 pub use compensator::{AtSpeed, Compensated};
 pub(in crate::body) use mechanism::of_press;
 mod sheet;
@@ -21,7 +22,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load, RunUp};
 use crate::machine::{Machine, NoPress, Press, Rotation};
 use crate::motion::counter_torque::CounterTorqueError;
-use crate::motion::{Motion, MotionError, Quantity, Reversal, ReversalLaw, Transition};
+use crate::motion::{Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, Transition};
 use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
@@ -56,6 +57,8 @@ pub struct Disc {
     motion: Arc<dyn Motion>,
     follower: Arc<dyn Follower>,
     load: Option<Arc<dyn Load>>,
+    /// It is cut for a shaft that gives way.
+    raised: bool,
     /// The sizes that keep every limit; `None` when none does.
     smallest: Option<Smallest>,
     worst: WorstPlaces,
@@ -94,6 +97,18 @@ pub enum DiscError {
          --set compensator.spring_rate=100N/mm --set compensator.preload=10kN"
     )]
     NoCompensator,
+    /// The shaft that it is to be cut for.
+    #[error("the cam is to be cut for its shaft (shaft.compensate): {0}")]
+    Shaft(String),
+    /// The shaft gives way too much.
+    #[error(
+        "the cam cannot be cut for its shaft (shaft.compensate): what bending and twist take off the lift grows faster than it can be put \
+         on; make the shaft thicker, or put the drive (shaft.drive_at) nearer to the cam"
+    )]
+    TooSoft,
+    /// A cam that is cut for its shaft has no second one.
+    #[error("a compensating cam is made for a rigid shaft: set shaft.compensate = false, or leave out [compensator]")]
+    CompensatorOnShaft,
     /// A mass that is thrown, which no spring can give back.
     #[error(
         "the velocity of the follower jumps at {cam_deg:.3} deg: with its mass no compensating cam can take that blow; give \
@@ -122,25 +137,33 @@ impl Disc {
     /// # Errors
     /// [`DiscError`] when the motion cannot be put together or no radius keeps the limits.
     pub fn solve(machine: &Machine, rpm: f64) -> Result<Self, DiscError> {
+        Self::of_reversal(machine, rpm, None)?.sized()?.cut_for_its_shaft(machine, rpm)
+    }
+
+    /// The disc of a press, its size not yet found, with a cam that may be cut higher than its law.
+    fn of_reversal(machine: &Machine, rpm: f64, raised: Option<Arc<Raised>>) -> Result<Self, DiscError> {
         let press = machine.press()?;
+        let is_raised = raised.is_some();
         if press.lead > 0.0 && machine.transition == Transition::None {
             return Err(DiscError::CornerOfLead);
         }
-        let reversal = Arc::new(Reversal::new(ReversalLaw {
+        let law = ReversalLaw {
             bottom_law: press.bottom_law(rpm),
             lever: machine.cam.lever,
             lobes: machine.cam.lobes,
             transition: machine.transition,
-        })?);
+        };
+        let reversal = Arc::new(Reversal::raised_by(law, raised)?);
         let load: Arc<dyn Load> = Arc::new(AirBuffer::new(press.cylinder(), Arc::clone(&reversal)));
         let disc = Self {
             kind: &ROTARY,
             rpm: Some(rpm),
             speed: Some(Self::speed_of(press, machine, rpm)),
             load: Some(load),
+            raised: is_raised,
             ..Self::unsized_of(machine, reversal)
         };
-        disc.sized()
+        Ok(disc)
     }
 
     /// The cam of any motion under the machine's follower, sized; `rpm` is the speed of the cam itself, where it is known.
@@ -161,6 +184,7 @@ impl Disc {
             speed: None,
             motion,
             load: None,
+            raised: false,
             smallest: None,
             worst: WorstPlaces::default(),
         }
@@ -509,6 +533,7 @@ impl Body for Disc {
         if let Some(load) = &self.load {
             sections.push(load.section());
             sections.extend(reversal_of_bed(&self.machine));
+            sections.extend(self.cut_higher());
         }
         sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
         sections.push(Section::new("rolling", &found.rolled));

@@ -1,0 +1,99 @@
+//! A smooth function on an interval as a sum of Chebyshev polynomials, with its derivatives.
+//!
+//! The function is met at the points of Gauss; the derivative of a sum is a sum, by c'_{n−1} = c'_{n+1} + 2 n c_n (J. C. Mason,
+//! D. C. Handscomb, Chebyshev Polynomials, 2003, ch. 2.4), and a sum is evaluated by Clenshaw's recurrence.
+
+use std::f64::consts::PI;
+
+/// Σ cₙ Tₙ(t), t = −1 … 1 from one end of the interval to the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChebyshevSeries {
+    range: (f64, f64),
+    coefficients: Vec<f64>,
+}
+
+impl ChebyshevSeries {
+    /// The points at which a function is met by a sum of so many terms.
+    #[must_use]
+    pub fn points((low, high): (f64, f64), terms: u32) -> Vec<f64> {
+        let middle = 0.5 * (low + high);
+        (0..terms).map(|i| middle + 0.5 * (high - low) * libm::cos(angle(i, terms))).collect()
+    }
+
+    /// The sum that has these values at its [`ChebyshevSeries::points`]; terms below a share of the largest are roundings and left out.
+    #[must_use]
+    pub fn through(range: (f64, f64), values: &[f64], rounding: f64) -> Self {
+        let count = u32::try_from(values.len()).unwrap_or(u32::MAX);
+        let term = |n: u32| {
+            let sum: f64 =
+                (0..count).zip(values).map(|(i, value)| value * libm::cos(f64::from(n) * angle(i, count))).sum();
+            sum * if n == 0 { 1.0 } else { 2.0 } / f64::from(count.max(1))
+        };
+        let mut coefficients: Vec<f64> = (0..count).map(term).collect();
+        let least = rounding * coefficients.iter().fold(0.0, |largest: f64, c| largest.max(c.abs()));
+        while coefficients.last().is_some_and(|last| last.abs() <= least) {
+            coefficients.pop();
+        }
+        Self { range, coefficients }
+    }
+
+    /// Its derivative.
+    #[must_use]
+    pub fn derivative(&self) -> Self {
+        let count = self.coefficients.len();
+        let (low, high) = self.range;
+        let per = 2.0 / (high - low);
+        let (mut after, mut here) = (0.0, 0.0);
+        let mut slopes = Vec::with_capacity(count);
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred terms")]
+        for (n, coefficient) in self.coefficients.iter().enumerate().skip(1).rev() {
+            let slope = after + 2.0 * n as f64 * coefficient;
+            slopes.push(slope);
+            (after, here) = (here, slope);
+        }
+        slopes.reverse();
+        if let Some(first) = slopes.first_mut() {
+            *first *= 0.5;
+        }
+        Self { range: self.range, coefficients: slopes.into_iter().map(|slope| slope * per).collect() }
+    }
+
+    /// Its value at a place of the interval.
+    #[must_use]
+    pub fn at(&self, x: f64) -> f64 {
+        let (low, high) = self.range;
+        let t = ((x - low) - (high - x)) / (high - low);
+        let (mut after, mut here) = (0.0, 0.0);
+        for coefficient in self.coefficients.iter().skip(1).rev() {
+            (after, here) = (here, 2.0 * t * here - after + coefficient);
+        }
+        self.coefficients.first().map_or(0.0, |first| t * here - after + first)
+    }
+}
+
+/// Of the point of Gauss with this number, rad.
+fn angle(index: u32, count: u32) -> f64 {
+    PI * (f64::from(index) + 0.5) / f64::from(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// e^x sin 3x and three derivatives, to rounding times the square of the terms for each.
+    #[test]
+    fn a_sum_has_the_derivatives_of_its_function() {
+        let range = (-0.5, 2.0);
+        let values: Vec<f64> =
+            ChebyshevSeries::points(range, 40).iter().map(|x| libm::exp(*x) * libm::sin(3.0 * x)).collect();
+        let sum = ChebyshevSeries::through(range, &values, 1e-16);
+        let (first, second) = (sum.derivative(), sum.derivative().derivative());
+        for i in 0..=50 {
+            let x = range.0 + 2.5 * f64::from(i) / 50.0;
+            let (e, sin, cos) = (libm::exp(x), libm::sin(3.0 * x), libm::cos(3.0 * x));
+            assert!((sum.at(x) - e * sin).abs() < 1e-13, "{x}");
+            assert!((first.at(x) - e * (sin + 3.0 * cos)).abs() < 1e-11, "{x}");
+            assert!((second.at(x) - e * (6.0 * cos - 8.0 * sin)).abs() < 1e-9, "{x}");
+        }
+    }
+}
