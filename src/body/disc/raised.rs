@@ -22,7 +22,7 @@ use serde_json::json;
 use std::sync::Arc;
 
 /// Terms of the series, and the share of its largest below which one is rounding.
-const TERMS: u32 = 64;
+const TERMS: u32 = 40;
 const ROUNDING: f64 = 1e-15;
 /// Fixed points are tried so often; they agree to a hundredth of a nanometre.
 const ROUNDS: usize = 24;
