@@ -30,6 +30,8 @@ pub enum Dimension {
     Density,
     /// Kilograms times metres inside.
     Unbalance,
+    /// Metres per second squared inside.
+    Acceleration,
 }
 
 struct Unit {
@@ -86,6 +88,7 @@ const UNITS: &[Unit] = &[
     unit("kg/m3", Dimension::Density, 1.0, 1.0),
     unit("g*mm", Dimension::Unbalance, 1.0, 1e6),
     unit("kg*mm", Dimension::Unbalance, 1.0, 1e3),
+    unit("m/s2", Dimension::Acceleration, 1.0, 1.0),
 ];
 
 impl Dimension {
@@ -112,6 +115,7 @@ impl fmt::Display for Dimension {
             Dimension::Inertia => "moment of inertia",
             Dimension::Density => "density",
             Dimension::Unbalance => "unbalance",
+            Dimension::Acceleration => "acceleration",
         })
     }
 }

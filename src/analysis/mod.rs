@@ -3,6 +3,7 @@
 //! An analysis is plain data, made by one function from a machine. Checks judge its measures, formats write its tables and its
 //! plot. A new one is a file here, one line in [`KINDS`] and its command.
 
+pub mod brake;
 pub mod drive;
 pub mod linkage;
 pub mod regimes;
@@ -17,7 +18,7 @@ use crate::report::{Section, Speeds};
 use crate::table::Table;
 
 /// Every kind of analysis.
-pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND];
+pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND, &brake::KIND];
 
 /// A figure that a check judges.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,6 +4,7 @@ use crate::buffer::Cylinder;
 use crate::buffer::crank_law::CrankLaw;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
+use crate::numeric::digits::three_digits_down;
 use crate::numeric::root;
 use crate::report::{ReversalOfBed, Section, degrees};
 
@@ -76,12 +77,6 @@ pub(super) fn fitting_speed(allowed: impl Fn(f64) -> f64, from: f64, error: f64)
     (excess(rounded) >= 0.0).then_some(rounded)
 }
 
-/// The next number of three digits that is not larger.
-pub(super) fn three_digits_down(value: f64) -> f64 {
-    let digit = libm::pow(10.0, 2.0 - libm::log10(value).floor());
-    (value * digit).floor() / digit
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -104,7 +99,5 @@ mod tests {
             assert!((left(0.18) / half - 1.0).abs() < 1e-8, "{rpm} rpm: {} {half}", left(0.18));
             assert!(left(0.09) < half);
         }
-        assert_eq!(three_digits_down(612.9), 612.0);
-        assert_eq!(three_digits_down(0.012_39), 0.0123);
     }
 }

@@ -13,6 +13,7 @@ mod picture;
 pub mod points;
 mod sheet;
 mod stress;
+pub mod tension;
 pub mod torque;
 pub mod wedge;
 
@@ -28,7 +29,7 @@ use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::RunUp;
 use crate::machine::Machine;
-use crate::motion::Quantity;
+use crate::motion::{BrakeDisc, Quantity};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
@@ -58,7 +59,8 @@ pub struct Kind {
 }
 
 /// Every kind of body.
-pub const KINDS: &[&Kind] = &[&disc::ROTARY, &disc::GENERAL, &disc::COMPENSATOR, &wedge::KIND, &conoid::KIND];
+pub const KINDS: &[&Kind] =
+    &[&disc::ROTARY, &disc::GENERAL, &disc::COMPENSATOR, &disc::BRAKE, &wedge::KIND, &conoid::KIND];
 
 /// A largest error of velocity or acceleration, as it is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -358,6 +360,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// The second disc that takes its torque, with what it does by its law; `None` where none is described.
     fn compensating(&self) -> Option<Result<(disc::Disc, disc::Compensated), disc::DiscError>> {
+        None
+    }
+
+    /// The motion of a disc that holds the tension of a belt brake; `None` of any other cam.
+    fn brake_disc(&self) -> Option<&BrakeDisc> {
         None
     }
 

@@ -62,6 +62,12 @@ impl Ends {
         Ok(Self { friction, press_ratio, full, empty })
     }
 
+    /// Wraps of the full and of the empty roll, rad.
+    #[must_use]
+    pub fn wraps(&self) -> [f64; 2] {
+        [self.full, self.empty]
+    }
+
     /// K_n and K_k.
     #[must_use]
     pub fn coefficients(&self) -> (f64, f64) {

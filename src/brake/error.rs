@@ -1,5 +1,7 @@
 //! Why a brake is refused or has no answer, with the radius where it ends and what would help.
 
+use crate::numeric::digits::three_digits_down;
+
 /// A pulley of the frame, for a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pulley {
@@ -39,7 +41,10 @@ pub enum BrakeError {
         value: f64,
     },
     /// The roll does not run down.
-    #[error("the smallest radius of the roll is {smallest} m: it must be below the largest, {largest} m")]
+    #[error(
+        "the smallest radius of the roll is {} mm: it must be below the largest, {} mm",
+        millimetres(*smallest), millimetres(*largest)
+    )]
     RollOrder {
         /// m.
         smallest: f64,
@@ -54,7 +59,8 @@ pub enum BrakeError {
     },
     /// d_i ≤ R + ρ.
     #[error(
-        "the {pulley} pulley meets the roll at a radius of {radius} m: move it outwards, or make the pulleys smaller"
+        "the {pulley} pulley meets the roll at a radius of {} mm: move it outwards, or make the pulleys smaller",
+        millimetres(*radius)
     )]
     PulleyMeetsRoll {
         /// Which.
@@ -64,15 +70,19 @@ pub enum BrakeError {
     },
     /// a ≤ 0. It comes at the largest radius only: a taut belt that is longer than the distance of the pulleys stays so, because the
     /// frame changes neither.
-    #[error("the belt leaves the roll at a radius of {radius} m: set the pulleys further round it, or further apart")]
+    #[error(
+        "the belt leaves the roll at a radius of {} mm: set the pulleys further round it, or further apart",
+        millimetres(*radius)
+    )]
     BeltLeavesRoll {
         /// m.
         radius: f64,
     },
     /// q1 + q2 = 0: the frame turns without end for no change of the radius.
     #[error(
-        "the frame comes to a dead point at a radius of {radius} m, where the spans cross on a line through the pivot, and does \
-         not follow the roll down to {smallest} m: move the pivot away from that line"
+        "the frame comes to a dead point at a radius of {} mm, where the spans cross on a line through the pivot, and does not \
+         follow the roll down to {} mm: move the pivot away from that line",
+        millimetres(*radius), millimetres(*smallest)
     )]
     DeadPoint {
         /// m.
@@ -82,8 +92,9 @@ pub enum BrakeError {
     },
     /// (1 + ε1) q_t + q_s ≤ 0: friction alone presses the belt on.
     #[error(
-        "the brake jams at a radius of {radius} m with a friction of {friction}: move the pivot to the other side of the tight \
-         span, or turn the roll the other way"
+        "the brake jams at a radius of {} mm with a friction of {friction}: move the pivot to the other side of the tight span, \
+         or turn the roll the other way",
+        millimetres(*radius)
     )]
     Jams {
         /// m.
@@ -93,7 +104,8 @@ pub enum BrakeError {
     },
     /// h1 ≤ 0.
     #[error(
-        "the weight no longer presses the belt on at a radius of {radius} m: move the centre of gravity away from the pivot"
+        "the weight no longer presses the belt on at a radius of {} mm: move the centre of gravity away from the pivot",
+        millimetres(*radius)
     )]
     WeightLifts {
         /// m.
@@ -101,7 +113,8 @@ pub enum BrakeError {
     },
     /// The arithmetic has an end before the roll has.
     #[error(
-        "the frame cannot be followed below a radius of {radius} m, to {smallest} m: its dimensions are out of all proportion"
+        "the frame cannot be followed below a radius of {} mm, to {} mm: its dimensions are out of all proportion",
+        millimetres(*radius), millimetres(*smallest)
     )]
     NotReached {
         /// Last radius that was reached, m.
@@ -110,7 +123,10 @@ pub enum BrakeError {
         smallest: f64,
     },
     /// A question about another radius.
-    #[error("a radius of {radius} m is outside the roll, {smallest}…{largest} m")]
+    #[error(
+        "a radius of {} mm is outside the roll, {}…{} mm",
+        millimetres(*radius), millimetres(*smallest), millimetres(*largest)
+    )]
     OutsideRoll {
         /// m.
         radius: f64,
@@ -120,7 +136,10 @@ pub enum BrakeError {
         largest: f64,
     },
     /// The disc would turn past its start.
-    #[error("the disc would turn by {turn} rad, a whole turn or more: turns_per_frame_turn must be below {most}")]
+    #[error(
+        "the disc would turn by {:.1} deg, a whole turn or more: turns_per_frame_turn at most {}",
+        turn.to_degrees(), three_digits_down(*most)
+    )]
     CamTurn {
         /// rad.
         turn: f64,
@@ -129,12 +148,34 @@ pub enum BrakeError {
     },
     /// Nothing found within the limits has no wall.
     #[error(
-        "no frame within {reach} m of the roll's axis brakes the whole roll: allow a larger reach, or smaller pulleys"
+        "no frame within {} mm of the roll's axis brakes the whole roll: allow a larger reach, or smaller pulleys",
+        millimetres(*reach)
     )]
     NoFrame {
         /// m.
         reach: f64,
     },
+}
+
+impl BrakeError {
+    /// The radius of the roll at which a wall stands, m.
+    #[must_use]
+    pub fn radius(&self) -> Option<f64> {
+        match *self {
+            Self::PulleyMeetsRoll { radius, .. }
+            | Self::BeltLeavesRoll { radius }
+            | Self::DeadPoint { radius, .. }
+            | Self::Jams { radius, .. }
+            | Self::WeightLifts { radius }
+            | Self::NotReached { radius, .. } => Some(radius),
+            _ => None,
+        }
+    }
+}
+
+/// Millimetres to the micrometre.
+fn millimetres(metres: f64) -> f64 {
+    (1e6 * metres).round() / 1e3
 }
 
 pub(super) fn positive(name: &'static str, value: f64) -> Result<(), BrakeError> {

@@ -93,6 +93,12 @@ impl Holding {
         &self.brake
     }
 
+    /// The tension it holds, N.
+    #[must_use]
+    pub fn tension(&self) -> f64 {
+        self.tension
+    }
+
     /// Θ at the smallest radius, rad; below a whole turn.
     #[must_use]
     pub fn total_angle(&self) -> f64 {

@@ -139,7 +139,7 @@ impl Task {
         match Brake::with_stations(self.frame(genes), self.roll, friction, self.rotation, STATIONS) {
             Ok(brake) => self.spread(&brake),
             Err(wall) => {
-                let radius = wall_radius(&wall).unwrap_or(self.roll.largest_radius);
+                let radius = wall.radius().unwrap_or(self.roll.largest_radius);
                 WALLED * (1.0 + (radius - self.roll.smallest_radius) / self.roll.largest_radius)
             }
         }
@@ -168,16 +168,10 @@ impl Task {
     }
 }
 
-fn wall_radius(wall: &BrakeError) -> Option<f64> {
-    match *wall {
-        BrakeError::PulleyMeetsRoll { radius, .. }
-        | BrakeError::BeltLeavesRoll { radius }
-        | BrakeError::DeadPoint { radius, .. }
-        | BrakeError::Jams { radius, .. }
-        | BrakeError::WeightLifts { radius }
-        | BrakeError::NotReached { radius, .. } => Some(radius),
-        _ => None,
-    }
+/// (largest − least tension)/largest of a brake, over the radii, and over the frictions of [`Aim::Robust`].
+#[must_use]
+pub fn spread(task: &Task, brake: &Brake) -> f64 {
+    task.spread(brake)
 }
 
 /// The best frame found.

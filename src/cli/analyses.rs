@@ -1,20 +1,24 @@
 //! The commands that analyse a machine and cut nothing.
 
 use super::args::{
-    AnalysisArgs, DriveArgs, DriveSolver, EndOf, GoalOf, LinkageArgs, Order, RegimesArgs, ResetOf, ShaftArgs,
-    ShaftSolver, SpringArgs, WhirlOf,
+    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, EndOf, FrameOf, GoalOf, LinkageArgs, Order, RegimesArgs, ResetOf,
+    ShaftArgs, ShaftSolver, SpringArgs, WhirlOf,
 };
-use super::cams::show;
+use super::cams::{show, source_date};
+use super::progress::Progress;
 use super::{Failure, Outcome, tell};
 use camgen::analysis::linkage::Goal;
 use camgen::analysis::shaft::{Asked, Solver};
-use camgen::analysis::{Analysis, drive, linkage, regimes, shaft, spring};
+use camgen::analysis::{Analysis, brake, drive, linkage, regimes, shaft, spring};
+use camgen::body::tension;
 use camgen::buffer::regime::Reset;
-use camgen::machine::{DriveMachine, Machine, ShaftMachine};
-use camgen::pipeline::{Judged, Writing};
+use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine};
+use camgen::motion::BrakeDisc;
+use camgen::pipeline::{Judged, Spec, Writing};
 use camgen::report::Speeds;
 use camgen::shaft::Whirl;
 use camgen::write::number::names;
+use std::sync::Arc;
 
 /// Stations of the paper's shaft, and steps of a sweep, by default.
 const STATIONS: usize = 18;
@@ -110,6 +114,42 @@ pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
     written(shaft::analysis(&machine, &asked).map_err(Failure::new)?, &args.analysis, &name)
 }
 
+/// The disc of a brake that was read with it, and its motion.
+pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>), Failure> {
+    let disc = Arc::new(machine.brake_disc().map_err(Failure::new)?);
+    let spec = Spec::of_brake(machine, Arc::clone(&disc));
+    spec.map(|spec| (spec, disc)).ok_or_else(|| Failure("the file describes no disc on the shaft of the frame".into()))
+}
+
+pub(super) fn brake(args: &BrakeArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = BrakeMachine::load(&args.machine, &args.analysis.set, args.cam).map_err(Failure::new)?;
+    let asked = brake::Asked {
+        steps: args.samples,
+        goal: args.synthesize.map(|goal| match goal {
+            FrameOf::Level => brake::Goal::Level,
+            FrameOf::Robust => brake::Goal::Robust,
+        }),
+        seed: args.seed,
+    };
+    if !args.cam {
+        return written(brake::analysis(&machine, &asked, None).map_err(Failure::new)?, &args.analysis, &name);
+    }
+    let progress = Progress::of_stages(args.analysis.told.shows_progress());
+    progress.stage("solving");
+    let (spec, disc) = of_brake(&machine)?;
+    let cam = spec.solve().map_err(Failure::new)?;
+    progress.stage("drawing");
+    let drawing = cam.draw(args.laid.request(&args.accuracy)).map_err(Failure::new)?;
+    progress.stage("proving");
+    let proven = drawing.prove_as(args.laid.dxf_version).map_err(Failure::new)?;
+    drop(progress);
+    let outline = proven.outlines().first();
+    let as_cut = outline.and_then(|outline| tension::as_cut(cam.body(), &outline.contour));
+    let held = brake::Held { disc: &disc, as_cut };
+    let analysis = brake::analysis(&machine, &asked, Some(&held)).map_err(Failure::new)?;
+    judged(&Judged::new(analysis).with_cam(proven), &args.analysis, &name)
+}
+
 impl AnalysisArgs {
     fn machine(&self, name: &str) -> Result<(Machine, String), Failure> {
         Machine::load(name, &self.set).map_err(Failure::new)
@@ -118,7 +158,11 @@ impl AnalysisArgs {
 
 /// Judges, writes and reports.
 fn written(analysis: Analysis, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
-    let judged = Judged::new(analysis);
+    judged(&Judged::new(analysis), args, machine)
+}
+
+/// Writes and reports what was judged.
+fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
     let analysis = judged.analysis();
     let command = analysis.kind.command;
     let speeds = match &analysis.speeds {
@@ -131,9 +175,13 @@ fn written(analysis: Analysis, args: &AnalysisArgs, machine: &str) -> Result<Out
         template: args.to.template()?,
         force: args.to.force,
         overwrite: args.to.overwrite,
+        created: source_date()?,
         ..Writing::to(&args.to.out, args.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}{speeds}")))
     };
-    let report = if judged.passed() || writing.force {
+    let report = if let Some(why) = judged.no_outline() {
+        tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
+        judged.report()
+    } else if judged.passed() || writing.force {
         let files = judged.files(&writing).map_err(Failure::new)?;
         if args.told.dry_run { judged.report() } else { files.commit().map_err(Failure::new)? }
     } else {

@@ -1,8 +1,8 @@
 //! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
 
 use super::args::{
-    CommonArgs, ConoidArgs, CutterArgs, DiscArgs, EndOf, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs,
-    PointsBetween, PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
+    AccuracyArgs, CommonArgs, ConoidArgs, CutterArgs, DiscArgs, EndOf, FileArgs, LaidArgs, LaidOf, OutArgs, PointsArgs,
+    PointsAs, PointsBetween, PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
 };
 use super::progress::Progress;
 use super::{Failure, Outcome, print, tell, text};
@@ -151,6 +151,14 @@ impl PointsArgs {
 
 impl FileArgs {
     fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
+        let points = self.points.asked(self.format.as_deref())?;
+        Ok(Request { points, ..self.laid.request(&common.accuracy) })
+    }
+}
+
+impl LaidArgs {
+    /// What an outline must keep.
+    pub(super) fn request(&self, accuracy: &AccuracyArgs) -> Request {
         let side = match self.side {
             SideOf::Both => Side::Both,
             SideOf::Inside => Side::Inside,
@@ -160,10 +168,8 @@ impl FileArgs {
             LaidOf::Arcs => Laid::Arcs,
             LaidOf::Spline => Laid::Splines,
         };
-        let points = self.points.asked(self.format.as_deref())?;
-        let (rates, strict) = common.rates();
-        let fit = Fit { side, laid, ..Fit::from(common.tolerance()) };
-        Ok(Request { points, rates, strict, ..Request::within(fit) })
+        let (rates, strict) = accuracy.rates();
+        Request { rates, strict, ..Request::within(Fit { side, laid, ..Fit::from(accuracy.tolerance()) }) }
     }
 }
 
@@ -210,7 +216,7 @@ fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String
 
 /// The time that files are to bear, of the environment variable `SOURCE_DATE_EPOCH`: seconds since 1970, UTC. Without it they bear
 /// none, so that the same input gives the same bytes.
-fn source_date() -> Result<Option<u64>, Failure> {
+pub(super) fn source_date() -> Result<Option<u64>, Failure> {
     let Some(text) = std::env::var_os("SOURCE_DATE_EPOCH").filter(|text| !text.is_empty()) else { return Ok(None) };
     match text.to_str().and_then(|text| text.parse().ok()).filter(|seconds| *seconds <= LATEST) {
         Some(seconds) => Ok(Some(seconds)),
@@ -243,7 +249,7 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
     progress.stage("drawing");
     let drawing = cam.draw(request).map_err(Failure::new)?;
     progress.stage("proving");
-    let proven = drawing.prove_as(files.dxf_version).map_err(Failure::new)?;
+    let proven = drawing.prove_as(files.laid.dxf_version).map_err(Failure::new)?;
     progress.stage("writing");
     let report = written(&proven, &writing, common, &left_out);
     drop(progress);

@@ -67,6 +67,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Drive(args) => analyses::drive(args),
         Command::Linkage(args) => analyses::linkage(args),
         Command::Shaft(args) => analyses::shaft(args),
+        Command::Brake(args) => analyses::brake(args),
         Command::SideBySide(args) => side_by_side::run(args),
         Command::Check(args) => check::run(args),
         Command::Trade(args) => trade::run(args),

@@ -20,12 +20,17 @@ pub const LINKAGE: &str = "linkage";
 /// The shaft under a cam.
 pub const SHAFT: &str = "shaft";
 
+/// The belt brake of a paper roll.
+pub const BRAKE: &str = "brake";
+/// The disc that holds its tension.
+pub const BRAKE_CAM: &str = "brake-cam";
+
 /// The kinds that turn about a shaft.
-pub const TURNING: &[&str] = &[ROTARY, CONOID, MAKE];
+pub const TURNING: &[&str] = &[ROTARY, CONOID, MAKE, BRAKE_CAM];
 /// Disc cams.
-pub const DISCS: &[&str] = &[ROTARY, MAKE];
+pub const DISCS: &[&str] = &[ROTARY, MAKE, BRAKE_CAM];
 /// What is analysed and not cut: a key that is of every cam has no effect there.
-pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE, LINKAGE, SHAFT];
+pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE, LINKAGE, SHAFT, BRAKE];
 /// The cams of a press.
 pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
 /// Whatever the bed and its air act on.

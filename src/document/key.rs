@@ -29,6 +29,8 @@ pub enum Form {
     WordsOrQuantity(&'static [&'static str], Dimension, Bounds),
     /// Two quantities, the first below the second, `"35 mm .. 60 mm"`.
     Band(Dimension, Bounds),
+    /// A list of two quantities, `["-1100 mm", "550 mm"]`.
+    Pair(Dimension, Bounds),
 }
 
 /// Whether a key must be given. The texts are values as typed, without the quotes of TOML.
@@ -77,7 +79,7 @@ impl Key {
     #[must_use]
     pub fn in_toml(&self, typed: &str) -> String {
         match self.form {
-            Form::Number(_) | Form::Numbers(_) | Form::Boolean => typed.to_owned(),
+            Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) => typed.to_owned(),
             _ => format!("\"{}\"", typed.replace('\\', "\\\\").replace('"', "\\\"")),
         }
     }
@@ -152,6 +154,7 @@ pub(super) enum Value {
     /// Which of the words.
     Word(usize),
     Band(f64, f64),
+    Pair([f64; 2]),
 }
 
 impl Value {
@@ -169,6 +172,7 @@ impl Value {
             }
             (Value::Word(index), _) => index.to_string(),
             (Value::Band(low, high), _) => format!("{} .. {}", exact(*low), exact(*high)),
+            (Value::Pair(pair), _) => pair.map(exact).join(" "),
         }
     }
 }
@@ -332,5 +336,20 @@ impl Field<(f64, f64)> {
     ) -> Self {
         let convert = |value: &Value| if let Value::Band(low, high) = value { Some((*low, *high)) } else { None };
         Self::new(name, about, presence, Form::Band(dimension, bounds), Convert::Plain(convert))
+    }
+}
+
+impl Field<[f64; 2]> {
+    /// A key for a list of two quantities, each within the bounds. Example and default are as in TOML.
+    #[must_use]
+    pub const fn pair(
+        name: &'static str,
+        about: &'static str,
+        presence: Presence,
+        dimension: Dimension,
+        bounds: Bounds,
+    ) -> Self {
+        let convert = |value: &Value| if let Value::Pair(pair) = value { Some(*pair) } else { None };
+        Self::new(name, about, presence, Form::Pair(dimension, bounds), Convert::Plain(convert))
     }
 }

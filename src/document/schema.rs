@@ -91,7 +91,9 @@ fn property(key: &Key) -> Value {
     property["description"] = key.about.into();
     let text = key.presence.text();
     let value = match key.form {
-        Form::Number(_) | Form::Numbers(_) | Form::Boolean => serde_json::from_str(text).unwrap_or(text.into()),
+        Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) => {
+            serde_json::from_str(text).unwrap_or(text.into())
+        }
         _ => Value::from(text),
     };
     match key.presence {
@@ -118,6 +120,9 @@ fn form(form: Form) -> Value {
         Form::Band(dimension, _) => {
             let one = quantity(&[dimension]);
             pattern(&format!(r"{one}\s*\.\.\s*{one}"))
+        }
+        Form::Pair(dimension, _) => {
+            json!({ "type": "array", "items": pattern(&quantity(&[dimension])), "minItems": 2, "maxItems": 2 })
         }
     }
 }

@@ -4,6 +4,7 @@ use super::bounds::Bounds;
 use super::fault::similar;
 use super::key::{Form, Key, LengthOrAngle, Value};
 use crate::units::{self, Dimension, QuantityError};
+use std::borrow::Cow;
 
 /// A value as written in a file or after a flag.
 #[derive(Debug, Clone)]
@@ -73,11 +74,25 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misf
         Form::Words(words) => name.word(scalar, words),
         Form::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
         Form::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
+        Form::Pair(dimension, bounds) => name.pair(scalar, dimension, bounds),
     }
 }
 
 fn position(words: &[&str], text: &str) -> Option<usize> {
     words.iter().position(|word| word.eq_ignore_ascii_case(text.trim()))
+}
+
+/// The items of a list in the file, or of one after a flag, where each is made of its text.
+fn items(scalar: &Scalar, item: impl Fn(String) -> Scalar) -> Option<Cow<'_, [Scalar]>> {
+    match scalar {
+        Scalar::List(items) => Some(Cow::Borrowed(items)),
+        Scalar::Text(text) => {
+            let inside = text.trim().strip_prefix('[').and_then(|rest| rest.strip_suffix(']'))?;
+            let parts = inside.split(',').map(str::trim).filter(|part| !part.is_empty());
+            Some(Cow::Owned(parts.map(|part| item(part.into())).collect()))
+        }
+        _ => None,
+    }
 }
 
 /// A key under the path it has in messages.
@@ -129,19 +144,26 @@ impl Named<'_> {
 
     /// A list in the file, or `[1, 2, 3]` after a flag.
     fn numbers(&self, scalar: &Scalar, bounds: Bounds) -> Result<Value, Misfit> {
-        let typed: Vec<Scalar>;
-        let items = match scalar {
-            Scalar::List(items) => items,
-            Scalar::Text(text) => {
-                let inside = text.trim().strip_prefix('[').and_then(|rest| rest.strip_suffix(']'));
-                let Some(inside) = inside else { return self.no_list() };
-                let parts = inside.split(',').map(str::trim);
-                typed = parts.filter(|part| !part.is_empty()).map(|part| Scalar::Number(part.into())).collect();
-                &typed
-            }
-            _ => return self.no_list(),
-        };
+        let Some(items) = items(scalar, Scalar::Number) else { return self.no_list() };
         items.iter().map(|item| self.number(item, bounds)).collect::<Result<_, _>>().map(Value::Numbers)
+    }
+
+    /// A list of two in the file, or `[1 mm, 2 mm]` after a flag.
+    fn pair(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
+        let typed = items(scalar, |text| Scalar::Text(text.trim_matches('"').into()));
+        match typed.as_deref() {
+            Some([first, second]) => {
+                let one = |item: &Scalar| match self.quantity(item, &[], dimension, bounds)? {
+                    Value::Number(number) => Ok(number),
+                    _ => misfit(format!("`{}` must be a quantity of {dimension}", self.path), Some(self.example())),
+                };
+                Ok(Value::Pair([one(first)?, one(second)?]))
+            }
+            _ => {
+                let message = format!("`{}` must be a list of two quantities of {dimension}", self.path);
+                misfit(message, Some(self.example()))
+            }
+        }
     }
 
     fn no_list(&self) -> Result<Value, Misfit> {

@@ -1,9 +1,10 @@
 //! The limits of a cam.
 
+use super::brake::BrakeLimits;
 use super::disc::Material;
 use super::shaft::ShaftLimits;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{LINKAGE, OF_A_PRESS, SHAFT};
+use crate::document::cams::{BRAKE, BRAKE_CAM, LINKAGE, OF_A_PRESS, SHAFT};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Angle, Length, Pressure};
@@ -111,6 +112,28 @@ const BALANCE_GRADE: Field<f64> = Field::number(
 )
 .only(&[SHAFT]);
 
+const TENSION_SPREAD: Field<f64> = Field::number(
+    "tension_spread",
+    "by how much the web tension may change over the roll, over the largest",
+    Default("0.05"),
+    within(0.0, 1.0),
+)
+.only(&[BRAKE, BRAKE_CAM]);
+const WEB_STRESS: Field<f64> = Field::quantity(
+    "web_stress",
+    "largest stress in the web; told only, when absent",
+    Optional("10 MPa"),
+    Pressure,
+    above(0.0, HIGHEST_STRESS),
+)
+.only(&[BRAKE]);
+
+/// What a brake must keep.
+pub(super) fn of_brake(reader: &Reader<'_>) -> Option<BrakeLimits> {
+    let table = reader.table(&SECTION);
+    Some(BrakeLimits { tension_spread: table.get(&TENSION_SPREAD)?, web_stress: table.get(&WEB_STRESS) })
+}
+
 /// What a shaft must keep.
 pub(super) fn of_shaft(reader: &Reader<'_>) -> Option<ShaftLimits> {
     let table = reader.table(&SECTION);
@@ -144,6 +167,8 @@ pub struct Limits {
     pub linkage: LinkageLimits,
     /// Of the shaft.
     pub shaft: ShaftLimits,
+    /// Of a brake.
+    pub brake: BrakeLimits,
 }
 
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
@@ -215,6 +240,8 @@ pub(super) const SECTION: Section = Section {
         LIFT_ERROR.key,
         SUPPORT_SLOPE.key,
         BALANCE_GRADE.key,
+        TENSION_SPREAD.key,
+        WEB_STRESS.key,
     ],
 };
 
@@ -234,5 +261,6 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
             link_ratio: table.get(&LINK_RATIO)?,
         },
         shaft: of_shaft(reader)?,
+        brake: of_brake(reader)?,
     })
 }

@@ -6,6 +6,7 @@
 //! tables; a key is one constant in its table and one line in its reading.
 
 mod bed;
+mod brake;
 mod buffer;
 mod compensator;
 mod conoid;
@@ -23,6 +24,7 @@ mod translating;
 
 pub use crate::document::{Excerpt, Fault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
+pub use brake::{Arrangement, BeltMode, BrakeCam, BrakeData, BrakeLimits, BrakeMachine, BrakeModel, DiscOfBrakeError};
 pub use compensator::CompensatorData;
 pub use conoid::{ConoidData, ConoidMode, Shift};
 pub use disc::{CamData, Keyway, Material, Rotation};
@@ -80,6 +82,12 @@ const BODY_TABLES: &[&Section] = &[
     &shaft::SEGMENT,
     &shaft::SUPPORT,
     &shaft::DISC,
+    &brake::SECTION,
+    &brake::ROLL,
+    &brake::WEB,
+    &brake::FRAME,
+    &brake::ENDS,
+    &brake::CAM,
     &settings::REGIMES_SECTION,
     &settings::SPRING_SECTION,
     &drive::SECTION,

@@ -237,6 +237,12 @@ impl Proven<'_> {
         })
     }
 
+    /// The cam it proves.
+    #[must_use]
+    pub fn body(&self) -> &dyn Body {
+        self.cam.body()
+    }
+
     /// What was drawn.
     #[must_use]
     pub fn drawn(&self) -> Option<&Drawn> {

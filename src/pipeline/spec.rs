@@ -7,9 +7,9 @@ use crate::body::disc::Disc;
 use crate::body::wedge::Wedge;
 use crate::body::{Body, SolveError};
 use crate::document::Input;
-use crate::machine::Machine;
-use crate::motion::Motion;
+use crate::machine::{BrakeMachine, Machine};
 use crate::motion::equation_18::{ExactOn, Solver};
+use crate::motion::{BrakeDisc, Motion};
 use std::fmt;
 use std::sync::Arc;
 
@@ -133,6 +133,13 @@ impl Spec {
         Self::new(machine, move |machine| solve(machine, rpm))
             .for_other_speeds(solve)
             .with(vec![Input::number("rpm", rpm)])
+    }
+
+    /// The disc that holds the tension of a belt brake, with its motion; `None` of a brake that was read without.
+    #[must_use]
+    pub fn of_brake(brake: &BrakeMachine, disc: Arc<BrakeDisc>) -> Option<Self> {
+        let (machine, brake) = (brake.machine()?.clone(), brake.clone());
+        Some(Self::new(machine, move |_| Disc::of_brake(&brake, disc)).with(Vec::new()))
     }
 
     /// Without the disc that takes its torque.

@@ -57,6 +57,8 @@ pub struct Rigid {
     pub turn_deg: Track,
     /// By how much it is longer along its own x: only air is not rigid.
     pub stretch: Track,
+    /// By how much it is longer along its own y: a roll of paper runs down.
+    pub height: Track,
     /// Absolute pressure in it, bar, where it is air.
     pub pressure_bar: Option<Track>,
 }
@@ -124,6 +126,7 @@ impl Rigid {
             y: Track::Still(0.0),
             turn_deg: Track::Still(0.0),
             stretch: Track::Still(1.0),
+            height: Track::Still(1.0),
             pressure_bar: None,
         }
     }

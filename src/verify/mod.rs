@@ -8,6 +8,7 @@ mod air;
 mod balance;
 mod between_sections;
 mod bore;
+mod brake;
 mod closing;
 mod compensator;
 mod contact_stress;
@@ -197,6 +198,12 @@ pub const CHECKS: &[Check] = &[
     shaft::LIFT_ERROR,
     shaft::SUPPORT_SLOPE,
     shaft::UNBALANCE,
+    brake::TENSION,
+    brake::SELF_LOCKING,
+    brake::BELT_RANGE,
+    brake::GRIP,
+    brake::WEB_STRESS,
+    brake::FRAME_REACH,
 ];
 
 /// Runs every check that applies: failures first, then warnings, then the rest, each in the order of the list.

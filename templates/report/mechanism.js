@@ -62,7 +62,7 @@ function mechanism(cam, index) {
     const of = (track) => (Array.isArray(track) ? between(track, sample) : track);
     for (const { part, group, name, range } of moving) {
       const [x, y] = [of(part.x), -of(part.y)];
-      group.setAttribute("transform", `translate(${x} ${y}) rotate(${-of(part.turn)}) scale(${of(part.stretch)} 1)`);
+      group.setAttribute("transform", `translate(${x} ${y}) rotate(${-of(part.turn)}) scale(${of(part.stretch)} ${of(part.height ?? 1)})`);
       if (name) {
         name.setAttribute("x", x + part.name[1]);
         name.setAttribute("y", y + part.name[2]);

@@ -1,9 +1,10 @@
 //! What the verdicts on a disc cam of a press rest on: air, run-up, what may be missed, and what would keep a stress.
 
 use super::Disc;
-use crate::body::balance::{AsCut, allowed_error, fitting_speed, three_digits_down};
+use crate::body::balance::{AsCut, allowed_error, fitting_speed};
 use crate::geometry::MILLIMETRES;
 use crate::load::RunUp;
+use crate::numeric::digits::three_digits_down;
 use crate::profile::Worst;
 
 /// Largest pressure angle at which an error along the normal is still told along the path, rad.

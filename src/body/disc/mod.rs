@@ -1,6 +1,7 @@
 //! The disc cam: one section for one speed, under any follower.
 
 mod balance;
+mod brake;
 mod compensator;
 mod loaded;
 mod mechanism;
@@ -20,9 +21,9 @@ use crate::follower::Follower;
 use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load, RunUp};
-use crate::machine::{Machine, NoPress, Press, Rotation};
+use crate::machine::{DiscOfBrakeError, Machine, NoPress, Press, Rotation};
 use crate::motion::counter_torque::CounterTorqueError;
-use crate::motion::{Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, Transition};
+use crate::motion::{BrakeDisc, Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, Transition};
 use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
@@ -43,6 +44,9 @@ pub const GENERAL: Kind = Kind { command: "make", noun: "disc cam", keys: cams::
 /// The disc that takes the torque of the disc cam of a press.
 pub const COMPENSATOR: Kind = Kind { command: "compensator", noun: "compensating cam", keys: cams::ROTARY };
 
+/// The disc that holds the tension of a belt brake.
+pub const BRAKE: Kind = Kind { command: "brake-cam", noun: "disc of a belt brake", keys: cams::BRAKE_CAM };
+
 /// Largest base radius that is tried, m: what a drawing holds.
 const LARGEST_BASE: f64 = outline::LARGEST_COORDINATE / MILLIMETRES;
 
@@ -59,6 +63,8 @@ pub struct Disc {
     load: Option<Arc<dyn Load>>,
     /// It is cut for a shaft that gives way.
     raised: bool,
+    /// Its motion, where it holds the tension of a belt brake.
+    brake: Option<Arc<BrakeDisc>>,
     /// The sizes that keep every limit; `None` when none does.
     smallest: Option<Smallest>,
     worst: WorstPlaces,
@@ -118,6 +124,9 @@ pub enum DiscError {
         /// Where, degrees of cam angle.
         cam_deg: f64,
     },
+    /// There is no disc that holds the tension of a brake.
+    #[error(transparent)]
+    Brake(#[from] DiscOfBrakeError),
     /// The law of the compensating cam has no solution.
     #[error("no compensating cam: {0}; see compensator.spring_rate and compensator.preload")]
     CounterTorque(#[from] CounterTorqueError),
@@ -185,6 +194,7 @@ impl Disc {
             motion,
             load: None,
             raised: false,
+            brake: None,
             smallest: None,
             worst: WorstPlaces::default(),
         }
@@ -439,6 +449,10 @@ impl Body for Disc {
         Some(self.compensating_disc().and_then(both))
     }
 
+    fn brake_disc(&self) -> Option<&BrakeDisc> {
+        self.brake.as_deref()
+    }
+
     fn contact_stress(&self) -> Option<Worst> {
         stress::of_lines(self, (self.curves(), &self.acting()), &self.machine)
     }
@@ -530,6 +544,7 @@ impl Body for Disc {
         let residual = found.rolled.map_or_else(|| self.residual_max().value, |rolled| rolled.residual_max_n);
         let mut sections = vec![cam.section()];
         sections.extend(self.mounting());
+        sections.extend(self.on_its_frame());
         if let Some(load) = &self.load {
             sections.push(load.section());
             sections.extend(reversal_of_bed(&self.machine));

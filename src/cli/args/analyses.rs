@@ -1,7 +1,7 @@
 //! Flags of the commands that analyse a machine and cut nothing.
 
-use super::common::{EndOf, ToldArgs};
-use super::files::OutArgs;
+use super::common::{AccuracyArgs, EndOf, ToldArgs};
+use super::files::{LaidArgs, OutArgs};
 use super::parse::{Order, crank_step, force, format, order, power_share, rpm, stiffness, stiffnesses};
 use clap::{Args, ValueEnum, ValueHint};
 
@@ -12,7 +12,8 @@ pub(in crate::cli) struct AnalysisArgs {
     #[arg(long, value_name = "KEY=VALUE")]
     pub(in crate::cli) set: Vec<String>,
 
-    /// What to write: csv, svg, json, html (the report with its curves), pdf and, of a linkage, toml (its table of a machine file) [default: csv,svg]
+    /// What to write: csv, svg, json, html (the report with its curves), pdf and, of a linkage or a brake, toml (its table of a machine
+    /// file) [default: csv,svg]; with a cam also what that can have
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(in crate::cli) format: Option<Vec<String>>,
 
@@ -205,6 +206,46 @@ pub(in crate::cli) struct ShaftArgs {
     /// Rows of the tables, along the shaft and over a turn of the cam
     #[arg(long, value_name = "N", default_value_t = 360, value_parser = clap::value_parser!(u32).range(8..=100_000))]
     pub(in crate::cli) samples: u32,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+/// What a frame is designed for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum FrameOf {
+    Level,
+    Robust,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct BrakeArgs {
+    /// An embedded machine or the path of a machine file with the table [brake]
+    #[arg(default_value = "roll", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Also cuts the disc of [brake.cam] that holds the tension over the whole roll; its files are STEM-cam.*
+    #[arg(long)]
+    pub(in crate::cli) cam: bool,
+
+    /// Designs the frame for the roll, the friction and the pulleys of the file: level (least change of the tension over the roll) or
+    /// robust (over the roll and a friction of ± 20 % together), and prints it as a table to paste [default of the flag: level]
+    #[arg(long, value_name = "GOAL", ignore_case = true, num_args = 0..=1, require_equals = true, default_missing_value = "level", conflicts_with = "cam")]
+    pub(in crate::cli) synthesize: Option<FrameOf>,
+
+    /// Random start of --synthesize
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "synthesize")]
+    pub(in crate::cli) seed: u64,
+
+    /// Equal steps of the roll's radius in the table
+    #[arg(long, value_name = "N", default_value_t = 110, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(in crate::cli) samples: u32,
+
+    #[command(flatten)]
+    pub(in crate::cli) accuracy: AccuracyArgs,
+
+    #[command(flatten)]
+    pub(in crate::cli) laid: LaidArgs,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

@@ -44,17 +44,9 @@ pub(in crate::cli) struct ToldArgs {
     pub(in crate::cli) no_color: bool,
 }
 
-/// Flags of every command about a cam.
+/// How near an outline keeps to its exact curve.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct CommonArgs {
-    /// An embedded machine or the path of a machine file; `make` needs a file with a motion
-    #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) machine: String,
-
-    /// Main-shaft speed the cam is cut for (for `make` the speed of the cam), rpm [default: that of the machine file]
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
-    pub(in crate::cli) rpm: Vec<Speed>,
-
+pub(in crate::cli) struct AccuracyArgs {
     /// Largest distance of the outline from the exact curve, along its normal [default: 5um]
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, allow_hyphen_values = true, conflicts_with = "accuracy")]
     pub(in crate::cli) tolerance: Option<f64>,
@@ -73,6 +65,21 @@ pub(in crate::cli) struct CommonArgs {
     /// rad/rad2, rad/s2), or none [default: 5%]
     #[arg(long, value_name = "ERROR", value_parser = acceleration_error, allow_hyphen_values = true)]
     pub(in crate::cli) tolerance_acceleration: Option<Rate>,
+}
+
+/// Flags of every command about a cam.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct CommonArgs {
+    /// An embedded machine or the path of a machine file; `make` needs a file with a motion
+    #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Main-shaft speed the cam is cut for (for `make` the speed of the cam), rpm [default: that of the machine file]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Vec<Speed>,
+
+    #[command(flatten)]
+    pub(in crate::cli) accuracy: AccuracyArgs,
 
     /// End of the bed's stroke at which the buffers stand; only with [linkage] in the machine file [default: outer]
     #[arg(long, value_name = "END", ignore_case = true)]
@@ -124,7 +131,9 @@ impl CommonArgs {
             more => Err(Failure(format!("this cam is cut for one speed, not {}", more.len()))),
         }
     }
+}
 
+impl AccuracyArgs {
     /// Tolerance of the outline, m.
     pub(in crate::cli) fn tolerance(&self) -> f64 {
         match (self.tolerance, self.accuracy) {

@@ -50,21 +50,12 @@ pub(in crate::cli) struct OutArgs {
     pub(in crate::cli) overwrite: bool,
 }
 
-/// What is written, where, and how.
+/// How an outline is drawn and its DXF file is written.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct FileArgs {
-    /// What to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet), points, and stl of a conoid
-    /// [default: dxf,svg,step,csv]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
-    pub(in crate::cli) format: Option<Vec<String>>,
-
+pub(in crate::cli) struct LaidArgs {
     /// Version of the DXF file: r12, r2000, r2010 or r2013
     #[arg(long, value_name = "VERSION", default_value = "r2000", value_parser = dxf_version)]
     pub(in crate::cli) dxf_version: Version,
-
-    /// Rows of the CSV table over one turn of the cam, or steps of x over the stroke of a plate
-    #[arg(long, value_name = "N", default_value = "720", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
-    pub(in crate::cli) samples: u32,
 
     /// Side of the exact curve the outline keeps to: both, inside (never metal in the way) or outside (never cut too deep)
     #[arg(long, value_name = "SIDE", default_value = "both", ignore_case = true)]
@@ -73,6 +64,22 @@ pub(in crate::cli) struct FileArgs {
     /// What the curved parts of the outline are: arcs, which every control reads, or spline: cubic SPLINEs without steps of curvature
     #[arg(long, value_name = "KIND", default_value = "arcs", ignore_case = true)]
     pub(in crate::cli) outline: LaidOf,
+}
+
+/// What is written, where, and how.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct FileArgs {
+    /// What to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet), points, and stl of a conoid
+    /// [default: dxf,svg,step,csv]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
+    pub(in crate::cli) format: Option<Vec<String>>,
+
+    /// Rows of the CSV table over one turn of the cam, or steps of x over the stroke of a plate
+    #[arg(long, value_name = "N", default_value = "720", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub(in crate::cli) samples: u32,
+
+    #[command(flatten)]
+    pub(in crate::cli) laid: LaidArgs,
 
     #[command(flatten)]
     pub(in crate::cli) to: OutArgs,

@@ -69,6 +69,13 @@ Examples:
   camgen shaft dpi-shaft --rpm 35 --dry-run
       what the shaft takes off the lift of the cam of a press; only the report";
 
+pub(super) const BRAKE: &str = "\
+Examples:
+  camgen brake --cam
+      the embedded paper roll with the disc that holds its tension: table, plot, and the disc as DXF, SVG, STEP and CSV
+  camgen brake roll-level
+      a frame that holds the tension by itself";
+
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
   camgen side-by-side dpi dpi-paper

@@ -7,12 +7,12 @@ mod help;
 mod parse;
 
 pub(super) use analyses::{
-    AnalysisArgs, DriveArgs, DriveSolver, GoalOf, LinkageArgs, RegimesArgs, ResetOf, ShaftArgs, ShaftSolver,
-    SpringArgs, WhirlOf,
+    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, FrameOf, GoalOf, LinkageArgs, RegimesArgs, ResetOf, ShaftArgs,
+    ShaftSolver, SpringArgs, WhirlOf,
 };
-pub(super) use common::{CommonArgs, EndOf, ToldArgs};
+pub(super) use common::{AccuracyArgs, CommonArgs, EndOf, ToldArgs};
 pub(super) use files::{
-    CutterArgs, FileArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
+    CutterArgs, FileArgs, LaidArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
 };
 pub(super) use parse::{Order, Speed};
 
@@ -84,6 +84,12 @@ pub(super) enum Command {
     /// What bending and twist of the shaft take off the lift, and the force that this leaves, for the cam of the file.
     #[command(after_help = help::SHAFT)]
     Shaft(ShaftArgs),
+    /// The belt brake of a paper roll: web tension over the roll, and the disc that holds it
+    ///
+    /// What a hinged frame with a belt makes of the tension, the paper's equations beside it, frames that hold it by themselves, and a
+    /// disc on the frame's shaft that holds it exactly.
+    #[command(after_help = help::BRAKE)]
+    Brake(BrakeArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -143,6 +149,7 @@ impl Command {
             Command::Drive(args) => (&args.machine, &args.analysis),
             Command::Linkage(args) => (&args.machine, &args.analysis),
             Command::Shaft(args) => (&args.machine, &args.analysis),
+            Command::Brake(args) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();
@@ -234,6 +241,7 @@ pub(super) enum Checked {
     Translating,
     Conoid,
     Make,
+    Brake,
 }
 
 /// A kind of cam that `trade` knows.

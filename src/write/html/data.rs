@@ -278,7 +278,7 @@ fn track(track: &Track, scale: f64) -> Value {
 
 fn rigid(part: &Rigid) -> Value {
     let name = part.name.as_ref().map(|(name, at)| json!([name, number(at.x), number(-at.y)]));
-    json!({
+    let mut told = json!({
         "role": part.role,
         "name": name,
         "path": part.shapes.iter().map(|shape| DATA.shape(shape)).collect::<String>(),
@@ -287,7 +287,11 @@ fn rigid(part: &Rigid) -> Value {
         "turn": track(&part.turn_deg, ANGLES),
         "stretch": track(&part.stretch, PLACES),
         "pressure": part.pressure_bar.as_ref().map(|pressure| track(pressure, ANGLES)),
-    })
+    });
+    if part.height != Track::Still(1.0) {
+        told["height"] = track(&part.height, PLACES);
+    }
+    told
 }
 
 /// Decimals of the surface, mm: it is looked at.

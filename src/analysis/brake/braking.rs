@@ -1,0 +1,128 @@
+//! The brake of a machine file at every radius of its roll, by the model that the file asks for.
+
+use crate::brake::{Brake, BrakeError, Stand};
+use crate::machine::{BeltMode, BrakeData, BrakeModel};
+use crate::motion::{BrakeDisc, Jet, Motion};
+use crate::numeric::extremum::{self, Extremum};
+
+/// Parts of the roll in which an extreme of the tension is searched: it has two or three.
+const CELLS: u32 = 48;
+
+/// A brake with its weight.
+#[derive(Debug, Clone)]
+pub(super) struct Braking<'a> {
+    pub(super) data: &'a BrakeData,
+    pub(super) brake: &'a Brake,
+    /// G, N.
+    pub(super) weight: f64,
+    /// G that the printed moment asks for, or the same where it is given, N.
+    pub(super) printed_weight: f64,
+    /// The disc that holds the tension.
+    pub(super) disc: Option<&'a BrakeDisc>,
+    /// Where the roll is full and where it has run down.
+    pub(super) ends: [Stand; 2],
+}
+
+/// Speed of the belt over that of the web: as given while it slips, as the wanted tension needs it while it does not.
+pub(super) fn belt_speed(data: &BrakeData) -> f64 {
+    match (data.mode, &data.web, data.model) {
+        (BeltMode::NoSlip, Some(web), BrakeModel::Consistent) => web.belt_speed(data.tension),
+        (BeltMode::NoSlip, Some(web), BrakeModel::Printed) => web.belt_speed_printed(data.tension),
+        _ => data.belt_speed_ratio,
+    }
+}
+
+impl<'a> Braking<'a> {
+    /// Of a frame; a weight that is not given makes the wanted tension on the full roll.
+    pub(super) fn new(data: &'a BrakeData, brake: &'a Brake, disc: Option<&'a BrakeDisc>) -> Result<Self, BrakeError> {
+        let roll = brake.roll();
+        let ends = [brake.at(roll.largest_radius)?, brake.at(roll.smallest_radius)?];
+        let [full, _] = &ends;
+        let printed = data.weight.unwrap_or_else(|| brake.weight_for_printed(data.tension, full));
+        let weight = match (data.weight, data.model, data.mode) {
+            (Some(weight), ..) => weight,
+            (None, BrakeModel::Consistent, _) => brake.weight_for(data.tension, full),
+            (None, BrakeModel::Printed, BeltMode::NoSlip) => printed,
+            // (8)
+            (None, BrakeModel::Printed, BeltMode::Slip) => printed / (1.0 - data.belt_speed_ratio),
+        };
+        Ok(Self { data, brake, weight, printed_weight: printed, disc, ends })
+    }
+
+    /// Web tension, N, without the disc, whatever the belt's speed asks for: what the belt grips.
+    pub(super) fn grip(&self, stand: &Stand) -> f64 {
+        match self.data.model {
+            BrakeModel::Consistent => self.brake.tension(self.weight, stand),
+            BrakeModel::Printed => self.brake.tension_printed(self.weight, stand),
+        }
+    }
+
+    /// The same with the friction of another day; `None` where the brake jams with it.
+    pub(super) fn grip_with(&self, stand: &Stand, friction: f64) -> Option<f64> {
+        match (self.data.model, self.disc) {
+            (BrakeModel::Consistent, Some(disc)) => self.held(disc, stand, friction),
+            (BrakeModel::Consistent, None) => self.brake.tension_with(self.weight, stand, friction).ok(),
+            (BrakeModel::Printed, _) => Some(self.brake.tension_printed_with(self.weight, stand, friction)),
+        }
+    }
+
+    /// Web tension with the disc by its law, N.
+    fn held(&self, disc: &BrakeDisc, stand: &Stand, friction: f64) -> Option<f64> {
+        let angle = disc.holding().turns_per_frame_turn() * stand.theta.abs();
+        let jet = disc.jet(0, angle);
+        let of_law = Jet { s: jet.s + disc.origin().unwrap_or(0.0), ..jet };
+        disc.holding().tension_with(-disc.law().spring_torque(of_law), stand, friction).ok()
+    }
+
+    /// Web tension, N.
+    pub(super) fn tension(&self, stand: &Stand) -> f64 {
+        if let Some(disc) = self.disc {
+            return self.held(disc, stand, self.brake.friction()).unwrap_or(f64::NAN);
+        }
+        let grip = self.grip(stand);
+        match (self.data.mode, self.data.model) {
+            // What the speed asks for is the wanted tension, as far as the belt grips.
+            (BeltMode::NoSlip, _) => grip.min(self.data.tension),
+            (BeltMode::Slip, BrakeModel::Consistent) => grip,
+            // (6)
+            (BeltMode::Slip, BrakeModel::Printed) => grip * (1.0 - self.data.belt_speed_ratio),
+        }
+    }
+
+    /// Speed of the belt over that of the web at a radius: the printed model regulates it by (9).
+    pub(super) fn belt_speed_at(&self, stand: &Stand) -> f64 {
+        match (self.data.mode, self.data.model) {
+            (BeltMode::Slip, BrakeModel::Printed) => 1.0 - self.data.tension / self.grip(stand),
+            _ => belt_speed(self.data),
+        }
+    }
+
+    /// Largest of something over the roll, and at which radius, m.
+    pub(super) fn largest(&self, value: impl Fn(&Stand) -> f64) -> Extremum {
+        let roll = self.brake.roll();
+        let at = |radius: f64| self.brake.at(radius).map_or(f64::NAN, |stand| value(&stand));
+        let range = (roll.smallest_radius, roll.largest_radius);
+        extremum::largest_without_slope(at, range, CELLS, extremum::TO_ROUNDING)
+    }
+
+    /// Least of something over the roll, and at which radius, m.
+    pub(super) fn least(&self, value: impl Fn(&Stand) -> f64) -> Extremum {
+        let found = self.largest(|stand| -value(stand));
+        Extremum { value: -found.value, ..found }
+    }
+
+    /// Least and largest tension over the roll.
+    pub(super) fn tensions(&self) -> (Extremum, Extremum) {
+        let tension = |stand: &Stand| self.tension(stand);
+        (self.least(tension), self.largest(tension))
+    }
+
+    /// Radii from the full roll down in equal steps, both ends included.
+    pub(super) fn radii(&self, steps: u32) -> impl Iterator<Item = f64> + Clone + use<> {
+        let (from, to) = (self.brake.roll().largest_radius, self.brake.roll().smallest_radius);
+        let at = move |i: u32| {
+            if i == steps { to } else { from + (to - from) * f64::from(i) / f64::from(steps) }
+        };
+        (0..=steps).map(at)
+    }
+}

@@ -1,0 +1,1 @@
+//! The report of the embedded brakes against the numbers of the specification.

@@ -1,0 +1,333 @@
+//! What the report tells of a brake: the frame at both ends, the tension, what the printed equations say, power, web.
+
+use super::Held;
+use super::braking::Braking;
+use crate::brake::{Roll, Stand};
+use crate::geometry::MILLIMETRES;
+use crate::machine::{BeltMode, BrakeData, BrakeModel};
+use crate::numeric::extremum::Extremum;
+use crate::report::Section;
+use serde::Serialize;
+
+/// By how much the friction of another day is off, as a share.
+pub(super) const OTHER_DAY: f64 = 0.2;
+/// Modulus of newsprint, Pa, as the paper has it.
+const NEWSPRINT: [f64; 2] = [4000e6, 5000e6];
+
+/// The frame at one end of the roll.
+#[derive(Debug, Serialize)]
+struct End {
+    roll_radius_mm: f64,
+    frame_deg: f64,
+    wrap_deg: f64,
+    k: f64,
+    weight_arm_mm: f64,
+    press_arm_mm: f64,
+    tight_arm_mm: f64,
+    slack_arm_mm: f64,
+    tension_n: f64,
+    tension_printed_n: f64,
+    belt_slack_n: f64,
+    belt_tight_n: f64,
+    friction_sensitivity: f64,
+}
+
+fn end(braking: &Braking<'_>, stand: &Stand) -> End {
+    let tension = braking.tension(stand);
+    let (slack, tight) = braking.brake.belt_tensions(tension, stand);
+    End {
+        roll_radius_mm: MILLIMETRES * stand.radius,
+        // The full roll stands at 0, not at −0.
+        frame_deg: stand.theta.to_degrees() + 0.0,
+        wrap_deg: stand.wrap.to_degrees(),
+        k: stand.k,
+        weight_arm_mm: MILLIMETRES * stand.h1,
+        press_arm_mm: MILLIMETRES * stand.h2,
+        tight_arm_mm: MILLIMETRES * stand.q_tight,
+        slack_arm_mm: MILLIMETRES * stand.q_slack,
+        tension_n: tension,
+        tension_printed_n: braking.brake.tension_printed(braking.printed_weight, stand),
+        belt_slack_n: slack,
+        belt_tight_n: tight,
+        friction_sensitivity: stand.sensitivity(braking.brake.friction()),
+    }
+}
+
+/// Where the roll is full and where it has run down.
+pub(super) fn frame(braking: &Braking<'_>) -> Section {
+    let ends = [0, 1].map(|index| braking.ends.get(index).map(|stand| end(braking, stand)));
+    let words = ends.iter().flatten().map(|end| {
+        format!(
+            "at {:.0} mm: frame {:.3}°, wrap {:.3}°, K {:.6}; arms: weight {:.2}, press {:.2}, tight span {:.2}, slack span {:.2} mm",
+            end.roll_radius_mm,
+            end.frame_deg,
+            end.wrap_deg,
+            end.k,
+            end.weight_arm_mm,
+            end.press_arm_mm,
+            end.tight_arm_mm,
+            end.slack_arm_mm
+        )
+    });
+    let words = words.collect();
+    Section::new("frame", &ends).with_words(words)
+}
+
+/// Friction of another day, and the tension at both ends with it; none where the brake jams.
+#[derive(Debug, Serialize)]
+struct Day {
+    friction: f64,
+    tension_full_n: Option<f64>,
+    tension_run_down_n: Option<f64>,
+}
+
+/// The section `brake`.
+#[derive(Debug, Serialize)]
+struct Figures {
+    model: &'static str,
+    mode: &'static str,
+    weight_n: f64,
+    weight_exact_n: f64,
+    weight_printed_n: f64,
+    belt_length_mm: f64,
+    tension_wanted_n: f64,
+    tension_least_n: f64,
+    tension_least_roll_radius_mm: f64,
+    tension_largest_n: f64,
+    tension_largest_roll_radius_mm: f64,
+    tension_spread: f64,
+    other_friction: Vec<Day>,
+}
+
+/// Weight, tension over the roll, and what friction does to it.
+pub(super) fn brake(braking: &Braking<'_>, (least, largest): (Extremum, Extremum)) -> Section {
+    let [full, run_down] = &braking.ends;
+    let friction = braking.brake.friction();
+    let day = |share: f64| {
+        let friction = friction * share;
+        let at = |stand: &Stand| braking.grip_with(stand, friction);
+        Day { friction, tension_full_n: at(full), tension_run_down_n: at(run_down) }
+    };
+    let told = Figures {
+        model: if braking.data.model == BrakeModel::Consistent { "consistent" } else { "printed" },
+        mode: if braking.data.mode == BeltMode::Slip { "slip" } else { "no-slip" },
+        weight_n: braking.weight,
+        weight_exact_n: braking.brake.weight_for(braking.data.tension, full),
+        weight_printed_n: braking.brake.weight_for_printed(braking.data.tension, full),
+        belt_length_mm: MILLIMETRES * braking.brake.belt_length(),
+        tension_wanted_n: braking.data.tension,
+        tension_least_n: least.value,
+        tension_least_roll_radius_mm: MILLIMETRES * least.at,
+        tension_largest_n: largest.value,
+        tension_largest_roll_radius_mm: MILLIMETRES * largest.at,
+        tension_spread: super::spread(least.value, largest.value),
+        other_friction: vec![day(1.0 - OTHER_DAY), day(1.0 + OTHER_DAY)],
+    };
+    Section::new("brake", &told).with_words(words(&told))
+}
+
+fn words(told: &Figures) -> Vec<String> {
+    let newtons = |tension: Option<f64>| tension.map_or("it jams".to_owned(), |tension| format!("{tension:.2} N"));
+    let mut lines = vec![
+        format!(
+            "weight {:.4} N; for {} N on the full roll {:.4} N, by the printed moment (5) {:.4} N",
+            told.weight_n, told.tension_wanted_n, told.weight_exact_n, told.weight_printed_n
+        ),
+        format!(
+            "web tension from {:.4} N at {:.1} mm to {:.4} N at {:.1} mm: {:.3} % of the largest",
+            told.tension_least_n,
+            told.tension_least_roll_radius_mm,
+            told.tension_largest_n,
+            told.tension_largest_roll_radius_mm,
+            100.0 * told.tension_spread
+        ),
+    ];
+    lines.extend(told.other_friction.iter().map(|day| {
+        format!(
+            "with a friction of {:.3}: {} on the full roll, {} where it has run down",
+            day.friction,
+            newtons(day.tension_full_n),
+            newtons(day.tension_run_down_n)
+        )
+    }));
+    lines
+}
+
+/// What (8), (9) and (10) ask for, and what they would do.
+#[derive(Debug, Serialize)]
+struct Printed {
+    /// (8), N.
+    press_full_n: f64,
+    weight_by_8_n: f64,
+    belt_speed_ratio_full: f64,
+    /// (9).
+    belt_speed_ratio_run_down: f64,
+    /// (10), of V.
+    belt_speed_range: f64,
+    /// Of the starting slip.
+    belt_speed_range_of_slip: f64,
+    /// What that weight brakes with in truth.
+    tension_in_truth_n: f64,
+    tension_in_truth_run_down_n: f64,
+}
+
+/// The paper's regulation of a slipping belt beside what it would do in truth.
+pub(super) fn printed(braking: &Braking<'_>) -> Section {
+    let ([full, run_down], wanted) = (&braking.ends, braking.data.tension);
+    let slip = 1.0 - braking.data.belt_speed_ratio;
+    let weight = braking.brake.weight_for_printed(wanted, full) / slip;
+    let stands = |stand: &Stand| braking.brake.tension_printed(weight, stand);
+    let by_9 = 1.0 - wanted / stands(run_down);
+    let told = Printed {
+        press_full_n: weight * full.h1 / full.h2,
+        weight_by_8_n: weight,
+        belt_speed_ratio_full: braking.data.belt_speed_ratio,
+        belt_speed_ratio_run_down: by_9,
+        belt_speed_range: by_9 - braking.data.belt_speed_ratio,
+        belt_speed_range_of_slip: (by_9 - braking.data.belt_speed_ratio) / slip,
+        tension_in_truth_n: braking.brake.tension(weight, full),
+        tension_in_truth_run_down_n: braking.brake.tension(weight, run_down),
+    };
+    let words = vec![
+        format!(
+            "(8) press force {:.4} N, weight {:.4} N at V_z/V = {}; (9) V_z/V = {:.6} where the roll has run down; (10) range {:.3} % of V",
+            told.press_full_n,
+            weight,
+            told.belt_speed_ratio_full,
+            by_9,
+            100.0 * told.belt_speed_range
+        ),
+        format!(
+            "in truth the belt's speed regulates nothing while it slips: that weight brakes with {:.2} N, and {:.2} N at the end",
+            told.tension_in_truth_n, told.tension_in_truth_run_down_n
+        ),
+    ];
+    Section::new("printed", &told).with_words(words)
+}
+
+/// The section `web`.
+#[derive(Debug, Serialize)]
+struct OfWeb {
+    stress_mpa: f64,
+    strain: f64,
+    belt_speed_ratio_printed: f64,
+    belt_speed_ratio_exact: f64,
+    speed_sensitivity: f64,
+    stretch_mm: Option<f64>,
+    /// With the modulus of newsprint at a fixed speed of the belt.
+    tension_4000_mpa_n: f64,
+    tension_5000_mpa_n: f64,
+    belt_power_w: f64,
+    heat_w: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    roll_inertia_kg_m2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    acceleration_tension_n: Option<f64>,
+}
+
+/// Stress, strain and power of the web at the wanted tension, and the inertia of a roll.
+pub(super) fn web(data: &BrakeData, roll: Option<&Roll>) -> Option<Section> {
+    let (web, wanted) = (data.web.as_ref()?, data.tension);
+    let exact = web.belt_speed(wanted);
+    let ratio = super::braking::belt_speed(data);
+    let (belt, heat) = web.powers(wanted, ratio);
+    let with = |modulus: f64| crate::brake::Web { modulus, ..*web }.tension(exact);
+    let [soft, stiff] = NEWSPRINT;
+    let dense = roll.zip(data.density);
+    let inertia = dense.map(|(roll, density)| web.inertia(density, roll.largest_radius, roll.smallest_radius));
+    let speeding = inertia.zip(roll).filter(|_| data.acceleration > 0.0);
+    let speeding =
+        speeding.map(|(inertia, roll)| web.acceleration_tension(inertia, roll.largest_radius, data.acceleration));
+    let told = OfWeb {
+        stress_mpa: 1e-6 * web.stress(wanted),
+        strain: web.strain(wanted),
+        belt_speed_ratio_printed: web.belt_speed_printed(wanted),
+        belt_speed_ratio_exact: exact,
+        speed_sensitivity: web.sensitivity(wanted),
+        stretch_mm: web.stretch(wanted).map(|stretch| MILLIMETRES * stretch),
+        tension_4000_mpa_n: with(soft),
+        tension_5000_mpa_n: with(stiff),
+        belt_power_w: belt,
+        heat_w: heat,
+        roll_inertia_kg_m2: inertia,
+        acceleration_tension_n: speeding,
+    };
+    let mut words = vec![
+        format!(
+            "stress {:.4} MPa at {wanted} N; of its {:.1} W the belt's drive takes {belt:.1} W, {heat:.1} W are heat",
+            told.stress_mpa,
+            belt + heat
+        ),
+        format!(
+            "without slip V_z/V = {:.12} (printed (14): {:.12}); a hundredth of a per cent of it is {:.2} % of tension",
+            exact,
+            told.belt_speed_ratio_printed,
+            0.01 * told.speed_sensitivity
+        ),
+    ];
+    words.extend(told.stretch_mm.map(|stretch| format!("stretch to the printing nip (15) {stretch:.4} mm")));
+    words.extend(speeding.zip(inertia).map(|(tension, inertia)| {
+        format!(
+            "speeding up at {} m/s² the full roll, {inertia:.3} kg·m², adds {tension:.3} N, and less as it runs down",
+            data.acceleration
+        )
+    }));
+    Some(Section::new("web", &told).with_words(words))
+}
+
+/// The section `disc`.
+#[derive(Debug, Serialize)]
+struct OfDisc {
+    turns_per_frame_turn: f64,
+    cam_end_deg: f64,
+    work_j: f64,
+    lift_full_mm: f64,
+    lift_largest_mm: f64,
+    spring_force_max_n: f64,
+    moment_run_down_nm: f64,
+    tension_as_cut_least_n: Option<f64>,
+    tension_as_cut_largest_n: Option<f64>,
+    tension_as_cut_error_max_n: Option<f64>,
+}
+
+/// The disc that holds the tension, by its law and as cut.
+pub(super) fn disc(braking: &Braking<'_>, held: &Held<'_>) -> Section {
+    let (disc, wanted) = (held.disc, braking.data.tension);
+    let [_, run_down] = &braking.ends;
+    let lift = |radius: f64| super::of_disc(disc, radius).map_or(f64::NAN, |(_, _, lift)| MILLIMETRES * lift);
+    let roll = braking.brake.roll();
+    let top = braking.radii(super::PLACES).map(lift).fold(0.0, f64::max);
+    let cut = held.as_cut.as_ref();
+    let told = OfDisc {
+        turns_per_frame_turn: disc.holding().turns_per_frame_turn(),
+        cam_end_deg: disc.holding().total_angle().to_degrees(),
+        work_j: disc.stored(),
+        lift_full_mm: lift(roll.largest_radius),
+        lift_largest_mm: top,
+        spring_force_max_n: disc.law().spring_force(top / MILLIMETRES),
+        moment_run_down_nm: disc.holding().moment(run_down),
+        tension_as_cut_least_n: cut.map(|cut| cut.least.value),
+        tension_as_cut_largest_n: cut.map(|cut| cut.largest.value),
+        tension_as_cut_error_max_n: cut.map(|cut| (cut.largest.value - wanted).max(wanted - cut.least.value)),
+    };
+    let mut words = vec![
+        format!(
+            "a disc that turns {} times as far as the frame, to {:.4}°, takes {:.6} J from its spring; lift {:.4} mm on the full roll",
+            told.turns_per_frame_turn, told.cam_end_deg, told.work_j, told.lift_full_mm
+        ),
+        format!(
+            "spring at most {:.1} N; moment on the frame where the roll has run down {:.4} N·m",
+            told.spring_force_max_n, told.moment_run_down_nm
+        ),
+    ];
+    words.extend(cut.map(|cut| {
+        format!(
+            "as cut the web tension lies within {:.4} and {:.4} N over the whole roll",
+            cut.least.value, cut.largest.value
+        )
+    }));
+    words.push(
+        "it takes out the radius, not the friction: that of another day changes the tension as told above".into(),
+    );
+    Section::new("disc", &told).with_words(words)
+}

@@ -1,0 +1,628 @@
+//! The belt brake of a paper roll: roll, web, frame or the paper's two ends, and the disc that holds the tension.
+
+use super::settings::STIFFEST;
+use super::{FollowerData, Machine, MachineError, NAME, ROOT, load_as, read_as, sections};
+use crate::brake::ends::Ends;
+use crate::brake::{Brake, BrakeError, Frame, Holding, Roll, Rotation, Web};
+use crate::document::Presence::{Default, Optional, Required};
+use crate::document::cams::{BRAKE, BRAKE_CAM};
+use crate::document::range::{HIGHEST_PRESSURE, LARGEST_FORCE, LARGEST_NUMBER, LONGEST};
+use crate::document::{self, Field, Input, Occurs, Reader, Section, Table, above, within};
+use crate::motion::BrakeDisc;
+use crate::motion::counter_torque::CounterTorqueError;
+use crate::units::Dimension::{Acceleration, Angle, Density, Force, Length, Pressure, Speed, Stiffness};
+use std::f64::consts::TAU;
+
+/// Stiffest web, Pa, fastest, m/s, densest paper, kg/m³, and quickest start, m/s².
+const STIFFEST_WEB: f64 = 1e3 * HIGHEST_PRESSURE;
+const FASTEST: f64 = 1e3;
+const DENSEST: f64 = 1e5;
+const QUICKEST: f64 = 1e4;
+/// Largest strain wound into a roll: more tears it.
+const MOST_WOUND: f64 = 0.5;
+/// Stickiest belt.
+const STICKIEST: f64 = 100.0;
+
+/// Whether the belt slips on the roll.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BeltMode {
+    /// It slips: its grip makes the tension.
+    Slip,
+    /// It runs with the roll: its speed makes the tension, as far as it grips.
+    NoSlip,
+}
+
+/// Whose equations tell the tension.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BrakeModel {
+    /// Moments about the roll and about the pivot.
+    Consistent,
+    /// (1)–(15) as they are printed.
+    Printed,
+}
+
+/// What presses the belt onto the roll, as far as it is described.
+#[derive(Debug, Clone)]
+pub enum Arrangement {
+    /// A hinged frame that follows the roll.
+    Frame(Box<Brake>),
+    /// The wraps at both ends of the roll, for (7)–(10).
+    Ends(Ends),
+}
+
+/// The disc on the frame's shaft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BrakeCam {
+    /// Turns of the disc for one of the frame.
+    pub turns_per_frame_turn: f64,
+    /// Rate of the spring of its follower, N/m.
+    pub spring_rate: f64,
+    /// Force of that spring at the lowest place of its law, N.
+    pub preload: f64,
+}
+
+/// `[brake]` with its tables.
+#[derive(Debug, Clone)]
+pub struct BrakeData {
+    /// Slip or none.
+    pub mode: BeltMode,
+    /// Whose equations.
+    pub model: BrakeModel,
+    /// Wanted web tension, N.
+    pub tension: f64,
+    /// Friction of belt and roll.
+    pub friction: f64,
+    /// Of frame and weight, N; `None` is `auto`.
+    pub weight: Option<f64>,
+    /// Speed of a slipping belt over that of the web.
+    pub belt_speed_ratio: f64,
+    /// Least grip of a belt that does not slip, over the wanted tension.
+    pub grip: f64,
+    /// Of the machine when it speeds up, m/s².
+    pub acceleration: f64,
+    /// Of the roll, kg/m³.
+    pub density: Option<f64>,
+    /// The web.
+    pub web: Option<Web>,
+    /// Frame or ends.
+    pub arrangement: Arrangement,
+    /// The disc.
+    pub cam: Option<BrakeCam>,
+}
+
+/// What a brake must keep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BrakeLimits {
+    /// Largest less least tension over the roll, over the largest.
+    pub tension_spread: f64,
+    /// Largest stress in the web, Pa.
+    pub web_stress: Option<f64>,
+}
+
+const MODE: Field<BeltMode> = Field::words(
+    "mode",
+    "\"slip\" (the belt slips on the roll) or \"no-slip\" (its speed stretches the web)",
+    Default("slip"),
+    &["slip", "no-slip"],
+    &[BeltMode::Slip, BeltMode::NoSlip],
+);
+const MODEL: Field<BrakeModel> = Field::words(
+    "model",
+    "\"consistent\" (moments about roll and pivot) or \"printed\" (the paper's equations (1) to (15))",
+    Default("consistent"),
+    &["consistent", "printed"],
+    &[BrakeModel::Consistent, BrakeModel::Printed],
+);
+const TENSION: Field<f64> =
+    Field::quantity("tension", "wanted tension of the web", Required("300 N"), Force, above(0.0, LARGEST_FORCE));
+const FRICTION: Field<f64> =
+    Field::number("friction", "coefficient of belt and roll", Required("0.25"), above(0.0, STICKIEST));
+const WEIGHT: Field<Option<f64>> = Field::words_or_quantity(
+    "weight",
+    "\"auto\", with which the full roll has the wanted tension, or weight of frame and its load together",
+    Default("auto"),
+    (&["auto"], &[None]),
+    (Force, above(0.0, LARGEST_FORCE), Some),
+);
+const ROTATION: Field<Rotation> = Field::words(
+    "rotation",
+    "of the roll as seen in the frame's axes: \"cw\" (the left span is the tight one) or \"ccw\"",
+    Default("cw"),
+    &["cw", "ccw"],
+    &[Rotation::Clockwise, Rotation::CounterClockwise],
+);
+const BELT_SPEED_RATIO: Field<f64> = Field::number(
+    "belt_speed_ratio",
+    "speed of a slipping belt over that of the web, below 1; it moves power, not tension",
+    Default("0.0"),
+    within(0.0, 1.0),
+);
+const GRIP: Field<f64> = Field::number(
+    "grip",
+    "least grip of a belt that does not slip, over the wanted tension",
+    Default("1.5"),
+    above(0.0, LARGEST_NUMBER),
+);
+const ACCELERATION: Field<f64> = Field::quantity(
+    "acceleration",
+    "of the web while the machine speeds up; needs brake.roll.density",
+    Default("0 m/s2"),
+    Acceleration,
+    within(0.0, QUICKEST),
+);
+
+/// `[brake]`.
+pub(super) const SECTION: Section = Section {
+    path: "brake",
+    about: "the belt brake of a paper roll: camgen brake",
+    occurs: Occurs::With(&["brake.roll", "brake.web", "brake.frame", "brake.ends", "brake.cam"]),
+    cams: &[BRAKE, BRAKE_CAM],
+    keys: &[
+        MODE.key,
+        MODEL.key,
+        TENSION.key,
+        FRICTION.key,
+        WEIGHT.key,
+        ROTATION.key,
+        BELT_SPEED_RATIO.key,
+        GRIP.key,
+        ACCELERATION.key,
+    ],
+};
+
+const LARGEST_RADIUS: Field<f64> = Field::quantity(
+    "largest_radius",
+    "of the full roll, to the middle of the belt",
+    Required("600 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+const SMALLEST_RADIUS: Field<f64> = Field::quantity(
+    "smallest_radius",
+    "of the roll run down, below the largest",
+    Required("50 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+const DENSITY: Field<f64> = Field::quantity(
+    "density",
+    "of the paper on the roll, for its inertia",
+    Optional("700 kg/m3"),
+    Density,
+    above(0.0, DENSEST),
+);
+
+/// `[brake.roll]`.
+pub(super) const ROLL: Section = Section {
+    path: "brake.roll",
+    about: "the roll, with [brake.frame]",
+    occurs: Occurs::With(&["brake.frame"]),
+    cams: &[BRAKE, BRAKE_CAM],
+    keys: &[LARGEST_RADIUS.key, SMALLEST_RADIUS.key, DENSITY.key],
+};
+
+const THICKNESS: Field<f64> =
+    Field::quantity("thickness", "of the web", Required("0.07 mm"), Length, above(0.0, LONGEST));
+const WIDTH: Field<f64> = Field::quantity("width", "of the web", Required("840 mm"), Length, above(0.0, LONGEST));
+const MODULUS: Field<f64> = Field::quantity(
+    "modulus",
+    "modulus of elasticity of the paper when it is pulled quickly; newsprint 4000 to 5000 MPa",
+    Required("4500 MPa"),
+    Pressure,
+    above(0.0, STIFFEST_WEB),
+);
+const SPEED: Field<f64> =
+    Field::quantity("speed", "printing speed of the web", Required("10 m/s"), Speed, above(0.0, FASTEST));
+const WOUND_STRAIN: Field<f64> = Field::number(
+    "wound_strain",
+    "strain that is wound into the roll",
+    Default("0.0"),
+    within(-MOST_WOUND, MOST_WOUND),
+);
+const WEB_LENGTH: Field<f64> = Field::quantity(
+    "length",
+    "from the roll to the printing nip, for the stretch (15)",
+    Optional("6 m"),
+    Length,
+    above(0.0, LONGEST),
+);
+
+/// `[brake.web]`.
+pub(super) const WEB: Section = Section {
+    path: "brake.web",
+    about: "the web: for stress, strain, power and a belt that does not slip",
+    occurs: Occurs::Optional,
+    cams: &[BRAKE],
+    keys: &[THICKNESS.key, WIDTH.key, MODULUS.key, SPEED.key, WOUND_STRAIN.key, WEB_LENGTH.key],
+};
+
+/// Of a place seen from the roll's axis.
+const AROUND: document::Bounds = within(-LONGEST, LONGEST);
+const PIVOT: Field<[f64; 2]> = Field::pair(
+    "pivot",
+    "where the frame is hinged, to the right and upwards from the roll's axis",
+    Required("[\"-1100 mm\", \"550 mm\"]"),
+    Length,
+    AROUND,
+);
+const RIGHT_PULLEY: Field<[f64; 2]> = Field::pair(
+    "right_pulley",
+    "axis of the right pulley at the largest radius",
+    Required("[\"500 mm\", \"450 mm\"]"),
+    Length,
+    AROUND,
+);
+const LEFT_PULLEY: Field<[f64; 2]> = Field::pair(
+    "left_pulley",
+    "axis of the left pulley at the largest radius",
+    Required("[\"-550 mm\", \"450 mm\"]"),
+    Length,
+    AROUND,
+);
+const CENTRE_OF_GRAVITY: Field<[f64; 2]> = Field::pair(
+    "centre_of_gravity",
+    "of frame and weight together at the largest radius",
+    Required("[\"100 mm\", \"550 mm\"]"),
+    Length,
+    AROUND,
+);
+const PULLEY_RADIUS: Field<f64> = Field::quantity(
+    "pulley_radius",
+    "of both pulleys, to the middle of the belt",
+    Required("60 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+
+/// `[brake.frame]`.
+pub(super) const FRAME: Section = Section {
+    path: "brake.frame",
+    about: "the hinged frame where the roll is full",
+    occurs: Occurs::Optional,
+    cams: &[BRAKE, BRAKE_CAM],
+    keys: &[PIVOT.key, RIGHT_PULLEY.key, LEFT_PULLEY.key, CENTRE_OF_GRAVITY.key, PULLEY_RADIUS.key],
+};
+
+const WRAP: Field<[f64; 2]> = Field::pair(
+    "wrap",
+    "of the full roll and of the roll run down, above 0 and below 360 deg",
+    Required("[\"90 deg\", \"45 deg\"]"),
+    Angle,
+    above(0.0, TAU),
+);
+const PRESS_RATIO: Field<f64> = Field::number(
+    "press_ratio",
+    "press force of the roll run down over that of the full one",
+    Default("1.0"),
+    above(0.0, LARGEST_NUMBER),
+);
+
+/// `[brake.ends]`.
+pub(super) const ENDS: Section = Section {
+    path: "brake.ends",
+    about: "instead of [brake.frame]: the paper's equations (7) to (10) from the two ends of the roll",
+    occurs: Occurs::Optional,
+    cams: &[BRAKE],
+    keys: &[WRAP.key, PRESS_RATIO.key],
+};
+
+const TURNS: Field<f64> = Field::number(
+    "turns_per_frame_turn",
+    "turns of the disc for one of the frame; the disc must stay below a whole turn",
+    Required("10"),
+    above(0.0, LARGEST_NUMBER),
+);
+const SPRING_RATE: Field<f64> = Field::quantity(
+    "spring_rate",
+    "rate of the spring on its follower",
+    Required("20 N/mm"),
+    Stiffness,
+    above(0.0, STIFFEST),
+);
+const PRELOAD: Field<f64> = Field::quantity(
+    "preload",
+    "force of that spring at the lowest place of the law, above 0: without it the law has a corner",
+    Required("1 kN"),
+    Force,
+    above(0.0, LARGEST_FORCE),
+);
+
+/// `[brake.cam]`.
+pub(super) const CAM: Section = Section {
+    path: "brake.cam",
+    about: "a disc on the frame's shaft that holds the tension: camgen brake --cam",
+    occurs: Occurs::Optional,
+    cams: &[BRAKE_CAM],
+    keys: &[TURNS.key, SPRING_RATE.key, PRELOAD.key],
+};
+
+fn read(reader: &Reader<'_>) -> Option<BrakeData> {
+    let Some(table) = reader.find(&SECTION) else {
+        if !reader.is_explained(&SECTION) {
+            let help = "add the table [brake] with [brake.roll] and [brake.frame], or take the embedded machine roll or \
+                        roll-level";
+            reader.fail("the file describes no brake".into(), Some(help.into()));
+        }
+        return None;
+    };
+    let web = reader.find(&WEB).map(|table| read_web(&table));
+    let density = reader.find(&ROLL).and_then(|roll| roll.get(&DENSITY));
+    let (mode, acceleration) = (table.get(&MODE), table.get(&ACCELERATION));
+    if mode == Some(BeltMode::NoSlip) && web.is_none() {
+        let help = Some("add the table [brake.web], or take mode = \"slip\"".into());
+        table.fail(&MODE, "a belt that does not slip stretches the web: it must be described".into(), help);
+    }
+    if acceleration.is_some_and(|rate| rate > 0.0) && (density.is_none() || web.is_none()) {
+        let help = Some("add brake.roll.density and the table [brake.web]".into());
+        table.fail(&ACCELERATION, "speeding up needs the inertia of the roll".into(), help);
+    }
+    if table.get(&BELT_SPEED_RATIO).is_some_and(|ratio| ratio >= 1.0) {
+        let help = Some("a slipping belt is slower than the web; without slip take mode = \"no-slip\"".into());
+        table.fail(&BELT_SPEED_RATIO, "belt_speed_ratio must be below 1".into(), help);
+    }
+    let arrangement = arrangement(reader, &table);
+    let cam = reader.find(&CAM).map(|cam| read_cam(&cam, arrangement.as_ref()));
+    Some(BrakeData {
+        mode: mode?,
+        model: table.get(&MODEL)?,
+        tension: table.get(&TENSION)?,
+        friction: table.get(&FRICTION)?,
+        weight: table.get(&WEIGHT)?,
+        belt_speed_ratio: table.get(&BELT_SPEED_RATIO)?,
+        grip: table.get(&GRIP)?,
+        acceleration: acceleration?,
+        density,
+        web: web.flatten(),
+        arrangement: arrangement?,
+        cam: cam.flatten(),
+    })
+}
+
+/// Reports what keeps a disc from a brake.
+fn can_have_a_disc(reader: &Reader<'_>) {
+    if reader.find(&CAM).is_none() {
+        let help =
+            "add the table [brake.cam] with turns_per_frame_turn, spring_rate and preload, and [follower.roller]";
+        reader.fail("the file describes no disc on the shaft of the frame".into(), Some(help.into()));
+    }
+    let Some(table) = reader.find(&SECTION) else { return };
+    let help = |word: &str| Some(format!("take \"{word}\", or leave out --cam"));
+    if table.get(&MODE) == Some(BeltMode::NoSlip) {
+        let message = "a disc holds the tension of a slipping belt: without slip the belt's speed makes it";
+        table.fail(&MODE, message.into(), help("slip"));
+    }
+    if table.get(&MODEL) == Some(BrakeModel::Printed) {
+        let message = "a disc is made by the exact moments: the printed ones leave out the friction's about the pivot";
+        table.fail(&MODEL, message.into(), help("consistent"));
+    }
+}
+
+fn read_web(table: &Table<'_>) -> Option<Web> {
+    let web = Web {
+        thickness: table.get(&THICKNESS)?,
+        width: table.get(&WIDTH)?,
+        modulus: table.get(&MODULUS)?,
+        speed: table.get(&SPEED)?,
+        wound_strain: table.get(&WOUND_STRAIN)?,
+        length: table.get(&WEB_LENGTH),
+    };
+    match web.checked() {
+        Ok(web) => Some(web),
+        Err(error) => {
+            table.fail(&THICKNESS, error.to_string(), None);
+            None
+        }
+    }
+}
+
+/// The frame, or the two ends.
+fn arrangement(reader: &Reader<'_>, brake: &Table<'_>) -> Option<Arrangement> {
+    let (frame, ends) = (reader.find(&FRAME), reader.find(&ENDS));
+    match (frame, ends) {
+        (Some(_), Some(ends)) => {
+            let help = Some("leave one of them out".into());
+            ends.fail(&WRAP, "[brake.ends] stands instead of [brake.frame], not beside it".into(), help);
+            None
+        }
+        (None, None) => {
+            let help =
+                Some("add [brake.frame] with [brake.roll], or [brake.ends] for the paper's own equations".into());
+            brake.fail(&TENSION, "the brake has neither a frame nor two ends".into(), help);
+            None
+        }
+        (None, Some(ends)) => {
+            let (wraps, ratio) = (ends.get(&WRAP)?, ends.get(&PRESS_RATIO)?);
+            match Ends::new(wraps, brake.get(&FRICTION)?, ratio) {
+                Ok(ends) => Some(Arrangement::Ends(ends)),
+                Err(error) => {
+                    ends.fail(&WRAP, error.to_string(), Some("a wrap is above 0 and below 360 deg".into()));
+                    None
+                }
+            }
+        }
+        (Some(table), None) => {
+            let roll = read_roll(reader)?;
+            let frame = read_frame(&table)?;
+            match Brake::new(frame, roll, brake.get(&FRICTION)?, brake.get(&ROTATION)?) {
+                Ok(made) => Some(Arrangement::Frame(Box::new(made))),
+                Err(error) => {
+                    table.fail(&PIVOT, format!("frame_reach: {error}"), None);
+                    None
+                }
+            }
+        }
+    }
+}
+
+fn read_roll(reader: &Reader<'_>) -> Option<Roll> {
+    let table = reader.find(&ROLL)?;
+    let (largest_radius, smallest_radius) = (table.get(&LARGEST_RADIUS)?, table.get(&SMALLEST_RADIUS)?);
+    if smallest_radius >= largest_radius {
+        let (smallest, largest) = (table.typed(&SMALLEST_RADIUS), table.typed(&LARGEST_RADIUS));
+        let message = format!("smallest_radius must be below largest_radius: {smallest} ≥ {largest}");
+        table.fail(&SMALLEST_RADIUS, message, None);
+        return None;
+    }
+    Some(Roll { largest_radius, smallest_radius })
+}
+
+fn read_frame(table: &Table<'_>) -> Option<Frame> {
+    Some(Frame {
+        pivot: table.get(&PIVOT)?,
+        right_pulley: table.get(&RIGHT_PULLEY)?,
+        left_pulley: table.get(&LEFT_PULLEY)?,
+        centre_of_gravity: table.get(&CENTRE_OF_GRAVITY)?,
+        pulley_radius: table.get(&PULLEY_RADIUS)?,
+    })
+}
+
+fn read_cam(table: &Table<'_>, arrangement: Option<&Arrangement>) -> Option<BrakeCam> {
+    let turns_per_frame_turn = table.get(&TURNS)?;
+    match arrangement {
+        Some(Arrangement::Frame(brake)) => {
+            let turn = brake.at(brake.roll().smallest_radius).map_or(0.0, |stand| stand.theta.abs());
+            if turns_per_frame_turn * turn >= TAU {
+                let error = BrakeError::CamTurn { turn: turns_per_frame_turn * turn, most: TAU / turn };
+                table.fail(&TURNS, error.to_string(), None);
+                return None;
+            }
+        }
+        Some(Arrangement::Ends(_)) => {
+            let help = Some("add [brake.frame] in place of [brake.ends]".into());
+            table.fail(&TURNS, "a disc that holds the tension needs the frame that turns it".into(), help);
+            return None;
+        }
+        None => {}
+    }
+    Some(BrakeCam { turns_per_frame_turn, spring_rate: table.get(&SPRING_RATE)?, preload: table.get(&PRELOAD)? })
+}
+
+/// Why the disc of a brake has no motion.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DiscOfBrakeError {
+    /// It is not described, or was not asked for.
+    #[error(
+        "the file describes no disc on the shaft of the frame: add [brake.cam], [brake.frame] and [follower.roller]"
+    )]
+    None,
+    /// Of the frame.
+    #[error("no disc that holds the tension: {0}")]
+    Brake(#[from] BrakeError),
+    /// Its law has no solution.
+    #[error("no disc that holds the tension: {0}; see brake.cam.spring_rate and brake.cam.preload")]
+    Law(#[from] CounterTorqueError),
+}
+
+/// A belt brake: what comes out of [`BrakeMachine::load`] only, every value in range.
+#[derive(Debug, Clone)]
+pub struct BrakeMachine {
+    /// What the report calls it.
+    pub(crate) name: String,
+    /// The brake.
+    pub(crate) data: BrakeData,
+    /// What it must keep.
+    pub(crate) limits: BrakeLimits,
+    /// Roller, disc and limits of the disc that holds the tension, where that was asked for.
+    pub(crate) machine: Option<Machine>,
+    /// Every value that has an effect.
+    inputs: Vec<Input>,
+}
+
+impl BrakeMachine {
+    /// Reads an embedded machine by its name, or a file, with the disc that holds the tension or without. Returns the machine and the
+    /// word that names its files.
+    ///
+    /// # Errors
+    /// All faults found; a file that cannot be read is one of them.
+    pub fn load(name_or_path: &str, overrides: &[String], disc: bool) -> Result<(Self, String), MachineError> {
+        load_as(name_or_path, |source, text, own| Self::read(source, text, overrides, (own, disc)))
+    }
+
+    /// Reads a machine from TOML text, with the disc that holds the tension or without; `source` names it in messages, each override is
+    /// `key=value`.
+    ///
+    /// # Errors
+    /// All faults found, each with its place.
+    pub fn from_toml(source: &str, text: &str, overrides: &[String], disc: bool) -> Result<Self, MachineError> {
+        Self::read(source, text, overrides, (true, disc))
+    }
+
+    fn read(source: &str, text: &str, overrides: &[String], (own, disc): (bool, bool)) -> Result<Self, MachineError> {
+        let mut brake = read_as(source, text, overrides, |reader| Self::parts(reader, disc))?;
+        if disc {
+            brake.machine = Some(Machine::read(source, text, overrides, own)?);
+        }
+        Ok(brake)
+    }
+
+    fn parts(reader: &Reader<'_>, disc: bool) -> Option<Self> {
+        let data = read(reader);
+        if disc {
+            can_have_a_disc(reader);
+        }
+        Some(Self {
+            name: reader.table(&ROOT).get(&NAME)?,
+            data: data?,
+            limits: super::limits::of_brake(reader)?,
+            machine: None,
+            inputs: document::with_effect(&sections(), &reader.inputs(), BRAKE),
+        })
+    }
+
+    /// What reports call it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The machine file as a cam's, where the disc was asked for.
+    #[must_use]
+    pub fn machine(&self) -> Option<&Machine> {
+        self.machine.as_ref()
+    }
+
+    /// The brake as the file describes it.
+    #[must_use]
+    pub fn data(&self) -> &BrakeData {
+        &self.data
+    }
+
+    /// The same with another frame.
+    #[must_use]
+    pub fn with_frame(&self, brake: Brake) -> Self {
+        let arrangement = Arrangement::Frame(Box::new(brake));
+        Self { data: BrakeData { arrangement, ..self.data.clone() }, ..self.clone() }
+    }
+
+    /// Every value that has an effect, defaults too.
+    #[must_use]
+    pub fn inputs(&self) -> &[Input] {
+        &self.inputs
+    }
+
+    /// The motion of the disc that holds the tension.
+    ///
+    /// # Errors
+    /// [`DiscOfBrakeError`] when the file describes none, there is none for its frame, or its law has no solution.
+    pub fn brake_disc(&self) -> Result<BrakeDisc, DiscOfBrakeError> {
+        let (Some(cam), Arrangement::Frame(brake)) = (self.data.cam, &self.data.arrangement) else {
+            return Err(DiscOfBrakeError::None);
+        };
+        let full = brake.at(brake.roll().largest_radius)?;
+        let weight = self.data.weight.unwrap_or_else(|| brake.weight_for(self.data.tension, &full));
+        let holding = Holding::new(Brake::clone(brake), weight, self.data.tension, cam.turns_per_frame_turn)?;
+        Ok(BrakeDisc::new(holding, cam.spring_rate, cam.preload)?)
+    }
+
+    /// Roller, disc and limits of the disc, its follower pressed on by the spring of `[brake.cam]`, of which this is the force (N) where
+    /// the lift is 0; `None` where it was not asked for.
+    #[must_use]
+    pub fn of_disc(&self, preload: f64) -> Option<Machine> {
+        let (machine, cam) = (self.machine.as_ref()?, self.data.cam?);
+        let spring = (Some(preload), cam.spring_rate);
+        let follower =
+            FollowerData { preload: spring.0, spring_rate: spring.1, mass: None, ..machine.follower.clone() };
+        Some(Machine { follower, ..machine.clone() })
+    }
+}

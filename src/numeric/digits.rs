@@ -1,0 +1,20 @@
+//! Numbers as people write them.
+
+/// The next number of three digits that is not larger; of a positive number.
+#[must_use]
+pub fn three_digits_down(value: f64) -> f64 {
+    let digit = libm::pow(10.0, 2.0 - libm::log10(value).floor());
+    (value * digit).floor() / digit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_cut_off() {
+        for (value, cut) in [(612.9, 612.0), (0.012_39, 0.0123), (13.244, 13.2), (7.0, 7.0)] {
+            assert_eq!(three_digits_down(value), cut);
+        }
+    }
+}
