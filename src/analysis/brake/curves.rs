@@ -15,6 +15,7 @@ const WRAPS: (f64, f64) = (0.05, PI);
 const STEPS: u32 = 120;
 /// How far the belt speeds about the strain branch reach, over the strain at the plateau.
 const AROUND: f64 = 1.6;
+const THOUSANDTHS: f64 = 1e3;
 
 fn curve(name: impl Into<String>, colour: usize, bold: bool, points: Vec<[f64; 2]>) -> Curve {
     Curve { name: name.into(), colour, bold, points }
@@ -104,12 +105,12 @@ pub(super) fn by_belt_speed(data: &BrakeData, grip: f64) -> (String, Panel) {
 
 /// The same about the strain branch, where a thousandth of the speed is all of the tension.
 fn by_strain(web: &Web, grip: f64) -> (String, Panel) {
-    let strain = web.strain(grip);
-    let from = (1.0 + web.wound_strain) / (1.0 + AROUND * strain);
-    let to = 1.0 + web.wound_strain;
-    let point = |ratio: f64| [ratio, web.tension_within(grip, ratio).max(0.0)];
-    let points = between((from, to)).map(point).collect();
-    let curves = vec![curve("strain, grip", 0, true, points)];
+    let free = 1.0 + web.wound_strain;
+    let slowest = free / (1.0 + AROUND * web.strain(grip));
+    // Slower from left to right, by thousandths of the web's speed.
+    let point = |ratio: f64| [THOUSANDTHS * (1.0 - ratio), web.tension_within(grip, ratio).max(0.0)];
+    let points = between((free, slowest)).map(point).collect();
+    let curves = vec![curve("strain, then grip", 0, true, points)];
     let name = "The same near V: strain up to the grip, N".into();
-    ("V_z/V, belt over web".into(), Panel { name, curves })
+    ("1 − V_z/V, thousandths".into(), Panel { name, curves })
 }

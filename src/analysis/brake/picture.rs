@@ -89,7 +89,7 @@ pub(super) fn scheme(braking: &Braking<'_>) -> Scheme {
         let told = format!(
             "{name}: {} mm, frame turned by {}°, wrap {}°, {} N",
             shown(MILLIMETRES * stand.radius),
-            shown(stand.theta.to_degrees()),
+            shown(stand.theta.to_degrees() + 0.0),
             shown(stand.wrap.to_degrees()),
             shown(braking.tension(stand))
         );

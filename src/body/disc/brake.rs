@@ -37,8 +37,9 @@ impl Disc {
                 crate::machine::Rotation::CounterClockwise => "counter-clockwise",
             }
         );
+        let rest = format!("from {end:.4}° on the outline only closes: no roller gets there");
         let spring = format!("spring {} N/mm, {} N where the law's lift is 0", shown(rate), shown(preload));
-        let section = Section::new("mounting", &value).with_words(vec![format!("{place}; {spring}")]);
-        Some(section.with_figures(vec![place, spring]))
+        let section = Section::new("mounting", &value).with_words(vec![format!("{place}; {spring}"), rest.clone()]);
+        Some(section.with_figures(vec![place, rest, spring]))
     }
 }
