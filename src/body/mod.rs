@@ -291,7 +291,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Largest |pressure angle|, rad.
+    /// Largest |pressure angle| where a follower runs, rad.
     fn pressure_angle(&self) -> Worst {
         self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.pressure_angle(curves))
     }
@@ -301,6 +301,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     fn least_radius(&self) -> Worst {
         let nowhere = Worst { value: f64::INFINITY, ..Worst::NONE };
         self.plane().zip(self.worst_places()).map_or(nowhere, |(curves, worst)| worst.least_radius(curves))
+    }
+
+    /// The same where a follower runs.
+    fn least_rolled_radius(&self) -> Worst {
+        self.least_radius()
     }
 
     /// Radius of the largest cutter that fits into the concave parts, m; `None` where nothing is concave.
@@ -493,6 +498,7 @@ fn mirrored(stretches: &[Stretch]) -> Vec<Stretch> {
 pub struct WorstPlaces {
     pressure_angle: OnceLock<Worst>,
     least_radius: OnceLock<Worst>,
+    least_rolled_radius: OnceLock<Worst>,
 }
 
 impl WorstPlaces {
@@ -501,21 +507,31 @@ impl WorstPlaces {
     }
 
     fn least_radius(&self, curves: Curves<'_>) -> Worst {
-        let search = || {
-            let smooth = match curves.element() {
-                Element::Roller { .. } => None,
-                Element::Face => Some(plane(extremes::least_radius(curves))),
-            };
-            // A fold is worse than a corner.
-            if let Some(folded) = smooth.filter(|least| least.value < 0.0) {
-                return folded;
-            }
-            match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
-                Some(corner) => Worst { value: 0.0, at: corner.at, z: 0.0 },
-                None => smooth.unwrap_or_else(|| radius_of(plane(extremes::convex_curvature(curves)))),
-            }
-        };
-        *self.least_radius.get_or_init(search)
+        *self.least_radius.get_or_init(|| least_radius_on(curves, |_| true))
+    }
+
+    fn least_rolled_radius(&self, curves: Curves<'_>) -> Worst {
+        if curves.motion.is_rolled_throughout() {
+            return self.least_radius(curves);
+        }
+        *self.least_rolled_radius.get_or_init(|| least_radius_on(curves, |piece| curves.motion.is_rolled(piece)))
+    }
+}
+
+/// Smallest convex radius of what the follower draws on the pieces that are searched, m, as [`Body::least_radius`]; a corner stands
+/// between two pieces, and counts with either.
+fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Worst {
+    let smooth = match curves.element() {
+        Element::Roller { .. } => None,
+        Element::Face => Some(plane(extremes::least_radius_on(curves, &searched))),
+    };
+    // A fold is worse than a corner.
+    if let Some(folded) = smooth.filter(|least| least.value < 0.0) {
+        return folded;
+    }
+    match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
+        Some(corner) => Worst { value: 0.0, at: corner.at, z: 0.0 },
+        None => smooth.unwrap_or_else(|| radius_of(plane(extremes::convex_curvature_on(curves, &searched)))),
     }
 }
 
@@ -530,7 +546,7 @@ fn broken_limit(body: &dyn Body) -> Option<&'static str> {
     let checks: [(&'static str, &dyn Fn() -> bool); 6] = [
         ("pressure_angle", &|| body.pressure_angle().value <= limits.pressure_angle * (1.0 + 1e-12)),
         ("undercut", &|| least > roller),
-        ("min_convex_pitch_radius_over_roller", &|| least >= convex),
+        ("min_convex_pitch_radius_over_roller", &|| body.least_rolled_radius().value >= convex),
         ("wall", &|| body.wall().is_none_or(|(wall, _)| wall > 0.0 && wall >= limits.wall * (1.0 - SIZED_TO))),
         ("cutter_radius", &|| {
             kept(limits.cutter_radius, &|limit| body.hollow().is_none_or(|hollow| limit <= hollow.value))

@@ -127,18 +127,22 @@ impl Motion for BrakeDisc {
         Jet { s: jet.s - self.lowest, ..jet }
     }
 
+    fn is_rolled(&self, piece: usize) -> bool {
+        piece == 0
+    }
+
     fn origin(&self) -> Option<f64> {
         Some(self.lowest)
     }
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::brake::{Brake, Frame, Roll, Rotation};
 
     /// `roll` of the brake's tests: i = 10, 20 N/mm, 1 kN.
-    pub(in crate::motion) fn disc() -> BrakeDisc {
+    pub(crate) fn disc() -> BrakeDisc {
         let frame = Frame {
             pivot: [-1.1, 0.55],
             right_pulley: [0.5, 0.45],

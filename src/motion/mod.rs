@@ -3,7 +3,7 @@
 //! A motion is smooth on each of its pieces and may jump between them. A motion is sampled piece by piece, so that
 //! both sides of a break are available: there is no evaluation "at" a break without saying from which side.
 
-mod brake_disc;
+pub(crate) mod brake_disc;
 pub mod counter_torque;
 mod eccentric;
 pub mod equation_18;
@@ -105,6 +105,17 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
 
     /// The jet at a value of the parameter within a piece, its ends included.
     fn jet(&self, piece: usize, parameter: f64) -> Jet;
+
+    /// Whether a follower runs on a piece; else it only closes the outline, and what a follower feels or presses there does not
+    /// matter.
+    fn is_rolled(&self, _piece: usize) -> bool {
+        true
+    }
+
+    /// Whether a follower runs on every piece.
+    fn is_rolled_throughout(&self) -> bool {
+        (0..self.distinct().len()).all(|piece| self.is_rolled(piece))
+    }
 
     /// Whether the lift is a length or an angle.
     fn quantity(&self) -> Quantity {

@@ -45,6 +45,9 @@ pub(super) fn of_own(body: &dyn Body) -> Vec<Input> {
 fn sample(curves: &Curves<'_>, text: &mut String) {
     for (index, piece) in curves.motion.distinct().iter().enumerate() {
         text.push_str(&format!("piece {} {}\n", piece.start, piece.end));
+        if !curves.motion.is_rolled(index) {
+            text.push_str("no follower\n");
+        }
         for sample in 0..=SAMPLES {
             let share = f64::from(sample) / f64::from(SAMPLES);
             let at = if sample == SAMPLES { piece.end } else { piece.start + share * (piece.end - piece.start) };

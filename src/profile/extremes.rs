@@ -8,15 +8,26 @@ use crate::numeric::extremum::{self, Extremum};
 /// Cells a piece is cut into: pressure angle and curvature of a piece have a handful of extrema.
 const CELLS: u32 = 32;
 
-/// Largest value of a quantity over the motion; `quantity` gives value and derivative at a cam angle of a piece.
-fn largest(curves: Curves<'_>, quantity: impl Fn(usize, f64) -> (f64, f64)) -> Extremum {
+/// Of every piece, as what is searched.
+fn everywhere(_piece: usize) -> bool {
+    true
+}
+
+/// Largest value of a quantity over the pieces of the motion that are searched; `quantity` gives value and derivative at a cam
+/// angle of a piece.
+fn largest(
+    curves: Curves<'_>,
+    searched: impl Fn(usize) -> bool,
+    quantity: impl Fn(usize, f64) -> (f64, f64),
+) -> Extremum {
     let in_piece = |(index, piece): (usize, &Piece)| {
         let cells = if piece.dwell { 1 } else { CELLS };
         let range = (piece.start, piece.end);
         extremum::largest(|angle| quantity(index, angle).0, |angle| quantity(index, angle).1, range, cells)
     };
-    curves.motion.distinct().iter().enumerate().map(in_piece).fold(
-        Extremum { at: 0.0, value: f64::NEG_INFINITY },
+    let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
+    pieces.map(in_piece).fold(
+        NOTHING,
         |best, next| {
             if next.value > best.value || best.value.is_nan() { next } else { best }
         },
@@ -28,7 +39,7 @@ fn largest(curves: Curves<'_>, quantity: impl Fn(usize, f64) -> (f64, f64)) -> E
 const FORCE_CELLS: u32 = 48;
 const FORCE_SECTIONS: u32 = 30;
 
-/// Largest value over the turn of something that depends on the cam angle of a piece, when no derivative is at hand.
+/// Largest value, where a follower runs, of something that depends on the cam angle of a piece, when no derivative is at hand.
 pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Extremum {
     let of_piece = |(index, piece): (usize, &Piece)| {
         let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
@@ -39,6 +50,7 @@ pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f
         .distinct()
         .iter()
         .enumerate()
+        .filter(|(index, _)| curves.motion.is_rolled(*index))
         .map(of_piece)
         .fold(NOTHING, |best, next| if next.value > best.value || best.value.is_nan() { next } else { best })
 }
@@ -68,7 +80,8 @@ fn stretches(piece: &Piece, acting: &[Acting]) -> Vec<(f64, f64)> {
     stretches
 }
 
-/// Largest value, or size, over the turn of something that is smooth on each piece but for the ends of the ranges `acting`.
+/// Largest value, or size, where a follower runs, of something that is smooth on each piece but for the ends of the ranges
+/// `acting`.
 fn of_smooth(
     motion: &dyn Motion,
     acting: &[Acting],
@@ -82,7 +95,7 @@ fn of_smooth(
         }
     };
     // Where the follower rests a force may change still.
-    for (index, piece) in motion.distinct().iter().enumerate() {
+    for (index, piece) in motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index)) {
         for range in stretches(piece, acting) {
             consider(search(&|at| value(index, at), range));
         }
@@ -90,8 +103,8 @@ fn of_smooth(
     best
 }
 
-/// Largest value over the turn of something that is smooth on each piece but for the ends of the ranges `acting`; differences
-/// below `negligible` do not matter.
+/// Largest value, where a follower runs, of something that is smooth on each piece but for the ends of the ranges `acting`;
+/// differences below `negligible` do not matter.
 pub fn largest_smooth(
     curves: Curves<'_>,
     (acting, negligible): (&[Acting], f64),
@@ -129,11 +142,12 @@ pub fn largest_size_of_motion(
 
 const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };
 
-/// Largest |pressure angle|, rad.
+/// Largest |pressure angle| where a follower runs, rad.
 #[must_use]
 pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
+    let rolled = |piece: usize| curves.motion.is_rolled(piece);
     let signed = |sign: f64| {
-        largest(curves, |piece, angle| {
+        largest(curves, rolled, |piece, angle| {
             let contact = curves.contact(piece, angle);
             (sign * contact.pressure_angle, sign * contact.pressure_angle_slope)
         })
@@ -145,7 +159,13 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
 /// Largest curvature of the follower's curve, 1/m: the sharpest convex place.
 #[must_use]
 pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
-    largest(curves, |piece, angle| {
+    convex_curvature_on(curves, everywhere)
+}
+
+/// The same over the pieces that are searched; −∞ where none is.
+#[must_use]
+pub fn convex_curvature_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Extremum {
+    largest(curves, searched, |piece, angle| {
         let pitch = curves.touch(piece, angle).curve;
         (pitch.curvature, pitch.curvature_slope)
     })
@@ -154,7 +174,13 @@ pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
 /// Smallest radius of curvature under a face, m, signed: not positive where the profile turns back on itself.
 #[must_use]
 pub fn least_radius(curves: Curves<'_>) -> Extremum {
-    let least = largest(curves, |piece, angle| {
+    least_radius_on(curves, everywhere)
+}
+
+/// The same over the pieces that are searched; ∞ where none is.
+#[must_use]
+pub fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Extremum {
+    let least = largest(curves, searched, |piece, angle| {
         let curve = curves.touch(piece, angle).curve;
         // ρ = 1/κ and dρ/dθ = −κ' ℓ/κ² with ℓ = ρ.
         (-curve.speed, curve.curvature_slope * curve.speed * curve.speed * curve.speed)
@@ -167,7 +193,7 @@ pub fn least_radius(curves: Curves<'_>) -> Extremum {
 /// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
 #[must_use]
 pub fn concave_profile_curvature(curves: Curves<'_>) -> Extremum {
-    let pitch = largest(curves, |piece, angle| {
+    let pitch = largest(curves, everywhere, |piece, angle| {
         let pitch = curves.touch(piece, angle).curve;
         (-pitch.curvature, -pitch.curvature_slope)
     });

@@ -202,19 +202,24 @@ impl<'a> Followed<'a> {
         self.cut(stretch, wanted).filter(|_| reached).map(|(cut, _)| cut)
     }
 
-    /// The stretches between whose ends lift and velocity as cut are smooth, by the motion's parameter.
-    pub fn ranges(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        self.stretches.iter().map(|stretch| (stretch.from, stretch.to))
+    /// Whether the follower runs on a stretch.
+    fn is_rolled(&self, stretch: &Stretch) -> bool {
+        self.curves.motion.is_rolled(stretch.piece)
     }
 
-    /// Acceleration of the motion and as cut along the whole chain, by the angle of the shaft: parameter, motion, cut; two at one
-    /// place where it jumps. The places lie no farther apart than a share of the whole motion.
+    /// The stretches on which the follower runs, between whose ends lift and velocity as cut are smooth, by the motion's parameter.
+    pub fn ranges(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.stretches.iter().filter(|stretch| self.is_rolled(stretch)).map(|stretch| (stretch.from, stretch.to))
+    }
+
+    /// Acceleration of the motion and as cut wherever the follower runs on the chain, by the angle of the shaft: parameter, motion, cut;
+    /// two at one place where it jumps. The places lie no farther apart than a share of the whole motion.
     #[must_use]
     pub fn accelerations(&self, share: f64) -> Vec<[f64; 3]> {
         let (first, last) = self.curves.motion.range();
         let longest = (share * (last - first)).max(HAIR);
         let mut points = Vec::new();
-        for stretch in &self.stretches {
+        for stretch in self.stretches.iter().filter(|stretch| self.is_rolled(stretch)) {
             let length = stretch.to - stretch.from;
             let mut at = 0.0;
             loop {
@@ -241,12 +246,15 @@ impl<'a> Followed<'a> {
         Some([velocity, acceleration, cut.dds * first * first + cut.ds * second])
     }
 
-    /// The largest errors, by the angle of the shaft that gives the time.
+    /// The largest errors where the follower runs, by the angle of the shaft that gives the time.
     ///
     /// Along a segment the error of the velocity is largest where that of the acceleration, its derivative, is 0, or at an end.
     #[must_use]
     pub fn errors(&self) -> Errors {
         let places = |stretch: &Stretch| {
+            if !self.is_rolled(stretch) {
+                return Vec::new();
+            }
             let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(CELLS);
             let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
             (0..=CELLS).map(found).collect::<Option<Vec<Off>>>().unwrap_or_default()
@@ -465,11 +473,11 @@ fn under_face(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Opt
     Some(Jet { s: lift, ds: centre.dot(&across), dds: -turn * centre.dot(&touch.drive), ..law })
 }
 
-/// The largest sizes of velocity and acceleration of a motion, by the angle of the shaft that gives the time.
+/// The largest sizes of velocity and acceleration of a motion where its follower runs, by the angle of the shaft that gives the time.
 #[must_use]
 pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
     let of_piece = |(index, piece): (usize, &Piece)| {
-        if piece.dwell {
+        if piece.dwell || !motion.is_rolled(index) {
             return [0.0; 2];
         }
         let range = (piece.start, piece.end);
@@ -483,3 +491,6 @@ pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
     let larger = |[v, a]: [f64; 2], [w, b]: [f64; 2]| [v.max(w), a.max(b)];
     motion.distinct().iter().enumerate().map(of_piece).fold([0.0; 2], larger)
 }
+
+#[cfg(test)]
+mod tests;

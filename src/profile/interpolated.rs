@@ -124,7 +124,8 @@ impl<'a> Interpolated<'a> {
             return if to - from > -HAIR { [0.0; 2] } else { NOT_FOLLOWED };
         }
         let mut worst = [0.0_f64; 2];
-        for part in own_parts(parts(self.curves.motion, (from, to)), AT_END * (to - from)) {
+        let parts = own_parts(parts(self.curves.motion, (from, to)), AT_END * (to - from));
+        for part in parts.into_iter().filter(|part| self.curves.motion.is_rolled(part.piece)) {
             let range = (run.place(self, part.from), run.place(self, part.to));
             let errors = self.largest_of(&run, &part, range, wanted);
             worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
@@ -154,6 +155,9 @@ impl<'a> Interpolated<'a> {
         let errors = [first, last].map(|point| {
             let parameter = self.parameter(point);
             let (piece, inside) = self.curves.motion.locate(parameter);
+            if !self.curves.motion.is_rolled(piece) {
+                return 0.0;
+            }
             let part = Part { from: inside, to: inside, piece, shift: 0.0 };
             let corner = point.point / MILLIMETRES + point.outward() * self.out;
             self.off(&part, inside, Some(Guide::Circle(corner, 0.0)))[0].abs()
@@ -242,7 +246,8 @@ mod tests {
     use super::*;
     use crate::follower::TranslatingRoller;
     use crate::geometry::points::{Between, Form};
-    use crate::motion::EccentricCircle;
+    use crate::motion::brake_disc::tests::disc;
+    use crate::motion::{EccentricCircle, Motion};
     use nalgebra::Vector2;
     use std::f64::consts::TAU;
 
@@ -279,6 +284,26 @@ mod tests {
             for (found, worst) in found.iter().zip(worst) {
                 assert!((found / worst - 1.0).abs() < 1e-3, "{inwards}: {found} {worst}");
             }
+        }
+    }
+
+    #[test]
+    fn nothing_is_felt_where_no_follower_runs() {
+        let (motion, follower) = (disc(), TranslatingRoller::new(0.05, 0.0, 0.01));
+        let curves = Curves { motion: &motion, follower: &follower };
+        let row = |i: u32| {
+            let (piece, angle) = motion.locate(f64::from(i).to_radians());
+            let point = curves.touch(piece, angle).curve.point * MILLIMETRES;
+            [point.x, point.y]
+        };
+        let rows: Vec<[f64; 2]> = (0..=360).map(row).collect();
+        let curve = Interpolant::new(&rows, Form::Plane, Between::Cubic, true);
+        let felt = Interpolated::new(curves, 0.0).errors(&curve, [true; 2], [f64::INFINITY; 2]);
+        let working = motion.pieces()[0].end.to_degrees();
+        for (degrees, errors) in felt.iter().enumerate() {
+            let degrees = f64::from(u32::try_from(degrees).expect("few"));
+            let rolled = degrees < working;
+            assert!(errors.iter().all(|error| error.is_finite() && (*error > 0.0) == rolled), "{degrees}: {errors:?}");
         }
     }
 

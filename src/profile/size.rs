@@ -13,12 +13,16 @@ const BASE_STEP_NOISE: f64 = 1e-6;
 /// Smallest radius of curvature that an automatic size leaves under a flat face, m: a sharper place is an edge.
 const LEAST_FACE_RADIUS: f64 = 1e-3;
 
+/// Least convex radius of a roller's curve where it only closes the outline, over the radius of the roller: with nothing to spare the
+/// profile comes to a cusp there, and whether that is an undercut is left to rounding.
+const CLOSING_OVER_ROLLER: f64 = 1.05;
+
 /// What a radius must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Required {
     /// Largest |pressure angle|, rad.
     pub pressure_angle: f64,
-    /// Smallest convex radius of the follower's curve, m.
+    /// Smallest convex radius of the follower's curve where the follower runs, m.
     pub convex_radius: f64,
     /// Prime radius below which nothing is tried, m.
     pub least: f64,
@@ -109,17 +113,33 @@ impl Sizing<'_> {
 
     fn curvature(&self, radius: f64) -> f64 {
         self.at(radius, |curves| match curves.element() {
-            Element::Roller { .. } => extremes::convex_curvature(curves).value * self.required.convex_radius - 1.0,
+            Element::Roller { radius: roller } => self.too_sharp(curves, roller),
             // The profile under a face must not turn back on itself, nor come to an edge.
             Element::Face => (LEAST_FACE_RADIUS - extremes::least_radius(curves).value) / radius,
         })
     }
 
-    /// The worse of both; NaN where one is.
-    fn either(&self, radius: f64) -> f64 {
-        let (pressure, curvature) = (self.pressure(radius), self.curvature(radius));
-        if pressure > curvature || pressure.is_nan() { pressure } else { curvature }
+    /// By how much the curve of a roller is too sharp.
+    fn too_sharp(&self, curves: Curves<'_>, roller: f64) -> f64 {
+        let motion = curves.motion;
+        let sharpest =
+            |rolled: bool| extremes::convex_curvature_on(curves, |piece| motion.is_rolled(piece) == rolled).value;
+        let excess = sharpest(true) * self.required.convex_radius - 1.0;
+        if motion.is_rolled_throughout() {
+            return excess;
+        }
+        worse(excess, sharpest(false) * CLOSING_OVER_ROLLER * roller - 1.0)
     }
+
+    /// The worse of both limits.
+    fn either(&self, radius: f64) -> f64 {
+        worse(self.pressure(radius), self.curvature(radius))
+    }
+}
+
+/// The larger of two excesses; NaN where one is.
+fn worse(one: f64, other: f64) -> f64 {
+    if one > other || one.is_nan() { one } else { other }
 }
 
 /// The smallest size (m) at which the disc made by the follower keeps every limit.
@@ -240,10 +260,11 @@ fn rounded_in_reach(base_radius: f64, passes: impl Fn(f64) -> bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follower::SwingingRoller;
-    use crate::motion::Quantity;
+    use crate::follower::{SwingingRoller, TranslatingRoller};
+    use crate::motion::brake_disc::{self, BrakeDisc};
     use crate::motion::laws::LAWS;
     use crate::motion::program::Program;
+    use crate::motion::{Motion, Quantity};
     use std::f64::consts::TAU;
 
     /// Numbers in [0, 1) that repeat: Weyl's sequence of the golden ratio.
@@ -295,5 +316,52 @@ mod tests {
             }
         }
         assert!(found > 5 && none > 1, "{found} found, {none} not");
+    }
+
+    /// The disc of a brake, and a centred roller on the smallest one that keeps a pressure angle.
+    fn of_brake(roller: f64, pressure_angle: f64) -> (BrakeDisc, TranslatingRoller) {
+        let motion = brake_disc::tests::disc();
+        let required = Required { pressure_angle, convex_radius: roller, least: 1e-3 + roller };
+        let follower = TranslatingRoller::new(0.1, 0.0, roller);
+        let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
+        (motion, TranslatingRoller::new(prime_radius, 0.0, roller))
+    }
+
+    /// max(|y'|/tan 30° − y) of the law, counted from its own zero, which lies above the lowest point of the disc.
+    #[test]
+    fn where_no_follower_runs_the_pressure_angle_may_be_larger() {
+        let limit = 30.0_f64.to_radians();
+        let (motion, follower) = of_brake(1e-3, limit);
+        let prime_radius = follower.prime_radius().expect("sized") - motion.origin().expect("an origin");
+        assert!((1e3 * prime_radius - 44.327_659_755_76).abs() < 1e-9, "{prime_radius}");
+        let curves = Curves { motion: &motion, follower: &follower };
+        let [working, closing] = [0, 1].map(|index| {
+            let piece = motion.pieces()[index];
+            let lean = |i: u32| {
+                let at = piece.start + (piece.end - piece.start) * f64::from(i) / 1000.0;
+                curves.contact(index, at).pressure_angle.abs()
+            };
+            (0..=1000).map(lean).fold(0.0, f64::max)
+        });
+        assert!(working <= limit * (1.0 + 1e-12) && closing > 1.5 * limit, "{working} {closing}");
+    }
+
+    /// Under a large roller the closing stretch is the sharper one; a convex radius of twice that of the roller is not asked of it.
+    #[test]
+    fn where_no_follower_runs_there_is_no_undercut_and_no_more_is_asked() {
+        let roller = 0.08;
+        let (motion, follower) = of_brake(roller, 80.0_f64.to_radians());
+        let curves = Curves { motion: &motion, follower: &follower };
+        let radius = |piece: usize| 1.0 / extremes::convex_curvature_on(curves, |own| own == piece).value;
+        assert!((radius(1) / (CLOSING_OVER_ROLLER * roller) - 1.0).abs() < 1e-12, "{}", radius(1));
+        assert!(radius(0) > roller, "{}", radius(0));
+
+        let required = Required { pressure_angle: 80.0_f64.to_radians(), convex_radius: 2.0 * roller, least: roller };
+        let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
+        let follower = TranslatingRoller::new(prime_radius, 0.0, roller);
+        let curves = Curves { motion: &motion, follower: &follower };
+        let radius = |piece: usize| 1.0 / extremes::convex_curvature_on(curves, |own| own == piece).value;
+        assert!((radius(0) / (2.0 * roller) - 1.0).abs() < 1e-12, "{}", radius(0));
+        assert!(radius(1) < 1.9 * roller, "{}", radius(1));
     }
 }

@@ -47,7 +47,7 @@ fn undercut(evidence: &Evidence<'_>) -> Option<Finding> {
 
 fn min_convex_radius(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
-    let least = body.least_radius();
+    let least = body.least_rolled_radius();
     let limit = body.machine().limits.min_convex_pitch_radius_over_roller * body.roller_radius()?;
     let kept = least.value >= limit * (1.0 - ROUNDING);
     let found = MIN_CONVEX_RADIUS.found(1e3 * least.value, Some(1e3 * limit), "mm", Verdict::of(kept));

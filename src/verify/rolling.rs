@@ -81,6 +81,7 @@ struct Sample {
     gap: f64,
     /// Derivative of the gap by the parameter, mm; NaN under a face.
     gap_slope: f64,
+    /// `None` where the roller does not touch along its path, and where no follower runs.
     lift_error: Option<f64>,
     /// Its derivative.
     lift_slope: f64,
@@ -154,9 +155,11 @@ impl Roll<'_> {
         let contact = self.curves.touch(piece, parameter);
         let clearance = self.clearance(&contact, contact.curve.point * 1e3);
         let (gap, normal) = clearance.unwrap_or((f64::INFINITY, contact.drive));
-        let touching = self.lift_error(&contact, (gap, normal));
+        let rolled = self.curves.motion.is_rolled(piece);
+        let touching = rolled.then(|| self.lift_error(&contact, (gap, normal))).flatten();
         let lift_error = touching.map(|(moved, _)| moved);
-        let residual = self.body.unbalanced(piece, parameter, 1e-3 * lift_error.unwrap_or(gap), normal);
+        let moved = 1e-3 * lift_error.unwrap_or(gap);
+        let residual = if rolled { self.body.unbalanced(piece, parameter, moved, normal) } else { 0.0 };
         // A bottom so far off that no air is left gives no force.
         let residual = if residual.is_nan() { f64::INFINITY } else { residual };
         let rolls = matches!(self.curves.element(), Element::Roller { .. });
@@ -452,7 +455,7 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         let chords = Chords::new(&contour, CHORD_SHARE * tolerance);
         let found = roll.samples(&chords, tolerance);
         let lifts: Vec<f64> = found.iter().filter_map(|s| s.lift_error).map(f64::abs).collect();
-        touches &= lifts.len() == found.len();
+        touches &= lifts.len() == found.iter().filter(|s| curves.motion.is_rolled(s.piece)).count();
         errors.extend(lifts);
         samples.extend(found);
         (chord_count, sagitta) = (chord_count + chords.count, sagitta.max(chords.sagitta));

@@ -1,5 +1,6 @@
 use super::*;
 use crate::body::wedge::LAW_TOLERANCE;
+use crate::body::{RateTolerance, Request};
 use crate::machine::Machine;
 use crate::motion::equation_18::{ExactOn, Solver};
 use crate::pipeline::Spec;
@@ -246,4 +247,43 @@ fn a_run_up_longer_than_the_stroke_is_named() {
 fn the_least_air_is_that_of_the_law() {
     let air = of(&findings("dpi", &[]), "air").value;
     assert!((air / (243.0 * 2.0_f64.powf(-1.0 / 1.35)) - 1.0).abs() < 1e-12, "{air}");
+}
+
+/// The disc of a brake turns less than a turn to and fro, and a quintic on which no roller runs closes it.
+fn of_brake(keys: &[(&str, &str)]) -> Vec<Finding> {
+    let builder = keys.iter().fold(Spec::builder("brake"), |builder, (key, value)| builder.set(key, value));
+    let spec = builder.motion(crate::motion::brake_disc::tests::disc()).expect("in range");
+    let cam = spec.solve().expect("a cam");
+    let request = Request { rates: [None, Some(RateTolerance::Share(0.05))], ..Request::within(5e-6) };
+    cam.draw(request).expect("drawn").prove().expect("proved").findings().to_vec()
+}
+
+/// Its pressure angle is 49° where no roller runs, and its lift by far the quickest.
+#[test]
+fn where_no_follower_runs_only_the_outline_is_checked() {
+    let radius = ("follower.roller.radius", "10 mm");
+    for rotation in ["cw", "ccw"] {
+        let findings = of_brake(&[radius, ("cam.rotation", rotation)]);
+        assert!(passed(&findings), "{findings:?}");
+        assert!(of(&findings, "pressure_angle").value > 29.0, "{findings:?}");
+        for check in ["tangency", "outline", "rolling", "undercut", "min_convex_radius", "acceleration"] {
+            assert_eq!(of(&findings, check).verdict, Verdict::Pass, "{check}: {findings:?}");
+        }
+    }
+}
+
+#[test]
+fn an_undercut_is_found_where_no_follower_runs() {
+    let large = [
+        ("follower.roller.radius", "80 mm"),
+        ("cam.base_radius", "20 mm"),
+        ("limits.min_convex_pitch_radius_over_roller", "1"),
+        ("limits.pressure_angle", "80 deg"),
+    ];
+    let findings = of_brake(&large);
+    let undercut = of(&findings, "undercut");
+    assert_eq!(undercut.verdict, Verdict::Fail, "{findings:?}");
+    let closing = crate::motion::brake_disc::tests::disc().holding().total_angle().to_degrees();
+    assert!(undercut.place.cam_deg.is_some_and(|degrees| degrees > closing + 10.0), "{undercut:?}");
+    assert_eq!(of(&findings, "min_convex_radius").verdict, Verdict::Pass, "{findings:?}");
 }

@@ -428,6 +428,10 @@ impl Body for Disc {
         Some(&self.worst)
     }
 
+    fn least_rolled_radius(&self) -> Worst {
+        self.worst.least_rolled_radius(self.curves())
+    }
+
     fn wall(&self) -> Option<(f64, Option<Worst>)> {
         self.machine.cam.bore_reach().map(|bore| (self.base_radius() - bore, None))
     }

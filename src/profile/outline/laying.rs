@@ -85,7 +85,7 @@ impl Outline {
     /// the parallel that it stands for.
     ///
     /// What heading and curvature may miss follows from that to first order; what the follower feels is then measured on the
-    /// chain itself, which is laid again where it is more.
+    /// chain itself, which is laid again where it is more. Where no follower runs the distance alone is kept.
     pub(super) fn lay_felt(
         &mut self,
         curves: Curves<'_>,
@@ -96,7 +96,7 @@ impl Outline {
         let frame = |at: f64| curves.touch(piece, at).curve.offset_inward(distance).scaled(MILLIMETRES);
         let by_distance = Fit { motion: MotionTolerance::ANY, ..*fit };
         let motion = fit.motion;
-        if motion == MotionTolerance::ANY {
+        if motion == MotionTolerance::ANY || !curves.motion.is_rolled(piece) {
             return self.lay(|at| (frame(at), Allowed::ANY), range, &by_distance);
         }
         // What is felt differs from the first order by as much as one arc is of all.
