@@ -51,6 +51,17 @@ fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
         );
         return Machine::from_toml("shaft.toml", &text, sets).ok();
     }
+    if section.path.starts_with("brake") {
+        let roll = include_str!("../profiles/roll.toml");
+        let text = if section.path == "brake.ends" {
+            let (head, _) = roll.split_once("[brake.roll]").expect("a roll");
+            let (_, tail) = roll.split_once("[follower.roller]").expect("a follower");
+            format!("{head}[brake.ends]\nwrap = [\"90 deg\", \"45 deg\"]\n[follower.roller]{tail}")
+        } else {
+            roll.to_owned()
+        };
+        return Machine::from_toml("roll.toml", &text, sets).ok();
+    }
     if section.path.starts_with("motion") {
         return Machine::from_toml("lifter.toml", LIFTER, sets).ok();
     }
@@ -93,6 +104,10 @@ fn another(key: &Key, share: f64, index: u32) -> String {
         Form::Numbers(_) => format!("[{share}]"),
         Form::Band(..) => {
             example.split_once("..").map_or_else(String::new, |(a, b)| format!("{} .. {}", a.trim(), scaled(b.trim())))
+        }
+        Form::Pair(..) => {
+            let bare = example.replace(['[', ']', '"'], "");
+            bare.split_once(',').map_or_else(String::new, |(a, b)| format!("[{}, {}]", scaled(a.trim()), b.trim()))
         }
         Form::Number(_) if index < 4 => (1.0 / f64::from(index + 2)).to_string(),
         _ => scaled(example),

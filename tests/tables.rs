@@ -14,7 +14,7 @@ use camgen::buffer::regime::Reset;
 use camgen::document::Key;
 use camgen::document::Presence::Required;
 use camgen::follower::{FOLLOWERS, FollowerKind};
-use camgen::machine::{DriveMachine, Machine, ShaftMachine};
+use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine};
 use camgen::motion::equation_18::{ExactOn, Solver};
 use camgen::motion::laws::LAWS;
 use camgen::pipeline::{Cam, Error, Judged, Spec, Writing};
@@ -24,6 +24,7 @@ use camgen::verify::{CHECKS, On};
 use camgen::write::{FORMATS, When, by_name};
 use program::{camgen, camgen_in, files, report};
 use std::fs;
+use std::sync::Arc;
 
 const LIFTER: &str = include_str!("common/lifter.toml");
 const TOLERANCE: f64 = 5e-6;
@@ -50,6 +51,11 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
         "translating" => Spec::translating(dpi(), 35.0, Solver::Ode { tolerance: LAW_TOLERANCE }, ExactOn::Braking),
         "conoid" => Spec::conoid(dpi(), SPEEDS.to_vec(), None),
         "make" => lifter(LIFTER, overrides),
+        "brake-cam" => {
+            let brake = BrakeMachine::load("roll", &owned, true).unwrap_or_else(|error| panic!("{error}")).0;
+            let motion = Arc::new(brake.brake_disc().expect("a law"));
+            Spec::of_brake(&brake, motion).expect("a disc")
+        }
         other => panic!("no cam of the kind {other} here"),
     };
     let cam = spec.solve().unwrap_or_else(|error| panic!("{}: {error}", kind.command));
@@ -79,9 +85,10 @@ fn cams_of_followers() -> Vec<(&'static str, Cam)> {
     FOLLOWERS.iter().map(cam_of).collect()
 }
 
-/// The kinds that a command makes by itself: the compensating cam is made with the cam whose torque it takes.
+/// The kinds that a command makes by itself: the compensating cam is made with the cam whose torque it takes, the disc of a brake with
+/// the figures of the brake.
 fn commands() -> impl Iterator<Item = &'static &'static Kind> {
-    KINDS.iter().filter(|kind| kind.command == kind.keys)
+    KINDS.iter().filter(|kind| kind.command == kind.keys && **kind != &disc::BRAKE)
 }
 
 /// The same cam as a user asks for it.
@@ -138,6 +145,14 @@ fn every_format_is_written_for_every_cam_it_fits_and_refused_for_the_others() {
     }
 }
 
+fn brake(sets: &[&str]) -> analysis::Analysis {
+    let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+    // The paper's round numbers fail their own check.
+    let name = if sets.is_empty() { "roll-level" } else { "roll" };
+    let brake = BrakeMachine::load(name, &sets, false).expect("valid").0;
+    analysis::brake::analysis(&brake, &analysis::brake::Asked::default(), None).expect("a brake")
+}
+
 /// An analysis of each kind. A new kind needs a line here.
 fn analysis_of(kind: &Kind) -> analysis::Analysis {
     let press = || Machine::load("dpi", &[]).expect("valid").0;
@@ -157,6 +172,7 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
             let asked = analysis::shaft::Asked { sweep: Some((1e8, 1e9)), ..Default::default() };
             analysis::shaft::analysis(&shaft, &asked).expect("a shaft")
         }
+        "brake" => brake(&[]),
         other => panic!("no analysis of the kind {other} here"),
     };
     assert_eq!(found.kind, kind);
@@ -249,7 +265,11 @@ fn every_check_is_run_for_some_cam() {
     let six_bar = Machine::load("dpi-six-bar", &[]).expect("valid").0;
     let linkage = analysis::linkage::analysis(&six_bar, 35.0, None).expect("a linkage");
     let shaft = analysis_of(&analysis::shaft::KIND);
-    reports.extend([regimes, drive, linkage, shaft].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
+    let (printed, no_slip) = (brake(&["brake.model=printed"]), brake(&["brake.mode=no-slip"]));
+    reports.extend(
+        [regimes, drive, linkage, shaft, printed, no_slip]
+            .map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())),
+    );
     for kind in KINDS {
         let crowned = ["follower.roller.crown=cylinder", "follower.roller.width=20mm", "cam.balance=40mm .. 85mm"];
         let cam = cam_of(kind, &crowned);

@@ -14,13 +14,12 @@ mod told;
 
 use super::{Analysis, Measure};
 use crate::body::Kind;
-use crate::body::tension::AsCut;
 use crate::brake::{Brake, BrakeError, Stand};
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Arrangement, BeltMode, BrakeMachine, BrakeModel};
 use crate::motion::{BrakeDisc, Motion};
-use crate::report::{Section, Speeds};
+use crate::report::{Section, Speeds, TensionAsCut};
 use crate::table::{Table, Told};
 use braking::Braking;
 pub use design::Goal;
@@ -63,7 +62,7 @@ pub struct Held<'a> {
     /// By its law.
     pub disc: &'a BrakeDisc,
     /// On its outline as written.
-    pub as_cut: Option<AsCut>,
+    pub as_cut: Option<&'a TensionAsCut>,
 }
 
 /// What is asked of a brake.

@@ -16,12 +16,15 @@ mod stress;
 pub mod tension;
 pub mod torque;
 pub mod wedge;
+mod worst_places;
 
 pub(crate) use balance::reversal_of_bed;
 pub use balance::{AsCut, Balance, USEFUL};
 pub use loaded::{Lowered, Yielding};
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
 pub use sheet::acceleration_as_cut;
+pub use worst_places::WorstPlaces;
+use worst_places::radius_of;
 
 use crate::follower::Element;
 use crate::geometry::boundary::{Boundary, Stretch};
@@ -41,7 +44,6 @@ use crate::table::Row;
 use conoid::Conoid;
 use conoid::flank::{Flank, FlankError};
 use nalgebra::Vector2;
-use std::sync::OnceLock;
 
 /// Corners that are intended are looked for that many tolerances about their exact places: a drawing within the tolerance cuts
 /// an acute one off by up to a few.
@@ -493,48 +495,6 @@ fn mirrored(stretches: &[Stretch]) -> Vec<Stretch> {
     stretches.iter().rev().map(Stretch::mirrored).collect()
 }
 
-/// Worst places of a plane cam, searched once, on demand.
-#[derive(Debug, Clone, Default)]
-pub struct WorstPlaces {
-    pressure_angle: OnceLock<Worst>,
-    least_radius: OnceLock<Worst>,
-    least_rolled_radius: OnceLock<Worst>,
-}
-
-impl WorstPlaces {
-    fn pressure_angle(&self, curves: Curves<'_>) -> Worst {
-        *self.pressure_angle.get_or_init(|| plane(extremes::pressure_angle(curves)))
-    }
-
-    fn least_radius(&self, curves: Curves<'_>) -> Worst {
-        *self.least_radius.get_or_init(|| least_radius_on(curves, |_| true))
-    }
-
-    fn least_rolled_radius(&self, curves: Curves<'_>) -> Worst {
-        if curves.motion.is_rolled_throughout() {
-            return self.least_radius(curves);
-        }
-        *self.least_rolled_radius.get_or_init(|| least_radius_on(curves, |piece| curves.motion.is_rolled(piece)))
-    }
-}
-
-/// Smallest convex radius of what the follower draws on the pieces that are searched, m, as [`Body::least_radius`]; a corner stands
-/// between two pieces, and counts with either.
-fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Worst {
-    let smooth = match curves.element() {
-        Element::Roller { .. } => None,
-        Element::Face => Some(plane(extremes::least_radius_on(curves, &searched))),
-    };
-    // A fold is worse than a corner.
-    if let Some(folded) = smooth.filter(|least| least.value < 0.0) {
-        return folded;
-    }
-    match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
-        Some(corner) => Worst { value: 0.0, at: corner.at, z: 0.0 },
-        None => smooth.unwrap_or_else(|| radius_of(plane(extremes::convex_curvature_on(curves, &searched)))),
-    }
-}
-
 /// The first limit depending on the base radius that a turning cam breaks, as `limits` of the machine file calls it. Checks judge;
 /// this is how a radius is found that they will pass.
 fn broken_limit(body: &dyn Body) -> Option<&'static str> {
@@ -579,11 +539,6 @@ fn passing(base_radius: f64) -> String {
     const PER_METRE: f64 = 1e12;
     let picometres = (PER_METRE * base_radius - 1e-3).ceil();
     format!("a base radius of {} mm would pass", picometres / (PER_METRE / MILLIMETRES))
-}
-
-/// The radius of the largest convex curvature; infinite where nothing is convex.
-fn radius_of(sharpest: Worst) -> Worst {
-    Worst { value: if sharpest.value > 0.0 { 1.0 / sharpest.value } else { f64::INFINITY }, ..sharpest }
 }
 
 /// A worst place of a plane cam.

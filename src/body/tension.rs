@@ -3,24 +3,13 @@
 use super::Body;
 use crate::geometry::contour::Contour;
 use crate::motion::{BrakeDisc, Jet, Motion};
-use crate::numeric::extremum::Extremum;
 use crate::profile::followed::Followed;
+use crate::report::TensionAsCut;
 
 /// Places of a stretch of an outline at which the tension is looked at.
 const PLACES: u32 = 8;
 /// How far within a stretch its first and last place lie, as a share of it.
 const INSET: f64 = 1e-6;
-
-/// The web tension over the roll with an outline as it is written.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AsCut {
-    /// Least, N, and the radius of the roll there, m.
-    pub least: Extremum,
-    /// Largest, N, and the radius of the roll there, m.
-    pub largest: Extremum,
-    /// Radius of the roll, m, and tension, N, in the order of the cam angle.
-    pub points: Vec<[f64; 2]>,
-}
 
 /// Web tension, N, where the follower of a disc stands as this jet says, counted as in the motion.
 fn tension(disc: &BrakeDisc, angle: f64, jet: Jet) -> Option<[f64; 2]> {
@@ -35,7 +24,7 @@ fn tension(disc: &BrakeDisc, angle: f64, jet: Jet) -> Option<[f64; 2]> {
 /// The tension with the disc of a brake on an outline, mm, its follower where the outline puts it: the spring's force there times the
 /// slope that the outline has. `None` for another body, or where the follower is not in touch.
 #[must_use]
-pub fn as_cut(body: &dyn Body, outline: &Contour) -> Option<AsCut> {
+pub fn as_cut(body: &dyn Body, outline: &Contour) -> Option<TensionAsCut> {
     let (disc, curves) = (body.brake_disc()?, body.plane()?);
     let followed = Followed::on(curves, outline, body.mirrored());
     let end = disc.holding().total_angle();
@@ -55,11 +44,8 @@ pub fn as_cut(body: &dyn Body, outline: &Contour) -> Option<AsCut> {
         points.push(tension(disc, angle, followed.at(angle)?)?);
     }
     points.sort_by(|a, b| b[0].total_cmp(&a[0]));
-    let extreme = |sign: f64| {
-        let all = points.iter().map(|&[at, value]| Extremum { at, value: sign * value });
-        let best =
-            all.fold(None, |best: Option<Extremum>, next| best.filter(|best| best.value >= next.value).or(Some(next)));
-        best.map(|best| Extremum { value: sign * best.value, ..best })
-    };
-    Some(AsCut { least: extreme(-1.0)?, largest: extreme(1.0)?, points })
+    let tension = |point: &&[f64; 2]| point[1];
+    let least = points.iter().min_by(|a, b| tension(a).total_cmp(&tension(b))).copied()?;
+    let largest = points.iter().max_by(|a, b| tension(a).total_cmp(&tension(b))).copied()?;
+    Some(TensionAsCut { least, largest, points })
 }

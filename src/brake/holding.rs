@@ -19,6 +19,7 @@ use super::{Brake, BrakeError, Stand};
 use crate::numeric::quadrature;
 use crate::numeric::series::Series;
 use std::f64::consts::TAU;
+use std::sync::OnceLock;
 
 /// The tension a disc is to hold, and what it must do for that.
 #[derive(Debug, Clone)]
@@ -29,8 +30,8 @@ pub struct Holding {
     ratio: f64,
     /// φ at the smallest radius, rad.
     turn: f64,
-    /// E at the stations of the brake's walk, J.
-    energies: Vec<f64>,
+    /// E at the stations of the brake's walk, J, once they are asked for.
+    energies: OnceLock<Vec<f64>>,
 }
 
 /// Work and torque of the disc on the frame by its angle.
@@ -75,16 +76,31 @@ impl Holding {
         if !(turns_per_frame_turn * turn < TAU) {
             return Err(BrakeError::CamTurn { turn: turns_per_frame_turn * turn, most: TAU / turn });
         }
-        let mut holding = Self { brake, weight, tension, ratio: turns_per_frame_turn, turn, energies: Vec::new() };
-        let mut energy = 0.0;
-        holding.energies.push(energy);
-        for pair in holding.brake.places.windows(2) {
-            if let [from, to] = pair {
-                energy += holding.work_between(from, to.turn);
-                holding.energies.push(energy);
-            }
-        }
-        Ok(holding)
+        Ok(Self { brake, weight, tension, ratio: turns_per_frame_turn, turn, energies: OnceLock::new() })
+    }
+
+    /// E at the stations of the brake's walk, J.
+    fn energies(&self) -> &[f64] {
+        self.energies.get_or_init(|| {
+            let steps = self.brake.places.windows(2).map(|pair| match pair {
+                [from, to] => self.work_between(from, to.turn),
+                _ => 0.0,
+            });
+            let mut energy = 0.0;
+            let sums = steps.map(|step| {
+                energy += step;
+                energy
+            });
+            std::iter::once(0.0).chain(sums).collect()
+        })
+    }
+
+    /// τ at an angle Θ of the disc, N·m, which is taken into 0…total.
+    ///
+    /// # Errors
+    /// As [`Self::stand_at`].
+    pub fn torque(&self, angle: f64) -> Result<f64, BrakeError> {
+        Ok(self.moment(&self.stand_at(angle)?) / self.ratio)
     }
 
     /// The brake.
@@ -157,7 +173,7 @@ impl Holding {
     pub fn at(&self, angle: f64) -> Result<Hold, BrakeError> {
         let (station, place) = self.located(angle)?;
         let from = self.brake.places.get(station).unwrap_or(&place);
-        let energy = self.energies.get(station).copied().unwrap_or(0.0) + self.work_between(from, place.turn);
+        let energy = self.energies().get(station).copied().unwrap_or(0.0) + self.work_between(from, place.turn);
         let [moment, slope, half_second] = self.along(&place).moment.0;
         let i = self.ratio;
         Ok(Hold {

@@ -10,7 +10,6 @@ use super::{Failure, Outcome, tell};
 use camgen::analysis::linkage::Goal;
 use camgen::analysis::shaft::{Asked, Solver};
 use camgen::analysis::{Analysis, brake, drive, linkage, regimes, shaft, spring};
-use camgen::body::tension;
 use camgen::buffer::regime::Reset;
 use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine};
 use camgen::motion::BrakeDisc;
@@ -143,9 +142,7 @@ pub(super) fn brake(args: &BrakeArgs) -> Result<Outcome, Failure> {
     progress.stage("proving");
     let proven = drawing.prove_as(args.laid.dxf_version).map_err(Failure::new)?;
     drop(progress);
-    let outline = proven.outlines().first();
-    let as_cut = outline.and_then(|outline| tension::as_cut(cam.body(), &outline.contour));
-    let held = brake::Held { disc: &disc, as_cut };
+    let held = brake::Held { disc: &disc, as_cut: proven.rolled().and_then(|rolled| rolled.tension.as_ref()) };
     let analysis = brake::analysis(&machine, &asked, Some(&held)).map_err(Failure::new)?;
     judged(&Judged::new(analysis).with_cam(proven), &args.analysis, &name)
 }

@@ -151,19 +151,15 @@ impl Named<'_> {
     /// A list of two in the file, or `[1 mm, 2 mm]` after a flag.
     fn pair(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
         let typed = items(scalar, |text| Scalar::Text(text.trim_matches('"').into()));
-        match typed.as_deref() {
-            Some([first, second]) => {
-                let one = |item: &Scalar| match self.quantity(item, &[], dimension, bounds)? {
-                    Value::Number(number) => Ok(number),
-                    _ => misfit(format!("`{}` must be a quantity of {dimension}", self.path), Some(self.example())),
-                };
-                Ok(Value::Pair([one(first)?, one(second)?]))
-            }
-            _ => {
-                let message = format!("`{}` must be a list of two quantities of {dimension}", self.path);
-                misfit(message, Some(self.example()))
-            }
-        }
+        let Some([first, second]) = typed.as_deref() else {
+            let message = format!("`{}` must be a list of two quantities of {dimension}", self.path);
+            return misfit(message, Some(self.example()));
+        };
+        let one = |item: &Scalar| match self.quantity(item, &[], dimension, bounds)? {
+            Value::Number(number) => Ok(number),
+            _ => misfit(format!("`{}` must be a quantity of {dimension}", self.path), Some(self.example())),
+        };
+        Ok(Value::Pair([one(first)?, one(second)?]))
     }
 
     fn no_list(&self) -> Result<Value, Misfit> {

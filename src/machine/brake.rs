@@ -1,27 +1,22 @@
 //! The belt brake of a paper roll: roll, web, frame or the paper's two ends, and the disc that holds the tension.
 
-use super::settings::STIFFEST;
+mod keys;
+
+pub(super) use keys::{CAM, ENDS, FRAME, ROLL, SECTION, WEB};
+
 use super::{FollowerData, Machine, MachineError, NAME, ROOT, load_as, read_as, sections};
 use crate::brake::ends::Ends;
-use crate::brake::{Brake, BrakeError, Frame, Holding, Roll, Rotation, Web};
-use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::{BRAKE, BRAKE_CAM};
-use crate::document::range::{HIGHEST_PRESSURE, LARGEST_FORCE, LARGEST_NUMBER, LONGEST};
-use crate::document::{self, Field, Input, Occurs, Reader, Section, Table, above, within};
+use crate::brake::{Brake, BrakeError, Frame, Holding, Roll, Web};
+use crate::document::cams::BRAKE;
+use crate::document::{self, Input, Reader, Table};
 use crate::motion::BrakeDisc;
 use crate::motion::counter_torque::CounterTorqueError;
-use crate::units::Dimension::{Acceleration, Angle, Density, Force, Length, Pressure, Speed, Stiffness};
+use keys::{
+    ACCELERATION, BELT_SPEED_RATIO, CENTRE_OF_GRAVITY, DENSITY, FRICTION, GRIP, LARGEST_RADIUS, LEFT_PULLEY, MODE,
+    MODEL, MODULUS, PIVOT, PRELOAD, PRESS_RATIO, PULLEY_RADIUS, RIGHT_PULLEY, ROTATION, SMALLEST_RADIUS, SPEED,
+    SPRING_RATE, TENSION, THICKNESS, TURNS, WEB_LENGTH, WEIGHT, WIDTH, WOUND_STRAIN, WRAP,
+};
 use std::f64::consts::TAU;
-
-/// Stiffest web, Pa, fastest, m/s, densest paper, kg/m³, and quickest start, m/s².
-const STIFFEST_WEB: f64 = 1e3 * HIGHEST_PRESSURE;
-const FASTEST: f64 = 1e3;
-const DENSEST: f64 = 1e5;
-const QUICKEST: f64 = 1e4;
-/// Largest strain wound into a roll: more tears it.
-const MOST_WOUND: f64 = 0.5;
-/// Stickiest belt.
-const STICKIEST: f64 = 100.0;
 
 /// Whether the belt slips on the roll.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,243 +93,6 @@ pub struct BrakeLimits {
     /// Largest stress in the web, Pa.
     pub web_stress: Option<f64>,
 }
-
-const MODE: Field<BeltMode> = Field::words(
-    "mode",
-    "\"slip\" (the belt slips on the roll) or \"no-slip\" (its speed stretches the web)",
-    Default("slip"),
-    &["slip", "no-slip"],
-    &[BeltMode::Slip, BeltMode::NoSlip],
-);
-const MODEL: Field<BrakeModel> = Field::words(
-    "model",
-    "\"consistent\" (moments about roll and pivot) or \"printed\" (the paper's equations (1) to (15))",
-    Default("consistent"),
-    &["consistent", "printed"],
-    &[BrakeModel::Consistent, BrakeModel::Printed],
-);
-const TENSION: Field<f64> =
-    Field::quantity("tension", "wanted tension of the web", Required("300 N"), Force, above(0.0, LARGEST_FORCE));
-const FRICTION: Field<f64> =
-    Field::number("friction", "coefficient of belt and roll", Required("0.25"), above(0.0, STICKIEST));
-const WEIGHT: Field<Option<f64>> = Field::words_or_quantity(
-    "weight",
-    "\"auto\", with which the full roll has the wanted tension, or weight of frame and its load together",
-    Default("auto"),
-    (&["auto"], &[None]),
-    (Force, above(0.0, LARGEST_FORCE), Some),
-);
-const ROTATION: Field<Rotation> = Field::words(
-    "rotation",
-    "of the roll as seen in the frame's axes: \"cw\" (the left span is the tight one) or \"ccw\"",
-    Default("cw"),
-    &["cw", "ccw"],
-    &[Rotation::Clockwise, Rotation::CounterClockwise],
-);
-const BELT_SPEED_RATIO: Field<f64> = Field::number(
-    "belt_speed_ratio",
-    "speed of a slipping belt over that of the web, below 1; it moves power, not tension",
-    Default("0.0"),
-    within(0.0, 1.0),
-);
-const GRIP: Field<f64> = Field::number(
-    "grip",
-    "least grip of a belt that does not slip, over the wanted tension",
-    Default("1.5"),
-    above(0.0, LARGEST_NUMBER),
-);
-const ACCELERATION: Field<f64> = Field::quantity(
-    "acceleration",
-    "of the web while the machine speeds up; needs brake.roll.density",
-    Default("0 m/s2"),
-    Acceleration,
-    within(0.0, QUICKEST),
-);
-
-/// `[brake]`.
-pub(super) const SECTION: Section = Section {
-    path: "brake",
-    about: "the belt brake of a paper roll: camgen brake",
-    occurs: Occurs::With(&["brake.roll", "brake.web", "brake.frame", "brake.ends", "brake.cam"]),
-    cams: &[BRAKE, BRAKE_CAM],
-    keys: &[
-        MODE.key,
-        MODEL.key,
-        TENSION.key,
-        FRICTION.key,
-        WEIGHT.key,
-        ROTATION.key,
-        BELT_SPEED_RATIO.key,
-        GRIP.key,
-        ACCELERATION.key,
-    ],
-};
-
-const LARGEST_RADIUS: Field<f64> = Field::quantity(
-    "largest_radius",
-    "of the full roll, to the middle of the belt",
-    Required("600 mm"),
-    Length,
-    above(0.0, LONGEST),
-);
-const SMALLEST_RADIUS: Field<f64> = Field::quantity(
-    "smallest_radius",
-    "of the roll run down, below the largest",
-    Required("50 mm"),
-    Length,
-    above(0.0, LONGEST),
-);
-const DENSITY: Field<f64> = Field::quantity(
-    "density",
-    "of the paper on the roll, for its inertia",
-    Optional("700 kg/m3"),
-    Density,
-    above(0.0, DENSEST),
-);
-
-/// `[brake.roll]`.
-pub(super) const ROLL: Section = Section {
-    path: "brake.roll",
-    about: "the roll, with [brake.frame]",
-    occurs: Occurs::With(&["brake.frame"]),
-    cams: &[BRAKE, BRAKE_CAM],
-    keys: &[LARGEST_RADIUS.key, SMALLEST_RADIUS.key, DENSITY.key],
-};
-
-const THICKNESS: Field<f64> =
-    Field::quantity("thickness", "of the web", Required("0.07 mm"), Length, above(0.0, LONGEST));
-const WIDTH: Field<f64> = Field::quantity("width", "of the web", Required("840 mm"), Length, above(0.0, LONGEST));
-const MODULUS: Field<f64> = Field::quantity(
-    "modulus",
-    "modulus of elasticity of the paper when it is pulled quickly; newsprint 4000 to 5000 MPa",
-    Required("4500 MPa"),
-    Pressure,
-    above(0.0, STIFFEST_WEB),
-);
-const SPEED: Field<f64> =
-    Field::quantity("speed", "printing speed of the web", Required("10 m/s"), Speed, above(0.0, FASTEST));
-const WOUND_STRAIN: Field<f64> = Field::number(
-    "wound_strain",
-    "strain that is wound into the roll",
-    Default("0.0"),
-    within(-MOST_WOUND, MOST_WOUND),
-);
-const WEB_LENGTH: Field<f64> = Field::quantity(
-    "length",
-    "from the roll to the printing nip, for the stretch (15)",
-    Optional("6 m"),
-    Length,
-    above(0.0, LONGEST),
-);
-
-/// `[brake.web]`.
-pub(super) const WEB: Section = Section {
-    path: "brake.web",
-    about: "the web: for stress, strain, power and a belt that does not slip",
-    occurs: Occurs::Optional,
-    cams: &[BRAKE],
-    keys: &[THICKNESS.key, WIDTH.key, MODULUS.key, SPEED.key, WOUND_STRAIN.key, WEB_LENGTH.key],
-};
-
-/// Of a place seen from the roll's axis.
-const AROUND: document::Bounds = within(-LONGEST, LONGEST);
-const PIVOT: Field<[f64; 2]> = Field::pair(
-    "pivot",
-    "where the frame is hinged, to the right and upwards from the roll's axis",
-    Required("[\"-1100 mm\", \"550 mm\"]"),
-    Length,
-    AROUND,
-);
-const RIGHT_PULLEY: Field<[f64; 2]> = Field::pair(
-    "right_pulley",
-    "axis of the right pulley at the largest radius",
-    Required("[\"500 mm\", \"450 mm\"]"),
-    Length,
-    AROUND,
-);
-const LEFT_PULLEY: Field<[f64; 2]> = Field::pair(
-    "left_pulley",
-    "axis of the left pulley at the largest radius",
-    Required("[\"-550 mm\", \"450 mm\"]"),
-    Length,
-    AROUND,
-);
-const CENTRE_OF_GRAVITY: Field<[f64; 2]> = Field::pair(
-    "centre_of_gravity",
-    "of frame and weight together at the largest radius",
-    Required("[\"100 mm\", \"550 mm\"]"),
-    Length,
-    AROUND,
-);
-const PULLEY_RADIUS: Field<f64> = Field::quantity(
-    "pulley_radius",
-    "of both pulleys, to the middle of the belt",
-    Required("60 mm"),
-    Length,
-    above(0.0, LONGEST),
-);
-
-/// `[brake.frame]`.
-pub(super) const FRAME: Section = Section {
-    path: "brake.frame",
-    about: "the hinged frame where the roll is full",
-    occurs: Occurs::Optional,
-    cams: &[BRAKE, BRAKE_CAM],
-    keys: &[PIVOT.key, RIGHT_PULLEY.key, LEFT_PULLEY.key, CENTRE_OF_GRAVITY.key, PULLEY_RADIUS.key],
-};
-
-const WRAP: Field<[f64; 2]> = Field::pair(
-    "wrap",
-    "of the full roll and of the roll run down, above 0 and below 360 deg",
-    Required("[\"90 deg\", \"45 deg\"]"),
-    Angle,
-    above(0.0, TAU),
-);
-const PRESS_RATIO: Field<f64> = Field::number(
-    "press_ratio",
-    "press force of the roll run down over that of the full one",
-    Default("1.0"),
-    above(0.0, LARGEST_NUMBER),
-);
-
-/// `[brake.ends]`.
-pub(super) const ENDS: Section = Section {
-    path: "brake.ends",
-    about: "instead of [brake.frame]: the paper's equations (7) to (10) from the two ends of the roll",
-    occurs: Occurs::Optional,
-    cams: &[BRAKE],
-    keys: &[WRAP.key, PRESS_RATIO.key],
-};
-
-const TURNS: Field<f64> = Field::number(
-    "turns_per_frame_turn",
-    "turns of the disc for one of the frame; the disc must stay below a whole turn",
-    Required("10"),
-    above(0.0, LARGEST_NUMBER),
-);
-const SPRING_RATE: Field<f64> = Field::quantity(
-    "spring_rate",
-    "rate of the spring on its follower",
-    Required("20 N/mm"),
-    Stiffness,
-    above(0.0, STIFFEST),
-);
-const PRELOAD: Field<f64> = Field::quantity(
-    "preload",
-    "force of that spring at the lowest place of the law, above 0: without it the law has a corner",
-    Required("1 kN"),
-    Force,
-    above(0.0, LARGEST_FORCE),
-);
-
-/// `[brake.cam]`.
-pub(super) const CAM: Section = Section {
-    path: "brake.cam",
-    about: "a disc on the frame's shaft that holds the tension: camgen brake --cam",
-    occurs: Occurs::Optional,
-    cams: &[BRAKE_CAM],
-    keys: &[TURNS.key, SPRING_RATE.key, PRELOAD.key],
-};
 
 fn read(reader: &Reader<'_>) -> Option<BrakeData> {
     let Some(table) = reader.find(&SECTION) else {

@@ -25,6 +25,11 @@ fn every_embedded_machine_and_the_template_read() {
             assert_eq!(drive.name(), embedded.title());
             continue;
         }
+        if embedded.toml.contains("\n[brake]") {
+            let (brake, stem) = BrakeMachine::load(embedded.name, &[], false).expect("a brake");
+            assert_eq!((stem.as_str(), brake.name()), (embedded.name, embedded.title()));
+            continue;
+        }
         if !embedded.toml.contains("\n[bed]") {
             let (shaft, stem) = ShaftMachine::load(embedded.name, &[]).expect("a shaft");
             assert_eq!((stem.as_str(), shaft.name()), (embedded.name, embedded.title()));
@@ -309,6 +314,8 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.lift_error", "0.2 mm"),
     ("limits.support_slope", "0.002 rad"),
     ("limits.balance_grade", "6.3"),
+    ("limits.tension_spread", "0.04"),
+    ("limits.web_stress", "11 MPa"),
     ("title.owner", "Works"),
     ("title.part_number", "7"),
     ("title.revision", "B"),
@@ -386,8 +393,9 @@ fn without(text: &str, table: &str) -> String {
 fn every_key_of_the_table_reaches_the_machine() {
     let open = |key: &str| ["[0]", "[1]", "[2]"].iter().fold(key.to_owned(), |key, index| key.replace(index, "[]"));
     let keys: Vec<String> = OTHERS.iter().map(|(key, _)| open(key)).collect();
-    // A drive is read by itself.
-    let all: Vec<String> = every_key().into_iter().filter(|key| !key.starts_with("drive.")).collect();
+    // A drive and a brake are read by themselves.
+    let apart = |key: &String| key.starts_with("drive.") || key.starts_with("brake.");
+    let all: Vec<String> = every_key().into_iter().filter(|key| !apart(key)).collect();
     assert_eq!(keys, all);
     for (key, value) in OTHERS {
         let text = file_for(key);
@@ -507,12 +515,16 @@ fn template_and_profiles_have_every_key() {
         keys
     };
     // A profile is a press; the template has motion programs and their followers too.
-    let (all, of_a_press) = (keys_of(|_| true), keys_of(|section| section.cams != [MAKE] && section.path != "drive"));
+    let (all, of_a_press) = (
+        keys_of(|_| true),
+        keys_of(|section| section.cams != [MAKE] && section.path != "drive" && !section.path.starts_with("brake")),
+    );
     // Of a program the template shows one segment, which is none yet.
     let whole = ["motion.segment[0].over=360 deg".to_owned(), "motion.segment[0].to=0 mm".to_owned()];
     let template = template();
-    let presses =
-        EMBEDDED.iter().filter(|machine| !machine.toml.contains("\n[drive]") && !machine.toml.contains("\n[shaft]"));
+    let presses = EMBEDDED
+        .iter()
+        .filter(|machine| !["\n[drive]", "\n[shaft]", "\n[brake]"].iter().any(|table| machine.toml.contains(table)));
     let profiles = presses.map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
     for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &all, &whole[..])]) {
         let text = with_everything(text);

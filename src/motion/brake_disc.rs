@@ -7,17 +7,40 @@
 
 use super::counter_torque::{CounterTorque, CounterTorqueError, WorkJet};
 use super::{Jet, Motion, Piece};
-use crate::brake::Holding;
+use crate::brake::{Hold, Holding};
+use crate::numeric::chebyshev_series::{ChebyshevSeries, Together};
 use crate::numeric::extremum;
 use std::f64::consts::TAU;
 
 /// Cells in which extrema are searched, of the work and of the quintic: a handful.
 const CELLS: u32 = 64;
 
+/// Terms of the series of the torque that are tried, and the share of its largest term that is rounding: the moment is a difference of
+/// moments ten times its size.
+const TERMS: [u32; 4] = [24, 48, 96, 192];
+const ROUNDING: f64 = 1e-14;
+
+/// Work, torque and two derivatives on the disc over the working stretch as sums of Chebyshev polynomials; `None` where the torque's does
+/// not end in rounding: near a wall of the frame.
+fn series_of(holding: &Holding) -> Option<Together<4>> {
+    let range = (0.0, holding.total_angle());
+    let torque = TERMS.into_iter().find_map(|terms| {
+        let places = ChebyshevSeries::points(range, terms);
+        let torques: Vec<f64> = places.into_iter().map_while(|angle| holding.torque(angle).ok()).collect();
+        let whole = u32::try_from(torques.len()).is_ok_and(|found| found == terms);
+        let series = ChebyshevSeries::through(range, &torques, ROUNDING);
+        (whole && 4 * series.terms() <= 3 * torques.len()).then_some(series)
+    })?;
+    let slope = torque.derivative();
+    Some(Together::new([&torque.integral(), &torque, &slope, &slope.derivative()]))
+}
+
 /// The motion of the roller on the disc of a brake.
 #[derive(Debug, Clone)]
 pub struct BrakeDisc {
     holding: Holding,
+    /// Its work, where a series tells it to rounding; else each value is solved for.
+    series: Option<Together<4>>,
     law: CounterTorque,
     /// Coefficients of the closing stretch by its share t = 0…1.
     closing: [f64; 6],
@@ -55,6 +78,22 @@ fn quintic_jet([c0, c1, c2, c3, c4, c5]: [f64; 6], t: f64, length: f64) -> Jet {
     }
 }
 
+/// The work of the disc at an angle of the working stretch; not numbers beyond a wall that the walk of the brake did not meet.
+fn work(holding: &Holding, series: Option<&Together<4>>, angle: f64) -> WorkJet {
+    if let Some(series) = series {
+        let [energy, torque, torque_slope, torque_second] = series.at(angle);
+        return WorkJet { energy, torque, torque_slope, torque_second };
+    }
+    let nothing = Hold { energy: f64::NAN, torque: f64::NAN, torque_slope: f64::NAN, torque_second: f64::NAN };
+    let hold = holding.at(angle).unwrap_or(nothing);
+    WorkJet {
+        energy: hold.energy,
+        torque: hold.torque,
+        torque_slope: hold.torque_slope,
+        torque_second: hold.torque_second,
+    }
+}
+
 impl BrakeDisc {
     /// The motion with a spring rate (N/m) and the force of the spring where the law's lift is 0 (N).
     ///
@@ -62,15 +101,16 @@ impl BrakeDisc {
     /// As [`CounterTorque::new`]; the largest work is no number where the brake has a wall that its walk did not meet.
     pub fn new(holding: Holding, rate: f64, preload: f64) -> Result<Self, CounterTorqueError> {
         let total = holding.total_angle();
+        let series = series_of(&holding);
+        let work = |angle: f64| work(&holding, series.as_ref(), angle);
         let extreme = |sign: f64| {
-            let energy = |angle: f64| holding.at(angle).map_or(f64::NAN, |hold| sign * hold.energy);
-            let torque = |angle: f64| holding.at(angle).map_or(f64::NAN, |hold| sign * hold.torque);
+            let (energy, torque) = (|angle: f64| sign * work(angle).energy, |angle: f64| sign * work(angle).torque);
             sign * extremum::largest(energy, torque, (0.0, total), CELLS).value
         };
         let (most, least) = (extreme(1.0), extreme(-1.0));
         let law = CounterTorque::new(rate, preload, most)?;
         let pieces = [Piece { start: 0.0, end: total, dwell: false }, Piece { start: total, end: TAU, dwell: false }];
-        let mut disc = Self { holding, law, closing: [0.0; 6], lowest: 0.0, stored: most - least, pieces };
+        let mut disc = Self { holding, series, law, closing: [0.0; 6], lowest: 0.0, stored: most - least, pieces };
         let length = TAU - total;
         disc.closing = quintic(disc.working(total), disc.working(0.0), length);
         let depth = |t: f64| -quintic_jet(disc.closing, t, length).s;
@@ -81,15 +121,7 @@ impl BrakeDisc {
 
     /// The jet of the law at an angle of the working stretch, the lift counted as in the law.
     fn working(&self, angle: f64) -> Jet {
-        let Ok(hold) = self.holding.at(angle) else {
-            return Jet { s: f64::NAN, ds: f64::NAN, dds: f64::NAN, ddds: f64::NAN };
-        };
-        self.law.jet(WorkJet {
-            energy: hold.energy,
-            torque: hold.torque,
-            torque_slope: hold.torque_slope,
-            torque_second: hold.torque_second,
-        })
+        self.law.jet(work(&self.holding, self.series.as_ref(), angle))
     }
 
     /// What the disc holds.
@@ -202,6 +234,27 @@ pub(crate) mod tests {
             let torque = -disc.law().spring_torque(Jet { s: jet.s + disc.lowest, ..jet });
             let tension = disc.holding().tension_with(torque, &stand, 0.25).expect("slips");
             assert!((tension - 300.0).abs() < 1e-10, "{tension}");
+        }
+    }
+
+    /// The series against the values that are solved for one by one: each derivative loses the square of the terms.
+    #[test]
+    fn the_series_tells_the_work() {
+        let disc = disc();
+        let series = disc.series.as_ref().expect("no wall is near");
+        let end = disc.holding.total_angle();
+        let first = disc.holding.at(0.5 * end).expect("in the roll");
+        for i in 0..=97 {
+            let angle = end * f64::from(i) / 97.0;
+            let (hold, told) = (disc.holding.at(angle).expect("in the roll"), work(&disc.holding, Some(series), angle));
+            for (one, other, scale, tolerance) in [
+                (hold.energy, told.energy, first.energy, 1e-13),
+                (hold.torque, told.torque, first.torque, 1e-13),
+                (hold.torque_slope, told.torque_slope, first.torque_slope, 1e-11),
+                (hold.torque_second, told.torque_second, first.torque, 1e-10),
+            ] {
+                assert!((one - other).abs() < tolerance * scale.abs(), "{angle}: {hold:?} {told:?}");
+            }
         }
     }
 

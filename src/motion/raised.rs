@@ -1,30 +1,30 @@
 //! What a cam is cut higher than the law of the bottom, so that its follower keeps the law on a shaft that gives way.
 
 use super::Jet;
-use crate::numeric::chebyshev_series::ChebyshevSeries;
+use crate::numeric::chebyshev_series::{ChebyshevSeries, Together};
 
 /// By how much the bottom is raised over a reversal, by the crank angle from its start, m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Raised {
     /// Value and first four derivatives.
-    orders: [ChebyshevSeries; 5],
+    orders: Together<5>,
 }
 
 impl Raised {
     /// From the series of its value.
     #[must_use]
-    pub fn new(value: ChebyshevSeries) -> Self {
+    pub fn new(value: &ChebyshevSeries) -> Self {
         let first = value.derivative();
         let second = first.derivative();
         let third = second.derivative();
         let fourth = third.derivative();
-        Self { orders: [value, first, second, third, fourth] }
+        Self { orders: Together::new([value, &first, &second, &third, &fourth]) }
     }
 
     /// Value and first four derivatives at a crank angle of the reversal, rad.
     #[must_use]
     pub fn at(&self, crank: f64) -> [f64; 5] {
-        self.orders.each_ref().map(|order| order.at(crank))
+        self.orders.at(crank)
     }
 
     /// As a jet by the crank angle.

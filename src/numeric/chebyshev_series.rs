@@ -58,6 +58,31 @@ impl ChebyshevSeries {
         Self { range: self.range, coefficients: slopes.into_iter().map(|slope| slope * per).collect() }
     }
 
+    /// Its integral from the start of the interval on, by C_n = (c_{n−1} − c_{n+1})/(2 n).
+    #[must_use]
+    pub fn integral(&self) -> Self {
+        let (low, high) = self.range;
+        let half = 0.5 * (high - low);
+        let c = |n: usize| self.coefficients.get(n).copied().unwrap_or(0.0) * if n == 0 { 2.0 } else { 1.0 };
+        #[expect(clippy::cast_precision_loss, reason = "a few hundred terms")]
+        let term = |n: usize| half * (c(n - 1) - c(n + 1)) / (2.0 * n as f64);
+        let mut coefficients = vec![0.0];
+        coefficients.extend((1..=self.coefficients.len()).map(term));
+        let unshifted = Self { range: self.range, coefficients };
+        let start = unshifted.at(low);
+        let mut coefficients = unshifted.coefficients;
+        if let Some(first) = coefficients.first_mut() {
+            *first -= start;
+        }
+        Self { range: self.range, coefficients }
+    }
+
+    /// How many terms it has.
+    #[must_use]
+    pub fn terms(&self) -> usize {
+        self.coefficients.len()
+    }
+
     /// Its value at a place of the interval.
     #[must_use]
     pub fn at(&self, x: f64) -> f64 {
@@ -68,6 +93,38 @@ impl ChebyshevSeries {
             (after, here) = (here, 2.0 * t * here - after + coefficient);
         }
         self.coefficients.first().map_or(0.0, |first| t * here - after + first)
+    }
+}
+
+/// Several series on one interval, evaluated together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Together<const N: usize> {
+    range: (f64, f64),
+    coefficients: Vec<[f64; N]>,
+}
+
+impl<const N: usize> Together<N> {
+    /// Of series on the interval of the first.
+    #[must_use]
+    pub fn new(all: [&ChebyshevSeries; N]) -> Self {
+        let terms = all.iter().map(|series| series.terms()).max().unwrap_or(0);
+        let term = |n: usize| all.map(|series| series.coefficients.get(n).copied().unwrap_or(0.0));
+        let range = all.first().map_or((0.0, 1.0), |series| series.range);
+        Self { range, coefficients: (0..terms).map(term).collect() }
+    }
+
+    /// Their values at a place of the interval.
+    #[must_use]
+    pub fn at(&self, x: f64) -> [f64; N] {
+        let (low, high) = self.range;
+        let t = ((x - low) - (high - x)) / (high - low);
+        let (mut after, mut here) = ([0.0; N], [0.0; N]);
+        for coefficients in self.coefficients.iter().skip(1).rev() {
+            let next: [f64; N] = std::array::from_fn(|i| 2.0 * t * here[i] - after[i] + coefficients[i]);
+            (after, here) = (here, next);
+        }
+        let first = self.coefficients.first().copied().unwrap_or([0.0; N]);
+        std::array::from_fn(|i| t * here[i] - after[i] + first[i])
     }
 }
 
@@ -88,12 +145,18 @@ mod tests {
             ChebyshevSeries::points(range, 40).iter().map(|x| libm::exp(*x) * libm::sin(3.0 * x)).collect();
         let sum = ChebyshevSeries::through(range, &values, 1e-16);
         let (first, second) = (sum.derivative(), sum.derivative().derivative());
+        let together = Together::new([&sum, &first, &second]);
         for i in 0..=50 {
             let x = range.0 + 2.5 * f64::from(i) / 50.0;
             let (e, sin, cos) = (libm::exp(x), libm::sin(3.0 * x), libm::cos(3.0 * x));
             assert!((sum.at(x) - e * sin).abs() < 1e-13, "{x}");
             assert!((first.at(x) - e * (sin + 3.0 * cos)).abs() < 1e-11, "{x}");
             assert!((second.at(x) - e * (6.0 * cos - 8.0 * sin)).abs() < 1e-9, "{x}");
+            assert_eq!(together.at(x), [sum.at(x), first.at(x), second.at(x)]);
+            // ∫ e^x sin 3x dx = e^x (sin 3x − 3 cos 3x)/10.
+            let primitive = |x: f64| 0.1 * libm::exp(x) * (libm::sin(3.0 * x) - 3.0 * libm::cos(3.0 * x));
+            let integral = primitive(x) - primitive(range.0);
+            assert!((sum.integral().at(x) - integral).abs() < 1e-13, "{x}");
         }
     }
 }

@@ -115,7 +115,7 @@ pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, E
 }
 
 /// The names of the files of a cam without those of its second disc.
-fn names(proven: &Proven<'_>, writing: &Writing) -> Result<Vec<String>, Error> {
+pub(super) fn names(proven: &Proven<'_>, writing: &Writing) -> Result<Vec<String>, Error> {
     let drawn = proven.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
     let (formats, _) = writing.chosen(proven.cam.body())?;
     let endings = formats.iter().flat_map(|format| (format.endings)(drawn));
@@ -134,11 +134,9 @@ fn files_alone(proven: &Proven<'_>, writing: &Writing, beside: &[String]) -> Res
     report.files = placed.collect();
     let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
     let rendering = Rendering { created: writing.created, ..rendering };
-    let mut bytes = Vec::with_capacity(names.len());
-    for format in formats {
-        bytes.extend((format.write)(&rendering)?);
-    }
-    Ok(set(writing, proven.inputs.clone(), report, names.into_iter().zip(bytes).collect()))
+    let made = parallel::map(&formats, |format| (format.write)(&rendering));
+    let bytes: Vec<Vec<Vec<u8>>> = made.into_iter().collect::<Result<_, _>>()?;
+    Ok(set(writing, proven.inputs.clone(), report, names.into_iter().zip(bytes.into_iter().flatten()).collect()))
 }
 
 /// Named bytes where they are to be written.

@@ -3,6 +3,7 @@
 use super::{Error, FileSet, Proven, Writing, file_set};
 use crate::analysis::Analysis;
 use crate::document::Input;
+use crate::numeric::parallel;
 use crate::report::{Finding, Inputs, Report, failed, passed, worst_first};
 use crate::verify;
 use crate::write::{Account, Format, OfAnalysis, When, by_name};
@@ -14,6 +15,9 @@ pub struct Judged<'c> {
     findings: Vec<Finding>,
     cam: Option<Proven<'c>>,
 }
+
+/// A report and named files.
+type OwnFiles = (Report, Vec<(String, Vec<u8>)>);
 
 /// What the names of the files of the cam of an analysis have behind their stem.
 const OF_CAM: &str = "-cam";
@@ -88,35 +92,39 @@ impl<'c> Judged<'c> {
             return Err(Error::Refused(failed(&self.findings).join(", ")));
         }
         let (own, of_cam) = self.chosen(writing)?;
-        let of_cam = match self.cam.as_ref().zip(of_cam) {
-            Some((cam, formats)) if !formats.is_empty() => {
-                let stem = format!("{}{OF_CAM}", writing.stem);
-                // What refuses the set has been looked at before.
-                let writing = Writing { stem, formats: Some(formats), force: true, ..writing.clone() };
-                Some(file_set::files(cam, &writing)?)
-            }
-            _ => None,
+        let of_cam = self.cam.as_ref().zip(of_cam).filter(|(_, formats)| !formats.is_empty());
+        let of_cam = of_cam.map(|(cam, formats)| {
+            let stem = format!("{}{OF_CAM}", writing.stem);
+            // What refuses the set has been looked at before.
+            (cam, Writing { stem, formats: Some(formats), force: true, ..writing.clone() })
+        });
+        let beside = match &of_cam {
+            Some((cam, writing)) => file_set::names(cam, writing)?,
+            None => Vec::new(),
         };
-        let endings = own.iter().flat_map(|format| (format.endings)(&self.analysis));
-        let names: Vec<String> = endings.map(|ending| format!("{}{ending}", writing.stem)).collect();
-        // A report in a file names the files.
-        let mut report = self.report();
-        let beside = of_cam.as_ref().map_or(&[][..], FileSet::outputs);
-        let all = names.iter().chain(beside.iter().map(|output| &output.name));
-        report.files = all.map(|name| writing.directory.join(name).display().to_string()).collect();
-        let account = Account { analysis: &self.analysis, report: &report, template: &writing.template };
-        let mut outputs = Vec::new();
-        for format in own {
-            outputs.extend((format.write)(&account)?);
-        }
-        let mut named: Vec<(String, Vec<u8>)> = names.into_iter().zip(outputs).collect();
+        let cam_files = of_cam.as_ref().map(|(cam, writing)| || file_set::files(cam, writing));
+        let (own, of_cam) = parallel::both(|| self.own_files(writing, &own, &beside), cam_files);
+        let (report, mut named) = own?;
+        let of_cam = of_cam.transpose()?;
         named
             .extend(of_cam.iter().flat_map(FileSet::outputs).map(|output| (output.name.clone(), output.bytes.clone())));
         Ok(file_set::set(writing, self.inputs(), report, named))
     }
 
+    /// The files of the analysis, and the report that names them and those beside them.
+    fn own_files(&self, writing: &Writing, formats: &[OfAnalysis], beside: &[String]) -> Result<OwnFiles, Error> {
+        let endings = formats.iter().flat_map(|format| (format.endings)(&self.analysis));
+        let names: Vec<String> = endings.map(|ending| format!("{}{ending}", writing.stem)).collect();
+        // A report in a file names the files.
+        let mut report = self.report();
+        let all = names.iter().chain(beside);
+        report.files = all.map(|name| writing.directory.join(name).display().to_string()).collect();
+        let account = Account { analysis: &self.analysis, report: &report, template: &writing.template };
+        let made: Vec<_> = formats.iter().map(|format| (format.write)(&account)).collect::<Result<_, _>>()?;
+        Ok((report, names.into_iter().zip(made.into_iter().flatten()).collect()))
+    }
+
     /// The formats of the analysis, and the names of those of its cam, where there is one.
-    #[expect(clippy::type_complexity, reason = "two lists")]
     fn chosen(&self, writing: &Writing) -> Result<(Vec<OfAnalysis>, Option<Vec<String>>), Error> {
         let has = |of: &OfAnalysis| !(of.endings)(&self.analysis).is_empty();
         let own: Vec<&Format> = by_name().filter(|format| format.of_analysis.as_ref().is_some_and(has)).collect();

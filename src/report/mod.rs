@@ -23,7 +23,7 @@ pub use felt::Felt;
 pub use finding::{Bound, Finding, Place, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, sha256};
 pub use point_measures::PointMeasures;
-pub use rolled::Rolled;
+pub use rolled::{Rolled, TensionAsCut};
 pub use values::{
     AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, ReversalOfBed,
     Weight, lobes_words, shown,

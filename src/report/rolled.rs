@@ -39,6 +39,20 @@ pub struct Rolled {
     /// Velocity and acceleration as cut; `None` where the follower is nowhere in touch.
     #[serde(flatten)]
     pub felt: Option<Felt>,
+    /// The web tension with this outline as the disc of a belt brake.
+    #[serde(skip)]
+    pub tension: Option<TensionAsCut>,
+}
+
+/// The web tension over the roll with the outline of a brake's disc as it is written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TensionAsCut {
+    /// Radius of the roll, m, and the least tension, N.
+    pub least: [f64; 2],
+    /// Radius of the roll, m, and the largest tension, N.
+    pub largest: [f64; 2],
+    /// Radius of the roll, m, and tension, N, from the full roll on.
+    pub points: Vec<[f64; 2]>,
 }
 
 /// A place under names of its own: `gap_cam_deg` of a disc, `gap_x_mm` of a plate.

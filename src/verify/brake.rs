@@ -2,7 +2,6 @@
 
 use super::{Bound, Check, Evidence, Explained, On};
 use crate::analysis::brake;
-use crate::body::tension;
 use crate::geometry::MILLIMETRES;
 use crate::report::{Finding, Verdict, shown};
 
@@ -80,22 +79,20 @@ fn tension_as_cut(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let holding = body.brake_disc()?.holding();
     let limit = body.machine().limits.brake.tension_spread;
-    let outline = evidence.outlines.first()?;
-    let Some(cut) = tension::as_cut(body, &outline.contour) else {
+    let rolled = evidence.rolled?;
+    let Some(cut) = &rolled.tension else {
         let note = Some("the follower leaves this outline: no tension is known".into());
         return Some(Finding { note, ..TENSION.found(f64::NAN, Some(limit), "1", Verdict::Fail) });
     };
-    let (least, largest, wanted) = (cut.least, cut.largest, holding.tension());
-    let worst = if largest.value - wanted > wanted - least.value { largest } else { least };
+    let ([at_least, least], [at_largest, largest], wanted) = (cut.least, cut.largest, holding.tension());
+    let worst = if largest - wanted > wanted - least { at_largest } else { at_least };
     let note = format!(
-        "as cut {:.4} N at {} mm of the roll, {:.4} N at {} mm",
-        least.value,
-        shown(MILLIMETRES * least.at),
-        largest.value,
-        shown(MILLIMETRES * largest.at)
+        "as cut {least:.4} N at {} mm of the roll, {largest:.4} N at {} mm",
+        shown(MILLIMETRES * at_least),
+        shown(MILLIMETRES * at_largest)
     );
-    let spread = (largest.value - least.value) / largest.value;
+    let spread = (largest - least) / largest;
     let found = TENSION.found(spread, Some(limit), "1", Verdict::of(spread <= limit));
-    let place = holding.angle_at(worst.at).map_or(found.place, |angle| body.place(angle));
+    let place = holding.angle_at(worst).map_or(found.place, |angle| body.place(angle));
     Some(Finding { place, note: Some(note), ..found })
 }

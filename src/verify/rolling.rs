@@ -8,6 +8,7 @@
 
 use super::{Bound, Check, Evidence, Explained, On, felt, sphere};
 use crate::body::Body;
+use crate::body::tension;
 use crate::follower::{Element, Touch};
 use crate::geometry::contour::Contour;
 use crate::geometry::track::{Chords, Track};
@@ -483,6 +484,7 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         residual_at: residual.map_or_else(Place::default, |s| body.place(s.parameter)),
         // Where motion is lost there is no velocity to compare.
         felt: if touches { felt::felt(body, curves, tracks.iter().map(Track::edges)) } else { None },
+        tension: tension::as_cut(body, contour),
     }
 }
 

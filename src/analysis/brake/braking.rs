@@ -32,6 +32,14 @@ pub(super) fn belt_speed(data: &BrakeData) -> f64 {
     }
 }
 
+/// Web tension with the disc by its law, N.
+fn held(disc: &BrakeDisc, stand: &Stand, friction: f64) -> Option<f64> {
+    let angle = disc.holding().turns_per_frame_turn() * stand.theta.abs();
+    let jet = disc.jet(0, angle);
+    let of_law = Jet { s: jet.s + disc.origin().unwrap_or(0.0), ..jet };
+    disc.holding().tension_with(-disc.law().spring_torque(of_law), stand, friction).ok()
+}
+
 impl<'a> Braking<'a> {
     /// Of a frame; a weight that is not given makes the wanted tension on the full roll.
     pub(super) fn new(data: &'a BrakeData, brake: &'a Brake, disc: Option<&'a BrakeDisc>) -> Result<Self, BrakeError> {
@@ -60,24 +68,16 @@ impl<'a> Braking<'a> {
     /// The same with the friction of another day; `None` where the brake jams with it.
     pub(super) fn grip_with(&self, stand: &Stand, friction: f64) -> Option<f64> {
         match (self.data.model, self.disc) {
-            (BrakeModel::Consistent, Some(disc)) => self.held(disc, stand, friction),
+            (BrakeModel::Consistent, Some(disc)) => held(disc, stand, friction),
             (BrakeModel::Consistent, None) => self.brake.tension_with(self.weight, stand, friction).ok(),
             (BrakeModel::Printed, _) => Some(self.brake.tension_printed_with(self.weight, stand, friction)),
         }
     }
 
-    /// Web tension with the disc by its law, N.
-    fn held(&self, disc: &BrakeDisc, stand: &Stand, friction: f64) -> Option<f64> {
-        let angle = disc.holding().turns_per_frame_turn() * stand.theta.abs();
-        let jet = disc.jet(0, angle);
-        let of_law = Jet { s: jet.s + disc.origin().unwrap_or(0.0), ..jet };
-        disc.holding().tension_with(-disc.law().spring_torque(of_law), stand, friction).ok()
-    }
-
     /// Web tension, N.
     pub(super) fn tension(&self, stand: &Stand) -> f64 {
         if let Some(disc) = self.disc {
-            return self.held(disc, stand, self.brake.friction()).unwrap_or(f64::NAN);
+            return held(disc, stand, self.brake.friction()).unwrap_or(f64::NAN);
         }
         let grip = self.grip(stand);
         match (self.data.mode, self.data.model) {

@@ -58,7 +58,7 @@ fn over_roll(braking: &Braking<'_>, held: Option<&Held<'_>>) -> Panel {
     ];
     if let Some(held) = held {
         curves.push(curve("with the disc", 0, true, along(&|stand| braking.tension(stand))));
-        if let Some(cut) = &held.as_cut {
+        if let Some(cut) = held.as_cut {
             let mut points: Vec<[f64; 2]> = cut.points.iter().map(|[r, p]| [MILLIMETRES * r, *p]).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             curves.push(curve("as cut", 2, false, points));

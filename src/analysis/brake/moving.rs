@@ -99,5 +99,5 @@ fn span(places: &[Lying], which: usize) -> Rigid {
     let turn: Vec<f64> = across.iter().map(|span| libm::atan2(span.y, span.x).to_degrees()).collect();
     let shape = Shape::Line(Vector2::zeros(), Vector2::new(1.0, 0.0));
     let part = Rigid::new("normal", vec![shape]).at(x, y).turned(turn);
-    Rigid { stretch: across.iter().map(|span| span.norm()).collect::<Vec<f64>>().into(), ..part }
+    Rigid { stretch: across.iter().map(Vector2::norm).collect::<Vec<f64>>().into(), ..part }
 }

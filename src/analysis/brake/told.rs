@@ -297,7 +297,7 @@ pub(super) fn disc(braking: &Braking<'_>, held: &Held<'_>) -> Section {
     let lift = |radius: f64| super::of_disc(disc, radius).map_or(f64::NAN, |(_, _, lift)| MILLIMETRES * lift);
     let roll = braking.brake.roll();
     let top = braking.radii(super::PLACES).map(lift).fold(0.0, f64::max);
-    let cut = held.as_cut.as_ref();
+    let cut = held.as_cut;
     let told = OfDisc {
         turns_per_frame_turn: disc.holding().turns_per_frame_turn(),
         cam_end_deg: disc.holding().total_angle().to_degrees(),
@@ -306,9 +306,9 @@ pub(super) fn disc(braking: &Braking<'_>, held: &Held<'_>) -> Section {
         lift_largest_mm: top,
         spring_force_max_n: disc.law().spring_force(top / MILLIMETRES),
         moment_run_down_nm: disc.holding().moment(run_down),
-        tension_as_cut_least_n: cut.map(|cut| cut.least.value),
-        tension_as_cut_largest_n: cut.map(|cut| cut.largest.value),
-        tension_as_cut_error_max_n: cut.map(|cut| (cut.largest.value - wanted).max(wanted - cut.least.value)),
+        tension_as_cut_least_n: cut.map(|cut| cut.least[1]),
+        tension_as_cut_largest_n: cut.map(|cut| cut.largest[1]),
+        tension_as_cut_error_max_n: cut.map(|cut| (cut.largest[1] - wanted).max(wanted - cut.least[1])),
     };
     let mut words = vec![
         format!(
@@ -323,7 +323,7 @@ pub(super) fn disc(braking: &Braking<'_>, held: &Held<'_>) -> Section {
     words.extend(cut.map(|cut| {
         format!(
             "as cut the web tension lies within {:.4} and {:.4} N over the whole roll",
-            cut.least.value, cut.largest.value
+            cut.least[1], cut.largest[1]
         )
     }));
     words.push(

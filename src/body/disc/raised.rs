@@ -48,7 +48,7 @@ impl Disc {
         for _ in 0..ROUNDS {
             let heights: Vec<f64> = points.iter().map(|crank| self.height(&cut, *crank, &shaft) / lever).collect();
             let apart = heights.iter().zip(&before).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
-            let raised = Raised::new(ChebyshevSeries::through(range, &heights, ROUNDING));
+            let raised = Raised::new(&ChebyshevSeries::through(range, &heights, ROUNDING));
             cut = Self::of_reversal(machine, rpm, Some(Arc::new(raised)))?.sized()?;
             if apart * lever < AGREED {
                 return Ok(cut);

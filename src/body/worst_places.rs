@@ -1,0 +1,53 @@
+//! Worst places of a plane cam, kept once they are found.
+
+use super::plane;
+use crate::follower::Element;
+use crate::profile::{Curves, Worst, extremes};
+use std::sync::OnceLock;
+
+/// Worst places of a plane cam, searched once, on demand.
+#[derive(Debug, Clone, Default)]
+pub struct WorstPlaces {
+    pressure_angle: OnceLock<Worst>,
+    least_radius: OnceLock<Worst>,
+    least_rolled_radius: OnceLock<Worst>,
+}
+
+impl WorstPlaces {
+    pub(super) fn pressure_angle(&self, curves: Curves<'_>) -> Worst {
+        *self.pressure_angle.get_or_init(|| plane(extremes::pressure_angle(curves)))
+    }
+
+    pub(super) fn least_radius(&self, curves: Curves<'_>) -> Worst {
+        *self.least_radius.get_or_init(|| least_radius_on(curves, |_| true))
+    }
+
+    pub(super) fn least_rolled_radius(&self, curves: Curves<'_>) -> Worst {
+        if curves.motion.is_rolled_throughout() {
+            return self.least_radius(curves);
+        }
+        *self.least_rolled_radius.get_or_init(|| least_radius_on(curves, |piece| curves.motion.is_rolled(piece)))
+    }
+}
+
+/// Smallest convex radius of what the follower draws on the pieces that are searched, m, as [`Body::least_radius`]; a corner stands
+/// between two pieces, and counts with either.
+fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Worst {
+    let smooth = match curves.element() {
+        Element::Roller { .. } => None,
+        Element::Face => Some(plane(extremes::least_radius_on(curves, &searched))),
+    };
+    // A fold is worse than a corner.
+    if let Some(folded) = smooth.filter(|least| least.value < 0.0) {
+        return folded;
+    }
+    match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {
+        Some(corner) => Worst { value: 0.0, at: corner.at, z: 0.0 },
+        None => smooth.unwrap_or_else(|| radius_of(plane(extremes::convex_curvature_on(curves, &searched)))),
+    }
+}
+
+/// The radius of the largest convex curvature; infinite where nothing is convex.
+pub(super) fn radius_of(sharpest: Worst) -> Worst {
+    Worst { value: if sharpest.value > 0.0 { 1.0 / sharpest.value } else { f64::INFINITY }, ..sharpest }
+}
