@@ -6,7 +6,7 @@ pub(super) use keys::{CAM, ENDS, FRAME, ROLL, SECTION, WEB};
 
 use super::{FollowerData, Machine, MachineError, NAME, ROOT, load_as, read_as, sections};
 use crate::brake::ends::Ends;
-use crate::brake::{Brake, BrakeError, Frame, Holding, Roll, Web};
+use crate::brake::{Brake, BrakeError, Frame, Holding, Pulley, Roll, Web};
 use crate::document::cams::BRAKE;
 use crate::document::{self, Input, Reader, Table};
 use crate::motion::BrakeDisc;
@@ -204,7 +204,13 @@ fn arrangement(reader: &Reader<'_>, brake: &Table<'_>) -> Option<Arrangement> {
             match Brake::new(frame, roll, brake.get(&FRICTION)?, brake.get(&ROTATION)?) {
                 Ok(made) => Some(Arrangement::Frame(Box::new(made))),
                 Err(error) => {
-                    table.fail(&PIVOT, format!("frame_reach: {error}"), None);
+                    let key = match error {
+                        BrakeError::PulleyMeetsRoll { pulley: Pulley::Left, .. } => &LEFT_PULLEY,
+                        BrakeError::PulleyMeetsRoll { .. } | BrakeError::BeltLeavesRoll { .. } => &RIGHT_PULLEY,
+                        BrakeError::WeightLifts { .. } => &CENTRE_OF_GRAVITY,
+                        _ => &PIVOT,
+                    };
+                    table.fail(key, format!("frame_reach: {error}"), None);
                     None
                 }
             }

@@ -243,17 +243,16 @@ pub(crate) mod tests {
         let disc = disc();
         let series = disc.series.as_ref().expect("no wall is near");
         let end = disc.holding.total_angle();
-        let first = disc.holding.at(0.5 * end).expect("in the roll");
         for i in 0..=97 {
             let angle = end * f64::from(i) / 97.0;
             let (hold, told) = (disc.holding.at(angle).expect("in the roll"), work(&disc.holding, Some(series), angle));
             for (one, other, scale, tolerance) in [
-                (hold.energy, told.energy, first.energy, 1e-13),
-                (hold.torque, told.torque, first.torque, 1e-13),
-                (hold.torque_slope, told.torque_slope, first.torque_slope, 1e-11),
-                (hold.torque_second, told.torque_second, first.torque, 1e-10),
+                (hold.energy, told.energy, 64.0, 1e-13),
+                (hold.torque, told.torque, 26.0, 1e-13),
+                (hold.torque_slope, told.torque_slope, 9.5, 2e-11),
+                (hold.torque_second, told.torque_second, 10.0, 4e-9),
             ] {
-                assert!((one - other).abs() < tolerance * scale.abs(), "{angle}: {hold:?} {told:?}");
+                assert!((one - other).abs() < tolerance * scale, "{angle}: {hold:?} {told:?}");
             }
         }
     }

@@ -26,6 +26,7 @@ from outline import Chain, polyline
 TURN = 2 * math.pi
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 STATIONS = 40
+PEAKS = 0.08
 WALLS = {
     "pulley": "pulley meets the roll",
     "belt": "leaves the roll",
@@ -747,6 +748,44 @@ def golden(runner, wrong):
         close(0.07e-3 * 0.84 * 4500e6 * ((1 + wound) / given - 1), true, "golden 19 (ours)", 1e-12)
 
 
+def balance(runner, wrong):
+    """What the moments about the pivot and the paper's own (3) to (6) say where the belt does not slip, and where it slips in print."""
+    frame = Frame(**ROLL, friction=0.25, wanted=300.0, clockwise=True)
+    for weight in (2500.0, 1100.0):
+        words = ["--set", "brake.mode=no-slip", "--set", f"brake.weight={weight} N", "--format", "csv", "--samples", "22"]
+        _, report, table = runner.run("gripping", words)
+        contact, _ = solved(frame, 1e-3 * table["roll_radius_mm"])
+        could = contact.tension(weight, 0.25)
+        grips = could > 300
+        tension = np.where(grips, 300.0, could)
+        wrong.close(table["tension_n"], tension, f"no-slip, {weight} N: tension_n", 1e-11)
+        # The spans' pulls hold the weight, whatever the friction does: two unknowns, and their difference is the tension.
+        slack = (weight * contact.gravity_arm - tension * contact.tight_arm) / (contact.tight_arm + contact.slack_arm)
+        wrong.close(table["belt_slack_n"], slack, f"no-slip, {weight} N: belt_slack_n by the moments about the pivot", 1e-10)
+        wrong.close(table["belt_tight_n"], slack + tension, f"no-slip, {weight} N: belt_tight_n by the moments about the pivot", 1e-10)
+        apart = contact.tension(weight, 0.25 * (1 + 1e-30j)).imag / 1e-30 / could
+        wrong.close(table["friction_sensitivity"], np.where(grips, 0, apart), f"no-slip, {weight} N: friction_sensitivity", 1e-10)
+        for other in report["brake"]["other_friction"]:
+            then = np.minimum(contact.tension(weight, other["friction"]), 300)
+            told = [other["tension_full_n"], other["tension_run_down_n"]]
+            wrong.close(told, [then[0], then[-1]], f"no-slip, {weight} N: with a friction of {other['friction']:.2f}", 1e-10)
+    words = ["--set", "brake.model=printed", "--set", "brake.belt_speed_ratio=0.8", "--format", "csv", "--samples", "22"]
+    _, report, table = runner.run("in-print", words)
+    contact, _ = solved(frame, 1e-3 * table["roll_radius_mm"])
+    weight = 5 * 300 / float((contact.gravity_arm / contact.press_arm * contact.k(0.25))[0])
+    wrong.close(report["brake"]["weight_n"], weight, "printed: weight", 1e-11)
+    # (3): both spans alike, their resultant along the bisector holds the weight; (5), whatever the belt's speed.
+    mean = weight * contact.gravity_arm / (2 * np.cos((math.pi - contact.wrap) / 2) * contact.press_arm)
+    slack = 2 * mean / (np.exp(0.25 * contact.wrap) + 1)
+    wrong.close(table["belt_slack_n"], slack, "printed at V_z/V = 0.8: belt_slack_n by (5)", 1e-10)
+    # (2) of that belt, at the speed of the same row.
+    by_2 = slack * np.expm1(0.25 * contact.wrap) * (1 - table["belt_speed_ratio"])
+    wrong.close(table["tension_n"], by_2, "printed at V_z/V = 0.8: tension_n by (2) at the row's belt_speed_ratio", 1e-10)
+    for other in report["brake"]["other_friction"]:
+        then = weight * contact.gravity_arm / contact.press_arm * contact.k(other["friction"]) * 0.2
+        wrong.close(other["tension_full_n"], then[0], f"printed at V_z/V = 0.8: with a friction of {other['friction']:.2f}", 1e-10)
+
+
 def level(runner, wrong):
     frame = Frame(**LEVEL, friction=0.25, wanted=300.0, clockwise=True)
     code, report, table = runner.run("level", ["--format", "csv"], "roll-level")
@@ -806,7 +845,8 @@ def disc_case(runner, wrong, name, frame, ratio, rate, preload, words, machine=N
     if np.max(np.abs(off)) > 2.5 * tolerance:
         wrong.append(f"as cut {1e6 * np.max(np.abs(off)):.2f} µm off the law, tolerance {1e6 * tolerance} µm")
     error = float(np.max(np.abs(tension - frame.wanted)))
-    room = 0.03 * error + 2e-5 * frame.wanted
+    # The report looks at some 600 places and misses the narrow peaks between them by so much of the error.
+    room = PEAKS * error + 2e-5 * frame.wanted
     wrong.close([told["tension_as_cut_least_n"], told["tension_as_cut_largest_n"]], [tension.min(), tension.max()], "as cut, told", 0, room)
     away = max(abs(told["tension_as_cut_least_n"] - tension.min()), abs(told["tension_as_cut_largest_n"] - tension.max()))
     Wrong.largest["as cut, told, of the error as cut"] = max(Wrong.largest["as cut, told, of the error as cut"], away / max(error, 1e-6 * frame.wanted))
@@ -880,11 +920,12 @@ def random_frames(runner, count, seed):
         path = runner.directory / f"{name}.toml"
         wrong = Wrong()
         wall, table = frame.march(frame.core)
-        kind = "plain"
+        kind, reach = "plain", None
         if wall and wall[1] < 0.97 * frame.full and rng.random() < 0.8:
             # Not as far as the wall: just before it, or just beyond.
             share = rng.choice([1e-3, 1e-5, 0.1, 0.3])
             before = wall[1] + share * (frame.full - wall[1]) * (1 if rng.random() < 0.7 else -0.1)
+            reach = wall
             frame.core = 1e-3 * float(f"{max(before, 0.01 * frame.full) * 1e3:.9g}")
             wall, table = frame.march(frame.core)
             kind = "near a wall"
@@ -896,10 +937,12 @@ def random_frames(runner, count, seed):
         printed = not wall and rng.random() < 0.12
         ratio = float(f"{rng.uniform(0, 0.9):.3g}") if not wall and rng.random() < 0.3 else 0.0
         cam = not wall and not printed and ratio == 0 and rng.random() < 0.33
+        dress = dressed(frame, table, rng) if cam else None
+        cam = cam and dress[2] < 9e8 and 2e-9 < dress[1] < 9e11
         words = ["--samples", str(STATIONS), "--format", "csv"]
         brake = f'model = "{"printed" if printed else "consistent"}"\nbelt_speed_ratio = {ratio!r}\n'
         if cam:
-            gear, rate, preload, tables, rotation, end = dressed(frame, table, rng)
+            gear, rate, preload, tables, rotation, end = dress
             written(frame, path, tables, brake)
             go = disc_case if rotation == "cw" else mirrored
             error, report = go(runner, wrong, name, frame, gear, rate, preload, ["--samples", str(STATIONS)], path)
@@ -943,6 +986,10 @@ def random_frames(runner, count, seed):
                     wrong.append("no place for the last row")
                 else:
                     compare(wrong, frame, columns, report, contact, stations, printed=printed, ratio=ratio)
+                    if reach and "around" not in reach[0] and reach[1] > 2e-3 * frame.core:
+                        # How far it could follow: to the wall found before.
+                        far = next(c for c in report["checks"] if c["check"] == "frame_reach")["value"]
+                        wrong.close(1e-3 * far, reach[1], "frame_reach", 2e-5, 2e-6 * frame.full)
         if wrong:
             failures.append(f"{name} (seed {seed}): {'; '.join(wrong[:4])}\n    {describe(frame)}")
         else:
@@ -972,6 +1019,9 @@ def main():
     wrong = Wrong()
     golden(runner, wrong)
     told("golden figures", wrong)
+    wrong = Wrong()
+    balance(runner, wrong)
+    told("belt without slip, and slip in print", wrong)
     wrong = Wrong()
     level(runner, wrong)
     told("roll-level", wrong)

@@ -98,10 +98,10 @@ fn grip(braking: &Braking<'_>) -> Measure {
     };
     let needed = data.grip * braking.largest(weight).value;
     let note = format!(
-        "least at {} mm; brake.weight = \"{:.2} N\" grips {} times the wanted tension over the whole roll",
+        "least at {} mm; {} times the wanted tension over the whole roll needs {needed:.2} N: brake.weight = \"{:.2} N\"",
         shown(MILLIMETRES * worst.at),
-        (100.0 * needed).ceil() / 100.0,
-        data.grip
+        data.grip,
+        (100.0 * needed).ceil() / 100.0
     );
     measure(GRIP, worst.value, Some(data.grip), "1", note)
 }
