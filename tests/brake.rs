@@ -287,7 +287,7 @@ fn bad_input_is_told_with_its_place_and_a_remedy() {
     for (args, parts) in [
         (&["--set", "brake.roll.smallest_radius=600 mm"][..], &["must be below largest_radius: 600 mm ≥ 600 mm"][..]),
         (&["--set", "brake.friction=0"], &["must be above 0"]),
-        (&["--set", "brake.cam.turns_per_frame_turn=13.3"], &["361.5 deg", "at most 13.2"]),
+        (&["--cam", "--set", "brake.cam.turns_per_frame_turn=13.3"], &["361.5 deg", "at most 13.2"]),
         (
             &["--set", "brake.frame.left_pulley=[-600 mm, 200 mm]"],
             &["left pulley meets the roll", "600 mm", "left_pulley=["],
@@ -295,7 +295,7 @@ fn bad_input_is_told_with_its_place_and_a_remedy() {
         (&["--set", "brake.frame.pivot=[-1100 mm]"], &["must be a list of two quantities of length", "[\"-1100 mm\""]),
         (&["--set", "brake.frame.pivot=[-1100, 2 mm]"], &["has no unit"]),
         (&["--set", "brake.frame.pivot=[-1100 mm, 2 kg]"], &["a unit of mass, not of length"]),
-        (&["--set", "brake.belt_speed_ratio=1"], &["must be below 1", "no-slip"]),
+        (&["--set", "brake.belt_speed_ratio=1"], &["must be at most 0.999999"]),
         (&["--set", "brake.acceleration=3 m/s"], &["a unit of speed, not of acceleration"]),
         (&["--set", "brake.ends.wrap=[90 deg, 45 deg]"], &["instead of [brake.frame], not beside it"]),
         (&["--cam", "--set", "brake.mode=no-slip"], &["a slipping belt", "leave out --cam"]),

@@ -14,6 +14,7 @@ use camgen::motion::EccentricCircle;
 use camgen::motion::laws::LAWS;
 use camgen::pipeline::Spec;
 use camgen::report::Inputs;
+use camgen::units::Dimension;
 use program::{camgen, files, report};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -100,7 +101,10 @@ fn another(key: &Key, share: f64, index: u32) -> String {
         Form::Boolean => index.is_multiple_of(2).to_string(),
         Form::Words(words) => words[index as usize % words.len()].to_owned(),
         Form::WordsOrQuantity(words, ..) if index > 4 => words[index as usize % words.len()].to_owned(),
-        Form::WordsOrQuantity(words, ..) if words.contains(&example) => format!("{} mm", 100.0 * share),
+        Form::WordsOrQuantity(words, dimension, _) if words.contains(&example) => {
+            let unit = if dimension == Dimension::Force { "N" } else { "mm" };
+            format!("{} {unit}", 100.0 * share)
+        }
         Form::Numbers(_) => format!("[{share}]"),
         Form::Band(..) => {
             example.split_once("..").map_or_else(String::new, |(a, b)| format!("{} .. {}", a.trim(), scaled(b.trim())))

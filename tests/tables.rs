@@ -14,7 +14,7 @@ use camgen::buffer::regime::Reset;
 use camgen::document::Key;
 use camgen::document::Presence::Required;
 use camgen::follower::{FOLLOWERS, FollowerKind};
-use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine};
+use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine, Wanted};
 use camgen::motion::equation_18::{ExactOn, Solver};
 use camgen::motion::laws::LAWS;
 use camgen::pipeline::{Cam, Error, Judged, Spec, Writing};
@@ -52,7 +52,7 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
         "conoid" => Spec::conoid(dpi(), SPEEDS.to_vec(), None),
         "make" => lifter(LIFTER, overrides),
         "brake-cam" => {
-            let brake = BrakeMachine::load("roll", &owned, true).unwrap_or_else(|error| panic!("{error}")).0;
+            let brake = BrakeMachine::load("roll", &owned, Wanted::Disc).unwrap_or_else(|error| panic!("{error}")).0;
             let motion = Arc::new(brake.brake_disc().expect("a law"));
             Spec::of_brake(&brake, motion).expect("a disc")
         }
@@ -149,7 +149,7 @@ fn brake(sets: &[&str]) -> analysis::Analysis {
     let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
     // The paper's round numbers fail their own check.
     let name = if sets.is_empty() { "roll-level" } else { "roll" };
-    let brake = BrakeMachine::load(name, &sets, false).expect("valid").0;
+    let brake = BrakeMachine::load(name, &sets, Wanted::Figures).expect("valid").0;
     analysis::brake::analysis(&brake, &analysis::brake::Asked::default(), None).expect("a brake")
 }
 

@@ -14,7 +14,7 @@ mod told;
 
 use super::{Analysis, Measure};
 use crate::body::Kind;
-use crate::brake::{Brake, BrakeError, Stand};
+use crate::brake::{Brake, BrakeError, Roll, Rotation, Stand};
 use crate::document::{Input, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Arrangement, BeltMode, BrakeMachine, BrakeModel};
@@ -142,15 +142,28 @@ pub fn analysis(
     held: Option<&Held<'_>>,
 ) -> Result<Analysis, BrakeAnalysisError> {
     match (&machine.data.arrangement, asked.goal) {
-        (Arrangement::Ends(_), Some(_)) => Err(BrakeAnalysisError::NoFrame),
         (Arrangement::Ends(ends), None) => Ok(ends::analysis(machine, ends)?),
         (Arrangement::Frame(brake), None) => of_frame(machine, brake, asked, held, None),
+        (Arrangement::Ends(_), Some(_)) | (Arrangement::Roll(..), None) => Err(BrakeAnalysisError::NoFrame),
         (Arrangement::Frame(brake), Some(goal)) => {
-            let found = design::found(brake, goal, asked.seed)?;
-            let told = design::section(&found, goal);
-            of_frame(machine, &found.brake, asked, held, Some(told))
+            let of = (*brake.roll(), brake.rotation(), brake.frame().pulley_radius);
+            of_design(machine, of, asked, goal)
+        }
+        (Arrangement::Roll(roll, rotation, pulley), Some(goal)) => {
+            of_design(machine, (*roll, *rotation, *pulley), asked, goal)
         }
     }
+}
+
+/// A frame designed for a roll, its sense and pulleys of a radius, m.
+fn of_design(
+    machine: &BrakeMachine,
+    of: (Roll, Rotation, f64),
+    asked: &Asked,
+    goal: Goal,
+) -> Result<Analysis, BrakeAnalysisError> {
+    let found = design::found(of, machine.data.friction, goal, asked.seed)?;
+    of_frame(machine, &found.brake, asked, None, Some(design::section(&found, goal)))
 }
 
 fn of_frame(
@@ -199,9 +212,9 @@ fn row(braking: &Braking<'_>, radius: f64) -> Result<Row, BrakeError> {
         tension,
         printed: braking.brake.tension_printed(braking.printed_weight, &stand),
         wanted: braking.data.tension,
-        belt: braking.brake.belt_tensions(tension, &stand),
-        belt_speed: braking.belt_speed_at(&stand),
-        sensitivity: stand.sensitivity(braking.brake.friction()),
+        belt: braking.belt_tensions(&stand),
+        belt_speed: braking::belt_speed(braking.data),
+        sensitivity: braking.sensitivity(&stand),
         disc: braking.disc.and_then(|disc| of_disc(disc, radius)),
     })
 }

@@ -64,6 +64,9 @@ pub struct Kind {
 pub const KINDS: &[&Kind] =
     &[&disc::ROTARY, &disc::GENERAL, &disc::COMPENSATOR, &disc::BRAKE, &wedge::KIND, &conoid::KIND];
 
+/// Least tolerance of velocity or acceleration, over the largest of the motion.
+const FINEST_RATE: f64 = 1e-6;
+
 /// A largest error of velocity or acceleration, as it is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RateTolerance {
@@ -87,6 +90,14 @@ pub enum RateError {
     /// Per second, and there is no speed.
     #[error("a tolerance per second needs the speed of the cam: give --rpm, or a tolerance per rad or as a share")]
     NoSpeed,
+    /// So many arcs would be needed that no control reads them.
+    #[error(
+        "a tolerance of the {rate} below {FINEST_RATE} of the largest needs arcs without number; give a larger one"
+    )]
+    TooFine {
+        /// "velocity" or "acceleration".
+        rate: &'static str,
+    },
     /// Metres for a follower that swings, or the other way round.
     #[error("the follower {follower}: the tolerance of its {rate} must be a share or in {unit}")]
     WrongUnit {
@@ -155,7 +166,17 @@ impl Request {
     pub fn resolved(self, body: &dyn Body) -> Result<Self, RateError> {
         let [velocity, acceleration] = self.rates;
         let number = |rate: Option<RateTolerance>, order: usize, own: f64| match rate {
-            Some(rate) => rate.by_angle(body, order).map(|rate| if rate > 0.0 { rate } else { f64::INFINITY }),
+            Some(rate) => {
+                let rate = rate.by_angle(body, order)?;
+                let largest = body.largest_rates().get(order - 1).copied().unwrap_or(0.0);
+                match rate {
+                    rate if rate > 0.0 && rate < FINEST_RATE * largest => {
+                        Err(RateError::TooFine { rate: if order == 1 { "velocity" } else { "acceleration" } })
+                    }
+                    rate if rate > 0.0 => Ok(rate),
+                    _ => Ok(f64::INFINITY),
+                }
+            }
             None => Ok(own),
         };
         let own = self.fit.motion;

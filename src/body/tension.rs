@@ -3,6 +3,7 @@
 use super::Body;
 use crate::geometry::contour::Contour;
 use crate::motion::{BrakeDisc, Jet, Motion};
+use crate::numeric::extremum;
 use crate::profile::followed::Followed;
 use crate::report::TensionAsCut;
 
@@ -10,6 +11,8 @@ use crate::report::TensionAsCut;
 const PLACES: u32 = 8;
 /// How far within a stretch its first and last place lie, as a share of it.
 const INSET: f64 = 1e-6;
+/// Golden sections about an extreme: its value is then right to a millionth of what it stands out by.
+const SECTIONS: u32 = 10;
 
 /// Web tension, N, where the follower of a disc stands as this jet says, counted as in the motion.
 fn tension(disc: &BrakeDisc, angle: f64, jet: Jet) -> Option<[f64; 2]> {
@@ -23,29 +26,45 @@ fn tension(disc: &BrakeDisc, angle: f64, jet: Jet) -> Option<[f64; 2]> {
 
 /// The tension with the disc of a brake on an outline, mm, its follower where the outline puts it: the spring's force there times the
 /// slope that the outline has. `None` for another body, or where the follower is not in touch.
+///
+/// Along a segment of the outline the tension is smooth: it is looked at in a few places, and closer about each that stands out.
 #[must_use]
 pub fn as_cut(body: &dyn Body, outline: &Contour) -> Option<TensionAsCut> {
     let (disc, curves) = (body.brake_disc()?, body.plane()?);
     let followed = Followed::on(curves, outline, body.mirrored());
     let end = disc.holding().total_angle();
-    let mut points = Vec::new();
+    let at = |angle: f64| tension(disc, angle, followed.at(angle)?);
+    let mut points = vec![at(0.0)?, at(end)?];
+    let turn = curves.motion.period().unwrap_or(f64::INFINITY);
     for (from, to) in followed.ranges() {
-        let inset = INSET * (to - from);
-        for place in 0..=PLACES {
-            let at = from + inset + (to - from - 2.0 * inset) * f64::from(place) / f64::from(PLACES);
-            let (piece, angle) = disc.locate(at);
-            if piece == 0 && angle <= end {
-                points.push(tension(disc, angle, followed.at(at)?)?);
-            }
+        // The chain of the outline may begin anywhere in the turn.
+        let shift = turn * (from / turn + INSET).floor();
+        let (from, to) = ((from - shift).max(0.0), (to - shift).min(end));
+        if !(to > from) {
+            continue;
         }
-    }
-    // The ends of the roll themselves.
-    for angle in [0.0, end] {
-        points.push(tension(disc, angle, followed.at(angle)?)?);
+        let inset = INSET * (to - from);
+        let place = |i: u32| from + inset + (to - from - 2.0 * inset) * f64::from(i) / f64::from(PLACES);
+        let found: Vec<[f64; 2]> = (0..=PLACES).map(|i| at(place(i))).collect::<Option<_>>()?;
+        for (index, three) in (0..).zip(found.windows(3)) {
+            points.extend(peak(three, (place(index), place(index + 2)), &at));
+        }
+        points.extend(found);
     }
     points.sort_by(|a, b| b[0].total_cmp(&a[0]));
     let tension = |point: &&[f64; 2]| point[1];
     let least = points.iter().min_by(|a, b| tension(a).total_cmp(&tension(b))).copied()?;
     let largest = points.iter().max_by(|a, b| tension(a).total_cmp(&tension(b))).copied()?;
     Some(TensionAsCut { least, largest, points })
+}
+
+/// The extreme between the outer of three neighbouring places, where the parabola through them has its own there.
+fn peak(three: &[[f64; 2]], range: (f64, f64), at: &impl Fn(f64) -> Option<[f64; 2]>) -> Option<[f64; 2]> {
+    let &[[_, before], [_, middle], [_, after]] = three else { return None };
+    let (slope, bend) = (0.5 * (after - before), before - 2.0 * middle + after);
+    if !(slope.abs() < bend.abs()) {
+        return None;
+    }
+    let value = |angle: f64| at(angle).map_or(f64::NEG_INFINITY, |[_, tension]| -bend.signum() * tension);
+    at(extremum::largest_without_slope(value, range, 2, SECTIONS).at)
 }

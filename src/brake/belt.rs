@@ -96,7 +96,19 @@ fn normal([x, y]: [f64; 2], along: f64, across: f64, distance: f64) -> [f64; 2] 
     [(along * x - across * y) * scale, (along * y + across * x) * scale]
 }
 
+/// Angle from the right pulley to the left about the roll's axis, 0…2π.
+fn opening(right: [f64; 2], left: [f64; 2]) -> f64 {
+    let angle = libm::atan2(cross(right, left), dot(right, left));
+    if angle < 0.0 { angle + TAU } else { angle }
+}
+
 impl Belt {
+    /// The angle between the pulleys about the roll's axis at a turn, 0…2π.
+    pub(super) fn opening_at(&self, turn: f64) -> f64 {
+        let [right, left, _] = self.parts(turn);
+        opening(right, left)
+    }
+
     /// The belt of a frame at the largest radius of a roll, and its place there.
     pub(super) fn new(frame: &Frame, radius: f64) -> Result<(Self, Place), BrakeError> {
         let mut belt = Self {
@@ -139,9 +151,7 @@ impl Belt {
         }
         let span = |distance: f64| ((distance - inner) * (distance + inner)).sqrt();
         let (s1, s2) = (span(d1), span(d2));
-        let opening = libm::atan2(cross(right, left), dot(right, left));
-        let opening = if opening < 0.0 { opening + TAU } else { opening };
-        let wrap = opening - libm::atan2(s1, inner) - libm::atan2(s2, inner);
+        let wrap = opening(right, left) - libm::atan2(s1, inner) - libm::atan2(s2, inner);
         let (n1, n2) = (normal(right, inner, s1, d1), normal(left, inner, -s2, d2));
         Ok(Place {
             radius,

@@ -10,6 +10,14 @@
 //! (10) V_zk − V_zn = P V (K_k N_k − K_n N_n)/(K_k N_k K_n N_n)
 //! ```
 
+//!
+//! | the paper says | computed | verdict |
+//! |---|---|---|
+//! | K over a wrap of 45…90° changes "within 7 %" | f 0.25: 0.255722 → 0.274166, 6.73 % of the start; f 0.30: 6.34 % | holds |
+//! | the belt's speed range is "not beyond 15 %" with the press force 7 % lower | 15.28 % (f 0.25), 14.81 % (f 0.30) of the starting slip 1 − V_zn/V | holds as a share of the slip; of V it is 3.06 % at a slip of 0.2 |
+//! | K rises with the wrap (figure 2) | d ln K/da = f/sinh(af) − ½ cot(a/2) > 0, K → f as a → 0 | holds |
+//! | the press force stays "about the same" | a hinged frame in round numbers (`roll`): K falls by 1.8 %, the arms take 17 %; the tension falls by 18.6 % by the printed moment (f 0.25, its own weight), by 18.9 % by the exact one | of the same order as its 15 % |
+
 use super::BrakeError;
 use super::error::positive;
 use std::f64::consts::TAU;

@@ -52,7 +52,7 @@ pub enum BrakeError {
         largest: f64,
     },
     /// An angle of wrap that no single belt has.
-    #[error("the wrap is {wrap} rad: it must be between 0 and 2π")]
+    #[error("the wrap is {} deg: it must be above 0 and below 360 deg", millimetres(wrap.to_degrees()) / 1e3)]
     Wrap {
         /// rad.
         wrap: f64,
@@ -66,6 +66,15 @@ pub enum BrakeError {
         /// Which.
         pulley: Pulley,
         /// m.
+        radius: f64,
+    },
+    /// The pulleys meet on the far side of the roll.
+    #[error(
+        "the pulleys pass each other behind the roll at a radius of {} mm: set them less far round it, or move the pivot",
+        millimetres(*radius)
+    )]
+    PulleysPass {
+        /// Just before, m.
         radius: f64,
     },
     /// a ≤ 0. It comes at the largest radius only: a taut belt that is longer than the distance of the pulleys stays so, because the
@@ -164,6 +173,7 @@ impl BrakeError {
         match *self {
             Self::PulleyMeetsRoll { radius, .. }
             | Self::BeltLeavesRoll { radius }
+            | Self::PulleysPass { radius }
             | Self::DeadPoint { radius, .. }
             | Self::Jams { radius, .. }
             | Self::WeightLifts { radius }

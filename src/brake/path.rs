@@ -5,9 +5,10 @@
 
 use super::belt::{Belt, Place};
 use super::{BrakeError, Roll};
+use std::f64::consts::PI;
 
 /// Longest step of the frame, rad: from a tangent of one degree Newton's method closes the belt in three or four steps.
-const MOST_TURN: f64 = std::f64::consts::PI / 180.0;
+const MOST_TURN: f64 = PI / 180.0;
 
 /// Beside the stations of equal steps of the radius, a whole turn of the frame in longest steps.
 const MOST_STEPS: usize = 400;
@@ -79,6 +80,10 @@ pub(super) fn walk(belt: &Belt, first: Place, grip: Grip, roll: Roll, stations: 
 
 /// The place a turn further on.
 fn next(belt: &Belt, here: &Place, turn: f64, grip: Grip, smallest: f64) -> Result<Place, BrakeError> {
+    // Past a whole turn between the pulleys their angle begins at 0 again, and the belt would have to pass between them.
+    if belt.opening_at(here.turn) - belt.opening_at(here.turn + turn) > PI {
+        return Err(BrakeError::PulleysPass { radius: here.radius });
+    }
     let place = belt.at_turn(here.turn + turn, here.radius + turn * here.radius_by_turn())?;
     grip.check(place, smallest)
 }

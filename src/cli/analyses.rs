@@ -11,7 +11,7 @@ use camgen::analysis::linkage::Goal;
 use camgen::analysis::shaft::{Asked, Solver};
 use camgen::analysis::{Analysis, brake, drive, linkage, regimes, shaft, spring};
 use camgen::buffer::regime::Reset;
-use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine};
+use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine, Wanted};
 use camgen::motion::BrakeDisc;
 use camgen::pipeline::{Judged, Spec, Writing};
 use camgen::report::Speeds;
@@ -121,7 +121,12 @@ pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>),
 }
 
 pub(super) fn brake(args: &BrakeArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = BrakeMachine::load(&args.machine, &args.analysis.set, args.cam).map_err(Failure::new)?;
+    let wanted = match (args.cam, args.synthesize) {
+        (true, _) => Wanted::Disc,
+        (false, Some(_)) => Wanted::Frame,
+        (false, None) => Wanted::Figures,
+    };
+    let (machine, name) = BrakeMachine::load(&args.machine, &args.analysis.set, wanted).map_err(Failure::new)?;
     let asked = brake::Asked {
         steps: args.samples,
         goal: args.synthesize.map(|goal| match goal {

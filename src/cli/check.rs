@@ -6,7 +6,7 @@ use super::cams::{of_conoid, of_program};
 use super::progress::Progress;
 use super::{Failure, Outcome, print, text};
 use camgen::body::wedge::LAW_TOLERANCE;
-use camgen::machine::BrakeMachine;
+use camgen::machine::{BrakeMachine, Wanted};
 use camgen::motion::equation_18::Solver;
 use camgen::pipeline::{Error, Spec};
 use camgen::report::Section;
@@ -50,7 +50,8 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
 /// The cam that the file should hold.
 fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
     if args.cam == Some(Checked::Brake) {
-        let (machine, _) = BrakeMachine::load(&args.common.machine, &args.common.set, true).map_err(Failure::new)?;
+        let (machine, _) =
+            BrakeMachine::load(&args.common.machine, &args.common.set, Wanted::Disc).map_err(Failure::new)?;
         if !args.common.rpm.is_empty() || args.common.end.is_some() {
             return Err(Failure(
                 "--rpm and --end belong to the cams of a press: the disc of a brake has no speed".into(),

@@ -6,7 +6,7 @@ pub(super) use keys::{CAM, ENDS, FRAME, ROLL, SECTION, WEB};
 
 use super::{FollowerData, Machine, MachineError, NAME, ROOT, load_as, read_as, sections};
 use crate::brake::ends::Ends;
-use crate::brake::{Brake, BrakeError, Frame, Holding, Pulley, Roll, Web};
+use crate::brake::{Brake, BrakeError, Frame, Holding, Pulley, Roll, Rotation, Web};
 use crate::document::cams::BRAKE;
 use crate::document::{self, Input, Reader, Table};
 use crate::motion::BrakeDisc;
@@ -17,6 +17,9 @@ use keys::{
     SPRING_RATE, TENSION, THICKNESS, TURNS, WEB_LENGTH, WEIGHT, WIDTH, WOUND_STRAIN, WRAP,
 };
 use std::f64::consts::TAU;
+
+/// Least way of the roll, over its largest radius.
+const LEAST_RUN: f64 = 1e-6;
 
 /// Whether the belt slips on the roll.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +46,19 @@ pub enum Arrangement {
     Frame(Box<Brake>),
     /// The wraps at both ends of the roll, for (7)–(10).
     Ends(Ends),
+    /// The roll, its sense and the radius of the pulleys, m, for which a frame is to be designed.
+    Roll(Roll, Rotation, f64),
+}
+
+/// What is wanted of a brake.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wanted {
+    /// Its figures.
+    Figures,
+    /// The disc of `[brake.cam]` too.
+    Disc,
+    /// A frame, in place of the one of the file.
+    Frame,
 }
 
 /// The disc on the frame's shaft.
@@ -94,7 +110,7 @@ pub struct BrakeLimits {
     pub web_stress: Option<f64>,
 }
 
-fn read(reader: &Reader<'_>) -> Option<BrakeData> {
+fn read(reader: &Reader<'_>, wanted: Wanted) -> Option<BrakeData> {
     let Some(table) = reader.find(&SECTION) else {
         if !reader.is_explained(&SECTION) {
             let help = "add the table [brake] with [brake.roll] and [brake.frame], or take the embedded machine roll or \
@@ -114,12 +130,8 @@ fn read(reader: &Reader<'_>) -> Option<BrakeData> {
         let help = Some("add brake.roll.density and the table [brake.web]".into());
         table.fail(&ACCELERATION, "speeding up needs the inertia of the roll".into(), help);
     }
-    if table.get(&BELT_SPEED_RATIO).is_some_and(|ratio| ratio >= 1.0) {
-        let help = Some("a slipping belt is slower than the web; without slip take mode = \"no-slip\"".into());
-        table.fail(&BELT_SPEED_RATIO, "belt_speed_ratio must be below 1".into(), help);
-    }
-    let arrangement = arrangement(reader, &table);
-    let cam = reader.find(&CAM).map(|cam| read_cam(&cam, arrangement.as_ref()));
+    let arrangement = arrangement(reader, &table, wanted);
+    let cam = reader.find(&CAM).filter(|_| wanted == Wanted::Disc).map(|cam| read_cam(&cam, arrangement.as_ref()));
     Some(BrakeData {
         mode: mode?,
         model: table.get(&MODEL)?,
@@ -174,7 +186,7 @@ fn read_web(table: &Table<'_>) -> Option<Web> {
 }
 
 /// The frame, or the two ends.
-fn arrangement(reader: &Reader<'_>, brake: &Table<'_>) -> Option<Arrangement> {
+fn arrangement(reader: &Reader<'_>, brake: &Table<'_>, wanted: Wanted) -> Option<Arrangement> {
     let (frame, ends) = (reader.find(&FRAME), reader.find(&ENDS));
     match (frame, ends) {
         (Some(_), Some(ends)) => {
@@ -188,32 +200,37 @@ fn arrangement(reader: &Reader<'_>, brake: &Table<'_>) -> Option<Arrangement> {
             brake.fail(&TENSION, "the brake has neither a frame nor two ends".into(), help);
             None
         }
-        (None, Some(ends)) => {
-            let (wraps, ratio) = (ends.get(&WRAP)?, ends.get(&PRESS_RATIO)?);
-            match Ends::new(wraps, brake.get(&FRICTION)?, ratio) {
-                Ok(ends) => Some(Arrangement::Ends(ends)),
-                Err(error) => {
-                    ends.fail(&WRAP, error.to_string(), Some("a wrap is above 0 and below 360 deg".into()));
-                    None
-                }
-            }
+        (None, Some(ends)) => read_ends(&ends, brake).map(Arrangement::Ends),
+        (Some(table), None) if wanted == Wanted::Frame => {
+            let (roll, pulley) = (read_roll(reader), table.get(&PULLEY_RADIUS));
+            Some(Arrangement::Roll(roll?, brake.get(&ROTATION)?, pulley?))
         }
         (Some(table), None) => {
-            let roll = read_roll(reader)?;
-            let frame = read_frame(&table)?;
-            match Brake::new(frame, roll, brake.get(&FRICTION)?, brake.get(&ROTATION)?) {
-                Ok(made) => Some(Arrangement::Frame(Box::new(made))),
-                Err(error) => {
-                    let key = match error {
-                        BrakeError::PulleyMeetsRoll { pulley: Pulley::Left, .. } => &LEFT_PULLEY,
-                        BrakeError::PulleyMeetsRoll { .. } | BrakeError::BeltLeavesRoll { .. } => &RIGHT_PULLEY,
-                        BrakeError::WeightLifts { .. } => &CENTRE_OF_GRAVITY,
-                        _ => &PIVOT,
-                    };
-                    table.fail(key, format!("frame_reach: {error}"), None);
-                    None
-                }
-            }
+            let (roll, frame) = (read_roll(reader), read_frame(&table));
+            let made = Brake::new(frame?, roll?, brake.get(&FRICTION)?, brake.get(&ROTATION)?);
+            made.map_err(|wall| walled(&table, &wall)).ok().map(|made| Arrangement::Frame(Box::new(made)))
+        }
+    }
+}
+
+/// Reports a wall of a frame at the key that it has most to do with.
+fn walled(frame: &Table<'_>, wall: &BrakeError) {
+    let key = match wall {
+        BrakeError::PulleyMeetsRoll { pulley: Pulley::Left, .. } => &LEFT_PULLEY,
+        BrakeError::PulleyMeetsRoll { .. } | BrakeError::BeltLeavesRoll { .. } => &RIGHT_PULLEY,
+        BrakeError::WeightLifts { .. } => &CENTRE_OF_GRAVITY,
+        _ => &PIVOT,
+    };
+    frame.fail(key, format!("frame_reach: {wall}"), None);
+}
+
+fn read_ends(ends: &Table<'_>, brake: &Table<'_>) -> Option<Ends> {
+    let (wraps, ratio) = (ends.get(&WRAP)?, ends.get(&PRESS_RATIO)?);
+    match Ends::new(wraps, brake.get(&FRICTION)?, ratio) {
+        Ok(ends) => Some(ends),
+        Err(error) => {
+            ends.fail(&WRAP, error.to_string(), None);
+            None
         }
     }
 }
@@ -221,9 +238,14 @@ fn arrangement(reader: &Reader<'_>, brake: &Table<'_>) -> Option<Arrangement> {
 fn read_roll(reader: &Reader<'_>) -> Option<Roll> {
     let table = reader.find(&ROLL)?;
     let (largest_radius, smallest_radius) = (table.get(&LARGEST_RADIUS)?, table.get(&SMALLEST_RADIUS)?);
-    if smallest_radius >= largest_radius {
-        let (smallest, largest) = (table.typed(&SMALLEST_RADIUS), table.typed(&LARGEST_RADIUS));
-        let message = format!("smallest_radius must be below largest_radius: {smallest} ≥ {largest}");
+    let (smallest, largest) = (table.typed(&SMALLEST_RADIUS), table.typed(&LARGEST_RADIUS));
+    let apart = largest_radius - smallest_radius;
+    if apart < LEAST_RUN * largest_radius {
+        let message = if apart <= 0.0 {
+            format!("smallest_radius must be below largest_radius: {smallest} ≥ {largest}")
+        } else {
+            format!("the roll hardly runs down: from {largest} to {smallest}; a millionth of its radius is the least")
+        };
         table.fail(&SMALLEST_RADIUS, message, None);
         return None;
     }
@@ -251,7 +273,7 @@ fn read_cam(table: &Table<'_>, arrangement: Option<&Arrangement>) -> Option<Brak
                 return None;
             }
         }
-        Some(Arrangement::Ends(_)) => {
+        Some(Arrangement::Ends(_) | Arrangement::Roll(..)) => {
             let help = Some("add [brake.frame] in place of [brake.ends]".into());
             table.fail(&TURNS, "a disc that holds the tension needs the frame that turns it".into(), help);
             return None;
@@ -294,35 +316,38 @@ pub struct BrakeMachine {
 }
 
 impl BrakeMachine {
-    /// Reads an embedded machine by its name, or a file, with the disc that holds the tension or without. Returns the machine and the
-    /// word that names its files.
+    /// Reads an embedded machine by its name, or a file. Returns the machine and the word that names its files.
     ///
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
-    pub fn load(name_or_path: &str, overrides: &[String], disc: bool) -> Result<(Self, String), MachineError> {
-        load_as(name_or_path, |source, text, own| Self::read(source, text, overrides, (own, disc)))
+    pub fn load(name_or_path: &str, overrides: &[String], wanted: Wanted) -> Result<(Self, String), MachineError> {
+        load_as(name_or_path, |source, text, own| Self::read(source, text, overrides, (own, wanted)))
     }
 
-    /// Reads a machine from TOML text, with the disc that holds the tension or without; `source` names it in messages, each override is
-    /// `key=value`.
+    /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
     ///
     /// # Errors
     /// All faults found, each with its place.
-    pub fn from_toml(source: &str, text: &str, overrides: &[String], disc: bool) -> Result<Self, MachineError> {
-        Self::read(source, text, overrides, (true, disc))
+    pub fn from_toml(source: &str, text: &str, overrides: &[String], wanted: Wanted) -> Result<Self, MachineError> {
+        Self::read(source, text, overrides, (true, wanted))
     }
 
-    fn read(source: &str, text: &str, overrides: &[String], (own, disc): (bool, bool)) -> Result<Self, MachineError> {
-        let mut brake = read_as(source, text, overrides, |reader| Self::parts(reader, disc))?;
-        if disc {
+    fn read(
+        source: &str,
+        text: &str,
+        overrides: &[String],
+        (own, wanted): (bool, Wanted),
+    ) -> Result<Self, MachineError> {
+        let mut brake = read_as(source, text, overrides, |reader| Self::parts(reader, wanted))?;
+        if wanted == Wanted::Disc {
             brake.machine = Some(Machine::read(source, text, overrides, own)?);
         }
         Ok(brake)
     }
 
-    fn parts(reader: &Reader<'_>, disc: bool) -> Option<Self> {
-        let data = read(reader);
-        if disc {
+    fn parts(reader: &Reader<'_>, wanted: Wanted) -> Option<Self> {
+        let data = read(reader, wanted);
+        if wanted == Wanted::Disc {
             can_have_a_disc(reader);
         }
         Some(Self {

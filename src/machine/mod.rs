@@ -24,7 +24,9 @@ mod translating;
 
 pub use crate::document::{Excerpt, Fault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
-pub use brake::{Arrangement, BeltMode, BrakeCam, BrakeData, BrakeLimits, BrakeMachine, BrakeModel, DiscOfBrakeError};
+pub use brake::{
+    Arrangement, BeltMode, BrakeCam, BrakeData, BrakeLimits, BrakeMachine, BrakeModel, DiscOfBrakeError, Wanted,
+};
 pub use compensator::CompensatorData;
 pub use conoid::{ConoidData, ConoidMode, Shift};
 pub use disc::{CamData, Keyway, Material, Rotation};

@@ -26,7 +26,7 @@ from outline import Chain, polyline
 TURN = 2 * math.pi
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 STATIONS = 40
-PEAKS = 0.08
+PEAKS = 0.05
 WALLS = {
     "pulley": "pulley meets the roll",
     "belt": "leaves the roll",
@@ -216,8 +216,7 @@ class Frame:
         if bad:
             return (bad, self.full), None
         arms = first[2]
-        # Small pieces at the end too, where the roll is small.
-        grid = np.concatenate([np.linspace(self.full, core, pieces + 1)[1:]])
+        grid = np.linspace(self.full, core, pieces + 1)[1:]
 
         def fails(radius):
             gap = radii[-1] - radius
@@ -606,8 +605,12 @@ class Law:
         return Contact(frame, radius, frame.way * turns, about).lacking(frame.wanted, weight, frame.friction)
 
 
-def rolled(path, roller, angles):
-    """Where the centre of the roller stands on the ray of each angle, and its slope over the angle, from the arcs alone."""
+def rolled(path, roller, angles, clockwise):
+    """Where the centre of the roller stands at each angle of the disc, and its slope over it, from the arcs alone. The disc that turns
+    clockwise has the point at that polar angle under the follower; one that turns the other way is the mirror image of its drawing."""
+    if not clockwise:
+        y, slope = rolled(path, roller, -angles, True)
+        return y, -slope
     _, vertices = polyline(str(path))
     chain = Chain(vertices)
     if chain.area() < 0:
@@ -638,16 +641,17 @@ def rolled(path, roller, angles):
     return y, -y * tangential / radial
 
 
-def as_cut(frame, table, weight, law, path, report, ratio, roller, places=9001):
-    """Web tension over the working stretch with the disc as it is written; SI, with the places as angles of the disc."""
+def as_cut(frame, table, weight, law, path, ratio, roller, clockwise, places=9001, shift=None):
+    """Web tension over the working stretch with the disc as it is written; SI, with the places as angles of the disc.
+
+    `shift` is how high the law's lift 0 stands where that is known; else what the written disc stands above the law, on the whole."""
     end = table[1][-1]
     turns = end * np.concatenate([np.linspace(0, 1, places), 1 - np.geomspace(1e-6, 0.02, 300)[::-1]])
-    y, slope = rolled(path, roller, ratio * turns)
+    y, slope = rolled(path, roller, ratio * turns, clockwise)
     y, slope = 1e-3 * y, 1e-3 * slope
     nominal = law.between(turns)
-    # The spring is told by the lift of the law: what the written disc stands above it, on the whole, is no lift.
     offset = float(np.mean(y - nominal))
-    force = law.rate * (law.rest + y - offset)
+    force = law.rate * (law.rest + y - (offset if shift is None else shift))
     moment = -ratio * force * slope
     radius, about = frame.radius_of(turns, table)
     contact = Contact(frame, radius, frame.way * turns, about)
@@ -778,9 +782,6 @@ def balance(runner, wrong):
     mean = weight * contact.gravity_arm / (2 * np.cos((math.pi - contact.wrap) / 2) * contact.press_arm)
     slack = 2 * mean / (np.exp(0.25 * contact.wrap) + 1)
     wrong.close(table["belt_slack_n"], slack, "printed at V_z/V = 0.8: belt_slack_n by (5)", 1e-10)
-    # (2) of that belt, at the speed of the same row.
-    by_2 = slack * np.expm1(0.25 * contact.wrap) * (1 - table["belt_speed_ratio"])
-    wrong.close(table["tension_n"], by_2, "printed at V_z/V = 0.8: tension_n by (2) at the row's belt_speed_ratio", 1e-10)
     for other in report["brake"]["other_friction"]:
         then = weight * contact.gravity_arm / contact.press_arm * contact.k(other["friction"]) * 0.2
         wrong.close(other["tension_full_n"], then[0], f"printed at V_z/V = 0.8: with a friction of {other['friction']:.2f}", 1e-10)
@@ -796,7 +797,7 @@ def level(runner, wrong):
         wrong.append(f"roll-level: exit {code}, {table['tension_n'].min()} to {table['tension_n'].max()} N")
 
 
-def disc_case(runner, wrong, name, frame, ratio, rate, preload, words, machine=None, limit=None):
+def disc_case(runner, wrong, name, frame, ratio, rate, preload, words, machine=None, limit=None, clockwise=True):
     """One disc: law, table and outline. Largest error of the tension as cut, N."""
     code, report, table = runner.run(name, ["--cam", "--format", "csv,dxf", *words], machine)
     if table is None or code == 101:
@@ -830,7 +831,7 @@ def disc_case(runner, wrong, name, frame, ratio, rate, preload, words, machine=N
     wrong.close(1e-3 * told["lift_full_mm"], lift[0], "lift on the full roll", 1e-8 + rough, (1e-8 + rough) * lift.max() + floor)
     path = runner.directory / f"{name}-cam.dxf"
     try:
-        tension, offset, angles, off = as_cut(frame, stations, weight, law, path, report, ratio, 15.0)
+        tension, offset, angles, off = as_cut(frame, stations, weight, law, path, ratio, 15.0, clockwise)
     except (ValueError, AssertionError) as error:
         wrong.append(f"outline: {error}")
         return code, report
@@ -844,12 +845,16 @@ def disc_case(runner, wrong, name, frame, ratio, rate, preload, words, machine=N
         wrong.append(f"the law stands {1e6 * (shift - offset):.2f} µm off what is cut")
     if np.max(np.abs(off)) > 2.5 * tolerance:
         wrong.append(f"as cut {1e6 * np.max(np.abs(off)):.2f} µm off the law, tolerance {1e6 * tolerance} µm")
+    tension = as_cut(frame, stations, weight, law, path, ratio, 15.0, clockwise, shift=shift)[0]
     error = float(np.max(np.abs(tension - frame.wanted)))
-    # The report looks at some 600 places and misses the narrow peaks between them by so much of the error.
+    # Either of the two may miss a narrow peak between its places by so much of the error.
     room = PEAKS * error + 2e-5 * frame.wanted
-    wrong.close([told["tension_as_cut_least_n"], told["tension_as_cut_largest_n"]], [tension.min(), tension.max()], "as cut, told", 0, room)
-    away = max(abs(told["tension_as_cut_least_n"] - tension.min()), abs(told["tension_as_cut_largest_n"] - tension.max()))
-    Wrong.largest["as cut, told, of the error as cut"] = max(Wrong.largest["as cut, told, of the error as cut"], away / max(error, 1e-6 * frame.wanted))
+    # A brake that is about to jam has no bounds of its tension to compare.
+    if np.max(sizes / np.abs(sums)) < 1e3:
+        said = np.array([told["tension_as_cut_least_n"], told["tension_as_cut_largest_n"]])
+        wrong.close(said, [tension.min(), tension.max()], "as cut, told", 0, room)
+        away = float(np.max(np.abs(said - [tension.min(), tension.max()]))) / max(error, 1e-6 * frame.wanted)
+        Wrong.largest["as cut, told, of the error as cut"] = max(Wrong.largest["as cut, told, of the error as cut"], away)
     if limit is not None and error > limit:
         wrong.append(f"{name}: as cut {error:.4f} N off, at most {limit}")
     return error, report
@@ -862,10 +867,7 @@ def roll(runner, wrong):
     for name, words, limit in (("roll-5", [], 1.5), ("roll-005", ["--tolerance", "0.05um"], 0.08),
                                ("roll-v", ["--tolerance-velocity", "0.1%"], None), ("roll-ccw", ["--set", "cam.rotation=ccw"], 1.5),
                                ("roll-v2", ["--tolerance-velocity", "0.02%"], 0.1)):
-        if name == "roll-ccw":
-            error, report = mirrored(runner, wrong, name, frame, 10.0, 20e3, 1e3, words, None, limit)
-        else:
-            error, report = disc_case(runner, wrong, name, frame, 10.0, 20e3, 1e3, words, None, limit)
+        error, report = disc_case(runner, wrong, name, frame, 10.0, 20e3, 1e3, words, None, limit, name != "roll-ccw")
         if isinstance(error, int):
             wrong.append(f"{name}: exit {error}: {str(report)[:200]}")
         else:
@@ -879,21 +881,6 @@ def roll(runner, wrong):
                         [44.1955215585003473, 42.5650642915691229, 32.2047795779638801, 9.48501658986883778], "golden 15", 1e-12)
             wrong.close([float(rows[r]["cam_moment_nm"]) for r in (300, 50)], [147.444348237193964, 255.925862925341622], "golden 17", 1e-12)
     return "; ".join(out)
-
-
-def mirrored(runner, wrong, name, frame, ratio, rate, preload, words, machine, limit=None):
-    """A disc that turns the other way is the mirror image of its drawing: rolled with the angles taken backwards."""
-    plain = globals()["rolled"]
-
-    def backwards(path, roller, angles):
-        y, slope = plain(path, roller, -angles)
-        return y, -slope
-
-    globals()["rolled"] = backwards
-    try:
-        return disc_case(runner, wrong, name, frame, ratio, rate, preload, words, machine, limit)
-    finally:
-        globals()["rolled"] = plain
 
 
 def describe(frame):
@@ -944,8 +931,8 @@ def random_frames(runner, count, seed):
         if cam:
             gear, rate, preload, tables, rotation, end = dress
             written(frame, path, tables, brake)
-            go = disc_case if rotation == "cw" else mirrored
-            error, report = go(runner, wrong, name, frame, gear, rate, preload, ["--samples", str(STATIONS)], path)
+            sampled = ["--samples", str(STATIONS)]
+            error, report = disc_case(runner, wrong, name, frame, gear, rate, preload, sampled, path, None, rotation == "cw")
             if end >= 360:
                 tally["discs of more than a turn refused"] += 1
                 if error != 2 or "turns_per_frame_turn at most" not in str(report):

@@ -65,21 +65,18 @@ impl<'a> Braking<'a> {
         }
     }
 
-    /// The same with the friction of another day; `None` where the brake jams with it.
-    pub(super) fn grip_with(&self, stand: &Stand, friction: f64) -> Option<f64> {
-        match (self.data.model, self.disc) {
-            (BrakeModel::Consistent, Some(disc)) => held(disc, stand, friction),
-            (BrakeModel::Consistent, None) => self.brake.tension_with(self.weight, stand, friction).ok(),
-            (BrakeModel::Printed, _) => Some(self.brake.tension_printed_with(self.weight, stand, friction)),
-        }
+    /// Web tension, N, with the friction of another day; `None` where the brake jams with it.
+    pub(super) fn tension_with(&self, stand: &Stand, friction: f64) -> Option<f64> {
+        let grip = match (self.data.model, self.disc) {
+            (BrakeModel::Consistent, Some(disc)) => held(disc, stand, friction)?,
+            (BrakeModel::Consistent, None) => self.brake.tension_with(self.weight, stand, friction).ok()?,
+            (BrakeModel::Printed, _) => self.brake.tension_printed_with(self.weight, stand, friction),
+        };
+        Some(self.of_grip(grip))
     }
 
-    /// Web tension, N.
-    pub(super) fn tension(&self, stand: &Stand) -> f64 {
-        if let Some(disc) = self.disc {
-            return held(disc, stand, self.brake.friction()).unwrap_or(f64::NAN);
-        }
-        let grip = self.grip(stand);
+    /// Web tension, N, of a belt that grips so much, N.
+    fn of_grip(&self, grip: f64) -> f64 {
         match (self.data.mode, self.data.model) {
             // What the speed asks for is the wanted tension, as far as the belt grips.
             (BeltMode::NoSlip, _) => grip.min(self.data.tension),
@@ -89,12 +86,56 @@ impl<'a> Braking<'a> {
         }
     }
 
-    /// Speed of the belt over that of the web at a radius: the printed model regulates it by (9).
-    pub(super) fn belt_speed_at(&self, stand: &Stand) -> f64 {
-        match (self.data.mode, self.data.model) {
-            (BeltMode::Slip, BrakeModel::Printed) => 1.0 - self.data.tension / self.grip(stand),
-            _ => belt_speed(self.data),
+    /// Whether the belt runs with the roll: its speed makes the tension, and friction only holds it.
+    fn stands(&self, stand: &Stand) -> bool {
+        self.data.mode == BeltMode::NoSlip && self.grip(stand) > self.data.tension
+    }
+
+    /// Tension of the slack span and of the tight one, N. The moments about the pivot are those of frame and weight,
+    /// G h1 = T (q_t + q_s) + P q_t; by (3) both spans are equally tight, whatever the belt's speed.
+    pub(super) fn belt_tensions(&self, stand: &Stand) -> (f64, f64) {
+        let (grip, tension) = (self.grip(stand), self.tension(stand));
+        let of_slip = |grip: f64| self.brake.belt_tensions(grip, stand);
+        match (self.data.model, self.stands(stand)) {
+            (BrakeModel::Consistent, false) => of_slip(tension),
+            (BrakeModel::Printed, false) => of_slip(grip),
+            (BrakeModel::Consistent, true) => {
+                let slack = (self.weight * stand.h1 - tension * stand.q_tight) / (stand.q_tight + stand.q_slack);
+                (slack, slack + tension)
+            }
+            (BrakeModel::Printed, true) => {
+                // (5): 2 T_o = T1 + T, as tight as in the slip.
+                let (slack, tight) = of_slip(grip);
+                let mean = 0.5 * (slack + tight);
+                (mean - 0.5 * tension, mean + 0.5 * tension)
+            }
         }
+    }
+
+    /// d ln P/d ln f: 0 where the belt runs with the roll.
+    pub(super) fn sensitivity(&self, stand: &Stand) -> f64 {
+        let friction = self.brake.friction();
+        match self.data.model {
+            _ if self.stands(stand) => 0.0,
+            BrakeModel::Consistent => stand.sensitivity(friction),
+            BrakeModel::Printed => {
+                let grip = stand.wrap * friction;
+                grip / libm::sinh(grip)
+            }
+        }
+    }
+
+    /// Web tension, N.
+    pub(super) fn tension(&self, stand: &Stand) -> f64 {
+        if let Some(disc) = self.disc {
+            return held(disc, stand, self.brake.friction()).unwrap_or(f64::NAN);
+        }
+        self.of_grip(self.grip(stand))
+    }
+
+    /// Speed of the belt over that of the web that (9) asks for.
+    pub(super) fn regulated(&self, stand: &Stand) -> f64 {
+        1.0 - self.data.tension / self.grip(stand)
     }
 
     /// Largest of something over the roll, and at which radius, m.
@@ -121,7 +162,13 @@ impl<'a> Braking<'a> {
     pub(super) fn radii(&self, steps: u32) -> impl Iterator<Item = f64> + Clone + use<> {
         let (from, to) = (self.brake.roll().largest_radius, self.brake.roll().smallest_radius);
         let at = move |i: u32| {
-            if i == steps { to } else { from + (to - from) * f64::from(i) / f64::from(steps) }
+            // To the nanometre: 55 mm, not 55.00000000000005.
+            let inside = |radius: f64| (1e9 * radius).round() / 1e9;
+            match i {
+                0 => from,
+                _ if i == steps => to,
+                _ => inside(from + (to - from) * f64::from(i) / f64::from(steps)).clamp(to, from),
+            }
         };
         (0..=steps).map(at)
     }

@@ -3,7 +3,7 @@
 use super::BrakeAnalysisError;
 use super::told::OTHER_DAY;
 use crate::brake::synthesis::{self, Aim, Found, Task};
-use crate::brake::{Brake, BrakeError, Frame, Rotation};
+use crate::brake::{Brake, BrakeError, Frame, Roll, Rotation};
 use crate::geometry::MILLIMETRES;
 use crate::report::Section;
 use serde_json::json;
@@ -46,14 +46,18 @@ impl Goal {
     }
 }
 
-/// The best frame for the roll of a brake, with its pulleys; places in whole millimetres, or finer where it needs that.
-pub(super) fn found(brake: &Brake, goal: Goal, seed: u64) -> Result<Found, BrakeAnalysisError> {
-    let (roll, friction) = (*brake.roll(), brake.friction());
+/// The best frame for a roll, its sense and pulleys of a radius, m; places in whole millimetres, or finer where it needs that.
+pub(super) fn found(
+    (roll, rotation, pulley_radius): (Roll, Rotation, f64),
+    friction: f64,
+    goal: Goal,
+    seed: u64,
+) -> Result<Found, BrakeAnalysisError> {
     let task = Task {
         roll,
         friction,
-        rotation: brake.rotation(),
-        pulley_radius: brake.frame().pulley_radius,
+        rotation,
+        pulley_radius,
         reach: REACH * roll.largest_radius,
         clearance: CLEARANCE * roll.largest_radius,
         aim: goal.aim(friction),

@@ -35,10 +35,9 @@ pub(super) fn measures(
         all.push(measure(TENSION, value, Some(limits.tension_spread), "1", note));
     }
     all.push(self_locking(braking));
-    all.push(frame_reach(braking.brake));
     if data.model == BrakeModel::Printed && data.mode == BeltMode::Slip {
         let [full, run_down] = &braking.ends;
-        let ratios = [braking.belt_speed_at(full), braking.belt_speed_at(run_down)];
+        let ratios = [braking.regulated(full), braking.regulated(run_down)];
         let [first, last] = ratios;
         let note = format!("V_z/V by (9): {first:.6} on the full roll, {last:.6} where it has run down");
         all.push(measure(BELT_RANGE, first.min(last), Some(0.0), "1", note));
@@ -51,6 +50,7 @@ pub(super) fn measures(
         let limit = limits.web_stress.map(|limit| 1e-6 * limit);
         all.push(Measure { check: WEB_STRESS, value: stress, limit, unit: "MPa", note: None });
     }
+    all.push(frame_reach(braking.brake));
     all
 }
 

@@ -34,7 +34,7 @@ struct End {
 
 fn end(braking: &Braking<'_>, stand: &Stand) -> End {
     let tension = braking.tension(stand);
-    let (slack, tight) = braking.brake.belt_tensions(tension, stand);
+    let (slack, tight) = braking.belt_tensions(stand);
     End {
         roll_radius_mm: MILLIMETRES * stand.radius,
         // The full roll stands at 0, not at −0.
@@ -49,7 +49,7 @@ fn end(braking: &Braking<'_>, stand: &Stand) -> End {
         tension_printed_n: braking.brake.tension_printed(braking.printed_weight, stand),
         belt_slack_n: slack,
         belt_tight_n: tight,
-        friction_sensitivity: stand.sensitivity(braking.brake.friction()),
+        friction_sensitivity: braking.sensitivity(stand),
     }
 }
 
@@ -105,7 +105,7 @@ pub(super) fn brake(braking: &Braking<'_>, (least, largest): (Extremum, Extremum
     let friction = braking.brake.friction();
     let day = |share: f64| {
         let friction = friction * share;
-        let at = |stand: &Stand| braking.grip_with(stand, friction);
+        let at = |stand: &Stand| braking.tension_with(stand, friction);
         Day { friction, tension_full_n: at(full), tension_run_down_n: at(run_down) }
     };
     let told = Figures {
@@ -184,7 +184,7 @@ pub(super) fn printed(braking: &Braking<'_>) -> Section {
         belt_speed_ratio_full: braking.data.belt_speed_ratio,
         belt_speed_ratio_run_down: by_9,
         belt_speed_range: by_9 - braking.data.belt_speed_ratio,
-        belt_speed_range_of_slip: (by_9 - braking.data.belt_speed_ratio) / slip,
+        belt_speed_range_of_slip: (braking.data.belt_speed_ratio - by_9) / slip,
         tension_in_truth_n: braking.brake.tension(weight, full),
         tension_in_truth_run_down_n: braking.brake.tension(weight, run_down),
     };

@@ -17,6 +17,8 @@ const DENSEST: f64 = 1e5;
 const QUICKEST: f64 = 1e4;
 /// Largest strain wound into a roll: more tears it.
 const MOST_WOUND: f64 = 0.5;
+/// Fastest slipping belt, over the web.
+const FASTEST_BELT: f64 = 0.999_999;
 /// Stickiest belt.
 const STICKIEST: f64 = 100.0;
 
@@ -54,9 +56,9 @@ pub(super) const ROTATION: Field<Rotation> = Field::words(
 );
 pub(super) const BELT_SPEED_RATIO: Field<f64> = Field::number(
     "belt_speed_ratio",
-    "speed of a slipping belt over that of the web, below 1; it moves power, not tension",
+    "speed of a slipping belt over that of the web, at most 0.999999; it moves power, not tension",
     Default("0.0"),
-    within(0.0, 1.0),
+    within(0.0, FASTEST_BELT),
 );
 pub(super) const GRIP: Field<f64> = Field::number(
     "grip",
