@@ -415,3 +415,76 @@ impl BrakeMachine {
         Some(Machine { follower, ..machine.clone() })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::sections;
+
+    /// Another value of every key.
+    const OTHERS: &[(&str, &str)] = &[
+        ("brake.mode", "no-slip"),
+        ("brake.model", "printed"),
+        ("brake.tension", "310 N"),
+        ("brake.friction", "0.26"),
+        ("brake.weight", "1000 N"),
+        ("brake.rotation", "ccw"),
+        ("brake.belt_speed_ratio", "0.5"),
+        ("brake.grip", "1.4"),
+        ("brake.acceleration", "0.3 m/s2"),
+        ("brake.roll.largest_radius", "590 mm"),
+        ("brake.roll.smallest_radius", "60 mm"),
+        ("brake.roll.density", "710 kg/m3"),
+        ("brake.web.thickness", "0.08 mm"),
+        ("brake.web.width", "850 mm"),
+        ("brake.web.modulus", "4400 MPa"),
+        ("brake.web.speed", "9 m/s"),
+        ("brake.web.wound_strain", "0.0002"),
+        ("brake.web.length", "7 m"),
+        ("brake.frame.pivot", "[-1110 mm, 550 mm]"),
+        ("brake.frame.right_pulley", "[510 mm, 450 mm]"),
+        ("brake.frame.left_pulley", "[-560 mm, 450 mm]"),
+        ("brake.frame.centre_of_gravity", "[\"110 mm\", \"550 mm\"]"),
+        ("brake.frame.pulley_radius", "61 mm"),
+        ("brake.ends.wrap", "[90 deg, 50 deg]"),
+        ("brake.ends.press_ratio", "0.9"),
+        ("brake.cam.turns_per_frame_turn", "9"),
+        ("brake.cam.spring_rate", "21 N/mm"),
+        ("brake.cam.preload", "1.1 kN"),
+        ("limits.tension_spread", "0.04"),
+        ("limits.web_stress", "11 MPa"),
+    ];
+
+    #[test]
+    fn every_key_of_a_brake_reaches_it() {
+        let all = sections().into_iter().filter(|section| section.path.starts_with("brake"));
+        let all = all.flat_map(|section| section.keys.iter().map(|key| section.path_of(key)));
+        let known = OTHERS.iter().map(|(key, _)| (*key).to_owned()).filter(|key| key.starts_with("brake"));
+        assert_eq!(all.collect::<Vec<_>>(), known.collect::<Vec<_>>());
+        let roll = include_str!("../../profiles/roll.toml");
+        let (head, tail) = roll.split_once("[brake.roll]").expect("a roll");
+        let (_, tail) = tail.split_once("[follower.roller]").expect("a follower");
+        let ends = format!("{head}[brake.ends]\nwrap = [\"90 deg\", \"45 deg\"]\n[follower.roller]{tail}");
+        for (key, value) in OTHERS {
+            let of_ends = key.starts_with("brake.ends");
+            let (text, wanted) = if of_ends { (&*ends, Wanted::Figures) } else { (roll, Wanted::Disc) };
+            // A disc holds the tension of a slipping belt, by the exact moments.
+            let wanted = if ["brake.mode", "brake.model"].contains(key) { Wanted::Figures } else { wanted };
+            let with = |sets: &[String]| {
+                let brake = BrakeMachine::from_toml("roll.toml", text, sets, wanted).expect("valid");
+                format!("{:?} {:?}", brake.data, brake.limits)
+            };
+            assert_ne!(with(&[format!("{key}={value}")]), with(&[]), "{key}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_asked_for_is_in_nobody_s_way() {
+        let of = |set: &str, wanted| BrakeMachine::load("roll", &[set.to_owned()], wanted);
+        let turning = "brake.cam.turns_per_frame_turn=14";
+        assert!(of(turning, Wanted::Figures).is_ok() && of(turning, Wanted::Disc).is_err());
+        // A frame is designed for a roll that the file's own does not reach round.
+        let large = "brake.roll.largest_radius=700 mm";
+        assert!(of(large, Wanted::Frame).is_ok() && of(large, Wanted::Figures).is_err());
+    }
+}

@@ -79,3 +79,18 @@ fn extremes_are_refused_without_a_panic() {
         assert!((0.0..=1.1).contains(&sensitivity), "{friction}: {sensitivity}");
     }
 }
+
+/// The angle between the pulleys passes a whole turn: no other wall, and no radius beyond the roll, is told for it.
+#[test]
+fn pulleys_that_pass_each_other_are_named() {
+    let frame = Frame {
+        pivot: [-6.088_185, 3.273_645],
+        right_pulley: [1.270_838, -2.445_626],
+        left_pulley: [2.269_592, -4.784_96],
+        centre_of_gravity: [-2.281_302, 1.853_899],
+        pulley_radius: 0.385_236_5,
+    };
+    let roll = Roll { largest_radius: 2.273_041, smallest_radius: 1.354_104 };
+    let wall = Brake::new(frame, roll, 0.133_451_551_212_171_67, Rotation::Clockwise).expect_err("a wall");
+    assert!(matches!(wall, BrakeError::PulleysPass { radius } if (radius - 2.214_473).abs() < 1e-6), "{wall}");
+}

@@ -68,7 +68,10 @@ pub(super) fn of(cam: &Rendering<'_>) -> Value {
 pub(super) fn of_analysis(account: &Account<'_>) -> Value {
     let (analysis, report) = (account.analysis, account.report);
     let views = analysis.tables.last().map_or_else(Vec::new, |(_, table)| match &analysis.mechanism {
-        Some(mechanism) => views(panels::OF_AN_ANALYSIS, mechanism, table, (&report.checks, None)),
+        Some(mechanism) => {
+            let table = growing(table, analysis.along);
+            views(panels::OF_AN_ANALYSIS, mechanism, &table, (&report.checks, None))
+        }
         None => curves(analysis, table, &report.checks),
     });
     let notes = analysis.mechanism.as_ref().map(|mechanism| &mechanism.notes);
@@ -78,6 +81,17 @@ pub(super) fn of_analysis(account: &Account<'_>) -> Value {
     page["views"] = json!(views);
     page["solid"] = Value::Null;
     page
+}
+
+/// A table whose rows follow each other as the values of a column grow, as the page looks places up.
+fn growing(table: &Table, along: &str) -> Table {
+    let column = table.columns.iter().position(|name| *name == along).unwrap_or(0);
+    let place = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).copied();
+    let mut table = table.clone();
+    if place(table.rows.first()) > place(table.rows.last()) {
+        table.rows.reverse();
+    }
+    table
 }
 
 /// A view of each of the curves that the first value of a row tells apart.

@@ -116,6 +116,30 @@ pub(super) const OF_AN_ANALYSIS: &[Panel] = &[
         &[("transmission_angle", As::Itself)],
         As::Itself,
     ),
+    panel(
+        "tension",
+        "Web tension",
+        &[("tension", "this brake"), ("tension_printed", "printed moment")],
+        &[],
+        As::Itself,
+    ),
+    panel(
+        "belt",
+        "Tension of the belt",
+        &[("belt_slack", "slack span"), ("belt_tight", "tight span")],
+        &[],
+        As::Itself,
+    ),
+    panel(
+        "arms",
+        "Arms about the pivot",
+        &[("weight_arm", "weight"), ("press_arm", "press"), ("tight_arm", "tight span"), ("slack_arm", "slack span")],
+        &[],
+        As::Itself,
+    ),
+    panel("frame", "Angle of the frame, and wrap", &[("frame", "frame"), ("wrap", "wrap")], &[], As::Itself),
+    panel("cam-moment", "Moment of the disc on the frame", &[("cam_moment", "moment")], &[], As::Itself),
+    panel("lift", "Lift of the disc's law", &[("lift", "lift")], &[], As::Itself),
     panel("rod", "Angle of the rod", &[("rod", "from the line of the slider")], &[("rod_angle", As::Both)], As::Itself),
 ];
 
