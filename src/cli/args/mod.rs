@@ -84,7 +84,7 @@ pub(super) enum Command {
     /// What bending and twist of the shaft take off the lift, and the force that this leaves, for the cam of the file.
     #[command(after_help = help::SHAFT)]
     Shaft(ShaftArgs),
-    /// The belt brake of a paper roll: web tension over the roll, and the disc that holds it
+    /// Belt brake of a paper roll: web tension, and the disc that holds it
     ///
     /// What a hinged frame with a belt makes of the tension, the paper's equations beside it, frames that hold it by themselves, and a
     /// disc on the frame's shaft that holds it exactly.
