@@ -225,6 +225,47 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, QuantityError
     Ok(Quantity { si, symbol: unit.symbol, si_per_unit: unit.multiply / unit.divide })
 }
 
+/// A derivative of a position, by the cam angle or by the time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rate {
+    /// Metres or radians per radian or second, to the power of its order.
+    pub value: f64,
+    /// Of an angle; else of a length.
+    pub swing: bool,
+    /// Per second; else per radian of the cam.
+    pub by_time: bool,
+}
+
+/// Parses a velocity (order 1), an acceleration (2) or a jerk (3): a length or an angle over `deg`, `rad` or `s` with the order as its
+/// power, `"-0.3 mm/deg"`, `"2 m/s2"`.
+///
+/// # Errors
+/// Every case of [`QuantityError`] but `WrongKind` and `NotBare`.
+pub fn parse_rate(text: &str, order: u32) -> Result<Rate, QuantityError> {
+    let text = text.trim().replace('²', "2").replace('³', "3").replace('^', "");
+    let found = text.clone();
+    let Some((number, symbol)) = split_number(&text) else { return Err(QuantityError::NotANumber { found }) };
+    if symbol.is_empty() {
+        return Err(QuantityError::MissingUnit { found });
+    }
+    let unknown = || QuantityError::UnknownUnit { unit: symbol.to_owned() };
+    let (of, by) = symbol.split_once('/').ok_or_else(unknown)?;
+    let of = UNITS.iter().find(|unit| unit.symbol == of.trim()).ok_or_else(unknown)?;
+    let power = if order == 1 { String::new() } else { order.to_string() };
+    let by = by.trim().strip_suffix(power.as_str()).ok_or_else(unknown)?;
+    let by = UNITS.iter().find(|unit| unit.symbol == by).ok_or_else(unknown)?;
+    let turning = matches!(by.symbol, "deg" | "rad");
+    if !matches!(of.dimension, Dimension::Length | Dimension::Angle) || !(turning || by.symbol == "s") {
+        return Err(unknown());
+    }
+    let each = by.multiply / by.divide;
+    let value = number * of.multiply / of.divide / (0..order).fold(1.0, |power, _| power * each);
+    if !value.is_finite() {
+        return Err(QuantityError::NotFinite { found });
+    }
+    Ok(Rate { value, swing: of.dimension == Dimension::Angle, by_time: !turning })
+}
+
 /// Parses a bare number: a ratio, an exponent, revolutions per minute.
 ///
 /// # Errors
@@ -264,6 +305,28 @@ mod tests {
             assert!((got - si).abs() <= 4.0 * f64::EPSILON * si, "{text}: {got} is not {si}");
         }
         assert_eq!(parse("180 mm", Dimension::Length).expect("mm").si.to_bits(), 0.18_f64.to_bits());
+    }
+
+    #[test]
+    fn rates_read_as_their_si_value() {
+        let degree = std::f64::consts::PI / 180.0;
+        for (text, order, value, swing, by_time) in [
+            ("-0.3 mm/deg", 1, -0.3e-3 / degree, false, false),
+            ("2 m/s2", 2, 2.0, false, true),
+            ("2 mm/s^2", 2, 2e-3, false, true),
+            ("1.5 deg/deg", 1, 1.5, true, false),
+            ("90deg/s", 1, 0.5 * std::f64::consts::PI, true, true),
+            ("3 mm/rad³", 3, 3e-3, false, false),
+        ] {
+            let rate = parse_rate(text, order).expect(text);
+            assert!((rate.value - value).abs() <= 4.0 * f64::EPSILON * value.abs(), "{text}: {rate:?}");
+            assert_eq!((rate.swing, rate.by_time), (swing, by_time), "{text}");
+        }
+        for (text, order) in [("2 m/s", 2), ("2 m/s2", 1), ("2 kg/s", 1), ("2 mm/kg", 1), ("2 mm", 1), ("2 mm/", 1)] {
+            assert!(matches!(parse_rate(text, order), Err(QuantityError::UnknownUnit { .. })), "{text}");
+        }
+        assert!(matches!(parse_rate("2", 1), Err(QuantityError::MissingUnit { .. })));
+        assert!(matches!(parse_rate("fast", 1), Err(QuantityError::NotANumber { .. })));
     }
 
     #[test]

@@ -16,23 +16,9 @@ pub(in crate::cli) enum Rate {
     Within(RateTolerance),
 }
 
-/// A unit of velocity or acceleration: its name, whether it is of a swing, whether it is by the time, and its size in m or rad.
-type RateUnit = (&'static str, bool, bool, f64);
-
-const VELOCITIES: [RateUnit; 5] = [
-    ("mm/rad", false, false, 1e-3),
-    ("mm/s", false, true, 1e-3),
-    ("m/s", false, true, 1.0),
-    ("rad/rad", true, false, 1.0),
-    ("rad/s", true, true, 1.0),
-];
-const ACCELERATIONS: [RateUnit; 5] = [
-    ("mm/rad2", false, false, 1e-3),
-    ("mm/s2", false, true, 1e-3),
-    ("m/s2", false, true, 1.0),
-    ("rad/rad2", true, false, 1.0),
-    ("rad/s2", true, true, 1.0),
-];
+/// Units of velocity and of acceleration, as messages list them.
+const VELOCITIES: &str = "mm/rad, mm/deg, mm/s, m/s, rad/rad, rad/s";
+const ACCELERATIONS: &str = "mm/rad2, mm/deg2, mm/s2, m/s2, rad/rad2, rad/s2";
 
 /// A speed, or `A..B` from one to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,49 +28,41 @@ pub(in crate::cli) enum Speed {
 }
 
 pub(super) fn velocity_error(text: &str) -> Result<Rate, String> {
-    rate(text, &VELOCITIES)
+    rate(text, 1, VELOCITIES)
 }
 
 pub(super) fn acceleration_error(text: &str) -> Result<Rate, String> {
-    rate(text, &ACCELERATIONS)
+    rate(text, 2, ACCELERATIONS)
 }
 
 pub(super) fn share(text: &str) -> Result<f64, String> {
-    match rate(text, &ACCELERATIONS)? {
+    match rate(text, 2, ACCELERATIONS)? {
         Rate::Within(RateTolerance::Share(share)) => Ok(share),
         _ => Err("must be a share, e.g. 2%".into()),
     }
 }
 
-fn rate(text: &str, units: &[RateUnit]) -> Result<Rate, String> {
-    if text.trim().eq_ignore_ascii_case("none") {
+fn rate(text: &str, order: u32, known: &str) -> Result<Rate, String> {
+    let text = text.trim();
+    if text.eq_ignore_ascii_case("none") {
         return Ok(Rate::Any);
     }
-    let text = text.trim().replace('²', "2").replace('^', "");
-    // An e belongs to the number.
-    let begins_unit = |c: char| c == '%' || c.is_alphabetic() && !matches!(c, 'e' | 'E');
-    let end = text.find(begins_unit).unwrap_or(text.len());
-    let (number, unit) = text.split_at(end);
-    let known: Vec<&str> = units.iter().map(|(name, ..)| *name).collect();
-    let known = known.join(", ");
-    let value = units::parse_bare(number.trim()).map_err(|error| format!("{error}; e.g. 5%, none, or {known}"))?;
-    if !(value > 0.0) {
-        return Err("must be above 0".into());
-    }
-    let unit = unit.trim();
-    if unit == "%" {
-        return if value <= 100.0 {
-            Ok(Rate::Within(RateTolerance::Share(value / 100.0)))
-        } else {
-            Err("must be at most 100%".into())
+    if let Some(share) = text.strip_suffix('%') {
+        let share =
+            units::parse_bare(share).map_err(|error| format!("{error}; e.g. 5%, none, or in one of {known}"))?;
+        return match share {
+            share if !(share > 0.0) => Err("must be above 0".into()),
+            share if share <= 100.0 => Ok(Rate::Within(RateTolerance::Share(share / 100.0))),
+            _ => Err("must be at most 100%".into()),
         };
     }
-    match units.iter().find(|(name, ..)| *name == unit) {
-        Some((_, swing, by_time, size)) => {
-            Ok(Rate::Within(RateTolerance::Rate { value: value * size, swing: *swing, by_time: *by_time }))
+    match units::parse_rate(text, order) {
+        Ok(rate) if rate.value > 0.0 => {
+            let units::Rate { value, swing, by_time } = rate;
+            Ok(Rate::Within(RateTolerance::Rate { value, swing, by_time }))
         }
-        None if unit.is_empty() => Err(format!("has no unit; it is a share (5%), none, or in one of {known}")),
-        None => Err(format!("unknown unit `{unit}`; it is a share (5%), none, or in one of {known}")),
+        Ok(_) => Err("must be above 0".into()),
+        Err(error) => Err(format!("{error}; it is a share (5%), none, or in one of {known}")),
     }
 }
 
