@@ -211,7 +211,8 @@ mod tests {
             ReversalLaw { bottom_law: bottom_law(2.0, Column::Matched, 0.01).into(), lever: 1.0, lobes: 1, transition };
         motions.push(("lead".into(), Box::new(Reversal::new(law).expect("fits"))));
         motions.push(("brake disc".into(), Box::new(brake_disc::tests::disc())));
-        for name in ["cycloidal", "modified-trapezoid", "s-curve", "parabola-line", "scca"] {
+        // Laws that are analytic on each of their pieces, as the differences below ask.
+        for name in ["cycloidal", "s-curve", "parabola-line"] {
             let law = laws::named(name);
             let segments = [(law, 2.0, 1e-4), (None, 1.0, 0.0), (law, 3.0, 0.0), (None, 0.0, 0.0)];
             motions.push((name.into(), Box::new(program::Program::new(Quantity::Length, 0.0, &segments))));

@@ -147,7 +147,8 @@ impl Program {
     /// A segment to its last angle, in pieces that end where a derivative up to the jerk jumps.
     fn add(&mut self, segment: Segment, end: f64) {
         let (index, dwell) = (self.segments.len(), segment.curve.is_none());
-        let groups = segment.curve.as_ref().map_or_else(|| vec![0..1], |curve| curve.smooth_to(SMOOTH));
+        let groups =
+            segment.curve.as_ref().map_or_else(|| std::iter::once(0..1).collect(), |curve| curve.smooth_to(SMOOTH));
         let mut start = segment.start;
         for parts in groups {
             let joint = segment.curve.as_ref().map(|curve| curve.range_of(parts.end.saturating_sub(1)).1);
