@@ -7,6 +7,7 @@ use camgen::body::{Body, Layer, Request};
 use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::machine::Machine;
+use camgen::motion::laws::{LAWS, Task};
 use camgen::pipeline::Spec;
 use camgen::profile::outline::MotionTolerance;
 use camgen::table::Table;
@@ -28,6 +29,11 @@ fn motion(criterion: &mut Criterion) {
     let curves = cam.curves();
     let (piece, angle) = curves.motion.locate(1.0);
     criterion.bench_function("law/jet", |b| b.iter(|| curves.motion.jet(piece, black_box(angle))));
+    for law in LAWS.iter().filter(|law| law.serves_rests()) {
+        let curve = law.solve(&Task::default()).expect("it serves rests");
+        let at = |x: f64| curve.at(curve.part_of(x), x);
+        criterion.bench_function(&format!("law/{}", law.name), |b| b.iter(|| at(black_box(0.37))));
+    }
     criterion.bench_function("cam/profile point", |b| b.iter(|| curves.profile(piece, black_box(angle))));
 }
 

@@ -193,7 +193,7 @@ mod tests {
 
     /// Every law of the house: the contract below walks this list.
     fn laws() -> Vec<(String, Box<dyn Motion>)> {
-        let mut laws: Vec<(String, Box<dyn Motion>)> =
+        let mut motions: Vec<(String, Box<dyn Motion>)> =
             vec![("eccentric".into(), Box::new(EccentricCircle::new(0.01, 0.05)))];
         let width = 20.0_f64.to_radians();
         for (q, column) in [(2.0, Column::Matched), (5.0, Column::Return), (2.0, Column::Length(0.2))] {
@@ -202,16 +202,22 @@ mod tests {
                     let law =
                         ReversalLaw { bottom_law: bottom_law(q, column, 0.0).into(), lever: 1.5, lobes, transition };
                     let name = format!("{column:?} {transition:?}, {lobes} lobes");
-                    laws.push((name, Box::new(Reversal::new(law).expect("fits into a turn"))));
+                    motions.push((name, Box::new(Reversal::new(law).expect("fits into a turn"))));
                 }
             }
         }
         let transition = Transition::RunUp { width };
         let law =
             ReversalLaw { bottom_law: bottom_law(2.0, Column::Matched, 0.01).into(), lever: 1.0, lobes: 1, transition };
-        laws.push(("lead".into(), Box::new(Reversal::new(law).expect("fits"))));
-        laws.push(("brake disc".into(), Box::new(brake_disc::tests::disc())));
-        laws
+        motions.push(("lead".into(), Box::new(Reversal::new(law).expect("fits"))));
+        motions.push(("brake disc".into(), Box::new(brake_disc::tests::disc())));
+        // Laws that are analytic on each of their pieces, as the differences below ask.
+        for name in ["cycloidal", "s-curve", "parabola-line"] {
+            let law = laws::named(name);
+            let segments = [(law, 2.0, 1e-4), (None, 1.0, 0.0), (law, 3.0, 0.0), (None, 0.0, 0.0)];
+            motions.push((name.into(), Box::new(program::Program::new(Quantity::Length, 0.0, &segments))));
+        }
+        motions
     }
 
     #[test]

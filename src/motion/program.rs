@@ -1,6 +1,6 @@
 //! A motion program: segments that follow each other over one turn of the cam, each with its law.
 
-use super::laws::{self, LAWS, Law};
+use super::laws::{self, Curve, End, LAWS, Law, Task};
 use super::{Jet, Motion, Piece, Quantity};
 use crate::document::Presence::{Optional, Required};
 use crate::document::cams::MAKE;
@@ -10,6 +10,7 @@ use crate::document::{Bounds, Field, LengthOrAngle, Occurs, Reader, Section, Tab
 use crate::numeric::extremum;
 use crate::units::Dimension::Angle;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// The law that holds a position.
 const DWELL: &str = "dwell";
@@ -73,13 +74,33 @@ const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 /// Cells in which the lowest point of a segment is searched: a law between rests has its extremes at its ends.
 const CELLS: u32 = 4;
 
+/// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
+const SMOOTH: u32 = 3;
+
 /// A segment between two positions.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Segment {
     /// `None` rests.
-    law: Option<&'static Law>,
+    curve: Option<Curve>,
+    /// First angle and width, rad.
+    start: f64,
+    width: f64,
     from: f64,
-    to: f64,
+    travel: f64,
+}
+
+/// What a piece of the motion is: parts of the curve of a segment.
+#[derive(Debug, Clone)]
+struct Source {
+    segment: usize,
+    parts: Range<usize>,
+}
+
+/// The curve of a law from rest to rest; of a law that has none, one from rest to a turn or, last, its straight line: the
+/// motion then jumps as such a law does.
+fn curve(law: &Law) -> Curve {
+    let tasks = [Task::default(), Task::between(End::Rest, End::Turn)];
+    tasks.iter().find_map(|task| law.solve(task).ok()).unwrap_or_else(Curve::line)
 }
 
 /// A motion of segments over one turn.
@@ -88,21 +109,25 @@ pub struct Program {
     quantity: Quantity,
     rpm: Option<f64>,
     pieces: Vec<Piece>,
+    sources: Vec<Source>,
     segments: Vec<Segment>,
     lowest: f64,
 }
 
 impl Program {
     /// Segments of law (`None` rests), cam angle (rad) and end position (m, or rad of a swing), from a position on.
+    ///
+    /// Each law leads from rest to rest; one that cannot ([`Law::serves_rests`]) leaves a jump where it begins or ends.
     #[must_use]
     pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Self {
-        let mut program = Self { quantity, rpm: None, pieces: Vec::new(), segments: Vec::new(), lowest: 0.0 };
+        let (pieces, sources) = (Vec::new(), Vec::new());
+        let mut program = Self { quantity, rpm: None, pieces, sources, segments: Vec::new(), lowest: 0.0 };
         let (mut angle, mut position) = (0.0, start);
         for (index, (law, over, to)) in segments.iter().enumerate() {
             let end = if index + 1 == segments.len() { TAU } else { angle + over };
             let to = if law.is_some() { *to } else { position };
-            program.pieces.push(Piece { start: angle, end, dwell: law.is_none() });
-            program.segments.push(Segment { law: *law, from: position, to });
+            let (curve, width, travel) = (law.map(curve), end - angle, to - position);
+            program.add(Segment { curve, start: angle, width, from: position, travel }, end);
             (angle, position) = (end, to);
         }
         let least = program.pieces.iter().enumerate().map(|(index, piece)| {
@@ -119,15 +144,38 @@ impl Program {
         self.rpm
     }
 
+    /// A segment to its last angle, in pieces that end where a derivative up to the jerk jumps.
+    fn add(&mut self, segment: Segment, end: f64) {
+        let (index, dwell) = (self.segments.len(), segment.curve.is_none());
+        let groups =
+            segment.curve.as_ref().map_or_else(|| std::iter::once(0..1).collect(), |curve| curve.smooth_to(SMOOTH));
+        let mut start = segment.start;
+        for parts in groups {
+            let joint = segment.curve.as_ref().map(|curve| curve.range_of(parts.end.saturating_sub(1)).1);
+            let until = joint.filter(|joint| *joint < 1.0).map_or(end, |joint| segment.start + segment.width * joint);
+            // A stretch too short for two angles is none.
+            if start < until || parts.start == 0 {
+                self.pieces.push(Piece { start, end: until, dwell });
+                self.sources.push(Source { segment: index, parts });
+                start = until;
+            }
+        }
+        self.segments.push(segment);
+    }
+
     /// The position in the program, with its derivatives.
     fn position(&self, piece: usize, angle: f64) -> Jet {
-        let (Some(segment), Some(span)) = (self.segments.get(piece), self.pieces.get(piece)) else {
+        let source = self.sources.get(piece);
+        let Some((source, segment)) = source.and_then(|source| Some((source, self.segments.get(source.segment)?)))
+        else {
             return Jet::default();
         };
-        let Some(law) = segment.law else { return Jet { s: segment.from, ..Jet::default() } };
-        let (width, travel) = (span.end - span.start, segment.to - segment.from);
-        let [s, ds, dds, ddds] = (law.at)(((angle - span.start) / width).clamp(0.0, 1.0));
-        let shape = Jet { s, ds, dds, ddds }.by_angle_times(width).scaled(travel);
+        let Some(curve) = &segment.curve else { return Jet { s: segment.from, ..Jet::default() } };
+        let x = ((angle - segment.start) / segment.width).clamp(0.0, 1.0);
+        // At a joint between pieces rounding may lead to the neighbour, which has another jerk.
+        let part = curve.part_of(x).clamp(source.parts.start, source.parts.end.saturating_sub(1));
+        let [s, ds, dds, ddds] = curve.at(part, x);
+        let shape = Jet { s, ds, dds, ddds }.by_angle_times(segment.width).scaled(segment.travel);
         Jet { s: segment.from + shape.s, ..shape }
     }
 }
@@ -238,6 +286,12 @@ fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'sta
         segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("{near}one of {}", known.join(", "))));
         return None;
     };
+    if !law.serves_rests() {
+        let able: Vec<&str> = LAWS.iter().filter(|law| law.serves_rests()).map(|law| law.name).collect();
+        let message = format!("{} cannot start and end at rest", law.name);
+        segment.fail(&LAW, message, Some(format!("laws that can: {}", able.join(", "))));
+        return None;
+    }
     let Some(to) = segment.get(&TO) else {
         if !segment.has(&TO) {
             segment.fail(&TO, format!("a segment with the law {name} needs `to`"), Some("e.g. to = \"20 mm\"".into()));
@@ -251,4 +305,47 @@ fn read_segment(segment: &Table<'_>, quantity: Quantity) -> Option<(Option<&'sta
         return None;
     }
     Some((Some(law), to))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Up by a law in a radian and down by another in two.
+    fn program(up: &str, down: &str) -> Program {
+        let segments =
+            [(laws::named(up), 1.0, 0.02), (None, 0.5, 0.0), (laws::named(down), 2.0, 0.0), (None, 0.0, 0.0)];
+        Program::new(Quantity::Length, 0.0, &segments)
+    }
+
+    /// Where only the fourth derivative jumps a piece goes on; where a lower one does it ends, and each piece has its own side.
+    #[test]
+    fn a_piece_ends_where_a_derivative_up_to_the_jerk_jumps() {
+        let ends = |motion: &Program| motion.pieces().iter().map(|piece| piece.end).collect::<Vec<_>>();
+        assert_eq!(ends(&program("modified-sine", "3-4-5")), [1.0, 1.5, 3.5, TAU]);
+        let parts = program("constant-jerk", "parabola");
+        assert_eq!(ends(&parts), [0.25, 0.75, 1.0, 1.5, 2.5, 3.5, TAU]);
+        let jerk = |piece: usize, angle: f64| parts.jet(piece, angle).ddds / 0.02;
+        for (piece, wanted) in [(0, 32.0), (1, -32.0), (2, 32.0)] {
+            let Piece { start, end, .. } = parts.pieces()[piece];
+            for angle in [start, 0.5 * (start + end), end] {
+                assert!((jerk(piece, angle) - wanted).abs() < 1e-12, "{piece} at {angle}: {}", jerk(piece, angle));
+            }
+        }
+        for (piece, wanted) in [(4, -4.0), (5, 4.0)] {
+            let Piece { start, end, .. } = parts.pieces()[piece];
+            for angle in [start, end] {
+                assert!((parts.jet(piece, angle).dds / 0.02 * 4.0 - wanted).abs() < 1e-12, "{piece} at {angle}");
+            }
+        }
+    }
+
+    /// A law without a curve from rest to rest still moves from one position to the other.
+    #[test]
+    fn laws_that_jump_at_a_rest_reach_their_position() {
+        for name in ["constant-velocity", "double-harmonic"] {
+            let motion = program(name, "cycloidal");
+            assert_eq!((motion.jet(0, 0.0).s, motion.jet(0, 1.0).s), (0.0, 0.02), "{name}");
+        }
+    }
 }

@@ -280,7 +280,7 @@ mod tests {
         for case in 0..20 {
             let u = |n: u32| spread(7 * case + n);
             let (arm, pivot) = (0.05 + 0.1 * u(0), 0.05 + 0.15 * u(1));
-            let law = LAWS.get(usize::try_from(case).expect("few") % LAWS.len());
+            let law = LAWS.get(usize::try_from(case).expect("few") % LAWS.len()).filter(|law| law.serves_rests());
             let swing = (5.0 + 25.0 * u(2)).to_radians();
             let rise = TAU * (0.15 + 0.3 * u(3));
             let fall = TAU * (0.15 + 0.3 * u(4));

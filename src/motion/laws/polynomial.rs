@@ -1,42 +1,43 @@
-//! The polynomial laws between rests: 2-3, 3-4-5 and 4-5-6-7.
+//! Polynomial laws, and the polynomial of given conditions at both ends.
 
-use super::{Law, Values};
+use super::bernstein::Bernstein;
+use super::curve::{Curve, Part};
+use super::task::Task;
+use super::{Law, Shape};
 
-pub(super) const CUBIC: Law =
-    Law { name: "cubic", formula: "3 x^2 - 2 x^3", continuity: 1, at: |x| values(x, &[0.0, 0.0, 3.0, -2.0]) };
-
-pub(super) const QUINTIC: Law = Law {
-    name: "3-4-5",
-    formula: "10 x^3 - 15 x^4 + 6 x^5",
-    continuity: 2,
-    at: |x| values(x, &[0.0, 0.0, 0.0, 10.0, -15.0, 6.0]),
-};
-
-pub(super) const SEPTIC: Law = Law {
-    name: "4-5-6-7",
-    formula: "35 x^4 - 84 x^5 + 70 x^6 - 20 x^7",
-    continuity: 3,
-    at: |x| values(x, &[0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]),
-};
-
-/// A polynomial that is symmetric about its middle, and its derivatives: the later half is the earlier one turned round, so
-/// that both ends keep their digits.
-fn values(x: f64, coefficients: &[f64]) -> Values {
-    if x > 0.5 {
-        let [value, velocity, acceleration, jerk] = horner(1.0 - x, coefficients);
-        [1.0 - value, velocity, -acceleration, jerk]
-    } else {
-        horner(x, coefficients)
-    }
+/// The polynomial of least degree with given values s, s', s'', … at x = 0 and at x = 1, in units of the segment's width.
+///
+/// `from` and `to` hold the value first, then as many derivatives as are given: n values in all make the degree n − 1. A list
+/// without a value is taken as the value 0.
+#[must_use]
+pub fn hermite(from: &[f64], to: &[f64]) -> Curve {
+    let or_zero = |list: &[f64]| if list.is_empty() { vec![0.0] } else { list.to_vec() };
+    Curve::smooth(Part::Polynomial(Bernstein::hermite(&or_zero(from), &or_zero(to))))
 }
 
-/// Value and derivatives by repeated synthetic division.
-fn horner(x: f64, coefficients: &[f64]) -> Values {
-    let mut sums = [0.0; 4];
-    for coefficient in coefficients.iter().rev() {
-        let [value, first, second, third] = sums;
-        sums = [value * x + coefficient, first * x + value, second * x + first, third * x + second];
+/// The curve with so many conditions at each end: value, velocity, and 0 for every further derivative.
+pub(super) fn solve(conditions: usize, task: &Task) -> Curve {
+    let mut ends = [(0.0, task.from), (1.0, task.to)].map(|(value, end)| vec![value, end.velocity()]);
+    for end in &mut ends {
+        end.resize(conditions, 0.0);
     }
-    let [value, first, second, third] = sums;
-    [value, first, 2.0 * second, 6.0 * third]
+    let [from, to] = &ends;
+    hermite(from, to)
 }
+
+const fn law(
+    name: &'static str,
+    aliases: &'static [&'static str],
+    formula: &'static str,
+    continuity: u32,
+    shape: Shape,
+) -> Law {
+    Law { name, aliases, formula, continuity, shape }
+}
+
+pub(super) const CONSTANT_VELOCITY: Law = law("constant-velocity", &["line", "poly1"], "x", 0, Shape::Line);
+pub(super) const CUBIC: Law = law("cubic", &["2-3"], "3 x^2 - 2 x^3", 1, Shape::Polynomial(2));
+pub(super) const QUINTIC: Law = law("3-4-5", &["poly5"], "10 x^3 - 15 x^4 + 6 x^5", 2, Shape::Polynomial(3));
+pub(super) const SEPTIC: Law = law("4-5-6-7", &["poly7"], "35 x^4 - 84 x^5 + 70 x^6 - 20 x^7", 3, Shape::Polynomial(4));
+pub(super) const NONIC: Law =
+    law("5-6-7-8-9", &["poly9"], "126 x^5 - 420 x^6 + 540 x^7 - 315 x^8 + 70 x^9", 4, Shape::Polynomial(5));

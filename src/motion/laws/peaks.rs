@@ -1,0 +1,92 @@
+//! The largest velocity, acceleration, jerk and torque of a curve, and how near it comes to what is possible.
+
+use super::curve::Curve;
+use crate::numeric::extremum::{self, Extremum};
+use crate::numeric::quadrature;
+
+/// Cells of a part in which extremes are searched: the derivatives of five waves over a segment have twenty.
+const CELLS: u32 = 64;
+/// Panels of a part over which the square is integrated: 1e-16 of ten half waves.
+const PANELS: u32 = 8;
+/// A smaller share of the peak is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The peaks of a curve, as sizes, each with its place x; in units of travel and width of the segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peaks {
+    /// max |s'|: Cv.
+    pub velocity: Extremum,
+    /// max |s''|: Ca.
+    pub acceleration: Extremum,
+    /// max |s'''|: Cj; infinite where s'' jumps inside. What s'' does at the ends depends on the neighbours.
+    pub jerk: Extremum,
+    /// max |s' s''|: the torque of inertia by the cam's own travel, C(va).
+    pub torque: Extremum,
+    /// ∫ s''² dx: the heat in a drive.
+    pub square: f64,
+}
+
+impl Curve {
+    /// The peaks, to rounding.
+    #[must_use]
+    pub fn peaks(&self) -> Peaks {
+        let of = |f: fn(&[f64; 5]) -> (f64, f64)| self.largest(f);
+        let mut jerk = of(|s| (s[3], s[4]));
+        if let Some(part) = (1..self.parts()).find(|part| self.jumps(*part, 2)) {
+            jerk = Extremum { at: self.range_of(part).0, value: f64::INFINITY };
+        }
+        let squares = (0..self.parts()).map(|part| {
+            let square = |x: f64| self.derivative(part, x, 2) * self.derivative(part, x, 2);
+            quadrature::integrate(square, self.range_of(part), PANELS)
+        });
+        Peaks {
+            velocity: of(|s| (s[1], s[2])),
+            acceleration: of(|s| (s[2], s[3])),
+            jerk,
+            torque: of(|s| (s[1] * s[2], s[2] * s[2] + s[1] * s[3])),
+            square: squares.sum(),
+        }
+    }
+
+    /// The least peak acceleration possible over this curve's: of laws between rests with the same peak jerk, or with any where
+    /// the acceleration jumps. `None` where an end moves.
+    ///
+    /// With |s'''| ≤ Cj the least of all peaks has the law whose jerk is ±Cj or 0 in ramps of a/2 of the width,
+    /// Cj = 8/(a (1 − a)): Ca = 4/(1 − a). That is 4 without a limit of jerk.
+    #[must_use]
+    pub fn efficiency(&self) -> Option<f64> {
+        let peaks = self.peaks();
+        let last = self.parts().saturating_sub(1);
+        let ends = [self.at(0, 0.0), self.at(last, 1.0)];
+        let moves = |order: usize, peak: f64| {
+            ends.iter().any(|end| end.get(order).is_some_and(|value| value.abs() > ROUNDING * peak))
+        };
+        if moves(1, peaks.velocity.value) {
+            return None;
+        }
+        let jumps = peaks.jerk.value.is_infinite() || moves(2, peaks.acceleration.value);
+        // No law has a jerk below 32: less is rounding.
+        let share = if jumps { 0.0 } else { (1.0 - 32.0 / peaks.jerk.value).max(0.0).sqrt() };
+        let ramp = if jumps { 0.0 } else { 0.5 * (1.0 - share) };
+        Some(4.0 / (1.0 - ramp) / peaks.acceleration.value)
+    }
+
+    /// The largest size of a function of s, s', …, s⁗, which gives its value and its slope.
+    fn largest(&self, f: fn(&[f64; 5]) -> (f64, f64)) -> Extremum {
+        let mut best = Extremum { at: 0.0, value: f64::NEG_INFINITY };
+        for part in 0..self.parts() {
+            let both = |x: f64| {
+                let [s, first, second, third] = self.at(part, x);
+                f(&[s, first, second, third, self.derivative(part, x, 4)])
+            };
+            for sign in [1.0, -1.0] {
+                let range = self.range_of(part);
+                let found = extremum::largest(|x| sign * both(x).0, |x| sign * both(x).1, range, CELLS);
+                if found.value > best.value {
+                    best = found;
+                }
+            }
+        }
+        best
+    }
+}
