@@ -26,6 +26,27 @@ const LIFTER: &str = include_str!("common/lifter.toml");
 /// A key that means something only beside another.
 const BESIDE: [(&str, &str); 1] = [("follower.roller.crown", "follower.roller.width=20mm")];
 
+/// The lifter, with what a key of a segment asks for beside itself.
+fn lifter_for(sets: &[String]) -> String {
+    let key =
+        sets.last().and_then(|set| set.split_once('=')).map_or("", |(path, _)| path.rsplit('.').next().unwrap_or(""));
+    let of_law = |law: &str| LIFTER.replacen("3-4-5", law, 1);
+    match key {
+        "until" => LIFTER.replacen("over =", "until =", 1),
+        "by" => LIFTER.replacen("to =", "by =", 1),
+        "acceleration" | "jerk" => {
+            of_law("polynomial").replacen("law = \"dwell\"", "law = \"polynomial\"\nto = \"21 mm\"", 1)
+        }
+        "velocity" | "end" | "inflection" => of_law("cycloidal").replacen("law = \"dwell\"", "to = \"21 mm\"", 1),
+        "fractions" => of_law("scca"),
+        "line" => of_law("sine-line"),
+        "amplitudes" => of_law("triple-harmonic"),
+        "ramp" => of_law("s-curve"),
+        "repeat" => LIFTER.replace("120 deg", "30 deg").replace("60 deg", "20 deg"),
+        _ => LIFTER.to_owned(),
+    }
+}
+
 /// A machine with a table, all of whose keys are given that must be.
 fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
     let keys = section.keys.iter().filter(|key| matches!(key.presence, Required(_)));
@@ -64,7 +85,7 @@ fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
         return Machine::from_toml("roll.toml", &text, sets).ok();
     }
     if section.path.starts_with("motion") {
-        return Machine::from_toml("lifter.toml", LIFTER, sets).ok();
+        return Machine::from_toml("lifter.toml", &lifter_for(sets), sets).ok();
     }
     if section.path.starts_with("follower.") && section.path != "follower.roller" {
         let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
@@ -97,6 +118,11 @@ fn another(key: &Key, share: f64, index: u32) -> String {
     let example = key.presence.text();
     match key.form {
         Form::Text if key.name == "law" => LAWS[index as usize % LAWS.len()].name.to_owned(),
+        Form::Text if ["velocity", "acceleration", "jerk"].contains(&key.name) => scaled(example),
+        Form::Text if key.name == "inflection" => share.min(0.9).to_string(),
+        Form::Numbers(_) if key.name == "fractions" => format!("[{0}, {0}, {0}, {1}]", 0.1 * share, 1.0 - 0.3 * share),
+        Form::Numbers(_) if key.name == "amplitudes" => format!("[7, {share}, -2]"),
+        Form::Number(_) if key.name == "repeat" => (index + 1).to_string(),
         Form::Text => format!("text {index}"),
         Form::Boolean => index.is_multiple_of(2).to_string(),
         Form::Words(words) => words[index as usize % words.len()].to_owned(),

@@ -4,7 +4,7 @@ use super::brake::BrakeLimits;
 use super::disc::Material;
 use super::shaft::ShaftLimits;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BRAKE, BRAKE_CAM, LINKAGE, OF_A_PRESS, SHAFT};
+use crate::document::cams::{BRAKE, BRAKE_CAM, LINKAGE, MAKE, OF_A_PRESS, SHAFT};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Occurs, Reader, Section, above, within};
 use crate::units::Dimension::{Angle, Length, Pressure};
@@ -163,6 +163,8 @@ pub struct Limits {
     /// Largest error of the follower's acceleration as cut over the largest acceleration of the motion; where it is absent a
     /// tenth is told.
     pub acceleration_share: Option<f64>,
+    /// Order of the last continuous derivative of a motion program.
+    pub continuity: f64,
     /// Of the linkage that moves a bed.
     pub linkage: LinkageLimits,
     /// Of the shaft.
@@ -219,6 +221,14 @@ const ACCELERATION_SHARE: Field<f64> = Field::number(
     above(0.0, LARGEST_NUMBER),
 );
 
+const CONTINUITY: Field<f64> = Field::number(
+    "continuity",
+    "order of the last derivative of a motion program that must be continuous all round, 0 to 3",
+    Default("1"),
+    within(0.0, 3.0),
+)
+.only(&[MAKE]);
+
 /// `[limits]`.
 pub(super) const SECTION: Section = Section {
     path: "limits",
@@ -233,6 +243,7 @@ pub(super) const SECTION: Section = Section {
         CONTACT_STRESS.key,
         RESIDUAL_SHARE.key,
         ACCELERATION_SHARE.key,
+        CONTINUITY.key,
         TRANSMISSION_ANGLE.key,
         ROD_ANGLE.key,
         LINK_RATIO.key,
@@ -255,6 +266,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
         contact_stress: table.get(&CONTACT_STRESS),
         residual_share: table.get(&RESIDUAL_SHARE),
         acceleration_share: table.get(&ACCELERATION_SHARE),
+        continuity: table.get(&CONTINUITY)?,
         linkage: LinkageLimits {
             transmission_angle: table.get(&TRANSMISSION_ANGLE)?,
             rod_angle: table.get(&ROD_ANGLE)?,

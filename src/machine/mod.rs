@@ -69,8 +69,15 @@ const NAME: Field<String> = Field::text("name", "what the sheet and the report c
 const ROOT: Section = Section { path: "", about: "", occurs: Occurs::Once, cams: &[], keys: &[NAME.key] };
 
 /// The tables of a machine file before those of the followers, in the order of the template.
-const MOTION_TABLES: &[&Section] =
-    &[&ROOT, &bed::SECTION, &linkage::SECTION, &buffer::SECTION, &buffer::DESIGN, &program::SECTION, &program::SEGMENT];
+const MOTION_TABLES: &[&Section] = &[
+    &ROOT,
+    &bed::SECTION,
+    &linkage::SECTION,
+    &buffer::SECTION,
+    &buffer::DESIGN,
+    &program::read::SECTION,
+    &program::read::SEGMENT,
+];
 
 /// The tables after those of the followers.
 const BODY_TABLES: &[&Section] = &[
@@ -211,7 +218,7 @@ impl Machine {
         let bed = bed::read(reader);
         let linkage = linkage::read(reader, bed.as_ref());
         let stroke_end = linkage.zip(bed).and_then(|(data, bed)| data.stroke_end(&bed, End::Outer));
-        let (press, motion) = (buffer::read(reader, bed, stroke_end.as_ref()), program::read(reader));
+        let (press, motion) = (buffer::read(reader, bed, stroke_end.as_ref()), program::read::read(reader));
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let (follower, cam) = (follower?, cam?);
         disc::reached_by(reader, &cam, &follower);

@@ -395,7 +395,7 @@ impl ShaftMachine {
 
     /// The shaft of a file, and whether the file describes a cam that it carries.
     fn parts(reader: &Reader<'_>) -> Option<(Self, bool)> {
-        let carries = reader.find(&bed::SECTION).is_some() || reader.find(&program::SECTION).is_some();
+        let carries = reader.find(&bed::SECTION).is_some() || reader.find(&program::read::SECTION).is_some();
         let Some(table) = reader.find(&SECTION) else {
             if !reader.is_explained(&SECTION) {
                 let help = "add the table [shaft] with [[shaft.segment]] and [[shaft.support]], or take the embedded \

@@ -228,9 +228,22 @@ const OTHERS: &[(&str, &str)] = &[
     ("design.rpm", "30"),
     ("motion.rpm", "120"),
     ("motion.start", "5 mm"),
+    ("motion.at", "10 deg"),
+    ("motion.repeat", "2"),
     ("motion.segment[0].law", "harmonic"),
     ("motion.segment[0].over", "170 deg"),
+    ("motion.segment[0].until", "170 deg"),
     ("motion.segment[0].to", "10 mm"),
+    ("motion.segment[0].by", "10 mm"),
+    ("motion.segment[0].velocity", "1 mm/deg"),
+    ("motion.segment[0].acceleration", "2 mm/rad2"),
+    ("motion.segment[0].jerk", "3 mm/rad3"),
+    ("motion.segment[0].end", "turn"),
+    ("motion.segment[0].inflection", "0.4"),
+    ("motion.segment[0].fractions", "[0.3, 0.2, 0.3, 0.2]"),
+    ("motion.segment[0].line", "0.4"),
+    ("motion.segment[0].amplitudes", "[7, 1, -2]"),
+    ("motion.segment[0].ramp", "0.2"),
     ("follower.roller.radius", "25 mm"),
     ("follower.roller.offset", "5 mm"),
     ("follower.roller.mass", "40 kg"),
@@ -307,6 +320,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.contact_stress", "1200 MPa"),
     ("limits.residual_share", "0.02"),
     ("limits.acceleration_share", "0.02"),
+    ("limits.continuity", "2"),
     ("limits.transmission_angle", "40 deg"),
     ("limits.rod_angle", "25 deg"),
     ("limits.link_ratio", "0.6"),
@@ -373,7 +387,26 @@ fn file_for(path: &str) -> String {
         press
     };
     let shaft = if path.starts_with("shaft.") { SHAFT } else { "" };
-    format!("{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{MOTION}{shaft}", section.path)
+    let motion = motion_for(path);
+    format!("{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{motion}{shaft}", section.path)
+}
+
+/// A motion program in which a key of a segment means something.
+fn motion_for(path: &str) -> String {
+    let key = path.rsplit('.').next().unwrap_or_default();
+    let of_law = |law: &str| MOTION.replace("[[motion.segment]]\n", &format!("[[motion.segment]]\nlaw = \"{law}\"\n"));
+    match key {
+        _ if !path.starts_with("motion") => MOTION.to_owned(),
+        "until" => MOTION.replace("over =", "until ="),
+        "by" => MOTION.replacen("to =", "by =", 1),
+        "repeat" => MOTION.replace("180 deg", "90 deg"),
+        "acceleration" | "jerk" => of_law("polynomial"),
+        "fractions" => of_law("scca"),
+        "line" => of_law("sine-line"),
+        "amplitudes" => of_law("triple-harmonic"),
+        "ramp" => of_law("s-curve"),
+        _ => MOTION.to_owned(),
+    }
 }
 
 /// A file without one of its tables.
@@ -429,7 +462,11 @@ fn every_word_of_a_key_reads() {
                 let index = if path == "shaft.disc[].material" { "[1]" } else { "[0]" };
                 let set = format!("{}={word}", path.replace("[]", index));
                 // A yoke has no links.
-                let text = if *word == "yoke" { without(&file_for(&path), "linkage") } else { file_for(&path) };
+                let text = match *word {
+                    "yoke" => without(&file_for(&path), "linkage"),
+                    "moving" => file_for(&path).replace("over =", "velocity = \"1 mm/deg\"\nover ="),
+                    _ => file_for(&path),
+                };
                 let read = Machine::from_toml("press.toml", &text, std::slice::from_ref(&set));
                 assert!(read.is_ok(), "{set}: {}", read.expect_err("a fault"));
             }
@@ -519,20 +556,19 @@ fn template_and_profiles_have_every_key() {
         keys_of(|_| true),
         keys_of(|section| section.cams != [MAKE] && section.path != "drive" && !section.path.starts_with("brake")),
     );
-    // Of a program the template shows one segment, which is none yet.
-    let whole = ["motion.segment[0].over=360 deg".to_owned(), "motion.segment[0].to=0 mm".to_owned()];
     let template = template();
     let presses = EMBEDDED
         .iter()
         .filter(|machine| !["\n[drive]", "\n[shaft]", "\n[brake]"].iter().any(|table| machine.toml.contains(table)));
-    let profiles = presses.map(|machine| (machine.name, machine.toml, &of_a_press, &[][..]));
-    for (name, text, keys, sets) in profiles.chain([("template", template.as_str(), &all, &whole[..])]) {
+    let profiles = presses.map(|machine| (machine.name, machine.toml, &of_a_press));
+    for (name, text, keys) in profiles.chain([("template", template.as_str(), &all)]) {
         let text = with_everything(text);
-        // Of a linkage, and of a shaft, not all keys go together.
-        let apart = ["linkage", "shaft", "[shaft.segment]", "[shaft.support]", "[shaft.disc]"];
+        // Of a linkage, a shaft and a motion not all keys go together.
+        let apart =
+            ["linkage", "shaft", "[shaft.segment]", "[shaft.support]", "[shaft.disc]", "motion", "[motion.segment]"];
         let read_with = |text: &str| {
             let text = apart.iter().fold(text.to_owned(), |text, table| without(&text, table));
-            Machine::from_toml(name, &text, sets)
+            Machine::from_toml(name, &text, &[])
         };
         let sections: Vec<Section> = sections().iter().map(|section| Section { cams: &[], ..**section }).collect();
         let sections: Vec<&Section> = sections.iter().collect();

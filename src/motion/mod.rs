@@ -138,6 +138,11 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// The program of segments that it is, if it is one.
+    fn program(&self) -> Option<&program::Program> {
+        None
+    }
+
     /// Equal lobes of a turn, at least 1: so often the motion repeats itself, with as many pieces in each.
     fn lobes(&self) -> u32 {
         1

@@ -12,6 +12,7 @@ mod brake;
 mod closing;
 mod compensator;
 mod contact_stress;
+mod continuity;
 mod curvature;
 mod cutter_path;
 mod cutter_radius;
@@ -159,6 +160,7 @@ pub const CHECKS: &[Check] = &[
     solid::THICKNESS,
     solid::VOLUME,
     solid::HOLES,
+    continuity::CHECK,
     pressure_angle::CHECK,
     shift::AXIAL_FORCE,
     curvature::UNDERCUT,

@@ -5,6 +5,7 @@ mod brake;
 mod compensator;
 mod loaded;
 mod mechanism;
+mod program;
 mod raised;
 pub use compensator::{AtSpeed, Compensated};
 pub(in crate::body) use mechanism::of_press;
@@ -549,6 +550,7 @@ impl Body for Disc {
         let mut sections = vec![cam.section()];
         sections.extend(self.mounting());
         sections.extend(self.on_its_frame());
+        sections.extend(self.program());
         if let Some(load) = &self.load {
             sections.push(load.section());
             sections.extend(reversal_of_bed(&self.machine));

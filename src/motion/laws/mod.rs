@@ -78,6 +78,9 @@ pub const LAWS: &[Law] = &[
     polynomial::CONSTANT_VELOCITY,
 ];
 
+/// The straight line.
+pub const LINE: &str = polynomial::CONSTANT_VELOCITY.name;
+
 /// A velocity, in units of travel over width, that differs from another by less is the same.
 const SAME_VELOCITY: f64 = 1e-9;
 

@@ -1,0 +1,111 @@
+//! What the report tells of a motion program.
+
+use super::Disc;
+use crate::geometry::MILLIMETRES;
+use crate::motion::Quantity;
+use crate::motion::program::SegmentTold;
+use crate::report::{Section, shown};
+use serde::Serialize;
+
+/// A segment; positions in mm or degrees, rates by the cam angle in radians.
+#[derive(Debug, Serialize)]
+struct Segment {
+    law: &'static str,
+    class: String,
+    from_deg: f64,
+    to_deg: f64,
+    from: f64,
+    to: f64,
+    overshoot: f64,
+    peaks: Peaks,
+}
+
+/// Largest sizes and where they are; `None` of a jerk without bound.
+#[derive(Debug, Serialize)]
+struct Peaks {
+    velocity: f64,
+    velocity_at_deg: f64,
+    acceleration: f64,
+    acceleration_at_deg: f64,
+    jerk: Option<f64>,
+    jerk_at_deg: f64,
+}
+
+/// The section `motion`.
+#[derive(Debug, Serialize)]
+struct Told {
+    unit: &'static str,
+    repeat: u32,
+    segments: Vec<Segment>,
+}
+
+/// Degrees without the rounding of the conversion.
+fn degrees(angle: f64) -> f64 {
+    const DIGITS: f64 = 1e11;
+    (angle.to_degrees() * DIGITS).round() / DIGITS + 0.0
+}
+
+fn segment(told: &SegmentTold, size: f64) -> Segment {
+    let [first, last] = told.classes.map(crate::motion::program::Class::letter);
+    let [velocity, acceleration, jerk] = told.peaks.map(|(value, at)| (size * value, degrees(at)));
+    Segment {
+        law: told.law,
+        class: format!("{first}-{last}"),
+        from_deg: degrees(told.angles.0),
+        to_deg: degrees(told.angles.1),
+        from: size * told.positions.0,
+        to: size * told.positions.1,
+        overshoot: size * told.overshoot,
+        peaks: Peaks {
+            velocity: velocity.0,
+            velocity_at_deg: velocity.1,
+            acceleration: acceleration.0,
+            acceleration_at_deg: acceleration.1,
+            jerk: Some(jerk.0).filter(|jerk| jerk.is_finite()),
+            jerk_at_deg: jerk.1,
+        },
+    }
+}
+
+impl Disc {
+    /// The segments of its program, where its motion is one.
+    pub(super) fn program(&self) -> Option<Section> {
+        let program = self.motion.program()?;
+        let swings = self.motion.quantity() == Quantity::Angle;
+        let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
+        let told = program.segments();
+        let segments: Vec<Segment> = told.iter().map(|told| segment(told, size)).collect();
+        let mut words: Vec<String> =
+            segments.iter().zip(&told).map(|(segment, told)| line(segment, told, unit)).collect();
+        if self.motion.lobes() > 1 {
+            words.push(format!("{} equal lobes", self.motion.lobes()));
+        }
+        let value = Told { unit, repeat: self.motion.lobes(), segments };
+        Some(Section::new("motion", &value).with_words(words))
+    }
+}
+
+fn line(segment: &Segment, told: &SegmentTold, unit: &str) -> String {
+    let Segment { law, class, from_deg, to_deg, from, to, overshoot, peaks } = segment;
+    let mut text = format!("{} to {}° {law}", shown(*from_deg), shown(*to_deg));
+    if told.peaks[0].0 == 0.0 {
+        return format!("{text} at {} {unit}", shown(*from));
+    }
+    text.push_str(&format!(
+        " {class} from {} to {} {unit}: v {} {unit}/rad, a {} {unit}/rad²",
+        shown(*from),
+        shown(*to),
+        shown(peaks.velocity),
+        shown(peaks.acceleration)
+    ));
+    text.push_str(&peaks.jerk.map_or(", j without bound".into(), |jerk| format!(", j {} {unit}/rad³", shown(jerk))));
+    if *overshoot > 0.0 {
+        text.push_str(&format!("; it goes {} {unit} beyond its ends", shown(*overshoot)));
+    }
+    if told.humps {
+        text.push_str(
+            "; its acceleration has two humps of one sign: another inflection or law = \"polynomial\" avoids that",
+        );
+    }
+    text
+}
