@@ -221,6 +221,9 @@ impl Machine {
         if let Some(shaft) = &shaft {
             shaft::carries(reader, shaft, cam.bore_radius);
         }
+        let limits = limits::read(reader, &*follower.shape)?;
+        let mut inputs = reader.inputs();
+        limits::as_it_holds(&limits, reader, &mut inputs);
         Some(Self {
             name: reader.table(&ROOT).get(&NAME)?,
             press,
@@ -234,11 +237,11 @@ impl Machine {
             shaft: shaft.map(Arc::new),
             regimes,
             spring_stiffness,
-            limits: limits::read(reader)?,
+            limits,
             title: title::read(reader),
             given: reader.given(own),
             overridden: reader.given(false),
-            inputs: reader.inputs(),
+            inputs,
             follower,
         })
     }

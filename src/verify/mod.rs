@@ -16,6 +16,7 @@ mod curvature;
 mod cutter_path;
 mod cutter_radius;
 mod cylinder_contact;
+mod face_width;
 mod felt;
 mod felt_sections;
 mod file;
@@ -163,6 +164,7 @@ pub const CHECKS: &[Check] = &[
     shift::AXIAL_FORCE,
     curvature::UNDERCUT,
     curvature::MIN_CONVEX_RADIUS,
+    face_width::CHECK,
     cutter_radius::CHECK,
     cutter_path::CHECK,
     points::CHECK,
