@@ -136,12 +136,12 @@ impl Follower for SwingingFlat {
             curvature_slope: -radius_slope / (turn * radius * radius * radius),
         };
         let (lever, lever_slope) = self.lever(lift);
-        let reach = lever * lever + f * f;
+        let reach = (lever * lever + f * f).sqrt();
         // The drive stands at atan2(−τ f, ℓ) from the normal.
         Touch {
             curve,
-            drive: (normal * lever - along * (t * f)) / reach.sqrt(),
-            drive_turn: turn + t * f * lever_slope / reach,
+            drive: normal * (lever / reach) - along * (t * f / reach),
+            drive_turn: turn + t * f * lever_slope / (reach * reach),
         }
     }
 

@@ -250,37 +250,33 @@ pub(super) const SECTION: Section = Section {
 /// Customary limit of the pressure angle of a roller on an arm, rad: its side thrust goes into a bearing, not into a guide.
 const SWINGING_PRESSURE_ANGLE: f64 = FRAC_PI_4;
 
-/// The limit of the pressure angle under a follower, rad: that of the file, or what is customary. Under a flat face none is: the
-/// angle follows from how the face stands, not from the cam.
-fn pressure_angle(table: &Table<'_>, follower: &dyn Follower) -> Option<Option<f64>> {
-    let in_table = table.get(&PRESSURE_ANGLE)?;
-    Some(match (table.has(&PRESSURE_ANGLE), follower.element(), follower.quantity()) {
+/// The limit of the pressure angle under a follower whose table says this, rad: that of the file, or what is customary. Under a flat
+/// face none is: the angle follows from how the face stands, not from the cam.
+fn pressure_angle(table: &Table<'_>, in_table: f64, follower: &dyn Follower) -> Option<f64> {
+    match (table.has(&PRESSURE_ANGLE), follower.element(), follower.quantity()) {
         (false, Element::Face, _) => None,
         (false, Element::Roller { .. }, Quantity::Angle) => Some(SWINGING_PRESSURE_ANGLE),
         _ => Some(in_table),
-    })
+    }
 }
 
-/// Puts the limit of the pressure angle that holds for a follower in the place of the default of its key.
-pub(super) fn as_it_holds(limits: &Limits, reader: &Reader<'_>, inputs: &mut Vec<Input>) {
-    if reader.table(&SECTION).has(&PRESSURE_ANGLE) {
-        return;
-    }
-    let path = SECTION.path_of(&PRESSURE_ANGLE.key);
-    match limits.pressure_angle {
-        None => inputs.retain(|input| input.key != path),
-        Some(limit) => {
-            for input in inputs.iter_mut().filter(|input| input.key == path && limit == SWINGING_PRESSURE_ANGLE) {
-                *input = Input::quantity(&path, limit, ("deg", 1.0_f64.to_radians()));
-            }
-        }
-    }
+/// The inputs of a file, the limit of the pressure angle as it holds for a follower in the place of the default of its key.
+pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower) -> Vec<Input> {
+    let (table, path) = (reader.table(&SECTION), SECTION.path_of(&PRESSURE_ANGLE.key));
+    let of = |input: Input| match table.get(&PRESSURE_ANGLE) {
+        Some(in_table) if input.key == path => match pressure_angle(&table, in_table, follower) {
+            Some(limit) if limit != in_table => Some(Input::quantity(&path, limit, ("deg", 1.0_f64.to_radians()))),
+            limit => limit.map(|_| input),
+        },
+        _ => Some(input),
+    };
+    reader.inputs().into_iter().filter_map(of).collect()
 }
 
 pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limits> {
     let table = reader.table(&SECTION);
     Some(Limits {
-        pressure_angle: pressure_angle(&table, follower)?,
+        pressure_angle: pressure_angle(&table, table.get(&PRESSURE_ANGLE)?, follower),
         min_convex_pitch_radius_over_roller: table.get(&MIN_CONVEX)?,
         cutter_radius: table.get(&CUTTER_RADIUS),
         wall: table.get(&WALL)?,

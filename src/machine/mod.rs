@@ -221,9 +221,6 @@ impl Machine {
         if let Some(shaft) = &shaft {
             shaft::carries(reader, shaft, cam.bore_radius);
         }
-        let limits = limits::read(reader, &*follower.shape)?;
-        let mut inputs = reader.inputs();
-        limits::as_it_holds(&limits, reader, &mut inputs);
         Some(Self {
             name: reader.table(&ROOT).get(&NAME)?,
             press,
@@ -237,11 +234,11 @@ impl Machine {
             shaft: shaft.map(Arc::new),
             regimes,
             spring_stiffness,
-            limits,
+            limits: limits::read(reader, &*follower.shape)?,
             title: title::read(reader),
             given: reader.given(own),
             overridden: reader.given(false),
-            inputs,
+            inputs: limits::inputs(reader, &*follower.shape),
             follower,
         })
     }

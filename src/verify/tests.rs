@@ -369,3 +369,29 @@ fn checks_of_a_radius_leave_a_knife_edge_out() {
     );
     assert_eq!(of(&limited.expect("a cam"), "pressure_angle").verdict, Verdict::Fail);
 }
+
+/// What an undercut face on an arm loses by its envelope is how far the arm really drops onto the outline as written.
+#[test]
+fn the_motion_lost_under_a_swinging_face_is_what_rolling_shows() {
+    for (side, base, face_offset) in [("leading", 18, 0), ("trailing", 3, 30)] {
+        let found = under(
+            &format!(
+                "[follower.swinging-flat]\npivot_distance = \"150 mm\"\nface_offset = \"{face_offset} mm\"\n\
+                 side = \"{side}\"\n[cam]\nbase_radius = \"{base} mm\"\n"
+            ),
+            "deg",
+        )
+        .expect("a cam");
+        let (undercut, rolling) = (of(&found, "undercut"), of(&found, "rolling"));
+        assert_eq!(undercut.verdict, Verdict::Fail, "{found:?}");
+        let number = |note: &Option<String>, before: &str, after: &str| -> f64 {
+            let note = note.as_deref().expect("a note");
+            let (_, rest) = note.split_once(before).expect(note);
+            rest.split_once(after).and_then(|(value, _)| value.trim().parse().ok()).expect(note)
+        };
+        // A second loop would be told behind the first.
+        let lost = number(&undercut.note, "°, ", " mm at");
+        let felt = 1e-3 * number(&rolling.note, "lift off by ", " µm");
+        assert!((lost - felt).abs() < 5e-3 * lost, "{lost} {felt}: {found:?}");
+    }
+}
