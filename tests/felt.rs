@@ -135,8 +135,8 @@ fn a_tilted_face_and_a_knife_edge_on_a_circle_have_closed_forms() {
     for i in 0..60 {
         let angle = 0.1 * f64::from(i);
         for tilt in [0.3, -0.6_f64] {
-            let followed =
-                Followed::new(Curves { motion: &Rest, follower: &FlatFace::tilted(rho, tilt, 0.01) }, &edges);
+            let face = FlatFace::tilted(rho, tilt, 0.01);
+            let followed = Followed::new(Curves { motion: &Rest, follower: &face }, &edges);
             let found = followed.at(angle).expect("in touch");
             let (sin, cos) = (libm::sin(angle + tilt), libm::cos(angle + tilt));
             let scale = e / libm::cos(tilt);

@@ -306,7 +306,9 @@ impl Scene<'_> {
             let at = |(x, y): (f64, f64)| Vector2::new(x * cos - y * sin, x * sin + y * cos);
             Shape::Path(corners.map(at).to_vec())
         };
-        let shapes = vec![plate, rectangle((thick, length), (-thick, thick))];
+        // Into a tilted plate, behind whose corner there would be a gap.
+        let from = if tilt == 0.0 { thick } else { 0.0 };
+        let shapes = vec![plate, rectangle((from, length), (-thick, thick))];
         let middle = feet.first().map_or(0.0, |foot| self.shown(*foot).x);
         let guides = [-1.0, 1.0].map(|side| {
             let (from, to) = (middle + side * 1.3 * thick, middle + side * 4.0 * thick);
@@ -349,7 +351,7 @@ impl Scene<'_> {
         cover.add((place.x - 1.5 * foot, place.x + 1.5 * foot), (place.y, place.y + 1.6 * foot));
         vec![
             Rigid::new("ground", bracket(place, foot)),
-            Rigid::new("follower", vec![bar, hub]).at(place.x, place.y).turned(turn),
+            Rigid::new("follower", vec![line((0.0, 0.0), (0.0, height)), bar, hub]).at(place.x, place.y).turned(turn),
         ]
     }
 
