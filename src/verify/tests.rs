@@ -373,7 +373,7 @@ fn checks_of_a_radius_leave_a_knife_edge_out() {
 /// What an undercut face on an arm loses by its envelope is how far the arm really drops onto the outline as written.
 #[test]
 fn the_motion_lost_under_a_swinging_face_is_what_rolling_shows() {
-    for (side, base, face_offset) in [("leading", 18, 0), ("trailing", 3, 30)] {
+    for (side, base, face_offset) in [("leading", 110, 0), ("leading", 120, -30), ("trailing", 15, 30)] {
         let found = under(
             &format!(
                 "[follower.swinging-flat]\npivot_distance = \"150 mm\"\nface_offset = \"{face_offset} mm\"\n\
