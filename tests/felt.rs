@@ -3,7 +3,7 @@
 #![allow(clippy::expect_used, clippy::panic, missing_docs, reason = "a test fails loudly")]
 
 use camgen::body::{RateTolerance, Request};
-use camgen::follower::{FlatFace, Follower, SwingingRoller, TranslatingRoller};
+use camgen::follower::{FlatFace, Follower, SwingingFlat, SwingingRoller, TranslatingRoller};
 use camgen::geometry::contour::{Contour, Edge};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::{ExactOn, Solver};
@@ -92,6 +92,65 @@ fn a_swinging_roller_on_a_circle_is_a_linkage() {
             (found.ds - first).abs() < 1e-11 && (found.dds - second).abs() < 1e-8,
             "{angle}: {found:?} {first} {second}"
         );
+    }
+}
+
+/// A face on an arm, on the same circle: seen from the pivot the face is a tangent, turned from the line to the centre by the angle
+/// whose sine is radius and face offset over the distance.
+#[test]
+fn a_swinging_face_on_a_circle_is_a_linkage() {
+    let (e, rho, pivot) = (4.0, 40.0, 110.0);
+    for (side, f) in [(1.0, 0.0), (1.0, 7.0), (-1.0, -5.0), (-1.0, 12.0)] {
+        let follower = SwingingFlat::new(1e-3 * pivot, 1e-3 * f, side).sized(1e-3 * rho).expect("in reach");
+        let edges: Vec<Edge> = Contour::circle(Vector2::new(e, 0.0), rho).edges().collect();
+        let followed = Followed::new(Curves { motion: &Rest, follower: &*follower }, &edges);
+        let start = libm::asin((rho + f) / pivot);
+        let swing = |angle: f64| {
+            let at = Vector2::new(pivot * libm::cos(angle), pivot * libm::sin(angle));
+            let to = Vector2::new(e, 0.0) - at;
+            side * libm::atan2((-at).perp(&to), (-at).dot(&to)) + libm::asin((rho + f) / to.norm()) - start
+        };
+        for i in 0..60 {
+            let angle = 0.1 * f64::from(i);
+            let found = followed.at(angle).expect("in touch");
+            let h = 1e-3;
+            let at = |n: f64| swing(angle + n * h);
+            let first = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
+            let second = (16.0 * (at(1.0) + at(-1.0)) - (at(2.0) + at(-2.0)) - 30.0 * at(0.0)) / (12.0 * h * h);
+            assert!((found.s - at(0.0)).abs() < 1e-13, "{angle}: {} {}", found.s, at(0.0));
+            assert!(
+                (found.ds - first).abs() < 1e-11 && (found.dds - second).abs() < 1e-8,
+                "{angle}: {found:?} {first} {second}"
+            );
+        }
+    }
+}
+
+/// A tilted face on the same circle: p = e cos β + ρ at β = θ + δ, and a lift of p/cos δ; a knife edge runs on it by the cosine rule.
+#[test]
+fn a_tilted_face_and_a_knife_edge_on_a_circle_have_closed_forms() {
+    let (e, rho) = (4e-3, 40e-3);
+    let edges: Vec<Edge> = Contour::circle(Vector2::new(1e3 * e, 0.0), 1e3 * rho).edges().collect();
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-15, "{a} {b}");
+    for i in 0..60 {
+        let angle = 0.1 * f64::from(i);
+        for tilt in [0.3, -0.6_f64] {
+            let face = FlatFace::tilted(rho, tilt, 0.01);
+            let followed = Followed::new(Curves { motion: &Rest, follower: &face }, &edges);
+            let found = followed.at(angle).expect("in touch");
+            let (sin, cos) = (libm::sin(angle + tilt), libm::cos(angle + tilt));
+            let scale = e / libm::cos(tilt);
+            near(found.s, scale * cos);
+            near(found.ds, -scale * sin);
+            near(found.dds, -scale * cos);
+        }
+        let knife = TranslatingRoller::new(rho, 0.0, 0.0);
+        let found = Followed::new(Curves { motion: &Rest, follower: &knife }, &edges).at(angle).expect("in touch");
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let root = (rho * rho - e * e * sin * sin).sqrt();
+        near(found.s, e * cos + root - rho);
+        near(found.ds, -e * sin - e * e * sin * cos / root);
+        assert!(found.dds.is_finite());
     }
 }
 

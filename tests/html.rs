@@ -42,6 +42,8 @@ fn under(follower: &str, swings: bool) -> Cam {
 const SWINGING: &str =
     "[follower.swinging-roller]\nradius = \"16 mm\"\narm = \"110 mm\"\npivot_distance = \"140 mm\"\n";
 
+const SWINGING_FACE: &str = "[follower.swinging-flat]\npivot_distance = \"150 mm\"\n";
+
 /// A cam of every kind and follower, in both rotations.
 fn cams() -> Vec<(&'static str, Cam)> {
     let rotary = |overrides: &[&str]| Spec::rotary(press(overrides), 35.0).solve().expect("a cam");
@@ -58,6 +60,10 @@ fn cams() -> Vec<(&'static str, Cam)> {
         ("conoid", conoid),
         ("make", make(LIFTER)),
         ("flat", under("[follower.flat]\n", false)),
+        ("tilted", under("[follower.flat]\ntilt = \"15 deg\"\noffset = \"6 mm\"\n[cam]\nrotation = \"ccw\"\n", false)),
+        ("knife", under("[follower.knife]\noffset = \"-4 mm\"\n", false)),
+        ("swinging face", under(&format!("{SWINGING_FACE}face_offset = \"9 mm\"\n"), true)),
+        ("leading face", under(&format!("{SWINGING_FACE}side = \"leading\"\n[cam]\nrotation = \"ccw\"\n"), true)),
         ("swinging", under(SWINGING, true)),
         ("leading", under(&format!("{SWINGING}side = \"leading\"\n[cam]\nrotation = \"ccw\"\n"), true)),
     ]

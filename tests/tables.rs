@@ -296,6 +296,7 @@ fn every_check_is_run_for_some_cam() {
         assert!(report.passed(), "{}: {report:?}", kind.noun);
         reports.push((format!("solid of a {} as a file", kind.noun), report));
     }
+    reports.extend(cams_of_followers().iter().map(|(path, cam)| ((*path).to_owned(), report_of(cam))));
     let mut seen: Vec<String> = Vec::new();
     for (what, report) in &reports {
         let mut rest = order.iter();

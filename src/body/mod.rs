@@ -361,10 +361,10 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         }
     }
 
-    /// Radius of the roller, or `None` under a flat face, m.
+    /// Radius of the roller, m; `None` under a flat face or a knife edge.
     fn roller_radius(&self) -> Option<f64> {
         match self.plane()?.element() {
-            Element::Roller { radius } => Some(radius),
+            Element::Roller { radius } => Some(radius).filter(|radius| *radius > 0.0),
             Element::Face => None,
         }
     }
@@ -525,7 +525,9 @@ fn broken_limit(body: &dyn Body) -> Option<&'static str> {
     let convex = limits.min_convex_pitch_radius_over_roller * roller * (1.0 - SIZED_TO);
     let kept = |limit: Option<f64>, keeps: &dyn Fn(f64) -> bool| limit.is_none_or(keeps);
     let checks: [(&'static str, &dyn Fn() -> bool); 6] = [
-        ("pressure_angle", &|| body.pressure_angle().value <= limits.pressure_angle * (1.0 + 1e-12)),
+        ("pressure_angle", &|| {
+            kept(limits.pressure_angle, &|limit| body.pressure_angle().value <= limit * (1.0 + 1e-12))
+        }),
         ("undercut", &|| least > roller),
         ("min_convex_pitch_radius_over_roller", &|| body.least_rolled_radius().value >= convex),
         ("wall", &|| body.wall().is_none_or(|(wall, _)| wall > 0.0 && wall >= limits.wall * (1.0 - SIZED_TO))),

@@ -109,7 +109,7 @@ pub enum TableError {
     #[error("a plate rides on the bed and has no angle: it is given in x and y by equal chord error")]
     PlateHasNoAngle,
     /// There is no roller.
-    #[error("a flat face has no centre; give the profile, or the path of a cutter")]
+    #[error("neither a flat face nor a knife edge has a centre; give the profile, or the path of a cutter")]
     NoCentre,
     /// The radius of the cutter is not known.
     #[error("the path of a cutter needs its radius, --cutter RADIUS, which rotary and make have")]

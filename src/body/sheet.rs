@@ -14,7 +14,7 @@ use crate::table::Row;
 use nalgebra::Vector2;
 
 /// How far the roller's path and the normal reach beyond the roller, in its radii.
-const PATH_OVER_RADIUS: f64 = 0.6;
+pub(super) const PATH_OVER_RADIUS: f64 = 0.6;
 /// How far axes reach beyond what is drawn, as a share of it.
 const AXIS_BEYOND: f64 = 0.04;
 /// Places of the diagram of the acceleration lie no farther apart than this share of the motion.

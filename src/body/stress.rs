@@ -2,6 +2,7 @@
 
 use super::Body;
 use crate::document::range::LONGEST;
+use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, Material};
 use crate::numeric::root;
@@ -17,6 +18,10 @@ fn contact_modulus(material: Material) -> f64 {
 /// The largest pressure in the line of contact: p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative.
 /// The roller is of steel and as wide as the cam is thick (K. L. Johnson, Contact Mechanics, 1985, §4.2).
 pub(super) fn of_lines(body: &dyn Body, (curves, acting): (Curves<'_>, &[Acting]), machine: &Machine) -> Option<Worst> {
+    // A knife edge touches with no radius, and any force would press without limit.
+    if curves.element() == (Element::Roller { radius: 0.0 }) {
+        return None;
+    }
     let (width, modulus) = (machine.cam.thickness?, contact_modulus(machine.cam.material?));
     let bend = body.roller_radius().map_or(0.0, |radius| 1.0 / radius);
     let square = |piece: usize, at: f64| {

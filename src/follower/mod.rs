@@ -8,20 +8,23 @@
 
 mod bell_crank;
 mod flat;
+mod knife;
+mod swinging_flat;
 mod swinging_roller;
 mod translating_roller;
 
 pub use bell_crank::BellCrank;
 pub use flat::FlatFace;
+pub use swinging_flat::SwingingFlat;
 pub use swinging_roller::SwingingRoller;
 pub use translating_roller::{Crown, RollerData, TranslatingRoller};
 
 use crate::document::Presence::Optional;
-use crate::document::range::{HEAVIEST, LARGEST_FORCE};
+use crate::document::range::{HEAVIEST, LARGEST_FORCE, LONGEST};
 use crate::document::{Field, Reader, Section, Table, above, within};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
-use crate::units::Dimension::{Force, Mass};
+use crate::units::Dimension::{Force, Length, Mass};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -35,7 +38,8 @@ pub struct FollowerKind {
 }
 
 /// Every kind of follower: a new one is a file with its geometry and its table, and one line here.
-pub const FOLLOWERS: &[FollowerKind] = &[translating_roller::KIND, swinging_roller::KIND, flat::KIND];
+pub const FOLLOWERS: &[FollowerKind] =
+    &[translating_roller::KIND, swinging_roller::KIND, flat::KIND, swinging_flat::KIND, knife::KIND];
 
 /// A follower as a file describes it.
 #[derive(Debug, Clone)]
@@ -52,9 +56,34 @@ pub struct FollowerData {
     pub spring_rate: f64,
     /// What only a translating roller has.
     pub roller: Option<RollerData>,
+    /// What only a flat face has.
+    pub face: Option<FaceData>,
+}
+
+/// A flat face as a file describes it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FaceData {
+    /// Its width along the line of contact's way, m.
+    pub width: Option<f64>,
+    /// What stands in its middle.
+    pub middle: Middle,
+}
+
+/// What stands in the middle of a flat face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Middle {
+    /// Its stem.
+    Stem,
+    /// Nothing: the face lies where the cam touches it.
+    Anywhere,
 }
 
 impl FollowerData {
+    /// A follower without a description of forces, roller and face.
+    fn of(path: &'static str, shape: Arc<dyn Follower>) -> Self {
+        Self { path, shape, mass: None, preload: None, spring_rate: 0.0, roller: None, face: None }
+    }
+
     /// Whether its table has mass and preload: whether forces on it can be described.
     #[must_use]
     pub fn has_forces(&self) -> bool {
@@ -88,6 +117,15 @@ const PRELOAD: Field<f64> = Field::quantity(
     Optional("1600 N"),
     Force,
     within(0.0, LARGEST_FORCE),
+);
+
+/// Width of a flat face, a key of its table.
+const WIDTH: Field<f64> = Field::quantity(
+    "width",
+    "width of the face; asks for the check face_width",
+    Optional("60 mm"),
+    Length,
+    above(0.0, LONGEST),
 );
 
 /// The one follower of a file.
@@ -150,11 +188,29 @@ pub struct Touch {
 pub enum Carrier {
     /// A stem on a straight path.
     Straight,
+    /// A stem on a straight path that carries a face.
+    Stem {
+        /// Distance of the stem from the shaft along y, m.
+        offset: f64,
+        /// Angle of the face's normal from the path, rad.
+        tilt: f64,
+    },
     /// An arm about a pivot at this place, m.
     Arm {
         /// The place, m.
         pivot: Vector2<f64>,
     },
+}
+
+/// A flat face where it touches the cam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FaceTouch {
+    /// Where on the face, m: from its stem, positive against the rotation of the cam, or from its pivot.
+    pub place: f64,
+    /// Rate at which the face's normal turns on the cam, by the parameter: there is an envelope where it is above 0.
+    pub turn: f64,
+    /// Travel of the face along its normal there for a unit of lift, m/m or m/rad.
+    pub along_normal: f64,
 }
 
 /// A follower outside the cam.
@@ -186,6 +242,11 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
         1.0
     }
 
+    /// How a flat face touches with a lift; `None` of a roller.
+    fn on_face(&self, _lift: &Jet) -> Option<FaceTouch> {
+        None
+    }
+
     /// What carries the element, for a picture of it.
     fn carrier(&self) -> Carrier {
         Carrier::Straight
@@ -208,70 +269,4 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::f64::consts::TAU;
-
-    /// Every follower of the house: the contract below walks this list.
-    fn followers() -> Vec<Box<dyn Follower>> {
-        let crank = BellCrank {
-            roller_arm: 0.3,
-            bottom_arm: 0.2,
-            delta: 1.3,
-            lowest: -0.05,
-            axis_distance: 0.06,
-            roller_radius: 0.02,
-        };
-        vec![
-            Box::new(TranslatingRoller::new(0.1, 0.0, 0.02)),
-            Box::new(TranslatingRoller::new(0.1, -0.03, 0.02)),
-            Box::new(crank),
-            FlatFace::new(1.0).sized(0.15).expect("any size"),
-        ]
-    }
-
-    /// Tangent, curvature and slope of the curvature against central differences of the points, and the inverse.
-    #[test]
-    fn a_curve_point_belongs_to_its_curve() {
-        let lift = |angle: f64| Jet {
-            s: 0.02 * (1.0 + libm::sin(2.0 * angle)),
-            ds: 0.04 * libm::cos(2.0 * angle),
-            dds: -0.08 * libm::sin(2.0 * angle),
-            ddds: -0.16 * libm::cos(2.0 * angle),
-        };
-        let h = 1e-3;
-        for follower in followers() {
-            for i in 0..60 {
-                let angle = 0.1 * f64::from(i);
-                let at = |n: f64| follower.touch(angle + n * h, &lift(angle + n * h));
-                let difference = |f: &dyn Fn(&Touch) -> Vector2<f64>| {
-                    ((f(&at(1.0)) - f(&at(-1.0))) * 8.0 - (f(&at(2.0)) - f(&at(-2.0)))) / (12.0 * h)
-                };
-                let here = at(0.0);
-                let curve = here.curve;
-                assert!((curve.tangent * curve.speed - difference(&|t| t.curve.point)).norm() < 1e-10, "{follower:?}");
-                let turn = difference(&|t| t.curve.tangent);
-                assert!((curve.tangent.perp(&turn) - curve.curvature * curve.speed).abs() < 1e-9, "{follower:?}");
-                let bend = difference(&|t| Vector2::new(t.curve.curvature, 0.0)).x;
-                assert!((bend - curve.curvature_slope * curve.speed).abs() < 1e-7 * (1.0 + bend.abs()), "{follower:?}");
-                let back = follower.parameter_of(curve.point, curve.outward()) - angle;
-                assert!((back - (back / TAU).round() * TAU).abs() < 1e-14, "{follower:?}: {back}");
-                let turn = difference(&|t| t.drive);
-                assert!((here.drive.perp(&turn) - here.drive_turn).abs() < 1e-11, "{follower:?}");
-            }
-        }
-    }
-
-    /// Made for another size a follower has that size and the same element.
-    #[test]
-    fn a_follower_is_made_for_a_size() {
-        for follower in followers() {
-            let Some(prime) = follower.prime_radius() else { continue };
-            let larger = follower.sized(2.0 * prime).expect("larger is always in reach");
-            assert_eq!(larger.prime_radius(), Some(2.0 * prime));
-            assert_eq!(larger.element(), follower.element());
-            assert!((larger.touch(0.3, &Jet::default()).curve.point.norm() - 2.0 * prime).abs() < 1e-15);
-        }
-        assert!(TranslatingRoller::new(0.1, 0.05, 0.02).sized(0.04).is_none(), "the roller passes beside the cam");
-    }
-}
+mod tests;

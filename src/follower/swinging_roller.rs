@@ -40,14 +40,7 @@ const SECTION: Section = Section {
 fn read(table: &Table<'_>) -> Option<FollowerData> {
     let shape =
         SwingingRoller::new(table.get(&ARM)?, table.get(&PIVOT_DISTANCE)?, table.get(&RADIUS)?, table.get(&SIDE)?);
-    Some(FollowerData {
-        path: SECTION.path,
-        shape: Arc::new(shape),
-        mass: None,
-        preload: None,
-        spring_rate: 0.0,
-        roller: None,
-    })
+    Some(FollowerData::of(SECTION.path, Arc::new(shape)))
 }
 
 /// By how much the prime radius must stay within the triangle of arm and pivot distance, as a share of it: at its ends arm and

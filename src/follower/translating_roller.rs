@@ -73,15 +73,11 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
         table.fail(&CROWN, "a cylindrical roller needs a width".into(), help);
     }
     let (radius, offset) = (table.get(&RADIUS)?, table.get(&OFFSET)?);
-    Some(FollowerData {
-        path: SECTION.path,
-        // Made for a size when the cam is sized; until then large enough to reach.
-        shape: Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius)),
-        mass: table.get(&MASS),
-        preload: table.get(&PRELOAD),
-        spring_rate: 0.0,
-        roller: Some(RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) }),
-    })
+    // Made for a size when the cam is sized; until then large enough to reach.
+    let shape = Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius));
+    let roller = RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) };
+    let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
+    Some(FollowerData { mass, preload, roller: Some(roller), ..FollowerData::of(SECTION.path, shape) })
 }
 
 /// By how much the prime radius must exceed the offset, as a share of it: at the offset itself the roller would stand beside

@@ -103,6 +103,7 @@ impl Machine {
             preload: Some(data.preload),
             spring_rate: data.spring_rate,
             roller: Some(roller),
+            face: None,
         };
         // The angle of the disc is counted from its own follower, the keyway on the shaft is one.
         let keyway = self.cam.keyway.map(|keyway| super::Keyway { angle: keyway.angle - data.angle, ..keyway });

@@ -6,9 +6,11 @@ use super::shaft::ShaftLimits;
 use crate::document::Presence::{Default, Optional};
 use crate::document::cams::{BRAKE, BRAKE_CAM, LINKAGE, MAKE, OF_A_PRESS, SHAFT};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
-use crate::document::{Field, Occurs, Reader, Section, above, within};
+use crate::document::{Field, Input, Occurs, Reader, Section, Table, above, within};
+use crate::follower::{Element, Follower};
+use crate::motion::Quantity;
 use crate::units::Dimension::{Angle, Length, Pressure};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// Highest limit of contact pressure that is accepted, Pa: a hundred times what steel withstands.
 const HIGHEST_STRESS: f64 = 1e12;
@@ -148,8 +150,8 @@ pub(super) fn of_shaft(reader: &Reader<'_>) -> Option<ShaftLimits> {
 /// The limits of a cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Largest |pressure angle|, rad.
-    pub pressure_angle: f64,
+    /// Largest |pressure angle|, rad; `None` under a flat face where the file gives no limit.
+    pub pressure_angle: Option<f64>,
     /// Smallest convex radius of the pitch curve over the roller radius.
     pub min_convex_pitch_radius_over_roller: f64,
     /// Radius of the tool that must get into the concave parts, m.
@@ -175,7 +177,7 @@ pub struct Limits {
 
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
     "pressure_angle",
-    "largest angle between the roller's path and the normal, at most 90 deg",
+    "largest angle between the follower's path and the normal, at most 90 deg; when absent 45 deg for a swinging roller, none for a flat face",
     Default("30 deg"),
     Angle,
     above(0.0, FRAC_PI_2),
@@ -256,10 +258,36 @@ pub(super) const SECTION: Section = Section {
     ],
 };
 
-pub(super) fn read(reader: &Reader<'_>) -> Option<Limits> {
+/// Customary limit of the pressure angle of a roller on an arm, rad: its side thrust goes into a bearing, not into a guide.
+const SWINGING_PRESSURE_ANGLE: f64 = FRAC_PI_4;
+
+/// The limit of the pressure angle under a follower whose table says this, rad: that of the file, or what is customary. Under a flat
+/// face none is: the angle follows from how the face stands, not from the cam.
+fn pressure_angle(table: &Table<'_>, in_table: f64, follower: &dyn Follower) -> Option<f64> {
+    match (table.has(&PRESSURE_ANGLE), follower.element(), follower.quantity()) {
+        (false, Element::Face, _) => None,
+        (false, Element::Roller { .. }, Quantity::Angle) => Some(SWINGING_PRESSURE_ANGLE),
+        _ => Some(in_table),
+    }
+}
+
+/// The inputs of a file, the limit of the pressure angle as it holds for a follower in the place of the default of its key.
+pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower) -> Vec<Input> {
+    let (table, path) = (reader.table(&SECTION), SECTION.path_of(&PRESSURE_ANGLE.key));
+    let of = |input: Input| match table.get(&PRESSURE_ANGLE) {
+        Some(in_table) if input.key == path => match pressure_angle(&table, in_table, follower) {
+            Some(limit) if limit != in_table => Some(Input::quantity(&path, limit, ("deg", 1.0_f64.to_radians()))),
+            limit => limit.map(|_| input),
+        },
+        _ => Some(input),
+    };
+    reader.inputs().into_iter().filter_map(of).collect()
+}
+
+pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limits> {
     let table = reader.table(&SECTION);
     Some(Limits {
-        pressure_angle: table.get(&PRESSURE_ANGLE)?,
+        pressure_angle: pressure_angle(&table, table.get(&PRESSURE_ANGLE)?, follower),
         min_convex_pitch_radius_over_roller: table.get(&MIN_CONVEX)?,
         cutter_radius: table.get(&CUTTER_RADIUS),
         wall: table.get(&WALL)?,

@@ -241,11 +241,11 @@ impl Machine {
             shaft: shaft.map(Arc::new),
             regimes,
             spring_stiffness,
-            limits: limits::read(reader)?,
+            limits: limits::read(reader, &*follower.shape)?,
             title: title::read(reader),
             given: reader.given(own),
             overridden: reader.given(false),
-            inputs: reader.inputs(),
+            inputs: limits::inputs(reader, &*follower.shape),
             follower,
         })
     }

@@ -254,8 +254,18 @@ const OTHERS: &[(&str, &str)] = &[
     ("follower.swinging-roller.arm", "100 mm"),
     ("follower.swinging-roller.pivot_distance", "150 mm"),
     ("follower.swinging-roller.side", "leading"),
+    ("follower.flat.tilt", "10 deg"),
+    ("follower.flat.offset", "5 mm"),
+    ("follower.flat.width", "50 mm"),
     ("follower.flat.mass", "40 kg"),
     ("follower.flat.preload", "1600 N"),
+    ("follower.swinging-flat.pivot_distance", "160 mm"),
+    ("follower.swinging-flat.face_offset", "5 mm"),
+    ("follower.swinging-flat.side", "leading"),
+    ("follower.swinging-flat.width", "50 mm"),
+    ("follower.knife.offset", "5 mm"),
+    ("follower.knife.mass", "40 kg"),
+    ("follower.knife.preload", "1600 N"),
     ("cam.cam_turns_per_crank_turn", "0.5"),
     ("cam.lever", "2"),
     ("cam.base_radius", "90 mm"),
@@ -509,7 +519,7 @@ fn defaults_are_what_they_were() {
     let conoid = machine.conoid.expect("a conoid");
     assert_eq!((conoid.mode, conoid.shift, conoid.overhang), (ConoidMode::Adjusted, Shift::Linear, None));
     let limits = machine.limits;
-    assert_eq!(limits.pressure_angle, std::f64::consts::PI / 6.0);
+    assert_eq!(limits.pressure_angle, Some(std::f64::consts::PI / 6.0));
     assert_eq!((limits.min_convex_pitch_radius_over_roller, limits.wall), (2.0, 0.0));
     assert_eq!((limits.cutter_radius, limits.contact_stress), (None, None));
 }
@@ -691,6 +701,40 @@ fn a_fault_of_a_motion_program_is_told_once() {
         assert!(error.to_string().contains(part), "no {part:?} in\n{error}");
         assert_eq!(error.faults[0].place.as_ref().map(|place| place.line), Some(line), "{error}");
     }
+}
+
+/// What holds where a file gives no limit of the pressure angle is by the follower, and an input; a limit that is given always holds.
+#[test]
+fn the_limit_of_the_pressure_angle_is_by_the_follower() {
+    let arm = "pivot_distance = \"150 mm\"\n";
+    let lever = format!("[follower.swinging-roller]\nradius = \"10 mm\"\narm = \"100 mm\"\n{arm}");
+    for (follower, limit) in [
+        ("[follower.roller]\nradius = \"10 mm\"\n".to_owned(), Some(30.0)),
+        ("[follower.knife]\n".to_owned(), Some(30.0)),
+        (lever, Some(45.0)),
+        ("[follower.flat]\n".to_owned(), None),
+        (format!("[follower.swinging-flat]\n{arm}"), None),
+    ] {
+        let read = |sets: &[String]| {
+            let machine = Machine::from_toml("cam.toml", &format!("name = \"cam\"\n{follower}"), sets).expect("valid");
+            let input = machine.inputs(MAKE).into_iter().find(|input| input.key == "limits.pressure_angle");
+            (machine.limits.pressure_angle.map(|limit| limit.to_degrees().round()), input.map(|input| input.typed))
+        };
+        assert_eq!(read(&[]), (limit, limit.map(|limit| format!("{limit} deg"))), "{follower}");
+        let given = read(&["limits.pressure_angle=20 deg".to_owned()]);
+        assert_eq!(given, (Some(20.0), Some("20 deg".to_owned())), "{follower}");
+    }
+}
+
+#[test]
+fn a_face_on_an_arm_lies_on_this_side_of_the_shaft() {
+    let text = "name = \"cam\"\n[follower.swinging-flat]\npivot_distance = \"50 mm\"\nface_offset = \"50 mm\"\n";
+    let error = Machine::from_toml("cam.toml", text, &[]).expect_err("beyond the shaft");
+    assert!(error.to_string().contains("face_offset must be below pivot_distance: 50 mm ≥ 50 mm"), "{error}");
+    let out_of_reach =
+        format!("{}[cam]\nbase_radius = \"41 mm\"\n", text.replace("= \"50 mm\"\nface", "= \"90 mm\"\nface"));
+    let error = Machine::from_toml("cam.toml", &out_of_reach, &[]).expect_err("out of reach");
+    assert!(error.to_string().contains("between 0.000 mm and 40.000 mm"), "{error}");
 }
 
 /// What a lever can reach is told when the cam is out of it.

@@ -19,8 +19,10 @@
 mod fold;
 
 use super::Curves;
+use super::followed::{Guide, face_lift};
 use crate::follower::Element;
 use crate::geometry::CurvePoint;
+use crate::motion::Quantity;
 use crate::numeric::{extremum, quadrature, root};
 use fold::folds;
 use nalgebra::Vector2;
@@ -281,12 +283,18 @@ fn loss(profile: Parallel<'_>, Loop { from, to }: Loop) -> Loss {
     let edge = profile.at(from, Approach::Before).point;
     let lost = |parameter: f64| {
         let (piece, inside) = curves.motion.locate(parameter);
-        let contact = curves.touch(piece, inside);
+        let law = curves.motion.jet(piece, inside);
+        let contact = curves.follower.touch(inside, &law);
         let away = contact.curve.point - edge;
         match curves.element() {
             Element::Roller { radius } => {
                 let along = away.dot(&contact.drive);
                 along - (along * along - away.norm_squared() + radius * radius).max(0.0).sqrt()
+            }
+            // A face on an arm swings until it lies on the edge.
+            Element::Face if curves.follower.quantity() == Quantity::Angle => {
+                let on_edge = face_lift(curves, inside, law, Guide::Circle(edge, 0.0)).unwrap_or(f64::NAN);
+                (law.s - on_edge) * curves.follower.leverage(&law)
             }
             // The face stands at a height over the edge; it drops along its drive.
             Element::Face => {

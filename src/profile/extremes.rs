@@ -1,7 +1,7 @@
 //! The worst places of a disc cam, solved from exact derivatives.
 
 use super::Curves;
-use crate::motion::{Motion, Piece};
+use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::chebyshev;
 use crate::numeric::extremum::{self, Extremum};
 
@@ -181,11 +181,38 @@ pub fn least_radius(curves: Curves<'_>) -> Extremum {
 #[must_use]
 pub fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Extremum {
     let least = largest(curves, searched, |piece, angle| {
-        let curve = curves.touch(piece, angle).curve;
-        // ρ = 1/κ and dρ/dθ = −κ' ℓ/κ² with ℓ = ρ.
-        (-curve.speed, curve.curvature_slope * curve.speed * curve.speed * curve.speed)
+        let (radius, slope) = curves.face_radius(piece, angle);
+        (-radius, -slope)
     });
     Extremum { at: least.at, value: -least.value }
+}
+
+/// Where a flat face touches, least and most, m, as [`FaceTouch::place`](crate::follower::FaceTouch::place), while the follower runs;
+/// `None` of a roller.
+#[must_use]
+pub fn places_on_face(curves: Curves<'_>) -> Option<[Extremum; 2]> {
+    curves.follower.on_face(&Jet::default())?;
+    let place = |piece: usize, at: f64| {
+        let face = curves.follower.on_face(&curves.motion.jet(piece, at));
+        face.map_or(f64::NAN, |face| face.place)
+    };
+    let most = largest_smooth(curves, (&[], 0.0), place);
+    let least = largest_smooth(curves, (&[], 0.0), |piece, at| -place(piece, at));
+    Some([Extremum { value: -least.value, ..least }, most])
+}
+
+/// Least rate at which the normal of a flat face turns on the cam, and where; `None` of a roller.
+#[must_use]
+pub fn least_turn(curves: Curves<'_>) -> Option<Extremum> {
+    curves.follower.on_face(&Jet::default())?;
+    let backwards = largest(curves, everywhere, |piece, at| {
+        let jet = |ds: f64| Jet { ds, ..curves.motion.jet(piece, at) };
+        let lift = curves.motion.jet(piece, at);
+        let turn = |ds: f64| curves.follower.on_face(&jet(ds)).map_or(f64::NAN, |face| face.turn);
+        // Linear in the velocity.
+        (-turn(lift.ds), -(turn(1.0) - turn(0.0)) * lift.dds)
+    });
+    Some(Extremum { value: -backwards.value, ..backwards })
 }
 
 /// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.

@@ -9,13 +9,15 @@
 //! ```
 //!
 //! C depends on the lift, C' is linear in its first derivative, C'' in its second, whatever the follower. A flat face touches
-//! an arc where its normal d is that of the arc: h = M·d + R is its distance from the shaft, and h' and h'' follow.
+//! an arc where its normal N is that of the arc: p = M·N + R is its distance from the shaft, M·T the place q of the contact along
+//! it, and R the radius of curvature. Each gives one of lift, velocity and acceleration: in closed form where N stands still in the
+//! frame of the follower; under a face on an arm p by secants, and q and ρ from what is linear, q β' = p' and ρ.
 
 use super::{Curves, Worst};
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
-use crate::motion::{Jet, Motion, Piece};
+use crate::motion::{Jet, Motion, Piece, Quantity};
 use crate::numeric::{chebyshev, extremum, root};
 use nalgebra::Vector2;
 
@@ -125,7 +127,8 @@ impl<'a> Followed<'a> {
             let parameter = curves.follower.parameter_of(centre, normal);
             let (piece, inside) = curves.motion.locate(parameter);
             let touch = curves.touch(piece, inside);
-            let near = face || (centre - touch.curve.point).norm() < curves.offset();
+            // A knife edge is on a disc, which has one flank.
+            let near = face || curves.offset() == 0.0 || (centre - touch.curve.point).norm() < curves.offset();
             if near && normal.dot(&touch.drive) > 0.0 { parameter } else { f64::NAN }
         };
         let period = curves.motion.period();
@@ -466,11 +469,52 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
 /// The jet of a flat face on an arc.
 fn under_face(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
     let Guide::Circle(centre, radius) = guide else { return None };
-    let touch = curves.follower.touch(parameter, &law);
-    let across = Vector2::new(-touch.drive.y, touch.drive.x) * touch.drive_turn;
-    let turn = touch.drive_turn * touch.drive_turn;
-    let lift = law.s + (centre - touch.curve.point).dot(&touch.drive) + radius;
-    Some(Jet { s: lift, ds: centre.dot(&across), dds: -turn * centre.dot(&touch.drive), ..law })
+    let along_normal = curves.follower.on_face(&law)?.along_normal;
+    let lift = face_lift(curves, parameter, law, guide)?;
+    if curves.follower.quantity() == Quantity::Length {
+        let curve = curves.follower.touch(parameter, &law).curve;
+        let ds = centre.dot(&curve.tangent) / along_normal;
+        return Some(Jet { s: lift, ds, dds: -centre.dot(&curve.outward()) / along_normal, ..law });
+    }
+    let law = Jet { s: lift, ..law };
+    // How far the contact is from its place along the face, times β'; and the radius from that of the arc.
+    let off = |jet: Jet| {
+        let (curve, turn) = (curves.follower.touch(parameter, &jet).curve, curves.follower.on_face(&jet)?.turn);
+        Some(((curve.point - centre).dot(&curve.tangent) * turn, curve.speed / turn - radius))
+    };
+    let (place, farther) = (off(law)?.0, off(Jet { ds: law.ds + CHANGE, ..law })?.0);
+    let law = Jet { ds: law.ds - CHANGE * place / (farther - place), ..law };
+    let (bend, more) = (off(law)?.1, off(Jet { dds: law.dds + CHANGE, ..law })?.1);
+    let dds = law.dds - CHANGE * bend / (more - bend);
+    (lift.is_finite() && law.ds.is_finite() && dds.is_finite()).then_some(Jet { dds, ..law })
+}
+
+/// The lift at which a flat face touches an arc, the law's as a start.
+pub(super) fn face_lift(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<f64> {
+    let Guide::Circle(centre, radius) = guide else { return None };
+    let touch = |s: f64| curves.follower.touch(parameter, &Jet { s, ..law }).curve;
+    let along_normal = curves.follower.on_face(&law)?.along_normal;
+    let start = touch(law.s);
+    let missing = (centre - start.point).dot(&start.outward()) + radius;
+    let mut lift = law.s + missing / along_normal;
+    if curves.follower.quantity() == Quantity::Length {
+        return Some(lift);
+    }
+    let gap = |s: f64| {
+        let curve = touch(s);
+        (curve.point - centre).dot(&curve.outward()) - radius
+    };
+    let (mut before, mut gap_before) = (law.s, -missing);
+    for _ in 0..LIFT_STEPS {
+        let here = gap(lift);
+        let step = here * (lift - before) / (here - gap_before);
+        (before, gap_before) = (lift, here);
+        if here.abs() <= TOUCHING * start.point.norm() || !step.is_finite() {
+            break;
+        }
+        lift -= step;
+    }
+    Some(lift)
 }
 
 /// The largest sizes of velocity and acceleration of a motion where its follower runs, by the angle of the shaft that gives the time.

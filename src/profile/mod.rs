@@ -93,6 +93,18 @@ impl<'a> Curves<'a> {
         self.touch(piece, parameter).curve.offset_inward(self.offset())
     }
 
+    /// Radius of curvature under a face, m, signed: not positive where the profile has turned back on itself; and its derivative by
+    /// the parameter.
+    #[must_use]
+    pub fn face_radius(&self, piece: usize, parameter: f64) -> (f64, f64) {
+        let lift = self.motion.jet(piece, parameter);
+        let curve = self.follower.touch(parameter, &lift).curve;
+        let turn = self.follower.on_face(&lift).map_or(1.0, |face| face.turn);
+        // ℓ = ρ β', which is right where κ = 1/ρ is not; dρ/dθ = −κ' ℓ/κ².
+        let radius = curve.speed / turn;
+        (radius, -curve.curvature_slope * curve.speed * radius * radius)
+    }
+
     /// How far inwards of the follower's curve the profile lies, m.
     #[must_use]
     pub fn offset(&self) -> f64 {

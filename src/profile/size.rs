@@ -20,7 +20,7 @@ const CLOSING_OVER_ROLLER: f64 = 1.05;
 /// What a radius must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Required {
-    /// Largest |pressure angle|, rad.
+    /// Largest |pressure angle|, rad; infinite where there is no limit.
     pub pressure_angle: f64,
     /// Smallest convex radius of the follower's curve where the follower runs, m.
     pub convex_radius: f64,
@@ -37,7 +37,7 @@ impl Required {
         let wall = if limits.wall > 0.0 { limits.wall } else { BASE_STEP };
         let least_base = cam.bore_reach().map_or(BASE_STEP, |reach| reach + wall);
         Self {
-            pressure_angle: limits.pressure_angle,
+            pressure_angle: limits.pressure_angle.unwrap_or(f64::INFINITY),
             convex_radius: limits.min_convex_pitch_radius_over_roller.max(1.0) * offset,
             least: (least_base + offset).max(follower.prime_radii().0),
         }

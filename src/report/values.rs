@@ -43,6 +43,9 @@ pub struct CamMeasures {
     /// The smallest prime radius that keeps every limit, before rounding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub smallest_prime_radius_mm: Option<f64>,
+    /// Where a flat face is touched, from its stem or its pivot: least and most.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub face_mm: Option<[f64; 2]>,
     /// Equal lobes of a press's cam, one for each turn of the crank in a turn of the cam.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lobes: Option<u32>,
@@ -83,6 +86,8 @@ impl CamMeasures {
         let mut words = vec![self.size()];
         let lobes = self.lobes.filter(|lobes| *lobes > 1).map(lobes_words);
         words.extend(lobes.clone());
+        let on_face = |[least, most]: [f64; 2]| format!("touches the face from {} to {} mm", shown(least), shown(most));
+        words.extend(self.face_mm.map(on_face));
         if let Some(area) = self.weight.area_mm2 {
             let mass =
                 self.weight.mass_kg.map_or_else(|| "no thickness given".into(), |mass| format!("mass {mass:.3} kg"));

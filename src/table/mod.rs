@@ -45,6 +45,8 @@ pub struct Row {
     pub residual_cut: Option<f64>,
     /// Torque of a second disc on the same shaft, N·m.
     pub torque_of_second: Option<f64>,
+    /// Where a flat face is touched, from its stem or its pivot.
+    pub face: Option<f64>,
     /// Whether the follower swings.
     pub swings: bool,
 }
@@ -183,6 +185,7 @@ pub const COLUMNS: &[Column] = &[
     ("velocity_mm_per_rad", |row| Some(1e3 * row.plate?.lift.ds)),
     ("acceleration_mm_per_rad2", |row| Some(1e3 * row.plate?.lift.dds)),
     ("jerk_mm_per_rad3", |row| Some(1e3 * row.plate?.lift.ddds)),
+    ("face_mm", |row| row.face),
 ];
 
 /// A table of numbers.
@@ -283,6 +286,7 @@ mod tests {
             cut: Some([1.0; 2]),
             residual_cut: Some(1.0),
             torque_of_second: Some(1.0),
+            face: Some(1.0),
             swings: false,
         };
         let plate = Row { lift: None, force: None, plate: Some(PlateRow::default()), ..turning };

@@ -1,6 +1,7 @@
 //! Pressure in the contact of roller and cam, after Hertz.
 
 use super::{Bound, Check, Evidence, Explained, On, at};
+use crate::follower::Element;
 use crate::machine::{Material, Touching, customary_stress};
 use crate::report::{Finding, Verdict};
 
@@ -22,6 +23,12 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let Some(worst) = body.contact_stress() else {
         let cam = &body.machine().cam;
+        let is_edge = body.plane().is_some_and(|curves| curves.element() == (Element::Roller { radius: 0.0 }));
+        if is_edge {
+            return Some(
+                CHECK.not_run("MPa", "a knife edge has no radius; give a roller of the radius that it is worn to"),
+            );
+        }
         let needs = match (body.spatial().is_some(), cam.thickness.is_some(), cam.material.is_some()) {
             (true, ..) | (false, true, false) => "cam.material is not given",
             (false, false, true) => "cam.thickness is not given",

@@ -1,6 +1,7 @@
 //! Whether the follower stays on the cam: load, preload and the inertia of the follower, all round.
 
 use super::{Bound, Check, Evidence, Explained, On, at};
+use crate::follower::Element;
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
@@ -32,7 +33,12 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let kept = force > 0.0;
     let needed = (body.machine().follower.preload.unwrap_or(0.0) - force).ceil() + 1.0;
     let path = body.machine().follower.path;
-    let part = if body.roller_radius().is_some() { "roller" } else { "face" };
+    let is_face = body.plane().is_some_and(|curves| curves.element() == Element::Face);
+    let part = match (body.roller_radius(), is_face) {
+        (Some(_), _) => "roller",
+        (None, true) => "face",
+        (None, false) => "edge",
+    };
     let note = (!kept).then(|| format!("the {part} leaves the cam; {path}.preload = \"{needed} N\" would hold it"));
     Some(at(body, &least, CHECK.found(force, Some(0.0), "N", Verdict::of(kept)), note))
 }

@@ -17,6 +17,7 @@ mod curvature;
 mod cutter_path;
 mod cutter_radius;
 mod cylinder_contact;
+mod face_width;
 mod felt;
 mod felt_sections;
 mod file;
@@ -165,6 +166,7 @@ pub const CHECKS: &[Check] = &[
     shift::AXIAL_FORCE,
     curvature::UNDERCUT,
     curvature::MIN_CONVEX_RADIUS,
+    face_width::CHECK,
     cutter_radius::CHECK,
     cutter_path::CHECK,
     points::CHECK,

@@ -7,11 +7,12 @@ pub(super) const CHECK: Check = Check {
     name: "pressure_angle",
     on: On::Cam,
     about: "The largest angle between the direction in which the follower moves and the normal of the cam. Beyond about 30° \
-            (translating) or 35° (swinging) the side thrust jams the follower; a larger base radius lowers it.",
+            (translating) or 45° (swinging) the side thrust jams the follower; a larger base radius lowers it. Under a flat face \
+            it follows from how the face stands, and has no customary limit.",
     explained: Explained {
         bound: Bound::AtMost,
         formula: "tan α = (ds/dθ − e)/(s + √(Rₚ² − e²)) of a translating roller with offset e and prime radius Rₚ",
-        usual: "30° translating, about 35° swinging (R. L. Norton, Design of Machinery, chapter on cams)",
+        usual: "30° translating (R. L. Norton, Design of Machinery, chapter on cams), 45° swinging, none of a flat face",
         change: "a larger `cam.base_radius`, an offset `follower.roller.offset`, a lower lift or a longer rise; or a higher `limits.pressure_angle`",
     },
     run: check,
@@ -23,7 +24,11 @@ const ROUNDING: f64 = 1e-12;
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let worst = body.pressure_angle();
-    let limit = body.machine().limits.pressure_angle;
+    let Some(limit) = body.machine().limits.pressure_angle else {
+        let found = CHECK.found(worst.value.to_degrees(), None, "deg", Verdict::Info);
+        let told = "a flat face has no customary limit; limits.pressure_angle gives one";
+        return Some(at(body, &worst, found, Some(told.into())));
+    };
     let kept = worst.value <= limit * (1.0 + ROUNDING);
     // The conversion to radians costs an ulp: what was typed as 30 is reported as 30.
     let told = (limit.to_degrees() * 1e12).round() / 1e12;

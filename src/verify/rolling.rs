@@ -12,6 +12,7 @@ use crate::body::tension;
 use crate::follower::{Element, Touch};
 use crate::geometry::contour::Contour;
 use crate::geometry::track::{Chords, Track};
+use crate::motion::{Jet, Quantity};
 use crate::numeric::extremum;
 use crate::profile::Curves;
 use crate::report::{Finding, Place, Rolled, Verdict};
@@ -114,7 +115,8 @@ impl Roll<'_> {
                 // From a vertex the normal is that of the roller.
                 let away = centre - nearest.foot;
                 let distance = away.norm();
-                let normal = if distance > TOUCHING {
+                // A knife edge stands on the outline itself, where the way to the foot has no direction.
+                let normal = if distance > TOUCHING && self.radius > 0.0 {
                     away * (-nearest.left.signum() / distance)
                 } else {
                     Vector2::new(nearest.tangent.y, -nearest.tangent.x)
@@ -147,6 +149,29 @@ impl Roll<'_> {
         (gap.abs() <= TOUCHING).then_some((moved, normal))
     }
 
+    /// The same of a face on an arm, which swings until it touches: the way is that of the place where it touches by the motion.
+    fn swing_error(&self, piece: usize, parameter: f64, first: (f64, Vector2<f64>)) -> Option<(f64, Vector2<f64>)> {
+        let (follower, law) = (self.curves.follower, self.curves.motion.jet(piece, parameter));
+        let leverage = 1e3 * follower.leverage(&law);
+        let mut rate = 1e3 * follower.on_face(&law)?.along_normal;
+        if rate < LEAST_COSINE * leverage {
+            return None;
+        }
+        let (mut swung, (mut gap, mut normal)) = (0.0, first);
+        for _ in 0..TOUCH_STEPS {
+            if gap.abs() <= TOUCHING {
+                break;
+            }
+            let step = -gap / rate;
+            swung += step;
+            let touch = follower.touch(parameter, &Jet { s: law.s + swung, ..law });
+            let before = gap;
+            (gap, normal) = self.clearance(&touch, touch.curve.point * 1e3)?;
+            rate = (gap - before) / step;
+        }
+        (gap.abs() <= TOUCHING).then_some((leverage * swung, normal))
+    }
+
     fn gap(&self, piece: usize, parameter: f64) -> f64 {
         let contact = self.curves.touch(piece, parameter);
         self.clearance(&contact, contact.curve.point * 1e3).map_or(f64::INFINITY, |(gap, _)| gap)
@@ -157,7 +182,13 @@ impl Roll<'_> {
         let clearance = self.clearance(&contact, contact.curve.point * 1e3);
         let (gap, normal) = clearance.unwrap_or((f64::INFINITY, contact.drive));
         let rolled = self.curves.motion.is_rolled(piece);
-        let touching = rolled.then(|| self.lift_error(&contact, (gap, normal))).flatten();
+        let swings =
+            matches!(self.curves.element(), Element::Face) && self.curves.follower.quantity() == Quantity::Angle;
+        let touching = match (rolled, swings) {
+            (false, _) => None,
+            (true, true) => self.swing_error(piece, parameter, (gap, normal)),
+            (true, false) => self.lift_error(&contact, (gap, normal)),
+        };
         let lift_error = touching.map(|(moved, _)| moved);
         let moved = 1e-3 * lift_error.unwrap_or(gap);
         let residual = if rolled { self.body.unbalanced(piece, parameter, moved, normal) } else { 0.0 };

@@ -287,3 +287,111 @@ fn an_undercut_is_found_where_no_follower_runs() {
     assert!(undercut.place.cam_deg.is_some_and(|degrees| degrees > closing + 10.0), "{undercut:?}");
     assert_eq!(of(&findings, "min_convex_radius").verdict, Verdict::Pass, "{findings:?}");
 }
+
+/// A lifter, or a lever where the lift is in degrees, under a follower.
+fn under(follower: &str, unit: &str) -> Result<Vec<Finding>, String> {
+    let segments = format!(
+        "name = \"cam\"\n[motion]\nstart = \"0 {unit}\"\n[[motion.segment]]\nlaw = \"3-4-5\"\nover = \"90 deg\"\nto = \"20 {unit}\"\n\
+         [[motion.segment]]\nlaw = \"dwell\"\nover = \"60 deg\"\n[[motion.segment]]\nlaw = \"cycloidal\"\nto = \"0 {unit}\"\n{follower}"
+    );
+    let machine = Machine::from_toml("cam.toml", &segments, &[]).map_err(|error| error.to_string())?;
+    let (motion, rpm) = machine.motion().expect("a motion");
+    let cam = Spec::of_motion(machine, motion, rpm).solve().map_err(|error| error.to_string())?;
+    Ok(cam.draw(5e-6).expect("drawn").prove().expect("proved").findings().to_vec())
+}
+
+/// Without a width the least is told, with one it is judged; what the refusal says then passes.
+#[test]
+fn a_face_is_as_wide_as_the_contact_wanders() {
+    for (table, unit) in [
+        ("[follower.flat]\n", "mm"),
+        ("[follower.flat]\ntilt = \"-12 deg\"\noffset = \"3 mm\"\n", "mm"),
+        ("[follower.swinging-flat]\npivot_distance = \"150 mm\"\nface_offset = \"5 mm\"\n", "deg"),
+    ] {
+        let face =
+            |width: &str| under(&format!("{table}{width}[cam]\nbase_radius = \"60 mm\"\n"), unit).expect("a cam");
+        let told = face("");
+        let least = of(&told, "face_width");
+        assert_eq!((least.verdict, least.limit), (Verdict::Info, None), "{least:?}");
+        for (width, verdict) in [(least.value + 1e-3, Verdict::Pass), (least.value - 1e-3, Verdict::Fail)] {
+            let found = face(&format!("width = \"{width} mm\"\n"));
+            assert_eq!(of(&found, "face_width").verdict, verdict, "{found:?}");
+        }
+    }
+    // The quickest rise pushes the contact farther to one side: an offset of the stem helps.
+    let narrow = under("[follower.flat]\nwidth = \"30 mm\"\n", "mm").expect("a cam");
+    let note = of(&narrow, "face_width").note.as_deref().expect("a note");
+    let (_, offset) = note.split_once("offset = ").expect(note);
+    let (offset, needed) = offset.split_once(" it needs ").expect(note);
+    let needed: f64 = needed.trim_end_matches(" mm").parse().expect(note);
+    let shifted = under(&format!("[follower.flat]\noffset = {offset}\n"), "mm").expect("a cam");
+    assert!((of(&shifted, "face_width").value - needed).abs() < 2e-3, "{note}: {shifted:?}");
+    assert!(needed < of(&narrow, "face_width").value, "{note}");
+    let roller = under("[follower.roller]\nradius = \"10 mm\"\n", "mm").expect("a cam");
+    assert!(roller.iter().all(|finding| finding.check != "face_width"), "{roller:?}");
+}
+
+#[test]
+fn a_face_that_cannot_follow_is_told_why() {
+    let swinging = "[follower.swinging-flat]\npivot_distance = \"200 mm\"\n";
+    let quick = under(&format!("{swinging}side = \"leading\"\n[cam]\nbase_radius = \"20 mm\"\n"), "deg");
+    assert!(quick.is_ok(), "{quick:?}");
+    let steep = "name = \"cam\"\n[motion]\nstart = \"0 deg\"\n[[motion.segment]]\nover = \"20 deg\"\nto = \"15 deg\"\n\
+                 [[motion.segment]]\nto = \"0 deg\"\n";
+    let solved = |table: &str| {
+        let machine = Machine::from_toml("cam.toml", &format!("{steep}{table}"), &[]).expect("valid");
+        let (motion, rpm) = machine.motion().expect("a motion");
+        Spec::of_motion(machine, motion, rpm).solve().map(|_| ()).map_err(|error| error.to_string())
+    };
+    let leading = solved(&format!("{swinging}side = \"leading\"\n")).expect_err("too quick");
+    assert!(leading.contains("turns back on the cam at 10.000 deg"), "{leading}");
+    let wide = "[follower.swinging-flat]\npivot_distance = \"50 mm\"\n[cam]\nbase_radius = \"49 mm\"\n";
+    let out_of_reach = under(wide, "deg").expect_err("the face would pass over its pivot");
+    assert!(out_of_reach.contains("does not reach every lift"), "{out_of_reach}");
+    let straight = under("[follower.swinging-flat]\npivot_distance = \"50 mm\"\n", "mm").expect_err("metres");
+    assert!(straight.contains("the follower takes an angle"), "{straight}");
+}
+
+/// A knife edge has no radius to compare with, and no pressure; a face no customary pressure angle.
+#[test]
+fn checks_of_a_radius_leave_a_knife_edge_out() {
+    let metal = "[cam]\nthickness = \"10 mm\"\nmaterial = \"steel\"\n";
+    let knife = under(&format!("[follower.knife]\npreload = \"100 N\"\n{metal}"), "mm").expect("a cam");
+    assert!(passed(&knife) && knife.iter().all(|finding| finding.check != "min_convex_radius"), "{knife:?}");
+    assert!(of(&knife, "contact_stress").note.as_deref().is_some_and(|note| note.contains("knife edge")));
+    assert_eq!(of(&knife, "undercut").verdict, Verdict::Pass);
+    let face = under("[follower.flat]\ntilt = \"40 deg\"\n", "mm").expect("a cam");
+    let angle = of(&face, "pressure_angle");
+    assert!(angle.verdict == Verdict::Info && (angle.value - 40.0).abs() < 1e-9, "{angle:?}");
+    let limited = under(
+        "[follower.flat]\ntilt = \"40 deg\"\n[limits]\npressure_angle = \"30 deg\"\n[cam]\nbase_radius = \"50 mm\"\n",
+        "mm",
+    );
+    assert_eq!(of(&limited.expect("a cam"), "pressure_angle").verdict, Verdict::Fail);
+}
+
+/// What an undercut face on an arm loses by its envelope is how far the arm really drops onto the outline as written.
+#[test]
+fn the_motion_lost_under_a_swinging_face_is_what_rolling_shows() {
+    for (side, base, face_offset) in [("leading", 110, 0), ("leading", 120, -30), ("trailing", 15, 30)] {
+        let found = under(
+            &format!(
+                "[follower.swinging-flat]\npivot_distance = \"150 mm\"\nface_offset = \"{face_offset} mm\"\n\
+                 side = \"{side}\"\n[cam]\nbase_radius = \"{base} mm\"\n"
+            ),
+            "deg",
+        )
+        .expect("a cam");
+        let (undercut, rolling) = (of(&found, "undercut"), of(&found, "rolling"));
+        assert_eq!(undercut.verdict, Verdict::Fail, "{found:?}");
+        let number = |note: &Option<String>, before: &str, after: &str| -> f64 {
+            let note = note.as_deref().expect("a note");
+            let (_, rest) = note.split_once(before).expect(note);
+            rest.split_once(after).and_then(|(value, _)| value.trim().parse().ok()).expect(note)
+        };
+        // A second loop would be told behind the first.
+        let lost = number(&undercut.note, "°, ", " mm at");
+        let felt = 1e-3 * number(&rolling.note, "lift off by ", " µm");
+        assert!((lost - felt).abs() < 5e-3 * lost, "{lost} {felt}: {found:?}");
+    }
+}

@@ -82,15 +82,30 @@ def gaps(kind, values, chain, lift, theta, base, mirror):
     """Gap between follower and outline, mm, at cam angles in radians."""
     u = np.exp(1j * theta)
     flat = chain.flattened(step=2e-4)
-    if kind == "flat":
-        # The face touches the farthest point; a polyline of chords this fine is short by 5e-9 of the radius.
-        normals = np.stack([u.real, mirror * u.imag], axis=1)
-        support = np.array([(flat @ n).max() for n in normals])
-        return base + lift - support
     mm = lambda key, default="0 mm": float(values.get(key, default).split()[0])
+    if kind in ("flat", "swinging-flat"):
+        # The face is a line of two points in the plane of the shaft, as its stem or its pivot has it, turned with û.
+        if kind == "flat":
+            tilt = np.radians(mm("tilt"))
+            along = 1j * np.exp(1j * tilt) * np.ones_like(lift)
+            on = base * np.exp(1j * tilt) + lift
+        else:
+            pivot, away = mm("pivot_distance"), mm("face_offset")
+            side = -1 if values.get("side") == "leading" else 1
+            psi = np.arcsin((base + away) / pivot) + np.radians(lift)
+            # From the pivot the face points back to the shaft, swung out by ψ; the offset is towards the shaft.
+            along = -np.exp(1j * side * psi)
+            inwards = -1j * side * along
+            on = pivot + away * inwards
+        normal = along * -1j
+        distance = (on * normal.conj()).real
+        normal = np.where(distance < 0, -normal, normal) * u
+        # The face touches the farthest point; a polyline of chords this fine is short by 5e-9 of the radius.
+        support = np.array([(flat @ [n.real, mirror * n.imag]).max() for n in normal])
+        return np.abs(distance) - support
     radius = mm("radius")
     prime = base + radius
-    if kind == "roller":
+    if kind in ("roller", "knife"):
         offset = mm("offset")
         centre = (np.sqrt(prime**2 - offset**2) + lift + 1j * offset) * u
     else:
@@ -110,6 +125,7 @@ def main():
     falls = [("cycloidal", 120, -18), ("dwell", 30, 0), ("modified-sine", 210, 0)]
     roller = ("roller", {"radius": "15 mm", "offset": "8 mm"})
     lever = {"radius": "16 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
+    face = {"pivot_distance": "150 mm"}
     cases = [
         ("roller", "mm", mixed, roller, {}),
         ("roller, ccw, falling", "mm", falls, roller, {"rotation": "ccw"}),
@@ -118,6 +134,12 @@ def main():
         ("lever leading, ccw", "deg", smooth, ("swinging-roller", {**lever, "side": "leading"}), {"rotation": "ccw"}),
         ("flat", "mm", smooth, ("flat", {}), {}),
         ("flat, ccw", "mm", mixed, ("flat", {}), {"rotation": "ccw"}),
+        ("flat, tilted", "mm", smooth, ("flat", {"tilt": "14 deg", "offset": "5 mm"}), {}),
+        ("flat, tilted, ccw", "mm", mixed, ("flat", {"tilt": "-20 deg"}), {"rotation": "ccw"}),
+        ("swinging flat trailing", "deg", smooth, ("swinging-flat", {**face, "face_offset": "9 mm"}), {}),
+        ("swinging flat leading, ccw", "deg", mixed, ("swinging-flat", {**face, "side": "leading"}), {"rotation": "ccw"}),
+        ("knife", "mm", smooth, ("knife", {"offset": "-6 mm"}), {}),
+        ("knife, ccw", "mm", mixed, ("knife", {}), {"rotation": "ccw"}),
     ]
     theta = np.arange(0, 360, 0.25) + 0.01
     failed = 0

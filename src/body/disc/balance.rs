@@ -19,7 +19,8 @@ impl Disc {
         let cylinder = press.cylinder();
         let allowed = |rpm: f64| allowed_error(&cylinder, &press.bottom_law(rpm));
         // Along the path an error is larger than along the normal.
-        let lean = crate::body::Body::pressure_angle(self).value.max(self.machine.limits.pressure_angle).min(STEEPEST);
+        let lean = crate::body::Body::pressure_angle(self).value;
+        let lean = self.machine.limits.pressure_angle.map_or(lean, |limit| lean.max(limit)).min(STEEPEST);
         let per_tolerance = 1.0 / (self.machine.cam.lever * libm::cos(lean));
         let rpm = self.rpm?;
         load.least_air()?;

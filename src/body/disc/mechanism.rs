@@ -43,7 +43,7 @@ pub(super) fn of(disc: &Disc, drawn: &Drawn, samples: u32) -> Mechanism {
         part,
         places: (0..=samples).map(place).collect(),
         buffer: press
-            .filter(|_| carrier == Carrier::Straight)
+            .filter(|_| !matches!(carrier, Carrier::Arm { .. }))
             .map(|(press, rpm)| Buffer::new(&press.cylinder(), &press.bottom_law(rpm))),
         shaft_speed: disc.shaft_speed(),
         rpm: None,

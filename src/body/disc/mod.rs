@@ -98,6 +98,15 @@ pub enum DiscError {
         /// The base radius, mm.
         base_radius_mm: f64,
     },
+    /// A face on an arm that swings as quickly as the cam turns.
+    #[error(
+        "the face on its arm turns back on the cam at {cam_deg:.3} deg, where it swings by more than the cam turns; give a smaller swing, \
+         a longer rise, or the other follower.swinging-flat.side"
+    )]
+    FaceTurnsBack {
+        /// Where, degrees of cam angle.
+        cam_deg: f64,
+    },
     /// The machine file describes no compensating cam.
     #[error(
         "the machine file describes no compensating cam: add the table [compensator] with spring_rate and preload, or give \
@@ -210,6 +219,10 @@ impl Disc {
         let (motion, follower) = (self.motion.quantity(), self.follower.quantity());
         if motion != follower {
             return Err(DiscError::WrongQuantity { motion: motion.words(), follower: follower.words() });
+        }
+        // How quickly a face turns on the cam does not depend on the size.
+        if let Some(turn) = extremes::least_turn(self.curves()).filter(|turn| !(turn.value > 0.0)) {
+            return Err(DiscError::FaceTurnsBack { cam_deg: turn.at.to_degrees() });
         }
         let offset = self.follower.element().offset();
         let required = Required::of(&self.machine.limits, &self.machine.cam, &*self.follower);
@@ -380,6 +393,7 @@ impl Disc {
             profile_radius: Some(MILLIMETRES / profile.curvature),
             force,
             balance: self.load.as_ref().map(|load| load.balance_row(piece, angle)),
+            face: curves.follower.on_face(&contact.lift).map(|face| MILLIMETRES * face.place),
             ..Row::default()
         }
     }
@@ -533,6 +547,7 @@ impl Body for Disc {
 
     fn sections(&self, found: &Found<'_>) -> Vec<Section> {
         let part = found.drawn.and_then(|drawn| drawn.parts.first());
+        let on_face = extremes::places_on_face(self.curves()).map(|places| places.map(|at| MILLIMETRES * at.value));
         let lift = |quantity, unit: f64| (self.motion.quantity() == quantity).then(|| unit * self.max_lift());
         let cam = CamMeasures {
             prime_radius_mm: Some(MILLIMETRES * self.prime_radius()),
@@ -541,6 +556,7 @@ impl Body for Disc {
             max_lift_mm: lift(Quantity::Length, MILLIMETRES),
             max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
             smallest_prime_radius_mm: self.smallest_prime_radius().map(|radius| MILLIMETRES * radius),
+            face_mm: on_face,
             lobes: self.load.as_ref().map(|_| self.motion.lobes()),
             plate: None,
             weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),

@@ -2,7 +2,7 @@
 
 use super::Disc;
 use crate::body::part::{as_turned, point_as_turned};
-use crate::body::sheet::{axes, bore, lost_motion, overall, places, pressure_angle, roller, turning};
+use crate::body::sheet::{PATH_OVER_RADIUS, axes, bore, lost_motion, overall, places, pressure_angle, roller, turning};
 use crate::body::{Body, Drawn};
 use crate::follower::Element;
 use crate::geometry::contour::{Contour, Edge, Extents};
@@ -24,10 +24,10 @@ const NOWHERE: Extents = Extents { least: Vector2::new(0.0, 0.0), largest: Vecto
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.
 pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
-    // A flat face has no pitch curve: its curve is the profile, which may be undercut.
-    let pitch_curve = match disc.curves().element() {
-        Element::Roller { .. } => Some(as_turned(&disc.machine, pitch(disc.curves())?.contour)),
-        Element::Face => None,
+    // A flat face and a knife edge have no pitch curve: their curve is the profile, which may be undercut.
+    let pitch_curve = match disc.roller_radius() {
+        Some(_) => Some(as_turned(&disc.machine, pitch(disc.curves())?.contour)),
+        None => None,
     };
     let part = drawn.parts.first();
     let outline = part.map_or(NOWHERE, |part| part.outline.contour.extents());
@@ -107,9 +107,14 @@ fn worst_place(disc: &Disc) -> (Vec<Shape>, Vec<Mark>) {
     let degrees = disc.place(worst.at).cam_deg.unwrap_or(0.0);
     let text = format!("α = {:.2}° at θ = {degrees:.2}°", worst.value.to_degrees());
     let (drive, along) = (turned(contact.drive), turned(contact.curve.tangent));
+    let outward = turned(contact.curve.outward());
     match curves.element() {
+        Element::Roller { radius: 0.0 } => {
+            let shapes =
+                vec![Shape::Line(centre, centre + drive * radius), Shape::Line(centre, centre + outward * radius)];
+            (shapes, pressure_angle(centre, drive, outward, radius / (1.0 + PATH_OVER_RADIUS), text))
+        }
         Element::Roller { .. } => {
-            let outward = turned(contact.curve.outward());
             (roller(centre, drive, outward, radius), pressure_angle(centre, drive, outward, radius, text))
         }
         Element::Face => {

@@ -42,7 +42,7 @@ fn the_solved_radius_is_the_smallest_that_passes() {
             let follower = cam.follower.sized(prime).expect("in reach");
             let curves = Curves { motion: &*cam.motion, follower: &*follower };
             let convex = limits.min_convex_pitch_radius_over_roller * curves.offset();
-            extremes::pressure_angle(curves).value <= limits.pressure_angle
+            extremes::pressure_angle(curves).value <= limits.pressure_angle.expect("a limit")
                 && extremes::convex_curvature(curves).value * convex <= 1.0
         };
         assert!(passes(prime), "{overrides:?}");

@@ -47,6 +47,9 @@ const MARGIN: f64 = 0.12;
 const SWEEP: f64 = 70.0;
 /// Half the thickness of a stem or arm over the roller's radius.
 const STEM: f64 = 0.22;
+/// A knife edge is shown with the stem of a roller of this share of the cam, ground to a point of half this angle, rad.
+const KNIFE_OVER_CAM: f64 = 0.12;
+const KNIFE: f64 = 0.26;
 
 /// The follower at a place of a turn, in the frame of a clockwise cam, m and rad.
 #[derive(Debug, Clone, Copy)]
@@ -211,6 +214,10 @@ impl Scene<'_> {
             })
             .collect();
         match self.element {
+            Element::Roller { radius: 0.0 } => {
+                let reach = 2.0 * self.roller();
+                vec![Rigid::new("normal", vec![line((-0.5 * reach, 0.0), (reach, 0.0))]).at(x, y).turned(normal)]
+            }
             Element::Roller { radius } => {
                 let radius = MILLIMETRES * radius;
                 let roller = vec![circle(0.0, 0.0, radius), circle(0.0, 0.0, 0.12 * radius)];
@@ -231,6 +238,7 @@ impl Scene<'_> {
     fn follower(&self, cover: &mut Cover) -> Vec<Rigid> {
         let locals = self.locals();
         match (self.carrier, self.element, self.buffer) {
+            (Carrier::Arm { pivot }, Element::Face, _) => self.swinging_face(pivot * MILLIMETRES, &locals, cover),
             (Carrier::Arm { pivot }, ..) => self.arm(pivot * MILLIMETRES, &locals, cover),
             (_, _, Some(buffer)) => {
                 let stands: Vec<Stand> = self.places.iter().filter_map(|placed| placed.stand).collect();
@@ -239,19 +247,32 @@ impl Scene<'_> {
                 let lever = self.machine.cam.lever;
                 press::behind(&buffer, &stands, &press::Driven { rollers, radius, lever }, self.largest_radius(), cover)
             }
-            (_, Element::Face, None) => self.face(&locals, cover),
-            (_, Element::Roller { radius }, None) => self.stem(&locals, MILLIMETRES * radius, cover),
+            (Carrier::Stem { offset, tilt }, ..) => self.face((MILLIMETRES * offset, tilt), &locals, cover),
+            (Carrier::Straight, _, None) => self.stem(&locals, cover),
         }
     }
 
+    /// Radius of the roller, or what stands for it in the size of a knife edge, mm.
+    fn roller(&self) -> f64 {
+        let radius = MILLIMETRES * self.element.offset();
+        if radius > 0.0 { radius } else { KNIFE_OVER_CAM * self.largest_radius() }
+    }
+
     /// A stem on a straight path between two guides.
-    fn stem(&self, locals: &[Vector2<f64>], radius: f64, cover: &mut Cover) -> Vec<Rigid> {
+    fn stem(&self, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+        let radius = self.roller();
         let (low, high) = range(locals.iter().map(|p| p.x));
         let half = STEM * radius;
         let start = (high + radius * (1.0 + MARGIN)).max(self.largest_radius() + half);
         let length = start + 3.0 * radius - low;
         let (x, y) = self.tracks(locals);
-        let stem = vec![rectangle((0.0, length), (-half, half))];
+        let stem = if self.element.offset() > 0.0 {
+            vec![rectangle((0.0, length), (-half, half))]
+        } else {
+            let point = half / libm::tan(KNIFE);
+            let corners = [(0.0, 0.0), (point, half), (length, half), (length, -half), (point, -half), (0.0, 0.0)];
+            vec![Shape::Path(corners.map(|(x, y)| Vector2::new(x, y)).to_vec())]
+        };
         let offset = locals.first().map_or(0.0, |p| self.shown(*p).x);
         let guides = [-1.0, 1.0].map(|side| {
             let (from, to) = (offset + side * 1.25 * half, offset + side * (2.5 * half + 0.5 * radius));
@@ -262,22 +283,76 @@ impl Scene<'_> {
         vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", stem).at(x, y).turned(self.path_deg())]
     }
 
-    /// A flat face with its stem.
-    fn face(&self, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
-        let (low, high) = range(locals.iter().map(|p| p.x));
-        let (least, most) = range(locals.iter().map(|p| p.y));
-        let half = least.abs().max(most.abs()) + 0.15 * low;
-        let thick = 0.06 * low;
+    /// A flat face at an angle (rad) with its stem at a distance from the shaft, mm.
+    fn face(&self, (offset, tilt): (f64, f64), locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+        let (sin, cos) = (libm::sin(tilt), libm::cos(tilt));
+        // Where the stem stands on the face: on its line, at the offset.
+        let foot = |p: &Vector2<f64>| Vector2::new((p.x * cos + p.y * sin - offset * sin) / cos, offset);
+        let feet: Vec<Vector2<f64>> = locals.iter().map(foot).collect();
+        let (low, high) = range(feet.iter().map(|p| p.x));
+        let touched = |(p, foot): (&Vector2<f64>, &Vector2<f64>)| (p.y - foot.y) * cos - (p.x - foot.x) * sin;
+        let (least, most) = range(locals.iter().zip(&feet).map(touched));
+        let size = range(locals.iter().map(|p| p.x * cos + p.y * sin)).0;
+        let half = least.abs().max(most.abs()) + 0.15 * size;
+        let thick = 0.06 * size;
         let start = self.largest_radius().max(high) + 2.0 * thick;
-        let length = start + 0.4 * low - low;
-        let along: Vec<Vector2<f64>> = locals.iter().map(|p| Vector2::new(p.x, 0.0)).collect();
-        let (x, y) = self.tracks(&along);
-        let shapes = vec![rectangle((0.0, thick), (-half, half)), rectangle((thick, length), (-thick, thick))];
+        let length = start + 0.4 * size - low;
+        let (x, y) = self.tracks(&feet);
+        let plate = if tilt == 0.0 {
+            rectangle((0.0, thick), (-half, half))
+        } else {
+            let sin = self.sense() * sin;
+            let corners = [(0.0, -half), (thick, -half), (thick, half), (0.0, half), (0.0, -half)];
+            let at = |(x, y): (f64, f64)| Vector2::new(x * cos - y * sin, x * sin + y * cos);
+            Shape::Path(corners.map(at).to_vec())
+        };
+        // Into a tilted plate, behind whose corner there would be a gap.
+        let from = if tilt == 0.0 { thick } else { 0.0 };
+        let shapes = vec![plate, rectangle((from, length), (-thick, thick))];
+        let middle = feet.first().map_or(0.0, |foot| self.shown(*foot).x);
         let guides = [-1.0, 1.0].map(|side| {
-            rectangle((side * 1.3 * thick, side * 4.0 * thick), (start + thick, start + thick + 0.2 * low))
+            let (from, to) = (middle + side * 1.3 * thick, middle + side * 4.0 * thick);
+            rectangle((from, to), (start + thick, start + thick + 0.2 * size))
         });
-        cover.add((-half, half), (low, start + 0.4 * low + high - low));
+        cover.add((middle - half, middle + half), (low - half * sin.abs(), start + 0.4 * size + high - low));
         vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", shapes).at(x, y).turned(self.path_deg())]
+    }
+
+    /// A flat face on an arm about a pivot, mm: a bar on the face's side away from the cam, from the pivot past the farthest contact.
+    fn swinging_face(&self, pivot: Vector2<f64>, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+        let normals: Vec<Vector2<f64>> = self.places.iter().map(|placed| Self::local(placed, placed.outward)).collect();
+        // Along the face from the pivot to the contact.
+        let along = |(p, normal): (&Vector2<f64>, &Vector2<f64>)| {
+            let tangent = Vector2::new(-normal.y, normal.x);
+            tangent * tangent.dot(&(p - pivot)).signum()
+        };
+        let ways: Vec<Vector2<f64>> = locals.iter().zip(&normals).map(along).collect();
+        let back = -pivot.normalize();
+        let turn: Vec<f64> = ways
+            .iter()
+            .map(|way| self.path_deg() + 180.0 + self.sense() * libm::atan2(back.perp(way), back.dot(way)).to_degrees())
+            .collect();
+        let farthest = locals.iter().zip(&ways).map(|(p, way)| way.dot(&(p - pivot))).fold(0.0, f64::max);
+        let (place, thick) = (self.shown(pivot), 0.05 * pivot.norm());
+        let (Some(first), Some(way), Some(normal)) = (locals.first(), ways.first(), normals.first()) else {
+            return Vec::new();
+        };
+        // The face in the frame of the arm, x along it: its height, and the side on which the metal is.
+        let metal = self.sense() * way.perp(normal);
+        let height = metal * normal.dot(&(first - pivot));
+        let length = 1.08 * farthest;
+        let bar = rectangle((0.0, length), (height, height + metal.signum() * thick));
+        let hub = circle(0.0, 0.0, 0.6 * thick.max(height.abs()));
+        let ends = locals.iter().zip(&ways).map(|(_, way)| self.shown(pivot + way * length));
+        let (xs, ys): (Vec<f64>, Vec<f64>) = ends.map(|end| (end.x, end.y)).unzip();
+        let ((left, right), (bottom, top)) = (range(xs.into_iter()), range(ys.into_iter()));
+        let (foot, around) = (1.5 * thick, thick + height.abs());
+        cover.add((left - around, right + around), (bottom - around, top + around));
+        cover.add((place.x - 1.5 * foot, place.x + 1.5 * foot), (place.y, place.y + 1.6 * foot));
+        vec![
+            Rigid::new("ground", bracket(place, foot)),
+            Rigid::new("follower", vec![line((0.0, 0.0), (0.0, height)), bar, hub]).at(place.x, place.y).turned(turn),
+        ]
     }
 
     /// An arm from a pivot to the roller, mm.
@@ -296,27 +371,32 @@ impl Scene<'_> {
         let place = self.shown(pivot);
         let (x, y) = (place.x, place.y);
         let foot = 2.2 * half.max(0.02 * arm);
-        let bracket = vec![
-            Shape::Path(vec![
-                Vector2::new(x, y),
-                Vector2::new(x - foot, y + 1.6 * foot),
-                Vector2::new(x + foot, y + 1.6 * foot),
-                Vector2::new(x, y),
-            ]),
-            line((x - 1.5 * foot, y + 1.6 * foot), (x + 1.5 * foot, y + 1.6 * foot)),
-        ];
         let (low, high) = range(locals.iter().map(|p| self.shown(*p).x));
         let roller = MILLIMETRES * self.element.offset();
         cover.add((low - roller, high + roller), (0.0, 0.0));
         let tops = range(locals.iter().map(|p| self.shown(*p).y));
         cover.add((x - 1.5 * foot, x + 1.5 * foot), (tops.0 - roller, (y + 1.6 * foot).max(tops.1 + roller)));
         vec![
-            Rigid::new("ground", bracket),
+            Rigid::new("ground", bracket(place, foot)),
             Rigid::new("follower", vec![rectangle((0.0, arm), (-half, half)), circle(0.0, 0.0, 1.6 * half)])
                 .at(x, y)
                 .turned(turn),
         ]
     }
+}
+
+/// What holds a pivot at a place, mm.
+fn bracket(place: Vector2<f64>, foot: f64) -> Vec<Shape> {
+    let (x, y) = (place.x, place.y);
+    vec![
+        Shape::Path(vec![
+            Vector2::new(x, y),
+            Vector2::new(x - foot, y + 1.6 * foot),
+            Vector2::new(x + foot, y + 1.6 * foot),
+            Vector2::new(x, y),
+        ]),
+        line((x - 1.5 * foot, y + 1.6 * foot), (x + 1.5 * foot, y + 1.6 * foot)),
+    ]
 }
 
 /// Smallest and largest of some numbers.

@@ -44,15 +44,16 @@ pub(super) fn folds(parallel: Parallel<'_>) -> Vec<(f64, f64)> {
 
 /// A number with the sign of the curve's speed, and its derivative.
 fn forward(parallel: Parallel<'_>, piece: usize, parameter: f64) -> (f64, f64) {
-    let curve = parallel.curves.touch(piece, parameter).curve;
     match parallel.curves.element() {
         // 1 − κ d, and −κ' ℓ d.
         Element::Roller { .. } => {
+            let curve = parallel.curves.touch(piece, parameter).curve;
             (1.0 - curve.curvature * parallel.distance, -curve.curvature_slope * curve.speed * parallel.distance)
         }
-        // Under a face ρ − d with ρ = ℓ = 1/κ, and dρ/dθ = −κ' ℓ/κ².
+        // Under a face ρ − d.
         Element::Face => {
-            (curve.speed - parallel.distance, -curve.curvature_slope * curve.speed * curve.speed * curve.speed)
+            let (radius, slope) = parallel.curves.face_radius(piece, parameter);
+            (radius - parallel.distance, slope)
         }
     }
 }

@@ -1,0 +1,39 @@
+//! The knife edge: a follower that touches with a point, on a straight path.
+//!
+//! It is a translating roller of radius 0: the path of its point is the profile. A round nose that does not turn is a roller of its
+//! own radius.
+
+use super::{Follower, FollowerData, FollowerKind, MASS, PRELOAD, TranslatingRoller};
+use crate::document::Presence::Default;
+use crate::document::cams::MAKE;
+use crate::document::range::LONGEST;
+use crate::document::{Field, Occurs, Section, Table, within};
+use crate::units::Dimension::Length;
+use std::sync::Arc;
+
+const OFFSET: Field<f64> = Field::quantity(
+    "offset",
+    "distance of its path from the shaft, positive against the rotation of the cam",
+    Default("0 mm"),
+    Length,
+    within(-LONGEST, LONGEST),
+);
+
+/// `[follower.knife]`.
+pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
+
+const SECTION: Section = Section {
+    path: "follower.knife",
+    about: "the follower: a knife edge, which touches with a point, on a straight path",
+    occurs: Occurs::Optional,
+    cams: &[MAKE],
+    keys: &[OFFSET.key, MASS.key, PRELOAD.key],
+};
+
+fn read(table: &Table<'_>) -> Option<FollowerData> {
+    let offset = table.get(&OFFSET)?;
+    // Made for a size when the cam is sized; until then large enough to reach.
+    let shape: Arc<dyn Follower> = Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, 0.0));
+    let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
+    Some(FollowerData { mass, preload, ..FollowerData::of(SECTION.path, shape) })
+}
