@@ -16,7 +16,7 @@ use camgen::document::Presence::Required;
 use camgen::follower::{FOLLOWERS, FollowerKind};
 use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine, Wanted};
 use camgen::motion::equation_18::{ExactOn, Solver};
-use camgen::motion::laws::LAWS;
+use camgen::motion::laws::{LAWS, LINE};
 use camgen::pipeline::{Cam, Error, Judged, Spec, Writing};
 use camgen::report::{Report, Verdict};
 use camgen::table::COLUMNS;
@@ -368,7 +368,9 @@ fn every_law_makes_a_cam_that_gives_it() {
         assert!(unknown.to_string().contains(law.name), "{unknown}");
         let alone = Machine::from_toml("lifter.toml", &LIFTER.replace("3-4-5", law.name), &[]);
         let told = alone.err().map(|error| error.to_string()).unwrap_or_default();
-        assert_eq!(told.contains("cannot start and end at rest"), !law.serves_rests(), "{}: {told}", law.name);
+        // A line is an impact, which the check of the whole program refuses.
+        let refused = !law.serves_rests() && law.name != LINE;
+        assert_eq!(told.contains("cannot start and end at rest"), refused, "{}: {told}", law.name);
     }
 }
 

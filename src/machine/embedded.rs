@@ -18,6 +18,9 @@ pub const EMBEDDED: &[Embedded] = &[
     Embedded { name: "dpi-shaft", toml: include_str!("../../profiles/dpi-shaft.toml") },
     Embedded { name: "press-cylinder", toml: include_str!("../../profiles/press-cylinder.toml") },
     Embedded { name: "dp", toml: include_str!("../../profiles/dp.toml") },
+    Embedded { name: "feeder", toml: include_str!("../../profiles/feeder.toml") },
+    Embedded { name: "lever", toml: include_str!("../../profiles/lever.toml") },
+    Embedded { name: "valve", toml: include_str!("../../profiles/valve.toml") },
     Embedded { name: "roll", toml: include_str!("../../profiles/roll.toml") },
     Embedded { name: "roll-level", toml: include_str!("../../profiles/roll-level.toml") },
 ];

@@ -30,7 +30,7 @@ fn every_embedded_machine_and_the_template_read() {
             assert_eq!((stem.as_str(), brake.name()), (embedded.name, embedded.title()));
             continue;
         }
-        if !embedded.toml.contains("\n[bed]") {
+        if embedded.toml.contains("\n[shaft]") && !embedded.toml.contains("\n[bed]") {
             let (shaft, stem) = ShaftMachine::load(embedded.name, &[]).expect("a shaft");
             assert_eq!((stem.as_str(), shaft.name()), (embedded.name, embedded.title()));
             assert!(shaft.machine().is_none());
@@ -38,7 +38,8 @@ fn every_embedded_machine_and_the_template_read() {
         }
         let (machine, stem) = Machine::load(embedded.name, &[]).unwrap_or_else(|e| panic!("{}: {e}", embedded.name));
         assert_eq!((stem.as_str(), machine.name()), (embedded.name, embedded.title()));
-        assert!(machine.translating.is_some() && machine.conoid.is_some());
+        assert_eq!(machine.motion().is_some(), embedded.toml.contains("\n[motion]"));
+        assert_eq!(machine.press().is_ok(), machine.translating.is_some() && machine.conoid.is_some());
     }
     let template = include_str!("../../templates/machine.toml");
     assert!(Machine::from_toml("template", template, &[]).is_ok());
@@ -567,9 +568,9 @@ fn template_and_profiles_have_every_key() {
         keys_of(|section| section.cams != [MAKE] && section.path != "drive" && !section.path.starts_with("brake")),
     );
     let template = template();
-    let presses = EMBEDDED
-        .iter()
-        .filter(|machine| !["\n[drive]", "\n[shaft]", "\n[brake]"].iter().any(|table| machine.toml.contains(table)));
+    let presses = EMBEDDED.iter().filter(|machine| {
+        !["\n[drive]", "\n[shaft]", "\n[brake]", "\n[motion]"].iter().any(|table| machine.toml.contains(table))
+    });
     let profiles = presses.map(|machine| (machine.name, machine.toml, &of_a_press));
     for (name, text, keys) in profiles.chain([("template", template.as_str(), &all)]) {
         let text = with_everything(text);
