@@ -8,6 +8,7 @@ pub mod drive;
 pub mod linkage;
 pub mod regimes;
 pub mod shaft;
+pub mod size;
 pub mod spring;
 
 use crate::body::Kind;
@@ -18,7 +19,7 @@ use crate::report::{Section, Speeds};
 use crate::table::Table;
 
 /// Every kind of analysis.
-pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND, &brake::KIND];
+pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND, &brake::KIND, &size::KIND];
 
 /// A figure that a check judges.
 #[derive(Debug, Clone, PartialEq)]

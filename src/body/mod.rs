@@ -316,7 +316,15 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// Largest |pressure angle| where a follower runs, rad.
     fn pressure_angle(&self) -> Worst {
-        self.plane().zip(self.worst_places()).map_or(Worst::NONE, |(curves, worst)| worst.pressure_angle(curves))
+        let [rising, falling] = self.pressure_angles();
+        rising.or_larger(falling)
+    }
+
+    /// The largest pressure angle, and the largest of the other sign as a positive number, where a follower runs, rad. A body that does
+    /// not tell them apart has the largest of both first.
+    fn pressure_angles(&self) -> [Worst; 2] {
+        let found = self.plane().zip(self.worst_places());
+        found.map_or([Worst::NONE; 2], |(curves, worst)| worst.pressure_angles(curves))
     }
 
     /// Smallest convex radius of what the follower draws, m: 0 at a corner, infinite where nothing is convex; negative where a
@@ -522,14 +530,19 @@ fn broken_limit(body: &dyn Body) -> Option<&'static str> {
     let limits = body.machine().limits;
     let (least, roller) = (body.least_radius().value, body.roller_radius().unwrap_or(0.0));
     // A surface searched for its sharpest place is sized to a billionth.
-    let convex = limits.min_convex_pitch_radius_over_roller * roller * (1.0 - SIZED_TO);
+    let convex = limits.convex_radius(roller) * (1.0 - SIZED_TO);
     let kept = |limit: Option<f64>, keeps: &dyn Fn(f64) -> bool| limit.is_none_or(keeps);
-    let checks: [(&'static str, &dyn Fn() -> bool); 6] = [
-        ("pressure_angle", &|| {
-            kept(limits.pressure_angle, &|limit| body.pressure_angle().value <= limit * (1.0 + 1e-12))
-        }),
+    let angles = || body.pressure_angles().into_iter().zip(limits.pressure_angles());
+    let inclined = |of: usize| angles().nth(of).is_some_and(|(worst, limit)| worst.value > limit * (1.0 + 1e-12));
+    // The limit that asks for more.
+    let by_profile = limits.convex_radius(roller) > limits.min_convex_pitch_radius_over_roller * roller;
+    let of_convex = if by_profile { "min_convex_radius" } else { "min_convex_pitch_radius_over_roller" };
+    let of_return = if limits.pressure_angle_return.is_some() { "pressure_angle_return" } else { "pressure_angle" };
+    let checks: [(&'static str, &dyn Fn() -> bool); 7] = [
+        ("pressure_angle", &|| !inclined(0)),
+        (of_return, &|| !inclined(1)),
         ("undercut", &|| least > roller),
-        ("min_convex_pitch_radius_over_roller", &|| body.least_rolled_radius().value >= convex),
+        (of_convex, &|| body.least_rolled_radius().value >= convex),
         ("wall", &|| body.wall().is_none_or(|(wall, _)| wall > 0.0 && wall >= limits.wall * (1.0 - SIZED_TO))),
         ("cutter_radius", &|| {
             kept(limits.cutter_radius, &|limit| body.hollow().is_none_or(|hollow| limit <= hollow.value))

@@ -8,14 +8,14 @@ use std::sync::OnceLock;
 /// Worst places of a plane cam, searched once, on demand.
 #[derive(Debug, Clone, Default)]
 pub struct WorstPlaces {
-    pressure_angle: OnceLock<Worst>,
+    pressure_angles: OnceLock<[Worst; 2]>,
     least_radius: OnceLock<Worst>,
     least_rolled_radius: OnceLock<Worst>,
 }
 
 impl WorstPlaces {
-    pub(super) fn pressure_angle(&self, curves: Curves<'_>) -> Worst {
-        *self.pressure_angle.get_or_init(|| plane(extremes::pressure_angle(curves)))
+    pub(super) fn pressure_angles(&self, curves: Curves<'_>) -> [Worst; 2] {
+        *self.pressure_angles.get_or_init(|| extremes::pressure_angles(curves).map(plane))
     }
 
     pub(super) fn least_radius(&self, curves: Curves<'_>) -> Worst {

@@ -1,15 +1,15 @@
 //! The commands that analyse a machine and cut nothing.
 
 use super::args::{
-    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, EndOf, FrameOf, GoalOf, LinkageArgs, Order, RegimesArgs, ResetOf,
-    ShaftArgs, ShaftSolver, SpringArgs, WhirlOf,
+    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, EndOf, FrameOf, FreeOf, GoalOf, LinkageArgs, Order, RegimesArgs,
+    ResetOf, ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
 };
 use super::cams::{show, source_date};
 use super::progress::Progress;
 use super::{Failure, Outcome, tell};
 use camgen::analysis::linkage::Goal;
 use camgen::analysis::shaft::{Asked, Solver};
-use camgen::analysis::{Analysis, brake, drive, linkage, regimes, shaft, spring};
+use camgen::analysis::{Analysis, brake, drive, linkage, regimes, shaft, size, spring};
 use camgen::buffer::regime::Reset;
 use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine, Wanted};
 use camgen::motion::BrakeDisc;
@@ -111,6 +111,19 @@ pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
         samples: args.samples,
     };
     written(shaft::analysis(&machine, &asked).map_err(Failure::new)?, &args.analysis, &name)
+}
+
+pub(super) fn size(args: &SizeArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = args.analysis.machine(&args.machine)?;
+    let free: Vec<size::Free> = args
+        .free
+        .iter()
+        .map(|free| match free {
+            FreeOf::Offset => size::Free::Offset,
+            FreeOf::PivotDistance => size::Free::Pivot,
+        })
+        .collect();
+    written(size::analysis(&machine, &free, args.rpm).map_err(Failure::new)?, &args.analysis, &name)
 }
 
 /// The disc of a brake that was read with it, and its motion.

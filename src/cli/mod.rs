@@ -68,6 +68,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Linkage(args) => analyses::linkage(args),
         Command::Shaft(args) => analyses::shaft(args),
         Command::Brake(args) => analyses::brake(args),
+        Command::Size(args) => analyses::size(args),
         Command::SideBySide(args) => side_by_side::run(args),
         Command::Check(args) => check::run(args),
         Command::Trade(args) => trade::run(args),

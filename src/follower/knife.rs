@@ -3,21 +3,10 @@
 //! It is a translating roller of radius 0: the path of its point is the profile. A round nose that does not turn is a roller of its
 //! own radius.
 
-use super::{Follower, FollowerData, FollowerKind, MASS, PRELOAD, TranslatingRoller};
-use crate::document::Presence::Default;
+use super::{Follower, FollowerData, FollowerKind, MASS, OFFSET, PRELOAD, Place, TranslatingRoller};
 use crate::document::cams::MAKE;
-use crate::document::range::LONGEST;
-use crate::document::{Field, Occurs, Section, Table, within};
-use crate::units::Dimension::Length;
+use crate::document::{Occurs, Section, Table};
 use std::sync::Arc;
-
-const OFFSET: Field<f64> = Field::quantity(
-    "offset",
-    "distance of its path from the shaft, positive against the rotation of the cam",
-    Default("0 mm"),
-    Length,
-    within(-LONGEST, LONGEST),
-);
 
 /// `[follower.knife]`.
 pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
@@ -31,9 +20,10 @@ const SECTION: Section = Section {
 };
 
 fn read(table: &Table<'_>) -> Option<FollowerData> {
-    let offset = table.get(&OFFSET)?;
+    let given = table.get(&OFFSET)?;
+    let (offset, place) = (given.unwrap_or(0.0), given.is_none().then_some(Place::Offset { radius: 0.0 }));
     // Made for a size when the cam is sized; until then large enough to reach.
     let shape: Arc<dyn Follower> = Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, 0.0));
     let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
-    Some(FollowerData { mass, preload, ..FollowerData::of(SECTION.path, shape) })
+    Some(FollowerData { mass, preload, place, ..FollowerData::of(SECTION.path, shape) })
 }

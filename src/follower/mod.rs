@@ -9,17 +9,19 @@
 mod bell_crank;
 mod flat;
 mod knife;
+pub mod place;
 mod swinging_flat;
 mod swinging_roller;
 mod translating_roller;
 
 pub use bell_crank::BellCrank;
 pub use flat::FlatFace;
+pub use place::Place;
 pub use swinging_flat::SwingingFlat;
 pub use swinging_roller::SwingingRoller;
 pub use translating_roller::{Crown, RollerData, TranslatingRoller};
 
-use crate::document::Presence::Optional;
+use crate::document::Presence::{Default, Optional};
 use crate::document::range::{HEAVIEST, LARGEST_FORCE, LONGEST};
 use crate::document::{Field, Reader, Section, Table, above, within};
 use crate::geometry::CurvePoint;
@@ -58,6 +60,8 @@ pub struct FollowerData {
     pub roller: Option<RollerData>,
     /// What only a flat face has.
     pub face: Option<FaceData>,
+    /// What of its place is chosen with the size of the cam.
+    pub place: Option<Place>,
 }
 
 /// A flat face as a file describes it.
@@ -81,7 +85,7 @@ pub enum Middle {
 impl FollowerData {
     /// A follower without a description of forces, roller and face.
     fn of(path: &'static str, shape: Arc<dyn Follower>) -> Self {
-        Self { path, shape, mass: None, preload: None, spring_rate: 0.0, roller: None, face: None }
+        Self { path, shape, mass: None, preload: None, spring_rate: 0.0, roller: None, face: None, place: None }
     }
 
     /// Whether its table has mass and preload: whether forces on it can be described.
@@ -117,6 +121,15 @@ const PRELOAD: Field<f64> = Field::quantity(
     Optional("1600 N"),
     Force,
     within(0.0, LARGEST_FORCE),
+);
+
+/// Offset of a roller or a knife edge on a straight path, a key of its table; `None` is `auto`.
+const OFFSET: Field<Option<f64>> = Field::words_or_quantity(
+    "offset",
+    "distance of its path from the shaft, positive against the rotation of the cam; \"auto\" (of a motion program): of the smallest cam",
+    Default("0 mm"),
+    (&["auto"], &[None]),
+    (Length, within(-LONGEST, LONGEST), Some),
 );
 
 /// Width of a flat face, a key of its table.
@@ -250,6 +263,11 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
     /// What carries the element, for a picture of it.
     fn carrier(&self) -> Carrier {
         Carrier::Straight
+    }
+
+    /// What of its place may be chosen with the size of the cam; `None` where nothing is.
+    fn place(&self) -> Option<Place> {
+        None
     }
 
     /// The same follower on a cam with another prime radius, m; `None` where it cannot reach.

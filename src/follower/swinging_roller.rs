@@ -1,6 +1,6 @@
 //! The swinging roller: a roller on an arm about a pivot.
 
-use super::{Carrier, Element, Follower, FollowerData, FollowerKind, Touch};
+use super::{Carrier, Element, Follower, FollowerData, FollowerKind, Place, Touch};
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
@@ -16,8 +16,13 @@ const LENGTH: Bounds = above(0.0, LONGEST);
 
 const RADIUS: Field<f64> = Field::quantity("radius", "radius of the roller", Required("16 mm"), Length, LENGTH);
 const ARM: Field<f64> = Field::quantity("arm", "arm from the pivot to the roller", Required("110 mm"), Length, LENGTH);
-const PIVOT_DISTANCE: Field<f64> =
-    Field::quantity("pivot_distance", "from the shaft to the pivot", Required("140 mm"), Length, LENGTH);
+const PIVOT_DISTANCE: Field<Option<f64>> = Field::words_or_quantity(
+    "pivot_distance",
+    "from the shaft to the pivot; \"auto\": of the smallest cam",
+    Required("140 mm"),
+    (&["auto"], &[None]),
+    (Length, LENGTH, Some),
+);
 const SIDE: Field<f64> = Field::words(
     "side",
     "\"trailing\" (the roller behind its pivot, seen in the rotation of the cam) or \"leading\"",
@@ -38,9 +43,11 @@ const SECTION: Section = Section {
 };
 
 fn read(table: &Table<'_>) -> Option<FollowerData> {
-    let shape =
-        SwingingRoller::new(table.get(&ARM)?, table.get(&PIVOT_DISTANCE)?, table.get(&RADIUS)?, table.get(&SIDE)?);
-    Some(FollowerData::of(SECTION.path, Arc::new(shape)))
+    let (arm, radius, side) = (table.get(&ARM)?, table.get(&RADIUS)?, table.get(&SIDE)?);
+    let given = table.get(&PIVOT_DISTANCE)?;
+    let place = given.is_none().then_some(Place::Pivot { arm, radius, side });
+    let shape = SwingingRoller::new(arm, given.unwrap_or(arm), radius, side);
+    Some(FollowerData { place, ..FollowerData::of(SECTION.path, Arc::new(shape)) })
 }
 
 /// By how much the prime radius must stay within the triangle of arm and pivot distance, as a share of it: at its ends arm and
@@ -127,6 +134,10 @@ impl Follower for SwingingRoller {
 
     fn prime_radius(&self) -> Option<f64> {
         Some(self.prime_radius)
+    }
+
+    fn place(&self) -> Option<Place> {
+        Some(Place::Pivot { arm: self.arm, radius: self.radius, side: self.side })
     }
 
     fn sized(&self, prime_radius: f64) -> Option<Box<dyn Follower>> {

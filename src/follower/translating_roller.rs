@@ -1,10 +1,10 @@
 //! The translating roller, centred or offset.
 
-use super::{Element, Follower, FollowerData, FollowerKind, MASS, PRELOAD, Touch};
+use super::{Element, Follower, FollowerData, FollowerKind, MASS, PRELOAD, Place, Touch};
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::{CONOID, TURNING};
 use crate::document::range::LONGEST;
-use crate::document::{Field, Occurs, Section, Table, above, within};
+use crate::document::{Field, Occurs, Section, Table, above};
 use crate::geometry::CurvePoint;
 use crate::motion::Jet;
 use crate::units::Dimension::Length;
@@ -35,14 +35,7 @@ pub struct RollerData {
 
 const RADIUS: Field<f64> =
     Field::quantity("radius", "radius of the roller", Required("30 mm"), Length, above(0.0, LONGEST));
-const OFFSET: Field<f64> = Field::quantity(
-    "offset",
-    "distance of its path from the shaft, positive against the rotation of the cam",
-    Default("0 mm"),
-    Length,
-    within(-LONGEST, LONGEST),
-)
-.only(TURNING);
+const OFFSET: Field<Option<f64>> = super::OFFSET.only(TURNING);
 const CROWN: Field<Crown> = Field::words(
     "crown",
     "shape of its rim: \"sphere\", or \"cylinder\", which needs a width and is checked for edge contact",
@@ -72,12 +65,13 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
         let help = Some("add follower.roller.width".into());
         table.fail(&CROWN, "a cylindrical roller needs a width".into(), help);
     }
-    let (radius, offset) = (table.get(&RADIUS)?, table.get(&OFFSET)?);
+    let (radius, given) = (table.get(&RADIUS)?, table.get(&OFFSET)?);
+    let (offset, place) = (given.unwrap_or(0.0), given.is_none().then_some(Place::Offset { radius }));
     // Made for a size when the cam is sized; until then large enough to reach.
     let shape = Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius));
     let roller = RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) };
     let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
-    Some(FollowerData { mass, preload, roller: Some(roller), ..FollowerData::of(SECTION.path, shape) })
+    Some(FollowerData { mass, preload, roller: Some(roller), place, ..FollowerData::of(SECTION.path, shape) })
 }
 
 /// By how much the prime radius must exceed the offset, as a share of it: at the offset itself the roller would stand beside
@@ -133,6 +127,10 @@ impl Follower for TranslatingRoller {
 
     fn prime_radius(&self) -> Option<f64> {
         Some(self.prime_radius)
+    }
+
+    fn place(&self) -> Option<Place> {
+        Some(Place::Offset { radius: self.roller_radius })
     }
 
     fn sized(&self, prime_radius: f64) -> Option<Box<dyn Follower>> {

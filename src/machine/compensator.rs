@@ -104,6 +104,7 @@ impl Machine {
             spring_rate: data.spring_rate,
             roller: Some(roller),
             face: None,
+            place: None,
         };
         // The angle of the disc is counted from its own follower, the keyway on the shaft is one.
         let keyway = self.cam.keyway.map(|keyway| super::Keyway { angle: keyway.angle - data.angle, ..keyway });

@@ -297,7 +297,7 @@ fn balance_and_bore(table: &Table<'_>) {
 
 /// A given base radius must be in reach of the follower.
 pub(super) fn reached_by(reader: &Reader<'_>, cam: &CamData, follower: &FollowerData) {
-    let Some(base) = cam.base_radius else { return };
+    let Some(base) = cam.base_radius.filter(|_| follower.place.is_none()) else { return };
     if follower.shape.sized(base + follower.shape.element().offset()).is_none() {
         let table = reader.table(&SECTION);
         let offset = follower.shape.element().offset();

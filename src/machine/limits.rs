@@ -152,8 +152,12 @@ pub(super) fn of_shaft(reader: &Reader<'_>) -> Option<ShaftLimits> {
 pub struct Limits {
     /// Largest |pressure angle|, rad; `None` under a flat face where the file gives no limit.
     pub pressure_angle: Option<f64>,
+    /// The same where it is negative, of a follower that falls; as the other where it is absent.
+    pub pressure_angle_return: Option<f64>,
     /// Smallest convex radius of the pitch curve over the roller radius.
     pub min_convex_pitch_radius_over_roller: f64,
+    /// Smallest convex radius of the profile, m, where one is asked for.
+    pub min_convex_radius: Option<f64>,
     /// Radius of the tool that must get into the concave parts, m.
     pub cutter_radius: Option<f64>,
     /// Least metal between bore and profile, m.
@@ -175,6 +179,22 @@ pub struct Limits {
     pub brake: BrakeLimits,
 }
 
+impl Limits {
+    /// Largest pressure angles where it is positive and where it is negative, rad; infinite where there is no limit.
+    #[must_use]
+    pub fn pressure_angles(&self) -> [f64; 2] {
+        let rising = self.pressure_angle.unwrap_or(f64::INFINITY);
+        [rising, self.pressure_angle_return.unwrap_or(rising)]
+    }
+
+    /// Smallest convex radius of the curve of a follower that lies this far (m) outside of the profile, m.
+    #[must_use]
+    pub fn convex_radius(&self, offset: f64) -> f64 {
+        let of_profile = self.min_convex_radius.map_or(0.0, |radius| radius + offset);
+        (self.min_convex_pitch_radius_over_roller * offset).max(of_profile)
+    }
+}
+
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
     "pressure_angle",
     "largest angle between the follower's path and the normal, at most 90 deg; when absent 45 deg for a swinging roller, none for a flat face",
@@ -182,12 +202,28 @@ const PRESSURE_ANGLE: Field<f64> = Field::quantity(
     Angle,
     above(0.0, FRAC_PI_2),
 );
+const PRESSURE_ANGLE_RETURN: Field<f64> = Field::quantity(
+    "pressure_angle_return",
+    "limit of negative pressure angles, where a spring brings the follower back; as pressure_angle when absent",
+    Optional("45 deg"),
+    Angle,
+    above(0.0, FRAC_PI_2),
+)
+.only(&[MAKE]);
 const MIN_CONVEX: Field<f64> = Field::number(
     "min_convex_pitch_radius_over_roller",
     "smallest convex radius of the pitch curve over the roller radius",
     Default("2.0"),
     within(0.0, LARGEST_NUMBER),
 );
+const MIN_CONVEX_RADIUS: Field<f64> = Field::quantity(
+    "min_convex_radius",
+    "smallest convex radius of the profile; under a flat face 1 mm is kept by base_radius = \"auto\" when absent",
+    Optional("5 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(&[MAKE]);
 const CUTTER_RADIUS: Field<f64> = Field::quantity(
     "cutter_radius",
     "radius of the tool the shop cuts with; concave parts must let it in",
@@ -239,7 +275,9 @@ pub(super) const SECTION: Section = Section {
     cams: &[],
     keys: &[
         PRESSURE_ANGLE.key,
+        PRESSURE_ANGLE_RETURN.key,
         MIN_CONVEX.key,
+        MIN_CONVEX_RADIUS.key,
         CUTTER_RADIUS.key,
         WALL.key,
         CONTACT_STRESS.key,
@@ -288,7 +326,9 @@ pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limit
     let table = reader.table(&SECTION);
     Some(Limits {
         pressure_angle: pressure_angle(&table, table.get(&PRESSURE_ANGLE)?, follower),
+        pressure_angle_return: table.get(&PRESSURE_ANGLE_RETURN),
         min_convex_pitch_radius_over_roller: table.get(&MIN_CONVEX)?,
+        min_convex_radius: table.get(&MIN_CONVEX_RADIUS),
         cutter_radius: table.get(&CUTTER_RADIUS),
         wall: table.get(&WALL)?,
         contact_stress: table.get(&CONTACT_STRESS),

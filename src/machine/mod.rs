@@ -45,7 +45,7 @@ use crate::document::Presence::Required;
 use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
 use crate::document::{self, Field, Input, Occurs, Reader, Section};
-use crate::follower::{self, FOLLOWERS};
+use crate::follower::{self, FOLLOWERS, Place};
 use crate::linkage::{End, Linkage, StrokeEnd};
 use crate::motion::{Motion, Transition, program};
 use std::fmt;
@@ -262,6 +262,13 @@ impl Machine {
         Some(machine)
     }
 
+    /// The machine with its base radius left open, and of its follower's place what is given here.
+    #[must_use]
+    pub fn left_open(&self, place: Option<Place>) -> Self {
+        let cam = CamData { base_radius: None, ..self.cam };
+        Self { cam, follower: FollowerData { place, ..self.follower.clone() }, ..self.clone() }
+    }
+
     /// What reports call it.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -367,9 +374,12 @@ impl Machine {
     /// The translating roller.
     ///
     /// # Errors
-    /// [`NoRoller`] when the follower is another one.
+    /// [`NoRoller`] when the follower is another one, or its place is not given.
     pub fn roller(&self) -> Result<&RollerData, NoRoller> {
-        self.follower.roller.as_ref().ok_or(NoRoller)
+        if self.follower.place.is_some() {
+            return Err(NoRoller::Auto);
+        }
+        self.follower.roller.as_ref().ok_or(NoRoller::Another)
     }
 
     /// Requires that a cutter of this radius (m) fits into the concave parts as well.

@@ -69,8 +69,15 @@ pub enum NoPress {
 
 /// The follower of the machine file is not the roller that the cam needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("this cam needs a translating roller: give the table [follower.roller]")]
-pub struct NoRoller;
+#[non_exhaustive]
+pub enum NoRoller {
+    /// It is another one.
+    #[error("this cam needs a translating roller: give the table [follower.roller]")]
+    Another,
+    /// Its place is to be chosen.
+    #[error("follower.roller.offset = \"auto\" is chosen for the motion of `camgen make`: give an offset")]
+    Auto,
+}
 
 impl Press {
     /// The pair of cylinders, sized at the design speed.

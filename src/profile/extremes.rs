@@ -145,6 +145,13 @@ const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };
 /// Largest |pressure angle| where a follower runs, rad.
 #[must_use]
 pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
+    let [rising, falling] = pressure_angles(curves);
+    if rising.value >= falling.value { rising } else { falling }
+}
+
+/// Largest pressure angle and largest one of the other sign, as a positive number, where a follower runs, rad.
+#[must_use]
+pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
     let rolled = |piece: usize| curves.motion.is_rolled(piece);
     let signed = |sign: f64| {
         largest(curves, rolled, |piece, angle| {
@@ -152,8 +159,7 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
             (sign * contact.pressure_angle, sign * contact.pressure_angle_slope)
         })
     };
-    let (rise, fall) = (signed(1.0), signed(-1.0));
-    if rise.value >= fall.value { rise } else { fall }
+    [signed(1.0), signed(-1.0)]
 }
 
 /// Largest curvature of the follower's curve, 1/m: the sharpest convex place.

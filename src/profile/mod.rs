@@ -10,6 +10,7 @@ pub mod extremes;
 pub mod followed;
 pub mod interpolated;
 pub mod outline;
+pub mod placing;
 pub mod size;
 
 use crate::follower::{Element, Follower, Touch};

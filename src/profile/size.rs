@@ -20,8 +20,8 @@ const CLOSING_OVER_ROLLER: f64 = 1.05;
 /// What a radius must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Required {
-    /// Largest |pressure angle|, rad; infinite where there is no limit.
-    pub pressure_angle: f64,
+    /// Largest pressure angles where it is positive and where it is negative, rad; infinite where there is no limit.
+    pub pressure_angles: [f64; 2],
     /// Smallest convex radius of the follower's curve where the follower runs, m.
     pub convex_radius: f64,
     /// Prime radius below which nothing is tried, m.
@@ -37,8 +37,11 @@ impl Required {
         let wall = if limits.wall > 0.0 { limits.wall } else { BASE_STEP };
         let least_base = cam.bore_reach().map_or(BASE_STEP, |reach| reach + wall);
         Self {
-            pressure_angle: limits.pressure_angle.unwrap_or(f64::INFINITY),
-            convex_radius: limits.min_convex_pitch_radius_over_roller.max(1.0) * offset,
+            pressure_angles: limits.pressure_angles(),
+            convex_radius: limits.convex_radius(offset).max(match follower.element() {
+                Element::Roller { radius } => radius,
+                Element::Face => LEAST_FACE_RADIUS,
+            }),
             least: (least_base + offset).max(follower.prime_radii().0),
         }
     }
@@ -108,14 +111,18 @@ impl Sizing<'_> {
     }
 
     fn pressure(&self, radius: f64) -> f64 {
-        self.at(radius, |curves| extremes::pressure_angle(curves).value - self.required.pressure_angle)
+        self.at(radius, |curves| {
+            let [rising, falling] = extremes::pressure_angles(curves);
+            let [most, least] = self.required.pressure_angles;
+            worse(rising.value - most, falling.value - least)
+        })
     }
 
     fn curvature(&self, radius: f64) -> f64 {
         self.at(radius, |curves| match curves.element() {
             Element::Roller { radius: roller } => self.too_sharp(curves, roller),
             // The profile under a face must not turn back on itself, nor come to an edge.
-            Element::Face => (LEAST_FACE_RADIUS - extremes::least_radius(curves).value) / radius,
+            Element::Face => (self.required.convex_radius - extremes::least_radius(curves).value) / radius,
         })
     }
 
@@ -291,7 +298,7 @@ mod tests {
             );
             let follower = SwingingRoller::new(arm, pivot, 0.008, if case % 2 == 0 { 1.0 } else { -1.0 });
             let required = Required {
-                pressure_angle: (20.0 + 30.0 * u(5)).to_radians(),
+                pressure_angles: [(20.0 + 30.0 * u(5)).to_radians(); 2],
                 convex_radius: 0.01,
                 least: 0.02_f64.max(follower.prime_radii().0),
             };
@@ -321,7 +328,8 @@ mod tests {
     /// The disc of a brake, and a centred roller on the smallest one that keeps a pressure angle.
     fn of_brake(roller: f64, pressure_angle: f64) -> (BrakeDisc, TranslatingRoller) {
         let motion = brake_disc::tests::disc();
-        let required = Required { pressure_angle, convex_radius: roller, least: 1e-3 + roller };
+        let required =
+            Required { pressure_angles: [pressure_angle; 2], convex_radius: roller, least: 1e-3 + roller };
         let follower = TranslatingRoller::new(0.1, 0.0, roller);
         let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
         (motion, TranslatingRoller::new(prime_radius, 0.0, roller))
@@ -356,7 +364,7 @@ mod tests {
         assert!((radius(1) / (CLOSING_OVER_ROLLER * roller) - 1.0).abs() < 1e-12, "{}", radius(1));
         assert!(radius(0) > roller, "{}", radius(0));
 
-        let required = Required { pressure_angle: 80.0_f64.to_radians(), convex_radius: 2.0 * roller, least: roller };
+        let required = Required { pressure_angles: [80.0_f64.to_radians(); 2], convex_radius: 2.0 * roller, least: roller };
         let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
         let follower = TranslatingRoller::new(prime_radius, 0.0, roller);
         let curves = Curves { motion: &motion, follower: &follower };

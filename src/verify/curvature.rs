@@ -20,13 +20,14 @@ pub(super) const UNDERCUT: Check = Check {
 pub(super) const MIN_CONVEX_RADIUS: Check = Check {
     name: "min_convex_radius",
     on: On::Cam,
-    about: "The smallest convex radius of the pitch curve. Customary is two to three times the roller's radius; below, the \
-            contact stress rises steeply.",
+    about: "The smallest convex radius of the pitch curve, or of the profile under a flat face. Customary is two to three times the \
+            roller's radius; below, the contact stress rises steeply.",
     explained: Explained {
         bound: Bound::AtLeast,
         formula: "ρ = (x'² + y'²)^(3/2)/(x'y'' − y'x'') of the pitch curve where it is convex",
         usual: "2 to 3 times the roller's radius (R. L. Norton, Design of Machinery); camgen asks for 2",
-        change: "a smaller roller, a larger `cam.base_radius`, or another `limits.min_convex_pitch_radius_over_roller`",
+        change: "a smaller roller, a larger `cam.base_radius`, or another `limits.min_convex_pitch_radius_over_roller` or \
+                 `limits.min_convex_radius`",
     },
     run: min_convex_radius,
 };
@@ -48,7 +49,10 @@ fn undercut(evidence: &Evidence<'_>) -> Option<Finding> {
 fn min_convex_radius(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let least = body.least_rolled_radius();
-    let limit = body.machine().limits.min_convex_pitch_radius_over_roller * body.roller_radius()?;
+    let limits = body.machine().limits;
+    // Under a face the follower's curve is the profile, and only what is asked for is a limit.
+    let roller = body.roller_radius().or_else(|| limits.min_convex_radius.map(|_| 0.0))?;
+    let limit = limits.convex_radius(roller);
     let kept = least.value >= limit * (1.0 - ROUNDING);
     let found = MIN_CONVEX_RADIUS.found(1e3 * least.value, Some(1e3 * limit), "mm", Verdict::of(kept));
     Some(at(body, &least, found, if kept { None } else { body.remedy() }))

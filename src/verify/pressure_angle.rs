@@ -23,12 +23,17 @@ const ROUNDING: f64 = 1e-12;
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
-    let worst = body.pressure_angle();
-    let Some(limit) = body.machine().limits.pressure_angle else {
+    if body.machine().limits.pressure_angle.is_none() {
+        let worst = body.pressure_angle();
         let found = CHECK.found(worst.value.to_degrees(), None, "deg", Verdict::Info);
         let told = "a flat face has no customary limit; limits.pressure_angle gives one";
         return Some(at(body, &worst, found, Some(told.into())));
-    };
+    }
+    let [rising, falling] = body.pressure_angles();
+    let [rising_limit, falling_limit] = body.machine().limits.pressure_angles();
+    // Of two limits that which is nearer, or broken more.
+    let of_return = falling.value / falling_limit > rising.value / rising_limit;
+    let (worst, limit) = if of_return { (falling, falling_limit) } else { (rising, rising_limit) };
     let kept = worst.value <= limit * (1.0 + ROUNDING);
     // The conversion to radians costs an ulp: what was typed as 30 is reported as 30.
     let told = (limit.to_degrees() * 1e12).round() / 1e12;

@@ -218,11 +218,12 @@ impl Body for Conoid {
     }
 
     /// The angle between the roller's path and the normal of the section, over every place where the roller may stand.
-    fn pressure_angle(&self) -> Worst {
-        self.worst(|conoid, place| {
+    fn pressure_angles(&self) -> [Worst; 2] {
+        let largest = self.worst(|conoid, place| {
             let (height, slope) = conoid.height_and_slope(&place.partials);
             libm::atan2(slope, height).abs()
-        })
+        });
+        [largest, Worst::NONE]
     }
 
     /// By the principal curvatures of the pitch surface.

@@ -311,7 +311,7 @@ impl Conoid {
             }
             let sharpest = conoid.sharpest_smooth();
             too_sharp = (!kept(&sharpest)).then_some(sharpest);
-            too_sharp.is_none() && conoid.pressure_angle().value <= required.pressure_angle * (1.0 + SLACK)
+            too_sharp.is_none() && conoid.pressure_angle().value <= required.pressure_angles[0] * (1.0 + SLACK)
         };
         if !keeps(self, radius) {
             let mut failing = radius;

@@ -7,9 +7,13 @@ mod loaded;
 mod mechanism;
 mod program;
 mod raised;
+mod size;
+mod size_told;
 pub use compensator::{AtSpeed, Compensated};
 pub(in crate::body) use mechanism::of_press;
 mod sheet;
+pub use size::{Binding, Placed};
+pub use size_told::{Best, SizeTold};
 
 use super::balance::{AsCut, Balance};
 use super::part::{Part, point_as_turned};
@@ -27,7 +31,7 @@ use crate::motion::counter_torque::CounterTorqueError;
 use crate::motion::{BrakeDisc, Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, Transition};
 use crate::profile::extremes::{self, Acting};
 use crate::profile::outline::{self, OutlineError};
-use crate::profile::size::{self, NoRadius, Required, Smallest};
+use crate::profile::size::{NoRadius, Smallest};
 use crate::profile::{Curves, Worst, lifts};
 use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
@@ -68,6 +72,8 @@ pub struct Disc {
     brake: Option<Arc<BrakeDisc>>,
     /// The sizes that keep every limit; `None` when none does.
     smallest: Option<Smallest>,
+    /// What was chosen of the follower's place, where that is asked for.
+    placed: Option<Placed>,
     worst: WorstPlaces,
 }
 
@@ -90,6 +96,24 @@ pub enum DiscError {
     /// `auto` found no radius.
     #[error("{0}: relax limits.pressure_angle or limits.min_convex_pitch_radius_over_roller, or give cam.base_radius")]
     Size(#[from] NoRadius),
+    /// Every place of the follower breaks the limit of the pressure angle.
+    #[error(
+        "{path}.{key} = \"auto\": no place of the follower keeps the pressure angle; relax limits.pressure_angle, or give a longer rise"
+    )]
+    NoPlace {
+        /// The follower's table.
+        path: &'static str,
+        /// Its key.
+        key: &'static str,
+    },
+    /// The place of the follower is to be chosen for a press.
+    #[error("{path}.{key} = \"auto\" is chosen for the motion of `camgen make`: give a value")]
+    PlaceOfPress {
+        /// The follower's table.
+        path: &'static str,
+        /// Its key.
+        key: &'static str,
+    },
     /// The follower does not reach the cam.
     #[error(
         "the follower does not reach every lift on a cam of base radius {base_radius_mm} mm; give a smaller cam.base_radius, or another arm"
@@ -162,6 +186,9 @@ impl Disc {
     /// The disc of a press, its size not yet found, with a cam that may be cut higher than its law.
     fn of_reversal(machine: &Machine, rpm: f64, raised: Option<Arc<Raised>>) -> Result<Self, DiscError> {
         let press = machine.press()?;
+        if let Some(place) = machine.follower.place {
+            return Err(DiscError::PlaceOfPress { path: machine.follower.path, key: place.key() });
+        }
         let is_raised = raised.is_some();
         if press.lead > 0.0 && machine.transition == Transition::None {
             return Err(DiscError::CornerOfLead);
@@ -206,6 +233,7 @@ impl Disc {
             raised: false,
             brake: None,
             smallest: None,
+            placed: None,
             worst: WorstPlaces::default(),
         }
     }
@@ -213,55 +241,6 @@ impl Disc {
     /// Angular speed of the cam of a press, rad/s.
     fn speed_of(press: &Press, machine: &Machine, rpm: f64) -> f64 {
         press.bed.crank_speed(rpm) / f64::from(machine.cam.lobes)
-    }
-
-    fn sized(mut self) -> Result<Self, DiscError> {
-        let (motion, follower) = (self.motion.quantity(), self.follower.quantity());
-        if motion != follower {
-            return Err(DiscError::WrongQuantity { motion: motion.words(), follower: follower.words() });
-        }
-        // How quickly a face turns on the cam does not depend on the size.
-        if let Some(turn) = extremes::least_turn(self.curves()).filter(|turn| !(turn.value > 0.0)) {
-            return Err(DiscError::FaceTurnsBack { cam_deg: turn.at.to_degrees() });
-        }
-        let offset = self.follower.element().offset();
-        let required = Required::of(&self.machine.limits, &self.machine.cam, &*self.follower);
-        let by_shape = size::smallest(&*self.motion, &*self.follower, &required);
-        let smallest = by_shape.ok().and_then(|smallest| self.keeping_all(smallest));
-        let base = match (self.machine.cam.base_radius, smallest) {
-            (Some(base), _) => base,
-            (None, Some(smallest)) => smallest.base_radius,
-            // A limit that no radius keeps: its check says so.
-            (None, None) => by_shape?.base_radius,
-        };
-        let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
-        let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
-        self.follower = sized.ok_or(DiscError::OutOfReach { base_radius_mm: MILLIMETRES * base })?.into();
-        self.smallest = smallest;
-        Ok(self)
-    }
-
-    /// The same cam on another base radius (m), if the follower reaches it.
-    fn on(&self, base_radius: f64) -> Option<Self> {
-        let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
-        let follower = self.follower.sized(base_radius + self.follower.element().offset())?;
-        let reached = top <= follower.reach().1;
-        reached.then(|| Self { follower: follower.into(), worst: WorstPlaces::default(), ..self.clone() })
-    }
-
-    /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each
-    /// as its check measures it; `None` when no size in reach does.
-    fn keeping_all(&self, smallest: Smallest) -> Option<Smallest> {
-        let offset = self.follower.element().offset();
-        let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
-        if keeps(smallest.base_radius) {
-            return Some(smallest);
-        }
-        let largest = (self.follower.prime_radii().1 - offset).min(LARGEST_BASE);
-        let prime_radius = size::first_that_keeps(smallest.base_radius, largest, keeps)? + offset;
-        let rounded = size::rounded_up(prime_radius - offset);
-        let base_radius = if keeps(rounded) { rounded } else { prime_radius - offset };
-        Some(Smallest { prime_radius, base_radius })
     }
 
     /// Motion and follower.
@@ -566,6 +545,7 @@ impl Body for Disc {
         let mut sections = vec![cam.section()];
         sections.extend(self.mounting());
         sections.extend(self.on_its_frame());
+        sections.extend(self.size_told());
         sections.extend(self.program());
         if let Some(load) = &self.load {
             sections.push(load.section());

@@ -250,3 +250,30 @@ pub(in crate::cli) struct BrakeArgs {
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,
 }
+
+/// What may be left open beside the base radius.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum FreeOf {
+    Offset,
+    #[value(alias = "pivot_distance", alias = "arm")]
+    PivotDistance,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SizeArgs {
+    /// The path of a file with [motion] and a follower, or an embedded one
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// What may be chosen beside the base radius: offset (of a roller or a knife edge on a straight path) or pivot-distance (of an
+    /// arm; also called arm) [default: what the file leaves to auto]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', ignore_case = true)]
+    pub(in crate::cli) free: Vec<FreeOf>,
+
+    /// Speed of the cam, rpm [default: that of the file]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Option<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}

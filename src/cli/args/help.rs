@@ -76,6 +76,13 @@ Examples:
   camgen brake roll-level
       a frame that holds the tension by itself";
 
+pub(super) const SIZE: &str = "\
+Examples:
+  camgen size feeder --free offset
+      base radius and offset of the smallest cam of the embedded feeder, and how they depend on each other
+  camgen size lever --free pivot-distance --dry-run
+      the same for the pivot of an arm; only the report";
+
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
   camgen side-by-side dpi dpi-paper

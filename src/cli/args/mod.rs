@@ -7,8 +7,8 @@ mod help;
 mod parse;
 
 pub(super) use analyses::{
-    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, FrameOf, GoalOf, LinkageArgs, RegimesArgs, ResetOf, ShaftArgs,
-    ShaftSolver, SpringArgs, WhirlOf,
+    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, FrameOf, FreeOf, GoalOf, LinkageArgs, RegimesArgs, ResetOf,
+    ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
 };
 pub(super) use common::{AccuracyArgs, CommonArgs, EndOf, ToldArgs};
 pub(super) use files::{
@@ -90,6 +90,11 @@ pub(super) enum Command {
     /// disc on the frame's shaft that holds it exactly.
     #[command(after_help = help::BRAKE)]
     Brake(BrakeArgs),
+    /// Smallest disc for a motion program, and which limit binds it
+    ///
+    /// Base radius, and offset or pivot distance where they are left open; how the size changes with the place of the follower.
+    #[command(after_help = help::SIZE)]
+    Size(SizeArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -150,6 +155,7 @@ impl Command {
             Command::Linkage(args) => (&args.machine, &args.analysis),
             Command::Shaft(args) => (&args.machine, &args.analysis),
             Command::Brake(args) => (&args.machine, &args.analysis),
+            Command::Size(args) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();

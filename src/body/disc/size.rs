@@ -1,0 +1,247 @@
+//! How large a disc is, and where its follower stands, when that is left open.
+
+use super::{Disc, DiscError, LARGEST_BASE};
+use crate::body::{Body, broken_limit};
+use crate::follower::{Follower, Place};
+use crate::geometry::MILLIMETRES;
+use crate::numeric::extremum::{self, TO_ROUNDING};
+use crate::profile::placing::{self, Nearest};
+use crate::profile::size::{self, NoRadius, Required, Smallest};
+use crate::profile::{Curves, Worst, extremes};
+use std::sync::Arc;
+
+/// Half millimetres, in which an offset or a pivot distance is chosen, m.
+const CHOICE_STEP: f64 = 0.5e-3;
+/// Places tried, and golden sections between the best of them, where more than the pressure angle matters.
+const PLACES: u32 = 24;
+/// By how much a prime radius is larger than another one, as a share, before it is held to be.
+const LARGER: f64 = 1e-9;
+/// A prime radius from which sizes are tried, m.
+const LEAST_PRIME: f64 = 1e-4;
+/// By how much a cam is made smaller to see which limit it then breaks, as a share.
+const JUST_BELOW: f64 = 1e-6;
+
+/// What was chosen of a follower's place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placed {
+    /// What may be chosen.
+    pub place: Place,
+    /// The best choice and the prime radius of the cam with it, m.
+    pub best: (f64, f64),
+    /// The choice, in half millimetres where that passes, m.
+    pub chosen: f64,
+}
+
+/// Why a cam is not smaller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Binding {
+    /// The limit that a smaller one breaks, as `limits` of the machine file calls it; `bore` for the metal about the bore, `reach` where
+    /// the follower would not reach.
+    pub limit: &'static str,
+    /// Where.
+    pub at: Option<Worst>,
+}
+
+impl Disc {
+    pub(super) fn sized(mut self) -> Result<Self, DiscError> {
+        let (motion, follower) = (self.motion.quantity(), self.follower.quantity());
+        if motion != follower {
+            return Err(DiscError::WrongQuantity { motion: motion.words(), follower: follower.words() });
+        }
+        if let Some(place) = self.machine.follower.place {
+            let placed = self.best_place(place)?;
+            (self.follower, self.placed) = (place.follower(placed.chosen), Some(placed));
+        }
+        // How quickly a face turns on the cam does not depend on the size.
+        if let Some(turn) = extremes::least_turn(self.curves()).filter(|turn| !(turn.value > 0.0)) {
+            return Err(DiscError::FaceTurnsBack { cam_deg: turn.at.to_degrees() });
+        }
+        let offset = self.follower.element().offset();
+        let required = self.required();
+        let by_shape = size::smallest(&*self.motion, &*self.follower, &required);
+        let smallest = by_shape.ok().and_then(|smallest| self.keeping_all(smallest));
+        let base = match (self.machine.cam.base_radius, smallest) {
+            (Some(base), _) => base,
+            (None, Some(smallest)) => smallest.base_radius,
+            // A limit that no radius keeps: its check says so.
+            (None, None) => by_shape?.base_radius,
+        };
+        let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
+        let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
+        self.follower = sized.ok_or(DiscError::OutOfReach { base_radius_mm: MILLIMETRES * base })?.into();
+        self.smallest = smallest;
+        Ok(self)
+    }
+
+    /// What its limits and its bore require of its size.
+    fn required(&self) -> Required {
+        Required::of(&self.machine.limits, &self.machine.cam, &*self.follower)
+    }
+
+    /// The same cam on another base radius (m), if the follower reaches it.
+    pub(super) fn on(&self, base_radius: f64) -> Option<Self> {
+        let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
+        let follower = self.follower.sized(base_radius + self.follower.element().offset())?;
+        let reached = top <= follower.reach().1;
+        reached.then(|| Self { follower: follower.into(), worst: Default::default(), ..self.clone() })
+    }
+
+    /// The same cam with another choice of its follower's place, m, not yet sized.
+    #[must_use]
+    pub fn placed_at(&self, place: Place, chosen: f64) -> Self {
+        Self { follower: place.follower(chosen), worst: Default::default(), ..self.clone() }
+    }
+
+    /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each
+    /// as its check measures it; `None` when no size in reach does.
+    fn keeping_all(&self, smallest: Smallest) -> Option<Smallest> {
+        let offset = self.follower.element().offset();
+        let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
+        if keeps(smallest.base_radius) {
+            return Some(smallest);
+        }
+        let largest = (self.follower.prime_radii().1 - offset).min(LARGEST_BASE);
+        let prime_radius = size::first_that_keeps(smallest.base_radius, largest, keeps)? + offset;
+        let rounded = size::rounded_up(prime_radius - offset);
+        let base_radius = if keeps(rounded) { rounded } else { prime_radius - offset };
+        Some(Smallest { prime_radius, base_radius })
+    }
+
+    /// The smallest size with a choice of its follower's place; `least` is a prime radius (m) below which none passes.
+    #[must_use]
+    pub fn smallest_at(&self, place: Place, chosen: f64, least: f64) -> Option<Smallest> {
+        let disc = self.placed_at(place, chosen);
+        let required = disc.required();
+        let required = Required { least: required.least.max(least), ..required };
+        let by_shape = size::smallest(&*disc.motion, &*disc.follower, &required).ok()?;
+        disc.keeping_all(by_shape)
+    }
+
+    /// The same by the pressure angle alone, m.
+    #[must_use]
+    pub fn smallest_inclined_at(&self, place: Place, chosen: f64, least: f64) -> Option<f64> {
+        let disc = self.placed_at(place, chosen);
+        let least = disc.follower.prime_radii().0.max(LEAST_PRIME).max(least);
+        let required = Required { convex_radius: 0.0, least, ..disc.required() };
+        size::smallest(&*disc.motion, &*disc.follower, &required).ok().map(|smallest| smallest.prime_radius)
+    }
+
+    /// The same cam on another prime radius (m), whatever limits it breaks, if the follower reaches it.
+    #[must_use]
+    pub fn of_prime_radius(&self, prime_radius: f64) -> Option<Self> {
+        self.on(prime_radius - self.follower.element().offset())
+    }
+
+    /// The smallest cam by the pressure angle alone over every place of its follower.
+    ///
+    /// # Errors
+    /// [`DiscError::NoPlace`] when no place keeps it.
+    pub fn nearest(&self, place: Place) -> Result<Nearest, DiscError> {
+        let limits = self.machine.limits.pressure_angles();
+        let no_place = DiscError::NoPlace { path: self.machine.follower.path, key: place.key() };
+        placing::nearest(&*self.motion, place, limits).ok_or(no_place)
+    }
+
+    /// The place of the smallest cam, or with a given base radius of that with the least pressure angle for its limit.
+    fn best_place(&self, place: Place) -> Result<Placed, DiscError> {
+        let offset = self.follower.element().offset();
+        if let Some(base) = self.machine.cam.base_radius {
+            let prime_radius = base + offset;
+            let best = self.least_inclined(place, prime_radius);
+            let chosen = self.better(place, best, |choice| self.inclination(place, choice, prime_radius));
+            return Ok(Placed { place, best: (best, prime_radius), chosen: chosen.unwrap_or(best) });
+        }
+        let nearest = self.nearest(place)?;
+        let least = nearest.prime_radius * (1.0 - LARGER);
+        let size = |choice: f64| self.smallest_at(place, choice, least);
+        let best = self.best_of(place, &nearest, size).ok_or(NoRadius)?;
+        let chosen = self.better(place, best.0, |choice| size(choice).map(|smallest| smallest.base_radius));
+        Ok(Placed { place, best, chosen: chosen.unwrap_or(best.0) })
+    }
+
+    /// The choice with the smallest prime radius, and that radius; from the one that the pressure angle alone asks for, which is the best
+    /// where nothing else matters.
+    fn best_of(
+        &self,
+        place: Place,
+        nearest: &Nearest,
+        size: impl Fn(f64) -> Option<Smallest>,
+    ) -> Option<(f64, f64)> {
+        let ideal = place.chosen(nearest.shaft);
+        let at_ideal = size(ideal).map(|smallest| smallest.prime_radius);
+        if let Some(radius) = at_ideal.filter(|radius| *radius <= nearest.prime_radius * (1.0 + LARGER)) {
+            return Some((ideal, radius));
+        }
+        let prime = |choice: f64| size(choice).map_or(f64::INFINITY, |smallest| smallest.prime_radius);
+        let width = at_ideal.unwrap_or(4.0 * nearest.prime_radius);
+        let (least, most) = place.choices(width);
+        let range = ((ideal - width).max(least), (ideal + width).min(most));
+        let found = extremum::largest_without_slope(|choice| -prime(choice), range, PLACES, TO_ROUNDING);
+        let best = at_ideal.filter(|radius| *radius <= -found.value).map_or((found.at, -found.value), |radius| (ideal, radius));
+        if !best.1.is_finite() {
+            return None;
+        }
+        // Where the bore or a limit of the curvature asks for the size, many places may have it: that with the least pressure angle is
+        // taken.
+        let flattest = self.least_inclined(place, best.1);
+        if prime(flattest) <= best.1 * (1.0 + LARGER) { Some((flattest, best.1)) } else { Some(best) }
+    }
+
+    /// The choice with the least pressure angle over its limit on a cam of a prime radius, m.
+    fn least_inclined(&self, place: Place, prime_radius: f64) -> f64 {
+        let inclined = |choice: f64| -self.inclination(place, choice, prime_radius).unwrap_or(f64::INFINITY);
+        extremum::largest_without_slope(inclined, place.choices(prime_radius), PLACES, TO_ROUNDING).at
+    }
+
+    /// Largest pressure angle over its limit with a choice on a cam of a prime radius, m; `None` where the follower does not reach.
+    fn inclination(&self, place: Place, choice: f64, prime_radius: f64) -> Option<f64> {
+        let follower = place.follower(choice).sized(prime_radius)?;
+        let top = size::largest_lift_in_reach(&*self.motion, &*follower);
+        let curves = Curves { motion: &*self.motion, follower: &*follower };
+        let worst = || extremes::pressure_angles(curves).into_iter().zip(self.machine.limits.pressure_angles());
+        (top <= follower.reach().1)
+            .then(|| worst().map(|(angle, limit)| angle.value / limit).fold(f64::NEG_INFINITY, f64::max))
+    }
+
+    /// The better of the two half millimetres about a choice; `None` where neither passes.
+    fn better(&self, place: Place, best: f64, value: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+        let steps = (best / CHOICE_STEP).floor();
+        let least = if matches!(place, Place::Pivot { .. }) { 0.0 } else { f64::NEG_INFINITY };
+        let both = [steps, steps + 1.0].map(|steps| steps * CHOICE_STEP + 0.0);
+        let passing = both.into_iter().filter(|choice| *choice > least);
+        let valued = passing.filter_map(|choice| Some((choice, value(choice)?)));
+        valued.min_by(|a, b| a.1.total_cmp(&b.1).then((a.0 - best).abs().total_cmp(&(b.0 - best).abs()))).map(|(choice, _)| choice)
+    }
+
+    /// Why a cam with its follower where it stands is not smaller than the smallest; `None` where none passes.
+    #[must_use]
+    pub fn binding(&self) -> Option<Binding> {
+        let smallest = self.smallest?;
+        let offset = self.follower.element().offset();
+        let below = smallest.prime_radius * (1.0 - JUST_BELOW) - offset;
+        let Some(smaller) = self.on(below) else { return Some(Binding { limit: "reach", at: None }) };
+        // The radius that is kept under a face without being asked for is no limit of a check.
+        let sharp = || smaller.least_rolled_radius().value < self.required().convex_radius * (1.0 - LARGER);
+        let limit = broken_limit(&smaller).unwrap_or_else(|| if sharp() { "min_convex_radius" } else { "bore" });
+        let at = match limit {
+            "pressure_angle" | "pressure_angle_return" => Some(smaller.pressure_angles()),
+            "undercut" | "min_convex_pitch_radius_over_roller" | "min_convex_radius" => Some([smaller.least_rolled_radius(); 2]),
+            "contact_stress" => smaller.contact_stress().map(|at| [at; 2]),
+            "cutter_radius" => smaller.hollow().map(|at| [at; 2]),
+            _ => None,
+        };
+        Some(Binding { limit, at: at.map(|[rising, falling]| if limit == "pressure_angle_return" { falling } else { rising }) })
+    }
+
+    /// What was chosen of the place of its follower, where that is asked for.
+    #[must_use]
+    pub fn placed(&self) -> Option<Placed> {
+        self.placed
+    }
+
+    /// Its follower.
+    #[must_use]
+    pub fn follower(&self) -> &Arc<dyn Follower> {
+        &self.follower
+    }
+}

@@ -1,0 +1,130 @@
+//! What of a roller's place may be chosen together with the size of the cam, and the places at which a pressure angle is kept.
+//!
+//! Seen from the follower, the shaft is a point q of the plane, and each limit of the pressure angle at each cam angle a straight
+//! line that q must not cross: where the shaft may be is a convex region, and the smallest cam is that of its point nearest to the
+//! roller at rest.
+
+use super::{Carrier, Follower, SwingingRoller, TranslatingRoller};
+use crate::motion::Jet;
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// What may be chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Place {
+    /// The offset of a roller on a straight path; q = (u0, ε), seen from the centre of the roller at rest.
+    Offset {
+        /// Radius of the roller, m; 0 of a knife edge.
+        radius: f64,
+    },
+    /// The distance of the pivot from the shaft; q = a (cos ψ0, sin ψ0), seen from the pivot with the arm at rest along the first axis.
+    Pivot {
+        /// From the pivot to the centre of the roller, m.
+        arm: f64,
+        /// Radius of the roller, m.
+        radius: f64,
+        /// 1 trails, −1 leads.
+        side: f64,
+    },
+}
+
+/// A condition normal·q ≥ least on the place q of the shaft, with its derivatives by the parameter of the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfPlane {
+    /// Of the order of 1.
+    pub normal: Vector2<f64>,
+    /// m.
+    pub least: f64,
+    /// Derivative of the normal.
+    pub normal_slope: Vector2<f64>,
+    /// Derivative of `least`.
+    pub least_slope: f64,
+}
+
+impl Place {
+    /// Where the roller stands at rest, m: the prime radius is the distance of q from it.
+    #[must_use]
+    pub fn of_roller(self) -> Vector2<f64> {
+        match self {
+            Place::Offset { .. } => Vector2::zeros(),
+            Place::Pivot { arm, .. } => Vector2::new(arm, 0.0),
+        }
+    }
+
+    /// Where the shaft may be for a pressure angle α ≤ `limit`, rad, or, `falling`, α ≥ −`limit`, at a lift.
+    ///
+    /// A roller with u = u0 + s has tan α = (s' − ε)/u. On an arm l with X = a cos ψ0 and Y = a sin ψ0, a cos ψ = X cos s − Y sin s and
+    /// a sin ψ = X sin s + Y cos s, so that tan α = [l s' + τ (l − a cos ψ)]/(a sin ψ) is linear in X and Y as well. Both are taken times
+    /// cos `limit`, so that 90° is no exception.
+    #[must_use]
+    pub fn condition(self, lift: &Jet, limit: f64, falling: bool) -> HalfPlane {
+        let way = if falling { -1.0 } else { 1.0 };
+        let (sine, cosine) = (libm::sin(limit), libm::cos(limit));
+        match self {
+            Place::Offset { .. } => HalfPlane {
+                normal: Vector2::new(sine, way * cosine),
+                least: way * cosine * lift.ds - sine * lift.s,
+                normal_slope: Vector2::zeros(),
+                least_slope: way * cosine * lift.dds - sine * lift.ds,
+            },
+            Place::Pivot { arm, side, .. } => {
+                let (t, c) = (sine, way * side * cosine);
+                let (sin, cos) = (libm::sin(lift.s), libm::cos(lift.s));
+                let normal = Vector2::new(c * cos + t * sin, t * cos - c * sin);
+                HalfPlane {
+                    normal,
+                    least: way * cosine * arm * (lift.ds + side),
+                    normal_slope: Vector2::new(normal.y, -normal.x) * lift.ds,
+                    least_slope: way * cosine * arm * lift.dds,
+                }
+            }
+        }
+    }
+
+    /// What is chosen by a place of the shaft: offset or pivot distance, m.
+    #[must_use]
+    pub fn chosen(self, shaft: Vector2<f64>) -> f64 {
+        match self {
+            Place::Offset { .. } => shaft.y,
+            Place::Pivot { .. } => shaft.norm(),
+        }
+    }
+
+    /// The choice that a follower of this kind has made, seen from a place of its carrier, m.
+    #[must_use]
+    pub fn of(self, follower: &dyn Follower) -> f64 {
+        match (self, follower.carrier()) {
+            (Place::Pivot { .. }, Carrier::Arm { pivot }) => pivot.norm(),
+            // The centre of a translating roller stands beside the path through the shaft.
+            _ => follower.touch(0.0, &Jet::default()).curve.point.y,
+        }
+    }
+
+    /// The follower with a choice, m, not yet sized.
+    #[must_use]
+    pub fn follower(self, chosen: f64) -> Arc<dyn Follower> {
+        match self {
+            Place::Offset { radius } => Arc::new(TranslatingRoller::new(1.0 + chosen.abs(), chosen, radius)),
+            Place::Pivot { arm, radius, side } => Arc::new(SwingingRoller::new(arm, chosen, radius, side)),
+        }
+    }
+
+    /// Least and largest choice, m, on a cam of a prime radius, m.
+    #[must_use]
+    pub fn choices(self, prime_radius: f64) -> (f64, f64) {
+        match self {
+            Place::Offset { .. } => (-prime_radius, prime_radius),
+            Place::Pivot { arm, .. } => ((arm - prime_radius).abs(), arm + prime_radius),
+        }
+    }
+
+    /// The key of the follower's table that says it, and what it is called.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Place::Offset { .. } => "offset",
+            Place::Pivot { .. } => "pivot_distance",
+        }
+    }
+}
