@@ -19,7 +19,8 @@ use crate::report::{Section, Speeds};
 use crate::table::Table;
 
 /// Every kind of analysis.
-pub const KINDS: &[&Kind] = &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND, &brake::KIND, &size::KIND];
+pub const KINDS: &[&Kind] =
+    &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND, &brake::KIND, &size::KIND];
 
 /// A figure that a check judges.
 #[derive(Debug, Clone, PartialEq)]

@@ -216,18 +216,16 @@ const STEPS_ABOVE_ZERO: f64 = 0.05;
 /// What other sizes have.
 fn sizes(disc: &Disc) -> Vec<Row> {
     let (from, to) = SIZES;
-    let smallest = disc.smallest_prime_radius().map_or_else(|| disc.base_radius(), |radius| radius - disc.curves().offset());
+    let smallest =
+        disc.smallest_prime_radius().map_or_else(|| disc.base_radius(), |radius| radius - disc.curves().offset());
     let bases = between(from * smallest, to * smallest);
     let place = disc.follower().place().map_or(f64::NAN, |place| place.of(&**disc.follower()));
     parallel::map(&bases, |base| row(disc.of_prime_radius(base + disc.curves().offset()).as_ref(), place, f64::NAN))
 }
 
 fn words(disc: &Disc, size: &Size, place: Option<Place>) -> Vec<String> {
-    let mut words = vec![format!(
-        "base radius {} mm, prime radius {} mm",
-        shown(size.base_radius_mm),
-        shown(size.prime_radius_mm)
-    )];
+    let mut words =
+        vec![format!("base radius {} mm, prime radius {} mm", shown(size.base_radius_mm), shown(size.prime_radius_mm))];
     words.extend(disc.size_words(&size.told));
     if let (Some(place), Some(least)) = (place, &size.least_by_pressure_angle) {
         let name = if matches!(place, Place::Offset { .. }) { "offset" } else { "pivot distance" };

@@ -66,18 +66,18 @@ pub(super) fn make(args: &DiscArgs) -> Result<Outcome, Failure> {
         return Err(Failure("--end belongs to the cams of a press: a motion program has no ends of a stroke".into()));
     }
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
-    let spec = of_program(&args.common, machine)?;
+    let spec = of_program(&args.common, (machine, &args.common.machine))?;
     cut(spec, request, &args.common, &args.files, &name)
 }
 
-/// The disc cam of the motion program of a file.
-pub(super) fn of_program(common: &CommonArgs, machine: Machine) -> Result<Spec, Failure> {
+/// The disc cam of the motion program of a file of this name.
+pub(super) fn of_program(common: &CommonArgs, (machine, name): (Machine, &str)) -> Result<Spec, Failure> {
     let rpm = match common.rpm.as_slice() {
         [] => None,
         _ => Some(common.one_speed(&machine)?),
     };
     Spec::of_program(machine, rpm).ok_or_else(|| {
-        let why = format!("{} has no motion: `make` needs the tables [motion] and [[motion.segment]]", common.machine);
+        let why = format!("{name} has no motion: `make` needs the tables [motion] and [[motion.segment]]");
         Failure(format!("{why}; the cams of a press are made by rotary, translating and conoid"))
     })
 }

@@ -59,10 +59,14 @@ fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
         }
         return of_brake(&machine).map(|(spec, _)| spec);
     }
+    if let Some(design) = &args.design {
+        let (machine, _) = args.common.machine_of(design)?;
+        return of_program(&args.common, (machine, design));
+    }
     let (machine, _) = args.common.machine()?;
     let of_a_program = machine.press().is_err() && machine.motion().is_some();
     match args.cam.unwrap_or(if of_a_program { Checked::Make } else { Checked::Rotary }) {
-        Checked::Make => of_program(&args.common, machine),
+        Checked::Make => of_program(&args.common, (machine, &args.common.machine)),
         Checked::Rotary => {
             let rpm = args.common.one_speed(&machine)?;
             Ok(Spec::rotary(machine, rpm).alone())

@@ -46,15 +46,29 @@ pub(super) fn man(args: &ManArgs) -> Result<Outcome, Failure> {
 
 /// Prints a machine file to start from, or writes it where no file is.
 pub(super) fn init(args: &InitArgs) -> Result<Outcome, Failure> {
+    let (text, command) = match &args.follower {
+        None => (machine::template(), "rotary"),
+        Some(name) => (program(name)?, "make"),
+    };
     let Some(path) = &args.file else {
-        print(&machine::template())?;
+        print(&text)?;
         return Ok(Outcome::Fine);
     };
-    let written = File::create_new(path).and_then(|mut file| file.write_all(machine::template().as_bytes()));
+    let written = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
     written.map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => Failure(format!("`{}` is there already, and is not replaced", path.display())),
         _ => Failure(format!("cannot write `{}`: {error}", path.display())),
     })?;
-    tell(&format!("wrote {0}; `camgen rotary {0}` makes its cam", path.display()));
+    tell(&format!("wrote {0}; `camgen {command} {0}` makes its cam", path.display()));
     Ok(Outcome::Fine)
+}
+
+/// A motion program under a follower.
+fn program(follower: &str) -> Result<String, Failure> {
+    machine::template_of_program(follower).ok_or_else(|| {
+        let known = machine::followers();
+        let near = similar(follower, known.iter().copied());
+        let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? It is "));
+        Failure(format!("no such follower `{follower}`; {near}one of {}", known.join(", ")))
+    })
 }

@@ -22,7 +22,7 @@ pub use input::Input;
 pub use key::{Field, Form, Key, LengthOrAngle, Occurs, Presence, Section};
 pub use reader::{Reader, Table};
 pub use schema::schema;
-pub use template::template;
+pub use template::{Start, template};
 
 use std::collections::BTreeSet;
 

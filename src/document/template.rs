@@ -7,15 +7,27 @@ const COMMENT_COLUMN: usize = 38;
 /// Longest line.
 const WIDTH: usize = 120;
 
+/// What a file to start from holds.
+#[derive(Debug, Clone, Copy)]
+pub struct Start<'a> {
+    /// Optional tables that are not commented out.
+    pub tables: &'a [&'a str],
+    /// Keys that may be absent and are not commented out, with their tables.
+    pub keys: &'a [&'a str],
+    /// The kind of cam it is for.
+    pub cam: &'a str,
+    /// Keys without effect on it are left out, instead of being commented out.
+    pub only: bool,
+}
+
 /// A file with every key of the sections: required ones with an example, others with their default, and what may be
-/// absent commented out; optional tables not in `shown`, and keys without effect on `cam`, are commented out too. `title`
-/// becomes the comment at its head.
+/// absent commented out, as are optional tables and keys without effect on the kind of cam. `title` becomes the comment at its head.
 #[must_use]
-pub fn template(title: &str, sections: &[&Section], shown: &[&str], cam: &str) -> String {
+pub fn template(title: &str, sections: &[&Section], start: &Start<'_>) -> String {
     let mut text = comment(title);
     for section in sections {
         // What may be absent as a whole is commented out as a whole.
-        let mark = if section.occurs == Occurs::Once || shown.contains(&section.path) { "" } else { "# " };
+        let mark = if section.occurs == Occurs::Once || start.tables.contains(&section.path) { "" } else { "# " };
         text.push('\n');
         match (section.path, section.occurs) {
             ("", _) => {}
@@ -23,10 +35,16 @@ pub fn template(title: &str, sections: &[&Section], shown: &[&str], cam: &str) -
             (path, _) => text.push_str(&line(&format!("{mark}[{path}]"), section.about)),
         }
         for key in section.keys {
-            let idle = !key.cams.is_empty() && !key.cams.contains(&cam);
-            let mark = if idle || matches!(key.presence, Presence::Optional(_)) { "# " } else { mark };
+            let idle = !key.cams.is_empty() && !key.cams.contains(&start.cam);
+            if idle && start.only {
+                continue;
+            }
+            let absent =
+                matches!(key.presence, Presence::Optional(_)) && !start.keys.contains(&section.path_of(key).as_str());
+            let mark = if idle || absent { "# " } else { mark };
             let value = key.in_toml(key.presence.text());
-            text.push_str(&line(&format!("{mark}{} = {value}", key.name), &about(key)));
+            let about = if start.only { key.about.to_owned() } else { about(key) };
+            text.push_str(&line(&format!("{mark}{} = {value}", key.name), &about));
         }
     }
     text

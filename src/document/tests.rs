@@ -125,7 +125,7 @@ fn keys_without_effect_come_from_the_table() {
 
 #[test]
 fn the_template_reads_as_it_stands_and_with_everything_in_it() {
-    let text = template("A cam.", SECTIONS, &[], "");
+    let text = template("A cam.", SECTIONS, &Start { tables: &[], keys: &[], cam: "", only: false });
     assert_eq!(messages(&text, &[]), Vec::<String>::new(), "{text}");
     let is_code = |line: &str| line.starts_with("# [") || line.split('#').nth(1).is_some_and(|c| c.contains(" = "));
     let all: Vec<&str> =

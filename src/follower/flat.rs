@@ -8,7 +8,7 @@ use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
 use crate::document::{Field, Occurs, Section, Table, within};
 use crate::geometry::CurvePoint;
-use crate::motion::Jet;
+use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::{Angle, Length};
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_3;
@@ -33,7 +33,7 @@ const OFFSET: Field<f64> = Field::quantity(
 );
 
 /// `[follower.flat]`.
-pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
+pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Length, read };
 
 const SECTION: Section = Section {
     path: "follower.flat",

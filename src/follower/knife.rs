@@ -6,10 +6,11 @@
 use super::{Follower, FollowerData, FollowerKind, MASS, OFFSET, PRELOAD, Place, TranslatingRoller};
 use crate::document::cams::MAKE;
 use crate::document::{Occurs, Section, Table};
+use crate::motion::Quantity;
 use std::sync::Arc;
 
 /// `[follower.knife]`.
-pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
+pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Length, read };
 
 const SECTION: Section = Section {
     path: "follower.knife",

@@ -35,8 +35,18 @@ use std::sync::Arc;
 pub struct FollowerKind {
     /// Its table, `[follower.roller]`.
     pub section: &'static Section,
+    /// What its lift is.
+    pub quantity: Quantity,
     /// Reads it.
     read: fn(&Table<'_>) -> Option<FollowerData>,
+}
+
+impl FollowerKind {
+    /// Whether it swings about a pivot.
+    #[must_use]
+    pub fn swings(&self) -> bool {
+        self.quantity == Quantity::Angle
+    }
 }
 
 /// Every kind of follower: a new one is a file with its geometry and its table, and one line here.

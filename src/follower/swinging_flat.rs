@@ -31,7 +31,7 @@ const SIDE: Field<f64> = Field::words(
 );
 
 /// `[follower.swinging-flat]`.
-pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
+pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Angle, read };
 
 const SECTION: Section = Section {
     path: "follower.swinging-flat",

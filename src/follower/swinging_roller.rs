@@ -32,7 +32,7 @@ const SIDE: Field<f64> = Field::words(
 );
 
 /// `[follower.swinging-roller]`.
-pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
+pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Angle, read };
 
 const SECTION: Section = Section {
     path: "follower.swinging-roller",

@@ -6,7 +6,7 @@ use crate::document::cams::{CONOID, TURNING};
 use crate::document::range::LONGEST;
 use crate::document::{Field, Occurs, Section, Table, above};
 use crate::geometry::CurvePoint;
-use crate::motion::Jet;
+use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::Length;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -49,7 +49,7 @@ const WIDTH: Field<f64> =
         .only(&[CONOID]);
 
 /// `[follower.roller]`.
-pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, read };
+pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Length, read };
 
 const SECTION: Section = Section {
     path: "follower.roller",

@@ -18,6 +18,7 @@ mod linkage;
 mod press;
 mod settings;
 mod shaft;
+mod start;
 mod title;
 mod transition;
 mod translating;
@@ -37,6 +38,7 @@ pub use linkage::LinkageData;
 pub use press::{AirColumn, NoPress, NoRoller, Press};
 pub use settings::RegimesData;
 pub use shaft::{ShaftData, ShaftLimits, ShaftMachine};
+pub use start::{followers, template, template_of_program};
 pub use title::Title;
 pub use translating::TranslatingData;
 
@@ -109,13 +111,6 @@ const BODY_TABLES: &[&Section] = &[
 pub fn sections() -> Vec<&'static Section> {
     let followers = FOLLOWERS.iter().map(|kind| kind.section);
     MOTION_TABLES.iter().copied().chain(followers).chain(BODY_TABLES.iter().copied()).collect()
-}
-
-/// A commented machine file of a press with every key, to start from.
-#[must_use]
-pub fn template() -> String {
-    let shown = ["bed", "buffer", "design", "follower.roller"];
-    document::template("A machine file of camgen. A quantity is \"number unit\".", &sections(), &shown, cams::ROTARY)
 }
 
 /// The JSON schema of machine files.

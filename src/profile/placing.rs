@@ -95,7 +95,8 @@ fn nearest_in(from: Vector2<f64>, held: &[Held]) -> Option<Vector2<f64>> {
     let crossing = |one: &Held, other: &Held| {
         let (a, b) = (one.plane, other.plane);
         let turn = a.normal.perp(&b.normal);
-        let point = Vector2::new(a.least * b.normal.y - b.least * a.normal.y, a.normal.x * b.least - b.normal.x * a.least);
+        let point =
+            Vector2::new(a.least * b.normal.y - b.least * a.normal.y, a.normal.x * b.least - b.normal.x * a.least);
         (turn != 0.0).then(|| point / turn)
     };
     let feet = held.iter().map(foot);

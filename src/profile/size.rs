@@ -328,8 +328,7 @@ mod tests {
     /// The disc of a brake, and a centred roller on the smallest one that keeps a pressure angle.
     fn of_brake(roller: f64, pressure_angle: f64) -> (BrakeDisc, TranslatingRoller) {
         let motion = brake_disc::tests::disc();
-        let required =
-            Required { pressure_angles: [pressure_angle; 2], convex_radius: roller, least: 1e-3 + roller };
+        let required = Required { pressure_angles: [pressure_angle; 2], convex_radius: roller, least: 1e-3 + roller };
         let follower = TranslatingRoller::new(0.1, 0.0, roller);
         let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
         (motion, TranslatingRoller::new(prime_radius, 0.0, roller))
@@ -364,7 +363,8 @@ mod tests {
         assert!((radius(1) / (CLOSING_OVER_ROLLER * roller) - 1.0).abs() < 1e-12, "{}", radius(1));
         assert!(radius(0) > roller, "{}", radius(0));
 
-        let required = Required { pressure_angles: [80.0_f64.to_radians(); 2], convex_radius: 2.0 * roller, least: roller };
+        let required =
+            Required { pressure_angles: [80.0_f64.to_radians(); 2], convex_radius: 2.0 * roller, least: roller };
         let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
         let follower = TranslatingRoller::new(prime_radius, 0.0, roller);
         let curves = Curves { motion: &motion, follower: &follower };

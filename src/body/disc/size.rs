@@ -161,12 +161,7 @@ impl Disc {
 
     /// The choice with the smallest prime radius, and that radius; from the one that the pressure angle alone asks for, which is the best
     /// where nothing else matters.
-    fn best_of(
-        &self,
-        place: Place,
-        nearest: &Nearest,
-        size: impl Fn(f64) -> Option<Smallest>,
-    ) -> Option<(f64, f64)> {
+    fn best_of(&self, place: Place, nearest: &Nearest, size: impl Fn(f64) -> Option<Smallest>) -> Option<(f64, f64)> {
         let ideal = place.chosen(nearest.shaft);
         let at_ideal = size(ideal).map(|smallest| smallest.prime_radius);
         if let Some(radius) = at_ideal.filter(|radius| *radius <= nearest.prime_radius * (1.0 + LARGER)) {
@@ -177,7 +172,9 @@ impl Disc {
         let (least, most) = place.choices(width);
         let range = ((ideal - width).max(least), (ideal + width).min(most));
         let found = extremum::largest_without_slope(|choice| -prime(choice), range, PLACES, TO_ROUNDING);
-        let best = at_ideal.filter(|radius| *radius <= -found.value).map_or((found.at, -found.value), |radius| (ideal, radius));
+        let best = at_ideal
+            .filter(|radius| *radius <= -found.value)
+            .map_or((found.at, -found.value), |radius| (ideal, radius));
         if !best.1.is_finite() {
             return None;
         }
@@ -210,7 +207,9 @@ impl Disc {
         let both = [steps, steps + 1.0].map(|steps| steps * CHOICE_STEP + 0.0);
         let passing = both.into_iter().filter(|choice| *choice > least);
         let valued = passing.filter_map(|choice| Some((choice, value(choice)?)));
-        valued.min_by(|a, b| a.1.total_cmp(&b.1).then((a.0 - best).abs().total_cmp(&(b.0 - best).abs()))).map(|(choice, _)| choice)
+        valued
+            .min_by(|a, b| a.1.total_cmp(&b.1).then((a.0 - best).abs().total_cmp(&(b.0 - best).abs())))
+            .map(|(choice, _)| choice)
     }
 
     /// Why a cam with its follower where it stands is not smaller than the smallest; `None` where none passes.
@@ -225,12 +224,17 @@ impl Disc {
         let limit = broken_limit(&smaller).unwrap_or_else(|| if sharp() { "min_convex_radius" } else { "bore" });
         let at = match limit {
             "pressure_angle" | "pressure_angle_return" => Some(smaller.pressure_angles()),
-            "undercut" | "min_convex_pitch_radius_over_roller" | "min_convex_radius" => Some([smaller.least_rolled_radius(); 2]),
+            "undercut" | "min_convex_pitch_radius_over_roller" | "min_convex_radius" => {
+                Some([smaller.least_rolled_radius(); 2])
+            }
             "contact_stress" => smaller.contact_stress().map(|at| [at; 2]),
             "cutter_radius" => smaller.hollow().map(|at| [at; 2]),
             _ => None,
         };
-        Some(Binding { limit, at: at.map(|[rising, falling]| if limit == "pressure_angle_return" { falling } else { rising }) })
+        Some(Binding {
+            limit,
+            at: at.map(|[rising, falling]| if limit == "pressure_angle_return" { falling } else { rising }),
+        })
     }
 
     /// What was chosen of the place of its follower, where that is asked for.

@@ -119,7 +119,12 @@ impl EndOf {
 impl CommonArgs {
     /// The machine with its overrides, and the word that names its files.
     pub(in crate::cli) fn machine(&self) -> Result<(Machine, String), Failure> {
-        EndOf::of(self.end, Machine::load(&self.machine, &self.set).map_err(Failure::new)?)
+        self.machine_of(&self.machine)
+    }
+
+    /// The same of another file than that given as the machine.
+    pub(in crate::cli) fn machine_of(&self, name: &str) -> Result<(Machine, String), Failure> {
+        EndOf::of(self.end, Machine::load(name, &self.set).map_err(Failure::new)?)
     }
 
     /// The one speed of a cam that is not a conoid.

@@ -139,7 +139,10 @@ impl Command {
             }
             Command::Translating(args) => (&args.common, args.files.to.template.as_ref()),
             Command::Conoid(args) => (&args.common, args.files.to.template.as_ref()),
-            Command::Check(args) => (&args.common, Some(&args.file)),
+            Command::Check(args) => {
+                let machine = args.design.as_ref().unwrap_or(&args.common.machine);
+                return args.common.told.watch.then(|| vec![PathBuf::from(machine), args.file.clone()]);
+            }
             Command::Trade(args) => (&args.common, None),
             other => return other.analysis_watched(),
         };
@@ -168,6 +171,10 @@ pub(super) struct InitArgs {
     /// File to write; printed when it is left out. A file that is there is never replaced
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: Option<PathBuf>,
+
+    /// For camgen make, with this follower: roller, swinging-roller, flat, swinging-flat or knife [default: a press]
+    #[arg(long, value_name = "FOLLOWER")]
+    pub(super) follower: Option<String>,
 }
 
 #[derive(Debug, Args)]
@@ -223,6 +230,10 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "KIND", ignore_case = true)]
     pub(super) cam: Option<Checked>,
 
+    /// The file of a motion program, as given to make, in place of MACHINE
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["machine", "cam"])]
+    pub(super) design: Option<String>,
+
     /// Direction of the bed in which the forces of a plate balance
     #[arg(long, value_name = "WAY", default_value = "braking", ignore_case = true)]
     pub(super) balance: Balanced,
@@ -255,6 +266,8 @@ pub(super) enum Checked {
 pub(super) enum CamKind {
     Rotary,
     Translating,
+    /// The disc cam of a motion program.
+    Make,
     /// The first critical speed of a shaft, press-cylinder by default.
     Shaft,
 }
@@ -283,18 +296,19 @@ pub(super) struct TranslatingArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct TradeArgs {
-    /// Kind of cam: rotary or translating; or shaft: the first critical speed of the shaft of a file (by default press-cylinder)
+    /// Kind of cam: rotary, translating or make (a motion program, by default feeder); or shaft: the first critical speed of the shaft of a file (by default press-cylinder)
     #[arg(default_value = "rotary", value_name = "KIND", ignore_case = true)]
     pub(super) kind: CamKind,
 
     #[command(flatten)]
     pub(super) common: CommonArgs,
 
-    /// Largest residual force: the advice is the cheapest setting that keeps it [default: 0.01 % of the largest inertia]
+    /// Largest residual force: the advice is the cheapest setting that keeps it [default: 0.01 % of the largest inertia; none of a motion program]
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
 
     /// Largest error of the acceleration that the advice keeps, as a share of the motion's largest, e.g. 2%
+    /// [default: 5% of a motion program]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     pub(super) acceleration: Option<f64>,
 

@@ -12,6 +12,7 @@ use camgen::body::{RateTolerance, Request};
 use camgen::document::Input;
 use camgen::geometry::contour::Contour;
 use camgen::geometry::points::{Between, Form, Interpolant, Step};
+use camgen::machine::Machine;
 use camgen::pipeline::Cam;
 use camgen::profile::outline::{Fit, Laid};
 use camgen::report::{Rolled, shown};
@@ -34,6 +35,11 @@ const MOST_ROUNDS: usize = 40;
 const UNCHANGED: usize = 5;
 /// Largest residual force by default, as a share of the largest inertia.
 const SHARE: f64 = 1e-4;
+/// Largest error of the acceleration of a motion program by default, as a share: that of `--accuracy standard`.
+const ACCELERATION: f64 = 0.05;
+/// The machine of the flags where none is given, and the program that is measured then.
+const PRESS: &str = "dpi";
+const PROGRAM: &str = "feeder";
 
 /// One setting, measured: medians over the rounds.
 #[derive(Debug, Clone, Serialize)]
@@ -117,21 +123,33 @@ enum Made {
 /// What the advice must keep.
 #[derive(Debug, Clone, Copy)]
 struct Limits {
-    /// Largest residual force, N.
-    residual: f64,
+    /// Largest residual force, N; `None` of a cam without load.
+    residual: Option<f64>,
     /// Largest error of the acceleration over its largest.
     acceleration: Option<f64>,
 }
 
 impl Limits {
     fn words(self) -> String {
-        let share = |share: f64| format!(" and {} % of the acceleration", shown(100.0 * share));
-        format!("{} N{}", shown(self.residual), self.acceleration.map_or(String::new(), share))
+        let force = self.residual.map(|residual| format!("{} N", shown(residual)));
+        let share = self.acceleration.map(|share| format!("{} % of the acceleration", shown(100.0 * share)));
+        force.into_iter().chain(share).collect::<Vec<_>>().join(" and ")
+    }
+
+    /// What a setting leaves of what is limited first.
+    fn left(self, row: &Row) -> f64 {
+        if self.residual.is_some() { row.residual_n } else { row.acceleration_share.unwrap_or(f64::INFINITY) }
+    }
+
+    /// The same in words.
+    fn left_words(self, row: &Row) -> String {
+        let left = self.left(row);
+        if self.residual.is_some() { format!("{} N", shown(left)) } else { format!("{} % of it", shown(100.0 * left)) }
     }
 
     fn keeps(self, row: &Row) -> bool {
         let share = self.acceleration.is_none_or(|limit| row.acceleration_share.is_some_and(|share| share <= limit));
-        row.residual_n <= self.residual && share
+        self.residual.is_none_or(|limit| row.residual_n <= limit) && share
     }
 }
 
@@ -141,8 +159,10 @@ struct TradeReport<'a> {
     command: &'static str,
     cam: &'static str,
     machine: &'a str,
-    rpm: f64,
-    residual_limit_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rpm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    residual_limit_n: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     acceleration_limit: Option<f64>,
     rounds: usize,
@@ -156,31 +176,28 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     if args.kind == CamKind::Shaft {
         return shaft::run(args);
     }
-    let (machine, name) = args.common.machine()?;
-    let rpm = args.common.one_speed(&machine)?;
-    let (laws, settings) = match args.kind {
-        CamKind::Translating => settings::translating(&machine, rpm)?,
-        CamKind::Rotary | CamKind::Shaft => settings::rotary(&machine, rpm)?,
+    let (machine, name) = if args.kind == CamKind::Make && args.common.machine == PRESS {
+        args.common.machine_of(PROGRAM)?
+    } else {
+        args.common.machine()?
     };
-    let kind = match args.kind {
-        CamKind::Translating => "translating",
-        CamKind::Rotary | CamKind::Shaft => "rotary",
-    };
-    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}-{}rpm", names(&[rpm]).concat()));
+    let Traded { kind, rpm, laws, settings, limits } = traded(args, &machine)?;
+    let at = rpm.map_or(String::new(), |rpm| format!("-{}rpm", names(&[rpm]).concat()));
+    let stem = args.name.clone().unwrap_or_else(|| format!("{name}-trade-{kind}{at}"));
     let output = |ending: &str, bytes: Vec<u8>| Output { name: format!("{stem}.{ending}"), bytes };
     if !args.overwrite && !args.common.told.dry_run {
         refuse_kept(&args.out, &["csv", "svg"].map(|ending| output(ending, Vec::new()))).map_err(Failure::new)?;
     }
-    let inertia = machine.press().map_err(Failure::new)?.largest_inertia(rpm);
-    let limits = Limits { residual: args.residual.unwrap_or(SHARE * inertia), acceleration: args.acceleration };
     let Measured { rows, rounds, stable } = measured(args, &laws, &settings, limits)?;
     let advice = tell::advice(&rows, limits, stable);
-    let title =
-        format!("{}: time against force and acceleration of a {kind} cam at {} rpm", machine.name(), shortest(rpm));
-    let picture = svg::write(&tell::picture(&rows, &title), svg::TEMPLATE).map_err(Failure::new)?;
+    let against = if limits.residual.is_some() { "force" } else { "gap" };
+    let speed = rpm.map_or(String::new(), |rpm| format!(" at {} rpm", shortest(rpm)));
+    let title = format!("{}: time against {against} and acceleration of a {}{speed}", machine.name(), tell::noun(kind));
+    let picture = svg::write(&tell::picture(&rows, limits, &title), svg::TEMPLATE).map_err(Failure::new)?;
     let outputs = vec![output("csv", tell::table(&rows).into_bytes()), output("svg", picture)];
     let mut inputs = machine.inputs(kind);
-    inputs.extend([Input::word("command", format!("trade {kind}")), Input::number("rpm", rpm)]);
+    inputs.push(Input::word("command", format!("trade {kind}")));
+    inputs.extend(rpm.map(|rpm| Input::number("rpm", rpm)));
     let files = written(args, outputs, &Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite })?;
     let report = TradeReport {
         schema: 1,
@@ -203,6 +220,38 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
         print(&tell::words(&report))?;
     }
     Ok(Outcome::Fine)
+}
+
+/// What is measured, and what the advice must keep.
+struct Traded {
+    kind: &'static str,
+    rpm: Option<f64>,
+    laws: Vec<Law>,
+    settings: Vec<Setting>,
+    limits: Limits,
+}
+
+fn traded(args: &TradeArgs, machine: &Machine) -> Result<Traded, Failure> {
+    if args.kind == CamKind::Make {
+        if args.residual.is_some() {
+            return Err(Failure(
+                "--residual belongs to the cams of a press: a motion program balances no force".into(),
+            ));
+        }
+        let rpm = args.common.rpm.first().map(|_| args.common.one_speed(machine)).transpose()?;
+        let (laws, settings) = settings::of_program(machine, rpm)?;
+        let limits = Limits { residual: None, acceleration: Some(args.acceleration.unwrap_or(ACCELERATION)) };
+        let of_file = machine.motion().and_then(|(_, rpm)| rpm);
+        return Ok(Traded { kind: "make", rpm: rpm.or(of_file), laws, settings, limits });
+    }
+    let rpm = args.common.one_speed(machine)?;
+    let (kind, (laws, settings)) = match args.kind {
+        CamKind::Translating => ("translating", settings::translating(machine, rpm)?),
+        _ => ("rotary", settings::rotary(machine, rpm)?),
+    };
+    let inertia = machine.press().map_err(Failure::new)?.largest_inertia(rpm);
+    let limits = Limits { residual: Some(args.residual.unwrap_or(SHARE * inertia)), acceleration: args.acceleration };
+    Ok(Traded { kind, rpm: Some(rpm), laws, settings, limits })
 }
 
 /// Writes the files; none in a dry run.

@@ -61,10 +61,23 @@ fn ladder() -> Vec<Setting> {
     .collect()
 }
 
-/// The disc cam over the ladder; its law is a closed form, exact to rounding.
+/// The disc cam of a press over the ladder.
 pub(super) fn rotary(machine: &Machine, rpm: f64) -> Result<Ladder, Failure> {
     let machine = machine.clone();
-    let solve = move || Spec::rotary(machine.clone(), rpm).alone().solve().map_err(Failure::new);
+    of_disc(move || Ok(Spec::rotary(machine.clone(), rpm).alone()))
+}
+
+/// The disc cam of a motion program over the ladder.
+pub(super) fn of_program(machine: &Machine, rpm: Option<f64>) -> Result<Ladder, Failure> {
+    let machine = machine.clone();
+    let no_motion =
+        || Failure("there is no motion: `trade make` needs the tables [motion] and [[motion.segment]]".into());
+    of_disc(move || Spec::of_program(machine.clone(), rpm).ok_or_else(no_motion))
+}
+
+/// A disc cam over the ladder; its law is a closed form, exact to rounding.
+fn of_disc(spec: impl Fn() -> Result<Spec, Failure> + 'static) -> Result<Ladder, Failure> {
+    let solve = move || spec()?.solve().map_err(Failure::new);
     let law = Law { cam: solve()?, solve: Box::new(solve), error_mm: 0.0, residual_n: 0.0 };
     let points = POINTS.iter().map(|(name, tolerance, share, between)| Setting {
         name: (*name).into(),

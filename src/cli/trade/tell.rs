@@ -11,12 +11,13 @@ pub(super) fn advice(rows: &[Row], limits: Limits, stable: bool) -> String {
     let ranked: Vec<&Row> = order.iter().filter_map(|index| rows.get(*index)).collect();
     let words = |row: &Row| {
         format!(
-            "{} is the cheapest setting that leaves no more than {}: it leaves {} N for {:.2} ms{}",
+            "{} is the cheapest setting that leaves no more than {}: it leaves {} for {:.2} ms{}",
             row.setting,
             limits.words(),
-            shown(row.residual_n),
+            limits.left_words(row),
             1e-3 * row.total_us,
             row.acceleration_share
+                .filter(|_| limits.residual.is_some())
                 .map_or(String::new(), |share| format!(", its acceleration is off by {} %", shown(100.0 * share)))
         )
     };
@@ -26,7 +27,7 @@ pub(super) fn advice(rows: &[Row], limits: Limits, stable: bool) -> String {
         [first, ..] => {
             let alike: Vec<&&Row> = ranked.iter().filter(|row| row.total_low_us <= first.total_high_us).collect();
             let names: Vec<&str> = alike.iter().map(|row| &*row.setting).collect();
-            let least = alike.iter().min_by(|a, b| a.residual_n.total_cmp(&b.residual_n));
+            let least = alike.iter().min_by(|a, b| limits.left(a).total_cmp(&limits.left(b)));
             let best: &Row = least.map_or(first, |row| row);
             if alike.len() > 1 {
                 let names = names.join(", ");
@@ -41,14 +42,14 @@ pub(super) fn advice(rows: &[Row], limits: Limits, stable: bool) -> String {
 
 /// No setting keeps the limit: which comes nearest, and whether a finer one could.
 fn nothing_keeps(rows: &[Row], limits: Limits) -> String {
-    let Some(least) = rows.iter().min_by(|a, b| a.residual_n.total_cmp(&b.residual_n)) else {
+    let Some(least) = rows.iter().min_by(|a, b| limits.left(a).total_cmp(&limits.left(b))) else {
         return "nothing was measured".into();
     };
     format!(
-        "no setting leaves no more than {}; {} leaves least, {} N for {:.2} ms",
+        "no setting leaves no more than {}; {} leaves least, {} for {:.2} ms",
         limits.words(),
         least.setting,
-        shown(least.residual_n),
+        limits.left_words(least),
         1e-3 * least.total_us
     )
 }
@@ -112,11 +113,19 @@ pub(super) fn table(rows: &[Row]) -> String {
     text
 }
 
+/// What a kind of cam is called.
+pub(super) fn noun(kind: &str) -> String {
+    if kind == "make" { "disc cam".into() } else { format!("{kind} cam") }
+}
+
 pub(super) fn words(report: &TradeReport<'_>) -> String {
     let mut lines = vec![
         format!(
-            "{} · {} cam at {} rpm: time by stage, µs, median of {} rounds; half of the totals lie in the spread",
-            report.machine, report.cam, report.rpm, report.rounds
+            "{} · {}{}: time by stage, µs, median of {} rounds; half of the totals lie in the spread",
+            report.machine,
+            noun(report.cam),
+            report.rpm.map_or(String::new(), |rpm| format!(" at {rpm} rpm")),
+            report.rounds
         ),
         format!(
             "  {:<24} {:>8} {:>8} {:>8} {:>7} {:>7} {:>7} {:>7} {:>8} {:>13} {:>6} {:>8} {:>10} {:>10} {:>10} {:>9} {:>7} {:>9}",
@@ -158,8 +167,9 @@ pub(super) fn words(report: &TradeReport<'_>) -> String {
     lines.join("\n")
 }
 
-/// Total time against residual force and against the acceleration error, each with its Pareto front.
-pub(super) fn picture(rows: &[Row], title: &str) -> Sheet {
+/// Total time against residual force, or the gap where no force is to balance, and against the acceleration error, each with its Pareto
+/// front.
+pub(super) fn picture(rows: &[Row], limits: Limits, title: &str) -> Sheet {
     let points = |value: fn(&Row) -> Option<f64>| {
         let point =
             |row: &Row| Some(Point { x: row.total_us, y: value(row)?, label: row.setting.clone(), best: false });
@@ -168,7 +178,11 @@ pub(super) fn picture(rows: &[Row], title: &str) -> Sheet {
         points
     };
     let panels = [
-        Panel { y_name: "residual force, N", points: points(|row| Some(row.residual_n)) },
+        if limits.residual.is_some() {
+            Panel { y_name: "residual force, N", points: points(|row| Some(row.residual_n)) }
+        } else {
+            Panel { y_name: "largest gap, mm", points: points(|row| row.rolled_mm) }
+        },
         Panel { y_name: "acceleration error over the largest", points: points(|row| row.acceleration_share) },
     ];
     chart::chart(title, "total time, µs", &panels)

@@ -1,0 +1,99 @@
+//! Commented files to start from.
+
+use super::{BODY_TABLES, ROOT, sections};
+use crate::document::{self, Section, Start, cams};
+use crate::follower::FOLLOWERS;
+use crate::motion::program;
+
+/// A program to start from: `{to}` is where it goes, `{start}` where it begins.
+const PROGRAM: &str = "
+# The program: segments one after the other over a turn of the cam.
+[[motion.segment]]
+law = \"modified-sine\"
+over = \"90 deg\"
+to = \"{to}\"
+
+[[motion.segment]]
+law = \"dwell\"
+over = \"60 deg\"
+
+[[motion.segment]]
+law = \"cycloidal\"
+over = \"120 deg\"
+to = \"{start}\"
+
+[[motion.segment]]
+law = \"dwell\"                         # without over: the rest of the turn
+
+# Every key of a segment, with examples:
+";
+
+/// Keys of a motion program that may be absent, and without which there is no solid.
+const GIVEN: [&str; 3] = ["motion.rpm", "cam.thickness", "cam.bore_radius"];
+
+/// A commented machine file of a press with every key, to start from.
+#[must_use]
+pub fn template() -> String {
+    let tables = ["bed", "buffer", "design", "follower.roller"];
+    let start = Start { tables: &tables, keys: &[], cam: cams::ROTARY, only: false };
+    document::template("A machine file of camgen. A quantity is \"number unit\".", &sections(), &start)
+}
+
+/// The followers as [`template_of_program`] calls them.
+#[must_use]
+pub fn followers() -> Vec<&'static str> {
+    FOLLOWERS.iter().map(|kind| name_of(kind.section)).collect()
+}
+
+fn name_of(section: &Section) -> &'static str {
+    section.path.strip_prefix("follower.").unwrap_or(section.path)
+}
+
+/// A commented file of a motion program with every key that has an effect on it, under a follower of this name; `None` of another name.
+#[must_use]
+pub fn template_of_program(follower: &str) -> Option<String> {
+    let kind = FOLLOWERS.iter().find(|kind| name_of(kind.section).eq_ignore_ascii_case(follower))?;
+    let swings = kind.swings();
+    let (start, to) = if swings { ("0 deg", "20 deg") } else { ("0 mm", "20 mm") };
+    let written = |title: &str, sections: &[&Section], tables: &[&str]| {
+        document::template(title, sections, &Start { tables, keys: &GIVEN, cam: cams::MAKE, only: true })
+    };
+    let head = written(
+        "A motion program of camgen, for camgen make. A quantity is \"number unit\".",
+        &[&ROOT, &program::read::SECTION],
+        &[program::read::SECTION.path],
+    );
+    let head = head
+        .replace("start = \"0 mm\"", &format!("start = \"{start}\""))
+        .replace("name = \"my press\"", "name = \"my cam\"  ");
+    let program = PROGRAM.replace("{start}", start).replace("{to}", to);
+    let segment = written("", &[&program::read::SEGMENT], &[]);
+    let of_make = |section: &&Section| section.cams.is_empty() || section.cams.contains(&cams::MAKE);
+    let body: Vec<&Section> =
+        std::iter::once(kind.section).chain(BODY_TABLES.iter().copied().filter(of_make)).collect();
+    let body = written("", &body, &[kind.section.path]);
+    Some([head, program, without_head(&segment), without_head(&body)].concat())
+}
+
+/// Without the comment at the head, which is empty.
+fn without_head(text: &str) -> String {
+    text.strip_prefix("#\n").unwrap_or(text).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::Machine;
+
+    #[test]
+    fn a_program_to_start_from_reads_under_every_follower() {
+        for name in followers() {
+            let text = template_of_program(name).expect("a template");
+            let machine =
+                Machine::from_toml("start.toml", &text, &[]).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
+            assert!(machine.motion().is_some(), "{name}");
+            assert!(!text.contains("[bed]") && !text.contains("crank"), "{name}: {text}");
+        }
+        assert_eq!(template_of_program("roler"), None);
+    }
+}
