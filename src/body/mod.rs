@@ -561,8 +561,8 @@ const SIZED_TO: f64 = 1e-9;
 fn no_radius(binding: Option<&'static str>) -> String {
     match binding {
         Some("undercut") => {
-            "no base radius would pass: the motion has a corner, which transition.kind = \"run-up\" or \
-                             \"blend\" rounds"
+            "no base radius would pass: the velocity of the follower drops at once, which transition.kind = \"run-up\" or \
+             \"blend\" rounds in a press, and other states or laws in a motion program"
                 .into()
         }
         Some(limit) => format!("no base radius would pass: limits.{limit} is broken at any"),

@@ -38,7 +38,9 @@ fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Wors
         Element::Face => Some(plane(extremes::least_radius_on(curves, &searched))),
     };
     // A fold is worse than a corner.
-    if let Some(folded) = smooth.filter(|least| least.value < 0.0) {
+    let between = smooth.and_then(|_| extremes::fold(curves)).map(plane);
+    let folds = [smooth.filter(|least| least.value < 0.0), between].into_iter().flatten();
+    if let Some(folded) = folds.min_by(|a, b| a.value.total_cmp(&b.value)) {
         return folded;
     }
     match extremes::corners(curves).iter().find(|corner| corner.turn > 0.0) {

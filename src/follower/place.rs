@@ -110,12 +110,12 @@ impl Place {
         }
     }
 
-    /// Least and largest choice, m, on a cam of a prime radius, m.
+    /// Least and largest choice, m, on a cam of a prime radius of at most this, m.
     #[must_use]
     pub fn choices(self, prime_radius: f64) -> (f64, f64) {
         match self {
             Place::Offset { .. } => (-prime_radius, prime_radius),
-            Place::Pivot { arm, .. } => ((arm - prime_radius).abs(), arm + prime_radius),
+            Place::Pivot { arm, .. } => ((arm - prime_radius).max(0.0), arm + prime_radius),
         }
     }
 

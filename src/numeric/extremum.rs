@@ -11,38 +11,84 @@ pub struct Extremum {
     pub value: f64,
 }
 
+/// Halvings of a cell in which an extremum may hide.
+const HALVINGS: u32 = 6;
+/// A cell hides one when its values differ from what the slopes at its ends make them by more than this share of its width times the
+/// larger slope: a parabola makes 0 of it, a cube of the distance from an end a sixth.
+const HIDES: f64 = 0.2;
+
+/// A place with value and slope.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    at: f64,
+    value: f64,
+    slope: f64,
+}
+
+/// Whether more than one stationary place may lie between two: where one of them is stationary itself, or the values do not follow from
+/// the slopes.
+fn hides(left: Place, right: Place) -> bool {
+    let width = right.at - left.at;
+    let by_slopes = 0.5 * width * (left.slope + right.slope);
+    let size = left.slope.abs().max(right.slope.abs());
+    let either = left.slope == 0.0 || right.slope == 0.0;
+    (either && size > 0.0) || (right.value - left.value - by_slopes).abs() > HIDES * width * size
+}
+
+/// A search of the largest of values given with their slopes.
+struct Search<F> {
+    both: F,
+    best: Extremum,
+}
+
+impl<F: FnMut(f64) -> (f64, f64)> Search<F> {
+    fn at(&mut self, at: f64) -> Place {
+        let (value, slope) = (self.both)(at);
+        if value > self.best.value || self.best.value.is_nan() {
+            self.best = Extremum { at, value };
+        }
+        Place { at, value, slope }
+    }
+
+    fn between(&mut self, left: Place, right: Place, halvings: u32) {
+        if left.slope > 0.0 && right.slope < 0.0 {
+            if let Ok(at) = root::bracketed(|at| (self.both)(at).1, left.at, right.at, 0.0) {
+                self.at(at);
+            }
+        } else if halvings > 0 && hides(left, right) {
+            let middle = self.at(0.5 * (left.at + right.at));
+            self.between(left, middle, halvings - 1);
+            self.between(middle, right, halvings - 1);
+        }
+    }
+}
+
 /// The largest value of `value` on `[low, high]`.
 ///
-/// `slope` is the derivative of `value`, or anything with the same sign. The interval is cut into `cells`; every cell
-/// in which the slope falls through zero gives a candidate, solved to rounding by [`root::bracketed`], beside the ends
-/// of the cells. Two stationary points within one cell hide each other: choose `cells` so that a cell is shorter than
-/// the distance between extrema (a cam law has a handful a piece).
+/// `slope` is the derivative of `value`. The interval is cut into `cells`; every cell in which the slope falls through zero gives a
+/// candidate, solved to rounding by [`root::bracketed`], beside the ends of the cells. A cell in which two stationary places may hide each
+/// other, or one beside a stationary end, is halved up to six times. Choose `cells` so that a cell is shorter than most
+/// distances between extrema (a cam law has a handful a piece).
 pub fn largest(
     mut value: impl FnMut(f64) -> f64,
     mut slope: impl FnMut(f64) -> f64,
-    (low, high): (f64, f64),
+    range: (f64, f64),
     cells: u32,
 ) -> Extremum {
-    let mut best = Extremum { at: low, value: value(low) };
-    let mut consider = |at: f64, v: f64| {
-        if v > best.value || best.value.is_nan() {
-            best = Extremum { at, value: v };
-        }
-    };
-    let (mut left, mut left_slope) = (low, slope(low));
+    largest_with_slope(|at| (value(at), slope(at)), range, cells)
+}
+
+/// The same of value and slope at once.
+pub fn largest_with_slope(both: impl FnMut(f64) -> (f64, f64), (low, high): (f64, f64), cells: u32) -> Extremum {
+    let mut search = Search { both, best: Extremum { at: low, value: f64::NAN } };
+    let mut left = search.at(low);
     for cell in 1..=cells {
-        let right = if cell == cells { high } else { low + (high - low) * (f64::from(cell) / f64::from(cells)) };
-        let right_slope = slope(right);
-        consider(right, value(right));
-        if left_slope > 0.0
-            && right_slope < 0.0
-            && let Ok(at) = root::bracketed(&mut slope, left, right, 0.0)
-        {
-            consider(at, value(at));
-        }
-        (left, left_slope) = (right, right_slope);
+        let end = if cell == cells { high } else { low + (high - low) * (f64::from(cell) / f64::from(cells)) };
+        let right = search.at(end);
+        search.between(left, right, HALVINGS);
+        left = right;
     }
-    best
+    search.best
 }
 
 /// Golden sections that shrink a bracket to √ε of its width, where a flat top ends: 0.618 each.
@@ -50,23 +96,48 @@ pub const TO_ROUNDING: u32 = 38;
 
 /// The largest value of `value` on `[low, high]` when no derivative is at hand: the best of `cells` + 1 points, then
 /// `sections` golden sections between its neighbours (Kiefer 1953).
-pub fn largest_without_slope(
+pub fn largest_without_slope(value: impl FnMut(f64) -> f64, range: (f64, f64), cells: u32, sections: u32) -> Extremum {
+    largest_of_hills(value, range, (cells, 1), sections)
+}
+
+/// The same about each of the `hills` best of these points that are no lower than their neighbours.
+pub fn largest_of_hills(
     mut value: impl FnMut(f64) -> f64,
     (low, high): (f64, f64),
-    cells: u32,
+    (cells, hills): (u32, usize),
     sections: u32,
 ) -> Extremum {
     let at = |cell: u32| low + (high - low) * (f64::from(cell.min(cells)) / f64::from(cells));
-    let mut best = Extremum { at: low, value: value(low) };
-    let mut best_cell = 0;
-    for cell in 1..=cells {
-        let v = value(at(cell));
-        if v > best.value || best.value.is_nan() {
-            (best, best_cell) = (Extremum { at: at(cell), value: v }, cell);
-        }
+    let points: Vec<Extremum> = (0..=cells).map(|cell| Extremum { at: at(cell), value: value(at(cell)) }).collect();
+    let height = |cell: Option<u32>| {
+        let point = cell.and_then(|cell| points.get(usize::try_from(cell).ok()?));
+        point.map_or(f64::NEG_INFINITY, |point| point.value)
+    };
+    let higher = |one: f64, other: f64| one > other || other.is_nan();
+    let is_top = |cell: u32| {
+        let here = height(Some(cell));
+        !higher(height(cell.checked_sub(1)), here) && !higher(height(Some(cell + 1)), here)
+    };
+    let mut tops: Vec<(u32, f64)> =
+        (0..=cells).filter(|cell| is_top(*cell)).map(|cell| (cell, height(Some(cell)))).collect();
+    tops.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let first = points.first().copied().unwrap_or(Extremum { at: low, value: f64::NAN });
+    let best = |best: Extremum, next: &Extremum| if higher(next.value, best.value) { *next } else { best };
+    let mut found = points.iter().fold(first, best);
+    for (cell, _) in tops.into_iter().take(hills) {
+        let about = (at(cell.saturating_sub(1)), at(cell + 1));
+        found = golden_sections(&mut value, about, sections).iter().fold(found, best);
     }
+    found
+}
+
+/// The two inner points of the last of so many golden sections.
+fn golden_sections(
+    value: &mut impl FnMut(f64) -> f64,
+    (mut left, mut right): (f64, f64),
+    sections: u32,
+) -> [Extremum; 2] {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let (mut left, mut right) = (at(best_cell.saturating_sub(1)), at(best_cell + 1));
     let mut inner = Extremum { at: right - golden * (right - left), value: 0.0 };
     let mut outer = Extremum { at: left + golden * (right - left), value: 0.0 };
     (inner.value, outer.value) = (value(inner.at), value(outer.at));
@@ -81,7 +152,7 @@ pub fn largest_without_slope(
             outer.value = value(outer.at);
         }
     }
-    [inner, outer].into_iter().fold(best, |best, next| if next.value > best.value { next } else { best })
+    [inner, outer]
 }
 
 /// The larger of two numbers; NaN where one of them is, so that a maximum never hides a NaN.
@@ -106,5 +177,19 @@ mod tests {
         assert!((without.at - exact).abs() < 1e-7 && (without.value - hills(exact)).abs() < 1e-15, "{without:?}");
         let end = largest(|x| x * x, |x| 2.0 * x, (-1.0, 2.0), 4);
         assert_eq!(end, Extremum { at: 2.0, value: 4.0 });
+    }
+
+    /// A rise from rest that dips first, and a hill beside a valley within a cell.
+    #[test]
+    fn finds_what_hides_in_a_cell() {
+        // 0.01 x³ − x⁵ has its top at x² = 0.006.
+        let dip = largest(|x| 0.01 * x.powi(3) - x.powi(5), |x| 0.03 * x * x - 5.0 * x.powi(4), (0.0, 4.0), 32);
+        assert!((dip.at - 0.006_f64.sqrt()).abs() < 1e-12, "{dip:?}");
+        // A narrow hill on a slope.
+        let width = 1e-3;
+        let hill = |x: f64| libm::exp(-(x - 0.49) * (x - 0.49) / (width * width)) - x;
+        let slope = |x: f64| -2.0 * (x - 0.49) / (width * width) * (hill(x) + x) - 1.0;
+        let top = largest(hill, slope, (0.0, 0.5), 16);
+        assert!(top.value > 0.5, "{top:?}");
     }
 }

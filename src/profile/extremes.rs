@@ -23,7 +23,7 @@ fn largest(
     let in_piece = |(index, piece): (usize, &Piece)| {
         let cells = if piece.dwell { 1 } else { CELLS };
         let range = (piece.start, piece.end);
-        extremum::largest(|angle| quantity(index, angle).0, |angle| quantity(index, angle).1, range, cells)
+        extremum::largest_with_slope(|angle| quantity(index, angle), range, cells)
     };
     let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
     pieces.map(in_piece).fold(
@@ -173,7 +173,7 @@ pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
 pub fn convex_curvature_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Extremum {
     largest(curves, searched, |piece, angle| {
         let pitch = curves.touch(piece, angle).curve;
-        (pitch.curvature, pitch.curvature_slope)
+        (pitch.curvature, pitch.curvature_slope * pitch.speed)
     })
 }
 
@@ -228,9 +228,29 @@ pub fn least_turn(curves: Curves<'_>) -> Option<Extremum> {
 pub fn concave_profile_curvature(curves: Curves<'_>) -> Extremum {
     let pitch = largest(curves, everywhere, |piece, angle| {
         let pitch = curves.touch(piece, angle).curve;
-        (-pitch.curvature, -pitch.curvature_slope)
+        (-pitch.curvature, -pitch.curvature_slope * pitch.speed)
     });
     Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * curves.offset()) }
+}
+
+/// A step back of the profile below this is none, m: what it loses of the motion is its square over the radius of curvature.
+const LEAST_FOLD: f64 = 1e-9;
+
+/// Where the profile under a flat face steps back along itself because the velocity drops, the farthest: a length below 0, m, and the end
+/// of the piece before it. `None` where it does not.
+#[must_use]
+pub fn fold(curves: Curves<'_>) -> Option<Extremum> {
+    curves.follower.on_face(&Jet::default())?;
+    let pieces = curves.motion.pieces();
+    let step = |(index, before): (usize, &Piece)| {
+        let next = (index + 1) % pieces.len();
+        let left = curves.touch(index, before.end).curve;
+        let right = curves.touch(next, pieces.get(next)?.start).curve;
+        // At the seam the first piece begins a turn earlier.
+        Some(Extremum { at: before.end, value: (right.point - left.point).dot(&left.tangent) })
+    };
+    let steps = pieces.iter().enumerate().filter_map(step);
+    steps.filter(|step| step.value < -LEAST_FOLD).min_by(|a, b| a.value.total_cmp(&b.value))
 }
 
 /// A corner of the pitch curve between two pieces.

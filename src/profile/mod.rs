@@ -137,8 +137,14 @@ pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
     let of_piece = |(index, piece): (usize, &Piece)| {
         let jet = |at| motion.jet(index, at);
         let range = (piece.start, piece.end);
-        let top = extremum::largest(|at| jet(at).s, |at| jet(at).ds, range, LIFT_CELLS).value;
-        (-extremum::largest(|at| -jet(at).s, |at| -jet(at).ds, range, LIFT_CELLS).value, top)
+        let of = |sign: f64| {
+            let both = |at: f64| {
+                let jet = jet(at);
+                (sign * jet.s, sign * jet.ds)
+            };
+            extremum::largest_with_slope(both, range, LIFT_CELLS).value
+        };
+        (-of(-1.0), of(1.0))
     };
     let all = motion.distinct().iter().enumerate().map(of_piece);
     all.fold((f64::INFINITY, 0.0), |(low, high), (least, top)| (low.min(least), high.max(top)))

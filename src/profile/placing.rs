@@ -71,10 +71,12 @@ fn broken(motion: &dyn Motion, place: Place, (limit, falling): (f64, bool), shaf
     let size = shaft.norm() + place.of_roller().norm();
     let worst = |(index, piece): (usize, &Piece)| {
         let plane = |at: f64| place.condition(&motion.jet(index, at), limit, falling);
-        let lack = |at: f64| plane(at).least - plane(at).normal.dot(&shaft);
-        let slope = |at: f64| plane(at).least_slope - plane(at).normal_slope.dot(&shaft);
+        let lack = |at: f64| {
+            let plane = plane(at);
+            (plane.least - plane.normal.dot(&shaft), plane.least_slope - plane.normal_slope.dot(&shaft))
+        };
         let cells = if piece.dwell { 1 } else { CELLS };
-        let Extremum { at, value } = extremum::largest(lack, slope, (piece.start, piece.end), cells);
+        let Extremum { at, value } = extremum::largest_with_slope(lack, (piece.start, piece.end), cells);
         let plane = plane(at);
         (value > BROKEN * (size + plane.least.abs())).then_some(Held { plane, of: Binding { at, falling } })
     };

@@ -249,7 +249,7 @@ pub fn first_that_keeps(failing: f64, largest: f64, keeps: impl Fn(f64) -> bool)
 }
 
 /// The first radius that passes between one that does not, or is the same, and one that does.
-fn first_passing(mut failing: f64, mut passing: f64, passes: impl Fn(f64) -> bool) -> f64 {
+pub fn first_passing(mut failing: f64, mut passing: f64, passes: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (failing + passing);
         *(if passes(middle) { &mut passing } else { &mut failing }) = middle;

@@ -495,7 +495,8 @@ impl Body for Disc {
     fn remedy(&self) -> Option<String> {
         let Some(base) = self.passing_base_radius() else {
             let largest = (self.follower.prime_radii().1 - self.curves().offset()).min(LARGEST_BASE);
-            return Some(no_radius(self.on(largest).and_then(|disc| broken_limit(&disc))));
+            let of_size = || self.on(largest).and_then(|disc| broken_limit(&disc));
+            return Some(no_radius(if self.has_corner() { Some("undercut") } else { of_size() }));
         };
         // A cam that no drawing holds is no remedy.
         (MILLIMETRES * base < outline::LARGEST_COORDINATE).then(|| passing(base))

@@ -14,6 +14,8 @@ use std::sync::Arc;
 const CHOICE_STEP: f64 = 0.5e-3;
 /// Places tried, and golden sections between the best of them, where more than the pressure angle matters.
 const PLACES: u32 = 24;
+/// Valleys of the size over the place that are followed to their ground.
+const VALLEYS: usize = 3;
 /// By how much a prime radius is larger than another one, as a share, before it is held to be.
 const LARGER: f64 = 1e-9;
 /// A prime radius from which sizes are tried, m.
@@ -98,13 +100,33 @@ impl Disc {
         let offset = self.follower.element().offset();
         let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
         if keeps(smallest.base_radius) {
-            return Some(smallest);
+            return Some(self.before_rounding(smallest, keeps));
+        }
+        if self.on(smallest.base_radius).is_some_and(|disc| disc.has_corner()) {
+            return None;
         }
         let largest = (self.follower.prime_radii().1 - offset).min(LARGEST_BASE);
         let prime_radius = size::first_that_keeps(smallest.base_radius, largest, keeps)? + offset;
         let rounded = size::rounded_up(prime_radius - offset);
         let base_radius = if keeps(rounded) { rounded } else { prime_radius - offset };
         Some(Smallest { prime_radius, base_radius })
+    }
+
+    /// A size that keeps every limit when it is rounded: as small as it does, where more than pressure angle and curvature matters.
+    fn before_rounding(&self, smallest: Smallest, keeps: impl Fn(f64) -> bool) -> Smallest {
+        let (limits, offset) = (&self.machine.limits, self.follower.element().offset());
+        let of_more = limits.cutter_radius.is_some() || limits.contact_stress.is_some();
+        if !of_more || keeps(smallest.prime_radius - offset) {
+            return smallest;
+        }
+        let exact = size::first_passing(smallest.prime_radius - offset, smallest.base_radius, keeps);
+        Smallest { prime_radius: exact + offset, ..smallest }
+    }
+
+    /// Whether its profile has an edge at any size, because the velocity of the follower drops.
+    pub(super) fn has_corner(&self) -> bool {
+        let curves = self.curves();
+        extremes::fold(curves).is_some() || extremes::corners(curves).iter().any(|corner| corner.turn > 0.0)
     }
 
     /// The smallest size with a choice of its follower's place; `least` is a prime radius (m) below which none passes.
@@ -163,18 +185,23 @@ impl Disc {
     /// where nothing else matters.
     fn best_of(&self, place: Place, nearest: &Nearest, size: impl Fn(f64) -> Option<Smallest>) -> Option<(f64, f64)> {
         let ideal = place.chosen(nearest.shaft);
-        let at_ideal = size(ideal).map(|smallest| smallest.prime_radius);
-        if let Some(radius) = at_ideal.filter(|radius| *radius <= nearest.prime_radius * (1.0 + LARGER)) {
-            return Some((ideal, radius));
+        if self.keeps_but_rounding(place, ideal, nearest.prime_radius) {
+            return Some((ideal, nearest.prime_radius));
         }
         let prime = |choice: f64| size(choice).map_or(f64::INFINITY, |smallest| smallest.prime_radius);
-        let width = at_ideal.unwrap_or(4.0 * nearest.prime_radius);
-        let (least, most) = place.choices(width);
-        let range = ((ideal - width).max(least), (ideal + width).min(most));
-        let found = extremum::largest_without_slope(|choice| -prime(choice), range, PLACES, TO_ROUNDING);
-        let best = at_ideal
-            .filter(|radius| *radius <= -found.value)
-            .map_or((found.at, -found.value), |radius| (ideal, radius));
+        let mut best = (ideal, prime(ideal));
+        // No better place is farther than the size of a cam that is known.
+        let (mut searched, mut width) = (0.0, if best.1.is_finite() { best.1 } else { 4.0 * nearest.prime_radius });
+        while searched < width && width < LARGEST_BASE {
+            let (least, most) = place.choices(width);
+            let range = ((ideal - width).max(least), (ideal + width).min(most));
+            let found = extremum::largest_of_hills(|choice| -prime(choice), range, (PLACES, VALLEYS), TO_ROUNDING);
+            if -found.value < best.1 {
+                best = (found.at, -found.value);
+            }
+            searched = width;
+            width = if best.1.is_finite() { best.1 } else { 4.0 * width };
+        }
         if !best.1.is_finite() {
             return None;
         }
@@ -182,6 +209,16 @@ impl Disc {
         // taken.
         let flattest = self.least_inclined(place, best.1);
         if prime(flattest) <= best.1 * (1.0 + LARGER) { Some((flattest, best.1)) } else { Some(best) }
+    }
+
+    /// Whether a size that the pressure angle alone asks for keeps every other limit.
+    fn keeps_but_rounding(&self, place: Place, choice: f64, prime_radius: f64) -> bool {
+        let disc = self.placed_at(place, choice).of_prime_radius(prime_radius * (1.0 + LARGER));
+        disc.is_some_and(|disc| {
+            prime_radius >= disc.required().least
+                && disc.least_rolled_radius().value >= disc.required().convex_radius
+                && broken_limit(&disc).is_none_or(|limit| limit.starts_with("pressure_angle"))
+        })
     }
 
     /// The choice with the least pressure angle over its limit on a cam of a prime radius, m.
@@ -223,18 +260,22 @@ impl Disc {
         let sharp = || smaller.least_rolled_radius().value < self.required().convex_radius * (1.0 - LARGER);
         let limit = broken_limit(&smaller).unwrap_or_else(|| if sharp() { "min_convex_radius" } else { "bore" });
         let at = match limit {
-            "pressure_angle" | "pressure_angle_return" => Some(smaller.pressure_angles()),
+            "pressure_angle" | "pressure_angle_return" => Some(smaller.most_inclined()),
             "undercut" | "min_convex_pitch_radius_over_roller" | "min_convex_radius" => {
-                Some([smaller.least_rolled_radius(); 2])
+                Some(smaller.least_rolled_radius())
             }
-            "contact_stress" => smaller.contact_stress().map(|at| [at; 2]),
-            "cutter_radius" => smaller.hollow().map(|at| [at; 2]),
+            "contact_stress" => smaller.contact_stress(),
+            "cutter_radius" => smaller.hollow(),
             _ => None,
         };
-        Some(Binding {
-            limit,
-            at: at.map(|[rising, falling]| if limit == "pressure_angle_return" { falling } else { rising }),
-        })
+        Some(Binding { limit, at })
+    }
+
+    /// The place of its largest pressure angle over its limit.
+    fn most_inclined(&self) -> Worst {
+        let [rising, falling] = self.pressure_angles();
+        let [of_rising, of_falling] = self.machine.limits.pressure_angles();
+        if falling.value / of_falling > rising.value / of_rising { falling } else { rising }
     }
 
     /// What was chosen of the place of its follower, where that is asked for.

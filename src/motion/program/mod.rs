@@ -220,8 +220,11 @@ impl Program {
     /// With its lowest place.
     fn finished(mut self) -> Self {
         let least = self.pieces.iter().enumerate().take(self.sources.len()).map(|(index, piece)| {
-            let of = |at: f64| self.position(index, at);
-            -extremum::largest(|at| -of(at).s, |at| -of(at).ds, (piece.start, piece.end), CELLS).value
+            let depth = |at: f64| {
+                let position = self.position(index, at);
+                (-position.s, -position.ds)
+            };
+            -extremum::largest_with_slope(depth, (piece.start, piece.end), CELLS).value
         });
         self.lowest = least.fold(f64::INFINITY, f64::min);
         self

@@ -222,8 +222,17 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
                         LawError::NoInflection { .. } | LawError::Inflection { .. } | LawError::NoMatch { .. }
                     )
             );
-            let key = if of_inflection { &INFLECTION } else { &LAW };
-            segment.fail(key, error.to_string(), None);
+            let of_own = match &error {
+                StepError::Law(LawError::Parameter { name, .. }) => Some(*name),
+                _ => None,
+            };
+            match of_own {
+                Some("fractions") => segment.fail(&FRACTIONS, error.to_string(), None),
+                Some("amplitudes") => segment.fail(&AMPLITUDES, error.to_string(), None),
+                Some("line") => segment.fail(&LINE, error.to_string(), None),
+                Some("ramp") => segment.fail(&RAMP, error.to_string(), None),
+                _ => segment.fail(if of_inflection { &INFLECTION } else { &LAW }, error.to_string(), None),
+            }
             None
         }
     }
@@ -332,7 +341,7 @@ fn width(segment: &Table<'_>, whole: Whole, sum: f64, rest: bool) -> Result<Opti
     if segment.has(&UNTIL) {
         let until = segment.get(&UNTIL).ok_or(Told)?;
         let over = until - (whole.at + sum);
-        if !(over > 0.0 && over <= TAU) {
+        if !(over > 0.0 && over <= TAU + WHOLE_TURN) {
             let from = (whole.at + sum).to_degrees();
             let message = format!("`until` must be behind the start of the segment, {from:.6} deg");
             segment.fail(&UNTIL, message, None);

@@ -128,7 +128,10 @@ pub enum OutlineError {
         cam_deg: f64,
     },
     /// The cam is too large to draw.
-    #[error("the cam would reach {radius_mm:.0} mm from its shaft, more than a drawing holds (1e6 mm)")]
+    #[error(
+        "the cam would reach {radius_mm:.0} mm from its shaft, more than a drawing holds (1e6 mm); give a smaller \
+             cam.base_radius, or relax the limits that make an automatic one so large"
+    )]
     TooLarge {
         /// Largest radius, mm.
         radius_mm: f64,
