@@ -213,11 +213,13 @@ impl Disc {
 
     /// Whether a size that the pressure angle alone asks for keeps every other limit.
     fn keeps_but_rounding(&self, place: Place, choice: f64, prime_radius: f64) -> bool {
+        let limits = &self.machine.limits;
+        let of_more = limits.cutter_radius.is_some() || limits.contact_stress.is_some();
         let disc = self.placed_at(place, choice).of_prime_radius(prime_radius * (1.0 + LARGER));
         disc.is_some_and(|disc| {
             prime_radius >= disc.required().least
                 && disc.least_rolled_radius().value >= disc.required().convex_radius
-                && broken_limit(&disc).is_none_or(|limit| limit.starts_with("pressure_angle"))
+                && broken_limit(&disc).is_none_or(|limit| !of_more && limit.starts_with("pressure_angle"))
         })
     }
 
