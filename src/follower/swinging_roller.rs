@@ -1,6 +1,6 @@
 //! The swinging roller: a roller on an arm about a pivot.
 
-use super::{Carrier, Element, Follower, FollowerData, FollowerKind, Touch};
+use super::{CROWN_RADIUS, Carrier, Element, Follower, FollowerData, FollowerKind, INERTIA, Touch};
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
@@ -34,13 +34,14 @@ const SECTION: Section = Section {
     about: "the follower: a roller on a swinging arm",
     occurs: Occurs::Optional,
     cams: &[MAKE],
-    keys: &[RADIUS.key, ARM.key, PIVOT_DISTANCE.key, SIDE.key],
+    keys: &[RADIUS.key, ARM.key, PIVOT_DISTANCE.key, SIDE.key, INERTIA.key, CROWN_RADIUS.key],
 };
 
 fn read(table: &Table<'_>) -> Option<FollowerData> {
     let shape =
         SwingingRoller::new(table.get(&ARM)?, table.get(&PIVOT_DISTANCE)?, table.get(&RADIUS)?, table.get(&SIDE)?);
-    Some(FollowerData::of(SECTION.path, Arc::new(shape)))
+    let (mass, crown_radius) = (table.get(&INERTIA), table.get(&CROWN_RADIUS));
+    Some(FollowerData { mass, crown_radius, ..FollowerData::of(SECTION.path, Arc::new(shape)) })
 }
 
 /// By how much the prime radius must stay within the triangle of arm and pivot distance, as a share of it: at its ends arm and
