@@ -25,6 +25,12 @@ impl Pressing {
         self.still(lift) + self.moving(lift)
     }
 
+    /// Whether it is the same at any lift.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        self.rate == 0.0 && (self.speed == 0.0 || (self.mass == 0.0 && self.damping == 0.0))
+    }
+
     /// What presses on a follower that stands there.
     #[must_use]
     pub fn still(&self, lift: &Jet) -> f64 {
@@ -42,12 +48,5 @@ impl Pressing {
     #[must_use]
     pub fn at_speed(self, speed: f64) -> Self {
         Self { speed, ..self }
-    }
-
-    /// What can be had back of the work that is in the follower, J.
-    #[must_use]
-    pub fn stored(&self, lift: &Jet) -> f64 {
-        let velocity = self.speed * lift.ds;
-        lift.s * (self.constant + 0.5 * self.rate * lift.s) + 0.5 * self.mass * velocity * velocity
     }
 }

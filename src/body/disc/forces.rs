@@ -93,13 +93,20 @@ impl Disc {
     pub fn acting_force(&self, piece: usize, angle: f64) -> Option<f64> {
         let pressing = self.pressing()?;
         let load = self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle));
+        if pressing.is_constant() {
+            return Some(load + pressing.constant);
+        }
         Some(load + pressing.at(&self.motion.jet(piece, angle)))
     }
 
     /// The same as a force along the path of what touches the cam, N.
     #[must_use]
     pub fn path_force(&self, piece: usize, angle: f64) -> Option<f64> {
-        Some(self.acting_force(piece, angle)? / self.follower.leverage(&self.motion.jet(piece, angle)))
+        let acting = self.acting_force(piece, angle)?;
+        Some(match self.motion.quantity() {
+            Quantity::Length => acting,
+            Quantity::Angle => acting / self.follower.leverage(&self.motion.jet(piece, angle)),
+        })
     }
 
     /// What the cam drives the follower with: as [`Self::acting_force`], with the friction of its guide.
@@ -156,7 +163,7 @@ impl Disc {
         let acting = self.acting_force(piece, angle)?;
         Some(ForceRow {
             path: acting / self.follower.leverage(&contact.lift),
-            torque: self.driving_force(piece, angle)? * contact.lift.ds,
+            torque: self.torque(piece, angle),
             contact: Some(self.along_normal(acting, (piece, angle), contact)),
         })
     }
@@ -174,7 +181,11 @@ impl Disc {
 
     /// Torque of the shaft, N·m; NaN where no force is known.
     pub(super) fn torque(&self, piece: usize, angle: f64) -> f64 {
-        self.driving_force(piece, angle).unwrap_or(f64::NAN) * self.motion.jet(piece, angle).ds
+        // Where the follower rests there is no work, jammed or not.
+        match self.motion.jet(piece, angle).ds {
+            0.0 => 0.0,
+            velocity => self.driving_force(piece, angle).unwrap_or(f64::NAN) * velocity,
+        }
     }
 
     /// Largest |torque| on the camshaft, N·m, and where; `None` where no force is known.

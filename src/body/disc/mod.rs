@@ -423,7 +423,7 @@ impl Body for Disc {
     fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {
         let (piece, inside) = self.motion.locate(angle);
         let force = self.driving_force(piece, inside)?;
-        Some([force, force * self.motion.jet(piece, inside).ds])
+        Some([force, self.torque(piece, inside)])
     }
 
     fn compensating(&self) -> Option<Result<(Disc, Compensated), DiscError>> {

@@ -1,6 +1,6 @@
 //! The load behind an elastic train, as one mass on one spring that the follower moves: ẍ + 2 ζ ω_n ẋ + ω_n² x = ω_n² y.
 
-use super::Disc;
+use super::{Disc, program};
 use crate::geometry::MILLIMETRES;
 use crate::machine::VibrationData;
 use crate::motion::Quantity;
@@ -200,8 +200,8 @@ impl Disc {
 
 fn movement_value(movement: &Movement) -> Value {
     json!({
-        "from_deg": degrees(movement.angles.0),
-        "to_deg": degrees(movement.angles.1),
+        "from_deg": program::degrees(movement.angles.0),
+        "to_deg": program::degrees(movement.angles.1),
         "period_ratio": movement.periods,
         "residual": movement.residual,
         "residual_worst": movement.worst,
@@ -212,8 +212,8 @@ fn movement_value(movement: &Movement) -> Value {
 fn movement_words(movement: &Movement) -> String {
     format!(
         "{:.3} to {:.3}° takes {} natural periods and leaves {} of its travel, undamped; the worst within 20 % is {} at {} periods",
-        degrees(movement.angles.0),
-        degrees(movement.angles.1),
+        program::degrees(movement.angles.0),
+        program::degrees(movement.angles.1),
         shown(movement.periods),
         shown(movement.residual),
         shown(movement.worst),

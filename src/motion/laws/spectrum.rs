@@ -134,7 +134,7 @@ mod tests {
             let curve = named(law).and_then(|law| law.solve(&Task::default()).ok()).expect(law);
             for (ratio, known) in [(2.5, at_2_5), (3.7, at_3_7)] {
                 let found = curve.residual(ratio);
-                assert!((found - known).abs() < 1e-15, "{law} at {ratio}: {found}");
+                assert!((found - known).abs() < 4e-15, "{law} at {ratio}: {found}");
             }
         }
     }

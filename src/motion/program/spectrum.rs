@@ -151,17 +151,19 @@ impl Program {
         let round = self.segments.iter().map(|segment| (segment, 0.0)).chain(self.segments.iter().map(|s| (s, whole)));
         let all: Vec<(&Segment, f64)> = round.skip(first + 1).take(count).collect();
         let moving = all.split(|(segment, _)| segment.curve.is_none()).filter(|run| !run.is_empty());
-        moving
+        let mut movements: Vec<Movement> = moving
             .filter_map(|run| {
                 let ((begin, shift), (end, last_shift)) = (run.first()?, run.last()?);
-                let accelerations = Accelerations::of(run.iter().copied(), 0.0, 0.0);
-                let angles = (begin.start + shift, end.start + end.width + last_shift);
+                let accelerations = Accelerations::of(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
+                let angles = (begin.start, end.start + end.width + (last_shift - shift));
                 let ranges = run.iter().map(|(segment, _)| super::told::range(segment));
                 let join = |(low, top): (f64, f64), (l, t): (f64, f64)| (low.min(l), top.max(t));
                 let (low, top) = ranges.fold((f64::INFINITY, f64::NEG_INFINITY), join);
                 (top > low).then_some(Movement { angles, travel: top - low, accelerations })
             })
-            .collect()
+            .collect();
+        movements.sort_by(|a, b| a.angles.0.total_cmp(&b.angles.0));
+        movements
     }
 }
 
