@@ -5,7 +5,7 @@
 #[path = "common/program.rs"]
 mod program;
 
-use program::{Run, camgen_in, report};
+use program::{Run, camgen, camgen_in, files, report};
 use serde_json::Value;
 use std::f64::consts::TAU;
 use std::fs;
@@ -334,6 +334,7 @@ fn what_does_not_fit_the_follower_is_told_at_its_place() {
         for part in parts {
             assert!(run.err.contains(part), "no {part:?} in\n{}", run.err);
         }
+        assert_eq!(files(run.directory.path()), ["cam.toml"]);
     }
 }
 
@@ -353,4 +354,18 @@ fn what_is_not_given_is_said() {
     let still = told(&KNOWN.replace("rpm = 300\n", ""));
     assert!(still["dynamics"]["power_max_w"].is_null(), "{}", still["dynamics"]);
     near(number(&still["dynamics"]["work_fluctuation_j"]), 21.6, 1e-13);
+}
+
+/// The machines to start from have forces, under every kind of carrier.
+#[test]
+fn embedded_programs_have_forces() {
+    for name in ["feeder", "lever", "valve"] {
+        let run = camgen(&["make", name, "--dry-run", "--json"]);
+        assert_eq!(run.code, 0, "{name}: {}", run.err);
+        let report = report(&run);
+        for check in ["force_closure", "jump_speed", "contact_stress"] {
+            assert_eq!(found(&report, check)["verdict"], "pass", "{name}: {check}");
+        }
+        assert!(number(&report["dynamics"]["torque_max_nm"]) > 0.0, "{name}");
+    }
 }

@@ -171,8 +171,7 @@ mod tests {
 
     /// ∫ x^k e^{iwx} by so many panels of Gauss that nothing is left.
     fn brute(function: &dyn Fn(f64) -> f64, range: (f64, f64), w: f64) -> Complex<f64> {
-        let panels = 200 + 8 * (w.abs() as u32);
-        let part = |f: fn(f64) -> f64| crate::numeric::quadrature::integrate(|x| function(x) * f(w * x), range, panels);
+        let part = |f: fn(f64) -> f64| crate::numeric::quadrature::integrate(|x| function(x) * f(w * x), range, 1300);
         Complex::new(part(libm::cos), part(libm::sin))
     }
 

@@ -170,7 +170,7 @@ impl Program {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::laws::named;
+    use crate::motion::laws::{Inflection, Parameters, Task, named};
     use crate::motion::{Motion, Quantity};
 
     /// Rise 30 mm modified-sine 120°, dwell 30°, return 3-4-5 150°, dwell 60°.
@@ -207,7 +207,7 @@ mod tests {
             let rest = super::super::State::default();
             let law = |name: &str| {
                 let law = named(name).expect("a law");
-                super::super::Mover::Law(law, crate::motion::laws::Inflection::Smooth, Default::default())
+                super::super::Mover::Law(law, Inflection::Smooth, Parameters::default())
             };
             let deg = |degrees: f64| degrees.to_radians() / lobes;
             [
@@ -255,7 +255,7 @@ mod tests {
                 assert!((found - known).abs() < 1e-12, "{frequency}: {found} {known}");
             }
         }
-        let rise = named("modified-sine").and_then(|law| law.solve(&Default::default()).ok()).expect("a law");
+        let rise = named("modified-sine").and_then(|law| law.solve(&Task::default()).ok()).expect("a law");
         assert!((movements[0].periods(7.5) - 2.5).abs() < 1e-15);
         assert!((movements[0].residual(7.5) - rise.residual(2.5)).abs() < 1e-15);
     }
