@@ -32,6 +32,16 @@ pub enum Dimension {
     Unbalance,
     /// Metres per second squared inside.
     Acceleration,
+    /// Newton metres inside.
+    Moment,
+    /// Newton metres per radian inside.
+    TorsionalStiffness,
+    /// Newton seconds per metre inside.
+    Damping,
+    /// Newton metre seconds per radian inside.
+    TorsionalDamping,
+    /// Hertz inside.
+    Frequency,
 }
 
 struct Unit {
@@ -85,10 +95,21 @@ const UNITS: &[Unit] = &[
     unit("m/s", Dimension::Speed, 1.0, 1.0),
     unit("mm/s", Dimension::Speed, 1.0, 1e3),
     unit("kg*m2", Dimension::Inertia, 1.0, 1.0),
+    unit("kg*cm2", Dimension::Inertia, 1.0, 1e4),
     unit("kg/m3", Dimension::Density, 1.0, 1.0),
     unit("g*mm", Dimension::Unbalance, 1.0, 1e6),
     unit("kg*mm", Dimension::Unbalance, 1.0, 1e3),
     unit("m/s2", Dimension::Acceleration, 1.0, 1.0),
+    unit("N*m", Dimension::Moment, 1.0, 1.0),
+    unit("N*mm", Dimension::Moment, 1.0, 1e3),
+    unit("kgf*cm", Dimension::Moment, KILOGRAM_FORCE, 1e2),
+    unit("N*m/rad", Dimension::TorsionalStiffness, 1.0, 1.0),
+    unit("N*m/deg", Dimension::TorsionalStiffness, 180.0, std::f64::consts::PI),
+    unit("N*s/m", Dimension::Damping, 1.0, 1.0),
+    unit("N*s/mm", Dimension::Damping, 1e3, 1.0),
+    unit("N*m*s/rad", Dimension::TorsionalDamping, 1.0, 1.0),
+    unit("Hz", Dimension::Frequency, 1.0, 1.0),
+    unit("kHz", Dimension::Frequency, 1e3, 1.0),
 ];
 
 impl Dimension {
@@ -116,6 +137,11 @@ impl fmt::Display for Dimension {
             Dimension::Density => "density",
             Dimension::Unbalance => "unbalance",
             Dimension::Acceleration => "acceleration",
+            Dimension::Moment => "moment",
+            Dimension::TorsionalStiffness => "torsional stiffness",
+            Dimension::Damping => "damping",
+            Dimension::TorsionalDamping => "torsional damping",
+            Dimension::Frequency => "frequency",
         })
     }
 }
@@ -299,6 +325,12 @@ mod tests {
             ("2170.8 kgf", Dimension::Force, 21_288.275_82),
             ("4 ms", Dimension::Time, 0.004),
             ("60.3 kgf/cm", Dimension::Stiffness, 59_134.099_5),
+            ("250 N*mm", Dimension::Moment, 0.25),
+            ("2 N*m/deg", Dimension::TorsionalStiffness, 114.591_559_026_164_64),
+            ("3 N*s/mm", Dimension::Damping, 3000.0),
+            ("0.2 N*m*s/rad", Dimension::TorsionalDamping, 0.2),
+            ("40Hz", Dimension::Frequency, 40.0),
+            ("12 kg*cm2", Dimension::Inertia, 1.2e-3),
         ];
         for (text, dimension, si) in cases {
             let got = parse(text, dimension).expect(text).si;

@@ -97,7 +97,9 @@ fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
         return tables.into_iter().flatten().next();
     }
     let examples = examples.filter(|_| {
-        section.occurs != Occurs::Once && (section.path.contains("keyway") || section.path == "compensator")
+        section.occurs != Occurs::Once
+            && (section.path.contains("keyway")
+                || ["compensator", "guide", "vibration", "flywheel"].contains(&section.path))
     });
     Machine::load("dpi", &examples.chain(sets.iter().cloned()).collect::<Vec<_>>()).ok().map(|(machine, _)| machine)
 }

@@ -296,6 +296,15 @@ fn every_check_is_run_for_some_cam() {
         assert!(report.passed(), "{}: {report:?}", kind.noun);
         reports.push((format!("solid of a {} as a file", kind.noun), report));
     }
+    let dynamics = [
+        "follower.roller.mass=2kg",
+        "spring.preload=200N",
+        "guide.friction=0.1",
+        "guide.span=60mm",
+        "vibration.natural_frequency=40Hz",
+    ];
+    let moving = lifter(LIFTER, &dynamics).solve().expect("a cam");
+    reports.push(("lifter with spring, guide and train".into(), report_of(&moving)));
     reports.extend(cams_of_followers().iter().map(|(path, cam)| ((*path).to_owned(), report_of(cam))));
     let mut seen: Vec<String> = Vec::new();
     for (what, report) in &reports {

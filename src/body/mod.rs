@@ -12,6 +12,7 @@ mod part;
 mod picture;
 pub mod points;
 mod sheet;
+mod sizing;
 mod stress;
 pub mod tension;
 pub mod torque;
@@ -23,6 +24,7 @@ pub use balance::{AsCut, Balance, USEFUL};
 pub use loaded::{Lowered, Yielding};
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
 pub use sheet::acceleration_as_cut;
+use sizing::{broken_limit, no_radius, passing};
 pub use worst_places::WorstPlaces;
 use worst_places::radius_of;
 
@@ -388,8 +390,8 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// Force between follower and cam along the normal, N; `None` where no force is known.
     fn contact_force(&self, piece: usize, parameter: f64) -> Option<f64>;
 
-    /// Force on the follower along its path, N, and the torque of the shaft against it, N·m, at a cam angle; `None` where no force is
-    /// known.
+    /// Force of the cam on the follower along its path, N, or its moment about the pivot of one that swings, N·m, and the torque of the
+    /// shaft against it, N·m, at a cam angle; `None` where no force is known.
     fn force_and_torque(&self, _angle: f64) -> Option<[f64; 2]> {
         None
     }
@@ -413,6 +415,33 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         let follower = &self.machine().follower;
         let least = (follower.mass.is_some() || follower.preload.is_some()).then(|| self.largest_lifting_force());
         least.map(|least| Worst { value: -least.value, ..least })
+    }
+
+    /// Radius of a crowned roller's rim along its axis, m; `None` of a straight one, and under a face.
+    fn crown_radius(&self) -> Option<f64> {
+        None
+    }
+
+    /// A preload, as a key of the machine file, that keeps the follower on the cam at so many times the speed of the cam.
+    fn preload_that_holds(&self, _speed: f64) -> Option<String> {
+        None
+    }
+
+    /// Speed of the cam at which the follower first leaves it, rad/s, and where, infinite where it never does; or why that is not
+    /// known. `None` where nothing tells of it.
+    fn jump_speed(&self) -> Option<Result<Worst, String>> {
+        None
+    }
+
+    /// Least share of the force along the normal that is left along the path beside the friction of the follower's guide, and where; `None`
+    /// without a guide.
+    fn guide_share(&self) -> Option<Worst> {
+        None
+    }
+
+    /// The vibration of an elastic train behind the follower; `None` where none is described, or the speed is not known.
+    fn vibration(&self) -> Option<&disc::Vibration> {
+        None
     }
 
     /// Largest force that lifts the follower from the cam along its path, N; negative where it is pressed on everywhere.
@@ -522,59 +551,6 @@ fn exact<'a>(curves: Curves<'a>, stretches: &[Stretch]) -> Boundary<'a> {
 /// Mirrored about X and run the other way, so that the metal stays on the left.
 fn mirrored(stretches: &[Stretch]) -> Vec<Stretch> {
     stretches.iter().rev().map(Stretch::mirrored).collect()
-}
-
-/// The first limit depending on the base radius that a turning cam breaks, as `limits` of the machine file calls it. Checks judge;
-/// this is how a radius is found that they will pass.
-fn broken_limit(body: &dyn Body) -> Option<&'static str> {
-    let limits = body.machine().limits;
-    let (least, roller) = (body.least_radius().value, body.roller_radius().unwrap_or(0.0));
-    // A surface searched for its sharpest place is sized to a billionth.
-    let convex = limits.convex_radius(roller) * (1.0 - SIZED_TO);
-    let kept = |limit: Option<f64>, keeps: &dyn Fn(f64) -> bool| limit.is_none_or(keeps);
-    let angles = || body.pressure_angles().into_iter().zip(limits.pressure_angles());
-    let inclined = |of: usize| angles().nth(of).is_some_and(|(worst, limit)| worst.value > limit * (1.0 + 1e-12));
-    // The limit that asks for more.
-    let by_profile = limits.convex_radius(roller) > limits.min_convex_pitch_radius_over_roller * roller;
-    let of_convex = if by_profile { "min_convex_radius" } else { "min_convex_pitch_radius_over_roller" };
-    let of_return = if limits.pressure_angle_return.is_some() { "pressure_angle_return" } else { "pressure_angle" };
-    let checks: [(&'static str, &dyn Fn() -> bool); 7] = [
-        ("pressure_angle", &|| !inclined(0)),
-        (of_return, &|| !inclined(1)),
-        ("undercut", &|| least > roller),
-        (of_convex, &|| body.least_rolled_radius().value >= convex),
-        ("wall", &|| body.wall().is_none_or(|(wall, _)| wall > 0.0 && wall >= limits.wall * (1.0 - SIZED_TO))),
-        ("cutter_radius", &|| {
-            kept(limits.cutter_radius, &|limit| body.hollow().is_none_or(|hollow| limit <= hollow.value))
-        }),
-        ("contact_stress", &|| {
-            kept(limits.contact_stress, &|limit| body.contact_stress().is_none_or(|stress| stress.value <= limit))
-        }),
-    ];
-    checks.iter().find(|(_, keeps)| !keeps()).map(|(name, _)| *name)
-}
-
-/// How exactly a size keeps a limit that it was solved for, as a share.
-const SIZED_TO: f64 = 1e-9;
-
-/// What is said where no base radius keeps every limit, with the one that a huge cam still breaks.
-fn no_radius(binding: Option<&'static str>) -> String {
-    match binding {
-        Some("undercut") => {
-            "no base radius would pass: the velocity of the follower drops at once, which transition.kind = \"run-up\" or \
-             \"blend\" rounds in a press, and other states or laws in a motion program"
-                .into()
-        }
-        Some(limit) => format!("no base radius would pass: limits.{limit} is broken at any"),
-        None => "no base radius that would pass was found".into(),
-    }
-}
-
-/// The sentence of a remedy: a base radius (m) in millimetres, without the noise of the last digits.
-fn passing(base_radius: f64) -> String {
-    const PER_METRE: f64 = 1e12;
-    let picometres = (PER_METRE * base_radius - 1e-3).ceil();
-    format!("a base radius of {} mm would pass", picometres / (PER_METRE / MILLIMETRES))
 }
 
 /// A worst place of a plane cam.

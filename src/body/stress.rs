@@ -56,8 +56,13 @@ pub(super) fn thickness_for(machine: &Machine, largest: f64, limit: f64) -> Opti
 ///
 /// The first gives b/a, the other two b³ = 3 F (b/a) E/(2 π E* (A + B)).
 pub(super) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), material: Material) -> f64 {
-    let relative = |curvature: f64| (0.5 * (1.0 / radius + curvature)).max(0.0);
-    let (first, second) = (relative(curvatures.0), relative(curvatures.1));
+    let relative = |curvature: f64| 1.0 / radius + curvature;
+    in_ellipse(force, (relative(curvatures.0), relative(curvatures.1)), contact_modulus(material))
+}
+
+/// The same of any two bodies by the sums of their curvatures in the two principal directions, 2A and 2B in either order, 1/m, and E*, Pa.
+fn in_ellipse(force: f64, sums: (f64, f64), modulus: f64) -> f64 {
+    let (first, second) = ((0.5 * sums.0).max(0.0), (0.5 * sums.1).max(0.0));
     let (small, large) = (first.min(second), first.max(second));
     if !(force > 0.0 && large > 0.0) {
         return 0.0;
@@ -67,9 +72,29 @@ pub(super) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), materia
     let ratio = axis_ratio(share);
     let (_, second_kind) = elliptic_integrals(1.0 - ratio * ratio);
     let sum = large * (1.0 + share);
-    let modulus = contact_modulus(material);
     let short = libm::cbrt(3.0 * force * ratio * second_kind / (2.0 * PI * modulus * sum));
     3.0 * force * ratio / (2.0 * PI * short * short)
+}
+
+/// The largest pressure under a crowned roller, whose rim has this radius along the axis, m, on a disc that is straight along it.
+pub(super) fn of_crown(
+    body: &dyn Body,
+    (curves, acting): (Curves<'_>, &[Acting]),
+    machine: &Machine,
+    crown: f64,
+) -> Option<Worst> {
+    let (modulus, roller) = (contact_modulus(machine.cam.material?), body.roller_radius()?);
+    let (piece, start) = curves.motion.locate(curves.motion.range().0);
+    body.contact_force(piece, start)?;
+    // The cube is smooth where the force is 0.
+    let cube = |piece: usize, at: f64| {
+        let bend = (1.0 / roller + curves.profile(piece, at).curvature).max(0.0);
+        let force = body.contact_force(piece, at).unwrap_or(f64::NAN);
+        let pressure = in_ellipse(force, (bend, 1.0 / crown), modulus);
+        pressure * pressure * pressure
+    };
+    let worst = super::plane(extremes::largest_smooth(curves, (acting, 0.0), cube));
+    Some(Worst { value: libm::cbrt(worst.value.max(0.0)), ..worst })
 }
 
 /// Least ratio of the two relative curvatures; below, the contact counts as a line.

@@ -23,6 +23,8 @@ pub enum Form {
     Quantity(Dimension, Bounds),
     /// A length or an angle, each in its range; which one it is decides what it means.
     LengthOrAngle(Bounds, Bounds),
+    /// A quantity of one of two kinds, each in its range; which one it is decides what it means.
+    Either((Dimension, Bounds), (Dimension, Bounds)),
     /// One of several words.
     Words(&'static [&'static str]),
     /// One of several words, or a quantity.
@@ -151,6 +153,7 @@ pub(super) enum Value {
     Number(f64),
     Numbers(Vec<f64>),
     LengthOrAngle(LengthOrAngle),
+    Either(Dimension, f64),
     /// Which of the words.
     Word(usize),
     Band(f64, f64),
@@ -167,6 +170,7 @@ impl Value {
             (Value::Numbers(numbers), _) => numbers.iter().copied().map(exact).collect::<Vec<_>>().join(" "),
             (Value::LengthOrAngle(LengthOrAngle::Length(length)), _) => format!("{} m", exact(*length)),
             (Value::LengthOrAngle(LengthOrAngle::Angle(angle)), _) => format!("{} rad", exact(*angle)),
+            (Value::Either(dimension, number), _) => format!("{} of {dimension}", exact(*number)),
             (Value::Word(index), Form::Words(words) | Form::WordsOrQuantity(words, ..)) => {
                 words.get(*index).copied().unwrap_or_default().to_owned()
             }
@@ -321,6 +325,22 @@ impl Field<LengthOrAngle> {
     ) -> Self {
         let convert = |value: &Value| if let Value::LengthOrAngle(either) = value { Some(*either) } else { None };
         Self::new(name, about, presence, Form::LengthOrAngle(length, angle), Convert::Plain(convert))
+    }
+}
+
+impl Field<(Dimension, f64)> {
+    /// A key for a quantity of one of two kinds; its value is the kind and the number in SI units.
+    #[must_use]
+    pub const fn either(
+        name: &'static str,
+        about: &'static str,
+        presence: Presence,
+        first: (Dimension, Bounds),
+        second: (Dimension, Bounds),
+    ) -> Self {
+        let convert =
+            |value: &Value| if let Value::Either(kind, number) = value { Some((*kind, *number)) } else { None };
+        Self::new(name, about, presence, Form::Either(first, second), Convert::Plain(convert))
     }
 }
 

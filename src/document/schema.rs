@@ -113,6 +113,7 @@ fn form(form: Form) -> Value {
         Form::Numbers(bounds) => json!({ "type": "array", "items": number(bounds) }),
         Form::Quantity(dimension, _) => pattern(&quantity(&[dimension])),
         Form::LengthOrAngle(_, _) => pattern(&quantity(&[Dimension::Length, Dimension::Angle])),
+        Form::Either((first, _), (second, _)) => pattern(&quantity(&[first, second])),
         Form::Words(words) => json!({ "enum": words }),
         Form::WordsOrQuantity(words, dimension, _) => {
             json!({ "anyOf": [{ "enum": words }, pattern(&quantity(&[dimension]))] })
@@ -145,5 +146,6 @@ fn quantity(dimensions: &[Dimension]) -> String {
         // The list for messages has the spelling in ASCII alone.
         units.extend((*dimension == Dimension::Length).then(|| "µm".to_owned()));
     }
-    format!(r"{NUMBER}\s*({})", units.join("|"))
+    // A product has a sign that means something else in a pattern.
+    format!(r"{NUMBER}\s*({})", units.join("|").replace('*', r"\*"))
 }

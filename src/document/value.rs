@@ -71,6 +71,7 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misf
         Form::Numbers(bounds) => name.numbers(scalar, bounds),
         Form::Quantity(dimension, bounds) => name.quantity(scalar, &[], dimension, bounds),
         Form::LengthOrAngle(length, angle) => name.length_or_angle(scalar, length, angle),
+        Form::Either(first, second) => name.either(scalar, first, second),
         Form::Words(words) => name.word(scalar, words),
         Form::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
         Form::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
@@ -94,6 +95,9 @@ fn items(scalar: &Scalar, item: impl Fn(String) -> Scalar) -> Option<Cow<'_, [Sc
         _ => None,
     }
 }
+
+/// A kind of quantity, and its range.
+type Kind = (Dimension, Bounds);
 
 /// A key under the path it has in messages.
 struct Named<'a> {
@@ -223,25 +227,37 @@ impl Named<'_> {
     }
 
     fn length_or_angle(&self, scalar: &Scalar, length: Bounds, angle: Bounds) -> Result<Value, Misfit> {
-        let both = [Dimension::Length, Dimension::Angle];
+        let found = self.of_two(scalar, [(Dimension::Length, length), (Dimension::Angle, angle)])?;
+        Ok(Value::LengthOrAngle(match found {
+            (Dimension::Angle, angle) => LengthOrAngle::Angle(angle),
+            (_, length) => LengthOrAngle::Length(length),
+        }))
+    }
+
+    fn either(&self, scalar: &Scalar, first: Kind, second: Kind) -> Result<Value, Misfit> {
+        let (dimension, number) = self.of_two(scalar, [first, second])?;
+        Ok(Value::Either(dimension, number))
+    }
+
+    /// A quantity of one of two kinds: which one, and its number.
+    fn of_two(&self, scalar: &Scalar, [first, second]: [Kind; 2]) -> Result<(Dimension, f64), Misfit> {
+        let both = [first.0, second.0];
         let text = match scalar {
             Scalar::Text(text) => text,
             Scalar::Number(text) => {
                 return self.not_a_quantity(&both, &QuantityError::MissingUnit { found: text.clone() }, "");
             }
-            other => return misfit(format!("`{}` must be a length or angle, not {}", self.path, other.kind()), None),
+            other => {
+                let kind = other.kind();
+                return misfit(format!("`{}` must be a {} or {}, not {kind}", self.path, first.0, second.0), None);
+            }
         };
-        match units::parse(text, Dimension::Length) {
-            Err(QuantityError::WrongKind { found: Dimension::Angle, .. }) => {
-                let angle = self.quantity_text(text, Dimension::Angle, angle, "")?;
-                Ok(Value::LengthOrAngle(LengthOrAngle::Angle(angle)))
-            }
-            Err(error) => self.not_a_quantity(&both, &error, ""),
-            Ok(_) => {
-                let length = self.quantity_text(text, Dimension::Length, length, "")?;
-                Ok(Value::LengthOrAngle(LengthOrAngle::Length(length)))
-            }
-        }
+        let (dimension, bounds) = match units::parse(text, first.0) {
+            Err(QuantityError::WrongKind { found, .. }) if found == second.0 => second,
+            Err(error) => return self.not_a_quantity(&both, &error, ""),
+            Ok(_) => first,
+        };
+        Ok((dimension, self.quantity_text(text, dimension, bounds, "")?))
     }
 
     fn band(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {

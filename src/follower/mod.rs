@@ -22,11 +22,12 @@ pub use swinging_roller::SwingingRoller;
 pub use translating_roller::{Crown, RollerData, TranslatingRoller};
 
 use crate::document::Presence::{Default, Optional};
+use crate::document::cams::MAKE;
 use crate::document::range::{HEAVIEST, LARGEST_FORCE, LONGEST};
 use crate::document::{Field, Reader, Section, Table, above, within};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
-use crate::units::Dimension::{Force, Length, Mass};
+use crate::units::Dimension::{Force, Inertia, Length, Mass};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -60,12 +61,14 @@ pub struct FollowerData {
     pub path: &'static str,
     /// The follower itself, not yet sized.
     pub shape: Arc<dyn Follower>,
-    /// Mass that moves with it along its path, kg.
+    /// Mass that moves with it along its path, kg; of one that swings the moment of inertia about its pivot, kg·m².
     pub mass: Option<f64>,
     /// Force that presses it onto the cam beside the load, N.
     pub preload: Option<f64>,
     /// By how much that force grows with the lift, N/m.
     pub spring_rate: f64,
+    /// Radius of its roller's rim along the axis, m, where the rim is crowned.
+    pub crown_radius: Option<f64>,
     /// What only a translating roller has.
     pub roller: Option<RollerData>,
     /// What only a flat face has.
@@ -95,14 +98,17 @@ pub enum Middle {
 impl FollowerData {
     /// A follower without a description of forces, roller and face.
     fn of(path: &'static str, shape: Arc<dyn Follower>) -> Self {
-        Self { path, shape, mass: None, preload: None, spring_rate: 0.0, roller: None, face: None, place: None }
-    }
-
-    /// Whether its table has mass and preload: whether forces on it can be described.
-    #[must_use]
-    pub fn has_forces(&self) -> bool {
-        let own = FOLLOWERS.iter().find(|kind| kind.section.path == self.path);
-        own.is_some_and(|kind| kind.section.keys.iter().any(|key| key.name == PRELOAD.key.name))
+        Self {
+            path,
+            shape,
+            mass: None,
+            preload: None,
+            spring_rate: 0.0,
+            crown_radius: None,
+            roller: None,
+            face: None,
+            place: None,
+        }
     }
 
     /// A translating roller with its path on the other side of the shaft; `None` for others, and where the path goes through the
@@ -132,6 +138,23 @@ const PRELOAD: Field<f64> = Field::quantity(
     Force,
     within(0.0, LARGEST_FORCE),
 );
+/// Moment of inertia of a follower that swings, a key of its table.
+const INERTIA: Field<f64> = Field::quantity(
+    "inertia",
+    "moment of inertia about the pivot of all that swings with the follower; asks for the check force_closure",
+    Optional("0.02 kg*m2"),
+    Inertia,
+    above(0.0, HEAVIEST),
+);
+/// Crown of a roller, a key of its table.
+const CROWN_RADIUS: Field<f64> = Field::quantity(
+    "crown_radius",
+    "radius of a crowned rim along the roller's axis: contact stress in an ellipse; a straight rim when absent",
+    Optional("500 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(&[MAKE]);
 
 /// Offset of a roller or a knife edge on a straight path, a key of its table; `None` is `auto`.
 const OFFSET: Field<Option<f64>> = Field::words_or_quantity(

@@ -1,6 +1,8 @@
 //! The swinging flat face: a straight face on an arm about a pivot.
 
-use super::{Carrier, Element, FaceData, FaceTouch, Follower, FollowerData, FollowerKind, Middle, Touch, WIDTH};
+use super::{
+    Carrier, Element, FaceData, FaceTouch, Follower, FollowerData, FollowerKind, INERTIA, Middle, Touch, WIDTH,
+};
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
@@ -38,7 +40,7 @@ const SECTION: Section = Section {
     about: "the follower: a flat face on a swinging arm",
     occurs: Occurs::Optional,
     cams: &[MAKE],
-    keys: &[PIVOT_DISTANCE.key, FACE_OFFSET.key, SIDE.key, WIDTH.key],
+    keys: &[PIVOT_DISTANCE.key, FACE_OFFSET.key, SIDE.key, WIDTH.key, INERTIA.key],
 };
 
 fn read(table: &Table<'_>) -> Option<FollowerData> {
@@ -53,7 +55,11 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
     }
     let shape = SwingingFlat::new(pivot_distance?, face_offset?, table.get(&SIDE)?);
     let face = FaceData { width: table.get(&WIDTH), middle: Middle::Anywhere };
-    Some(FollowerData { face: Some(face), ..FollowerData::of(SECTION.path, Arc::new(shape)) })
+    Some(FollowerData {
+        mass: table.get(&INERTIA),
+        face: Some(face),
+        ..FollowerData::of(SECTION.path, Arc::new(shape))
+    })
 }
 
 /// By how much the base radius must stay within what the face reaches, as a share of it, and the arm short of where the contact

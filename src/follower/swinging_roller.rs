@@ -1,6 +1,6 @@
 //! The swinging roller: a roller on an arm about a pivot.
 
-use super::{Carrier, Element, Follower, FollowerData, FollowerKind, Place, Touch};
+use super::{CROWN_RADIUS, Carrier, Element, Follower, FollowerData, FollowerKind, INERTIA, Place, Touch};
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
@@ -39,7 +39,7 @@ const SECTION: Section = Section {
     about: "the follower: a roller on a swinging arm",
     occurs: Occurs::Optional,
     cams: &[MAKE],
-    keys: &[RADIUS.key, ARM.key, PIVOT_DISTANCE.key, SIDE.key],
+    keys: &[RADIUS.key, ARM.key, PIVOT_DISTANCE.key, SIDE.key, INERTIA.key, CROWN_RADIUS.key],
 };
 
 fn read(table: &Table<'_>) -> Option<FollowerData> {
@@ -47,7 +47,8 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
     let given = table.get(&PIVOT_DISTANCE)?;
     let place = given.is_none().then_some(Place::Pivot { arm, radius, side });
     let shape = SwingingRoller::new(arm, given.unwrap_or(arm), radius, side);
-    Some(FollowerData { place, ..FollowerData::of(SECTION.path, Arc::new(shape)) })
+    let (mass, crown_radius) = (table.get(&INERTIA), table.get(&CROWN_RADIUS));
+    Some(FollowerData { mass, crown_radius, place, ..FollowerData::of(SECTION.path, Arc::new(shape)) })
 }
 
 /// By how much the prime radius must stay within the triangle of arm and pivot distance, as a share of it: at its ends arm and

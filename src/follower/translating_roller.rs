@@ -1,6 +1,6 @@
 //! The translating roller, centred or offset.
 
-use super::{Element, Follower, FollowerData, FollowerKind, MASS, PRELOAD, Place, Touch};
+use super::{CROWN_RADIUS, Element, Follower, FollowerData, FollowerKind, MASS, PRELOAD, Place, Touch};
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::{CONOID, TURNING};
 use crate::document::range::LONGEST;
@@ -56,7 +56,7 @@ const SECTION: Section = Section {
     about: "the follower: a translating roller",
     occurs: Occurs::Optional,
     cams: &[],
-    keys: &[RADIUS.key, OFFSET.key, MASS.key, PRELOAD.key, CROWN.key, WIDTH.key],
+    keys: &[RADIUS.key, OFFSET.key, MASS.key, PRELOAD.key, CROWN.key, WIDTH.key, CROWN_RADIUS.key],
 };
 
 fn read(table: &Table<'_>) -> Option<FollowerData> {
@@ -70,8 +70,9 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
     // Made for a size when the cam is sized; until then large enough to reach.
     let shape = Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius));
     let roller = RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) };
-    let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
-    Some(FollowerData { mass, preload, roller: Some(roller), place, ..FollowerData::of(SECTION.path, shape) })
+    let (mass, preload, crown_radius) = (table.get(&MASS), table.get(&PRELOAD), table.get(&CROWN_RADIUS));
+    let roller = Some(roller);
+    Some(FollowerData { mass, preload, crown_radius, roller, place, ..FollowerData::of(SECTION.path, shape) })
 }
 
 /// By how much the prime radius must exceed the offset, as a share of it: at the offset itself the roller would stand beside

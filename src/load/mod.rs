@@ -1,10 +1,13 @@
 //! Loads: what presses the follower onto the cam, and the force balance the motion is made for. A cam may have no load.
 
 mod air_buffer;
+pub mod guide;
+mod pressing;
 mod shaft_work;
 
 pub use air_buffer::AirBuffer;
 pub(crate) use air_buffer::{air_law, balance_of, balance_row, closed_at};
+pub use pressing::Pressing;
 pub use shaft_work::ShaftWork;
 
 use crate::motion::State;

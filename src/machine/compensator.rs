@@ -102,6 +102,7 @@ impl Machine {
             mass: data.mass,
             preload: Some(data.preload),
             spring_rate: data.spring_rate,
+            crown_radius: None,
             roller: Some(roller),
             face: None,
             place: None,

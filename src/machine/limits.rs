@@ -171,6 +171,10 @@ pub struct Limits {
     pub acceleration_share: Option<f64>,
     /// Order of the last continuous derivative of a motion program.
     pub continuity: f64,
+    /// Least jump speed over the speed of the cam of a motion program.
+    pub jump_margin: f64,
+    /// Largest residual vibration over the travel; where it is absent it is told only.
+    pub residual: Option<f64>,
     /// Of the linkage that moves a bed.
     pub linkage: LinkageLimits,
     /// Of the shaft.
@@ -267,6 +271,21 @@ const CONTINUITY: Field<f64> = Field::number(
 )
 .only(&[MAKE]);
 
+const JUMP_MARGIN: Field<f64> = Field::number(
+    "jump_margin",
+    "least speed at which the follower leaves the cam of a motion program, over the speed of the cam",
+    Default("1"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(&[MAKE]);
+const RESIDUAL: Field<f64> = Field::number(
+    "residual",
+    "largest residual vibration behind a movement of a motion program, over its travel; told only, when absent",
+    Optional("0.01"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(&[MAKE]);
+
 /// `[limits]`.
 pub(super) const SECTION: Section = Section {
     path: "limits",
@@ -284,6 +303,8 @@ pub(super) const SECTION: Section = Section {
         RESIDUAL_SHARE.key,
         ACCELERATION_SHARE.key,
         CONTINUITY.key,
+        JUMP_MARGIN.key,
+        RESIDUAL.key,
         TRANSMISSION_ANGLE.key,
         ROD_ANGLE.key,
         LINK_RATIO.key,
@@ -335,6 +356,8 @@ pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limit
         residual_share: table.get(&RESIDUAL_SHARE),
         acceleration_share: table.get(&ACCELERATION_SHARE),
         continuity: table.get(&CONTINUITY)?,
+        jump_margin: table.get(&JUMP_MARGIN)?,
+        residual: table.get(&RESIDUAL),
         linkage: LinkageLimits {
             transmission_angle: table.get(&TRANSMISSION_ANGLE)?,
             rod_angle: table.get(&ROD_ANGLE)?,

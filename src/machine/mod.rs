@@ -12,6 +12,7 @@ mod compensator;
 mod conoid;
 mod disc;
 mod drive;
+mod dynamics;
 mod embedded;
 mod limits;
 mod linkage;
@@ -32,6 +33,7 @@ pub use compensator::CompensatorData;
 pub use conoid::{ConoidData, ConoidMode, Shift};
 pub use disc::{CamData, Keyway, Material, Rotation};
 pub use drive::{DriveData, DriveMachine};
+pub use dynamics::{GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};
 pub use limits::{Limits, LinkageLimits, Touching, customary_stress};
 pub use linkage::LinkageData;
@@ -83,6 +85,10 @@ const MOTION_TABLES: &[&Section] = &[
 
 /// The tables after those of the followers.
 const BODY_TABLES: &[&Section] = &[
+    &dynamics::SPRING,
+    &dynamics::GUIDE,
+    &dynamics::VIBRATION,
+    &dynamics::FLYWHEEL,
     &disc::SECTION,
     &disc::KEYWAY,
     &transition::SECTION,
@@ -182,6 +188,14 @@ pub struct Machine {
     regimes: RegimesData,
     /// Stiffness of springs under the bottoms, N/m.
     spring_stiffness: Option<f64>,
+    /// Spring on the follower of a motion program, when described.
+    spring: Option<SpringData>,
+    /// Its guide, when described.
+    guide: Option<GuideData>,
+    /// Elastic train behind it, when described.
+    vibration: Option<VibrationData>,
+    /// Coefficient of speed fluctuation of its shaft, when a flywheel is described.
+    fluctuation: Option<f64>,
     /// Limits.
     pub(crate) limits: Limits,
     /// Title block.
@@ -236,6 +250,10 @@ impl Machine {
             shaft: shaft.map(Arc::new),
             regimes,
             spring_stiffness,
+            spring: dynamics::spring(reader, &follower),
+            guide: dynamics::guide(reader, &follower),
+            vibration: dynamics::vibration(reader),
+            fluctuation: dynamics::fluctuation(reader),
             limits: limits::read(reader, &*follower.shape)?,
             title: title::read(reader),
             given: reader.given(own),
@@ -343,6 +361,30 @@ impl Machine {
     #[must_use]
     pub fn spring_stiffness(&self) -> Option<f64> {
         self.spring_stiffness
+    }
+
+    /// The spring on the follower of a motion program, when the file describes one.
+    #[must_use]
+    pub fn spring(&self) -> Option<SpringData> {
+        self.spring
+    }
+
+    /// The guide of the follower of a motion program, when the file describes one.
+    #[must_use]
+    pub fn guide(&self) -> Option<GuideData> {
+        self.guide
+    }
+
+    /// The elastic train behind the follower of a motion program, when the file describes one.
+    #[must_use]
+    pub fn vibration(&self) -> Option<VibrationData> {
+        self.vibration
+    }
+
+    /// The coefficient of speed fluctuation that a flywheel on the shaft of a motion program is to keep, when the file gives one.
+    #[must_use]
+    pub fn fluctuation(&self) -> Option<f64> {
+        self.fluctuation
     }
 
     /// The motion program of the file, with the speed of the cam where it gives one, rpm.

@@ -251,10 +251,13 @@ const OTHERS: &[(&str, &str)] = &[
     ("follower.roller.preload", "1600 N"),
     ("follower.roller.crown", "cylinder"),
     ("follower.roller.width", "20 mm"),
+    ("follower.roller.crown_radius", "400 mm"),
     ("follower.swinging-roller.radius", "20 mm"),
     ("follower.swinging-roller.arm", "100 mm"),
     ("follower.swinging-roller.pivot_distance", "150 mm"),
     ("follower.swinging-roller.side", "leading"),
+    ("follower.swinging-roller.inertia", "0.03 kg*m2"),
+    ("follower.swinging-roller.crown_radius", "400 mm"),
     ("follower.flat.tilt", "10 deg"),
     ("follower.flat.offset", "5 mm"),
     ("follower.flat.width", "50 mm"),
@@ -264,9 +267,20 @@ const OTHERS: &[(&str, &str)] = &[
     ("follower.swinging-flat.face_offset", "5 mm"),
     ("follower.swinging-flat.side", "leading"),
     ("follower.swinging-flat.width", "50 mm"),
+    ("follower.swinging-flat.inertia", "0.03 kg*m2"),
     ("follower.knife.offset", "5 mm"),
     ("follower.knife.mass", "40 kg"),
     ("follower.knife.preload", "1600 N"),
+    ("spring.rate", "9 N/mm"),
+    ("spring.preload", "130 N"),
+    ("spring.damping", "30 N*s/m"),
+    ("spring.load", "-20 N"),
+    ("guide.friction", "0.2"),
+    ("guide.span", "70 mm"),
+    ("guide.overhang", "20 mm"),
+    ("vibration.natural_frequency", "50 Hz"),
+    ("vibration.damping", "0.05"),
+    ("flywheel.fluctuation", "0.01"),
     ("cam.cam_turns_per_crank_turn", "0.5"),
     ("cam.lever", "2"),
     ("cam.base_radius", "90 mm"),
@@ -334,6 +348,8 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.residual_share", "0.02"),
     ("limits.acceleration_share", "0.02"),
     ("limits.continuity", "2"),
+    ("limits.jump_margin", "1.5"),
+    ("limits.residual", "0.005"),
     ("limits.transmission_angle", "40 deg"),
     ("limits.rod_angle", "25 deg"),
     ("limits.link_ratio", "0.6"),
@@ -364,6 +380,10 @@ const SHAFT: &str = "\n[shaft]\ncam_at = \"150 mm\"\n[[shaft.segment]]\nlength =
                      [[shaft.disc]]\nat = \"290 mm\"\nmass = \"2 kg\"\ndiametral_inertia = \"0.002 kg*m2\"\npolar_inertia = \"0.002 kg*m2\"\n\
                      [[shaft.disc]]\nat = \"290 mm\"\ndiameter = \"120 mm\"\nwidth = \"20 mm\"\n\
                      [[shaft.disc]]\nat = \"290 mm\"\nmass = \"2 kg\"\nunbalance = \"9 g*mm\"\n";
+
+/// What moves behind a follower on a straight path.
+const DYNAMICS: &str = "\n[guide]\nfriction = 0.1\nspan = \"60 mm\"\n[vibration]\nnatural_frequency = \"40 Hz\"\n\
+                        [flywheel]\nfluctuation = 0.02\n";
 
 fn every_key() -> Vec<String> {
     sections().iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect()
@@ -400,8 +420,9 @@ fn file_for(path: &str) -> String {
         press
     };
     let shaft = if path.starts_with("shaft.") { SHAFT } else { "" };
+    let dynamics = if path.starts_with("follower.") { "" } else { DYNAMICS };
     let motion = motion_for(path);
-    format!("{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{motion}{shaft}", section.path)
+    format!("{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{motion}{dynamics}{shaft}", section.path)
 }
 
 /// A motion program in which a key of a segment means something.
@@ -576,9 +597,18 @@ fn template_and_profiles_have_every_key() {
     let profiles = presses.map(|machine| (machine.name, machine.toml, &of_a_press));
     for (name, text, keys) in profiles.chain([("template", template.as_str(), &all)]) {
         let text = with_everything(text);
-        // Of a linkage, a shaft and a motion not all keys go together.
-        let apart =
-            ["linkage", "shaft", "[shaft.segment]", "[shaft.support]", "[shaft.disc]", "motion", "[motion.segment]"];
+        // Of a linkage, a shaft and a motion not all keys go together; spring and guide are of a straight path.
+        let apart = [
+            "spring",
+            "guide",
+            "linkage",
+            "shaft",
+            "[shaft.segment]",
+            "[shaft.support]",
+            "[shaft.disc]",
+            "motion",
+            "[motion.segment]",
+        ];
         let read_with = |text: &str| {
             let text = apart.iter().fold(text.to_owned(), |text, table| without(&text, table));
             Machine::from_toml(name, &text, &[])

@@ -9,6 +9,7 @@ pub mod chebyshev_series;
 pub mod digits;
 pub mod double;
 pub mod extremum;
+pub mod legendre;
 pub mod parallel;
 pub mod quadrature;
 pub mod root;

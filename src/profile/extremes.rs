@@ -62,7 +62,8 @@ pub type Acting = (f64, f64);
 const BESIDE: f64 = 1e-12;
 
 /// The stretches of a piece on which a quantity is smooth that may jump at the ends of these ranges.
-fn stretches(piece: &Piece, acting: &[Acting]) -> Vec<(f64, f64)> {
+#[must_use]
+pub fn stretches(piece: &Piece, acting: &[Acting]) -> Vec<(f64, f64)> {
     let beside = (BESIDE * (piece.end - piece.start)).max(4.0 * f64::EPSILON * piece.end.abs().max(piece.start.abs()));
     let mut stretches = Vec::new();
     let mut from = piece.start;

@@ -46,6 +46,9 @@ pub struct CamMeasures {
     /// Where a flat face is touched, from its stem or its pivot: least and most.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub face_mm: Option<[f64; 2]>,
+    /// Turns of a roller about its own axis for a turn of the cam of a motion program: mean and most.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub roller_turns: Option<[f64; 2]>,
     /// Equal lobes of a press's cam, one for each turn of the crank in a turn of the cam.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lobes: Option<u32>,
@@ -88,6 +91,14 @@ impl CamMeasures {
         words.extend(lobes.clone());
         let on_face = |[least, most]: [f64; 2]| format!("touches the face from {} to {} mm", shown(least), shown(most));
         words.extend(self.face_mm.map(on_face));
+        let spin = |[mean, most]: [f64; 2]| {
+            format!(
+                "the roller turns {} times for a turn of the cam, at up to {} times its speed",
+                shown(mean),
+                shown(most)
+            )
+        };
+        words.extend(self.roller_turns.map(spin));
         if let Some(area) = self.weight.area_mm2 {
             let mass =
                 self.weight.mass_kg.map_or_else(|| "no thickness given".into(), |mass| format!("mass {mass:.3} kg"));

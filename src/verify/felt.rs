@@ -48,7 +48,7 @@ pub(super) fn felt<'s>(body: &dyn Body, curves: Curves<'_>, flanks: impl Iterato
         acceleration_of_motion: unit * acceleration,
         shaft_speed: body.shaft_speed(),
         // The mass of a plate's follower moves along another path than the bottom.
-        mass: body.machine().follower.mass.filter(|_| curves.motion.period().is_some()),
+        mass: body.machine().follower.mass.filter(|_| curves.motion.period().is_some() && !swings),
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::{Bound, Check, Evidence, Explained, On, at};
 use crate::follower::Element;
+use crate::motion::Quantity;
 use crate::report::{Finding, Verdict};
 
 pub(super) const CHECK: Check = Check {
@@ -11,9 +12,10 @@ pub(super) const CHECK: Check = Check {
             above 0 the follower leaves the cam.",
     explained: Explained {
         bound: Bound::Above,
-        formula: "F = air or spring + preload + m s'', along the follower's path; s'' by the time",
+        formula: "F = air or spring + preload + c s' + m s'', along the follower's path, s' and s'' by the time; of a follower that swings \
+                  the moment J ψ'' + c ψ' + k ψ + M0 over the distance of its contact from the pivot",
         usual: "above 0",
-        change: "a higher `follower.*.preload`, a lower `follower.*.mass`, or a slower cam",
+        change: "a higher `follower.*.preload` or `spring.preload`, a lower `follower.*.mass` or `inertia`, or a slower cam",
     },
     run: check,
 };
@@ -22,23 +24,30 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let Some(least) = body.least_closing_force() else {
         let follower = &body.machine().follower;
-        let why = if follower.has_forces() {
-            format!("neither {0}.mass nor {0}.preload is given", follower.path)
-        } else {
-            "forces on this follower are not computed".into()
+        let swings = body.plane().is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
+        let why = match (swings, body.plane().is_some_and(|curves| curves.motion.program().is_some())) {
+            (true, _) => "neither the table [spring] nor an inertia of the follower with a speed is given".to_owned(),
+            (false, true) => {
+                format!("neither {0}.preload, [spring], nor {0}.mass with a speed is given", follower.path)
+            }
+            (false, false) => format!("neither {0}.mass nor {0}.preload is given", follower.path),
         };
         return Some(CHECK.not_run("N", &why));
     };
     let force = least.value;
     let kept = force > 0.0;
-    let needed = (body.machine().follower.preload.unwrap_or(0.0) - force).ceil() + 1.0;
-    let path = body.machine().follower.path;
+    let own = || {
+        let follower = &body.machine().follower;
+        let needed = (follower.preload.unwrap_or(0.0) - force).ceil() + 1.0;
+        format!("{}.preload = \"{needed} N\"", follower.path)
+    };
     let is_face = body.plane().is_some_and(|curves| curves.element() == Element::Face);
     let part = match (body.roller_radius(), is_face) {
         (Some(_), _) => "roller",
         (None, true) => "face",
         (None, false) => "edge",
     };
-    let note = (!kept).then(|| format!("the {part} leaves the cam; {path}.preload = \"{needed} N\" would hold it"));
+    let holding = || body.preload_that_holds(1.0).unwrap_or_else(own);
+    let note = (!kept).then(|| format!("the {part} leaves the cam; {} would hold it", holding()));
     Some(at(body, &least, CHECK.found(force, Some(0.0), "N", Verdict::of(kept)), note))
 }

@@ -23,6 +23,8 @@ mod felt_sections;
 mod file;
 mod flank;
 mod force_closure;
+mod guide;
+mod jump_speed;
 mod linkage;
 mod outline;
 mod plate_ends;
@@ -36,6 +38,7 @@ mod shift;
 mod solid;
 mod sphere;
 mod tangency;
+mod vibration;
 mod wall;
 
 pub use cutter_path::WrittenPath;
@@ -182,7 +185,10 @@ pub const CHECKS: &[Check] = &[
     shift::AXIAL_REACH,
     cylinder_contact::CHECK,
     force_closure::CHECK,
+    jump_speed::CHECK,
+    guide::CHECK,
     contact_stress::CHECK,
+    vibration::CHECK,
     residual::CHECK,
     air::CHECK,
     run_up::CHECK,

@@ -37,7 +37,9 @@ impl Disc {
 
     /// A thickness, and a base radius, that keep a limit of the contact stress.
     pub(super) fn keeping_stress(&self, largest: f64, limit: f64) -> Vec<String> {
-        let thickness = super::stress::thickness_for(&self.machine, largest, limit);
+        // Under a crown the thickness does not matter.
+        let straight = self.own.crown_radius.is_none();
+        let thickness = straight.then(|| super::stress::thickness_for(&self.machine, largest, limit)).flatten();
         let base = self.base_for_stress(limit).map(|base| format!("cam.base_radius = \"{base} mm\""));
         thickness.into_iter().chain(base).collect()
     }

@@ -2,14 +2,17 @@
 
 use super::Disc;
 use crate::body::loaded::{Lowered, Pressed, Yielding};
+use crate::motion::Quantity;
 use crate::profile::Worst;
 
 impl Disc {
-    /// The follower at a place of the motion, the cam on a shaft; `None` where no force is known.
+    /// The follower at a place of the motion, the cam on a shaft; `None` where no force is known, and of a follower that swings.
     #[must_use]
     pub fn lowered(&self, piece: usize, angle: f64, shaft: &Yielding) -> Option<Lowered> {
-        let rigid = self.path_force(piece, angle)?;
-        let spring_rate = self.machine.follower.spring_rate;
+        if self.motion.quantity() == Quantity::Angle {
+            return None;
+        }
+        let (rigid, spring_rate) = (self.path_force(piece, angle)?, self.pressing()?.rate);
         let pressed = Pressed { curves: self.curves(), load: self.load.as_deref(), spring_rate };
         Some(pressed.lowered((piece, angle), rigid, shaft))
     }

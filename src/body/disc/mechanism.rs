@@ -12,10 +12,15 @@ use std::f64::consts::TAU;
 
 const WITH_LOAD: &[&str] =
     &["Friction between roller and cam, in bearings and guides: forces and torque are without it."];
+const WITH_GUIDE: &[&str] =
+    &["Friction between roller and cam and in bearings: forces and torque are with that of the guide only."];
 const WITHOUT_FORCES: &[&str] = &[
     "Forces and torque: the file gives no preload of the follower, so that no force is known.",
     "Friction: without forces there is none.",
 ];
+const AT_REST: &[&str] = &["Inertia and damping: without motion.rpm or --rpm nothing moves by the time."];
+const WITHOUT_MASS: &[&str] = &["Inertia: the file gives no mass or inertia of the follower."];
+const WITHOUT_VIBRATION: &[&str] = &["Vibration behind the follower: the file has no table [vibration]."];
 
 /// Of a disc.
 pub(super) fn of(disc: &Disc, drawn: &Drawn, samples: u32) -> Mechanism {
@@ -69,10 +74,15 @@ pub(in crate::body) fn of_press(machine: &Machine) -> Vec<String> {
 
 /// Of a disc.
 pub(super) fn not_modelled(disc: &Disc) -> Vec<&'static str> {
-    let follower = &disc.machine.follower;
-    match (&disc.load, follower.preload) {
-        (Some(_), _) => [RIGID, of_its_press(&disc.machine), WITH_LOAD].concat(),
-        (None, Some(_)) => [RIGID, WITH_LOAD].concat(),
-        (None, None) => [RIGID, WITHOUT_FORCES].concat(),
+    if disc.load.is_some() {
+        return [RIGID, of_its_press(&disc.machine), WITH_LOAD].concat();
     }
+    let Some(pressing) = disc.pressing() else { return [RIGID, WITHOUT_FORCES].concat() };
+    let mut all = vec![RIGID, if disc.own.guide.is_some() { WITH_GUIDE } else { WITH_LOAD }];
+    if *disc.kind == super::GENERAL {
+        all.extend((pressing.speed == 0.0).then_some(AT_REST));
+        all.extend((pressing.mass == 0.0).then_some(WITHOUT_MASS));
+        all.extend(disc.machine.vibration().is_none().then_some(WITHOUT_VIBRATION));
+    }
+    all.concat()
 }

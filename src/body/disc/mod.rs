@@ -3,14 +3,19 @@
 mod balance;
 mod brake;
 mod compensator;
+mod dynamics;
+mod forces;
+mod jump;
 mod loaded;
 mod mechanism;
 mod program;
 mod raised;
 mod size;
 mod size_told;
+mod vibration;
 pub use compensator::{AtSpeed, Compensated};
 pub(in crate::body) use mechanism::of_press;
+pub use vibration::{Movement, Resonance, Vibration};
 mod sheet;
 pub use size::{Binding, Placed};
 pub use size_told::{Best, SizeTold};
@@ -29,14 +34,14 @@ use crate::load::{AirBuffer, Load, RunUp};
 use crate::machine::{DiscOfBrakeError, Machine, NoPress, Press, Rotation};
 use crate::motion::counter_torque::CounterTorqueError;
 use crate::motion::{BrakeDisc, Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, Transition};
-use crate::profile::extremes::{self, Acting};
+use crate::profile::extremes;
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{NoRadius, Smallest};
 use crate::profile::{Curves, Worst, lifts};
 use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{CamMeasures, Forces, Section, Speeds};
-use crate::table::{BedRow, ForceRow, Row, Turned, turned};
+use crate::table::{BedRow, Row, Turned, turned};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -70,6 +75,8 @@ pub struct Disc {
     raised: bool,
     /// Its motion, where it holds the tension of a belt brake.
     brake: Option<Arc<BrakeDisc>>,
+    /// What only the follower of a motion program has.
+    own: forces::Own,
     /// The sizes that keep every limit; `None` when none does.
     smallest: Option<Smallest>,
     /// What was chosen of the follower's place, where that is asked for.
@@ -218,7 +225,8 @@ impl Disc {
     /// [`DiscError`] when motion and follower do not fit each other or no radius keeps the limits.
     pub fn of_motion(machine: &Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, DiscError> {
         let speed = rpm.map(|rpm| rpm * std::f64::consts::TAU / 60.0);
-        Self { rpm, speed, ..Self::unsized_of(machine, motion) }.sized()
+        let own = forces::Own::of(machine, &*motion);
+        Self { rpm, speed, own, ..Self::unsized_of(machine, motion) }.sized()
     }
 
     fn unsized_of(machine: &Machine, motion: Arc<dyn Motion>) -> Self {
@@ -232,6 +240,7 @@ impl Disc {
             load: None,
             raised: false,
             brake: None,
+            own: forces::Own::default(),
             smallest: None,
             placed: None,
             worst: WorstPlaces::default(),
@@ -279,34 +288,6 @@ impl Disc {
         lifts(&*self.motion).1
     }
 
-    /// Force between follower and cam along the follower's path, N: the load's and, where they are given, preload and the
-    /// inertia of what moves with the follower. `None` where no force is known.
-    #[must_use]
-    pub fn path_force(&self, piece: usize, angle: f64) -> Option<f64> {
-        let follower = &self.machine.follower;
-        if self.load.is_none() && follower.preload.is_none() {
-            return None;
-        }
-        let load = self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle));
-        let preload = follower.preload.unwrap_or(0.0);
-        let inertia = follower.mass.zip(self.speed).map(|(mass, speed)| mass * speed * speed);
-        if inertia.is_none() && follower.spring_rate == 0.0 {
-            return Some(load + preload);
-        }
-        let lift = self.motion.jet(piece, angle);
-        Some(load + preload + follower.spring_rate * lift.s + inertia.unwrap_or(0.0) * lift.dds)
-    }
-
-    /// The ranges at whose ends forces may jump.
-    fn acting(&self) -> Vec<Acting> {
-        self.load.as_ref().map_or_else(Vec::new, |load| load.acting())
-    }
-
-    /// The largest of something that is smooth but for the ends of the load.
-    fn largest_force(&self, value: impl Fn(usize, f64) -> f64) -> Worst {
-        plane(extremes::largest_smooth(self.curves(), (&self.acting(), 0.0), value))
-    }
-
     /// Largest residual force of the motion itself, N, and where: rounding, or the cost of a blend; 0 without a load.
     #[must_use]
     pub fn residual_max(&self) -> Worst {
@@ -314,17 +295,6 @@ impl Disc {
         let limits = (load.acting(), ROUNDING_OF_BALANCE * load.largest());
         let left = |piece: usize, angle: f64| load.residual(piece, angle, 0.0, Vector2::zeros());
         plane(extremes::largest_size(self.curves(), (&limits.0, limits.1), left))
-    }
-
-    /// Largest |torque| on the camshaft, N·m, and where; `None` where no force is known.
-    #[must_use]
-    pub fn torque_max(&self) -> Option<Worst> {
-        let (piece, start) = self.motion.locate(self.motion.range().0);
-        self.path_force(piece, start)?;
-        let torque = |piece: usize, angle: f64| {
-            self.path_force(piece, angle).unwrap_or(f64::NAN) * self.motion.jet(piece, angle).ds
-        };
-        Some(plane(extremes::largest_size(self.curves(), (&self.acting(), 0.0), torque)))
     }
 
     fn forces(&self, residual_max_n: f64) -> Option<Forces> {
@@ -354,11 +324,6 @@ impl Disc {
                 dx: MILLIMETRES * state.displacement,
             }
         });
-        let force = self.path_force(piece, angle).map(|force| ForceRow {
-            path: force,
-            torque: force * contact.lift.ds,
-            contact: Some(force / libm::cos(contact.pressure_angle)),
-        });
         Row {
             cam_deg: Some(at.cam_deg),
             lift: (self.motion.quantity() == Quantity::Length).then_some(contact.lift),
@@ -370,7 +335,7 @@ impl Disc {
             pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
             curve_radius: Some(MILLIMETRES / contact.curve.curvature),
             profile_radius: Some(MILLIMETRES / profile.curvature),
-            force,
+            force: self.force_row((piece, angle), &contact),
             balance: self.load.as_ref().map(|load| load.balance_row(piece, angle)),
             face: curves.follower.on_face(&contact.lift).map(|face| MILLIMETRES * face.place),
             ..Row::default()
@@ -431,14 +396,13 @@ impl Body for Disc {
     }
 
     fn contact_force(&self, piece: usize, angle: f64) -> Option<f64> {
-        let force = self.path_force(piece, angle)?.max(0.0);
-        Some(force / libm::cos(self.curves().contact(piece, angle).pressure_angle))
+        self.normal_force(piece, angle)
     }
 
     fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {
         let (piece, inside) = self.motion.locate(angle);
-        let force = self.path_force(piece, inside)?;
-        Some([force, force * self.motion.jet(piece, inside).ds])
+        let force = self.driving_force(piece, inside)?;
+        Some([force, self.torque(piece, inside)])
     }
 
     fn compensating(&self) -> Option<Result<(Disc, Compensated), DiscError>> {
@@ -452,7 +416,35 @@ impl Body for Disc {
     }
 
     fn contact_stress(&self) -> Option<Worst> {
-        stress::of_lines(self, (self.curves(), &self.acting()), &self.machine)
+        let curves = (self.curves(), &*self.acting());
+        match self.crown_radius() {
+            Some(crown) => stress::of_crown(self, curves, &self.machine, crown),
+            None => stress::of_lines(self, curves, &self.machine),
+        }
+    }
+
+    fn crown_radius(&self) -> Option<f64> {
+        self.own.crown_radius
+    }
+
+    fn least_closing_force(&self) -> Option<Worst> {
+        self.closing_force()
+    }
+
+    fn preload_that_holds(&self, speed: f64) -> Option<String> {
+        self.holding(speed)
+    }
+
+    fn jump_speed(&self) -> Option<Result<Worst, String>> {
+        self.jump()
+    }
+
+    fn guide_share(&self) -> Option<Worst> {
+        self.least_guide_share()
+    }
+
+    fn vibration(&self) -> Option<&Vibration> {
+        self.vibrating()
     }
 
     fn largest_lifting_force(&self) -> Worst {
@@ -537,6 +529,7 @@ impl Body for Disc {
             max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
             smallest_prime_radius_mm: self.smallest_prime_radius().map(|radius| MILLIMETRES * radius),
             face_mm: on_face,
+            roller_turns: self.spin().filter(|_| *self.kind == GENERAL).map(|spin| [spin.mean, spin.largest.value]),
             lobes: self.load.as_ref().map(|_| self.motion.lobes()),
             plate: None,
             weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
@@ -556,6 +549,8 @@ impl Body for Disc {
         sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
         sections.push(Section::new("rolling", &found.rolled));
         sections.extend(self.forces(residual).map(|forces| forces.section()));
+        sections.extend(self.dynamics());
+        sections.extend(self.vibration_told());
         sections
     }
 

@@ -40,7 +40,7 @@ struct Told {
 }
 
 /// Degrees without the rounding of the conversion.
-fn degrees(angle: f64) -> f64 {
+pub(super) fn degrees(angle: f64) -> f64 {
     const DIGITS: f64 = 1e11;
     (angle.to_degrees() * DIGITS).round() / DIGITS + 0.0
 }

@@ -128,6 +128,11 @@ impl Curve {
         self.parts.get(part).map_or(0.0, |part| part.derivative(x, order))
     }
 
+    /// How a part is written.
+    pub(super) fn part(&self, part: usize) -> Option<&Part> {
+        self.parts.get(part)
+    }
+
     /// The part that holds x; at a joint the later one.
     #[must_use]
     pub fn part_of(&self, x: f64) -> usize {

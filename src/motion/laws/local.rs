@@ -116,6 +116,23 @@ impl Local {
         even + t * odd
     }
 
+    /// The acceleration of the polynomial at x, and its slope.
+    pub(super) fn acceleration_line(&self, x: f64) -> (f64, f64) {
+        let [_, _, square, cube] = self.polynomial;
+        (2.0 * square + 6.0 * cube * (x - self.from), 6.0 * cube)
+    }
+
+    /// The acceleration of the waves about x, as amplitudes of sin and cos of a pace times the distance from there.
+    pub(super) fn acceleration_waves(&self, x: f64) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        let t = x - self.from;
+        self.waves.iter().map(move |wave| {
+            let pace = f64::from(wave.harmonic) * self.pace;
+            let (sin, cos) = libm::sincos(pace * t);
+            let square = pace * pace;
+            (pace, square * (wave.turn * cos - wave.rise * sin), square * (wave.turn * sin + wave.rise * cos))
+        })
+    }
+
     /// The derivative of an order.
     pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
         if let Some(known) = usize::try_from(order).ok().and_then(|order| self.at(x).get(order).copied()) {

@@ -12,12 +12,14 @@ mod peaks;
 pub mod polynomial;
 mod ramps;
 mod sines;
+mod spectrum;
 mod task;
 #[cfg(test)]
 mod tests;
 
 pub use curve::{Curve, Values};
 pub use peaks::Peaks;
+pub use spectrum::Spectrum;
 pub use task::{End, Inflection, LawError, Parameters, Task};
 
 /// How a law is solved: the families.

@@ -4,8 +4,10 @@
 //! moving, turning back) follows from these states; its law is solved for them.
 
 pub(crate) mod read;
+mod spectrum;
 mod told;
 
+pub use spectrum::{Harmonics, Movement};
 pub use told::{Class, Jump, SegmentTold};
 
 use super::laws::{self, Curve, End, Inflection, Law, LawError, Parameters, Task, polynomial};

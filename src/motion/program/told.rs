@@ -110,6 +110,20 @@ impl Program {
     }
 }
 
+/// Least and largest position of a segment.
+pub(super) fn range(segment: &super::Segment) -> (f64, f64) {
+    let Some(curve) = &segment.curve else { return (segment.from, segment.from) };
+    let ranges = (0..curve.parts()).map(|part| {
+        let at = |x: f64| segment.from + segment.travel * curve.at(part, x)[0];
+        let slope = |x: f64| segment.travel * curve.at(part, x)[1];
+        let range = curve.range_of(part);
+        let top = crate::numeric::extremum::largest(at, slope, range, CELLS).value;
+        let low = -crate::numeric::extremum::largest(|x| -at(x), |x| -slope(x), range, CELLS).value;
+        (low, top)
+    });
+    ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)))
+}
+
 fn told(segment: &super::Segment) -> SegmentTold {
     let [begin, end] = &segment.ends;
     let angles = (segment.start, segment.start + segment.width);
@@ -129,15 +143,7 @@ fn told(segment: &super::Segment) -> SegmentTold {
     let place = |found: crate::numeric::extremum::Extremum, power: i32| {
         (found.value * travel / width.powi(power), segment.start + found.at * width)
     };
-    let ranges = (0..curve.parts()).map(|part| {
-        let at = |x: f64| segment.from + segment.travel * curve.at(part, x)[0];
-        let slope = |x: f64| segment.travel * curve.at(part, x)[1];
-        let range = curve.range_of(part);
-        let top = crate::numeric::extremum::largest(at, slope, range, CELLS).value;
-        let low = -crate::numeric::extremum::largest(|x| -at(x), |x| -slope(x), range, CELLS).value;
-        (low, top)
-    });
-    let (low, top) = ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)));
+    let (low, top) = range(segment);
     let (least, most) = (positions.0.min(positions.1), positions.0.max(positions.1));
     let over = (top - most).max(least - low).max(0.0);
     SegmentTold {

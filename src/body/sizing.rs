@@ -1,0 +1,57 @@
+//! How a radius is found that the checks will pass.
+
+use super::Body;
+use crate::geometry::MILLIMETRES;
+
+/// The first limit depending on the base radius that a turning cam breaks, as `limits` of the machine file calls it. Checks judge;
+/// this is how a radius is found that they will pass.
+pub(super) fn broken_limit(body: &dyn Body) -> Option<&'static str> {
+    let limits = body.machine().limits;
+    let (least, roller) = (body.least_radius().value, body.roller_radius().unwrap_or(0.0));
+    // A surface searched for its sharpest place is sized to a billionth.
+    let convex = limits.convex_radius(roller) * (1.0 - SIZED_TO);
+    let kept = |limit: Option<f64>, keeps: &dyn Fn(f64) -> bool| limit.is_none_or(keeps);
+    let angles = || body.pressure_angles().into_iter().zip(limits.pressure_angles());
+    let inclined = |of: usize| angles().nth(of).is_some_and(|(worst, limit)| worst.value > limit * (1.0 + 1e-12));
+    // The limit that asks for more.
+    let by_profile = limits.convex_radius(roller) > limits.min_convex_pitch_radius_over_roller * roller;
+    let of_convex = if by_profile { "min_convex_radius" } else { "min_convex_pitch_radius_over_roller" };
+    let of_return = if limits.pressure_angle_return.is_some() { "pressure_angle_return" } else { "pressure_angle" };
+    let checks: [(&'static str, &dyn Fn() -> bool); 7] = [
+        ("pressure_angle", &|| !inclined(0)),
+        (of_return, &|| !inclined(1)),
+        ("undercut", &|| least > roller),
+        (of_convex, &|| body.least_rolled_radius().value >= convex),
+        ("wall", &|| body.wall().is_none_or(|(wall, _)| wall > 0.0 && wall >= limits.wall * (1.0 - SIZED_TO))),
+        ("cutter_radius", &|| {
+            kept(limits.cutter_radius, &|limit| body.hollow().is_none_or(|hollow| limit <= hollow.value))
+        }),
+        ("contact_stress", &|| {
+            kept(limits.contact_stress, &|limit| body.contact_stress().is_none_or(|stress| stress.value <= limit))
+        }),
+    ];
+    checks.iter().find(|(_, keeps)| !keeps()).map(|(name, _)| *name)
+}
+
+/// How exactly a size keeps a limit that it was solved for, as a share.
+const SIZED_TO: f64 = 1e-9;
+
+/// What is said where no base radius keeps every limit, with the one that a huge cam still breaks.
+pub(super) fn no_radius(binding: Option<&'static str>) -> String {
+    match binding {
+        Some("undercut") => {
+            "no base radius would pass: the velocity of the follower drops at once, which transition.kind = \"run-up\" or \
+             \"blend\" rounds in a press, and other states or laws in a motion program"
+                .into()
+        }
+        Some(limit) => format!("no base radius would pass: limits.{limit} is broken at any"),
+        None => "no base radius that would pass was found".into(),
+    }
+}
+
+/// The sentence of a remedy: a base radius (m) in millimetres, without the noise of the last digits.
+pub(super) fn passing(base_radius: f64) -> String {
+    const PER_METRE: f64 = 1e12;
+    let picometres = (PER_METRE * base_radius - 1e-3).ceil();
+    format!("a base radius of {} mm would pass", picometres / (PER_METRE / MILLIMETRES))
+}

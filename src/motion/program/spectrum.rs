@@ -1,0 +1,275 @@
+//! Harmonics of a program, and what its movements leave behind of vibration.
+//!
+//! Both are Fourier integrals of the acceleration, ∫ s'' e^{iκθ} dθ with the jumps of the velocity: over a turn and by parts twice those of the
+//! position are −1/κ² times as large; over a movement from rest to rest, with κ = ω_n/Ω, a load on an undamped spring of the natural
+//! frequency ω_n swings by |∫|/κ behind it.
+
+use super::{Program, Segment};
+use crate::motion::laws::Spectrum;
+use crate::numeric::chebyshev;
+use crate::numeric::extremum::Extremum;
+use crate::numeric::quadrature;
+use nalgebra::Complex;
+use std::f64::consts::{PI, TAU};
+
+/// Panels of a part over which the mean is integrated: 1e-16 of ten half waves.
+const PANELS: u32 = 8;
+
+/// The position of a program over a turn, as a mean and waves: a_k cos kθ + b_k sin kθ, of the lift, m or rad.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Harmonics {
+    /// a_0.
+    pub mean: f64,
+    /// a_k and b_k, k = 1, 2, …
+    pub waves: Vec<[f64; 2]>,
+}
+
+/// Accelerations in the order of the angle.
+#[derive(Debug, Clone)]
+struct Accelerations {
+    /// First angle, width, travel and shape of each segment that moves.
+    moves: Vec<(f64, f64, f64, Spectrum)>,
+    /// Jumps of the velocity and their angles.
+    jumps: Vec<(f64, f64)>,
+}
+
+impl Accelerations {
+    /// Of segments in their order, each with the angle by which it is shifted; they begin and end with these velocities.
+    fn of<'s>(segments: impl Iterator<Item = (&'s Segment, f64)>, before: f64, behind: f64) -> Self {
+        let (mut moves, mut jumps, mut velocity, mut end) = (Vec::new(), Vec::new(), before, 0.0);
+        for (segment, shift) in segments {
+            let start = segment.start + shift;
+            let [first, last] = end_velocities(segment);
+            jumps.push((start, first - velocity));
+            (velocity, end) = (last, start + segment.width);
+            if let Some(curve) = &segment.curve {
+                moves.push((start, segment.width, segment.travel, curve.spectrum()));
+            }
+        }
+        jumps.push((end, behind - velocity));
+        jumps.retain(|(_, by)| *by != 0.0);
+        Self { moves, jumps }
+    }
+
+    /// ∫ s'' e^{iκθ} dθ.
+    fn transform(&self, order: f64) -> Complex<f64> {
+        let turned = |angle: f64| {
+            let (sin, cos) = libm::sincos(order * angle);
+            Complex::new(cos, sin)
+        };
+        let moves = self.moves.iter().map(|(start, width, travel, spectrum)| {
+            spectrum.transform(order * width) * turned(*start) * (travel / width)
+        });
+        let jumps = self.jumps.iter().map(|(at, by)| turned(*at) * *by);
+        moves.chain(jumps).sum()
+    }
+}
+
+/// Velocities of a segment at both ends, by the angle.
+fn end_velocities(segment: &Segment) -> [f64; 2] {
+    let Some(curve) = &segment.curve else { return [0.0; 2] };
+    let scale = segment.travel / segment.width;
+    [(0, 0.0), (curve.parts().saturating_sub(1), 1.0)].map(|(part, x)| {
+        let [_, velocity, ..] = curve.at(part, x);
+        scale * velocity
+    })
+}
+
+/// A movement of a program: segments from one rest to the next.
+#[derive(Debug, Clone)]
+pub struct Movement {
+    /// First and last cam angle, rad.
+    pub angles: (f64, f64),
+    /// Largest less least position, m or rad.
+    pub travel: f64,
+    accelerations: Accelerations,
+}
+
+impl Movement {
+    /// Amplitude of what a load on an undamped spring swings by behind it, over its travel, when the natural frequency is so many times that
+    /// of the cam.
+    #[must_use]
+    pub fn residual(&self, frequency: f64) -> f64 {
+        self.accelerations.transform(frequency).norm() / (frequency * self.travel)
+    }
+
+    /// The largest of these over a range of frequencies, and where.
+    #[must_use]
+    pub fn largest_residual(&self, frequencies: (f64, f64)) -> Extremum {
+        let square = |frequency: f64| {
+            let residual = self.residual(frequency);
+            residual * residual
+        };
+        let found = chebyshev::largest(square, frequencies, 0.0);
+        Extremum { value: found.value.sqrt(), ..found }
+    }
+
+    /// How many natural periods it takes.
+    #[must_use]
+    pub fn periods(&self, frequency: f64) -> f64 {
+        frequency * (self.angles.1 - self.angles.0) / TAU
+    }
+}
+
+impl Program {
+    /// Its lift by waves over the turn, so many of them.
+    #[must_use]
+    pub fn harmonics(&self, count: u32) -> Harmonics {
+        let last = self.segments.last().map_or(0.0, |segment| end_velocities(segment)[1]);
+        let all = Accelerations::of(self.segments.iter().map(|segment| (segment, 0.0)), last, last);
+        let wave = |order: u32| {
+            // Other waves cancel over the lobes.
+            if !order.is_multiple_of(self.lobes) {
+                return [0.0; 2];
+            }
+            let order = f64::from(order);
+            let found = all.transform(order) * (-f64::from(self.lobes) / (PI * order * order));
+            [found.re, found.im]
+        };
+        Harmonics { mean: self.mean() - self.lowest, waves: (1..=count).map(wave).collect() }
+    }
+
+    /// Mean position.
+    fn mean(&self) -> f64 {
+        let of = |segment: &Segment| {
+            let Some(curve) = &segment.curve else { return segment.width * segment.from };
+            let part = |index: usize| quadrature::integrate(|x| curve.at(index, x)[0], curve.range_of(index), PANELS);
+            segment.width * (segment.from + segment.travel * (0..curve.parts()).map(part).sum::<f64>())
+        };
+        self.segments.iter().map(of).sum::<f64>() * f64::from(self.lobes) / TAU
+    }
+
+    /// Its movements from rest to rest, of the first lobe; none of a program that never rests. What goes on over the end of the lobe begins
+    /// before its end.
+    #[must_use]
+    pub fn movements(&self) -> Vec<Movement> {
+        let count = self.segments.len();
+        let whole = TAU / f64::from(self.lobes);
+        let rests = |segment: &&Segment| segment.curve.is_none();
+        let Some(first) = self.segments.iter().position(|segment| rests(&segment)) else { return Vec::new() };
+        // From behind a rest on, round to it.
+        let round = self.segments.iter().map(|segment| (segment, 0.0)).chain(self.segments.iter().map(|s| (s, whole)));
+        let all: Vec<(&Segment, f64)> = round.skip(first + 1).take(count).collect();
+        let moving = all.split(|(segment, _)| segment.curve.is_none()).filter(|run| !run.is_empty());
+        let mut movements: Vec<Movement> = moving
+            .filter_map(|run| {
+                let ((begin, shift), (end, last_shift)) = (run.first()?, run.last()?);
+                let accelerations = Accelerations::of(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
+                let angles = (begin.start, end.start + end.width + (last_shift - shift));
+                let ranges = run.iter().map(|(segment, _)| super::told::range(segment));
+                let join = |(low, top): (f64, f64), (l, t): (f64, f64)| (low.min(l), top.max(t));
+                let (low, top) = ranges.fold((f64::INFINITY, f64::NEG_INFINITY), join);
+                (top > low).then_some(Movement { angles, travel: top - low, accelerations })
+            })
+            .collect();
+        movements.sort_by(|a, b| a.angles.0.total_cmp(&b.angles.0));
+        movements
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::laws::{Inflection, Parameters, Task, named};
+    use crate::motion::{Motion, Quantity};
+
+    /// Rise 30 mm modified-sine 120°, dwell 30°, return 3-4-5 150°, dwell 60°.
+    fn known() -> Program {
+        let (rise, fall) = (named("modified-sine"), named("3-4-5"));
+        let deg = f64::to_radians;
+        let segments =
+            [(rise, deg(120.0), 0.03), (None, deg(30.0), 0.0), (fall, deg(150.0), 0.0), (None, deg(60.0), 0.0)];
+        Program::new(Quantity::Length, 0.0, &segments)
+    }
+
+    /// Values of 40-digit arithmetic, mm.
+    #[test]
+    fn harmonics_are_those_known() {
+        let found = known().harmonics(20);
+        let near = |found: f64, millimetres: f64| assert!((1e3 * found - millimetres).abs() < 2e-14, "{found}");
+        near(found.mean, 13.75);
+        for (order, cos, sin) in [
+            (1, -13.550_642_463_425_68, 10.344_265_786_266_98),
+            (2, -0.053_628_819_783_057_08, -1.669_988_578_856_582),
+            (5, -0.034_878_285_129_560_7, 0.057_752_858_655_138_32),
+            (12, 0.0, -0.003_656_685_825_343_279),
+        ] {
+            let [a, b] = found.waves[order - 1];
+            near(a, cos);
+            near(b, sin);
+        }
+    }
+
+    /// The waves add up to the lift: with jumps of the velocity, lobes and a start elsewhere, to what is left of the others.
+    #[test]
+    fn harmonics_add_up_to_the_lift() {
+        let steps = |lobes: f64| {
+            let rest = super::super::State::default();
+            let law = |name: &str| {
+                let law = named(name).expect("a law");
+                super::super::Mover::Law(law, Inflection::Smooth, Parameters::default())
+            };
+            let deg = |degrees: f64| degrees.to_radians() / lobes;
+            [
+                super::super::Step { mover: law("3-4-5"), over: deg(100.0), to: 0.02, end: rest },
+                super::super::Step { mover: super::super::Mover::Dwell, over: deg(50.0), to: 0.02, end: rest },
+                super::super::Step { mover: law("line"), over: deg(80.0), to: 0.005, end: rest },
+                super::super::Step { mover: law("gutman-1-3"), over: deg(130.0), to: 0.0, end: rest },
+            ]
+        };
+        for lobes in [1_u32, 3] {
+            let steps = steps(f64::from(lobes));
+            let program = Program::of_steps(Quantity::Length, (0.7, 0.0, lobes), &steps).expect("a program");
+            let found = program.harmonics(3000);
+            for angle in [0.0, 0.7, 1.1, 2.9, 4.4, 6.0] {
+                let waves = (1_u32..).map(f64::from).zip(&found.waves);
+                let sum: f64 = waves.map(|(k, [a, b])| a * (k * angle).cos() + b * (k * angle).sin()).sum();
+                let (piece, inside) = program.locate(angle);
+                let lift = program.jet(piece, inside).s;
+                assert!((found.mean + sum - lift).abs() < 2e-6, "{lobes} at {angle}: {} {lift}", found.mean + sum);
+            }
+        }
+    }
+
+    /// What is left behind each movement, by Duhamel's integral of the moving cam: z'' + κ² z = −s'' from rest.
+    #[test]
+    fn residuals_are_those_of_the_moving_load() {
+        let program = known();
+        let movements = program.movements();
+        assert_eq!(movements.len(), 2);
+        for movement in &movements {
+            for frequency in [3.0, 7.5, 11.1, 40.0] {
+                let part = |f: fn(f64) -> f64| {
+                    let (from, to) = movement.angles;
+                    let product = |angle: f64| {
+                        // From inside the movement.
+                        let (piece, inside) = program.locate(angle.min(to - 1e-12).max(from + 1e-12));
+                        program.jet(piece, inside).dds * f(frequency * angle)
+                    };
+                    let middle = 0.5 * (from + to);
+                    let eighths = [from, from + 0.125 * (to - from), middle, to - 0.125 * (to - from), to];
+                    eighths.windows(2).map(|w| quadrature::integrate(product, (w[0], w[1]), 64)).sum::<f64>()
+                };
+                let known = part(libm::cos).hypot(part(libm::sin)) / (frequency * 0.03);
+                let found = movement.residual(frequency);
+                assert!((found - known).abs() < 1e-12, "{frequency}: {found} {known}");
+            }
+        }
+        let rise = named("modified-sine").and_then(|law| law.solve(&Task::default()).ok()).expect("a law");
+        assert!((movements[0].periods(7.5) - 2.5).abs() < 1e-15);
+        assert!((movements[0].residual(7.5) - rise.residual(2.5)).abs() < 1e-15);
+    }
+
+    /// A movement may go over the end of the turn, and be made of several segments.
+    #[test]
+    fn movements_go_from_rest_to_rest() {
+        let law = named("3-4-5");
+        let segments = [(law, 1.0, 0.02), (None, 1.0, 0.0), (law, 2.0, 0.01), (law, 0.0, 0.0)];
+        let movements = Program::new(Quantity::Length, 0.0, &segments).movements();
+        assert_eq!(movements.len(), 1);
+        assert!((movements[0].angles.0 - 2.0).abs() < 1e-15 && (movements[0].angles.1 - TAU - 1.0).abs() < 1e-14);
+        assert!((movements[0].travel - 0.02).abs() < 1e-15);
+        let restless = [(law, 3.0, 0.02), (law, 0.0, 0.0)];
+        assert!(Program::new(Quantity::Length, 0.0, &restless).movements().is_empty());
+    }
+}
