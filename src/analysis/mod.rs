@@ -5,6 +5,7 @@
 
 pub mod brake;
 pub mod drive;
+pub mod laws;
 pub mod linkage;
 pub mod regimes;
 pub mod shaft;
@@ -19,8 +20,16 @@ use crate::report::{Section, Speeds};
 use crate::table::Table;
 
 /// Every kind of analysis.
-pub const KINDS: &[&Kind] =
-    &[&regimes::KIND, &spring::KIND, &drive::KIND, &linkage::KIND, &shaft::KIND, &brake::KIND, &size::KIND];
+pub const KINDS: &[&Kind] = &[
+    &regimes::KIND,
+    &spring::KIND,
+    &drive::KIND,
+    &linkage::KIND,
+    &shaft::KIND,
+    &brake::KIND,
+    &size::KIND,
+    &laws::KIND,
+];
 
 /// A figure that a check judges.
 #[derive(Debug, Clone, PartialEq)]

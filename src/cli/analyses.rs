@@ -1,15 +1,15 @@
 //! The commands that analyse a machine and cut nothing.
 
 use super::args::{
-    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, EndOf, FrameOf, FreeOf, GoalOf, LinkageArgs, Order, RegimesArgs,
-    ResetOf, ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
+    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, EndOf, FrameOf, FreeOf, GoalOf, LawsArgs, LinkageArgs, Order,
+    RegimesArgs, ResetOf, ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
 };
 use super::cams::{show, source_date};
 use super::progress::Progress;
-use super::{Failure, Outcome, tell};
+use super::{Failure, Outcome, print, tell};
 use camgen::analysis::linkage::Goal;
 use camgen::analysis::shaft::{Asked, Solver};
-use camgen::analysis::{Analysis, brake, drive, linkage, regimes, shaft, size, spring};
+use camgen::analysis::{Analysis, brake, drive, laws, linkage, regimes, shaft, size, spring};
 use camgen::buffer::regime::Reset;
 use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine, Wanted};
 use camgen::motion::BrakeDisc;
@@ -126,6 +126,32 @@ pub(super) fn size(args: &SizeArgs) -> Result<Outcome, Failure> {
     written(size::analysis(&machine, &free, args.rpm).map_err(Failure::new)?, &args.analysis, &name)
 }
 
+pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
+    let (machine, name) = match &args.machine {
+        Some(machine) => args.analysis.machine(machine).map(|(machine, name)| (Some(machine), name))?,
+        None if args.analysis.set.is_empty() => (None, "laws".to_owned()),
+        None => return Err(Failure("--set overrides keys of a file: give one".into())),
+    };
+    let asked = laws::Asked { lift: args.lift, over: args.over, rpm: args.rpm, sort: args.sort.clone() };
+    let analysis = laws::analysis(machine.as_ref(), &asked).map_err(Failure::new)?;
+    if args.csv == args.svg {
+        return written(analysis, &args.analysis, &name);
+    }
+    // Files as ever, but one of them in place of the report.
+    let (format, ending) = if args.csv { ("csv", ".csv") } else { ("svg", ".svg") };
+    let judged = Judged::new(analysis);
+    let writing = writing(&judged, &args.analysis, &name)?;
+    let shown = judged.files(&Writing { formats: Some(vec![format.to_owned()]), ..writing.clone() });
+    let shown = shown.map_err(Failure::new)?;
+    if !args.analysis.told.dry_run {
+        judged.files(&writing).map_err(Failure::new)?.commit().map_err(Failure::new)?;
+    }
+    let bytes =
+        shown.outputs().iter().find(|output| output.name.ends_with(ending)).map(|output| output.bytes.as_slice());
+    print(&String::from_utf8_lossy(bytes.unwrap_or_default()))?;
+    Ok(Outcome::Fine)
+}
+
 /// The disc of a brake that was read with it, and its motion.
 pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>), Failure> {
     let disc = Arc::new(machine.brake_disc().map_err(Failure::new)?);
@@ -176,8 +202,8 @@ fn written(analysis: Analysis, args: &AnalysisArgs, machine: &str) -> Result<Out
     judged(&Judged::new(analysis), args, machine)
 }
 
-/// Writes and reports what was judged.
-fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
+/// What is written of a judged analysis, and where.
+fn writing(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Writing, Failure> {
     let analysis = judged.analysis();
     let command = analysis.kind.command;
     let speeds = match &analysis.speeds {
@@ -185,14 +211,19 @@ fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Out
         Speeds::One(rpm) => format!("-{}rpm", names(&[*rpm]).concat()),
         Speeds::Several(speeds) => format!("-{}rpm", names(speeds).join("-")),
     };
-    let writing = Writing {
+    Ok(Writing {
         formats: args.format.clone(),
         template: args.to.template()?,
         force: args.to.force,
         overwrite: args.to.overwrite,
         created: source_date()?,
         ..Writing::to(&args.to.out, args.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}{speeds}")))
-    };
+    })
+}
+
+/// Writes and reports what was judged.
+fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
+    let writing = writing(judged, args, machine)?;
     let report = if let Some(why) = judged.no_outline() {
         tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
         judged.report()

@@ -69,6 +69,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Shaft(args) => analyses::shaft(args),
         Command::Brake(args) => analyses::brake(args),
         Command::Size(args) => analyses::size(args),
+        Command::Laws(args) => analyses::laws(args),
         Command::SideBySide(args) => side_by_side::run(args),
         Command::Check(args) => check::run(args),
         Command::Trade(args) => trade::run(args),

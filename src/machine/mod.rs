@@ -394,6 +394,12 @@ impl Machine {
         Some((Arc::clone(program) as Arc<dyn Motion>, program.rpm()))
     }
 
+    /// The same as a program.
+    #[must_use]
+    pub fn program(&self) -> Option<&program::Program> {
+        self.motion.as_deref()
+    }
+
     /// The machine with its rotary cam made for a rigid shaft, where the file asks for one that is cut for its own.
     #[must_use]
     pub fn on_a_rigid_shaft(&self) -> Option<Self> {

@@ -195,6 +195,8 @@ pub struct Table {
     pub columns: Vec<&'static str>,
     /// Rows, each as long as `columns`.
     pub rows: Vec<Vec<f64>>,
+    /// A column of words before the others, with its name: a word for each row.
+    pub words: Option<(&'static str, Vec<&'static str>)>,
 }
 
 impl Table {
@@ -205,14 +207,22 @@ impl Table {
         let columns: Vec<&Column> = COLUMNS.iter().filter(has).collect();
         // A negative zero is zero.
         let values = |row: &Row| columns.iter().map(|(_, value)| value(row).unwrap_or(f64::NAN) + 0.0).collect();
-        Self { columns: columns.iter().map(|(name, _)| *name).collect(), rows: rows.iter().map(values).collect() }
+        Self {
+            columns: columns.iter().map(|(name, _)| *name).collect(),
+            rows: rows.iter().map(values).collect(),
+            words: None,
+        }
     }
 
     /// Rows of anything but a cam, under the names of what is told of each.
     #[must_use]
     pub fn listed<T>(told: &[Told<T>], rows: &[T]) -> Self {
         let values = |row: &T| told.iter().map(|(_, value)| value(row) + 0.0).collect();
-        Self { columns: told.iter().map(|(name, _)| *name).collect(), rows: rows.iter().map(values).collect() }
+        Self {
+            columns: told.iter().map(|(name, _)| *name).collect(),
+            rows: rows.iter().map(values).collect(),
+            words: None,
+        }
     }
 }
 

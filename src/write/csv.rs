@@ -1,4 +1,4 @@
-//! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted.
+//! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted, behind a word where rows have names.
 
 use super::number::push_shortest;
 use super::{Format, OfAnalysis, When, fits_all};
@@ -68,9 +68,14 @@ fn residual(body: &dyn Body, curves: Curves<'_>, place: f64, lift: f64) -> f64 {
 /// The table as text with line feeds.
 #[must_use]
 pub fn write(table: &Table) -> Vec<u8> {
-    let mut text = table.columns.join(",");
+    let mut text = String::new();
+    let named = table.words.as_ref();
+    text.extend(named.map(|(name, _)| format!("{name},")));
+    text.push_str(&table.columns.join(","));
     text.push('\n');
+    let mut words = named.map_or(&[][..], |(_, words)| words.as_slice()).iter();
     for row in &table.rows {
+        text.extend(words.next().map(|word| format!("{word},")));
         for (index, value) in row.iter().enumerate() {
             if index > 0 {
                 text.push(',');

@@ -100,6 +100,14 @@ impl Disc {
         Some(ShaftTorque { mean, largest, least, fluctuation: high - low })
     }
 
+    /// Largest force along the normal, N; `None` where none is known, or the follower jams.
+    #[must_use]
+    pub fn largest_contact_force(&self) -> Option<f64> {
+        self.pressing()?;
+        let force = self.largest_force(|piece, angle| self.normal_force(piece, angle).unwrap_or(f64::NAN)).value;
+        Some(force).filter(|force| force.is_finite())
+    }
+
     /// How a roller turns about its own axis on the cam, |C'|/r − 1 − τψ' for a turn of the cam, rolling: |C'|/r by the way of its centre, the
     /// rest by the turning of what carries it. `None` of any other follower, and of an edge.
     #[must_use]

@@ -18,7 +18,7 @@ impl Disc {
     ///
     /// # Errors
     /// Why it is not known. `None` of what is no motion program, and where neither mass nor spring is given.
-    pub(super) fn jump(&self) -> Option<Result<Worst, String>> {
+    pub fn jump(&self) -> Option<Result<Worst, String>> {
         let follower = &self.machine.follower;
         let pressed = follower.preload.is_some() || self.own.spring.is_some();
         if *self.kind != GENERAL || (follower.mass.is_none() && self.own.spring.is_none()) {

@@ -2,7 +2,10 @@
 
 use super::common::{AccuracyArgs, EndOf, ToldArgs};
 use super::files::{LaidArgs, OutArgs};
-use super::parse::{Order, crank_step, force, format, order, power_share, rpm, stiffness, stiffnesses};
+use super::parse::{
+    Order, crank_step, force, format, lift, order, power_share, rpm, segment_angle, stiffness, stiffnesses,
+};
+use camgen::document::LengthOrAngle;
 use clap::{Args, ValueEnum, ValueHint};
 
 /// Flags of every analysis.
@@ -273,6 +276,40 @@ pub(in crate::cli) struct SizeArgs {
     /// Speed of the cam, rpm [default: that of the file]
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Option<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct LawsArgs {
+    /// The path of a file with [motion] and a follower, or an embedded one; without it only the laws themselves are told
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: Option<String>,
+
+    /// Travel of the segment, a length or an angle [default: that of the largest segment from rest to rest of the file, else 30mm]
+    #[arg(long, value_name = "LIFT", value_parser = lift, allow_hyphen_values = true)]
+    pub(in crate::cli) lift: Option<LengthOrAngle>,
+
+    /// Cam angle of the segment [default: that of the same segment, else 120deg]
+    #[arg(long, value_name = "ANGLE", value_parser = segment_angle, allow_hyphen_values = true)]
+    pub(in crate::cli) over: Option<f64>,
+
+    /// Speed of the cam, rpm [default: that of the file]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Option<f64>,
+
+    /// Column of the table to sort by, the least first; its beginning is enough [default: ca, the peak acceleration]
+    #[arg(long, value_name = "COLUMN")]
+    pub(in crate::cli) sort: Option<String>,
+
+    /// Print the table as CSV in place of the report; with --svg both are written as files only
+    #[arg(long, conflicts_with = "json")]
+    pub(in crate::cli) csv: bool,
+
+    /// Print the picture as SVG in place of the report
+    #[arg(long, conflicts_with = "json")]
+    pub(in crate::cli) svg: bool,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

@@ -76,6 +76,13 @@ Examples:
   camgen brake roll-level
       a frame that holds the tension by itself";
 
+pub(super) const LAWS: &str = "\
+Examples:
+  camgen laws --lift 30mm --over 120deg --rpm 300
+      every law for a rise of 30 mm in 120 degrees at 300 rpm
+  camgen laws valve --sort torque --csv
+      what each makes of the cam of the embedded valve, the least torque first, as CSV";
+
 pub(super) const SIZE: &str = "\
 Examples:
   camgen size feeder --free offset

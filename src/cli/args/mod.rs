@@ -7,8 +7,8 @@ mod help;
 mod parse;
 
 pub(super) use analyses::{
-    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, FrameOf, FreeOf, GoalOf, LinkageArgs, RegimesArgs, ResetOf,
-    ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
+    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, FrameOf, FreeOf, GoalOf, LawsArgs, LinkageArgs, RegimesArgs,
+    ResetOf, ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
 };
 pub(super) use common::{AccuracyArgs, CommonArgs, EndOf, ToldArgs};
 pub(super) use files::{
@@ -95,6 +95,11 @@ pub(super) enum Command {
     /// Base radius, and offset or pivot distance where they are left open; how the size changes with the place of the follower.
     #[command(after_help = help::SIZE)]
     Size(SizeArgs),
+    /// Every law of motion at the numbers of a design, in one table
+    ///
+    /// Peaks of velocity, acceleration and jerk; with a file also pressure angle, size, forces, jump speed, vibration and harmonics.
+    #[command(after_help = help::LAWS)]
+    Laws(LawsArgs),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
@@ -151,6 +156,9 @@ impl Command {
 
     /// The same of an analysis.
     fn analysis_watched(&self) -> Option<Vec<PathBuf>> {
+        if let Command::Laws(LawsArgs { machine: Some(machine), analysis, .. }) = self {
+            return analysis.told.watch.then(|| vec![PathBuf::from(machine)]);
+        }
         let (machine, args) = match self {
             Command::Regimes(args) => (&args.machine, &args.analysis),
             Command::Spring(args) => (&args.machine, &args.analysis),

@@ -1,7 +1,7 @@
 //! The values of flags, as they were typed.
 
 use camgen::body::RateTolerance;
-use camgen::document::similar;
+use camgen::document::{LengthOrAngle, similar};
 use camgen::machine::valid_rpm;
 use camgen::shaft::MOST_ORDER;
 use camgen::units::{self, Dimension};
@@ -84,6 +84,35 @@ pub(super) fn force(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Force)
         .map_err(|error| format!("{error}; a force has one of {}", Dimension::Force.unit_list()))?;
     if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
+}
+
+/// Largest travel, m and rad: as in a file.
+const TRAVELS: (f64, f64) = (100.0, 4.0 * PI);
+
+pub(super) fn lift(text: &str) -> Result<LengthOrAngle, String> {
+    let (length, angle) = (units::parse(text, Dimension::Length), units::parse(text, Dimension::Angle));
+    let found = match (length, angle) {
+        (Ok(length), _) if length.si > 0.0 && length.si <= TRAVELS.0 => LengthOrAngle::Length(length.si),
+        (_, Ok(angle)) if angle.si > 0.0 && angle.si <= TRAVELS.1 => LengthOrAngle::Angle(angle.si),
+        (Ok(_), _) => return Err("must be above 0 and at most 100 m".into()),
+        (_, Ok(_)) => return Err("must be above 0 and at most two turns".into()),
+        (Err(error), _) => {
+            let (lengths, angles) = (Dimension::Length.unit_list(), Dimension::Angle.unit_list());
+            return Err(format!("{error}; a travel has one of {lengths}, a swing one of {angles}"));
+        }
+    };
+    Ok(found)
+}
+
+pub(super) fn segment_angle(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Angle)
+        .map_err(|error| format!("{error}; an angle has one of {}", Dimension::Angle.unit_list()))?;
+    let most = 2.0 * PI * (1.0 + 1e-12);
+    if quantity.si > 0.0 && quantity.si <= most {
+        Ok(quantity.si)
+    } else {
+        Err("must be above 0 and at most 360 deg".into())
+    }
 }
 
 /// Widest and narrowest step of the crank angle, rad.

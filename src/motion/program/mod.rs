@@ -6,6 +6,7 @@
 pub(crate) mod read;
 mod spectrum;
 mod told;
+mod with_law;
 
 pub use spectrum::{Harmonics, Movement};
 pub use told::{Class, Jump, SegmentTold};
