@@ -91,10 +91,14 @@ fn line(segment: &Segment, told: &SegmentTold, unit: &str) -> String {
     if told.peaks[0].0 == 0.0 {
         return format!("{text} at {} {unit}", shown(*from));
     }
+    let positions = if told.whole {
+        let size = if unit == "deg" { 1.0_f64.to_degrees() } else { MILLIMETRES };
+        format!("between {} and {}", shown(size * told.range.0), shown(size * told.range.1))
+    } else {
+        format!("{class} from {} to {}", shown(*from), shown(*to))
+    };
     text.push_str(&format!(
-        " {class} from {} to {} {unit}: v {} {unit}/rad, a {} {unit}/rad²",
-        shown(*from),
-        shown(*to),
+        " {positions} {unit}: v {} {unit}/rad, a {} {unit}/rad²",
         shown(peaks.velocity),
         shown(peaks.acceleration)
     ));

@@ -6,17 +6,22 @@
 
 mod bernstein;
 mod curve;
+mod expressed;
 mod halves;
+mod harmonics;
 mod local;
 mod peaks;
 pub mod polynomial;
 mod ramps;
 mod sines;
+pub mod spline;
 mod task;
 #[cfg(test)]
 mod tests;
 
 pub use curve::{Curve, Values};
+pub use expressed::expressed;
+pub use harmonics::series;
 pub use peaks::Peaks;
 pub use task::{End, Inflection, LawError, Parameters, Task};
 
