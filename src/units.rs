@@ -32,6 +32,8 @@ pub enum Dimension {
     Unbalance,
     /// Metres per second squared inside.
     Acceleration,
+    /// Periods per second inside.
+    Frequency,
 }
 
 struct Unit {
@@ -89,6 +91,7 @@ const UNITS: &[Unit] = &[
     unit("g*mm", Dimension::Unbalance, 1.0, 1e6),
     unit("kg*mm", Dimension::Unbalance, 1.0, 1e3),
     unit("m/s2", Dimension::Acceleration, 1.0, 1.0),
+    unit("Hz", Dimension::Frequency, 1.0, 1.0),
 ];
 
 impl Dimension {
@@ -116,6 +119,7 @@ impl fmt::Display for Dimension {
             Dimension::Density => "density",
             Dimension::Unbalance => "unbalance",
             Dimension::Acceleration => "acceleration",
+            Dimension::Frequency => "frequency",
         })
     }
 }

@@ -65,7 +65,8 @@ fn misfit<T>(message: String, help: Option<String>) -> Result<T, Misfit> {
 pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misfit> {
     let name = Named { key, path };
     match key.form {
-        Form::Text => name.text(scalar),
+        // A file is read by the reader, which knows the folder.
+        Form::Text | Form::Columns => name.text(scalar),
         Form::Boolean => name.boolean(scalar),
         Form::Number(bounds) => name.number(scalar, bounds).map(Value::Number),
         Form::Numbers(bounds) => name.numbers(scalar, bounds),
@@ -76,8 +77,6 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misf
         Form::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
         Form::Pair(dimension, bounds) => name.pair(scalar, dimension, bounds),
         Form::Points(dimension, bounds, either) => name.points(scalar, (dimension, bounds), either),
-        // The file itself is read by the reader, which knows the folder.
-        Form::Columns => name.text(scalar),
     }
 }
 

@@ -77,6 +77,7 @@ const MOTION_TABLES: &[&Section] = &[
     &buffer::DESIGN,
     &program::keys::SECTION,
     &program::keys::FOURIER,
+    &program::keys::POLYDYNE,
     &program::keys::SEGMENT,
 ];
 

@@ -97,7 +97,7 @@ fn told(operation: Operation, argument: f64, valued: bool) -> String {
     let name = match operation {
         Operation::Quotient(..) => return "a division by 0".into(),
         Operation::Of(Function::Logarithm, _) => "the logarithm",
-        Operation::Of(Function::Power(exponent), _) if exponent == 0.5 => "the square root",
+        Operation::Of(Function::Power(0.5), _) => "the square root",
         Operation::Of(Function::Power(_), _) => "the power, which is not whole,",
         Operation::Of(Function::ArcSine, _) => "the arcsine",
         Operation::Of(Function::ArcCosine, _) => "the arccosine",

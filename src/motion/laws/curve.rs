@@ -37,6 +37,33 @@ pub(super) enum Part {
     Harmonics(Arc<Harmonics>),
     /// A formula.
     Expressed(Arc<Expressed>),
+    /// What the cam does for a load to move as a part.
+    Loaded(Arc<Loaded>),
+}
+
+/// s + first s' + second s'': the motion of a cam under which an elastic load moves as s, a polydyne cam (D. A. Stoddart, "Polydyne cam
+/// design", Machine Design, 1953).
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Loaded {
+    pub(super) load: Part,
+    pub(super) first: f64,
+    pub(super) second: f64,
+}
+
+impl Loaded {
+    /// Value and three derivatives.
+    pub(super) fn at(&self, x: f64) -> Values {
+        let [s, v, a, j] = self.load.at(x);
+        let (fourth, fifth) = (self.load.derivative(x, 4), self.load.derivative(x, 5));
+        let of = |own: f64, next: f64, after: f64| own + self.first * next + self.second * after;
+        [of(s, v, a), of(v, a, j), of(a, j, fourth), of(j, fourth, fifth)]
+    }
+
+    /// The derivative of an order.
+    pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
+        let of = |order: u32| self.load.derivative(x, order);
+        of(order) + self.first * of(order + 1) + self.second * of(order + 2)
+    }
 }
 
 impl Part {
@@ -51,7 +78,7 @@ impl Part {
     }
 
     #[inline]
-    fn at(&self, x: f64) -> Values {
+    pub(super) fn at(&self, x: f64) -> Values {
         match self {
             Part::Polynomial(polynomial) => polynomial.at(x),
             Part::Waves { split, early, .. } if x <= *split => early.at(x),
@@ -65,6 +92,7 @@ impl Part {
             }
             Part::Harmonics(harmonics) => [0, 1, 2, 3].map(|order| harmonics.derivative(x, order)),
             Part::Expressed(formula) => formula.at(x),
+            Part::Loaded(loaded) => loaded.at(x),
         }
     }
 
@@ -75,10 +103,11 @@ impl Part {
             Part::Polynomial(_) | Part::Waves { .. } => 64,
             Part::Stretch { .. } => 4,
             Part::Harmonics(_) | Part::Expressed(_) => 32,
+            Part::Loaded(loaded) => loaded.load.cells(),
         }
     }
 
-    fn derivative(&self, x: f64, order: u32) -> f64 {
+    pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
         match self {
             Part::Polynomial(polynomial) => polynomial.derivative(x, order),
             Part::Waves { split, early, .. } if x <= *split => early.derivative(x, order),
@@ -95,6 +124,7 @@ impl Part {
             }
             Part::Harmonics(harmonics) => harmonics.derivative(x, order),
             Part::Expressed(formula) => formula.derivative(x, order),
+            Part::Loaded(loaded) => loaded.derivative(x, order),
         }
     }
 }
@@ -143,6 +173,11 @@ impl Curve {
     /// acceleration has two humps.
     pub(super) fn of_parts(joints: Vec<f64>, parts: Vec<Part>, inflection: f64, humps: bool) -> Self {
         Self { inflection: Some(inflection), humps, ..Self::of_many(joints, parts, usize::MAX) }
+    }
+
+    /// The same curve of other parts.
+    pub(super) fn with_parts(&self, part: impl Fn(&Part) -> Part) -> Self {
+        Self { parts: self.parts.iter().map(part).collect(), ..self.clone() }
     }
 
     /// The inner places, 0 < x < 1 and growing, where some derivative jumps, or where a curve of many waves is cut. A curve has one

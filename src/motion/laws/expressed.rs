@@ -1,15 +1,15 @@
 //! A formula as the shape of a segment.
 
-use super::curve::{Curve, Part, Values};
-use crate::motion::formula::{Formula, Scan};
+use super::curve::Values;
+use crate::motion::formula::Formula;
 
 /// s(x) = unit · (f(width · x) less a number).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Expressed {
-    formula: Formula,
-    width: f64,
-    less: f64,
-    unit: f64,
+    pub(super) formula: Formula,
+    pub(super) width: f64,
+    pub(super) less: f64,
+    pub(super) unit: f64,
 }
 
 impl Expressed {
@@ -31,14 +31,3 @@ impl Expressed {
         (0..order).fold(self.unit * value, |product, _| product * self.width)
     }
 }
-
-/// A formula in a unit whose variable runs from 0 to a width, less a number; cut into stretches by what a scan of it found.
-#[must_use]
-pub fn expressed(formula: Formula, width: f64, (unit, less): (f64, f64), scan: &Scan) -> Curve {
-    let stretches = scan.turns.div_ceil(TURNS_EACH).clamp(1, MOST_STRETCHES);
-    Curve::cut(&Part::Expressed(std::sync::Arc::new(Expressed { formula, width, less, unit })), stretches)
-}
-
-/// Extremes of a derivative that are told apart in a stretch.
-const TURNS_EACH: u32 = 4;
-const MOST_STRETCHES: u32 = 60;

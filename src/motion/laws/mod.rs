@@ -6,6 +6,7 @@
 
 mod bernstein;
 mod curve;
+mod entire;
 mod expressed;
 mod halves;
 mod harmonics;
@@ -20,8 +21,7 @@ mod task;
 mod tests;
 
 pub use curve::{Curve, Values};
-pub use expressed::expressed;
-pub use harmonics::series;
+pub use entire::{expressed, series};
 pub use peaks::Peaks;
 pub use task::{End, Inflection, LawError, Parameters, Task};
 

@@ -7,7 +7,7 @@ use crate::numeric::spline::Spline;
 
 /// Stretches that are looked at as one, of a spline of few knots; of one of many as many as make it [`MOST_GROUPS`].
 const TOGETHER: usize = 4;
-const MOST_GROUPS: usize = 40;
+const MOST_GROUPS: usize = 16;
 
 /// How a spline goes on at its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]

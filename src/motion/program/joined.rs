@@ -21,6 +21,9 @@ struct Way {
     from: f64,
 }
 
+/// Steps with every state known, and the curves of those that are joined.
+type Solved = (Vec<Step>, Vec<Option<Curve>>);
+
 /// What is given of a state.
 fn given(state: &State) -> Given {
     let acceleration = (!state.free[1] && !state.turns).then_some(state.acceleration);
@@ -28,7 +31,7 @@ fn given(state: &State) -> Given {
 }
 
 /// The steps with every state known, and the curves of those that are joined, by the position behind their starts.
-pub(super) fn solved(start: f64, steps: &[Step]) -> Result<(Vec<Step>, Vec<Option<Curve>>), (usize, StepError)> {
+pub(super) fn solved(start: f64, steps: &[Step]) -> Result<Solved, (usize, StepError)> {
     check(steps)?;
     let (mut ways, mut first) = (Vec::with_capacity(steps.len()), 0);
     let mut all_given: Vec<Given> = Vec::new();

@@ -5,7 +5,7 @@ use crate::document::cams::MAKE;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, LONGEST};
 use crate::document::{Bounds, Columns, Field, LengthOrAngle, Occurs, Points, Section, above, within};
 use crate::motion::laws::spline;
-use crate::units::Dimension::Angle;
+use crate::units::Dimension::{Angle, Frequency};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -181,6 +181,31 @@ pub(crate) const FOURIER: Section = Section {
     occurs: Occurs::Optional,
     cams: &[MAKE],
     keys: &[COSINES.key, SINES.key],
+};
+
+pub(super) const NATURAL_FREQUENCY: Field<f64> = Field::quantity(
+    "natural_frequency",
+    "of the load on its train",
+    Required("40 Hz"),
+    Frequency,
+    above(0.0, LARGEST_NUMBER),
+);
+pub(super) const DAMPING: Field<f64> =
+    Field::number("damping", "share of the critical damping", Default("0"), within(0.0, 1.0));
+pub(super) const OWN_RPM: Field<f64> = Field::number(
+    "rpm",
+    "speed for which the cam is made, motion.rpm when absent",
+    Optional("120"),
+    within(LEAST_RPM, LARGEST_NUMBER),
+);
+
+/// `[motion.polydyne]`.
+pub(crate) const POLYDYNE: Section = Section {
+    path: "motion.polydyne",
+    about: "the motion is that of an elastic load, and the cam is made so that the load makes it",
+    occurs: Occurs::Optional,
+    cams: &[MAKE],
+    keys: &[NATURAL_FREQUENCY.key, DAMPING.key, OWN_RPM.key],
 };
 
 pub(super) const SHAPE: Field<String> = Field::text(

@@ -6,9 +6,11 @@
 mod forms;
 mod joined;
 pub(crate) mod keys;
+mod polydyne;
 pub(crate) mod read;
 mod told;
 
+pub use polydyne::Polydyne;
 pub use told::{Class, Jump, SegmentTold};
 
 use super::laws::{self, Curve, End, Inflection, Law, LawError, Parameters, Task, polynomial};
@@ -17,7 +19,7 @@ use crate::numeric::extremum;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Cells in which the lowest point of a piece is searched: it may bulge below its ends when it begins or ends in motion.
+/// Most cells in which the lowest point of a part is searched: it may bulge below its ends when it begins or ends in motion.
 const CELLS: u32 = 16;
 
 /// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
@@ -199,6 +201,8 @@ pub struct Program {
     sources: Vec<Source>,
     segments: Vec<Segment>,
     lowest: f64,
+    /// The load for which it is the motion of the cam.
+    load: Option<Polydyne>,
 }
 
 impl Program {
@@ -269,14 +273,16 @@ impl Program {
 
     fn empty(quantity: Quantity, lobes: u32) -> Self {
         let (pieces, sources, segments) = (Vec::new(), Vec::new(), Vec::new());
-        Self { quantity, rpm: None, lobes, pieces, sources, segments, lowest: 0.0 }
+        Self { quantity, rpm: None, lobes, pieces, sources, segments, lowest: 0.0, load: None }
     }
 
     /// With its lowest place.
     fn finished(mut self) -> Self {
-        let least = self.pieces.iter().enumerate().take(self.sources.len()).map(|(index, piece)| {
+        let least = self.pieces.iter().zip(&self.sources).enumerate().map(|(index, (piece, source))| {
             let of = |at: f64| self.position(index, at);
-            -extremum::largest(|at| -of(at).s, |at| -of(at).ds, (piece.start, piece.end), CELLS).value
+            let curve = self.segments.get(source.segment).and_then(|segment| segment.curve.as_ref());
+            let cells = curve.map_or(1, |curve| source.parts.clone().map(|part| curve.cells(part).min(CELLS)).sum());
+            -extremum::largest(|at| -of(at).s, |at| -of(at).ds, (piece.start, piece.end), cells).value
         });
         self.lowest = least.fold(f64::INFINITY, f64::min);
         self
@@ -301,6 +307,12 @@ impl Program {
     #[must_use]
     pub fn rpm(&self) -> Option<f64> {
         self.rpm
+    }
+
+    /// The elastic load for which it is the motion of the cam.
+    #[must_use]
+    pub fn load(&self) -> Option<Polydyne> {
+        self.load
     }
 
     /// A segment to its last angle, in pieces that end where a derivative up to the jerk jumps.

@@ -1,11 +1,11 @@
 //! The tables `[motion]` and `[[motion.segment]]`.
 
-use super::forms;
 use super::keys::{
     ACCELERATION, AMPLITUDES, AT, BY, DWELL, END, EXPRESSED, EndOf, FRACTIONS, INFLECTION, JERK, LAW, LINE, OVER,
     POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO, UNTIL, USUAL, VELOCITY,
 };
 use super::{Mover, Program, State, Step, StepError};
+use super::{forms, polydyne};
 use crate::document::similar;
 use crate::document::{Field, LengthOrAngle, Reader, Table};
 use crate::motion::Quantity;
@@ -38,6 +38,11 @@ pub(super) struct Whole {
 
 /// The program of a file, when there is one without fault.
 pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
+    polydyne::read(reader, as_given(reader)?)
+}
+
+/// The motion that the file gives.
+fn as_given(reader: &Reader<'_>) -> Option<Program> {
     let table = reader.find(&SECTION)?;
     let start = table.get(&START);
     let segments: Vec<Table<'_>> = reader.elements(&SEGMENT).collect();
