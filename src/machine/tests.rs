@@ -433,7 +433,7 @@ fn motion_for(path: &str) -> String {
         "formula" if path.starts_with("motion.segment") => of_law("formula\"\nformula = \"x^2"),
         "formula" => form("formula = \"10*(1-cos(th))\""),
         "points" if path.starts_with("motion.segment") => {
-            of_law("spline").replacen("over", "points = [[\"50 deg\", \"5 mm\"]]\nover", 1)
+            MOTION.replacen("over", "law = \"spline\"\npoints = [[\"50 deg\", \"5 mm\"]]\nover", 1)
         }
         "points" | "degree" => {
             form("points = [[\"0 deg\", \"0 mm\"], [\"90 deg\", \"9 mm\"], [\"180 deg\", \"3 mm\"]]")
@@ -625,6 +625,7 @@ fn template_and_profiles_have_every_key() {
             "[shaft.disc]",
             "motion",
             "motion.fourier",
+            "motion.polydyne",
             "[motion.segment]",
         ];
         let read_with = |text: &str| {
