@@ -285,8 +285,8 @@ fn tabulated(table: &Table<'_>, unit: &Unit, whole: Whole) -> Option<From> {
 }
 
 /// The rows of a file, by growing first number.
-fn ordered(table: &Table<'_>, key: &Field<Arc<Columns>>, columns: &Columns) -> Option<Vec<[f64; 2]>> {
-    let rows: Vec<[f64; 2]> = columns.rows.iter().map(|row| row.values).collect();
+fn ordered(table: &Table<'_>, key: &Field<Arc<Columns>>, file: &Columns) -> Option<Vec<[f64; 2]>> {
+    let rows: Vec<[f64; 2]> = file.rows.iter().map(|row| row.values).collect();
     let pairs = rows.iter().zip(rows.iter().skip(1));
     match (1..).zip(pairs).find(|(_, (a, b))| b[0] - a[0] <= SAME_ANGLE) {
         None => Some(rows),
