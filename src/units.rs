@@ -40,7 +40,7 @@ pub enum Dimension {
     Damping,
     /// Newton metre seconds per radian inside.
     TorsionalDamping,
-    /// Hertz inside.
+    /// Periods per second inside.
     Frequency,
 }
 
@@ -202,6 +202,12 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// The unit it was written in: its symbol, and one of it in SI units or radians.
+    #[must_use]
+    pub fn unit(&self) -> (&'static str, f64) {
+        (self.symbol, self.si_per_unit)
+    }
+
     /// An SI value written in the unit of this quantity, `"0.9 at"`.
     #[must_use]
     pub fn in_same_unit(&self, si: f64) -> String {

@@ -31,7 +31,26 @@ fn lifter_for(sets: &[String]) -> String {
     let key =
         sets.last().and_then(|set| set.split_once('=')).map_or("", |(path, _)| path.rsplit('.').next().unwrap_or(""));
     let of_law = |law: &str| LIFTER.replacen("3-4-5", law, 1);
+    let path = sets.last().map_or("", String::as_str);
+    if path.starts_with("motion.polydyne") {
+        let (head, _) = LIFTER.split_once("[[motion.segment]]").expect("segments");
+        let (_, follower) = LIFTER.split_once("[follower.roller]").expect("a follower");
+        let load = "formula = \"9*(1-cos(th))\"\npolydyne = { natural_frequency = \"40 Hz\" }\n";
+        return format!("{head}{load}[follower.roller]{follower}");
+    }
+    if !path.starts_with("motion.segment")
+        && ["formula=", "points=", "degree=", "table=", "cos=", "sin="].iter().any(|key| path.contains(key))
+    {
+        let (head, _) = LIFTER.split_once("[[motion.segment]]").expect("segments");
+        let (_, follower) = LIFTER.split_once("[follower.roller]").expect("a follower");
+        let points = "points = [[\"0 deg\", \"0 mm\"], [\"90 deg\", \"9 mm\"], [\"180 deg\", \"3 mm\"]]\n";
+        return format!("{head}{}[follower.roller]{follower}", if key == "degree" { points } else { "" });
+    }
     match key {
+        "formula" => of_law("formula"),
+        "points" => of_law("spline"),
+        "table" => of_law("table"),
+        "ends" => of_law("table\"\ntable = \"law0.csv"),
         "until" => LIFTER.replacen("over =", "until =", 1),
         "by" => LIFTER.replacen("to =", "by =", 1),
         "acceleration" | "jerk" => {
@@ -85,7 +104,16 @@ fn machine(section: &Section, sets: &[String]) -> Option<Machine> {
         return Machine::from_toml("roll.toml", &text, sets).ok();
     }
     if section.path.starts_with("motion") {
-        return Machine::from_toml("lifter.toml", &lifter_for(sets), sets).ok();
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
+        for index in 0..8 {
+            write(&format!("turn{index}.csv"), &format!("0,0\n120,2{index}\n240,3\n"));
+            write(&format!("law{index}.csv"), &format!("0,0\n0.5,0.4{index}\n1,1\n"));
+        }
+        write("lifter.toml", &lifter_for(sets));
+        return Machine::load(&folder.path().join("lifter.toml").display().to_string(), sets)
+            .ok()
+            .map(|(machine, _)| machine);
     }
     if section.path.starts_with("follower.") && section.path != "follower.roller" {
         let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
@@ -121,6 +149,14 @@ fn another(key: &Key, share: f64, index: u32) -> String {
     match key.form {
         Form::Text if key.name == "law" => LAWS[index as usize % LAWS.len()].name.to_owned(),
         Form::Text if ["velocity", "acceleration", "jerk"].contains(&key.name) => scaled(example),
+        Form::Text if key.name == "formula" && example.contains("th") => format!("{}*(1-cos(th))", index + 1),
+        Form::Text if key.name == "formula" => format!("x^{}", index + 1),
+        Form::Points(..) => {
+            example.replace("\"4 mm", &format!("\"{share} mm")).replace("\"20 mm", &format!("\"{share} mm"))
+        }
+        Form::Columns if example.contains("lift") => format!("turn{index}.csv"),
+        Form::Columns => format!("law{index}.csv"),
+        Form::Number(_) if key.name == "degree" => "3".to_owned(),
         Form::Text if key.name == "inflection" => share.min(0.9).to_string(),
         Form::Numbers(_) if key.name == "fractions" => format!("[{0}, {0}, {0}, {1}]", 0.1 * share, 1.0 - 0.3 * share),
         Form::Numbers(_) if key.name == "amplitudes" => format!("[7, {share}, -2]"),

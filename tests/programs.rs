@@ -232,3 +232,250 @@ fn an_impact_is_refused() {
     let explained = camgen(&["explain", "continuity"]);
     assert!(explained.code == 0 && explained.out.contains("an impact"), "{}", explained.out);
 }
+
+/// A motion in one, instead of segments.
+fn in_one(keys: &str) -> String {
+    format!(
+        "name = \"in one\"\n[motion]\nstart = \"0 mm\"\n{keys}\n[follower.roller]\nradius = \"10 mm\"\n[cam]\nbase_radius = \"60 mm\"\n"
+    )
+}
+
+/// A run of `make cam.toml` beside other files.
+fn run_beside(text: &str, files: &[(&str, &str)], args: &[&str]) -> Run {
+    let directory = tempfile::tempdir().expect("a directory");
+    for (name, text) in files.iter().chain(&[("cam.toml", text)]) {
+        fs::write(directory.path().join(name), text).expect("written");
+    }
+    camgen_in(directory, &[&["make", "cam.toml"], args].concat())
+}
+
+/// A row of the table that a run has written: position, velocity, acceleration, jerk, in mm and rad.
+fn row(made: &Run, angle: u32) -> [f64; 4] {
+    assert_eq!(made.code, 0, "{}{}", made.out, made.err);
+    let written = files(&made.directory.path().join("output"));
+    let csv = written.iter().find(|name| name.contains(".csv")).expect("a table");
+    let csv = fs::read_to_string(made.directory.path().join("output").join(csv)).expect("a table");
+    let mut lines = csv.lines();
+    let names: Vec<&str> = lines.next().expect("names").split(',').collect();
+    let row = lines.find(|line| line.starts_with(&format!("{angle},"))).expect("a row");
+    let row: Vec<f64> = row.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
+    ["position_mm", "velocity_mm_per_rad", "acceleration_mm_per_rad2", "jerk_mm_per_rad3"].map(|name| {
+        row[names.iter().position(|other| *other == name).unwrap_or_else(|| panic!("no {name}: {names:?}"))]
+    })
+}
+
+#[track_caller]
+fn near(found: [f64; 4], known: [f64; 4], tolerance: f64) {
+    for (found, known) in found.iter().zip(known) {
+        assert!((found - known).abs() < tolerance * (1.0 + known.abs()), "{found} is not {known}");
+    }
+}
+
+const POINTS: &str = r#"points = [["0 deg", "0 mm"], ["60 deg", "12 mm"], ["130 deg", "25 mm"], ["200 deg", "18 mm"], ["290 deg", "4 mm"]]"#;
+
+/// The spline of 40-digit arithmetic at 100°, by points and by a table with and without the row that closes it.
+#[test]
+fn points_and_a_table_are_the_known_spline() {
+    let known = [21.632_151_819_059_75, 10.504_873_044_522_27, -13.619_313_166_588_42, -14.696_224_865_491_6];
+    near(row(&run(&in_one(POINTS), &["--samples", "36"]), 100), known, 1e-11);
+    for rows in [
+        "0,0\n60,12\n130,25\n200,18\n290,4\n",
+        "\u{feff}deg;mm\r\n0;0\r\n60;12\r\n130;25\r\n200;18 # top\r\n290;4\r\n360;0\r\n",
+    ] {
+        let made = run_beside(&in_one("table = \"lift.csv\""), &[("lift.csv", rows)], &["--samples", "36"]);
+        near(row(&made, 100), known, 1e-11);
+    }
+    let cubic = told(&in_one(&format!("degree = 3\n{POINTS}")));
+    assert_eq!(number(&finding(&cubic, "continuity")["value"]), 2.0);
+}
+
+/// One motion as a formula, as a series and as a law; lobes and another first angle turn it.
+#[test]
+fn a_formula_and_a_series_are_the_motion_they_say() {
+    for (keys, angle) in [
+        ("formula = \"20*(1-cos(th))/2\"", 70),
+        ("formula = \"20*sin(th/2)^2\"\nat = \"-50 deg\"", 20),
+        ("fourier = { cos = [-10] }", 70),
+        ("repeat = 3\nformula = \"10-10*cos(3*th)\"\nat = \"30 deg\"", 70),
+    ] {
+        let made = run(&in_one(keys), &["--samples", "36"]);
+        let waves = if keys.contains("repeat") { 3.0 } else { 1.0 };
+        let turned: f64 = if keys.contains("at =") { if waves > 1.0 { 40.0 } else { 70.0 } } else { 70.0 };
+        let (sine, cosine) = (waves * turned.to_radians()).sin_cos();
+        let known = [-10.0 * cosine, 10.0 * waves * sine, 10.0 * waves * waves * cosine, -10.0 * waves.powi(3) * sine];
+        let base = if keys.contains("fourier") { 0.0 } else { 10.0 };
+        near(row(&made, angle), [base + known[0], known[1], known[2], known[3]], 1e-12);
+    }
+    let text = in_one("formula = \"10*(1-cos(th))\"")
+        .replace("\"0 mm\"", "\"0 deg\"")
+        .replace("[follower.roller]", "[follower.swinging-roller]\narm = \"100 mm\"\npivot_distance = \"120 mm\"");
+    let segment = told(&text)["motion"]["segments"][0].clone();
+    assert_eq!(segment["law"], "formula");
+    assert!((number(&segment["peaks"]["acceleration"]) - 10.0).abs() < 1e-9, "{segment}");
+}
+
+/// A formula and a table that are 3-4-5 are the law 3-4-5; a spline and "auto" are found as the spline of all their points.
+#[test]
+fn segments_by_formula_table_and_spline() {
+    let of = |law: &str| {
+        format!(
+            "rpm = 120\n[[motion.segment]]\n{law}\nover = \"120 deg\"\nto = \"20 mm\"\n[[motion.segment]]\nlaw = \"dwell\"\nover = \"60 deg\"\n\
+             [[motion.segment]]\nto = \"0 mm\""
+        )
+    };
+    let shares: Vec<String> = (0..=24)
+        .map(|i| f64::from(i) / 24.0)
+        .map(|x| format!("{x},{}", x * x * x * (10.0 - 15.0 * x + 6.0 * x * x)))
+        .collect();
+    let shares = shares.join("\n");
+    let files = [("law.csv", shares.as_str())];
+    let made = |law: &str| row(&run_beside(&in_one(&of(law)), &files, &["--samples", "36"]), 50);
+    let known = made("law = \"3-4-5\"");
+    near(made("law = \"formula\"\nformula = \"x^3*(10-15*x+6*x^2)\""), known, 1e-11);
+    near(made("law = \"table\"\ntable = \"law.csv\""), known, 1e-9);
+    near(made("law = \"table\"\ntable = \"law.csv\"\nends = \"rest\""), known, 1e-9);
+    let rest = "[[motion.segment]]\nlaw = \"dwell\"";
+    let spline = "[[motion.segment]]\nlaw = \"spline\"\npoints = [[\"60 deg\", \"12 mm\"], [\"130 deg\", \"25 mm\"], [\"200 deg\", \"18 mm\"]]\n\
+                  over = \"290 deg\"\nto = \"0 mm\"\n";
+    let node = |until: u32, to: u32| {
+        format!(
+            "[[motion.segment]]\nlaw = \"polynomial\"\nuntil = \"{until} deg\"\nto = \"{to} mm\"\nvelocity = \"auto\"\n"
+        )
+    };
+    let last = "[[motion.segment]]\nlaw = \"polynomial\"\nuntil = \"290 deg\"\nto = \"0 mm\"\n";
+    let auto = [node(60, 12), node(130, 25), node(200, 18), last.into()].concat();
+    let at = |keys: &str| row(&run(&in_one(keys), &["--samples", "36"]), 100);
+    near(at(&format!("{auto}{rest}")), at(&format!("{spline}{rest}")), 1e-11);
+    // All round the states are those of the closed spline.
+    let closed = [node(60, 12), node(130, 25), node(200, 18), node(290, 4), node(360, 0)].concat();
+    near(at(&closed), at(POINTS), 1e-11);
+}
+
+/// Messages for motions in one, each with its line and column.
+#[test]
+fn what_is_wrong_with_a_motion_in_one_is_told_at_its_place() {
+    let text = |keys: &str| in_one(keys);
+    for (keys, parts) in [
+        ("formula = \"20*(1-cs(th))\"", &["no name `cs`", "did you mean `cos`", "cam.toml:4:18"][..]),
+        ("formula = \"20*(1-cos(th)\"", &["character 4", "not closed", "cam.toml:4:15"]),
+        ("formula = \"20*x\"", &["no name `x`", "the variable is `th`"]),
+        ("formula = \"log(th)\"", &["th = 0.000000000 rad (0.000000 deg)", "the logarithm of 0 has no value"]),
+        ("formula = \"1/(th-1)\"", &["th = 1.000000000 rad (57.295780 deg)", "a division by 0"]),
+        ("formula = \"th\"", &["does not end where it begins", "over 360 deg the position grows by 6.283185e0 mm"]),
+        ("formula = \"3+0*th\"", &["the position never changes"]),
+        ("formula = \"1e9*sin(th)\"", &["the position reaches"]),
+        ("formula = \"sin(th)\"\nfourier = { sin = [1] }", &["not formula and fourier", "leave one of them out"]),
+        ("degree = 3\nformula = \"sin(th)\"", &["`degree` is of a motion by points"]),
+        (
+            "degree = 4\npoints = [[\"0 deg\",\"0 mm\"],[\"9 deg\",\"1 mm\"],[\"20 deg\",\"2 mm\"]]",
+            &["`degree` cannot be 4"],
+        ),
+        ("points = [[\"0 deg\",\"0 mm\"],[\"90 deg\",\"1 mm\"]]", &["needs 3 points or more, not 2"]),
+        ("points = [[\"0 deg\",\"0 mm\"],[\"90 deg\",\"1 deg\"],[\"99 deg\",\"1 mm\"]]", &["point 2 is an angle"]),
+        ("points = [[\"0 deg\",\"0 mm\"],[\"90 deg\",\"1\"]]", &["has no unit, in point 2"]),
+        ("points = [[\"0 deg\",\"0 mm\"],[\"90 deg\"]]", &["point 2 of 1 values"]),
+        (
+            "points = [[\"0 deg\",\"0 mm\"],[\"90 deg\",\"1 mm\"],[\"90 deg\",\"2 mm\"]]",
+            &["point 3 at 90.000000 deg is not behind"],
+        ),
+        (
+            "points = [[\"0 deg\",\"0 mm\"],[\"90 deg\",\"1 mm\"],[\"360 deg\",\"0 mm\"]]",
+            &["point 3", "the spline closes by itself"],
+        ),
+        ("table = \"none.csv\"", &["cannot read `none.csv`", "cam.toml:4:"]),
+        ("table = \".\"", &["it is not a file"]),
+        ("table = \"back.csv\"", &["80 is not behind 90", "back.csv:4:1"]),
+        ("table = \"open.csv\"", &["does not end where it begins", "open.csv:4:1"]),
+        ("table = \"words.csv\"", &["a row of `words.csv` is not two numbers", "words.csv:3:1", "1 | "]),
+        ("table = \"late.csv\"", &["the table begins at 5 deg", "late.csv:1:1"]),
+    ] {
+        let files = [
+            ("back.csv", "deg,mm\n0,0\n90,4\n80,3\n"),
+            ("open.csv", "0 0\n90 4\n180 3\n360 1\n"),
+            ("words.csv", "deg,mm\n0,0\n1 | 2\n"),
+            ("late.csv", "5,0\n90,4\n180,3\n"),
+        ];
+        let run = run_beside(&text(keys), &files, &[]);
+        assert_eq!(run.code, 2, "{keys}: {}{}", run.out, run.err);
+        for part in parts {
+            assert!(run.err.contains(part), "no {part:?} in\n{}", run.err);
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_segment_by_formula_table_or_spline_is_told() {
+    for (keys, parts) in [
+        ("law = \"formula\"", &["law = \"formula\" needs `formula`"][..]),
+        ("law = \"formula\"\nformula = \"x^2+0.1\"", &["the formula is 0.1 at x = 0, not 0"]),
+        ("law = \"formula\"\nformula = \"sqrt(x)\"", &["x = 0.000000000", "no finite derivative up to the third"]),
+        ("law = \"formula\"\nformula = \"x\"\nvelocity = \"1 mm/deg\"", &["has its own velocity and acceleration"]),
+        ("law = \"table\"\ntable = \"law.csv\"", &["this row should be 1, 1", "law.csv:2:1"]),
+        ("law = \"spline\"", &["law = \"spline\" needs `points`"]),
+        (
+            "law = \"spline\"\npoints = [[\"150 deg\", \"4 mm\"]]",
+            &["point 1 at 150.000000 deg is not inside", "120.000000 deg"],
+        ),
+        ("law = \"polynomial\"\nvelocity = \"auto\"", &["two polynomials or splines, and cycloidal is none"]),
+        ("law = \"spline\"\npoints = [[\"50 deg\", \"4 mm\"]]\njerk = \"1 mm/rad3\"", &["leave `jerk` out"]),
+    ] {
+        let text = in_one(&format!(
+            "[[motion.segment]]\n{keys}\nover = \"120 deg\"\nto = \"20 mm\"\n[[motion.segment]]\nto = \"0 mm\""
+        ));
+        let run = run_beside(&text, &[("law.csv", "0,0\n1,2\n")], &[]);
+        assert_eq!(run.code, 2, "{keys}: {}{}", run.out, run.err);
+        for part in parts {
+            assert!(run.err.contains(part), "no {part:?} in\n{}", run.err);
+        }
+        assert!(run.err.contains("cam.toml:") || run.err.contains("law.csv:"), "{}", run.err);
+    }
+}
+
+/// The data of a table, not its name or its remarks, are an input.
+#[test]
+fn the_hash_knows_the_rows_of_a_table() {
+    let hash = |name: &str, rows: &str| {
+        let text = in_one(&format!("table = \"{name}\""));
+        report(&run_beside(&text, &[(name, rows)], &["--dry-run", "--json"]))["inputs"]["hash"].clone()
+    };
+    let known = hash("a.csv", "0,0\n90,9\n200,3\n");
+    assert_eq!(known, hash("b.csv", "# measured\n0;0.0\n90;9e0\n200;3\n"));
+    assert_ne!(known, hash("a.csv", "0,0\n90,9.001\n200,3\n"));
+}
+
+/// 2000 rows are a spline in no time.
+#[test]
+fn a_long_table_is_read_at_once() {
+    let rows: Vec<String> = (0..2000)
+        .map(|i| f64::from(i) * 0.18)
+        .map(|angle| format!("{angle},{:.9}", 10.0 - 10.0 * angle.to_radians().cos()))
+        .collect();
+    let rows = rows.join("\n");
+    let begun = std::time::Instant::now();
+    let made = run_beside(&in_one("table = \"lift.csv\""), &[("lift.csv", &rows)], &["--dry-run"]);
+    assert_eq!(made.code, 0, "{}{}", made.out, made.err);
+    assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
+}
+
+/// The cam of an elastic load: told with the load, and refused where the load would need an impact.
+#[test]
+fn a_polydyne_cam_needs_a_smooth_motion() {
+    let polydyne = "polydyne = { natural_frequency = \"40 Hz\", damping = 0.05 }";
+    let made = told(&in_one(&format!("rpm = 240\nformula = \"10*(1-cos(th))\"\n{polydyne}")));
+    // y = s + 2ζq s' + q² s'', q = 0.1.
+    let size = 10.0 * (0.99_f64.powi(2) + 0.01_f64.powi(2)).sqrt();
+    assert!((number(&made["motion"]["segments"][0]["peaks"]["velocity"]) - size).abs() < 1e-9, "{}", made["motion"]);
+    for (keys, part) in [
+        (format!("formula = \"10*(1-cos(th))\"\n{polydyne}"), "made for one speed"),
+        (
+            format!(
+                "rpm = 240\n{polydyne}\n[[motion.segment]]\nover = \"90 deg\"\nto = \"9 mm\"\n[[motion.segment]]\nto = \"0 mm\""
+            ),
+            "the jerk of the load jumps",
+        ),
+    ] {
+        let run = run(&in_one(&keys), &[]);
+        assert_eq!(run.code, 2, "{}{}", run.out, run.err);
+        assert!(run.err.contains(part) && run.err.contains("cam.toml:"), "{}", run.err);
+    }
+}

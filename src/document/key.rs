@@ -5,8 +5,10 @@
 //! type its value becomes, so that no read can ask for the wrong type.
 
 use super::bounds::Bounds;
+use super::columns::{Columns, Row};
 use super::input::exact;
 use crate::units::Dimension;
+use std::sync::Arc;
 
 /// What a value of a key may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +35,10 @@ pub enum Form {
     Band(Dimension, Bounds),
     /// A list of two quantities, `["-1100 mm", "550 mm"]`.
     Pair(Dimension, Bounds),
+    /// A list of points: a quantity, and a length or an angle in its range, `[["0 deg", "0 mm"], ["90 deg", "12 mm"]]`.
+    Points(Dimension, Bounds, (Bounds, Bounds)),
+    /// The path of a file with two columns of numbers, from the folder of the file that names it.
+    Columns,
 }
 
 /// Whether a key must be given. The texts are values as typed, without the quotes of TOML.
@@ -81,7 +87,7 @@ impl Key {
     #[must_use]
     pub fn in_toml(&self, typed: &str) -> String {
         match self.form {
-            Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) => typed.to_owned(),
+            Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) | Form::Points(..) => typed.to_owned(),
             _ => format!("\"{}\"", typed.replace('\\', "\\\\").replace('"', "\\\"")),
         }
     }
@@ -158,6 +164,18 @@ pub(super) enum Value {
     Word(usize),
     Band(f64, f64),
     Pair([f64; 2]),
+    Points(Vec<(f64, LengthOrAngle)>),
+    Columns(Arc<Columns>),
+}
+
+impl LengthOrAngle {
+    /// The number with all its digits and its SI unit.
+    fn canonical(self) -> String {
+        match self {
+            LengthOrAngle::Length(length) => format!("{} m", exact(length)),
+            LengthOrAngle::Angle(angle) => format!("{} rad", exact(angle)),
+        }
+    }
 }
 
 impl Value {
@@ -168,8 +186,7 @@ impl Value {
             (Value::Boolean(truth), _) => truth.to_string(),
             (Value::Number(number), _) => exact(*number),
             (Value::Numbers(numbers), _) => numbers.iter().copied().map(exact).collect::<Vec<_>>().join(" "),
-            (Value::LengthOrAngle(LengthOrAngle::Length(length)), _) => format!("{} m", exact(*length)),
-            (Value::LengthOrAngle(LengthOrAngle::Angle(angle)), _) => format!("{} rad", exact(*angle)),
+            (Value::LengthOrAngle(either), _) => either.canonical(),
             (Value::Either(dimension, number), _) => format!("{} of {dimension}", exact(*number)),
             (Value::Word(index), Form::Words(words) | Form::WordsOrQuantity(words, ..)) => {
                 words.get(*index).copied().unwrap_or_default().to_owned()
@@ -177,6 +194,15 @@ impl Value {
             (Value::Word(index), _) => index.to_string(),
             (Value::Band(low, high), _) => format!("{} .. {}", exact(*low), exact(*high)),
             (Value::Pair(pair), _) => pair.map(exact).join(" "),
+            (Value::Points(points), _) => points
+                .iter()
+                .map(|(at, to)| format!("{} {}", exact(*at), to.canonical()))
+                .collect::<Vec<_>>()
+                .join(", "),
+            (Value::Columns(columns), _) => {
+                let row = |row: &Row| row.values.map(exact).join(" ");
+                columns.rows.iter().map(row).collect::<Vec<_>>().join(", ")
+            }
         }
     }
 }
@@ -371,5 +397,33 @@ impl Field<[f64; 2]> {
     ) -> Self {
         let convert = |value: &Value| if let Value::Pair(pair) = value { Some(*pair) } else { None };
         Self::new(name, about, presence, Form::Pair(dimension, bounds), Convert::Plain(convert))
+    }
+}
+
+/// Points as they are read: a number in SI units and a length or angle each.
+pub type Points = Vec<(f64, LengthOrAngle)>;
+
+impl Field<Points> {
+    /// A key for a list of points. Example and default are as in TOML.
+    #[must_use]
+    pub const fn points(
+        name: &'static str,
+        about: &'static str,
+        presence: Presence,
+        (dimension, bounds): (Dimension, Bounds),
+        either: (Bounds, Bounds),
+    ) -> Self {
+        let convert = |value: &Value| if let Value::Points(points) = value { Some(points.clone()) } else { None };
+        Self::new(name, about, presence, Form::Points(dimension, bounds, either), Convert::Plain(convert))
+    }
+}
+
+impl Field<Arc<Columns>> {
+    /// A key for the path of a file with two columns of numbers.
+    #[must_use]
+    pub const fn columns(name: &'static str, about: &'static str, presence: Presence) -> Self {
+        let convert =
+            |value: &Value| if let Value::Columns(columns) = value { Some(Arc::clone(columns)) } else { None };
+        Self::new(name, about, presence, Form::Columns, Convert::Plain(convert))
     }
 }

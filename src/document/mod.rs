@@ -6,6 +6,7 @@
 
 mod bounds;
 pub mod cams;
+mod columns;
 mod fault;
 mod input;
 mod key;
@@ -17,9 +18,10 @@ mod text;
 mod value;
 
 pub use bounds::{Bounds, above, within};
+pub use columns::{Columns, Row};
 pub use fault::{Excerpt, Fault, similar};
 pub use input::Input;
-pub use key::{Field, Form, Key, LengthOrAngle, Occurs, Presence, Section};
+pub use key::{Field, Form, Key, LengthOrAngle, Occurs, Points, Presence, Section};
 pub use reader::{Reader, Table};
 pub use schema::schema;
 pub use template::{Start, template};

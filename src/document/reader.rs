@@ -4,18 +4,23 @@
 //! value with a fault, or one that is absent, is `None` from there on, so that what compares two values is asked only
 //! when both are right. Which keys exist is known from the sections alone, never from what was read.
 
+use super::columns::Columns;
 use super::fault::{Fault, nearest};
 use super::input::Input;
-use super::key::{Field, Key, Occurs, Presence, Section, Value, join};
+use super::key::{Field, Form, Key, Occurs, Presence, Section, Value, join};
 use super::text::{Document, Entry, Found, MOST_FAULTS, Place};
 use super::value::{self, Misfit, Scalar};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::Arc;
 
 /// A file read against its sections.
 #[derive(Debug)]
 pub struct Reader<'a> {
     document: Document<'a>,
+    /// Where the files are that the file names.
+    folder: Option<&'a Path>,
     sections: &'a [&'a Section],
     /// Every value without a fault, defaults too, by its path.
     values: BTreeMap<String, Value>,
@@ -34,11 +39,23 @@ impl<'a> Reader<'a> {
     /// Reads a TOML text named `source`, then the overrides, each `key=value`, against the sections.
     #[must_use]
     pub fn new(source: &'a str, text: &'a str, overrides: &[String], sections: &'a [&'a Section]) -> Self {
+        Self::in_folder(None, source, text, overrides, sections)
+    }
+
+    /// The same for a text that stands in a folder, in which other files may stand that it names.
+    #[must_use]
+    pub fn in_folder(
+        folder: Option<&'a Path>,
+        source: &'a str,
+        text: &'a str,
+        overrides: &[String],
+        sections: &'a [&'a Section],
+    ) -> Self {
         let mut document = Document::new(source, text, overrides);
         let faults = RefCell::new(std::mem::take(&mut document.faults));
         let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
         let (inputs, meant) = (BTreeMap::new(), BTreeSet::new());
-        let mut reader = Self { document, sections, values, inputs, missing, misshapen, meant, faults };
+        let mut reader = Self { document, folder, sections, values, inputs, missing, misshapen, meant, faults };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -125,7 +142,7 @@ impl<'a> Reader<'a> {
                     }
                 }
             };
-            match read {
+            match read.and_then(|value| self.opened(key, &path, value)) {
                 Ok(value) => {
                     let entry = self.document.entries.get(&path);
                     let typed = entry.map_or_else(|| key.presence.text().to_owned(), |entry| entry.value.shown());
@@ -135,6 +152,15 @@ impl<'a> Reader<'a> {
                 Err((Misfit { message, help }, place)) => self.told(message, help, place),
             }
         }
+    }
+
+    /// The file that a value names, where its form is one; any other value as it is.
+    fn opened(&self, key: &Key, path: &str, value: Value) -> Result<Value, (Misfit, Option<Place>)> {
+        let (Form::Columns, Value::Text(name)) = (key.form, &value) else { return Ok(value) };
+        let at = || self.document.entries.get(path).map(|entry| entry.at.clone());
+        let columns = Columns::read(self.folder, name, path)
+            .map_err(|(misfit, place)| (misfit, place.map_or_else(at, |place| Some(Place::Beside(place)))))?;
+        Ok(Value::Columns(Arc::new(columns)))
     }
 
     /// Where a table or array of tables stands under a path.
@@ -320,6 +346,24 @@ impl Table<'_> {
             let entry = self.reader.document.entries.get(&self.path_of(&field.key));
             let place = entry.map(|entry| entry.at.clone()).or_else(|| self.reader.document.header(&self.path));
             self.reader.told(message, help, place);
+        }
+    }
+
+    /// Reports a fault at a character, from 1, of the text of a key.
+    pub fn fail_at(&self, field: &Field<String>, character: usize, message: String, help: Option<String>) {
+        let entry = self.reader.document.entries.get(&self.path_of(&field.key));
+        let Some(entry) = entry.filter(|_| !self.reader.document.broken) else {
+            return self.fail(field, message, help);
+        };
+        let place = self.reader.document.character(entry.at.clone(), character);
+        self.reader.told(message, help, Some(place));
+    }
+
+    /// Reports a fault at a row, from 0, of the file that a key names.
+    pub fn fail_in(&self, field: &Field<Arc<Columns>>, row: usize, message: String, help: Option<String>) {
+        match self.get(field).and_then(|columns| columns.excerpt(row)) {
+            Some(place) => self.reader.told(message, help, Some(Place::Beside(place))),
+            None => self.fail(field, message, help),
         }
     }
 }

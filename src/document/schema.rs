@@ -91,7 +91,7 @@ fn property(key: &Key) -> Value {
     property["description"] = key.about.into();
     let text = key.presence.text();
     let value = match key.form {
-        Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) => {
+        Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) | Form::Points(..) => {
             serde_json::from_str(text).unwrap_or(text.into())
         }
         _ => Value::from(text),
@@ -107,7 +107,7 @@ fn property(key: &Key) -> Value {
 
 fn form(form: Form) -> Value {
     match form {
-        Form::Text => json!({ "type": "string", "minLength": 1 }),
+        Form::Text | Form::Columns => json!({ "type": "string", "minLength": 1 }),
         Form::Boolean => json!({ "type": "boolean" }),
         Form::Number(bounds) => number(bounds),
         Form::Numbers(bounds) => json!({ "type": "array", "items": number(bounds) }),
@@ -124,6 +124,12 @@ fn form(form: Form) -> Value {
         }
         Form::Pair(dimension, _) => {
             json!({ "type": "array", "items": pattern(&quantity(&[dimension])), "minItems": 2, "maxItems": 2 })
+        }
+        Form::Points(dimension, ..) => {
+            let (at, to) =
+                (pattern(&quantity(&[dimension])), pattern(&quantity(&[Dimension::Length, Dimension::Angle])));
+            let point = json!({ "type": "array", "prefixItems": [at, to], "minItems": 2, "maxItems": 2 });
+            json!({ "type": "array", "items": point })
         }
     }
 }

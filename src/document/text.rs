@@ -25,6 +25,8 @@ pub(super) enum Place {
     File(Range<usize>),
     /// In an override: which one, from which character on, how many.
     Flag { index: usize, start: usize, width: usize },
+    /// In another file.
+    Beside(Excerpt),
 }
 
 /// A fault whose line has not been cut out of the text yet.
@@ -42,6 +44,7 @@ impl Found {
             None => (0, 0, 0),
             Some(Place::File(span)) => (1, span.start, 0),
             Some(Place::Flag { index, start, .. }) => (2, *index, *start),
+            Some(Place::Beside(excerpt)) => (3, excerpt.line, excerpt.column),
         }
     }
 }
@@ -242,9 +245,31 @@ impl<'a> Document<'a> {
         faults
     }
 
+    /// The place of one character, from 1, of a text at a place, where it is written without escapes.
+    pub(super) fn character(&self, place: Place, character: usize) -> Place {
+        match &place {
+            Place::Flag { index, start, width } if character <= width + 1 => {
+                Place::Flag { index: *index, start: start + character - 1, width: 1 }
+            }
+            Place::File(span) => {
+                let written = self.text.get(span.clone()).unwrap_or_default();
+                let quote = |text: &str| ['"', '\''].into_iter().any(|quote| text.starts_with(quote));
+                let inner = written.get(1..).unwrap_or_default();
+                if !quote(written) || quote(inner) || written.contains('\\') {
+                    return place;
+                }
+                let found = inner.char_indices().nth(character - 1).map(|(at, c)| (at, c.len_utf8()));
+                let Some((at, length)) = found else { return place };
+                Place::File(span.start + 1 + at..span.start + 1 + at + length)
+            }
+            _ => place,
+        }
+    }
+
     fn excerpt(&self, place: &Place) -> Excerpt {
         match place {
             Place::File(span) => self.excerpt_of_file(span),
+            Place::Beside(excerpt) => excerpt.clone(),
             Place::Flag { index, start, width } => Excerpt {
                 source: "--set".into(),
                 line: 1,

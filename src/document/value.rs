@@ -65,7 +65,8 @@ fn misfit<T>(message: String, help: Option<String>) -> Result<T, Misfit> {
 pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misfit> {
     let name = Named { key, path };
     match key.form {
-        Form::Text => name.text(scalar),
+        // A file is read by the reader, which knows the folder.
+        Form::Text | Form::Columns => name.text(scalar),
         Form::Boolean => name.boolean(scalar),
         Form::Number(bounds) => name.number(scalar, bounds).map(Value::Number),
         Form::Numbers(bounds) => name.numbers(scalar, bounds),
@@ -76,6 +77,7 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misf
         Form::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
         Form::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
         Form::Pair(dimension, bounds) => name.pair(scalar, dimension, bounds),
+        Form::Points(dimension, bounds, either) => name.points(scalar, (dimension, bounds), either),
     }
 }
 
@@ -164,6 +166,35 @@ impl Named<'_> {
             _ => misfit(format!("`{}` must be a quantity of {dimension}", self.path), Some(self.example())),
         };
         Ok(Value::Pair([one(first)?, one(second)?]))
+    }
+
+    /// A list of points in the file, or `[[0 deg, 0 mm], [90 deg, 12 mm]]` after a flag.
+    fn points(
+        &self,
+        scalar: &Scalar,
+        (dimension, bounds): (Dimension, Bounds),
+        (length, angle): (Bounds, Bounds),
+    ) -> Result<Value, Misfit> {
+        let wrong = |what: String| misfit(format!("`{}` {what}", self.path), Some(self.example()));
+        let typed: Cow<'_, [Scalar]> = match scalar {
+            Scalar::List(points) => Cow::Borrowed(points),
+            Scalar::Text(text) => Cow::Owned(points_of_flag(text)),
+            _ => return wrong("must be a list of points".into()),
+        };
+        let mut points = Vec::with_capacity(typed.len());
+        for (number, point) in (1..).zip(typed.iter()) {
+            let Scalar::List(pair) = point else { return wrong(format!("must be a list of points: point {number}")) };
+            let [at, to] = pair.as_slice() else {
+                return wrong(format!("has a point {number} of {} values, not 2", pair.len()));
+            };
+            let numbered = |fault: Misfit| Misfit { message: format!("{}, in point {number}", fault.message), ..fault };
+            let at = self.quantity(at, &[], dimension, bounds).map_err(numbered)?;
+            let to = self.length_or_angle(to, length, angle).map_err(numbered)?;
+            if let (Value::Number(at), Value::LengthOrAngle(to)) = (at, to) {
+                points.push((at, to));
+            }
+        }
+        Ok(Value::Points(points))
     }
 
     fn no_list(&self) -> Result<Value, Misfit> {
@@ -274,4 +305,12 @@ impl Named<'_> {
         }
         Ok(Value::Band(low, high))
     }
+}
+
+/// The points of a text such as `[[0 deg, 0 mm], [90 deg, 12 mm]]`.
+fn points_of_flag(text: &str) -> Vec<Scalar> {
+    let quantity = |text: &str| Scalar::Text(text.trim().trim_matches('"').to_owned());
+    let points = text.trim().trim_start_matches('[').trim_end_matches(']').split(']');
+    let points = points.map(|point| point.trim().trim_start_matches(',').trim().trim_start_matches('['));
+    points.map(|point| Scalar::List(point.split(',').map(quantity).collect())).collect()
 }

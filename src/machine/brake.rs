@@ -4,7 +4,7 @@ mod keys;
 
 pub(super) use keys::{CAM, ENDS, FRAME, ROLL, SECTION, WEB};
 
-use super::{FollowerData, Machine, MachineError, NAME, ROOT, load_as, read_as, sections};
+use super::{FollowerData, Machine, MachineError, NAME, ROOT, Source, load_as, read_as, sections};
 use crate::brake::ends::Ends;
 use crate::brake::{Brake, BrakeError, Frame, Holding, Pulley, Roll, Rotation, Web};
 use crate::document::cams::BRAKE;
@@ -321,7 +321,7 @@ impl BrakeMachine {
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String], wanted: Wanted) -> Result<(Self, String), MachineError> {
-        load_as(name_or_path, |source, text, own| Self::read(source, text, overrides, (own, wanted)))
+        load_as(name_or_path, |source| Self::read(source, overrides, wanted))
     }
 
     /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
@@ -329,18 +329,13 @@ impl BrakeMachine {
     /// # Errors
     /// All faults found, each with its place.
     pub fn from_toml(source: &str, text: &str, overrides: &[String], wanted: Wanted) -> Result<Self, MachineError> {
-        Self::read(source, text, overrides, (true, wanted))
+        Self::read(&Source::given(source, text), overrides, wanted)
     }
 
-    fn read(
-        source: &str,
-        text: &str,
-        overrides: &[String],
-        (own, wanted): (bool, Wanted),
-    ) -> Result<Self, MachineError> {
-        let mut brake = read_as(source, text, overrides, |reader| Self::parts(reader, wanted))?;
+    fn read(source: &Source<'_>, overrides: &[String], wanted: Wanted) -> Result<Self, MachineError> {
+        let mut brake = read_as(source, overrides, |reader| Self::parts(reader, wanted))?;
         if wanted == Wanted::Disc {
-            brake.machine = Some(Machine::read(source, text, overrides, own)?);
+            brake.machine = Some(Machine::read(source, overrides)?);
         }
         Ok(brake)
     }

@@ -2,7 +2,7 @@
 
 use super::buffer::{AMBIENT_PRESSURE, COLUMN, POLYTROPIC_EXPONENT};
 use super::press::AirColumn;
-use super::{MachineError, NAME, ROOT, bed, buffer, load_as, read_as, sections};
+use super::{MachineError, NAME, ROOT, Source, bed, buffer, load_as, read_as, sections};
 use crate::buffer::bottom_law::Column;
 use crate::document::Presence::{Optional, Required};
 use crate::document::cams::DRIVE;
@@ -103,7 +103,7 @@ impl DriveMachine {
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
-        load_as(name_or_path, |source, text, _| Self::from_toml(source, text, overrides))
+        load_as(name_or_path, |source| read_as(source, overrides, Self::parts))
     }
 
     /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
@@ -111,7 +111,7 @@ impl DriveMachine {
     /// # Errors
     /// All faults found, each with its place.
     pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
-        read_as(source, text, overrides, Self::parts)
+        read_as(&Source::given(source, text), overrides, Self::parts)
     }
 
     fn parts(reader: &Reader<'_>) -> Option<Self> {

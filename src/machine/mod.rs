@@ -79,8 +79,10 @@ const MOTION_TABLES: &[&Section] = &[
     &linkage::SECTION,
     &buffer::SECTION,
     &buffer::DESIGN,
-    &program::read::SECTION,
-    &program::read::SEGMENT,
+    &program::keys::SECTION,
+    &program::keys::FOURIER,
+    &program::keys::POLYDYNE,
+    &program::keys::SEGMENT,
 ];
 
 /// The tables after those of the followers.
@@ -214,12 +216,11 @@ impl Machine {
     /// # Errors
     /// All faults found, each with its place.
     pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
-        Self::read(source, text, overrides, true)
+        Self::read(&Source::given(source, text), overrides)
     }
 
-    /// `own`: the user wrote the text.
-    fn read(source: &str, text: &str, overrides: &[String], own: bool) -> Result<Self, MachineError> {
-        read_as(source, text, overrides, |reader| Self::parts(reader, own))
+    fn read(source: &Source<'_>, overrides: &[String]) -> Result<Self, MachineError> {
+        read_as(source, overrides, |reader| Self::parts(reader, source.own))
     }
 
     fn parts(reader: &Reader<'_>, own: bool) -> Option<Self> {
@@ -467,37 +468,54 @@ impl Machine {
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
-        load_as(name_or_path, |source, text, own| Self::read(source, text, overrides, own))
+        load_as(name_or_path, |source| Self::read(source, overrides))
+    }
+}
+
+/// The text of a machine file.
+struct Source<'a> {
+    /// What messages call it.
+    name: &'a str,
+    text: &'a str,
+    /// The user wrote it.
+    own: bool,
+    /// Where it stands.
+    folder: Option<&'a Path>,
+}
+
+impl<'a> Source<'a> {
+    /// A text of the user that stands in no folder.
+    fn given(name: &'a str, text: &'a str) -> Self {
+        Self { name, text, own: true, folder: None }
     }
 }
 
 /// What `parts` makes of a text that is read against the tables of a machine file.
 fn read_as<T>(
-    source: &str,
-    text: &str,
+    source: &Source<'_>,
     overrides: &[String],
     parts: impl FnOnce(&Reader<'_>) -> Option<T>,
 ) -> Result<T, MachineError> {
     let sections = sections();
-    let reader = Reader::new(source, text, overrides, &sections);
+    let reader = Reader::in_folder(source.folder, source.name, source.text, overrides, &sections);
     let made = parts(&reader);
     reader.finish().map_err(|faults| MachineError { faults })?;
     // A part is missing only after a fault, so `finish` has returned before.
     made.ok_or(MachineError { faults: Vec::new() })
 }
 
-/// What `read` makes of an embedded machine by its name, or of a file, and the word that names its files; it is told the source, the
-/// text, and whether the user wrote it.
+/// What `read` makes of an embedded machine by its name, or of a file, and the word that names its files.
 fn load_as<T>(
     name_or_path: &str,
-    read: impl FnOnce(&str, &str, bool) -> Result<T, MachineError>,
+    read: impl FnOnce(&Source<'_>) -> Result<T, MachineError>,
 ) -> Result<(T, String), MachineError> {
     let path = Path::new(name_or_path);
     let exact = |machine: &&Embedded| machine.name == name_or_path;
     let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
     if let Some(embedded) = EMBEDDED.iter().find(exact).or_else(|| EMBEDDED.iter().find(in_any_case)) {
-        let name = embedded.name;
-        return Ok((read(&format!("{name} (embedded)"), embedded.toml, false)?, name.to_owned()));
+        let name = format!("{} (embedded)", embedded.name);
+        let source = Source { name: &name, text: embedded.toml, own: false, folder: None };
+        return Ok((read(&source)?, embedded.name.to_owned()));
     }
     let text = read_text(path).map_err(|why| MachineError {
         faults: vec![Fault {
@@ -513,7 +531,8 @@ fn load_as<T>(
         }],
     })?;
     let stem = path.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy().into_owned());
-    Ok((read(name_or_path, &text, true)?, stem))
+    let source = Source { folder: path.parent(), ..Source::given(name_or_path, &text) };
+    Ok((read(&source)?, stem))
 }
 
 /// The embedded machine, or the TOML file in the same directory, whose name is nearest to that of a file that cannot be read.

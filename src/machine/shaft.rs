@@ -2,7 +2,7 @@
 
 use super::disc::Material;
 use super::settings::STIFFEST;
-use super::{Machine, MachineError, NAME, ROOT, bed, load_as, read_as, sections};
+use super::{Machine, MachineError, NAME, ROOT, Source, bed, load_as, read_as, sections};
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::{MAKE, ROTARY, SHAFT};
 use crate::document::range::{HEAVIEST, HIGHEST_PRESSURE, LONGEST};
@@ -367,7 +367,7 @@ impl ShaftMachine {
     /// # Errors
     /// All faults found; a file that cannot be read is one of them.
     pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
-        load_as(name_or_path, |source, text, own| Self::read(source, text, overrides, own))
+        load_as(name_or_path, |source| Self::read(source, overrides))
     }
 
     /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
@@ -375,13 +375,13 @@ impl ShaftMachine {
     /// # Errors
     /// All faults found, each with its place.
     pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
-        Self::read(source, text, overrides, true)
+        Self::read(&Source::given(source, text), overrides)
     }
 
-    fn read(source: &str, text: &str, overrides: &[String], own: bool) -> Result<Self, MachineError> {
-        let (mut shaft, carries) = read_as(source, text, overrides, Self::parts)?;
+    fn read(source: &Source<'_>, overrides: &[String]) -> Result<Self, MachineError> {
+        let (mut shaft, carries) = read_as(source, overrides, Self::parts)?;
         if carries {
-            let machine = Machine::read(source, text, overrides, own)?;
+            let machine = Machine::read(source, overrides)?;
             let command = if machine.press().is_ok() { ROTARY } else { MAKE };
             let more = machine
                 .inputs(command)
@@ -395,7 +395,7 @@ impl ShaftMachine {
 
     /// The shaft of a file, and whether the file describes a cam that it carries.
     fn parts(reader: &Reader<'_>) -> Option<(Self, bool)> {
-        let carries = reader.find(&bed::SECTION).is_some() || reader.find(&program::read::SECTION).is_some();
+        let carries = reader.find(&bed::SECTION).is_some() || reader.find(&program::keys::SECTION).is_some();
         let Some(table) = reader.find(&SECTION) else {
             if !reader.is_explained(&SECTION) {
                 let help = "add the table [shaft] with [[shaft.segment]] and [[shaft.support]], or take the embedded \

@@ -60,14 +60,14 @@ pub fn template_of_program(follower: &str) -> Option<String> {
     };
     let head = written(
         "A motion program of camgen, for camgen make. A quantity is \"number unit\".",
-        &[&ROOT, &program::read::SECTION],
-        &[program::read::SECTION.path],
+        &[&ROOT, &program::keys::SECTION],
+        &[program::keys::SECTION.path],
     );
     let head = head
         .replace("start = \"0 mm\"", &format!("start = \"{start}\""))
         .replace("name = \"my press\"", "name = \"my cam\"  ");
     let program = PROGRAM.replace("{start}", start).replace("{to}", to);
-    let segment = written("", &[&program::read::SEGMENT], &[]);
+    let segment = written("", &[&program::keys::SEGMENT], &[]);
     let of_make = |section: &&Section| section.cams.is_empty() || section.cams.contains(&cams::MAKE);
     let body: Vec<&Section> =
         std::iter::once(kind.section).chain(BODY_TABLES.iter().copied().filter(of_make)).collect();

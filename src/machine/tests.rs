@@ -231,6 +231,15 @@ const OTHERS: &[(&str, &str)] = &[
     ("motion.start", "5 mm"),
     ("motion.at", "10 deg"),
     ("motion.repeat", "2"),
+    ("motion.formula", "9*(1-cos(th))"),
+    ("motion.points", "[[0 deg, 0 mm], [120 deg, 21 mm], [240 deg, 5 mm]]"),
+    ("motion.degree", "3"),
+    ("motion.table", "other.csv"),
+    ("motion.fourier.cos", "[-9]"),
+    ("motion.fourier.sin", "[2]"),
+    ("motion.polydyne.natural_frequency", "50 Hz"),
+    ("motion.polydyne.damping", "0.1"),
+    ("motion.polydyne.rpm", "130"),
     ("motion.segment[0].law", "harmonic"),
     ("motion.segment[0].over", "170 deg"),
     ("motion.segment[0].until", "170 deg"),
@@ -245,6 +254,10 @@ const OTHERS: &[(&str, &str)] = &[
     ("motion.segment[0].line", "0.4"),
     ("motion.segment[0].amplitudes", "[7, 1, -2]"),
     ("motion.segment[0].ramp", "0.2"),
+    ("motion.segment[0].formula", "x^4"),
+    ("motion.segment[0].points", "[[30 deg, 4 mm], [60 deg, 16 mm]]"),
+    ("motion.segment[0].table", "other-law.csv"),
+    ("motion.segment[0].ends", "rest"),
     ("follower.roller.radius", "25 mm"),
     ("follower.roller.offset", "5 mm"),
     ("follower.roller.mass", "40 kg"),
@@ -428,6 +441,7 @@ fn file_for(path: &str) -> String {
 /// A motion program in which a key of a segment means something.
 fn motion_for(path: &str) -> String {
     let key = path.rsplit('.').next().unwrap_or_default();
+    let form = |keys: &str| format!("\n[motion]\nstart = \"0 mm\"\n{keys}\n");
     let of_law = |law: &str| MOTION.replace("[[motion.segment]]\n", &format!("[[motion.segment]]\nlaw = \"{law}\"\n"));
     match key {
         _ if !path.starts_with("motion") => MOTION.to_owned(),
@@ -439,8 +453,36 @@ fn motion_for(path: &str) -> String {
         "line" => of_law("sine-line"),
         "amplitudes" => of_law("triple-harmonic"),
         "ramp" => of_law("s-curve"),
+        "formula" if path.starts_with("motion.segment") => of_law("formula\"\nformula = \"x^2"),
+        "formula" => form("formula = \"10*(1-cos(th))\""),
+        "points" if path.starts_with("motion.segment") => {
+            MOTION.replacen("over", "law = \"spline\"\npoints = [[\"50 deg\", \"5 mm\"]]\nover", 1)
+        }
+        "points" | "degree" => {
+            form("points = [[\"0 deg\", \"0 mm\"], [\"90 deg\", \"9 mm\"], [\"180 deg\", \"3 mm\"]]")
+        }
+        "table" | "ends" if path.starts_with("motion.segment") => of_law("table\"\ntable = \"law.csv"),
+        "table" => form("table = \"lift.csv\""),
+        "natural_frequency" | "damping" | "rpm" if path.starts_with("motion.polydyne") => {
+            form("formula = \"10*(1-cos(th))\"\npolydyne = { natural_frequency = \"40 Hz\", rpm = 120 }")
+        }
+        "cos" | "sin" => form("fourier = { cos = [-10], sin = [1] }"),
         _ => MOTION.to_owned(),
     }
+}
+
+/// A text as a machine; one that names tables as a file beside them.
+fn read(text: &str, sets: &[String]) -> Result<Machine, MachineError> {
+    if !text.contains(".csv\"") {
+        return Machine::from_toml("press.toml", text, sets);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let turns = [("lift.csv", "0,0\n90,9\n200,3\n"), ("other.csv", "0,0\n90,8\n200,3\n360,0\n")];
+    let laws = [("law.csv", "0 0\n0.4 0.5\n1 1\n"), ("other-law.csv", "0 0\n0.4 0.6\n1 1\n")];
+    for (name, rows) in turns.into_iter().chain(laws).chain([("press.toml", text)]) {
+        std::fs::write(folder.path().join(name), rows).expect("written");
+    }
+    Machine::load(&folder.path().join("press.toml").display().to_string(), sets).map(|(machine, _)| machine)
 }
 
 /// A file without one of its tables.
@@ -472,7 +514,7 @@ fn every_key_of_the_table_reaches_the_machine() {
             } else {
                 text.clone()
             };
-            Machine::from_toml("press.toml", &text, sets).unwrap_or_else(|error| panic!("{sets:?}: {error}"))
+            read(&text, sets).unwrap_or_else(|error| panic!("{sets:?}: {error}"))
         };
         let mut sets = vec![format!("{key}={value}")];
         if *key == "motion.start" {
@@ -501,7 +543,7 @@ fn every_word_of_a_key_reads() {
                     "moving" => file_for(&path).replace("over =", "velocity = \"1 mm/deg\"\nover ="),
                     _ => file_for(&path),
                 };
-                let read = Machine::from_toml("press.toml", &text, std::slice::from_ref(&set));
+                let read = read(&text, std::slice::from_ref(&set));
                 assert!(read.is_ok(), "{set}: {}", read.expect_err("a fault"));
             }
         }
@@ -607,6 +649,8 @@ fn template_and_profiles_have_every_key() {
             "[shaft.support]",
             "[shaft.disc]",
             "motion",
+            "motion.fourier",
+            "motion.polydyne",
             "[motion.segment]",
         ];
         let read_with = |text: &str| {

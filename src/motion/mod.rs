@@ -7,6 +7,7 @@ pub(crate) mod brake_disc;
 pub mod counter_torque;
 mod eccentric;
 pub mod equation_18;
+pub mod formula;
 pub mod laws;
 pub mod program;
 mod raised;

@@ -39,6 +39,9 @@ struct Told {
     segments: Vec<Segment>,
 }
 
+/// A position of less than this share of the travel is 0.
+const ROUNDING: f64 = 1e-12;
+
 /// Degrees without the rounding of the conversion.
 pub(super) fn degrees(angle: f64) -> f64 {
     const DIGITS: f64 = 1e11;
@@ -80,6 +83,13 @@ impl Disc {
         if self.motion.lobes() > 1 {
             words.push(format!("{} equal lobes", self.motion.lobes()));
         }
+        if let Some(load) = program.load() {
+            words.push(format!(
+                "for an elastic load, cam speed over natural {} and damping {}: the cam as told, the load as the file gives it",
+                shown(load.ratio),
+                shown(load.damping)
+            ));
+        }
         let value = Told { unit, repeat: self.motion.lobes(), segments };
         Some(Section::new("motion", &value).with_words(words))
     }
@@ -91,10 +101,17 @@ fn line(segment: &Segment, told: &SegmentTold, unit: &str) -> String {
     if told.peaks[0].0 == 0.0 {
         return format!("{text} at {} {unit}", shown(*from));
     }
+    let positions = if told.whole {
+        let size = if unit == "deg" { 1.0_f64.to_degrees() } else { MILLIMETRES };
+        let (low, high) = told.range;
+        // A place that is 0 but for rounding is told as 0.
+        let [low, high] = [low, high].map(|at| if at.abs() > ROUNDING * (high - low) { size * at } else { 0.0 });
+        format!("between {} and {}", shown(low), shown(high))
+    } else {
+        format!("{class} from {} to {}", shown(*from), shown(*to))
+    };
     text.push_str(&format!(
-        " {class} from {} to {} {unit}: v {} {unit}/rad, a {} {unit}/rad²",
-        shown(*from),
-        shown(*to),
+        " {positions} {unit}: v {} {unit}/rad, a {} {unit}/rad²",
         shown(peaks.velocity),
         shown(peaks.acceleration)
     ));

@@ -4,8 +4,11 @@
 //! ([`Part`]): near an end only the distance from that end keeps its digits.
 
 use super::bernstein::Bernstein;
+use super::expressed::Expressed;
+use super::harmonics::Harmonics;
 use super::local::Local;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// s, s', s'', s''' at x.
 pub type Values = [f64; 4];
@@ -24,6 +27,43 @@ pub(super) enum Part {
         /// 1 − s by 1 − x.
         late: Local,
     },
+    /// A polynomial over a stretch of the segment, by the share of the stretch.
+    Stretch {
+        /// Where the stretch begins, and its width.
+        range: (f64, f64),
+        polynomial: Bernstein,
+    },
+    /// Harmonics of the segment.
+    Harmonics(Arc<Harmonics>),
+    /// A formula.
+    Expressed(Arc<Expressed>),
+    /// What the cam does for a load to move as a part.
+    Loaded(Arc<Loaded>),
+}
+
+/// s + first s' + second s'': the motion of a cam under which an elastic load moves as s, a polydyne cam (D. A. Stoddart, "Polydyne cam
+/// design", Machine Design, 1953).
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Loaded {
+    pub(super) load: Part,
+    pub(super) first: f64,
+    pub(super) second: f64,
+}
+
+impl Loaded {
+    /// Value and three derivatives.
+    pub(super) fn at(&self, x: f64) -> Values {
+        let [s, v, a, j] = self.load.at(x);
+        let (fourth, fifth) = (self.load.derivative(x, 4), self.load.derivative(x, 5));
+        let of = |own: f64, next: f64, after: f64| own + self.first * next + self.second * after;
+        [of(s, v, a), of(v, a, j), of(a, j, fourth), of(j, fourth, fifth)]
+    }
+
+    /// The derivative of an order.
+    pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
+        let of = |order: u32| self.load.derivative(x, order);
+        of(order) + self.first * of(order + 1) + self.second * of(order + 2)
+    }
 }
 
 impl Part {
@@ -38,7 +78,7 @@ impl Part {
     }
 
     #[inline]
-    fn at(&self, x: f64) -> Values {
+    pub(super) fn at(&self, x: f64) -> Values {
         match self {
             Part::Polynomial(polynomial) => polynomial.at(x),
             Part::Waves { split, early, .. } if x <= *split => early.at(x),
@@ -46,10 +86,28 @@ impl Part {
                 let [value, first, second, third] = late.at(1.0 - x);
                 [1.0 - value, first, -second, third]
             }
+            Part::Stretch { range: (from, width), polynomial } => {
+                let [value, first, second, third] = polynomial.at((x - from) / width);
+                [value, first / width, second / width / width, third / width / width / width]
+            }
+            Part::Harmonics(harmonics) => [0, 1, 2, 3].map(|order| harmonics.derivative(x, order)),
+            Part::Expressed(formula) => formula.at(x),
+            Part::Loaded(loaded) => loaded.at(x),
         }
     }
 
-    fn derivative(&self, x: f64, order: u32) -> f64 {
+    /// In how many cells its extremes are told apart: the derivatives of five waves over a segment have twenty, those of a cubic
+    /// acceleration two.
+    pub(super) fn cells(&self) -> u32 {
+        match self {
+            Part::Polynomial(_) | Part::Waves { .. } => 64,
+            Part::Stretch { .. } => 4,
+            Part::Harmonics(_) | Part::Expressed(_) => 32,
+            Part::Loaded(loaded) => loaded.load.cells(),
+        }
+    }
+
+    pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
         match self {
             Part::Polynomial(polynomial) => polynomial.derivative(x, order),
             Part::Waves { split, early, .. } if x <= *split => early.derivative(x, order),
@@ -61,6 +119,12 @@ impl Part {
                     _ => from_end,
                 }
             }
+            Part::Stretch { range: (from, width), polynomial } => {
+                (0..order).fold(polynomial.derivative((x - from) / width, order), |product, _| product / width)
+            }
+            Part::Harmonics(harmonics) => harmonics.derivative(x, order),
+            Part::Expressed(formula) => formula.derivative(x, order),
+            Part::Loaded(loaded) => loaded.derivative(x, order),
         }
     }
 }
@@ -75,12 +139,27 @@ pub struct Curve {
     parts: Vec<Part>,
     inflection: Option<f64>,
     humps: bool,
+    /// Most parts that are looked at as one.
+    together: usize,
 }
 
 impl Curve {
     /// A curve without joints.
     pub(super) fn smooth(part: Part) -> Self {
-        Self { joints: Vec::new(), parts: vec![part], inflection: None, humps: false }
+        Self::of_many(Vec::new(), vec![part], usize::MAX)
+    }
+
+    /// A curve of parts that meet at joints, of which at most so many are looked at as one: what has many extremes is searched
+    /// stretch by stretch.
+    pub(super) fn of_many(joints: Vec<f64>, parts: Vec<Part>, together: usize) -> Self {
+        Self { joints, parts, inflection: None, humps: false, together: together.max(1) }
+    }
+
+    /// A part that holds for the whole segment, cut into equal stretches.
+    pub(super) fn cut(part: &Part, stretches: u32) -> Self {
+        let count = stretches.max(1);
+        let joints = (1..count).map(|joint| f64::from(joint) / f64::from(count)).collect();
+        Self::of_many(joints, (0..count).map(|_| part.clone()).collect(), 1)
     }
 
     /// The straight line s = x.
@@ -93,10 +172,16 @@ impl Curve {
     /// A curve of parts that meet at joints, one joint fewer than parts; with the place of its inflection, and whether its
     /// acceleration has two humps.
     pub(super) fn of_parts(joints: Vec<f64>, parts: Vec<Part>, inflection: f64, humps: bool) -> Self {
-        Self { joints, parts, inflection: Some(inflection), humps }
+        Self { inflection: Some(inflection), humps, ..Self::of_many(joints, parts, usize::MAX) }
     }
 
-    /// The inner places, 0 < x < 1 and growing, where some derivative jumps. A curve has one part more than joints.
+    /// The same curve of other parts.
+    pub(super) fn with_parts(&self, part: impl Fn(&Part) -> Part) -> Self {
+        Self { parts: self.parts.iter().map(part).collect(), ..self.clone() }
+    }
+
+    /// The inner places, 0 < x < 1 and growing, where some derivative jumps, or where a curve of many waves is cut. A curve has one
+    /// part more than joints.
     #[must_use]
     pub fn joints(&self) -> &[f64] {
         &self.joints
@@ -136,7 +221,7 @@ impl Curve {
     /// The part that holds x; at a joint the later one.
     #[must_use]
     pub fn part_of(&self, x: f64) -> usize {
-        self.joints.iter().filter(|joint| **joint <= x).count()
+        self.joints.partition_point(|joint| *joint <= x)
     }
 
     /// First and last x of a part.
@@ -155,21 +240,42 @@ impl Curve {
     /// The parts in groups in which every derivative up to an order is continuous.
     #[must_use]
     pub fn smooth_to(&self, order: u32) -> Vec<Range<usize>> {
+        let sizes: Vec<(u32, f64)> = (0..=order).map(|order| (order, self.size(order))).collect();
         let mut breaks: Vec<usize> = vec![0];
-        breaks.extend((1..self.parts()).filter(|part| (0..=order).any(|order| self.jumps(*part, order))));
+        for part in 1..self.parts() {
+            let full = breaks.last().is_some_and(|first| part - first >= self.together);
+            if full || sizes.iter().any(|(order, size)| self.jumps_by(part, *order) > ROUNDING * size) {
+                breaks.push(part);
+            }
+        }
         let ends = breaks.iter().copied().skip(1).chain(std::iter::once(self.parts()));
         breaks.iter().copied().zip(ends).map(|(first, end)| first..end).collect()
     }
 
-    /// Whether a derivative jumps between a part and the one before it.
-    pub(super) fn jumps(&self, part: usize, order: u32) -> bool {
-        let Some(joint) = part.checked_sub(1).and_then(|before| self.joints.get(before)) else { return false };
-        let (left, right) = (self.derivative(part - 1, *joint, order), self.derivative(part, *joint, order));
+    /// The first part at whose beginning a derivative jumps.
+    pub(super) fn first_jump(&self, order: u32) -> Option<usize> {
+        let size = self.size(order);
+        (1..self.parts()).find(|part| self.jumps_by(*part, order) > ROUNDING * size)
+    }
+
+    /// In how many cells the extremes of a part are told apart.
+    pub(crate) fn cells(&self, part: usize) -> u32 {
+        self.parts.get(part).map_or(1, Part::cells)
+    }
+
+    /// By how much a derivative jumps between a part and the one before it.
+    pub(super) fn jumps_by(&self, part: usize, order: u32) -> f64 {
+        let Some(joint) = part.checked_sub(1).and_then(|before| self.joints.get(before)) else { return 0.0 };
+        (self.derivative(part - 1, *joint, order) - self.derivative(part, *joint, order)).abs()
+    }
+
+    /// The size of a derivative, at the ends and the middles of the parts.
+    fn size(&self, order: u32) -> f64 {
         let sizes = (0..self.parts()).flat_map(|part| {
             let (low, high) = self.range_of(part);
             [low, 0.5 * (low + high), high].map(|x| self.derivative(part, x, order).abs())
         });
-        (left - right).abs() > ROUNDING * sizes.fold(0.0, f64::max)
+        sizes.fold(0.0, f64::max)
     }
 }
 

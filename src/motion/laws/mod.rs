@@ -6,18 +6,23 @@
 
 mod bernstein;
 mod curve;
+mod entire;
+mod expressed;
 mod halves;
+mod harmonics;
 mod local;
 mod peaks;
 pub mod polynomial;
 mod ramps;
 mod sines;
 mod spectrum;
+pub mod spline;
 mod task;
 #[cfg(test)]
 mod tests;
 
 pub use curve::{Curve, Values};
+pub use entire::{expressed, series};
 pub use peaks::Peaks;
 pub use spectrum::Spectrum;
 pub use task::{End, Inflection, LawError, Parameters, Task};

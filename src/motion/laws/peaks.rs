@@ -4,8 +4,6 @@ use super::curve::Curve;
 use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::quadrature;
 
-/// Cells of a part in which extremes are searched: the derivatives of five waves over a segment have twenty.
-const CELLS: u32 = 64;
 /// Panels of a part over which the square is integrated: 1e-16 of ten half waves.
 const PANELS: u32 = 8;
 /// A smaller share of the peak is rounding.
@@ -32,7 +30,7 @@ impl Curve {
     pub fn peaks(&self) -> Peaks {
         let of = |f: fn(&[f64; 5]) -> (f64, f64)| self.largest(f);
         let mut jerk = of(|s| (s[3], s[4]));
-        if let Some(part) = (1..self.parts()).find(|part| self.jumps(*part, 2)) {
+        if let Some(part) = self.first_jump(2) {
             jerk = Extremum { at: self.range_of(part).0, value: f64::INFINITY };
         }
         let squares = (0..self.parts()).map(|part| {
@@ -81,7 +79,7 @@ impl Curve {
             };
             for sign in [1.0, -1.0] {
                 let range = self.range_of(part);
-                let found = extremum::largest(|x| sign * both(x).0, |x| sign * both(x).1, range, CELLS);
+                let found = extremum::largest(|x| sign * both(x).0, |x| sign * both(x).1, range, self.cells(part));
                 if found.value > best.value {
                     best = found;
                 }

@@ -3,11 +3,16 @@
 //! A segment begins in the state in which the one before ended, the first in that of the last. What its two ends are (VDI 2143: at rest,
 //! moving, turning back) follows from these states; its law is solved for them.
 
+mod forms;
+mod joined;
+pub(crate) mod keys;
+mod polydyne;
 pub(crate) mod read;
 mod spectrum;
 mod told;
 mod with_law;
 
+pub use polydyne::Polydyne;
 pub use spectrum::{Harmonics, Movement};
 pub use told::{Class, Jump, SegmentTold};
 
@@ -17,7 +22,7 @@ use crate::numeric::extremum;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Cells in which the lowest point of a piece is searched: it may bulge below its ends when it begins or ends in motion.
+/// Most cells in which the lowest point of a part is searched: it may bulge below its ends when it begins or ends in motion.
 const CELLS: u32 = 16;
 
 /// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
@@ -25,6 +30,9 @@ const SMOOTH: u32 = 3;
 
 /// A travel of less than this share of all positions is none: a law has nothing to scale.
 const NO_TRAVEL: f64 = 1e-12;
+
+/// A rate of less than this share of its peak is 0 and its rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Rates by the cam angle at the end of a segment: m or rad per rad, per rad² and per rad³.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -37,6 +45,8 @@ pub struct State {
     pub jerk: Option<f64>,
     /// The motion turns back: velocity 0, any acceleration.
     pub turns: bool,
+    /// Velocity and acceleration are found: those of least jerk over the polynomials and splines that meet there.
+    pub free: [bool; 2],
 }
 
 impl State {
@@ -68,7 +78,7 @@ impl State {
 }
 
 /// What moves a segment.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub enum Mover {
     /// Nothing: a dwell.
     Dwell,
@@ -78,10 +88,27 @@ pub enum Mover {
     Matching(&'static Law, Parameters),
     /// The polynomial of the states at both ends.
     Polynomial,
+    /// A spline of least jerk through inner points: angle behind the start of the segment, rad, and position.
+    Spline(Vec<[f64; 2]>),
+    /// A curve of its own from 0 to 1, and what its law is called.
+    Own(&'static str, Curve),
+}
+
+impl Mover {
+    /// What its law is called.
+    fn name(&self) -> &'static str {
+        match self {
+            Mover::Dwell => keys::DWELL,
+            Mover::Law(law, ..) | Mover::Matching(law, _) => law.name,
+            Mover::Polynomial => keys::POLYNOMIAL,
+            Mover::Spline(_) => keys::SPLINE,
+            Mover::Own(name, _) => name,
+        }
+    }
 }
 
 /// A segment as it is asked for.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Step {
     /// What moves it.
     pub mover: Mover,
@@ -119,6 +146,17 @@ pub enum StepError {
         "inflection = \"match\" takes the acceleration at a turn from the neighbour on its other side, which is solved before"
     )]
     NothingToMatch,
+    /// An end is to be found, and there is no spline to find it by.
+    #[error(
+        "\"auto\" finds the state of least jerk between two polynomials or splines, and {law} is none: give the state"
+    )]
+    NothingToJoin {
+        /// The law beside the end.
+        law: &'static str,
+    },
+    /// A jerk is given where a spline has its own.
+    #[error("beside a spline or a state that is \"auto\" the jerk follows: leave `jerk` out")]
+    JerkOfSpline,
 }
 
 /// A segment between two positions.
@@ -137,6 +175,8 @@ struct Segment {
     /// Where it ends.
     to: f64,
     ends: [State; 2],
+    /// It is the whole motion, given in one.
+    whole: bool,
 }
 
 /// What a piece of the motion is: parts of the curve of a segment.
@@ -164,6 +204,8 @@ pub struct Program {
     sources: Vec<Source>,
     segments: Vec<Segment>,
     lowest: f64,
+    /// The load for which it is the motion of the cam.
+    load: Option<Polydyne>,
 }
 
 impl Program {
@@ -178,8 +220,9 @@ impl Program {
             let end = if index + 1 == segments.len() { TAU } else { angle + over };
             let to = if law.is_some() { *to } else { position };
             let (width, travel, ends) = (end - angle, to - position, [State::default(); 2]);
-            let (curve, name) = (law.map(curve), law.map_or(read::DWELL, |law| law.name));
-            program.add(Segment { curve, name, start: angle, width, from: position, travel, to, ends }, end);
+            let (curve, name) = (law.map(curve), law.map_or(keys::DWELL, |law| law.name));
+            let whole = false;
+            program.add(Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole }, end);
             (angle, position) = (end, to);
         }
         program.finished()
@@ -196,38 +239,56 @@ impl Program {
     ) -> Result<Self, (usize, StepError)> {
         let mut program = Self::empty(quantity, lobes.max(1));
         let whole = TAU / f64::from(lobes.max(1));
-        let curves = solved(start, steps)?;
+        let (steps, joined) = joined::solved(start, steps)?;
+        let curves = solved(start, &steps, joined)?;
         let (mut angle, mut position) = (at, start);
         let mut before = steps.last().map_or_else(State::default, |step| step.end);
         for (index, (step, (curve, travel))) in steps.iter().zip(curves).enumerate() {
             let end = if index + 1 == steps.len() { at + whole } else { angle + step.over };
-            let name = match step.mover {
-                Mover::Dwell => read::DWELL,
-                Mover::Law(law, ..) | Mover::Matching(law, _) => law.name,
-                Mover::Polynomial => read::POLYNOMIAL,
-            };
             let ends = [before, step.end];
-            let width = end - angle;
-            program.add(Segment { curve, name, start: angle, width, from: position, travel, to: step.to, ends }, end);
+            let (name, width, to) = (step.mover.name(), end - angle, step.to);
+            let segment = Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole: false };
+            program.add(segment, end);
             (angle, position, before) = (end, step.to, step.end);
         }
         program.repeat(whole);
         Ok(program.finished())
     }
 
+    /// One curve over a turn, or over each of so many equal lobes of it, from a cam angle (rad) on: positions above a first one, m or rad,
+    /// by the share of the turn or lobe.
+    fn of_curve(quantity: Quantity, (at, lobes): (f64, u32), from: f64, (name, curve): (&'static str, Curve)) -> Self {
+        let mut program = Self::empty(quantity, lobes.max(1));
+        let width = TAU / f64::from(lobes.max(1));
+        let ([_, velocity, acceleration, _], peaks) = (curve.at(0, 0.0), curve.peaks());
+        let exact = |value: f64, peak: f64| if value.abs() > ROUNDING * peak { value } else { 0.0 };
+        let state = State {
+            velocity: exact(velocity, peaks.velocity.value) / width,
+            acceleration: exact(acceleration, peaks.acceleration.value) / (width * width),
+            ..State::default()
+        };
+        let (curve, ends) = (Some(curve), [state; 2]);
+        program
+            .add(Segment { curve, name, start: at, width, from, travel: 1.0, to: from, ends, whole: true }, at + width);
+        program.repeat(width);
+        program.finished()
+    }
+
     fn empty(quantity: Quantity, lobes: u32) -> Self {
         let (pieces, sources, segments) = (Vec::new(), Vec::new(), Vec::new());
-        Self { quantity, rpm: None, lobes, pieces, sources, segments, lowest: 0.0 }
+        Self { quantity, rpm: None, lobes, pieces, sources, segments, lowest: 0.0, load: None }
     }
 
     /// With its lowest place.
     fn finished(mut self) -> Self {
-        let least = self.pieces.iter().enumerate().take(self.sources.len()).map(|(index, piece)| {
+        let least = self.pieces.iter().zip(&self.sources).enumerate().map(|(index, (piece, source))| {
             let depth = |at: f64| {
                 let position = self.position(index, at);
                 (-position.s, -position.ds)
             };
-            -extremum::largest_with_slope(depth, (piece.start, piece.end), CELLS).value
+            let curve = self.segments.get(source.segment).and_then(|segment| segment.curve.as_ref());
+            let cells = curve.map_or(1, |curve| source.parts.clone().map(|part| curve.cells(part).min(CELLS)).sum());
+            -extremum::largest_with_slope(depth, (piece.start, piece.end), cells).value
         });
         self.lowest = least.fold(f64::INFINITY, f64::min);
         self
@@ -252,6 +313,12 @@ impl Program {
     #[must_use]
     pub fn rpm(&self) -> Option<f64> {
         self.rpm
+    }
+
+    /// The elastic load for which it is the motion of the cam.
+    #[must_use]
+    pub fn load(&self) -> Option<Polydyne> {
+        self.load
     }
 
     /// A segment to its last angle, in pieces that end where a derivative up to the jerk jumps.
@@ -298,7 +365,7 @@ impl Program {
 type Made = (Option<Curve>, f64);
 
 /// The curve of every segment: those that match a neighbour at a turn after the others.
-fn solved(start: f64, steps: &[Step]) -> Result<Vec<Made>, (usize, StepError)> {
+fn solved(start: f64, steps: &[Step], joined: Vec<Option<Curve>>) -> Result<Vec<Made>, (usize, StepError)> {
     let size = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);
     let before = |index: usize| if index == 0 { steps.last() } else { steps.get(index - 1) };
     let of = |index: usize, step: &Step, acceleration: Option<[Option<f64>; 2]>| {
@@ -307,7 +374,11 @@ fn solved(start: f64, steps: &[Step]) -> Result<Vec<Made>, (usize, StepError)> {
         one(step, (from, begin), size, acceleration)
     };
     let mut all = Vec::with_capacity(steps.len());
-    for (index, step) in steps.iter().enumerate() {
+    for ((index, step), joined) in steps.iter().enumerate().zip(joined) {
+        if joined.is_some() {
+            all.push(Some((joined, 1.0)));
+            continue;
+        }
         let waits = matches!(step.mover, Mover::Matching(..));
         all.push(if waits { None } else { Some(of(index, step, None).map_err(|error| (index, error))?) });
     }
@@ -347,23 +418,25 @@ fn one(
     beside: Option<[Option<f64>; 2]>,
 ) -> Result<Made, StepError> {
     let (travel, width) = (step.to - from, step.over);
-    let (law, inflection, parameters) = match step.mover {
+    if !matches!(step.mover, Mover::Dwell | Mover::Polynomial | Mover::Spline(_)) && !(travel.abs() > NO_TRAVEL * size)
+    {
+        return Err(StepError::NoTravel { law: step.mover.name() });
+    }
+    let (law, inflection, parameters) = match &step.mover {
         Mover::Dwell => return Ok((None, 0.0)),
-        Mover::Polynomial => {
+        Mover::Own(_, curve) => return Ok((Some(curve.clone()), travel)),
+        Mover::Polynomial | Mover::Spline(_) => {
             let (first, last) = (begin.conditions(0.0, width), step.end.conditions(travel, width));
             return Ok((Some(polynomial::hermite(&first, &last)), 1.0));
         }
-        Mover::Law(law, inflection, parameters) => (law, inflection, parameters),
+        Mover::Law(law, inflection, parameters) => (*law, *inflection, *parameters),
         Mover::Matching(law, parameters) => {
             let [before, after] = beside.unwrap_or_default();
             let wanted = if step.end.turns { after } else { before.filter(|_| begin.turns) };
             let acceleration = wanted.ok_or(StepError::NothingToMatch)? * width * width / travel;
-            (law, Inflection::Match { acceleration }, parameters)
+            (*law, Inflection::Match { acceleration }, *parameters)
         }
     };
-    if !(travel.abs() > NO_TRAVEL * size) {
-        return Err(StepError::NoTravel { law: law.name });
-    }
     if law.name == laws::LINE {
         // Whatever came before: a jump of the velocity is told of the whole program.
         return Ok((Some(Curve::line()), travel));

@@ -1,172 +1,24 @@
 //! The tables `[motion]` and `[[motion.segment]]`.
 
+use super::keys::{
+    ACCELERATION, AMPLITUDES, AT, BY, DWELL, END, EXPRESSED, EndOf, FRACTIONS, INFLECTION, JERK, LAW, LINE, OVER,
+    POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO, UNTIL, USUAL, VELOCITY,
+};
 use super::{Mover, Program, State, Step, StepError};
-use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::MAKE;
-use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, LONGEST};
+use super::{forms, polydyne};
 use crate::document::similar;
-use crate::document::{Bounds, Field, LengthOrAngle, Occurs, Reader, Section, Table, above, within};
+use crate::document::{Field, LengthOrAngle, Reader, Table};
 use crate::motion::Quantity;
 use crate::motion::laws::{self, Inflection, LAWS, Law, LawError, Parameters};
-use crate::units::{self, Dimension::Angle};
+use crate::units;
 use std::f64::consts::{PI, TAU};
-
-/// The law that holds a position.
-pub(super) const DWELL: &str = "dwell";
-/// The law that is the polynomial of its ends.
-pub(super) const POLYNOMIAL: &str = "polynomial";
-/// The law of a segment without the key `law`.
-const USUAL: &str = "cycloidal";
-
-/// Positions of a lever are counted from any zero: two turns each way hold every one.
-const LARGEST_SWING: f64 = 2.0 * TAU;
-/// Positions, m or rad.
-const POSITION: (Bounds, Bounds) = (within(-LONGEST, LONGEST), within(-LARGEST_SWING, LARGEST_SWING));
-/// Most lobes: more would be teeth.
-const MOST_LOBES: f64 = 100.0;
-
-const RPM: Field<f64> = Field::number(
-    "rpm",
-    "speed of the cam, 0.001 to 100000; forces and contact stress need it",
-    Optional("120"),
-    within(LEAST_RPM, LARGEST_NUMBER),
-);
-const START: Field<LengthOrAngle> = Field::length_or_angle(
-    "start",
-    "position at the start; a length for a translating follower, an angle for a swinging one",
-    Required("0 mm"),
-    POSITION.0,
-    POSITION.1,
-);
-const AT: Field<f64> =
-    Field::quantity("at", "cam angle of the first segment", Default("0 deg"), Angle, within(-TAU, TAU));
-const REPEAT: Field<f64> = Field::number(
-    "repeat",
-    "equal lobes, a whole number to 100: the segments fill 360 deg over it",
-    Default("1"),
-    within(1.0, MOST_LOBES),
-);
-
-/// `[motion]`.
-pub(crate) const SECTION: Section = Section {
-    path: "motion",
-    about: "a motion program, instead of a press: for `camgen make`",
-    occurs: Occurs::Optional,
-    cams: &[MAKE],
-    keys: &[RPM.key, START.key, AT.key, REPEAT.key],
-};
-
-const LAW: Field<String> = Field::text(
-    "law",
-    "\"dwell\", \"polynomial\" (by the states at both ends) or a law, cycloidal when absent; a name that is none is answered with the list",
-    Optional(USUAL),
-);
-const OVER: Field<f64> = Field::quantity(
-    "over",
-    "cam angle it takes; the last segment may leave it out",
-    Optional("90 deg"),
-    Angle,
-    above(0.0, TAU),
-);
-const UNTIL: Field<f64> = Field::quantity(
-    "until",
-    "cam angle at which it ends, instead of over",
-    Optional("210 deg"),
-    Angle,
-    within(-TAU, 2.0 * TAU),
-);
-const TO: Field<LengthOrAngle> =
-    Field::length_or_angle("to", "position at its end; not of a dwell", Optional("20 mm"), POSITION.0, POSITION.1);
-const BY: Field<LengthOrAngle> = Field::length_or_angle(
-    "by",
-    "by how much the position grows, instead of to",
-    Optional("20 mm"),
-    POSITION.0,
-    POSITION.1,
-);
-const VELOCITY: Field<String> = Field::text(
-    "velocity",
-    "at its end, by angle or time (needs rpm); of constant-velocity its own, in place of over or to",
-    Optional("-0.3 mm/deg"),
-);
-const ACCELERATION: Field<String> =
-    Field::text("acceleration", "at its end, 0 when absent; other ones need polynomials", Optional("2 mm/rad2"));
-const JERK: Field<String> = Field::text("jerk", "at its end, where polynomials are to keep it", Optional("0 mm/rad3"));
-const END: Field<EndOf> = Field::words(
-    "end",
-    "\"rest\", \"turn\" (velocity 0, any acceleration) or \"moving\" (with a velocity); moving where one is given",
-    Optional("turn"),
-    &["rest", "turn", "moving"],
-    &[EndOf::Rest, EndOf::Turn, EndOf::Moving],
-);
-const INFLECTION: Field<String> = Field::text(
-    "inflection",
-    "where the acceleration changes sign: a share of the segment, \"smooth\", or \"match\" (the neighbour's acceleration at a turn)",
-    Default("smooth"),
-);
-const FRACTIONS: Field<Vec<f64>> = Field::numbers(
-    "fractions",
-    "of scca: shares of a half with the acceleration rising, constant, falling and 0; their sum is 1",
-    Optional("[0.25, 0.25, 0.25, 0.25]"),
-    within(0.0, 1.0),
-);
-const LINE: Field<f64> = Field::number(
-    "line",
-    "of parabola-line and sine-line: share of constant velocity",
-    Optional("0.5"),
-    within(0.0, 1.0),
-);
-const AMPLITUDES: Field<Vec<f64>> = Field::numbers(
-    "amplitudes",
-    "of triple-harmonic: of the acceleration's three waves, scaled together",
-    Optional("[7, 0, -2.4]"),
-    within(-LARGEST_NUMBER, LARGEST_NUMBER),
-);
-const RAMP: Field<f64> = Field::number(
-    "ramp",
-    "of s-curve: share of a half in which the acceleration grows",
-    Optional("0.25"),
-    within(0.0, 0.5),
-);
-
-/// `[[motion.segment]]`.
-pub(crate) const SEGMENT: Section = Section {
-    path: "motion.segment",
-    about: "a segment of the program; states are those at its end",
-    occurs: Occurs::Repeated,
-    cams: &[MAKE],
-    keys: &[
-        LAW.key,
-        OVER.key,
-        UNTIL.key,
-        TO.key,
-        BY.key,
-        VELOCITY.key,
-        ACCELERATION.key,
-        JERK.key,
-        END.key,
-        INFLECTION.key,
-        FRACTIONS.key,
-        LINE.key,
-        AMPLITUDES.key,
-        RAMP.key,
-    ],
-};
-
-/// What the end of a segment is said to be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum EndOf {
-    Rest,
-    Turn,
-    Moving,
-}
 
 /// By how much the sum of the segments may differ from a whole turn, rad: rounding of typed angles.
 const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 /// By how much the last position may miss the first, over the largest: rounding of sums.
 const SAME_PLACE: f64 = 1e-12;
 
-fn value_of(position: LengthOrAngle) -> (Quantity, f64) {
+pub(super) fn value_of(position: LengthOrAngle) -> (Quantity, f64) {
     match position {
         LengthOrAngle::Length(value) => (Quantity::Length, value),
         LengthOrAngle::Angle(value) => (Quantity::Angle, value),
@@ -175,23 +27,30 @@ fn value_of(position: LengthOrAngle) -> (Quantity, f64) {
 
 /// What holds for the whole program.
 #[derive(Clone, Copy)]
-struct Whole {
-    quantity: Quantity,
+pub(super) struct Whole {
+    pub(super) quantity: Quantity,
     /// Angular speed of the cam, rad/s.
     speed: Option<f64>,
     /// First cam angle, and the angle the segments fill, rad.
-    at: f64,
-    fill: f64,
+    pub(super) at: f64,
+    pub(super) fill: f64,
 }
 
 /// The program of a file, when there is one without fault.
 pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
+    polydyne::read(reader, as_given(reader)?)
+}
+
+/// The motion that the file gives.
+fn as_given(reader: &Reader<'_>) -> Option<Program> {
     let table = reader.find(&SECTION)?;
     let start = table.get(&START);
     let segments: Vec<Table<'_>> = reader.elements(&SEGMENT).collect();
-    if segments.is_empty() {
+    let form = forms::Form::find(reader, &table, !segments.is_empty()).ok()?;
+    if segments.is_empty() && form.is_none() {
         if !reader.is_explained(&SEGMENT) {
-            let help = Some("add [[motion.segment]] with law, over and to".into());
+            let help =
+                Some("add [[motion.segment]] with law, over and to; or formula, points, table or fourier".into());
             table.fail(&START, "a motion needs segments".into(), help);
         }
         return None;
@@ -201,6 +60,9 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
     let rpm = table.get(&RPM);
     let (at, lobes) = (table.get(&AT)?, lobes?);
     let whole = Whole { quantity, speed: rpm.map(|rpm| rpm * TAU / 60.0), at, fill: TAU / f64::from(lobes) };
+    if let Some(form) = form {
+        return Some(Program { rpm, ..form.program(&table, whole, (start, lobes))? });
+    }
     let mut steps = steps(&segments, whole, start)?;
     let largest = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);
     let last = steps.last_mut()?;
@@ -222,19 +84,31 @@ pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
                         LawError::NoInflection { .. } | LawError::Inflection { .. } | LawError::NoMatch { .. }
                     )
             );
-            let of_own = match &error {
-                StepError::Law(LawError::Parameter { name, .. }) => Some(*name),
-                _ => None,
+            let key = match &error {
+                _ if of_inflection => &INFLECTION,
+                StepError::NothingToJoin { .. } => &VELOCITY,
+                StepError::JerkOfSpline => &JERK,
+                StepError::Law(LawError::Parameter { name, .. }) => {
+                    tell_of_own(segment, name, &error);
+                    return None;
+                }
+                _ => &LAW,
             };
-            match of_own {
-                Some("fractions") => segment.fail(&FRACTIONS, error.to_string(), None),
-                Some("amplitudes") => segment.fail(&AMPLITUDES, error.to_string(), None),
-                Some("line") => segment.fail(&LINE, error.to_string(), None),
-                Some("ramp") => segment.fail(&RAMP, error.to_string(), None),
-                _ => segment.fail(if of_inflection { &INFLECTION } else { &LAW }, error.to_string(), None),
-            }
+            segment.fail(key, error.to_string(), None);
             None
         }
+    }
+}
+
+/// What is wrong with a number of a law's own, at its key.
+fn tell_of_own(segment: &Table<'_>, name: &str, error: &StepError) {
+    let told = error.to_string();
+    match name {
+        "fractions" => segment.fail(&FRACTIONS, told, None),
+        "amplitudes" => segment.fail(&AMPLITUDES, told, None),
+        "line" => segment.fail(&LINE, told, None),
+        "ramp" => segment.fail(&RAMP, told, None),
+        _ => segment.fail(&LAW, told, None),
     }
 }
 
@@ -279,13 +153,13 @@ fn steps(segments: &[Table<'_>], whole: Whole, start: f64) -> Option<Vec<Step>> 
 
 /// A segment from a position on, behind segments that take a sum of angles, rad.
 fn step(segment: &Table<'_>, whole: Whole, (position, sum, last): (f64, f64, bool)) -> Option<Step> {
-    let mover = mover(segment);
+    let mover = mover(segment, whole);
     let end = state(segment, whole);
     let target = target(segment, whole.quantity, position).ok();
-    let (mover, mut end, target) = (mover?, end?, target?);
+    let (mut mover, mut end, target) = (mover?, end?, target?);
     let line = matches!(mover, Mover::Law(law, ..) if law.name == laws::LINE);
     let dwell = matches!(mover, Mover::Dwell);
-    if dwell && (target.is_some() || !end.rests()) {
+    if dwell && (target.is_some() || !(end.rests() && end.free == [false; 2])) {
         let key = if segment.has(&BY) { &BY } else { &TO };
         let help = "omit `to`, or give a law that moves";
         segment.fail(key, "a dwell keeps its position and has no `to`".into(), Some(help.into()));
@@ -326,7 +200,22 @@ fn step(segment: &Table<'_>, whole: Whole, (position, sum, last): (f64, f64, boo
         }
         end = State { velocity, ..State::default() };
     }
+    match &mut mover {
+        Mover::Own(_, curve) => {
+            let (sized, slope) = (own_end(curve), (to - position) / over);
+            end = State { velocity: sized[0] * slope, acceleration: sized[1] * slope / over, ..State::default() };
+        }
+        Mover::Spline(points) => forms::behind(segment, points, (whole.at + sum, over))?,
+        _ => {}
+    }
     Some(Step { mover, over, to, end })
+}
+
+/// Velocity and acceleration at the end of a curve, without rounding.
+fn own_end(curve: &laws::Curve) -> [f64; 2] {
+    let (last, peaks) = (curve.at(curve.parts().saturating_sub(1), 1.0), curve.peaks());
+    let sizes = [(last[1], peaks.velocity.value), (last[2], peaks.acceleration.value)];
+    sizes.map(|(value, size)| if value.abs() > super::ROUNDING * size { value } else { 0.0 })
 }
 
 /// A fault that the user has been told.
@@ -382,7 +271,7 @@ fn target(segment: &Table<'_>, quantity: Quantity, position: f64) -> Result<Opti
 
 /// A rate at the end of a segment by the cam angle, where it is given.
 fn rate(segment: &Table<'_>, key: &Field<String>, order: u32, whole: Whole) -> Result<Option<f64>, Told> {
-    if !segment.has(key) {
+    if !segment.has(key) || is_auto(segment, key) {
         return Ok(None);
     }
     let text = segment.get(key).ok_or(Told)?;
@@ -410,17 +299,29 @@ fn rate(segment: &Table<'_>, key: &Field<String>, order: u32, whole: Whole) -> R
     }
 }
 
+/// Whether a rate is to be found.
+fn is_auto(segment: &Table<'_>, key: &Field<String>) -> bool {
+    segment.get(key).is_some_and(|text| text.trim().eq_ignore_ascii_case(AUTO))
+}
+
+const AUTO: &str = "auto";
+
 /// The state at the end of a segment.
 fn state(segment: &Table<'_>, whole: Whole) -> Option<State> {
     let said = if segment.has(&END) { Some(segment.get(&END)?) } else { None };
     let velocity = rate(segment, &VELOCITY, 1, whole).ok()?;
     let acceleration = rate(segment, &ACCELERATION, 2, whole).ok()?;
     let jerk = rate(segment, &JERK, 3, whole).ok()?;
-    let moving = velocity.unwrap_or(0.0) != 0.0 || acceleration.unwrap_or(0.0) != 0.0;
+    let auto = [&VELOCITY, &ACCELERATION].map(|key| is_auto(segment, key));
+    // Where the velocity is found, so is the acceleration that is not given.
+    let free = [auto[0], auto[1] || (auto[0] && acceleration.is_none())];
+    let moving = velocity.unwrap_or(0.0) != 0.0 || acceleration.unwrap_or(0.0) != 0.0 || free != [false; 2];
     let fault = match said {
         Some(EndOf::Turn) if moving => Some("a turn has the velocity 0 and any acceleration"),
         Some(EndOf::Rest) if moving => Some("at rest velocity and acceleration are 0"),
-        Some(EndOf::Moving) if velocity.is_none() && acceleration.is_none() => Some("a moving end needs a velocity"),
+        Some(EndOf::Moving) if velocity.is_none() && acceleration.is_none() && free == [false; 2] => {
+            Some("a moving end needs a velocity")
+        }
         _ => None,
     };
     if let Some(message) = fault {
@@ -428,11 +329,11 @@ fn state(segment: &Table<'_>, whole: Whole) -> Option<State> {
         return None;
     }
     let turns = said == Some(EndOf::Turn);
-    Some(State { velocity: velocity.unwrap_or(0.0), acceleration: acceleration.unwrap_or(0.0), jerk, turns })
+    Some(State { velocity: velocity.unwrap_or(0.0), acceleration: acceleration.unwrap_or(0.0), jerk, turns, free })
 }
 
 /// What moves a segment.
-fn mover(segment: &Table<'_>) -> Option<Mover> {
+fn mover(segment: &Table<'_>, whole: Whole) -> Option<Mover> {
     let name = if segment.has(&LAW) { segment.get(&LAW)? } else { USUAL.to_owned() };
     if name.eq_ignore_ascii_case(DWELL) {
         return Some(Mover::Dwell);
@@ -440,9 +341,19 @@ fn mover(segment: &Table<'_>) -> Option<Mover> {
     if name.eq_ignore_ascii_case(POLYNOMIAL) {
         return Some(Mover::Polynomial);
     }
+    if name.eq_ignore_ascii_case(SPLINE) {
+        return forms::inner(segment, whole.quantity).map(Mover::Spline);
+    }
+    for (own, curve) in [(EXPRESSED, forms::shape as fn(&Table<'_>) -> _), (TABULATED, forms::shares)] {
+        if name.eq_ignore_ascii_case(own) {
+            return forms::without_state(segment, own)
+                .and_then(|()| curve(segment))
+                .map(|curve| Mover::Own(own, curve));
+        }
+    }
     let Some(law) = laws::named(&name) else {
         let all = LAWS.iter().map(|law| law.name);
-        let known: Vec<&str> = [DWELL, POLYNOMIAL].into_iter().chain(all).collect();
+        let known: Vec<&str> = [DWELL, POLYNOMIAL, SPLINE, EXPRESSED, TABULATED].into_iter().chain(all).collect();
         let near = similar(&name, known.iter().copied());
         let near = near.map_or(String::new(), |law| format!("did you mean \"{law}\"? It is "));
         segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("{near}one of {}", known.join(", "))));

@@ -49,16 +49,17 @@ pub struct SegmentTold {
     pub angles: (f64, f64),
     /// First and last position.
     pub positions: (f64, f64),
-    /// By how much the position leaves the range between its ends.
+    /// By how much the position leaves the range between its ends; 0 of a motion that is given in one.
     pub overshoot: f64,
+    /// Smallest and largest position.
+    pub range: (f64, f64),
+    /// It is the whole motion, given in one.
+    pub whole: bool,
     /// Largest sizes of velocity, acceleration and jerk, each with its cam angle; an acceleration that jumps has an infinite jerk.
     pub peaks: [(f64, f64); 3],
     /// Whether its acceleration keeps one sign in two humps.
     pub humps: bool,
 }
-
-/// Cells in which the extreme positions of a segment are searched.
-const CELLS: u32 = 64;
 
 /// A jump of less than this share of the largest is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -92,11 +93,12 @@ impl Program {
             Some((of(self.jet(index, piece.start)), of(self.jet(index, piece.end)), piece.end))
         };
         let all: Vec<_> = (0..count).filter_map(ends).collect();
+        let segments = self.segments();
         (0..3_usize).zip(1_u32..).find_map(|(order, derivative)| {
             let value = |all: &[f64; 3]| all.get(order).copied().unwrap_or(0.0);
             let largest = all.iter().flat_map(|(start, end, _)| [value(start).abs(), value(end).abs()]);
             // A dwell between other pieces says nothing of the size.
-            let peaks = self.segments().into_iter().map(|segment| segment.peaks.get(order).map_or(0.0, |peak| peak.0));
+            let peaks = segments.iter().map(|segment| segment.peaks.get(order).map_or(0.0, |peak| peak.0));
             let size = largest.chain(peaks.filter(|peak| peak.is_finite())).fold(0.0, f64::max);
             let next = all.iter().cycle().skip(1);
             let jumps = all.iter().zip(next).map(|((_, end, at), (start, ..))| Jump {
@@ -116,9 +118,9 @@ pub(super) fn range(segment: &super::Segment) -> (f64, f64) {
     let ranges = (0..curve.parts()).map(|part| {
         let at = |x: f64| segment.from + segment.travel * curve.at(part, x)[0];
         let slope = |x: f64| segment.travel * curve.at(part, x)[1];
-        let range = curve.range_of(part);
-        let top = crate::numeric::extremum::largest(at, slope, range, CELLS).value;
-        let low = -crate::numeric::extremum::largest(|x| -at(x), |x| -slope(x), range, CELLS).value;
+        let (range, cells) = (curve.range_of(part), curve.cells(part));
+        let top = crate::numeric::extremum::largest(at, slope, range, cells).value;
+        let low = -crate::numeric::extremum::largest(|x| -at(x), |x| -slope(x), range, cells).value;
         (low, top)
     });
     ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)))
@@ -134,6 +136,8 @@ fn told(segment: &super::Segment) -> SegmentTold {
         angles,
         positions,
         overshoot: 0.0,
+        range: (positions.0, positions.0),
+        whole: segment.whole,
         peaks: [(0.0, angles.0); 3],
         humps: false,
     };
@@ -148,7 +152,8 @@ fn told(segment: &super::Segment) -> SegmentTold {
     let over = (top - most).max(least - low).max(0.0);
     SegmentTold {
         // Rounding at the ends is no overshoot.
-        overshoot: if over > ROUNDING * travel.max(most - least) { over } else { 0.0 },
+        overshoot: if !segment.whole && over > ROUNDING * travel.max(most - least) { over } else { 0.0 },
+        range: (low, top),
         peaks: [place(peaks.velocity, 1), place(peaks.acceleration, 2), place(peaks.jerk, 3)],
         humps: curve.humps(),
         ..rest

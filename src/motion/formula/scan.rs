@@ -1,0 +1,173 @@
+//! Where a formula has no value or no derivative, and how often it turns.
+//!
+//! Each operation that is not defined everywhere has a guard: the denominator of a quotient, the argument of a logarithm or a root,
+//! 1 − a² of an arcsine, the cosine under a tangent. It is evaluated with its slope on a grid; where it changes its sign between two
+//! places, or comes nearest to 0 there, that place is found by bisection and looked at too.
+
+use super::tape::{Function, Operation, Tape, row_of};
+
+/// Cells of the grid: every whole degree of a turn, and every simple share of a segment, is a place of it.
+const CELLS: u32 = 2520;
+/// Value and derivatives up to the jerk.
+const ORDERS: usize = 4;
+/// Bisections of a cell to rounding.
+const BISECTIONS: u32 = 50;
+/// Most cells that are bisected, which bounds the time.
+const MOST_BISECTED: u32 = 300;
+/// A guard this much smaller than beside it is 0.
+const NOTHING: f64 = 1e-12;
+
+/// What a scan found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scan {
+    /// Smallest and largest value.
+    pub range: (f64, f64),
+    /// Most changes of sign of a derivative up to the jerk.
+    pub turns: u32,
+}
+
+/// A place without a value or derivative.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Singular {
+    /// The variable there.
+    pub place: f64,
+    /// The character of the text, from 1.
+    pub at: usize,
+    /// What happens there.
+    pub what: String,
+}
+
+/// What must not vanish, or must not be negative.
+#[derive(Debug, Clone, Copy)]
+struct Guard {
+    value: f64,
+    slope: f64,
+    /// It may be negative too.
+    signed: bool,
+}
+
+/// A place with the series of all operations.
+struct Evaluated {
+    place: f64,
+    rows: Vec<f64>,
+}
+
+impl Evaluated {
+    fn new(tape: &Tape, place: f64) -> Self {
+        Self { place, rows: tape.rows(place, ORDERS) }
+    }
+
+    /// The guard of an operation, where it has one.
+    fn guard(&self, operation: Operation) -> Option<Guard> {
+        let of = |term| match row_of(&self.rows, term, ORDERS) {
+            [value, slope, ..] => (*value, *slope),
+            _ => (0.0, 0.0),
+        };
+        let guard = |(value, slope): (f64, f64), signed: bool| Some(Guard { value, slope, signed });
+        match operation {
+            Operation::Quotient(_, b) => guard(of(b), true),
+            Operation::Of(Function::Logarithm | Function::Power(_), a) => guard(of(a), false),
+            Operation::Of(Function::ArcSine | Function::ArcCosine, a) => {
+                let (a, slope) = of(a);
+                guard(((1.0 - a) * (1.0 + a), -2.0 * a * slope), false)
+            }
+            Operation::Of(Function::Tangent, a) => {
+                let (a, slope) = of(a);
+                let (sine, cosine) = libm::sincos(a);
+                guard((cosine, -sine * slope), true)
+            }
+            _ => None,
+        }
+    }
+
+    /// The first operation without a value or a derivative here.
+    fn fault(&self, tape: &Tape) -> Option<Singular> {
+        let rows = self.rows.chunks(ORDERS);
+        let (placed, row) =
+            tape.operations.iter().zip(rows).find(|(_, row)| row.iter().any(|value| !value.is_finite()))?;
+        let valued = row.first().is_some_and(|value| value.is_finite());
+        let argument = placed.operation.arguments().into_iter().flatten().last();
+        let argument = argument.and_then(|term| row_of(&self.rows, term, ORDERS).first()).copied().unwrap_or(f64::NAN);
+        Some(Singular { place: self.place, at: placed.at, what: told(placed.operation, argument, valued) })
+    }
+}
+
+/// What is wrong with an operation of an argument, which may have a value without derivatives.
+fn told(operation: Operation, argument: f64, valued: bool) -> String {
+    let name = match operation {
+        Operation::Quotient(..) => return "a division by 0".into(),
+        Operation::Of(Function::Logarithm, _) => "the logarithm",
+        Operation::Of(Function::Power(0.5), _) => "the square root",
+        Operation::Of(Function::Power(_), _) => "the power, which is not whole,",
+        Operation::Of(Function::ArcSine, _) => "the arcsine",
+        Operation::Of(Function::ArcCosine, _) => "the arccosine",
+        Operation::Of(Function::Tangent, _) => "the tangent",
+        _ => return "the value or a derivative up to the third is beyond all bounds".into(),
+    };
+    let without = if valued { "has no finite derivative up to the third" } else { "has no value" };
+    format!("{name} of {argument} {without}")
+}
+
+pub(super) fn scan(tape: &Tape, low: f64, high: f64) -> Result<Scan, Singular> {
+    let mut found = Scan { range: (f64::INFINITY, f64::NEG_INFINITY), turns: 0 };
+    let (mut turns, mut signs, mut bisected) = ([0_u32; 3], [0.0_f64; 3], 0);
+    let mut before: Option<Evaluated> = None;
+    for cell in 0..=CELLS {
+        let place = if cell == CELLS { high } else { low + (high - low) * (f64::from(cell) / f64::from(CELLS)) };
+        let here = Evaluated::new(tape, place);
+        if let Some(before) = &before {
+            between(tape, before, &here, &mut bisected)?;
+        }
+        if let Some(singular) = here.fault(tape) {
+            return Err(singular);
+        }
+        let row = tape.result(&here.rows, ORDERS);
+        let value = row.first().copied().unwrap_or(0.0);
+        found.range = (found.range.0.min(value), found.range.1.max(value));
+        for ((derivative, sign), turns) in row.iter().skip(1).zip(&mut signs).zip(&mut turns) {
+            *turns += u32::from(derivative * *sign < 0.0);
+            *sign = if *derivative == 0.0 { *sign } else { derivative.signum() };
+        }
+        before = Some(here);
+    }
+    found.turns = turns.into_iter().max().unwrap_or(0);
+    Ok(found)
+}
+
+/// Looks for a guard that vanishes between two places.
+fn between(tape: &Tape, left: &Evaluated, right: &Evaluated, bisected: &mut u32) -> Result<(), Singular> {
+    for placed in &tape.operations {
+        let guard = |at: &Evaluated| at.guard(placed.operation);
+        let (Some(a), Some(b)) = (guard(left), guard(right)) else { continue };
+        let crosses = a.value * b.value < 0.0;
+        let dips = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
+        if !(crosses || dips) || *bisected >= MOST_BISECTED {
+            continue;
+        }
+        *bisected += 1;
+        let towards = |at: &Guard| if crosses { at.value * a.value > 0.0 } else { at.slope * a.slope > 0.0 };
+        let (mut low, mut high) = (left.place, right.place);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            let ahead = guard(&Evaluated::new(tape, middle)).is_some_and(|found| towards(&found));
+            if ahead { low = middle } else { high = middle }
+        }
+        let here = Evaluated::new(tape, high);
+        let least = guard(&here).map_or(0.0, |found| found.value);
+        let vanishes = if a.signed { least.abs() } else { least } <= NOTHING * a.value.abs().min(b.value.abs());
+        // Where the argument of a root crosses 0 the next place of the grid has no value.
+        if crosses || vanishes || here.fault(tape).is_some() {
+            let outside = if a.signed { 0.0 } else { least.min(0.0) };
+            let what = told(placed.operation, argument(&here, placed.operation).unwrap_or(outside), false);
+            let fault = here.fault(tape).map_or(what, |fault| fault.what);
+            return Err(Singular { place: here.place, at: placed.at, what: fault });
+        }
+    }
+    Ok(())
+}
+
+/// The value of the argument of an operation.
+fn argument(at: &Evaluated, operation: Operation) -> Option<f64> {
+    let term = operation.arguments().into_iter().flatten().last()?;
+    row_of(&at.rows, term, ORDERS).first().copied()
+}

@@ -1,0 +1,136 @@
+//! Splines as curves: quintic of least jerk, or cubic of least acceleration, through knots from x = 0 to x = 1.
+
+use super::bernstein::Bernstein;
+use super::curve::{Curve, Part};
+use crate::numeric::least_jerk::{self, Interval};
+use crate::numeric::spline::Spline;
+
+/// Stretches that are looked at as one, of a spline of few knots; of one of many as many as make it [`MOST_GROUPS`].
+const TOGETHER: usize = 4;
+const MOST_GROUPS: usize = 16;
+
+/// How a spline goes on at its ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ends {
+    /// As at its other end.
+    Periodic,
+    /// As its inner knots want: the outermost three stretches at either end are one polynomial.
+    Free,
+    /// Velocity and acceleration 0.
+    Rest,
+}
+
+/// The curve of polynomials with given derivatives, the value first, at each knot.
+#[must_use]
+pub fn chain<const N: usize>(knots: &[f64], nodes: &[[f64; N]]) -> Curve {
+    let scaled = |node: &[f64; N], width: f64| {
+        let mut power = 1.0;
+        node.map(|value| {
+            let scaled = value * power;
+            power *= width;
+            scaled
+        })
+    };
+    let pairs = knots.iter().zip(knots.iter().skip(1)).zip(nodes.iter().zip(nodes.iter().skip(1)));
+    let parts: Vec<Part> = pairs
+        .map(|((from, to), (first, last))| {
+            let width = to - from;
+            let polynomial = Bernstein::hermite(&scaled(first, width), &scaled(last, width));
+            Part::Stretch { range: (*from, width), polynomial }
+        })
+        .collect();
+    let together = TOGETHER.max(parts.len().div_ceil(MOST_GROUPS));
+    let joints = knots.get(1..knots.len().saturating_sub(1)).unwrap_or_default().to_vec();
+    Curve::of_many(joints, parts, together)
+}
+
+/// The quintic spline of least ∫(s''')² through values at knots, which run from 0 to 1.
+#[must_use]
+pub fn quintic(knots: &[f64], values: &[f64], ends: Ends) -> Curve {
+    let pairs = knots.iter().zip(knots.iter().skip(1)).zip(values.iter().zip(values.iter().skip(1)));
+    let mut intervals: Vec<Interval> = pairs.map(|((x0, x1), (y0, y1))| Some((x1 - x0, y1 - y0))).collect();
+    let states = match ends {
+        Ends::Free => least_jerk::not_a_knot(knots, values),
+        Ends::Periodic => {
+            let mut states = least_jerk::least_jerk(&intervals, &vec![[None; 2]; intervals.len()]);
+            states.extend(states.first().copied());
+            states
+        }
+        Ends::Rest => {
+            let mut given = vec![[None; 2]; values.len()];
+            for end in [0, values.len().saturating_sub(1)] {
+                if let Some(given) = given.get_mut(end) {
+                    *given = [Some(0.0); 2];
+                }
+            }
+            intervals.push(None);
+            least_jerk::least_jerk(&intervals, &given)
+        }
+    };
+    let nodes: Vec<[f64; 3]> = values.iter().zip(states).map(|(value, [v, a])| [*value, v, a]).collect();
+    chain(knots, &nodes)
+}
+
+/// The periodic cubic spline of least ∫(s'')²; three intervals or more.
+#[must_use]
+pub fn cubic(knots: &[f64], values: &[f64]) -> Curve {
+    let spline = Spline::periodic(knots, values);
+    let slopes = spline.cubics().iter().map(|[_, slope, ..]| *slope);
+    let slopes = slopes.clone().chain(slopes.take(1));
+    let nodes: Vec<[f64; 2]> = values.iter().zip(slopes).map(|(value, slope)| [*value, slope]).collect();
+    chain(knots, &nodes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Values of 40-digit arithmetic at 100°, by the radian.
+    #[test]
+    fn a_periodic_spline_is_the_known_one() {
+        let knots = [0.0, 60.0, 130.0, 200.0, 290.0, 360.0].map(|degrees: f64| degrees / 360.0);
+        let curve = quintic(&knots, &[0.0, 12.0, 25.0, 18.0, 4.0, 0.0], Ends::Periodic);
+        let x = 100.0 / 360.0;
+        let found = curve.at(curve.part_of(x), x);
+        let known = [21.632_151_819_059_75, 10.504_873_044_522_27, -13.619_313_166_588_42, -14.696_224_865_491_6];
+        for ((order, found), known) in (0..).zip(found).zip(known) {
+            let by_angle = (0..order).fold(found, |value, _| value / TAU);
+            assert!((by_angle - known).abs() < 1e-12, "{order}: {by_angle}");
+        }
+        for order in 0..5 {
+            assert_eq!(curve.first_jump(order), None, "{order}");
+            let (first, last) = (curve.derivative(0, 0.0, order), curve.derivative(4, 1.0, order));
+            assert!((first - last).abs() < 1e-10 * (1.0 + first.abs()), "{order}: {first} {last}");
+        }
+        assert!(curve.first_jump(5).is_some());
+    }
+
+    #[test]
+    fn ends_are_as_they_are_asked_for() {
+        let knots: Vec<f64> = (0..=10).map(|index| f64::from(index) / 10.0).collect();
+        let f = |x: f64| x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
+        let values: Vec<f64> = knots.iter().map(|x| f(*x)).collect();
+        for ends in [Ends::Free, Ends::Rest] {
+            let curve = quintic(&knots, &values, ends);
+            for index in 0..=200 {
+                let x = f64::from(index) / 200.0;
+                let [s, v, a, j] = curve.at(curve.part_of(x), x);
+                let known = [f(x), 30.0 * x * x * (1.0 - x) * (1.0 - x), 60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)];
+                for (found, known) in [s, v, a].iter().zip(known) {
+                    assert!((found - known).abs() < 1e-10, "{ends:?} at {x}: {found} {known}");
+                }
+                assert!((j - (60.0 - 360.0 * x + 360.0 * x * x)).abs() < 1e-8, "{ends:?} at {x}: {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_cubic_has_a_continuous_acceleration() {
+        let knots = [0.0, 0.2, 0.3, 0.7, 1.0];
+        let curve = cubic(&knots, &[1.0, 2.0, 0.0, 3.0, 1.0]);
+        assert_eq!((curve.first_jump(2), curve.first_jump(3)), (None, Some(1)));
+        let (first, last) = (curve.derivative(0, 0.0, 2), curve.derivative(3, 1.0, 2));
+        assert!((first - last).abs() < 1e-11 * first.abs(), "{first} {last}");
+    }
+}
