@@ -173,6 +173,14 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
             analysis::shaft::analysis(&shaft, &asked).expect("a shaft")
         }
         "brake" => brake(&[]),
+        "size" => {
+            let feeder = Machine::load("feeder", &[]).expect("valid").0;
+            analysis::size::analysis(&feeder, &[analysis::size::Free::Offset], None).expect("a size")
+        }
+        "laws" => {
+            let valve = Machine::load("valve", &[]).expect("valid").0;
+            analysis::laws::analysis(Some(&valve), &analysis::laws::Asked::default()).expect("laws")
+        }
         other => panic!("no analysis of the kind {other} here"),
     };
     assert_eq!(found.kind, kind);

@@ -65,7 +65,9 @@ pub fn template_of_program(follower: &str) -> Option<String> {
     );
     let head = head
         .replace("start = \"0 mm\"", &format!("start = \"{start}\""))
-        .replace("name = \"my press\"", "name = \"my cam\"  ");
+        .replace("name = \"my press\"", "name = \"my cam\"  ")
+        // Of a motion by points only.
+        .replace("\ndegree = ", "\n# degree = ");
     let program = PROGRAM.replace("{start}", start).replace("{to}", to);
     let segment = written("", &[&program::keys::SEGMENT], &[]);
     let of_make = |section: &&Section| section.cams.is_empty() || section.cams.contains(&cams::MAKE);

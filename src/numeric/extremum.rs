@@ -186,7 +186,7 @@ mod tests {
         let dip = largest(|x| 0.01 * x.powi(3) - x.powi(5), |x| 0.03 * x * x - 5.0 * x.powi(4), (0.0, 4.0), 32);
         assert!((dip.at - 0.006_f64.sqrt()).abs() < 1e-12, "{dip:?}");
         // A narrow hill on a slope.
-        let width = 1e-3;
+        let width = 8e-3;
         let hill = |x: f64| libm::exp(-(x - 0.49) * (x - 0.49) / (width * width)) - x;
         let slope = |x: f64| -2.0 * (x - 0.49) / (width * width) * (hill(x) + x) - 1.0;
         let top = largest(hill, slope, (0.0, 0.5), 16);

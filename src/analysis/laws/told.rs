@@ -137,12 +137,8 @@ pub(super) fn sort(rows: &mut [Row], by: Option<&str>) -> Result<&'static str, L
 }
 
 pub(super) fn table(rows: &[Row]) -> Table {
-    let columns = columns(rows);
-    Table {
-        columns: columns.iter().map(|(name, _)| *name).collect(),
-        rows: rows.iter().map(|row| columns.iter().map(|(_, value)| value(row) + 0.0).collect()).collect(),
-        words: Some(("law", rows.iter().map(|row| row.law.name).collect())),
-    }
+    let words = Some(("law", rows.iter().map(|row| row.law.name).collect()));
+    Table { words, ..Table::listed(&columns(rows), rows) }
 }
 
 /// The section `laws`.
@@ -198,7 +194,7 @@ pub(super) fn section(rows: &[Row], rise: Rise, with_file: bool) -> Section {
     Section::new("laws", &told).with_words(words(rows, rise, with_file, &columns))
 }
 
-fn words(rows: &[Row], rise: Rise, with_file: bool, columns: &[Column]) -> Vec<String> {
+fn words(rows: &[Row], rise: Rise, with_file: bool, known: &[Column]) -> Vec<String> {
     let length = rise.quantity == Quantity::Length;
     let lift =
         if length { format!("{} mm", shown(mm(rise.lift))) } else { format!("{}°", shown(rise.lift.to_degrees())) };
@@ -211,15 +207,15 @@ fn words(rows: &[Row], rise: Rise, with_file: bool, columns: &[Column]) -> Vec<S
     };
     let mut lines = vec![format!("{lift} in {}° of the cam; {units}", shown(rise.over.to_degrees()))];
     // Of both units of a rate the later column, by the time, where there is a speed.
-    let found = |begins: &str| columns.iter().rfind(|(name, _)| name.starts_with(begins)).copied();
+    let found = |begins: &str| known.iter().rfind(|(name, _)| name.starts_with(begins)).copied();
     let chosen: Vec<(&str, Column)> = SHOWN
         .iter()
         .filter_map(|(head, begins)| {
             let rate = begins.ends_with('_');
-            let column = if rate || columns.iter().all(|(name, _)| name != begins) {
+            let column = if rate || known.iter().all(|(name, _)| name != begins) {
                 found(begins).filter(|_| rate)
             } else {
-                columns.iter().find(|(name, _)| name == begins).copied()
+                known.iter().find(|(name, _)| name == begins).copied()
             };
             Some((*head, column?))
         })
@@ -250,13 +246,18 @@ fn figure(value: f64) -> String {
     } else {
         let decimals = (0..4).find(|decimals| value.abs() >= 10.0_f64.powi(3 - *decimals)).unwrap_or(4);
         let decimals = usize::try_from(decimals).unwrap_or(0);
-        if value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.decimals$}") }
+        // A whole number but for rounding is told as one.
+        if (value - value.round()).abs() < 1e-9 * value.abs() {
+            format!("{value:.0}")
+        } else {
+            format!("{value:.decimals$}")
+        }
     }
 }
 
 /// Laws that are drawn, and places of each of their parts.
 const DRAWN: usize = 8;
-const PLACES: u32 = 24;
+const PLACES: u32 = 72;
 
 pub(super) fn plot(name: &str, rows: &[Row], rise: Rise) -> Plot {
     let over = rise.over.to_degrees();

@@ -16,6 +16,9 @@ struct Segment {
     to_deg: f64,
     from: f64,
     to: f64,
+    /// Lowest and highest position on it.
+    lowest: f64,
+    highest: f64,
     overshoot: f64,
     peaks: Peaks,
 }
@@ -29,12 +32,22 @@ struct Peaks {
     acceleration_at_deg: f64,
     jerk: Option<f64>,
     jerk_at_deg: f64,
+    /// By the time, m or rad per second.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    velocity_per_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    acceleration_per_s2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    jerk_per_s3: Option<f64>,
 }
 
 /// The section `motion`.
 #[derive(Debug, Serialize)]
 struct Told {
     unit: &'static str,
+    /// Of rates by the time, where the speed is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit_by_time: Option<&'static str>,
     repeat: u32,
     segments: Vec<Segment>,
 }
@@ -48,9 +61,14 @@ pub(super) fn degrees(angle: f64) -> f64 {
     (angle.to_degrees() * DIGITS).round() / DIGITS + 0.0
 }
 
-fn segment(told: &SegmentTold, size: f64) -> Segment {
+/// A segment with its lengths or angles in a size, at an angular speed of the cam, rad/s, where that is known.
+fn segment(told: &SegmentTold, size: f64, speed: Option<f64>) -> Segment {
     let [first, last] = told.classes.map(crate::motion::program::Class::letter);
     let [velocity, acceleration, jerk] = told.peaks.map(|(value, at)| (size * value, degrees(at)));
+    let by_time = |order: usize, power: i32| {
+        let value = told.peaks.get(order).map(|peak| peak.0).filter(|value| value.is_finite());
+        value.zip(speed).map(|(value, speed)| value * speed.powi(power))
+    };
     Segment {
         law: told.law,
         class: format!("{first}-{last}"),
@@ -58,6 +76,8 @@ fn segment(told: &SegmentTold, size: f64) -> Segment {
         to_deg: degrees(told.angles.1),
         from: size * told.positions.0,
         to: size * told.positions.1,
+        lowest: size * told.range.0,
+        highest: size * told.range.1,
         overshoot: size * told.overshoot,
         peaks: Peaks {
             velocity: velocity.0,
@@ -66,6 +86,9 @@ fn segment(told: &SegmentTold, size: f64) -> Segment {
             acceleration_at_deg: acceleration.1,
             jerk: Some(jerk.0).filter(|jerk| jerk.is_finite()),
             jerk_at_deg: jerk.1,
+            velocity_per_s: by_time(0, 1),
+            acceleration_per_s2: by_time(1, 2),
+            jerk_per_s3: by_time(2, 3),
         },
     }
 }
@@ -77,9 +100,11 @@ impl Disc {
         let swings = self.motion.quantity() == Quantity::Angle;
         let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
         let told = program.segments();
-        let segments: Vec<Segment> = told.iter().map(|told| segment(told, size)).collect();
+        let segments: Vec<Segment> = told.iter().map(|told| segment(told, size, self.speed)).collect();
         let mut words: Vec<String> =
             segments.iter().zip(&told).map(|(segment, told)| line(segment, told, unit)).collect();
+        let of_time = if swings { "rad" } else { "m" };
+        words.extend(at_speed(&segments, of_time));
         if self.motion.lobes() > 1 {
             words.push(format!("{} equal lobes", self.motion.lobes()));
         }
@@ -90,13 +115,29 @@ impl Disc {
                 shown(load.damping)
             ));
         }
-        let value = Told { unit, repeat: self.motion.lobes(), segments };
+        let unit_by_time = self.speed.map(|_| of_time);
+        let value = Told { unit, unit_by_time, repeat: self.motion.lobes(), segments };
         Some(Section::new("motion", &value).with_words(words))
     }
 }
 
+/// The largest rates by the time.
+fn at_speed(segments: &[Segment], unit: &str) -> Option<String> {
+    let most =
+        |of: fn(&Peaks) -> Option<f64>| segments.iter().filter_map(|segment| of(&segment.peaks)).reduce(f64::max);
+    let (velocity, acceleration) = (most(|peaks| peaks.velocity_per_s)?, most(|peaks| peaks.acceleration_per_s2)?);
+    let unbounded = segments.iter().any(|segment| segment.peaks.jerk.is_none());
+    let jerk = most(|peaks| peaks.jerk_per_s3).filter(|_| !unbounded);
+    let jerk = jerk.map_or("without bound".to_owned(), |jerk| format!("{} {unit}/s³", shown(jerk)));
+    Some(format!(
+        "at this speed v to {} {unit}/s, a to {} {unit}/s², j {jerk} at the most",
+        shown(velocity),
+        shown(acceleration)
+    ))
+}
+
 fn line(segment: &Segment, told: &SegmentTold, unit: &str) -> String {
-    let Segment { law, class, from_deg, to_deg, from, to, overshoot, peaks } = segment;
+    let Segment { law, class, from_deg, to_deg, from, to, overshoot, peaks, .. } = segment;
     let mut text = format!("{} to {}° {law}", shown(*from_deg), shown(*to_deg));
     if told.peaks[0].0 == 0.0 {
         return format!("{text} at {} {unit}", shown(*from));

@@ -102,9 +102,7 @@ Examples:
   camgen check part.dxf dpi --rpm 35
       whether part.dxf is the rotary cam of the embedded press for 35 rpm
   camgen check part.dxf --design lifter.toml
-      exit code 1: it is not the cam that camgen make makes of lifter.toml
-  camgen check part.dxf --rpm 34 --tolerance 20um
-      exit code 1: it is not the cam for 34 rpm; the report tells for which speed it would be";
+      exit code 1: it is not the cam that camgen make makes of lifter.toml";
 
 pub(super) const TRADE: &str = "\
 Examples:
@@ -122,8 +120,6 @@ Examples:
 
 pub(super) const INIT: &str = "\
 Examples:
-  camgen init
-      prints it
   camgen init mine.toml
       writes it; `camgen rotary mine.toml` makes its cam
   camgen init --follower swinging-roller

@@ -35,7 +35,7 @@ impl Program {
     pub fn largest_rise(&self) -> Option<(f64, f64)> {
         let rests = self.segments.iter().filter(|segment| segment.ends.iter().all(super::State::rests));
         let moves = rests.map(|segment| ((segment.to - segment.from).abs(), segment.width));
-        moves.filter(|(travel, _)| *travel > 0.0).max_by(|a, b| a.0.total_cmp(&b.0))
+        moves.filter(|(travel, _)| *travel > 0.0).reduce(|best, next| if next.0 > best.0 { next } else { best })
     }
 }
 
