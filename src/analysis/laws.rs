@@ -167,7 +167,7 @@ fn row(law: &'static Law, rise: Rise, cam: Option<OfCam>) -> Option<Row> {
             or(impact, peaks.torque.value),
             or(impact, peaks.square),
         ],
-        efficiency: curve.efficiency().unwrap_or(f64::NAN),
+        efficiency: curve.efficiency_of(&peaks).unwrap_or(f64::NAN),
         residual,
         curve,
         rise,

@@ -82,6 +82,35 @@ impl Place {
         }
     }
 
+    /// The pressure angle at a lift with the shaft at a place, rad.
+    #[must_use]
+    pub fn pressure_angle(self, lift: &Jet, shaft: Vector2<f64>) -> f64 {
+        match self {
+            Place::Offset { .. } => libm::atan2(lift.ds - shaft.y, shaft.x + lift.s),
+            Place::Pivot { arm, side, .. } => {
+                let (sin, cos) = libm::sincos(lift.s);
+                let (along, across) = (shaft.x * cos - shaft.y * sin, shaft.x * sin + shaft.y * cos);
+                libm::atan2(arm * lift.ds + side * (arm - along), across)
+            }
+        }
+    }
+
+    /// The place of the shaft with a choice and a prime radius, m; `None` where there is none.
+    #[must_use]
+    pub fn shaft(self, choice: f64, prime_radius: f64) -> Option<Vector2<f64>> {
+        match self {
+            Place::Offset { .. } => {
+                let square = (prime_radius - choice) * (prime_radius + choice);
+                (square > 0.0).then(|| Vector2::new(square.sqrt(), choice))
+            }
+            Place::Pivot { arm, .. } => {
+                let cosine = (choice * choice + arm * arm - prime_radius * prime_radius) / (2.0 * choice * arm);
+                let square = (1.0 - cosine) * (1.0 + cosine);
+                (square > 0.0).then(|| Vector2::new(cosine, square.sqrt()) * choice)
+            }
+        }
+    }
+
     /// What is chosen by a place of the shaft: offset or pivot distance, m.
     #[must_use]
     pub fn chosen(self, shaft: Vector2<f64>) -> f64 {

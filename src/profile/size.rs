@@ -1,9 +1,9 @@
 //! The smallest prime radius that keeps every limit, solved.
 
 use super::{Curves, extremes, lifts};
-use crate::follower::{Element, Follower};
+use crate::follower::{Element, Follower, Place};
 use crate::machine::{CamData, Limits};
-use crate::motion::Motion;
+use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::{extremum, root};
 
 /// Whole millimetres an automatic base radius is rounded up to, m; a millionth of a step is rounding noise.
@@ -58,6 +58,9 @@ fn rounded_up_to(radius: f64, steps_per_metre: f64) -> f64 {
     (radius * steps_per_metre - BASE_STEP_NOISE).ceil() / steps_per_metre
 }
 
+/// Cells in which the height that a pressure angle asks for is searched.
+const CELLS: u32 = 32;
+
 /// Doublings from the least radius before giving up: 1 µm to 1e9 m.
 const DOUBLINGS: u32 = 50;
 
@@ -101,6 +104,23 @@ struct Sizing<'a> {
     required: &'a Required,
     /// The largest lift that has to be in reach.
     top: f64,
+    /// Lifts at which the pressure angle is looked at first, with the follower's place where it has one.
+    sampled: Option<(Place, f64, Vec<Jet>)>,
+}
+
+/// Steps of a piece at which a pressure angle is looked at first.
+const SAMPLES: u32 = 24;
+
+/// The lifts of a motion under a follower of limited reach, whose sizes are tried one by one.
+fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<(Place, f64, Vec<Jet>)> {
+    let place = follower.place().filter(|_| follower.prime_radii().1.is_finite())?;
+    let pieces = motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index));
+    let lifts = pieces.flat_map(|(index, piece)| {
+        let steps = if piece.dwell { 1 } else { SAMPLES };
+        let at = move |step: u32| piece.start + (piece.end - piece.start) * f64::from(step) / f64::from(steps);
+        (0..=steps).map(move |step| motion.jet(index, at(step)))
+    });
+    Some((place, place.of(follower), lifts.collect()))
 }
 
 impl Sizing<'_> {
@@ -111,6 +131,9 @@ impl Sizing<'_> {
     }
 
     fn pressure(&self, radius: f64) -> f64 {
+        if self.required.pressure_angles.iter().all(|limit| limit.is_infinite()) {
+            return self.at(radius, |_| f64::NEG_INFINITY);
+        }
         self.at(radius, |curves| {
             let [rising, falling] = extremes::pressure_angles(curves);
             let [most, least] = self.required.pressure_angles;
@@ -138,9 +161,48 @@ impl Sizing<'_> {
         worse(excess, sharpest(false) * CLOSING_OVER_ROLLER * roller - 1.0)
     }
 
-    /// The worse of both limits.
+    /// The worse of both limits; of the pressure angle alone where it is too large at one of the lifts that are looked at first.
     fn either(&self, radius: f64) -> f64 {
-        worse(self.pressure(radius), self.curvature(radius))
+        match self.sampled_pressure(radius) {
+            Some(excess) if excess > 0.0 => excess,
+            _ => worse(self.pressure(radius), self.curvature(radius)),
+        }
+    }
+
+    /// By how much the pressure angle is too large at the lifts that are looked at first.
+    fn sampled_pressure(&self, radius: f64) -> Option<f64> {
+        let (place, choice, lifts) = self.sampled.as_ref()?;
+        let shaft = place.shaft(*choice, radius)?;
+        let [most, least] = self.required.pressure_angles;
+        let excess = |lift: &Jet| {
+            let angle = place.pressure_angle(lift, shaft);
+            (angle - most).max(-angle - least)
+        };
+        Some(lifts.iter().map(excess).fold(f64::NEG_INFINITY, f64::max))
+    }
+
+    /// The prime radius that the pressure angle alone asks for under a roller on a straight path with its offset: tan α = (s' − ε)/(u0 + s)
+    /// gives the least u0 of every lift. `None` under other followers, and without a limit.
+    fn by_pressure_angle(&self) -> Option<f64> {
+        let place = self.follower.place().filter(|place| matches!(place, Place::Offset { .. }))?;
+        let offset = place.of(self.follower);
+        let least_height = |(limit, falling): (f64, bool)| {
+            let of_piece = |(index, piece): (usize, &Piece)| {
+                let height = |at: f64| {
+                    let plane = place.condition(&self.motion.jet(index, at), limit, falling);
+                    let over = plane.normal.x;
+                    ((plane.least - plane.normal.y * offset) / over, plane.least_slope / over)
+                };
+                let cells = if piece.dwell { 1 } else { CELLS };
+                extremum::largest_with_slope(height, (piece.start, piece.end), cells).value
+            };
+            let pieces = self.motion.distinct().iter().enumerate().filter(|(index, _)| self.motion.is_rolled(*index));
+            pieces.map(of_piece).fold(0.0, f64::max)
+        };
+        let [most, least] = self.required.pressure_angles;
+        let limits = [(most, false), (least, true)].into_iter().filter(|(limit, _)| limit.is_finite());
+        let height = limits.map(least_height).reduce(f64::max)?;
+        Some(libm::hypot(height, offset)).filter(|radius| radius.is_finite())
     }
 }
 
@@ -154,7 +216,8 @@ fn worse(one: f64, other: f64) -> f64 {
 /// # Errors
 /// [`NoRadius`] when no radius up to 1e9 m, or in reach of the follower, does.
 pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &Required) -> Result<Smallest, NoRadius> {
-    let sizing = Sizing { motion, follower, required, top: largest_lift_in_reach(motion, follower) };
+    let top = largest_lift_in_reach(motion, follower);
+    let sizing = Sizing { motion, follower, required, top, sampled: sampled(motion, follower) };
     let offset = follower.element().offset();
     let largest = follower.prime_radii().1;
     if largest.is_finite() {
@@ -172,7 +235,7 @@ pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &Require
 fn first_of_falling(least: f64, sizing: &Sizing<'_>) -> Result<f64, NoRadius> {
     let (pressure, curvature) = (|radius: f64| sizing.pressure(radius), |radius: f64| sizing.curvature(radius));
     let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
-    let mut radius = least;
+    let mut radius = sizing.by_pressure_angle().map_or(least, |by_angle| just_above(by_angle, pressure).max(least));
     for _ in 0..ROUNDS {
         for limit in limits {
             radius = first_at_or_above(radius, limit)?;
@@ -182,6 +245,15 @@ fn first_of_falling(least: f64, sizing: &Sizing<'_>) -> Result<f64, NoRadius> {
         }
     }
     Err(NoRadius)
+}
+
+/// Ulps by which a radius in closed form may miss the side that passes.
+const ULPS: u32 = 64;
+
+/// A radius that should just pass, on the side that does.
+fn just_above(radius: f64, excess: impl Fn(f64) -> f64) -> f64 {
+    let grown = (0..=ULPS.ilog2()).map(|power| radius * (1.0 + f64::from(1_u32 << power) * f64::EPSILON));
+    std::iter::once(radius).chain(grown).find(|radius| excess(*radius) <= 0.0).unwrap_or(radius)
 }
 
 /// The first radius from `low` on at which `excess` is not positive.
@@ -213,7 +285,7 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
     let (mut before, mut here) = (at(least), at(least));
     loop {
         if here.1 <= 0.0 {
-            return Ok(first_passing(before.0, here.0, passes));
+            return Ok(first_not_positive(before.0, here.0, &excess));
         }
         if here.0 >= largest {
             return Err(NoRadius);
@@ -226,7 +298,7 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
             let room = |radius: f64| Some(-excess(radius)).filter(|room| !room.is_nan()).unwrap_or(f64::NEG_INFINITY);
             let best = extremum::largest_without_slope(room, (before.0, next.0), 1, extremum::TO_ROUNDING).at;
             if passes(best) {
-                return Ok(first_passing(before.0, best, passes));
+                return Ok(first_not_positive(before.0, best, &excess));
             }
         }
         (before, here) = (here, next);
@@ -246,6 +318,16 @@ pub fn first_that_keeps(failing: f64, largest: f64, keeps: impl Fn(f64) -> bool)
         below = next;
     }
     None
+}
+
+/// Where an excess falls to 0 between a radius that does not pass, or is the same, and one that does: on the side that passes.
+fn first_not_positive(failing: f64, passing: f64, excess: impl Fn(f64) -> f64) -> f64 {
+    let root = root::bracketed(&excess, failing, passing, 0.0).map(|radius| just_above(radius, &excess));
+    match root {
+        Ok(radius) if excess(radius) <= 0.0 => radius,
+        // The follower does not reach everywhere between.
+        _ => first_passing(failing, passing, |radius| excess(radius) <= 0.0),
+    }
 }
 
 /// The first radius that passes between one that does not, or is the same, and one that does.
@@ -302,7 +384,13 @@ mod tests {
                 convex_radius: 0.01,
                 least: 0.02_f64.max(follower.prime_radii().0),
             };
-            let sizing = Sizing { motion: &program, follower: &follower, required: &required, top: lifts(&program).1 };
+            let sizing = Sizing {
+                motion: &program,
+                follower: &follower,
+                required: &required,
+                top: lifts(&program).1,
+                sampled: None,
+            };
             let solved = smallest(&program, &follower, &required);
             let mut grid = required.least;
             let end = solved.map_or(follower.prime_radii().1, |smallest| smallest.prime_radius * (1.0 - 1e-9));

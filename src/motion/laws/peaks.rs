@@ -53,7 +53,12 @@ impl Curve {
     /// Cj = 8/(a (1 − a)): Ca = 4/(1 − a). That is 4 without a limit of jerk.
     #[must_use]
     pub fn efficiency(&self) -> Option<f64> {
-        let peaks = self.peaks();
+        self.efficiency_of(&self.peaks())
+    }
+
+    /// The same with its peaks.
+    #[must_use]
+    pub fn efficiency_of(&self, peaks: &Peaks) -> Option<f64> {
         let last = self.parts().saturating_sub(1);
         let ends = [self.at(0, 0.0), self.at(last, 1.0)];
         let moves = |order: usize, peak: f64| {
