@@ -3,11 +3,11 @@
 //! Unknowns are λ1, λ2, λ3, δ and a bound t of every extreme of ±π² x''/S. A step solves the linear program of their slopes in a
 //! box, where the limits may be missed at a price; the box shrinks where the step does not keep what it promised.
 
-use super::simplex::{self, Row};
 use super::{Local, SynthesisError, centric, first_order, local, top};
 use crate::linkage::characteristics::characteristics;
 use crate::linkage::power::{Dual, LINKS};
 use crate::linkage::{Branch, DragLink, Linkage, Slider};
+use crate::numeric::simplex::{self, Row};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Price of missing a limit by 1 (of a cosine, a radian, a share of power), in C: above every multiplier met.
@@ -145,7 +145,7 @@ impl Problem {
             rows.push(Row { coefficients, right: high - low });
         }
         let costs = [0.0, 0.0, 0.0, 0.0, 1.0, PRICE];
-        let found = simplex::least(&costs, &rows, &[LINKS, LINKS + 1])?;
+        let found = simplex::least(&costs, &rows, &[LINKS, LINKS + 1])?.unknowns;
         let mut moved =
             found.iter().zip(&room).zip(point.links()).map(|((step, (low, _)), at)| at + width * (step + low));
         let (base, coupler, follower, turn) = (moved.next()?, moved.next()?, moved.next()?, moved.next()?);

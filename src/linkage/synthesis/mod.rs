@@ -6,7 +6,6 @@
 //! δ = 90° + μ0: the bed is nearly harmonic and C falls by about 1/(λ5 + 1) of itself. That rule starts the searches.
 
 mod least;
-mod simplex;
 
 pub use least::{Limits, least};
 

@@ -7,6 +7,7 @@ use super::bernstein::Bernstein;
 use super::expressed::Expressed;
 use super::harmonics::Harmonics;
 use super::local::Local;
+use super::rests::Rests;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -39,6 +40,8 @@ pub(super) enum Part {
     Expressed(Arc<Expressed>),
     /// What the cam does for a load to move as a part.
     Loaded(Arc<Loaded>),
+    /// A polynomial from rest to rest by its jerk.
+    Rests(Arc<Rests>),
 }
 
 /// s + first s' + second s'': the motion of a cam under which an elastic load moves as s, a polydyne cam (D. A. Stoddart, "Polydyne cam
@@ -93,6 +96,7 @@ impl Part {
             Part::Harmonics(harmonics) => [0, 1, 2, 3].map(|order| harmonics.derivative(x, order)),
             Part::Expressed(formula) => formula.at(x),
             Part::Loaded(loaded) => loaded.at(x),
+            Part::Rests(rests) => rests.at(x),
         }
     }
 
@@ -100,7 +104,7 @@ impl Part {
     /// acceleration two.
     pub(super) fn cells(&self) -> u32 {
         match self {
-            Part::Polynomial(_) | Part::Waves { .. } => 64,
+            Part::Polynomial(_) | Part::Waves { .. } | Part::Rests(_) => 64,
             Part::Stretch { .. } => 4,
             Part::Harmonics(_) | Part::Expressed(_) => 32,
             Part::Loaded(loaded) => loaded.load.cells(),
@@ -125,6 +129,7 @@ impl Part {
             Part::Harmonics(harmonics) => harmonics.derivative(x, order),
             Part::Expressed(formula) => formula.derivative(x, order),
             Part::Loaded(loaded) => loaded.derivative(x, order),
+            Part::Rests(rests) => rests.derivative(x, order),
         }
     }
 }

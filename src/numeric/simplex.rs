@@ -9,9 +9,11 @@ const SMALL: f64 = 1e-11;
 
 /// coefficients · x ≤ right.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Row {
-    pub(super) coefficients: Vec<f64>,
-    pub(super) right: f64,
+pub struct Row {
+    /// Of each unknown.
+    pub coefficients: Vec<f64>,
+    /// The right side.
+    pub right: f64,
 }
 
 struct Tableau {
@@ -92,23 +94,34 @@ impl Tableau {
     }
 }
 
+/// Where a linear program is least.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Least {
+    /// The unknowns.
+    pub unknowns: Vec<f64>,
+    /// What the least costs fall by for each unit that the right side of a row grows by; 0 of a row that does not bind.
+    pub prices: Vec<f64>,
+}
+
 /// x ≥ 0 with the least costs · x under the rows; `None` where it is without bound or does not end.
 ///
 /// A row with a negative right side must hold −1 in exactly one of the `elastic` columns, and no row may hold two of them.
-pub(super) fn least(costs: &[f64], rows: &[Row], elastic: &[usize]) -> Option<Vec<f64>> {
+#[must_use]
+pub fn least(costs: &[f64], rows: &[Row], elastic: &[usize]) -> Option<Least> {
     let mut tableau = Tableau::new(costs, rows);
     for column in elastic {
         tableau.relieve(*column);
     }
     for pivot in 0..2 * PIVOTS {
         let Some(column) = tableau.entering(pivot < PIVOTS) else {
-            let mut found = vec![0.0; costs.len()];
+            let mut unknowns = vec![0.0; costs.len()];
             for (row, basic) in tableau.rows.iter().zip(&tableau.basis) {
-                if let Some(place) = found.get_mut(*basic) {
+                if let Some(place) = unknowns.get_mut(*basic) {
                     *place = row.last().copied().unwrap_or(f64::NAN);
                 }
             }
-            return Some(found);
+            let prices = tableau.costs.iter().copied().skip(costs.len()).take(rows.len()).collect();
+            return Some(Least { unknowns, prices });
         };
         let row = tableau.leaving(column)?;
         tableau.pivot(row, column);
@@ -129,7 +142,12 @@ mod tests {
         // Dantzig's book: 3x + 5y largest under x ≤ 4, 2y ≤ 12, 3x + 2y ≤ 18.
         let rows = [row(&[1.0, 0.0], 4.0), row(&[0.0, 2.0], 12.0), row(&[3.0, 2.0], 18.0)];
         let found = least(&[-3.0, -5.0], &rows, &[]).expect("bounded");
-        assert!((found[0] - 2.0).abs() < 1e-14 && (found[1] - 6.0).abs() < 1e-14, "{found:?}");
+        let (at, prices) = (&found.unknowns, &found.prices);
+        assert!((at[0] - 2.0).abs() < 1e-14 && (at[1] - 6.0).abs() < 1e-14, "{found:?}");
+        // The dual of the book: 0, 3/2 and 1.
+        for (price, known) in prices.iter().zip([0.0, 1.5, 1.0]) {
+            assert!((price - known).abs() < 1e-14, "{found:?}");
+        }
         assert_eq!(least(&[-1.0, 0.0], &rows[1..2], &[]), None);
     }
 
@@ -137,7 +155,7 @@ mod tests {
     fn an_epigraph_begins_below() {
         // The least of max(2 − x, x − 1, 0.2 + x/10) over 0 ≤ x ≤ 3 by t ≥ each: x = 1.5, t = 0.5.
         let rows = [row(&[-1.0, -1.0], -2.0), row(&[1.0, -1.0], 1.0), row(&[0.1, -1.0], -0.2), row(&[1.0, 0.0], 3.0)];
-        let found = least(&[0.0, 1.0], &rows, &[1]).expect("bounded");
+        let found = least(&[0.0, 1.0], &rows, &[1]).expect("bounded").unknowns;
         assert!((found[0] - 1.5).abs() < 1e-14 && (found[1] - 0.5).abs() < 1e-14, "{found:?}");
     }
 }
