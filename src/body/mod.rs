@@ -329,6 +329,12 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         found.map_or([Worst::NONE; 2], |(curves, worst)| worst.pressure_angles(curves))
     }
 
+    /// Whether the forces of a motion program are told without the inertia of a mass that is given, since no speed is.
+    fn lacks_inertia(&self) -> bool {
+        let of_program = self.plane().is_some_and(|curves| curves.motion.program().is_some());
+        of_program && self.machine().follower.mass.is_some() && self.shaft_speed().is_none()
+    }
+
     /// Smallest convex radius of what the follower draws, m: 0 at a corner, infinite where nothing is convex; negative where a
     /// profile under a face turns back on itself.
     fn least_radius(&self) -> Worst {

@@ -54,9 +54,12 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     };
     let remedies = if kept { Vec::new() } else { body.stress_remedies(worst.value, limit) };
     let remedy = (!remedies.is_empty()).then(|| format!("{} would keep it", remedies.join(" or ")));
-    let notes: Vec<String> = told.into_iter().chain(remedy).collect();
+    let standing = kept && body.lacks_inertia();
+    let at_rest = standing.then(|| super::force_closure::WITHOUT_INERTIA.to_owned());
+    let notes: Vec<String> = told.into_iter().chain(remedy).chain(at_rest).collect();
     let note = (!notes.is_empty()).then(|| notes.join("; "));
-    Some(at(body, &worst, CHECK.found(1e-6 * worst.value, Some(1e-6 * limit), "MPa", Verdict::of(kept)), note))
+    let verdict = if standing { Verdict::Info } else { Verdict::of(kept) };
+    Some(at(body, &worst, CHECK.found(1e-6 * worst.value, Some(1e-6 * limit), "MPa", verdict), note))
 }
 
 /// What a customary limit is for.

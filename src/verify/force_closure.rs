@@ -20,6 +20,9 @@ pub(super) const CHECK: Check = Check {
     run: check,
 };
 
+/// What is told of forces without a speed.
+pub(super) const WITHOUT_INERTIA: &str = "at rest: without motion.rpm or --rpm the inertia of the follower is left out";
+
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
     let Some(least) = body.least_closing_force() else {
@@ -49,5 +52,8 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     };
     let holding = || body.preload_that_holds(1.0).unwrap_or_else(own);
     let note = (!kept).then(|| format!("the {part} leaves the cam; {} would hold it", holding()));
-    Some(at(body, &least, CHECK.found(force, Some(0.0), "N", Verdict::of(kept)), note))
+    let standing = kept && body.lacks_inertia();
+    let note = note.or_else(|| standing.then(|| WITHOUT_INERTIA.into()));
+    let verdict = if standing { Verdict::Info } else { Verdict::of(kept) };
+    Some(at(body, &least, CHECK.found(force, Some(0.0), "N", verdict), note))
 }

@@ -14,6 +14,8 @@ use std::f64::consts::TAU;
 const CELLS: u32 = 128;
 /// Panels of a stretch over which the torque is integrated: 1e-15 of ten half waves.
 const PANELS: u32 = 16;
+/// The same of a torque with kinks: 1e-7 of it.
+const KINKED_PANELS: u32 = 256;
 /// Panels of a piece over which the spin of a roller is integrated.
 const SPIN_PANELS: u32 = 24;
 
@@ -81,7 +83,9 @@ impl Disc {
         let all: Vec<(usize, (f64, f64))> = pieces
             .flat_map(|(index, piece)| stretches(piece, &acting).into_iter().map(move |of| (index, of)))
             .collect();
-        let work = |of: &(usize, (f64, f64))| quadrature::integrate(|at| torque(of.0, at), of.1, PANELS);
+        // The friction of a guide has kinks where a bearing changes sides.
+        let panels = if self.own.guide.is_some() { KINKED_PANELS } else { PANELS };
+        let work = |of: &(usize, (f64, f64))| quadrature::integrate(|at| torque(of.0, at), of.1, panels);
         let turn: f64 = all.iter().map(|(_, (from, to))| to - from).sum();
         let mean = all.iter().map(work).sum::<f64>() / turn;
         // A conservative follower gives everything back: what is left of the sum is rounding.
@@ -92,7 +96,7 @@ impl Disc {
         for (piece, range) in all {
             for part in crossings(&|at| torque(piece, at) - mean, range).windows(2) {
                 let &[from, to] = part else { continue };
-                sum += quadrature::integrate(|at| torque(piece, at) - mean, (from, to), PANELS);
+                sum += quadrature::integrate(|at| torque(piece, at) - mean, (from, to), panels);
                 (low, high) = (low.min(sum), high.max(sum));
             }
         }
@@ -190,6 +194,9 @@ impl Disc {
             )
         });
         words.extend(force);
+        if told.contact_force_min_n <= 0.0 {
+            words.push("the follower leaves the cam: torque, power and work are as if it were held on it".into());
+        }
         words
     }
 }

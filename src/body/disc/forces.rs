@@ -28,6 +28,9 @@ pub(super) struct Own {
     pub(super) vibration: Arc<std::sync::OnceLock<Option<super::Vibration>>>,
 }
 
+/// Of the force along the normal, what is borne along the path without any friction.
+const ALL: f64 = 1.0;
+
 /// Cells of a piece in which its velocity may change sign once each.
 const CELLS: u32 = 64;
 
@@ -153,7 +156,11 @@ impl Disc {
     /// As [`Body::guide_share`].
     pub(super) fn least_guide_share(&self) -> Option<Worst> {
         let (guide, curves) = (self.own.guide?, self.curves());
-        let share = |piece: usize, angle: f64| -self.share_borne(&guide, (piece, angle), &curves.contact(piece, angle));
+        // Where the follower goes down friction helps it off the cam, and nothing jams.
+        let share = |piece: usize, angle: f64| {
+            let borne = || self.share_borne(&guide, (piece, angle), &curves.contact(piece, angle));
+            if self.is_lowered(piece, angle) { -ALL } else { -borne() }
+        };
         let least = self.largest_force(share);
         Some(Worst { value: -least.value, ..least })
     }

@@ -27,6 +27,7 @@ pub use curve::{Curve, Values};
 pub use entire::{expressed, series};
 pub use peaks::Peaks;
 pub use spectrum::Spectrum;
+pub(in crate::motion) use spectrum::residual_peak;
 pub use task::{End, Inflection, LawError, Parameters, Task};
 
 /// How a law is solved: the families.

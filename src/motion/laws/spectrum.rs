@@ -5,8 +5,7 @@
 
 use super::curve::{Curve, Part};
 use super::local::Local;
-use crate::numeric::chebyshev;
-use crate::numeric::extremum::Extremum;
+use crate::numeric::extremum::{self, Extremum};
 use crate::numeric::legendre::{Series, sinc};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
@@ -71,6 +70,20 @@ fn of_local(local: &Local, (low, high): (f64, f64), late: bool, terms: &mut Vec<
     }
 }
 
+/// Places between which residuals over a range of ratios are looked at first, for none and for each natural period: a residual has a
+/// lobe for each.
+const CELLS: (f64, f64) = (64.0, 8.0);
+const MOST_CELLS: f64 = 4096.0;
+/// Lobes that are followed to their tops.
+const LOBES: usize = 3;
+
+/// The largest residual over a range in which a movement takes so many natural periods.
+pub(in crate::motion) fn residual_peak(residual: impl Fn(f64) -> f64, range: (f64, f64), periods: f64) -> Extremum {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few thousand at the most")]
+    let cells = (CELLS.0 + CELLS.1 * periods.abs()).min(MOST_CELLS) as u32;
+    extremum::largest_of_hills(residual, range, (cells, LOBES), extremum::TO_ROUNDING)
+}
+
 impl Curve {
     /// Its acceleration for Fourier integrals.
     #[must_use]
@@ -108,12 +121,7 @@ impl Curve {
     #[must_use]
     pub fn largest_residual(&self, ratios: Range<f64>) -> Extremum {
         let spectrum = self.spectrum();
-        let square = |ratio: f64| {
-            let residual = self.residual_of(&spectrum, ratio);
-            residual * residual
-        };
-        let found = chebyshev::largest(square, (ratios.start, ratios.end), 0.0);
-        Extremum { value: found.value.sqrt(), ..found }
+        residual_peak(|ratio| self.residual_of(&spectrum, ratio), (ratios.start, ratios.end), ratios.end)
     }
 }
 

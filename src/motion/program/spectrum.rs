@@ -5,8 +5,7 @@
 //! frequency ω_n swings by |∫|/κ behind it.
 
 use super::{Program, Segment};
-use crate::motion::laws::Spectrum;
-use crate::numeric::chebyshev;
+use crate::motion::laws::{Spectrum, residual_peak};
 use crate::numeric::extremum::Extremum;
 use crate::numeric::quadrature;
 use nalgebra::Complex;
@@ -96,12 +95,7 @@ impl Movement {
     /// The largest of these over a range of frequencies, and where.
     #[must_use]
     pub fn largest_residual(&self, frequencies: (f64, f64)) -> Extremum {
-        let square = |frequency: f64| {
-            let residual = self.residual(frequency);
-            residual * residual
-        };
-        let found = chebyshev::largest(square, frequencies, 0.0);
-        Extremum { value: found.value.sqrt(), ..found }
+        residual_peak(|frequency| self.residual(frequency), frequencies, self.periods(frequencies.1))
     }
 
     /// How many natural periods it takes.
