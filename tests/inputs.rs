@@ -49,6 +49,9 @@ fn lifter_for(sets: &[String]) -> String {
     match key {
         "formula" => of_law("formula"),
         "points" => of_law("spline"),
+        "minimise" => LIFTER.replacen("\"3-4-5\"", "\"polynomial\"\ndegree = 9", 1),
+        "degree" => of_law("polynomial\"\nminimise = \"peak-acceleration"),
+        "ratio" | "robust" => of_law("polynomial\"\ndegree = 11\nratio = 2.5\nminimise = \"residual"),
         "table" => of_law("table"),
         "ends" => of_law("table\"\ntable = \"law0.csv"),
         "until" => LIFTER.replacen("over =", "until =", 1),
@@ -156,7 +159,9 @@ fn another(key: &Key, share: f64, index: u32) -> String {
         }
         Form::Columns if example.contains("lift") => format!("turn{index}.csv"),
         Form::Columns => format!("law{index}.csv"),
-        Form::Number(_) if key.name == "degree" => "3".to_owned(),
+        Form::Number(_) if key.name == "degree" && key.presence.text() == "5" => "3".to_owned(),
+        Form::Number(_) if key.name == "degree" => (8 + index).to_string(),
+        Form::Number(_) if key.name == "ratio" => (2.0 + share).to_string(),
         Form::Text if key.name == "inflection" => share.min(0.9).to_string(),
         Form::Numbers(_) if key.name == "fractions" => format!("[{0}, {0}, {0}, {1}]", 0.1 * share, 1.0 - 0.3 * share),
         Form::Numbers(_) if key.name == "amplitudes" => format!("[7, {share}, -2]"),

@@ -479,3 +479,69 @@ fn a_polydyne_cam_needs_a_smooth_motion() {
         assert!(run.err.contains(part) && run.err.contains("cam.toml:"), "{}", run.err);
     }
 }
+
+/// A rise by an optimum: the report names it, and its peak is the known one; without vibration at a ratio nothing is left there.
+#[test]
+fn an_optimum_is_told_with_what_it_makes_least() {
+    let of = |keys: &str| {
+        let optimum = format!("law = \"polynomial\"\n{keys}");
+        told(&in_one(&format!(
+            "[[motion.segment]]\n{optimum}\nover = \"120 deg\"\nto = \"20 mm\"\n[[motion.segment]]\nto = \"0 mm\""
+        )))
+    };
+    let report = of("degree = 9\nminimise = \"peak-acceleration\"");
+    let rise = &report["motion"]["segments"][0];
+    let known = 4.657_472_844_813_795 * 20.0 / (120.0_f64.to_radians() * 120.0_f64.to_radians());
+    assert!((number(&rise["peaks"]["acceleration"]) - known).abs() < 1e-12, "{rise}");
+    assert_eq!((&rise["law"], &rise["minimise"]), (&Value::from("polynomial"), &Value::from("peak-acceleration")));
+    assert_eq!((number(&rise["degree"]), &rise["ratio"]), (9.0, &Value::Null));
+    assert_eq!(report["motion"]["segments"][1]["degree"], Value::Null);
+    let calm = of("degree = 11\nminimise = \"residual\"\nratio = 2.5\nrobust = true");
+    let rise = &calm["motion"]["segments"][0];
+    assert_eq!((&rise["minimise"], number(&rise["ratio"])), (&Value::from("residual"), 2.5));
+    assert_eq!(rise["robust"], Value::from(true));
+}
+
+#[test]
+fn what_is_wrong_with_an_optimum_is_told() {
+    let least = "minimise = \"peak-jerk\"";
+    for (keys, parts) in [
+        ("law = \"3-4-5\"\ndegree = 9\nminimise = \"peak-jerk\"".to_owned(), &["not of 3-4-5", "give law"][..]),
+        (format!("law = \"polynomial\"\n{least}"), &["`minimise` needs `degree`", "e.g. degree = 9"]),
+        (format!("law = \"polynomial\"\ndegree = 6\n{least}"), &["degree", "7", "15"]),
+        (format!("law = \"polynomial\"\ndegree = 8.5\n{least}"), &["`degree` cannot be 8.5"]),
+        ("law = \"polynomial\"\ndegree = 9".into(), &["`degree` is of a polynomial with `minimise`", "add minimise"]),
+        (
+            format!("law = \"polynomial\"\ndegree = 9\nvelocity = \"1 mm/deg\"\n{least}"),
+            &["an optimum leads from rest to rest", "take the states away"],
+        ),
+        (
+            format!("law = \"polynomial\"\ndegree = 9\nvelocity = \"auto\"\n{least}"),
+            &["an optimum leads from rest to rest"],
+        ),
+        (format!("law = \"polynomial\"\ndegree = 9\nend = \"turn\"\n{least}"), &["an optimum leads from rest to rest"]),
+        (format!("law = \"polynomial\"\ndegree = 9\nratio = 2\n{least}"), &["`ratio` is of minimise = \"residual\""]),
+        (
+            "law = \"polynomial\"\ndegree = 9\nminimise = \"residual\"".into(),
+            &["minimise = \"residual\" needs `ratio`", "e.g. ratio = 2.5"],
+        ),
+        (
+            "law = \"polynomial\"\ndegree = 8\nminimise = \"residual\"\nratio = 2\nrobust = true".into(),
+            &["degree 8 has too few coefficients for `robust`", "raise `degree`"],
+        ),
+        (
+            "law = \"polynomial\"\ndegree = 7\nminimise = \"residual\"\nratio = 0.1".into(),
+            &["free of vibration at the ratio 0.1", "raise `degree`"],
+        ),
+    ] {
+        let text = in_one(&format!(
+            "[[motion.segment]]\n{keys}\nover = \"120 deg\"\nto = \"20 mm\"\n[[motion.segment]]\nto = \"0 mm\""
+        ));
+        let run = run(&text, &[]);
+        assert_eq!(run.code, 2, "{keys}: {}{}", run.out, run.err);
+        for part in parts {
+            assert!(run.err.contains(part), "no {part:?} in\n{}", run.err);
+        }
+        assert!(run.err.contains("cam.toml:"), "{}", run.err);
+    }
+}

@@ -258,6 +258,10 @@ const OTHERS: &[(&str, &str)] = &[
     ("motion.segment[0].points", "[[30 deg, 4 mm], [60 deg, 16 mm]]"),
     ("motion.segment[0].table", "other-law.csv"),
     ("motion.segment[0].ends", "rest"),
+    ("motion.segment[0].minimise", "peak-jerk"),
+    ("motion.segment[0].degree", "11"),
+    ("motion.segment[0].ratio", "3.7"),
+    ("motion.segment[0].robust", "true"),
     ("follower.roller.radius", "25 mm"),
     ("follower.roller.offset", "5 mm"),
     ("follower.roller.mass", "40 kg"),
@@ -461,6 +465,10 @@ fn motion_for(path: &str) -> String {
         "points" | "degree" => {
             form("points = [[\"0 deg\", \"0 mm\"], [\"90 deg\", \"9 mm\"], [\"180 deg\", \"3 mm\"]]")
         }
+        "minimise" | "degree" if path.starts_with("motion.segment") => {
+            of_law("polynomial\"\ndegree = 9\nminimise = \"peak-acceleration")
+        }
+        "ratio" | "robust" => of_law("polynomial\"\ndegree = 9\nratio = 2.5\nminimise = \"residual"),
         "table" | "ends" if path.starts_with("motion.segment") => of_law("table\"\ntable = \"law.csv"),
         "table" => form("table = \"lift.csv\""),
         "natural_frequency" | "damping" | "rpm" if path.starts_with("motion.polydyne") => {

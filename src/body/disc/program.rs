@@ -3,6 +3,7 @@
 use super::Disc;
 use crate::geometry::MILLIMETRES;
 use crate::motion::Quantity;
+use crate::motion::laws::optimum::{Least, Optimum};
 use crate::motion::program::SegmentTold;
 use crate::report::{Section, shown};
 use serde::Serialize;
@@ -20,7 +21,38 @@ struct Segment {
     lowest: f64,
     highest: f64,
     overshoot: f64,
+    #[serde(flatten)]
+    optimum: Option<Optimal>,
     peaks: Peaks,
+}
+
+/// Of a polynomial that makes something least.
+#[derive(Debug, Serialize)]
+struct Optimal {
+    degree: u32,
+    minimise: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ratio: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robust: Option<bool>,
+}
+
+impl Optimal {
+    fn of(optimum: &Optimum) -> Self {
+        let (ratio, robust) = if let Least::Residual { ratio, robust } = optimum.least {
+            (Some(ratio), Some(robust))
+        } else {
+            (None, None)
+        };
+        Self { degree: optimum.degree, minimise: optimum.least.name(), ratio, robust }
+    }
+
+    /// Behind the name of the law.
+    fn words(&self) -> String {
+        let ratio = self.ratio.map_or(String::new(), |ratio| format!(" at the ratio {}", shown(ratio)));
+        let robust = if self.robust == Some(true) { ", robust" } else { "" };
+        format!(" of degree {} with the least {}{ratio}{robust}", self.degree, self.minimise)
+    }
 }
 
 /// Largest sizes and where they are; `None` of a jerk without bound.
@@ -79,6 +111,7 @@ fn segment(told: &SegmentTold, size: f64, speed: Option<f64>) -> Segment {
         lowest: size * told.range.0,
         highest: size * told.range.1,
         overshoot: size * told.overshoot,
+        optimum: told.optimum.as_ref().map(Optimal::of),
         peaks: Peaks {
             velocity: velocity.0,
             velocity_at_deg: velocity.1,
@@ -137,8 +170,9 @@ fn at_speed(segments: &[Segment], unit: &str) -> Option<String> {
 }
 
 fn line(segment: &Segment, told: &SegmentTold, unit: &str) -> String {
-    let Segment { law, class, from_deg, to_deg, from, to, overshoot, peaks, .. } = segment;
-    let mut text = format!("{} to {}° {law}", shown(*from_deg), shown(*to_deg));
+    let Segment { law, class, from_deg, to_deg, from, to, overshoot, optimum, peaks, .. } = segment;
+    let least = optimum.as_ref().map_or(String::new(), Optimal::words);
+    let mut text = format!("{} to {}° {law}{least}", shown(*from_deg), shown(*to_deg));
     if told.peaks[0].0 == 0.0 {
         return format!("{text} at {} {unit}", shown(*from));
     }

@@ -273,7 +273,6 @@ mod tests {
                     Least::RmsAcceleration => (peaks.square, 12.0),
                     _ => (peaks.acceleration.value, 4.0),
                 };
-                println!("{least:?} {degree} {found}");
                 assert!(found <= before * (1.0 + 1e-13) && found > bound, "{least:?} {degree}: {found} {before}");
                 before = found;
             }

@@ -232,6 +232,30 @@ pub(super) const ENDS: Field<spline::Ends> = Field::words(
     &["free", "rest"],
     &[spline::Ends::Free, spline::Ends::Rest],
 );
+pub(super) const MINIMISE: Field<Goal> = Field::words(
+    "minimise",
+    "of the law \"polynomial\" from rest to rest: what its coefficients make least; residual is the peak acceleration without vibration behind the segment",
+    Optional("peak-acceleration"),
+    &["peak-acceleration", "peak-jerk", "rms-acceleration", "residual"],
+    &[Goal::PeakAcceleration, Goal::PeakJerk, Goal::RmsAcceleration, Goal::Residual],
+);
+pub(super) const OF_OPTIMUM: Field<f64> = Field::number(
+    "degree",
+    "of a polynomial with minimise, a whole number from 7; an even one is no better than the odd one below",
+    Optional("9"),
+    within(7.0, 15.0),
+);
+pub(super) const RATIO: Field<f64> = Field::number(
+    "ratio",
+    "of minimise = \"residual\": natural periods of the load that the segment takes",
+    Optional("2.5"),
+    within(0.1, 100.0),
+);
+pub(super) const ROBUST: Field<bool> = Field::boolean(
+    "robust",
+    "of minimise = \"residual\": little vibration beside the ratio too; degree 9 or more",
+    Default("false"),
+);
 
 /// `[[motion.segment]]`.
 pub(crate) const SEGMENT: Section = Section {
@@ -258,6 +282,10 @@ pub(crate) const SEGMENT: Section = Section {
         INNER.key,
         SHARES.key,
         ENDS.key,
+        MINIMISE.key,
+        OF_OPTIMUM.key,
+        RATIO.key,
+        ROBUST.key,
     ],
 };
 
@@ -267,4 +295,13 @@ pub(super) enum EndOf {
     Rest,
     Turn,
     Moving,
+}
+
+/// What a polynomial is said to make least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Goal {
+    PeakAcceleration,
+    PeakJerk,
+    RmsAcceleration,
+    Residual,
 }

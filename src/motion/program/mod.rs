@@ -6,6 +6,7 @@
 mod forms;
 mod joined;
 pub(crate) mod keys;
+mod optimum;
 mod polydyne;
 pub(crate) mod read;
 mod spectrum;
@@ -16,6 +17,7 @@ pub use polydyne::Polydyne;
 pub use spectrum::{Harmonics, Movement};
 pub use told::{Class, Jump, SegmentTold};
 
+use super::laws::optimum::Optimum;
 use super::laws::{self, Curve, End, Inflection, Law, LawError, Parameters, Task, polynomial};
 use super::{Jet, Motion, Piece, Quantity};
 use crate::numeric::extremum;
@@ -92,6 +94,8 @@ pub enum Mover {
     Spline(Vec<[f64; 2]>),
     /// A curve of its own from 0 to 1, and what its law is called.
     Own(&'static str, Curve),
+    /// The polynomial from rest to rest that makes something least.
+    Optimum(Optimum, Curve),
 }
 
 impl Mover {
@@ -100,10 +104,15 @@ impl Mover {
         match self {
             Mover::Dwell => keys::DWELL,
             Mover::Law(law, ..) | Mover::Matching(law, _) => law.name,
-            Mover::Polynomial => keys::POLYNOMIAL,
+            Mover::Polynomial | Mover::Optimum(..) => keys::POLYNOMIAL,
             Mover::Spline(_) => keys::SPLINE,
             Mover::Own(name, _) => name,
         }
+    }
+
+    /// What its curve makes least.
+    fn optimum(&self) -> Option<Optimum> {
+        if let Mover::Optimum(optimum, _) = self { Some(*optimum) } else { None }
     }
 }
 
@@ -157,6 +166,9 @@ pub enum StepError {
     /// A jerk is given where a spline has its own.
     #[error("beside a spline or a state that is \"auto\" the jerk follows: leave `jerk` out")]
     JerkOfSpline,
+    /// An end of an optimum moves.
+    #[error("an optimum leads from rest to rest; an end of this one has a velocity, an acceleration, a jerk or a turn")]
+    OptimumMoves,
 }
 
 /// A segment between two positions.
@@ -177,6 +189,8 @@ struct Segment {
     ends: [State; 2],
     /// It is the whole motion, given in one.
     whole: bool,
+    /// What its curve makes least.
+    optimum: Option<Optimum>,
 }
 
 /// What a piece of the motion is: parts of the curve of a segment.
@@ -221,8 +235,10 @@ impl Program {
             let to = if law.is_some() { *to } else { position };
             let (width, travel, ends) = (end - angle, to - position, [State::default(); 2]);
             let (curve, name) = (law.map(curve), law.map_or(keys::DWELL, |law| law.name));
-            let whole = false;
-            program.add(Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole }, end);
+            let (whole, optimum) = (false, None);
+            let segment =
+                Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
+            program.add(segment, end);
             (angle, position) = (end, to);
         }
         program.finished()
@@ -239,6 +255,7 @@ impl Program {
     ) -> Result<Self, (usize, StepError)> {
         let mut program = Self::empty(quantity, lobes.max(1));
         let whole = TAU / f64::from(lobes.max(1));
+        optimum::check(steps)?;
         let (steps, joined) = joined::solved(start, steps)?;
         let curves = solved(start, &steps, joined)?;
         let (mut angle, mut position) = (at, start);
@@ -247,7 +264,9 @@ impl Program {
             let end = if index + 1 == steps.len() { at + whole } else { angle + step.over };
             let ends = [before, step.end];
             let (name, width, to) = (step.mover.name(), end - angle, step.to);
-            let segment = Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole: false };
+            let (whole, optimum) = (false, step.mover.optimum());
+            let segment =
+                Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
             program.add(segment, end);
             (angle, position, before) = (end, step.to, step.end);
         }
@@ -268,8 +287,9 @@ impl Program {
             ..State::default()
         };
         let (curve, ends) = (Some(curve), [state; 2]);
-        program
-            .add(Segment { curve, name, start: at, width, from, travel: 1.0, to: from, ends, whole: true }, at + width);
+        let (travel, to, whole, optimum) = (1.0, from, true, None);
+        let segment = Segment { curve, name, start: at, width, from, travel, to, ends, whole, optimum };
+        program.add(segment, at + width);
         program.repeat(width);
         program.finished()
     }
@@ -420,11 +440,12 @@ fn one(
     let (travel, width) = (step.to - from, step.over);
     if !matches!(step.mover, Mover::Dwell | Mover::Polynomial | Mover::Spline(_)) && !(travel.abs() > NO_TRAVEL * size)
     {
-        return Err(StepError::NoTravel { law: step.mover.name() });
+        let law = if step.mover.optimum().is_some() { "an optimum" } else { step.mover.name() };
+        return Err(StepError::NoTravel { law });
     }
     let (law, inflection, parameters) = match &step.mover {
         Mover::Dwell => return Ok((None, 0.0)),
-        Mover::Own(_, curve) => return Ok((Some(curve.clone()), travel)),
+        Mover::Own(_, curve) | Mover::Optimum(_, curve) => return Ok((Some(curve.clone()), travel)),
         Mover::Polynomial | Mover::Spline(_) => {
             let (first, last) = (begin.conditions(0.0, width), step.end.conditions(travel, width));
             return Ok((Some(polynomial::hermite(&first, &last)), 1.0));

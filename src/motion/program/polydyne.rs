@@ -80,7 +80,8 @@ fn loaded(segment: &Segment, load: Polydyne) -> Segment {
         }
     });
     let to = segment.from + segment.travel * curve.at(last, 1.0)[0];
-    Segment { curve: Some(curve), ends, to: if segment.whole { segment.from } else { to }, ..segment.clone() }
+    let to = if segment.whole { segment.from } else { to };
+    Segment { curve: Some(curve), ends, to, ..segment.clone() }
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! The tables `[motion]` and `[[motion.segment]]`.
 
 use super::keys::{
-    ACCELERATION, AMPLITUDES, AT, BY, DWELL, END, EXPRESSED, EndOf, FRACTIONS, INFLECTION, JERK, LAW, LINE, OVER,
-    POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO, UNTIL, USUAL, VELOCITY,
+    ACCELERATION, AMPLITUDES, AT, BY, DWELL, END, EXPRESSED, EndOf, FRACTIONS, INFLECTION, JERK, LAW, LINE, MINIMISE,
+    OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO, UNTIL, USUAL, VELOCITY,
 };
 use super::{Mover, Program, State, Step, StepError};
-use super::{forms, polydyne};
+use super::{forms, optimum, polydyne};
 use crate::document::similar;
 use crate::document::{Field, LengthOrAngle, Reader, Table};
 use crate::motion::Quantity;
@@ -88,6 +88,12 @@ fn as_given(reader: &Reader<'_>) -> Option<Program> {
                 _ if of_inflection => &INFLECTION,
                 StepError::NothingToJoin { .. } => &VELOCITY,
                 StepError::JerkOfSpline => &JERK,
+                StepError::OptimumMoves => {
+                    let help =
+                        "take the states away, or `minimise`: a polynomial without it takes the states at its ends";
+                    segment.fail(&MINIMISE, error.to_string(), Some(help.into()));
+                    return None;
+                }
                 StepError::Law(LawError::Parameter { name, .. }) => {
                     tell_of_own(segment, name, &error);
                     return None;
@@ -215,7 +221,8 @@ fn step(segment: &Table<'_>, whole: Whole, (position, sum, last): (f64, f64, boo
 fn own_end(curve: &laws::Curve) -> [f64; 2] {
     let (last, peaks) = (curve.at(curve.parts().saturating_sub(1), 1.0), curve.peaks());
     let sizes = [(last[1], peaks.velocity.value), (last[2], peaks.acceleration.value)];
-    sizes.map(|(value, size)| if value.abs() > super::ROUNDING * size { value } else { 0.0 })
+    // Of a straight line even the peak of the acceleration is rounding.
+    sizes.map(|(value, size)| if value.abs() > super::ROUNDING * size.max(1.0) { value } else { 0.0 })
 }
 
 /// A fault that the user has been told.
@@ -335,6 +342,9 @@ fn state(segment: &Table<'_>, whole: Whole) -> Option<State> {
 /// What moves a segment.
 fn mover(segment: &Table<'_>, whole: Whole) -> Option<Mover> {
     let name = if segment.has(&LAW) { segment.get(&LAW)? } else { USUAL.to_owned() };
+    if let Some(mover) = optimum::read(segment, &name)? {
+        return Some(mover);
+    }
     if name.eq_ignore_ascii_case(DWELL) {
         return Some(Mover::Dwell);
     }

@@ -2,6 +2,7 @@
 
 use super::{Program, State};
 use crate::motion::Motion;
+use crate::motion::laws::optimum::Optimum;
 
 /// How a segment begins or ends (VDI 2143).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +60,8 @@ pub struct SegmentTold {
     pub peaks: [(f64, f64); 3],
     /// Whether its acceleration keeps one sign in two humps.
     pub humps: bool,
+    /// What its polynomial makes least, where it does.
+    pub optimum: Option<Optimum>,
 }
 
 /// A jump of less than this share of the largest is rounding.
@@ -140,6 +143,7 @@ fn told(segment: &super::Segment) -> SegmentTold {
         whole: segment.whole,
         peaks: [(0.0, angles.0); 3],
         humps: false,
+        optimum: segment.optimum,
     };
     let Some(curve) = &segment.curve else { return rest };
     let peaks = curve.peaks();

@@ -21,6 +21,7 @@ impl Program {
                 changed = true;
                 if segment.name != law.name {
                     (segment.curve, segment.travel, segment.name) = (Some(curve.clone()), travel, law.name);
+                    segment.optimum = None;
                 }
             }
             other.add(segment, end);
