@@ -508,7 +508,7 @@ fn what_is_wrong_with_an_optimum_is_told() {
     for (keys, parts) in [
         ("law = \"3-4-5\"\ndegree = 9\nminimise = \"peak-jerk\"".to_owned(), &["not of 3-4-5", "give law"][..]),
         (format!("law = \"polynomial\"\n{least}"), &["`minimise` needs `degree`", "e.g. degree = 9"]),
-        (format!("law = \"polynomial\"\ndegree = 6\n{least}"), &["degree", "7", "15"]),
+        (format!("law = \"polynomial\"\ndegree = 6\n{least}"), &["degree", "at least 7"]),
         (format!("law = \"polynomial\"\ndegree = 8.5\n{least}"), &["`degree` cannot be 8.5"]),
         ("law = \"polynomial\"\ndegree = 9".into(), &["`degree` is of a polynomial with `minimise`", "add minimise"]),
         (

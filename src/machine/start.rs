@@ -28,6 +28,9 @@ law = \"dwell\"                         # without over: the rest of the turn
 # Every key of a segment, with examples:
 ";
 
+/// A follower whose pressure angle does not depend on the cam.
+const FLAT: &str = "follower.flat";
+
 /// Keys of a motion program that may be absent, and without which there is no solid.
 const GIVEN: [&str; 3] = ["motion.rpm", "cam.thickness", "cam.bore_radius"];
 
@@ -73,7 +76,11 @@ pub fn template_of_program(follower: &str) -> Option<String> {
     let of_make = |section: &&Section| section.cams.is_empty() || section.cams.contains(&cams::MAKE);
     let body: Vec<&Section> =
         std::iter::once(kind.section).chain(BODY_TABLES.iter().copied().filter(of_make)).collect();
-    let body = written("", &body, &[kind.section.path]);
+    let mut body = written("", &body, &[kind.section.path]);
+    if swings || kind.section.path == FLAT {
+        // The limit that the key shows is that of a roller on a straight path.
+        body = body.replace("\npressure_angle = ", "\n# pressure_angle = ");
+    }
     Some([head, program, without_head(&segment), without_head(&body)].concat())
 }
 

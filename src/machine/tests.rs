@@ -462,11 +462,11 @@ fn motion_for(path: &str) -> String {
         "points" if path.starts_with("motion.segment") => {
             MOTION.replacen("over", "law = \"spline\"\npoints = [[\"50 deg\", \"5 mm\"]]\nover", 1)
         }
-        "points" | "degree" => {
-            form("points = [[\"0 deg\", \"0 mm\"], [\"90 deg\", \"9 mm\"], [\"180 deg\", \"3 mm\"]]")
-        }
         "minimise" | "degree" if path.starts_with("motion.segment") => {
             of_law("polynomial\"\ndegree = 9\nminimise = \"peak-acceleration")
+        }
+        "points" | "degree" => {
+            form("points = [[\"0 deg\", \"0 mm\"], [\"90 deg\", \"9 mm\"], [\"180 deg\", \"3 mm\"]]")
         }
         "ratio" | "robust" => of_law("polynomial\"\ndegree = 9\nratio = 2.5\nminimise = \"residual"),
         "table" | "ends" if path.starts_with("motion.segment") => of_law("table\"\ntable = \"law.csv"),

@@ -62,7 +62,9 @@ fn scaled((coefficients, right): &(Vec<f64>, f64)) -> Option<(Vec<f64>, f64)> {
 /// Makes a pivot 1, and everything else in its column 0.
 fn eliminate(rows: &mut [(Vec<f64>, f64)], row: usize, column: usize, pivot: f64) {
     let Some((coefficients, right)) = rows.get_mut(row) else { return };
-    coefficients.iter_mut().for_each(|value| *value /= pivot);
+    for value in coefficients.iter_mut() {
+        *value /= pivot;
+    }
     *right /= pivot;
     let (own, right) = (coefficients.clone(), *right);
     for (_, (others, other)) in rows.iter_mut().enumerate().filter(|(index, _)| *index != row) {

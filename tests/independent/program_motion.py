@@ -1,12 +1,13 @@
 """Motion programs of `camgen make` from the specification alone: quantities, laws, segments, jets and jumps.
 
 A law is a pattern of its acceleration, integrated piece by piece and scaled to its ends by two linear conditions, or a textbook formula, or
-the polynomial of its end conditions. mm and rad.
+the polynomial of its end conditions; splines, tables and formulas of their own are those of program_spline. mm and rad.
 """
 import math
 import re
 
 import numpy as np
+from program_spline import Driven, Formula, Interval, Joined, periodic, solved, through_table
 
 PI, TAU = math.pi, 2 * math.pi
 LENGTHS = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "in": 25.4, "m": 1000.0}
@@ -24,7 +25,7 @@ class Piece:
         self.low, self.high, self.ref = low, high, low if ref is None else ref
         self.waves = list(waves)
         self.coefficients = [[float(c) for c in coefficients]]
-        for _ in range(4):
+        for _ in range(6):
             self.coefficients.append([k * c for k, c in enumerate(self.coefficients[-1])][1:])
 
     def at(self, x, order):
@@ -245,6 +246,16 @@ def matched(curve, kinds, wanted):
 # ---------------------------------------------------------------- programs
 
 
+STILL = {"auto": set(), "v": 0.0, "a": 0.0, "j": None, "turn": False}
+# Laws that are not named but given.
+OWN = ("spline", "formula", "table")
+
+
+def read_table(text):
+    """Columns of a table."""
+    return np.array([[float(cell) for cell in re.split(r"[,;\s]+", line.strip())] for line in text.split("\n") if re.match(r"\s*[-+.0-9]", line)]).T
+
+
 def quantity(text):
     number, unit = re.fullmatch(r"\s*([-+0-9.eE]*[0-9.])\s*([a-z]+)\s*", text).groups()
     return float(number) * (LENGTHS | ANGLES)[unit]
@@ -265,18 +276,25 @@ class Segment:
 
     def __init__(self, law, start, width, source, begin, to, state):
         self.law, self.start, self.width, self.source, self.begin, self.to, self.state = law, start, width, source, begin, to, state
-        self.pieces, self.scale = [], 0.0
+        self.pieces, self.scale, self.whole = [], 0.0, False
 
 
 class Program:
     """Reads `[motion]` as the specification says and solves every segment."""
 
-    def __init__(self, motion, segments):
+    def __init__(self, motion, segments, files=None):
+        self.files = files or {}
         self.omega = motion["rpm"] * TAU / 60 if "rpm" in motion else None
         self.first, self.at = quantity(motion["start"]), quantity(motion.get("at", "0 deg"))
         self.lobes = motion.get("repeat", 1)
         self.fill = TAU / self.lobes
-        self.segments = []
+        self.segments, self.noise, self.driven, self.near = [], np.zeros(5), "polydyne" in motion, False
+        forms = [key for key in ("formula", "points", "table", "fourier") if key in motion]
+        if forms:
+            self.whole(forms[0], motion)
+            self.drive(motion)
+            self.finish()
+            return
         angle, position = 0.0, self.first
         for index, given in enumerate(segments):
             segment = self.read(given, index + 1 == len(segments), angle, position)
@@ -289,19 +307,92 @@ class Program:
             raise Illegal("return")
         self.size = size
         self.solve()
+        self.drive(motion)
+        self.finish()
+
+    def finish(self):
+        """Parts, and where the position is lowest."""
+        self.parts = []
+        for segment in self.segments:
+            for piece in segment.pieces:
+                self.parts.append((segment.start + piece.low * segment.width, segment.start + piece.high * segment.width, segment, piece))
         self.ends = np.array([high for _, high, _, _ in self.parts])
         low, _ = self.extreme(lambda i, t: -self.jet(i, t, 0)[0])
         self.lowest = -low
 
+    def whole(self, form, motion):
+        """A formula, series, points or table over the turn or lobe."""
+        unit = (LENGTHS | ANGLES)[motion["start"].split()[-1]]
+        segment = Segment(form, self.at, self.fill, {}, self.first, self.first, STILL)
+        segment.scale, segment.whole = 1.0, True
+        if form == "formula":
+            segment.pieces = [Formula(motion["formula"], "th", 0.0, self.fill, 0.25 / (3 * self.lobes), unit)]
+        elif form == "fourier":
+            waves = [(a * unit, TAU * k, PI / 2) for k, a in enumerate(motion["fourier"].get("cos", []), 1)]
+            waves += [(b * unit, TAU * k, 0.0) for k, b in enumerate(motion["fourier"].get("sin", []), 1)]
+            piece = Piece(0.0, 1.0, [0.0], waves)
+            piece.cells = 512
+            segment.pieces = [piece]
+        else:
+            degree = motion.get("degree", 5) if form == "points" else 5
+            if form == "points":
+                knots = np.array([[quantity(a), quantity(p)] for a, p in motion["points"]]).T
+            else:
+                knots = read_table(self.files[motion["table"]]) * [[PI / 180], [unit]]
+                knots = knots[:, :-1] if abs(knots[0, -1] - self.fill) < 1e-9 else knots
+            # Points lie at cam angles, a table is counted from `at`; it is told from its first knot on.
+            if form == "points":
+                if not self.at - 1e-12 <= knots[0, 0] < knots[0, -1] < self.at + self.fill - 1e-12:
+                    raise Illegal("range")
+                segment.start = self.at = float(knots[0, 0])
+            parts = periodic((knots[0] - knots[0, 0]) / self.fill, knots[1], 1.0, degree)
+            segment.pieces = self.spline_pieces(parts, degree == 3)
+            self.rounding(knots[1], np.diff(knots[0]).min())
+        self.segments = [segment]
+        self.size = max(abs(self.first), np.abs(self.first + np.concatenate([p.at(np.linspace(p.low, p.high, 500), 0) for p in segment.pieces])).max())
+
+    def rounding(self, values, step):
+        """What the rounding of positions makes of each derivative of a spline."""
+        self.noise = np.maximum(self.noise, 2e-16 * np.abs(values).max() * np.array([1.0, 10.0, 100.0, 1000.0, 1e4]) / step ** np.arange(5))
+
+    def spline_pieces(self, parts, apart):
+        """One piece where the jerk is continuous; an elastic load asks for more."""
+        apart |= self.driven
+        return [Piece(low, high, c) for low, high, c in parts] if apart else [Joined(parts)]
+
+    def drive(self, motion):
+        """The cam whose elastic load moves as the program says."""
+        polydyne = motion.get("polydyne")
+        if polydyne is None:
+            return
+        rpm = polydyne.get("rpm", motion.get("rpm"))
+        if rpm is None:
+            raise Illegal("speed")
+        self.finish()
+        if max(self.jump()) > 1e-7:
+            raise Illegal("impact")
+        share = rpm / 60 / float(polydyne["natural_frequency"].split()[0])
+        for segment in self.segments:
+            if segment.law != "dwell":
+                first, second = 2 * polydyne.get("damping", 0.0) * share / segment.width, (share / segment.width) ** 2
+                segment.pieces = [Driven(piece, first, second) for piece in segment.pieces]
+
     def read(self, given, last, angle, position):
         law = given.get("law", "cycloidal").lower()
         law = ALIASES.get(law, law)
-        if law not in NAMES and law not in ("dwell", "polynomial"):
+        if law not in NAMES and law not in ("dwell", "polynomial", *OWN):
             raise Illegal("name")
-        state = {"v": rate(given["velocity"], 1, self.omega) if "velocity" in given else 0.0,
+        auto = {letter for letter, key in (("v", "velocity"), ("a", "acceleration")) if given.get(key) == "auto"}
+        if "v" in auto and "acceleration" not in given:
+            # C4 there, as splines are; an acceleration of 0 has to be said.
+            auto.add("a")
+        given = {key: value for key, value in given.items() if value != "auto"}
+        if law in ("formula", "table") and (auto or {"velocity", "acceleration", "jerk", "end"} & set(given)):
+            raise Illegal("own state")
+        state = {"auto": auto, "v": rate(given["velocity"], 1, self.omega) if "velocity" in given else 0.0,
                  "a": rate(given["acceleration"], 2, self.omega) if "acceleration" in given else 0.0,
                  "j": rate(given["jerk"], 3, self.omega) if "jerk" in given else None, "turn": given.get("end") == "turn"}
-        moves = state["v"] != 0 or state["a"] != 0
+        moves = state["v"] != 0 or state["a"] != 0 or bool(auto)
         if moves and given.get("end") in ("turn", "rest"):
             raise Illegal("end")
         by_velocity = law == "constant-velocity" and state["v"] != 0
@@ -325,12 +416,14 @@ class Program:
         if law == "constant-velocity":
             if by_velocity and abs((to - position) / width - state["v"]) > 1e-6 * abs(state["v"]):
                 raise Illegal("line")
-            state = {"v": (to - position) / width, "a": 0.0, "j": None, "turn": False}
+            state = {"auto": set(), "v": (to - position) / width, "a": 0.0, "j": None, "turn": False}
         return Segment(law, self.at + angle, width, given, position, to, state)
 
     def solve(self):
+        self.own_states()
+        chain = self.least_jerk()
         faults, later = set(), [s for s in self.segments if s.source.get("inflection") == "match" and s.law in NAMES]
-        for segment in [s for s in self.segments if s not in later] + later:
+        for segment in [s for s in self.segments if s not in later + chain and not s.pieces] + later:
             wanted = None
             if segment in later:
                 index = self.segments.index(segment)
@@ -344,14 +437,93 @@ class Program:
                 faults.add(str(fault))
         if faults:
             raise Illegal(", ".join(sorted(faults)))
-        self.parts = []
-        for segment in self.segments:
-            for piece in segment.pieces:
-                self.parts.append((segment.start + piece.low * segment.width, segment.start + piece.high * segment.width, segment, piece))
 
     @staticmethod
     def end_acceleration(segment, side):
         return float(segment.pieces[side].at(np.array([0.0 if side == 0 else 1.0]), 2)[0]) * segment.scale / segment.width**2
+
+    def own_states(self):
+        """Formulas and tables have the states at their ends themselves."""
+        for segment in self.segments:
+            if segment.law not in ("formula", "table"):
+                continue
+            travel = segment.to - segment.begin
+            if abs(travel) <= 1e-12 * self.size:
+                raise Illegal("travel")
+            if segment.law == "formula":
+                segment.pieces = [Formula(segment.source["formula"], "x", 0.0, 1.0, 0.1)]
+            else:
+                x, y = read_table(self.files[segment.source["table"]])
+                segment.pieces = self.spline_pieces(through_table(x, y, segment.source.get("ends") == "rest"), False)
+                self.rounding(y * abs(travel), np.diff(x).min() * segment.width)
+            segment.scale = travel
+            last = segment.pieces[-1]
+            v, a = (float(last.at(np.array([1.0]), order)[0]) * travel / segment.width**order for order in (1, 2))
+            # What rounding leaves of a state that is none may be told either way.
+            least = [1e-9 * abs(travel) / segment.width**order for order in (1, 2)]
+            near = segment.law == "table" and segment.source.get("ends") != "rest" and (abs(v) < least[0] or abs(a) < least[1])
+            self.near |= near
+            v, a = (0.0 if abs(d) < size else d for d, size in zip((v, a), least))
+            segment.state = {"auto": set(), "v": v, "a": a, "j": None, "turn": False, "near": near}
+
+    def least_jerk(self):
+        """Splines, and polynomials beside a state that is to be found: quintics of least ∫(s‴)²; the segments that are done."""
+        count = len(self.segments)
+        chain = []
+        for i, segment in enumerate(self.segments):
+            if segment.state["auto"] and not {segment.law, self.segments[(i + 1) % count].law} <= {"polynomial", "spline"}:
+                raise Illegal("auto")
+            if segment.law == "spline" or segment.law == "polynomial" and (segment.state["auto"] or self.segments[i - 1].state["auto"]):
+                chain.append(segment)
+        if any(s.state["j"] is not None or self.segments[self.segments.index(s) - 1].state["j"] is not None for s in chain):
+            raise Illegal("jerk beside")
+        unknowns, at_end, intervals = 0, {}, []
+        for segment in chain:
+            i = self.segments.index(segment)
+            after = self.segments[(i + 1) % count]
+            known, states = segment.state, []
+            for letter in "va":
+                free = letter in known["auto"] or letter == "a" and known["turn"]
+                states.append(unknowns if free else known[letter])
+                unknowns += free
+            at_end[i] = states
+            # A turn beside what is not of the chain is free for itself.
+            known["shared"] = after in chain
+        for segment in chain:
+            i = self.segments.index(segment)
+            before = (i - 1) % count
+            if before in at_end:
+                states = at_end[before]
+            else:
+                known = self.segments[before].state
+                states = [known["v"], known["a"]]
+                if known["turn"]:
+                    states[1], unknowns = unknowns, unknowns + 1
+            knots = [(quantity(a) - segment.start, quantity(p)) for a, p in segment.source.get("points", [])]
+            knots.append((segment.width, segment.to))
+            if any(angle <= behind for angle, behind in zip([k[0] for k in knots], [0.0] + [k[0] for k in knots])):
+                raise Illegal("range")
+            low, first = 0.0, segment.begin
+            segment.intervals = []
+            for angle, position in knots:
+                ends = at_end[i] if angle == segment.width else [unknowns, unknowns + 1]
+                unknowns += 2 * (angle != segment.width)
+                segment.intervals.append(Interval(low, angle, first, position, states + ends))
+                low, first, states = angle, position, ends
+            intervals += segment.intervals
+        found = solved(intervals, unknowns) if chain else []
+        for segment in chain:
+            width = segment.width
+            parts = [(k.low / width, k.high / width, k.coefficients(found) * width ** np.arange(6.0)) for k in segment.intervals]
+            for part in parts:
+                part[2][0] -= segment.begin
+            segment.pieces, segment.scale = self.spline_pieces(parts, True), 1.0
+            self.rounding(np.array([segment.begin, segment.to]), min(k.high - k.low for k in segment.intervals))
+            v, a = (s if not isinstance(s, int) else float(found[s]) for s in at_end[self.segments.index(segment)])
+            if segment.state["auto"]:
+                near = any(abs(d) < 1e-9 * max(self.size, abs(v) * width, abs(a) * width**2) / width**order for order, d in ((1, v), (2, a)))
+                segment.state |= {"v": v, "a": a, "near": near}
+        return chain
 
     def solve_one(self, segment, wanted):
         begin, end = self.segments[self.segments.index(segment) - 1].state, segment.state
@@ -394,6 +566,12 @@ class Program:
         jets[0] = jets[0] + segment.begin
         return jets
 
+    def derivative(self, index, theta, order):
+        """One of them, without the position."""
+        _, _, segment, piece = self.parts[index]
+        x = np.clip((theta - segment.start) / segment.width, piece.low, piece.high)
+        return piece.at(x, order) * segment.scale / segment.width**order
+
     def everywhere(self, theta, nudge=0.0):
         """The four jets at any angles; `nudge` chooses the side of a joint."""
         local = self.at + np.mod(theta - self.at, self.fill)
@@ -417,7 +595,8 @@ class Program:
             low, high, segment, _ = self.parts[i]
             if high <= low:
                 continue
-            coarse = np.array([low]) if segment.law == "dwell" else np.linspace(low, high, cells + 1)
+            own = max(cells, getattr(self.parts[i][3], "cells", 0))
+            coarse = np.array([low]) if segment.law == "dwell" else np.linspace(low, high, own + 1)
             values = function(i, coarse)
             values[np.isnan(values)] = math.inf
             padded = np.concatenate([[-math.inf], values, [-math.inf]])
@@ -439,7 +618,7 @@ class Program:
         """Largest jumps of velocity, acceleration and jerk, each over the largest value."""
         shares = []
         for order in (1, 2, 3):
-            size = max(self.extreme(lambda i, t: np.abs(self.jet(i, t)[order]))[0], 1e-300)
+            size = max(self.extreme(lambda i, t: np.abs(self.derivative(i, t, order)))[0], 1e-300)
             shares.append(max(abs(before - after) for before, after in self.across(order)) / size)
         return shares
 

@@ -1,7 +1,7 @@
 //! How large a disc is, and where its follower stands, when that is left open.
 
 use super::{Disc, DiscError, LARGEST_BASE};
-use crate::body::{Body, broken_limit};
+use crate::body::{Body, WorstPlaces, broken_limit};
 use crate::follower::{Follower, Place};
 use crate::geometry::MILLIMETRES;
 use crate::numeric::extremum::{self, TO_ROUNDING};
@@ -85,13 +85,13 @@ impl Disc {
         let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
         let follower = self.follower.sized(base_radius + self.follower.element().offset())?;
         let reached = top <= follower.reach().1;
-        reached.then(|| Self { follower: follower.into(), worst: Default::default(), ..self.clone() })
+        reached.then(|| Self { follower: follower.into(), worst: WorstPlaces::default(), ..self.clone() })
     }
 
     /// The same cam with another choice of its follower's place, m, not yet sized.
     #[must_use]
     pub fn placed_at(&self, place: Place, chosen: f64) -> Self {
-        Self { follower: place.follower(chosen), worst: Default::default(), ..self.clone() }
+        Self { follower: place.follower(chosen), worst: WorstPlaces::default(), ..self.clone() }
     }
 
     /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each
@@ -170,14 +170,14 @@ impl Disc {
         if let Some(base) = self.machine.cam.base_radius {
             let prime_radius = base + offset;
             let best = self.least_inclined(place, prime_radius);
-            let chosen = self.better(place, best, |choice| self.inclination(place, choice, prime_radius));
+            let chosen = better(place, best, |choice| self.inclination(place, choice, prime_radius));
             return Ok(Placed { place, best: (best, prime_radius), chosen: chosen.unwrap_or(best) });
         }
         let nearest = self.nearest(place)?;
         let least = nearest.prime_radius * (1.0 - LARGER);
         let size = |choice: f64| self.smallest_at(place, choice, least);
         let best = self.best_of(place, &nearest, size).ok_or(NoRadius)?;
-        let chosen = self.better(place, best.0, |choice| size(choice).map(|smallest| smallest.base_radius));
+        let chosen = better(place, best.0, |choice| size(choice).map(|smallest| smallest.base_radius));
         Ok(Placed { place, best, chosen: chosen.unwrap_or(best.0) })
     }
 
@@ -239,18 +239,6 @@ impl Disc {
             .then(|| worst().map(|(angle, limit)| angle.value / limit).fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// The better of the two half millimetres about a choice; `None` where neither passes.
-    fn better(&self, place: Place, best: f64, value: impl Fn(f64) -> Option<f64>) -> Option<f64> {
-        let steps = (best / CHOICE_STEP).floor();
-        let least = if matches!(place, Place::Pivot { .. }) { 0.0 } else { f64::NEG_INFINITY };
-        let both = [steps, steps + 1.0].map(|steps| steps * CHOICE_STEP + 0.0);
-        let passing = both.into_iter().filter(|choice| *choice > least);
-        let valued = passing.filter_map(|choice| Some((choice, value(choice)?)));
-        valued
-            .min_by(|a, b| a.1.total_cmp(&b.1).then((a.0 - best).abs().total_cmp(&(b.0 - best).abs())))
-            .map(|(choice, _)| choice)
-    }
-
     /// Why a cam with its follower where it stands is not smaller than the smallest; `None` where none passes.
     #[must_use]
     pub fn binding(&self) -> Option<Binding> {
@@ -291,4 +279,16 @@ impl Disc {
     pub fn follower(&self) -> &Arc<dyn Follower> {
         &self.follower
     }
+}
+
+/// The better of the two half millimetres about a choice; `None` where neither passes.
+fn better(place: Place, best: f64, value: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let steps = (best / CHOICE_STEP).floor();
+    let least = if matches!(place, Place::Pivot { .. }) { 0.0 } else { f64::NEG_INFINITY };
+    let both = [steps, steps + 1.0].map(|steps| steps * CHOICE_STEP + 0.0);
+    let passing = both.into_iter().filter(|choice| *choice > least);
+    let valued = passing.filter_map(|choice| Some((choice, value(choice)?)));
+    valued
+        .min_by(|a, b| a.1.total_cmp(&b.1).then((a.0 - best).abs().total_cmp(&(b.0 - best).abs())))
+        .map(|(choice, _)| choice)
 }

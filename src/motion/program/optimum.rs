@@ -5,16 +5,23 @@ use super::{Mover, Step, StepError};
 use crate::document::Table;
 use crate::motion::laws::optimum::{Least, Optimum, OptimumError};
 
-/// The optimum that a segment asks for; nothing where it asks for none, `None` at a fault.
-pub(super) fn read(segment: &Table<'_>, law: &str) -> Option<Option<Mover>> {
-    if !segment.has(&MINIMISE) {
-        if segment.has(&OF_OPTIMUM) {
-            let help = "add minimise, or leave it out: without, the states at both ends give the polynomial";
-            segment.fail(&OF_OPTIMUM, "`degree` is of a polynomial with `minimise`".into(), Some(help.into()));
-            return None;
-        }
-        return lone(segment).map(|()| None);
+/// Whether a segment asks for one.
+pub(super) fn is_asked(segment: &Table<'_>) -> bool {
+    segment.has(&MINIMISE)
+}
+
+/// A segment that asks for none has none of its keys; `None` at a fault.
+pub(super) fn without(segment: &Table<'_>) -> Option<()> {
+    if segment.has(&OF_OPTIMUM) {
+        let help = "add minimise, or leave it out: without, the states at both ends give the polynomial";
+        segment.fail(&OF_OPTIMUM, "`degree` is of a polynomial with `minimise`".into(), Some(help.into()));
+        return None;
     }
+    lone(segment)
+}
+
+/// The optimum that a segment asks for; `None` at a fault.
+pub(super) fn read(segment: &Table<'_>, law: &str) -> Option<Mover> {
     if !law.eq_ignore_ascii_case(POLYNOMIAL) {
         let message = format!("`minimise` is of law = \"{POLYNOMIAL}\", not of {law}");
         segment.fail(&MINIMISE, message, Some(format!("give law = \"{POLYNOMIAL}\", or leave `minimise` out")));
@@ -37,7 +44,7 @@ pub(super) fn read(segment: &Table<'_>, law: &str) -> Option<Option<Mover>> {
     }
     let optimum = Optimum { degree: degree(segment)?, least };
     match optimum.solve() {
-        Ok(curve) => Some(Some(Mover::Optimum(optimum, curve))),
+        Ok(curve) => Some(Mover::Optimum(optimum, curve)),
         Err(error) => {
             let told = error.to_string();
             match error {

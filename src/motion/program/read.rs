@@ -76,44 +76,30 @@ fn as_given(reader: &Reader<'_>) -> Option<Program> {
     match Program::of_steps(quantity, (at, start, lobes), &steps) {
         Ok(program) => Some(Program { rpm, ..program }),
         Err((index, error)) => {
-            let segment = segments.get(index)?;
-            let of_inflection = matches!(
-                error,
-                StepError::NothingToMatch
-                    | StepError::Law(
-                        LawError::NoInflection { .. } | LawError::Inflection { .. } | LawError::NoMatch { .. }
-                    )
-            );
-            let key = match &error {
-                _ if of_inflection => &INFLECTION,
-                StepError::NothingToJoin { .. } => &VELOCITY,
-                StepError::JerkOfSpline => &JERK,
-                StepError::OptimumMoves => {
-                    let help =
-                        "take the states away, or `minimise`: a polynomial without it takes the states at its ends";
-                    segment.fail(&MINIMISE, error.to_string(), Some(help.into()));
-                    return None;
-                }
-                StepError::Law(LawError::Parameter { name, .. }) => {
-                    tell_of_own(segment, name, &error);
-                    return None;
-                }
-                _ => &LAW,
-            };
-            segment.fail(key, error.to_string(), None);
+            tell(segments.get(index)?, &error);
             None
         }
     }
 }
 
-/// What is wrong with a number of a law's own, at its key.
-fn tell_of_own(segment: &Table<'_>, name: &str, error: &StepError) {
+/// Why a segment cannot be made, at the key that it has to do with.
+fn tell(segment: &Table<'_>, error: &StepError) {
     let told = error.to_string();
-    match name {
-        "fractions" => segment.fail(&FRACTIONS, told, None),
-        "amplitudes" => segment.fail(&AMPLITUDES, told, None),
-        "line" => segment.fail(&LINE, told, None),
-        "ramp" => segment.fail(&RAMP, told, None),
+    match error {
+        StepError::NothingToMatch
+        | StepError::Law(LawError::NoInflection { .. } | LawError::Inflection { .. } | LawError::NoMatch { .. }) => {
+            segment.fail(&INFLECTION, told, None);
+        }
+        StepError::NothingToJoin { .. } => segment.fail(&VELOCITY, told, None),
+        StepError::JerkOfSpline => segment.fail(&JERK, told, None),
+        StepError::OptimumMoves => {
+            let help = "take the states away, or `minimise`: a polynomial without it takes the states at its ends";
+            segment.fail(&MINIMISE, told, Some(help.into()));
+        }
+        StepError::Law(LawError::Parameter { name: "fractions", .. }) => segment.fail(&FRACTIONS, told, None),
+        StepError::Law(LawError::Parameter { name: "amplitudes", .. }) => segment.fail(&AMPLITUDES, told, None),
+        StepError::Law(LawError::Parameter { name: "line", .. }) => segment.fail(&LINE, told, None),
+        StepError::Law(LawError::Parameter { name: "ramp", .. }) => segment.fail(&RAMP, told, None),
         _ => segment.fail(&LAW, told, None),
     }
 }
@@ -342,9 +328,10 @@ fn state(segment: &Table<'_>, whole: Whole) -> Option<State> {
 /// What moves a segment.
 fn mover(segment: &Table<'_>, whole: Whole) -> Option<Mover> {
     let name = if segment.has(&LAW) { segment.get(&LAW)? } else { USUAL.to_owned() };
-    if let Some(mover) = optimum::read(segment, &name)? {
-        return Some(mover);
+    if optimum::is_asked(segment) {
+        return optimum::read(segment, &name);
     }
+    optimum::without(segment)?;
     if name.eq_ignore_ascii_case(DWELL) {
         return Some(Mover::Dwell);
     }
