@@ -108,6 +108,8 @@ struct Sizing<'a> {
     sampled: Option<(Place, f64, Vec<Jet>)>,
 }
 
+/// By how much a pressure angle is clearly too large, rad: nearer to its limit it is solved, so that sizes are compared alike there.
+const CLEARLY: f64 = 0.03;
 /// Steps of a piece at which a pressure angle is looked at first.
 const SAMPLES: u32 = 24;
 
@@ -161,10 +163,10 @@ impl Sizing<'_> {
         worse(excess, sharpest(false) * CLOSING_OVER_ROLLER * roller - 1.0)
     }
 
-    /// The worse of both limits; of the pressure angle alone where it is too large at one of the lifts that are looked at first.
+    /// The worse of both limits; of the pressure angle alone where it is clearly too large at one of the lifts that are looked at first.
     fn either(&self, radius: f64) -> f64 {
         match self.sampled_pressure(radius) {
-            Some(excess) if excess > 0.0 => excess,
+            Some(excess) if excess > CLEARLY => excess,
             _ => worse(self.pressure(radius), self.curvature(radius)),
         }
     }
