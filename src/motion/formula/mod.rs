@@ -1,7 +1,7 @@
 //! A formula of one variable as a user types it, `20*(1-cos(th))/2`, with exact derivatives of every order.
 //!
-//! The text becomes a tape of operations ([`parse`]), which is evaluated on power series: the n-th coefficient at a place is the n-th
-//! derivative there over n!. Where a formula has no value, or no derivative up to the jerk, is found when it is read ([`scan`]).
+//! The text becomes a tape of operations (`parse`), which is evaluated on power series: the n-th coefficient at a place is the n-th
+//! derivative there over n!. Where a formula has no value, or no derivative up to the jerk, is found when it is read (`scan`).
 
 mod parse;
 mod scan;

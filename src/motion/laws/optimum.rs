@@ -2,7 +2,7 @@
 //! acceleration without residual vibration.
 //!
 //! All of it is convex and does not change when the motion is reversed, so that a symmetric motion is among the best ones, and an even degree
-//! is no better than the odd one below. The unknowns are the Legendre coefficients of the jerk ([`Rests`]), of which everything here is
+//! is no better than the odd one below. The unknowns are the Legendre coefficients of the jerk (`Rests`), of which everything here is
 //! linear:
 //!
 //! ```text
