@@ -263,8 +263,9 @@ pub struct Corner {
     pub turn: f64,
 }
 
-/// A turn below this is not a corner, rad: far below the 0.05° a shop tolerates, far above rounding (1e-12).
-const LEAST_CORNER: f64 = 1e-9;
+/// A turn below this is not a corner, rad: under a roller of 10 mm the profile steps back by 1 nm there, as where a fold begins under a
+/// face, and 1e-17 m of the motion are lost. That is far below the 0.05° a shop tolerates, and above the rounding of any motion.
+const LEAST_CORNER: f64 = 1e-7;
 
 /// The corners of the pitch curve, in the order of the pieces; each stands at the end of a piece.
 #[must_use]
