@@ -14,6 +14,10 @@ const LEAST_CORNER: f64 = 1e-6;
 /// jumps. Crossings of a profile with itself are solved to rounding.
 const LEAST_GAP: f64 = 1e-7;
 
+/// A stretch that begins at most so far behind the end of the one before it is not joined to it, mm: a corner of the motion too small to
+/// be one, 1e-7 rad, sets the profile under a roller of 100 mm back by as much. A line would run against the profile.
+const LEAST_STEP_BACK: f64 = 1e-5;
+
 /// The point of a curve at a parameter of one of its pieces, mm.
 pub type Frame<'a> = dyn Fn(usize, f64) -> CurvePoint + 'a;
 
@@ -112,7 +116,9 @@ impl<'a> Boundary<'a> {
             boundary.ends.push(*own);
             let (start, end) = (own[1].point, next[0].point);
             let last = index + 1 == stretches.len();
-            if (closed || !last) && (end - start).norm() > LEAST_GAP {
+            let gap = end - start;
+            let back = gap.dot(&own[1].tangent) < 0.0 && gap.norm() <= LEAST_STEP_BACK;
+            if (closed || !last) && gap.norm() > LEAST_GAP && !back {
                 let line = Stretch::of_segment(Segment { start, end, bulge: 0.0 });
                 boundary.ends.push([boundary.on(&line, line.from), boundary.on(&line, line.to)]);
                 boundary.stretches.push(line);

@@ -35,8 +35,8 @@ pub const SLACK: f64 = 1e-10;
 const ON_NORMAL: f64 = 1e-10;
 /// Places along the chain nearer than this are one, mm.
 const NEAR: f64 = 1e-9;
-/// After one turn the foot stands where it began, mm.
-const CLOSES: f64 = 1e-6;
+/// After one turn the foot stands where it began, mm: a corner too small to be one, of 1e-7 rad under a roller of 100 mm, moves it that far.
+const CLOSES: f64 = 1e-5;
 /// Where the foot is that near to a corner, mm, a chain that turns across the outline, with a cosine below this, has got to it.
 const CORNER_REACH: f64 = 0.1;
 const ACROSS: f64 = 0.1;

@@ -43,7 +43,7 @@ class Judge:
         if self.wrong:
             return
         self.own, self.prime = figures(program, follower), follower.prime
-        self.corner, self.clear, self.rises = self.drops()
+        (self.corner, self.rises), self.clear = self.drops(), self.clear_drops(follower)
         if follower.circle and self.rises:
             # A velocity that rises leaves the roller's own shape.
             self.own["concave"] = min(self.own["concave"] or math.inf, follower.radius)
@@ -55,15 +55,23 @@ class Judge:
             self.segment(told, segment)
         self.checks(report, follower)
 
-    def drops(self):
-        """Whether the velocity drops somewhere, which leaves a corner, sharp under a roller, folded under a face; whether each jump is
-        clearly one or none; whether it rises somewhere."""
+    def jumps(self):
+        """How far the velocity drops at each node, over its largest value, and that value."""
         size = self.program.extreme(lambda i, t: np.abs(self.program.derivative(i, t, 1)))[0]
-        shares = [(before - after) / max(size, 1e-300) for before, after in self.program.across(1)]
-        # A corner of less than 1e-7 rad may be one or none.
-        least = 1e-7 * (size + (0.0 if self.swings else self.prime)) / max(size, 1e-300)
-        clear = all(abs(share) < 1e-10 or abs(share) > max(1e-8, least) for share in shares)
-        return max(shares) > 1e-8, clear, min(shares) < -1e-8
+        return [(before - after) / max(size, 1e-300) for before, after in self.program.across(1)], size
+
+    def drops(self):
+        """Whether the velocity drops somewhere, which leaves a corner, sharp under a roller, folded under a face; whether it rises."""
+        shares, _ = self.jumps()
+        return max(shares) > 1e-8, min(shares) < -1e-8
+
+    def clear_drops(self, follower):
+        """Whether each jump is clearly one or none. A corner of the path of less than 1e-7 rad may be one or none; the path turns by the
+        jump over its speed, of which this is a bound."""
+        shares, size = self.jumps()
+        arm = {"swinging-roller": follower.arm, "swinging-flat": follower.pivot}.get(self.case["kind"], 1.0)
+        least = 1e-7 * (size + 2.0 * self.prime / arm) / max(size, 1e-300)
+        return all(abs(share) < 1e-10 or abs(share) > max(1e-8, least) for share in shares)
 
     def kinds(self, segment, parts):
         """What its ends are: rest, straight on, turn or moved, as said or, of a motion given in one, as it is; None where that is too close."""
@@ -316,13 +324,13 @@ class Judge:
     def automatic(self, report):
         """An automatic size keeps every limit, and the smallest told breaks one just below."""
         told, kind = report["cam"], self.case["kind"]
-        if "smallest_prime_radius_mm" not in told or self.drops()[0]:
+        if "smallest_prime_radius_mm" not in told or self.corner and self.clear:
             # A corner is as sharp on a cam of any size.
             sizes = [told["prime_radius_mm"] * 10 ** (k / 40) for k in range(-60, 61)]
             r = told["prime_radius_mm"] - told["base_radius_mm"]
             hopeless = not any(prime > r and self.keeps(kind, prime - r) for prime in sizes)
-            if "smallest_prime_radius_mm" in told or not (self.drops()[0] or hopeless):
-                self.wrong.append(f"smallest prime radius told {told.get('smallest_prime_radius_mm')}, velocity drops {self.drops()}")
+            if "smallest_prime_radius_mm" in told or not (self.corner or hopeless):
+                self.wrong.append(f"smallest prime radius told {told.get('smallest_prime_radius_mm')}, velocity drops {self.corner}")
             return
         smallest = told["smallest_prime_radius_mm"]
         r = told["prime_radius_mm"] - told["base_radius_mm"]
@@ -351,7 +359,7 @@ class Judge:
             cutter = quantity(limits["cutter_radius"]) if "cutter_radius" in limits else 0.0
             concave = own["concave"] or math.inf
             # A velocity that rises leaves the roller's own shape.
-            fits = (min(concave, follower.radius) if self.drops()[2] else concave) >= cutter
+            fits = (min(concave, follower.radius) if self.rises else concave) >= cutter
             return own["alpha"] <= limit + 1e-9 and own["convex"] > max(1.0, ratio) * follower.radius and fits
         # Sharper than a millimetre is an edge.
         return own["alpha"] <= limit + 1e-9 and own["radius"] >= 1.0 and own["turn"] > 0
