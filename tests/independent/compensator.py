@@ -178,14 +178,15 @@ class Rolled:
         return np.array([low for *_, low, _ in self.spans])
 
     def roll(self, theta):
-        """Lift and slope at sorted angles in [0, 2π); the highest of the arcs that reach there."""
+        """Lift and slope at sorted angles in [0, 2π); the highest of the arcs that reach there, each gone on with for 1e-7 rad: a joint that
+        is as tangent as rounding makes it may leave that open."""
         lift, slope = np.full(len(theta), -np.inf), np.zeros(len(theta))
         for centre, signed, normal, low, high in self.spans:
             if high <= low:
                 continue
-            turn = np.floor((low - 1e-9) / TURN) * TURN
+            turn = np.floor((low - 1e-7) / TURN) * TURN
             for k in (turn, turn + TURN, turn + 2 * TURN):
-                i, j = np.searchsorted(theta + k, [low - 1e-9, high + 1e-9])
+                i, j = np.searchsorted(theta + k, [low - 1e-7, high + 1e-7])
                 if j <= i:
                     continue
                 t = theta[i:j]
