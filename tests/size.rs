@@ -181,3 +181,36 @@ fn no_row_of_the_trade_is_below_the_optimum() {
         assert!(radii.len() > 20 && radii.iter().all(|radius| *radius >= best * (1.0 - 1e-9)), "{best} {radii:?}");
     }
 }
+
+/// Golden number G23: the largest pressure angles of a roller of 15 mm on a prime radius of 70 mm, offset by 12 mm, rising and returning.
+#[test]
+fn the_largest_pressure_angle_of_each_way() {
+    let cam = LIFTER.replace("radius = \"3 mm\"\noffset = \"auto\"", "radius = \"15 mm\"\noffset = \"12 mm\"");
+    let made = of(
+        &cam,
+        "[cam]\nbase_radius = \"55 mm\"\n[limits]\npressure_angle = \"30 deg\"\npressure_angle_return = \"40 deg\"\n",
+    );
+    for (check, angle, at) in [
+        ("pressure_angle", 9.007_502_282_635_796, 56.979_532_266_4),
+        ("pressure_angle_return", 22.185_495_994_365_97, 234.836_677_993_9),
+    ] {
+        let checks = made["checks"].as_array().expect("checks");
+        let found = checks.iter().find(|found| found["check"] == check).unwrap_or_else(|| panic!("no {check}: {made}"));
+        assert!((number(&found["value"]) - angle).abs() < 1e-12 * angle, "{found}");
+        // An angle is flat at its largest value: half of its digits tell the place.
+        assert!((number(&found["cam_deg"]) - at).abs() < 1e-6, "{found}");
+    }
+}
+
+/// Golden number G43, with the digits that are told: 36.4442366978389° to 56.29049719543127°, 0.2568343694781067 mm at 46.1845532°.
+#[test]
+fn the_motion_that_an_undercut_loses() {
+    let motion = NORTON.replace("90 deg", "60 deg").replace("1 in", "30 mm").replace("0 in", "0 mm");
+    let motion = motion.replace("[[motion.segment]]\nlaw = \"dwell\"\nover = \"60 deg\"\n", "");
+    let made =
+        report(&make(&format!("{motion}[follower.roller]\nradius = \"26 mm\"\n[cam]\nbase_radius = \"16 mm\"\n"), &[]));
+    let checks = made["checks"].as_array().expect("checks");
+    let undercut = checks.iter().find(|found| found["check"] == "undercut").expect("a check");
+    let note = undercut["note"].as_str().expect("a note");
+    assert!(note.starts_with("motion is lost from 36.444° to 56.290°, 0.256834 mm at 46.185°; "), "{note}");
+}

@@ -457,5 +457,6 @@ fn error_of(lowered: &Lowered) -> f64 {
 /// A table whose columns are named by the list, as many as there are.
 fn named(mut columns: Vec<&'static str>, more: &[&'static str], rows: Vec<Vec<f64>>) -> Table {
     columns.extend(more);
-    Table { columns, rows, words: None }
+    let may_lack = vec![true; columns.len()];
+    Table { columns, rows, may_lack, words: None }
 }

@@ -6,6 +6,7 @@ use super::args::{
 };
 use super::cams::{show, source_date};
 use super::progress::Progress;
+use super::put::put;
 use super::{Failure, Outcome, print, tell};
 use camgen::analysis::linkage::Goal;
 use camgen::analysis::shaft::{Asked, Solver};
@@ -143,12 +144,14 @@ pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
     let writing = writing(&judged, &args.analysis, &name)?;
     let shown = judged.files(&Writing { formats: Some(vec![format.to_owned()]), ..writing.clone() });
     let shown = shown.map_err(Failure::new)?;
-    if !args.analysis.told.dry_run {
-        judged.files(&writing).map_err(Failure::new)?.commit().map_err(Failure::new)?;
-    }
+    let files = (!args.analysis.told.dry_run).then(|| judged.files(&writing)).transpose().map_err(Failure::new)?;
     let bytes =
         shown.outputs().iter().find(|output| output.name.ends_with(ending)).map(|output| output.bytes.as_slice());
-    print(&String::from_utf8_lossy(bytes.unwrap_or_default()))?;
+    let text = String::from_utf8_lossy(bytes.unwrap_or_default());
+    match files {
+        Some(files) => put(|| files.stage().map_err(Failure::new), |_| print(&text))?,
+        None => print(&text)?,
+    }
     Ok(Outcome::Fine)
 }
 
@@ -224,16 +227,18 @@ fn writing(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Wr
 /// Writes and reports what was judged.
 fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
     let writing = writing(judged, args, machine)?;
-    let report = if let Some(why) = judged.no_outline() {
+    let files = if let Some(why) = judged.no_outline() {
         tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
-        judged.report()
+        None
     } else if judged.passed() || writing.force {
-        let files = judged.files(&writing).map_err(Failure::new)?;
-        if args.told.dry_run { judged.report() } else { files.commit().map_err(Failure::new)? }
+        Some(judged.files(&writing).map_err(Failure::new)?).filter(|_| !args.told.dry_run)
     } else {
         tell("refused: a check failed, nothing was written (--force writes nevertheless; camgen explain CHECK)");
-        judged.report()
+        None
     };
-    show(&report, &args.told)?;
+    match files {
+        Some(files) => put(|| files.stage().map_err(Failure::new), |report| show(report, &args.told))?,
+        None => show(&judged.report(), &args.told)?,
+    }
     Ok(if judged.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }

@@ -5,6 +5,7 @@ use super::args::{
     PointsAs, PointsBetween, PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
 };
 use super::progress::Progress;
+use super::put::put;
 use super::{Failure, Outcome, print, tell, text};
 use camgen::body::Request;
 use camgen::body::points::{Given, Points};
@@ -12,7 +13,7 @@ use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::geometry::points::{Between, Form, Step};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::Solver;
-use camgen::pipeline::{Cam, Proven, Spec, Writing};
+use camgen::pipeline::{Cam, FileSet, Proven, Spec, Writing};
 use camgen::profile::outline::{Fit, Laid, Side};
 use camgen::report::{Report, Speeds};
 use camgen::write::json;
@@ -251,33 +252,35 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
     progress.stage("proving");
     let proven = drawing.prove_as(files.laid.dxf_version).map_err(Failure::new)?;
     progress.stage("writing");
-    let report = written(&proven, &writing, common, &left_out);
+    let files = files_of(&proven, &writing, common, &left_out);
     drop(progress);
-    let report = report?;
-    show(&report, &common.told)?;
+    match files? {
+        Some(files) => put(|| files.stage().map_err(Failure::new), |report| show(report, &common.told))?,
+        None => show(&proven.report(), &common.told)?,
+    }
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
-/// Writes the files of a cam that passed, or is forced, and reports it. What is told on the way waits for the end of the progress.
-fn written(
+/// The files of a cam that passed, or is forced, and are to be written.
+fn files_of(
     proven: &Proven<'_>,
     writing: &Writing,
     common: &CommonArgs,
     left_out: &[(&str, &str)],
-) -> Result<Report, Failure> {
+) -> Result<Option<FileSet>, Failure> {
     if let Some(why) = proven.no_outline() {
         tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
-        return Ok(proven.report());
+        return Ok(None);
     }
     if !proven.passed() && !writing.force {
         tell("refused: a check failed, nothing was written (--force writes nevertheless; camgen explain CHECK)");
-        return Ok(proven.report());
+        return Ok(None);
     }
     for (format, why) in left_out {
         tell(&format!("no {} file: {why}", format.to_uppercase()));
     }
     let made = proven.files(writing).map_err(Failure::new)?;
-    if common.told.dry_run { Ok(proven.report()) } else { made.commit().map_err(Failure::new) }
+    Ok((!common.told.dry_run).then_some(made))
 }
 
 /// Prints a report as it was asked for.

@@ -1,6 +1,7 @@
 //! `camgen side-by-side`: two disc cams in one HTML report, moved by one cursor, with their differences marked.
 
 use super::args::{rpm, stem, tolerance};
+use super::put::put;
 use super::text::{self, Page};
 use super::{Failure, Outcome, print, tell};
 use camgen::body::{RateTolerance, Request};
@@ -8,7 +9,7 @@ use camgen::document::Input;
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Output, Proven, Spec};
 use camgen::report::Report;
-use camgen::write::record::{Run, refuse_kept, write_recorded};
+use camgen::write::record::{Run, refuse_kept, stage_recorded};
 use camgen::write::{html, json, svg};
 use clap::Args;
 use std::path::PathBuf;
@@ -88,8 +89,10 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
     let inputs = [("first", &one), ("second", &two)]
         .map(|(side, report)| Input::word(side, format!("{}, {}", report.machine, report.inputs_hash())));
     let run = Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite };
-    write_recorded(&args.out, vec![Output { name, bytes: page }], &run).map_err(Failure::new)?;
-    args.show(&[&one, &two])?;
+    let outputs = vec![Output { name, bytes: page }];
+    let stage =
+        || stage_recorded(&args.out, outputs, &run).map(|(staged, notes)| (notes, staged)).map_err(Failure::new);
+    put(stage, |_| args.show(&[&one, &two]))?;
     Ok(if a.passed() && b.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 

@@ -5,8 +5,8 @@ use crate::body::Body;
 use crate::document::Input;
 use crate::numeric::parallel;
 use crate::report::{Report, failed};
-use crate::write::files;
-use crate::write::record::{Run, write_recorded};
+use crate::write::files::{self, Staged};
+use crate::write::record::{Run, stage_recorded};
 use crate::write::svg;
 use crate::write::{FORMATS, Format, Rendering, When, by_name};
 use std::path::{Path, PathBuf};
@@ -178,10 +178,20 @@ impl FileSet {
     /// [`Error::Files`], also when a file would be replaced that camgen has not written or that was changed since; then every file
     /// is as it was before.
     pub fn commit(self) -> Result<Report, Error> {
+        let (report, staged) = self.stage()?;
+        staged.commit()?;
+        Ok(report)
+    }
+
+    /// The same in two steps: the files are written beside their places, so that the report can be told before they are put there.
+    ///
+    /// # Errors
+    /// As [`FileSet::commit`].
+    pub fn stage(self) -> Result<(Report, Staged), Error> {
         let run = Run { stem: &self.stem, inputs: &self.inputs, overwrite: self.overwrite };
-        let changes = write_recorded(&self.directory, self.outputs, &run)?;
+        let (staged, changes) = stage_recorded(&self.directory, self.outputs, &run)?;
         let mut report = self.report;
         report.notes.extend(changes);
-        Ok(report)
+        Ok((report, staged))
     }
 }

@@ -188,6 +188,9 @@ pub const COLUMNS: &[Column] = &[
     ("face_mm", |row| row.face),
 ];
 
+/// In the names of columns of what the follower does on the outline as cut: nothing where it is not in touch.
+const AS_CUT: &str = "_cut_";
+
 /// A table of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
@@ -195,6 +198,8 @@ pub struct Table {
     pub columns: Vec<&'static str>,
     /// Rows, each as long as `columns`.
     pub rows: Vec<Vec<f64>>,
+    /// Of each column whether a row may have no value in it, which is NaN then and an empty cell in a file.
+    pub may_lack: Vec<bool>,
     /// A column of words before the others, with its name: a word for each row.
     pub words: Option<(&'static str, Vec<&'static str>)>,
 }
@@ -210,6 +215,7 @@ impl Table {
         Self {
             columns: columns.iter().map(|(name, _)| *name).collect(),
             rows: rows.iter().map(values).collect(),
+            may_lack: columns.iter().map(|(name, _)| name.contains(AS_CUT)).collect(),
             words: None,
         }
     }
@@ -221,6 +227,7 @@ impl Table {
         Self {
             columns: told.iter().map(|(name, _)| *name).collect(),
             rows: rows.iter().map(values).collect(),
+            may_lack: vec![true; told.len()],
             words: None,
         }
     }

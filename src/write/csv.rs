@@ -1,4 +1,5 @@
-//! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted, behind a word where rows have names.
+//! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted, behind a word where rows have names. A cell
+//! is empty where there is no value.
 
 use super::number::push_shortest;
 use super::{Format, OfAnalysis, When, fits_all};
@@ -76,11 +77,13 @@ pub fn write(table: &Table) -> Vec<u8> {
     let mut words = named.map_or(&[][..], |(_, words)| words.as_slice()).iter();
     for row in &table.rows {
         text.extend(words.next().map(|word| format!("{word},")));
-        for (index, value) in row.iter().enumerate() {
+        for (index, (value, may_lack)) in row.iter().zip(&table.may_lack).enumerate() {
             if index > 0 {
                 text.push(',');
             }
-            push_shortest(&mut text, *value);
+            if !(value.is_nan() && *may_lack) {
+                push_shortest(&mut text, *value);
+            }
         }
         text.push('\n');
     }

@@ -1,15 +1,15 @@
-//! All files of a run or none: written beside their targets, synced, then renamed.
+//! All files of a run or none, whatever fails and whenever the run is cut off.
 //!
-//! Every file is written whole under a temporary name in its own directory. Only when all are on the disk are they
-//! renamed, each over its predecessor, which is kept under another name until the last rename has succeeded; a failure
-//! in between puts the old files back.
+//! Every file is written whole and synced under a name of its own beside its target. Then one record that lists them, `.camgen-commit`,
+//! is put in place by a rename: before it nothing has changed, from it on the set counts as written. Each file is renamed over its
+//! target, so that a reader finds the old one or the new one at any time, and the record is removed. A run that opens a directory with
+//! such a record finishes it first; files without one are what is left of a run that was cut off before, and are removed.
 
+use super::directory::{Directory, Owned, Standing, give};
 use super::record::Kept;
-use std::fmt;
-use std::fs::{self, File};
+use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{NamedTempFile, TempPath};
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,17 +20,28 @@ pub struct Output {
     pub bytes: Vec<u8>,
 }
 
-/// Why nothing was written.
+/// Why not everything was written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FilesError {
-    /// The directory cannot be made.
-    #[error("cannot make the directory `{}`: {source}; choose another with --out", path.display())]
+    /// The directory cannot be made, opened or locked.
+    #[error("cannot make the directory `{}`, or write into it: {source}; choose another with --out", path.display())]
     Directory {
         /// The directory.
         path: PathBuf,
         /// Why.
         source: io::Error,
+    },
+    /// Another run writes into the directory.
+    #[error(
+        "another run of camgen has been writing into `{}` for {seconds} s; nothing was changed: wait for it, or choose another --out",
+        path.display()
+    )]
+    Busy {
+        /// The directory.
+        path: PathBuf,
+        /// So long it was waited for.
+        seconds: u64,
     },
     /// Files stand in the places that camgen has not written, or that were changed since.
     #[error(
@@ -38,7 +49,7 @@ pub enum FilesError {
         .0.iter().map(Kept::to_string).collect::<Vec<_>>().join(", ")
     )]
     Kept(Vec<Kept>),
-    /// A file cannot be written or put in its place.
+    /// A file cannot be written.
     #[error("cannot write `{}`: {source}; nothing was changed", path.display())]
     File {
         /// The file.
@@ -46,218 +57,230 @@ pub enum FilesError {
         /// Why.
         source: io::Error,
     },
-    /// A file cannot be put in its place, and neither can what stood in the places of the files before it.
+    /// A number in a file is none: a fault of camgen.
+    #[error("line {line} of `{name}` would hold a number that is not finite; nothing was written; please report this")]
+    NotFinite {
+        /// The file.
+        name: String,
+        /// The line, from 1.
+        line: usize,
+    },
+    /// The directory was renamed or replaced while files were made for it.
+    #[error("the directory `{}` was moved or replaced meanwhile; nothing was changed", .0.display())]
+    Moved(PathBuf),
+    /// The set is written, and not every file of it is in its place.
     #[error(
-        "cannot write `{}`: {source}; not everything could be put back: {}",
-        path.display(),
-        left.iter().map(Left::to_string).collect::<Vec<_>>().join(", ")
+        "cannot put `{}` in its place: {source}; the set is kept, and the next run that writes into this directory puts it in place",
+        path.display()
     )]
-    NotPutBack {
+    Unfinished {
         /// The file.
         path: PathBuf,
         /// Why.
         source: io::Error,
-        /// What is not as it was before.
-        left: Vec<Left>,
+    },
+    /// The set of an earlier run cannot be put in its place.
+    #[error("cannot finish what an earlier run left in `{}`: {source}; nothing else was changed", path.display())]
+    Left {
+        /// The file that it failed at.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
     },
 }
 
-/// A file that is not as it was before.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Left {
-    /// The file.
-    pub target: PathBuf,
-    /// Where its old content is; `None` where there was none and the new one could not be removed.
-    pub old: Option<PathBuf>,
+/// The record of a set that is written, while it is put in place.
+const COMMIT: &str = ".camgen-commit";
+/// The same until it is whole.
+const COMMIT_NEW: &str = ".camgen-commit-new";
+/// What the names of files begin with that are not in their places yet.
+const STAGED: &str = ".camgen-new-";
+/// The largest record of a set that is read, bytes.
+const LARGEST: u64 = 1 << 26;
+
+/// A file that is written and not in its place yet.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct Entry {
+    staged: String,
+    target: String,
 }
 
-impl fmt::Display for Left {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let target = self.target.display();
-        match &self.old {
-            Some(old) => write!(f, "the old `{target}` is kept as `{}`", old.display()),
-            None => write!(f, "the new `{target}` is still there"),
-        }
-    }
+/// Files that are written beside their targets. Dropped, they are removed, and everything is as it was.
+#[derive(Debug)]
+pub struct Staged {
+    directory: Directory,
+    entries: Vec<Entry>,
+    /// The record of the set stands: nothing of it is removed any more.
+    recorded: bool,
 }
 
-/// Writes all outputs into a directory, which is made when missing, and returns their paths.
+/// Writes all outputs into a directory, which is made when missing.
 ///
 /// # Errors
-/// [`FilesError`]; then every file is as it was before, or, where the system refuses that too, the error names where it is.
-pub fn write_all(directory: &Path, outputs: &[Output]) -> Result<Vec<PathBuf>, FilesError> {
-    fs::create_dir_all(directory).map_err(|source| FilesError::Directory { path: directory.to_owned(), source })?;
-    let mut staged: Vec<(TempPath, PathBuf)> = Vec::new();
-    for output in outputs {
-        let target = directory.join(&output.name);
-        let temporary = stage(directory, &target, &output.bytes)
-            .map_err(|source| FilesError::File { path: target.clone(), source })?;
-        staged.push((temporary, target));
+/// [`FilesError`]; then every file is as it was before, unless the error says that the set is kept.
+pub fn write_all(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
+    let (directory, _) = opened(directory)?;
+    stage(directory, outputs)?.commit()
+}
+
+/// A directory with nothing left in it of an earlier run, and the names of the files that were put in place for that.
+pub(super) fn opened(path: &Path) -> Result<(Directory, Vec<String>), FilesError> {
+    let directory = Directory::open(path)?;
+    let finished = finish(&directory)?;
+    Ok((directory, finished))
+}
+
+/// The same where the directory is there already.
+pub(super) fn found(path: &Path) -> Result<Option<Directory>, FilesError> {
+    let directory = Directory::found(path)?;
+    directory.iter().try_for_each(|directory| finish(directory).map(|_| ()))?;
+    Ok(directory)
+}
+
+/// Writes files beside their targets.
+pub(super) fn stage(directory: Directory, outputs: &[Output]) -> Result<Staged, FilesError> {
+    let mut staged = Staged { directory, entries: Vec::new(), recorded: false };
+    for (index, output) in outputs.iter().enumerate() {
+        let name = format!("{STAGED}{}-{index}", std::process::id());
+        let failed = |source| FilesError::File { path: staged.directory.path_of(&output.name), source };
+        let owned = target(&staged.directory, &output.name).map_err(failed)?;
+        let mut file = staged.directory.create(&name).map_err(failed)?;
+        // From here on it is removed with the others.
+        staged.entries.push(Entry { staged: name, target: output.name.clone() });
+        let written = file.write_all(&output.bytes);
+        let given = written.and_then(|()| owned.map_or(Ok(()), |owned| give(&file, owned)));
+        let path = || staged.directory.path_of(&output.name);
+        given.and_then(|()| file.sync_all()).map_err(|source| FilesError::File { path: path(), source })?;
     }
-    let mut placed: Vec<(PathBuf, Option<TempPath>)> = Vec::new();
-    for (temporary, target) in staged {
-        if let Err(source) = place(directory, temporary, &target, &mut placed) {
-            let left = put_back(placed);
-            return Err(match left.as_slice() {
-                [] => FilesError::File { path: target, source },
-                _ => FilesError::NotPutBack { path: target, source, left },
+    Ok(staged)
+}
+
+/// Whose the file is that a new one replaces; `None` where there is none.
+fn target(directory: &Directory, name: &str) -> io::Result<Option<Owned>> {
+    if !is_plain(name) {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no name of a file in this directory"));
+    }
+    let why = match directory.standing(name)? {
+        Standing::Nothing => return Ok(None),
+        Standing::File(owned) => return Ok(Some(owned)),
+        Standing::Directory => "a directory of that name is in the way",
+        Standing::Link => {
+            "a symbolic link of that name is in the way, and is not followed: remove it, or give its target as --out"
+        }
+        Standing::Other => "what has that name is no file",
+    };
+    Err(io::Error::new(io::ErrorKind::AlreadyExists, why))
+}
+
+/// Whether a name is that of something in a directory, and nowhere else.
+fn is_plain(name: &str) -> bool {
+    !name.is_empty() && name != "." && name != ".." && !name.contains(['/', '\\', '\0'])
+}
+
+impl Staged {
+    /// Puts all files in their places.
+    ///
+    /// # Errors
+    /// [`FilesError`]: before the record of the set stands every file is as it was; after it the next run into the directory finishes.
+    pub fn commit(mut self) -> Result<(), FilesError> {
+        self.record()?;
+        let directory = &self.directory;
+        let unfinished = |name: &str| {
+            let path = directory.path_of(name);
+            move |source| FilesError::Unfinished { path, source }
+        };
+        for entry in &self.entries {
+            directory.rename(&entry.staged, &entry.target).map_err(unfinished(&entry.target))?;
+        }
+        directory.sync().map_err(unfinished(""))?;
+        directory.remove(COMMIT).map_err(unfinished(COMMIT))
+    }
+
+    /// Puts the record of the set in place.
+    fn record(&mut self) -> Result<(), FilesError> {
+        let directory = &self.directory;
+        let failed = |source| FilesError::File { path: directory.path_of(COMMIT), source };
+        if !directory.is_where_it_was().map_err(failed)? {
+            return Err(FilesError::Moved(directory.path_of("")));
+        }
+        let bytes = serde_json::to_vec(&self.entries).map_err(|error| failed(error.into()))?;
+        let mut file = directory.create(COMMIT_NEW).map_err(failed)?;
+        file.write_all(&bytes).and_then(|()| file.sync_all()).map_err(failed)?;
+        directory.rename(COMMIT_NEW, COMMIT).map_err(failed)?;
+        if let Err(source) = directory.sync() {
+            // Where it can be taken back nothing has happened.
+            self.recorded = directory.remove(COMMIT).is_err();
+            let path = directory.path_of(COMMIT);
+            return Err(if self.recorded {
+                FilesError::Unfinished { path, source }
+            } else {
+                FilesError::File { path, source }
             });
         }
+        self.recorded = true;
+        self.directory.stays();
+        Ok(())
     }
-    sync_directory(directory);
-    Ok(placed.into_iter().map(|(target, _)| target).collect())
 }
 
-fn stage(directory: &Path, target: &Path, bytes: &[u8]) -> io::Result<TempPath> {
-    if target.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "a directory of that name is in the way"));
+impl Drop for Staged {
+    fn drop(&mut self) {
+        if self.recorded {
+            return;
+        }
+        for entry in &self.entries {
+            let _ = self.directory.remove(&entry.staged);
+        }
+        let _ = self.directory.remove(COMMIT_NEW);
     }
-    let mut file = NamedTempFile::with_prefix_in(".camgen-", directory)?;
-    file.write_all(bytes)?;
-    make_readable(file.as_file())?;
-    file.as_file().sync_all()?;
-    Ok(file.into_temp_path())
 }
 
-/// A temporary file is private; an output is as readable as any new file of the user: owner writes, all read.
-#[cfg(unix)]
-fn make_readable(file: &File) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn make_readable(_: &File) -> io::Result<()> {
-    Ok(())
-}
-
-/// Renames over the target; what stood there is kept in `placed` under its other name.
-fn place(
-    directory: &Path,
-    temporary: TempPath,
-    target: &Path,
-    placed: &mut Vec<(PathBuf, Option<TempPath>)>,
-) -> io::Result<()> {
-    let old = if target.exists() {
-        let keep = NamedTempFile::with_prefix_in(".camgen-old-", directory)?.into_temp_path();
-        fs::rename(target, &keep)?;
-        Some(keep)
-    } else {
-        None
+/// Puts the set in place that a run has recorded, and removes what another has left without a record; the names of the files put in place.
+fn finish(directory: &Directory) -> Result<Vec<String>, FilesError> {
+    let failed = |name: &str| {
+        let path = directory.path_of(name);
+        move |source| FilesError::Left { path, source }
     };
-    // Noted before the rename, so that a failure of it is undone as well.
-    placed.push((target.to_owned(), old));
-    temporary.persist(target).map_err(|error| error.error)
+    let finished = match directory.standing(COMMIT).map_err(failed(COMMIT))? {
+        Standing::File(_) => recorded(directory)?,
+        _ => Vec::new(),
+    };
+    // What another run writes just now must stay; where there are no locks nobody knows.
+    if directory.is_locked() {
+        let names = directory.names().map_err(failed(""))?;
+        for name in names.iter().filter(|name| name.starts_with(STAGED) || *name == COMMIT_NEW) {
+            directory.remove(name).map_err(failed(name))?;
+        }
+    }
+    Ok(finished)
 }
 
-/// Puts back what stood in the places; returns what could not be.
-fn put_back(placed: Vec<(PathBuf, Option<TempPath>)>) -> Vec<Left> {
-    let mut left = Vec::new();
-    for (target, old) in placed {
-        let old = match old {
-            Some(old) => match old.persist(&target) {
-                Ok(()) => continue,
-                Err(mut error) => {
-                    // Dropped, it would be deleted: the only copy there is.
-                    error.path.disable_cleanup(true);
-                    Some(error.path.to_path_buf())
-                }
-            },
-            None => match fs::remove_file(&target) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => None,
-                _ => continue,
-            },
-        };
-        left.push(Left { target, old });
+/// Puts the recorded set in place.
+fn recorded(directory: &Directory) -> Result<Vec<String>, FilesError> {
+    let failed = |name: &str| {
+        let path = directory.path_of(name);
+        move |source| FilesError::Left { path, source }
+    };
+    let bytes = directory.read(COMMIT, LARGEST).map_err(failed(COMMIT))?;
+    let own = |entry: &Entry| entry.staged.starts_with(STAGED) && is_plain(&entry.staged) && is_plain(&entry.target);
+    let entries: Vec<Entry> = match serde_json::from_slice::<Vec<Entry>>(&bytes) {
+        Ok(entries) if entries.iter().all(own) => entries,
+        _ => {
+            let why = "it is no record of camgen: remove it";
+            return Err(failed(COMMIT)(io::Error::new(io::ErrorKind::InvalidData, why)));
+        }
+    };
+    let mut finished = Vec::new();
+    for Entry { staged, target } in entries {
+        if matches!(directory.standing(&staged).map_err(failed(&staged))?, Standing::File(_)) {
+            directory.rename(&staged, &target).map_err(failed(&target))?;
+            finished.push(target);
+        }
     }
-    left
-}
-
-/// Makes the renames last through a power cut, where the system can.
-fn sync_directory(directory: &Path) {
-    if let Ok(handle) = File::open(directory) {
-        let _ = handle.sync_all();
-    }
+    directory.sync().map_err(failed(""))?;
+    directory.remove(COMMIT).map_err(failed(COMMIT))?;
+    Ok(finished)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn output(name: &str, text: &str) -> Output {
-        Output { name: name.into(), bytes: text.into() }
-    }
-
-    fn names(directory: &Path) -> Vec<String> {
-        let mut names: Vec<String> = fs::read_dir(directory)
-            .expect("a directory")
-            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
-
-    #[test]
-    fn writes_all_and_replaces() {
-        let directory = tempfile::tempdir().expect("a directory");
-        let inner = directory.path().join("a/b");
-        write_all(&inner, &[output("x", "1"), output("y", "2")]).expect("written");
-        write_all(&inner, &[output("x", "3")]).expect("replaced");
-        assert_eq!(fs::read_to_string(inner.join("x")).expect("x"), "3");
-        assert_eq!(names(&inner), ["x", "y"]);
-    }
-
-    #[test]
-    fn a_failure_leaves_every_file_as_it_was() {
-        let directory = tempfile::tempdir().expect("a directory");
-        write_all(directory.path(), &[output("x", "old")]).expect("written");
-        fs::create_dir(directory.path().join("y")).expect("in the way");
-        let error = write_all(directory.path(), &[output("x", "new"), output("y", "2")]).expect_err("y is a directory");
-        assert!(error.to_string().contains("in the way"), "{error}");
-        assert_eq!(fs::read_to_string(directory.path().join("x")).expect("x"), "old");
-        assert_eq!(names(directory.path()), ["x", "y"]);
-    }
-
-    #[test]
-    fn a_file_in_place_of_the_directory_is_told() {
-        let directory = tempfile::tempdir().expect("a directory");
-        let file = directory.path().join("out");
-        fs::write(&file, "x").expect("written");
-        assert!(matches!(write_all(&file, &[output("x", "1")]), Err(FilesError::Directory { .. })));
-    }
-
-    #[test]
-    fn what_was_placed_is_put_back() {
-        let directory = tempfile::tempdir().expect("a directory");
-        let (kept, fresh) = (directory.path().join("kept"), directory.path().join("fresh"));
-        fs::write(&kept, "old").expect("written");
-        let stage = |target: &Path| stage(directory.path(), target, b"new").expect("staged");
-        let mut placed = Vec::new();
-        for target in [&kept, &fresh] {
-            place(directory.path(), stage(target), target, &mut placed).expect("placed");
-        }
-        assert_eq!(fs::read_to_string(&kept).expect("kept"), "new");
-        assert_eq!(put_back(placed), []);
-        assert_eq!(fs::read_to_string(&kept).expect("kept"), "old");
-        assert_eq!(names(directory.path()), ["kept"]);
-    }
-
-    /// Where the system does not let the old file back into its place it is kept, and the error says where.
-    #[test]
-    fn an_old_file_is_never_lost() {
-        let directory = tempfile::tempdir().expect("a directory");
-        let target = directory.path().join("x");
-        fs::write(&target, "old").expect("written");
-        let mut placed = Vec::new();
-        let staged = stage(directory.path(), &target, b"new").expect("staged");
-        place(directory.path(), staged, &target, &mut placed).expect("placed");
-        fs::remove_file(&target).expect("removed");
-        fs::create_dir(&target).expect("a directory in the way, over which no file can be renamed");
-        let left = put_back(placed);
-        let old = left.first().and_then(|left| left.old.clone()).expect("kept");
-        assert_eq!(fs::read_to_string(&old).expect("the old file"), "old");
-        let source = io::Error::from(io::ErrorKind::PermissionDenied);
-        let told = FilesError::NotPutBack { path: target, source, left }.to_string();
-        assert!(told.contains(&old.display().to_string()), "{told}");
-    }
-}
+mod tests;

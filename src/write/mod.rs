@@ -3,8 +3,10 @@
 //! One table of formats, walked for every kind of cam: a new format is one file and one line in [`FORMATS`].
 
 pub mod csv;
+mod directory;
 pub mod dxf;
 pub mod files;
+mod finite;
 pub mod html;
 pub mod json;
 pub mod number;

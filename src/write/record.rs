@@ -4,14 +4,15 @@
 //! that is as recorded, or as it would be written now, is replaced; any other is not, unless that is asked for. A record that is
 //! missing or damaged knows nothing: then every file is somebody else's. The record is one of the files that are written all or none.
 
-use super::files::{FilesError, Output, write_all};
+use super::directory::{Directory, Standing};
+use super::files::{FilesError, Output, Staged, found, opened, stage};
+use super::finite;
 use crate::document::Input;
 use crate::report::sha256;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs::{self, File};
-use std::io::Read;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Name of the record in the directory of the files.
@@ -67,37 +68,30 @@ fn digest(inputs: &[Input]) -> String {
 }
 
 impl Record {
-    /// `None` where there is none, or what stands there is no record.
-    fn read(directory: &Path) -> Option<Self> {
-        let path = directory.join(RECORD);
-        let mut bytes = Vec::new();
-        if !fs::symlink_metadata(&path).ok()?.is_file() {
-            return None;
+    /// `None` where what stands in its place is no record; an empty one where nothing does.
+    fn read(directory: &Directory) -> io::Result<Option<Self>> {
+        match directory.standing(RECORD)? {
+            Standing::Nothing => Ok(Some(Self::default())),
+            Standing::File(_) => Ok(serde_json::from_slice(&directory.read(RECORD, LARGEST)?).ok()),
+            _ => Ok(None),
         }
-        File::open(path).ok()?.take(LARGEST).read_to_end(&mut bytes).ok()?;
-        serde_json::from_slice(&bytes).ok()
     }
 
-    fn of(directory: &Path) -> Self {
-        Self::read(directory).unwrap_or_default()
-    }
-
-    /// Of the files that would be replaced, those that are not as camgen wrote them.
-    fn kept(&self, directory: &Path, outputs: &[Output]) -> Vec<Kept> {
-        let kept = outputs.iter().filter_map(|output| {
-            let path = directory.join(&output.name);
-            // A directory is refused when it would be replaced.
-            if fs::symlink_metadata(&path).is_err() || path.is_dir() {
-                return None;
+    /// Of the files that would be replaced, those that are not as camgen wrote them. What is no file is refused when it would be replaced.
+    fn kept(&self, directory: &Directory, outputs: &[Output]) -> Result<Vec<Kept>, FilesError> {
+        let mut kept = Vec::new();
+        for output in outputs {
+            let path = directory.path_of(&output.name);
+            let failed = |source| FilesError::File { path: path.clone(), source };
+            if matches!(directory.standing(&output.name).map_err(failed)?, Standing::File(_)) {
+                let found = directory.read(&output.name, u64::MAX).map_err(failed)?;
+                let recorded = self.files.get(&output.name);
+                if found != output.bytes && recorded.is_none_or(|hash| *hash != sha256(&found)) {
+                    kept.push(Kept { path, changed: recorded.is_some() });
+                }
             }
-            let recorded = self.files.get(&output.name);
-            // What is no file, a pipe for example, is not read.
-            let own = path.is_file()
-                && fs::read(&path)
-                    .is_ok_and(|found| found == output.bytes || recorded.is_some_and(|hash| *hash == sha256(&found)));
-            (!own).then(|| Kept { path, changed: recorded.is_some() })
-        });
-        kept.collect()
+        }
+        Ok(kept)
     }
 
     /// What differs from the last run under this stem: `rpm 35 → 34`.
@@ -113,8 +107,8 @@ impl Record {
         changed.chain(gone.map(|(key, (_, typed))| format!("{key} {typed}, no longer given"))).collect()
     }
 
-    fn add(&mut self, directory: &Path, outputs: &[Output], run: &Run<'_>) {
-        self.files.retain(|name, _| directory.join(name).exists());
+    fn add(&mut self, directory: &Directory, outputs: &[Output], run: &Run<'_>) {
+        self.files.retain(|name, _| !matches!(directory.standing(name), Ok(Standing::Nothing)));
         self.files.extend(outputs.iter().map(|output| (output.name.clone(), sha256(&output.bytes))));
         let made_from = digest(run.inputs);
         self.made_from.extend(outputs.iter().map(|output| (output.name.clone(), made_from.clone())));
@@ -137,43 +131,58 @@ impl Record {
 /// Refuses files that must not be replaced, before work is done for them.
 ///
 /// # Errors
-/// [`FilesError::Kept`], as [`write_recorded`] would.
+/// [`FilesError::Kept`], as [`stage_recorded`] would.
 pub fn refuse_kept(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
-    let mut kept = Record::of(directory).kept(directory, outputs);
-    let path = directory.join(RECORD);
-    if fs::symlink_metadata(&path).is_ok() && Record::read(directory).is_none() {
-        kept.push(Kept { path, changed: false });
+    match found(directory)? {
+        Some(directory) => refuse(&directory, outputs),
+        None => Ok(()),
     }
+}
+
+fn refuse(directory: &Directory, outputs: &[Output]) -> Result<(), FilesError> {
+    let record = read(directory)?;
+    let unknown = record.is_none().then(|| Kept { path: directory.path_of(RECORD), changed: false });
+    let mut kept = record.unwrap_or_default().kept(directory, outputs)?;
+    kept.extend(unknown);
     if kept.is_empty() { Ok(()) } else { Err(FilesError::Kept(kept)) }
 }
 
-/// Writes all outputs of a run into a directory, or none; returns what differs from the last run under its stem, and which of its
-/// files are still of other inputs, a sentence each.
+fn read(directory: &Directory) -> Result<Option<Record>, FilesError> {
+    Record::read(directory).map_err(|source| FilesError::File { path: directory.path_of(RECORD), source })
+}
+
+/// Writes all outputs of a run beside their places in a directory; gives them with what differs from the last run under its stem, and which
+/// of its files are still of other inputs, a sentence each.
 ///
 /// # Errors
 /// [`FilesError::Kept`] when a file stands in a place that camgen has not written, or that was changed since; else as
-/// [`write_all`].
-pub fn write_recorded(directory: &Path, outputs: Vec<Output>, run: &Run<'_>) -> Result<Vec<String>, FilesError> {
-    fs::create_dir_all(directory).map_err(|source| FilesError::Directory { path: directory.to_owned(), source })?;
-    // Two runs at the same time do not lose what the other has recorded, where the system can lock a directory.
-    let lock = File::open(directory).ok();
-    let _ = lock.as_ref().map(File::lock);
+/// [`write_all`](super::files::write_all). Every file then is as it was.
+pub fn stage_recorded(
+    directory: &Path,
+    outputs: Vec<Output>,
+    run: &Run<'_>,
+) -> Result<(Staged, Vec<String>), FilesError> {
+    let words: Vec<&str> = run.inputs.iter().map(|input| &*input.typed).chain([run.stem]).collect();
+    finite::all(&outputs, &words)?;
+    let (directory, finished) = opened(directory)?;
     if !run.overwrite {
-        refuse_kept(directory, &outputs)?;
+        refuse(&directory, &outputs)?;
     }
-    let mut record = Record::of(directory);
+    let mut record = read(&directory)?.unwrap_or_default();
     let mut notes: Vec<String> = told(&record.changes(run)).into_iter().collect();
-    record.add(directory, &outputs, run);
+    record.add(&directory, &outputs, run);
     let other = record.of_other_inputs(run);
     if !other.is_empty() {
         notes.push(format!("still here, and made from other inputs: {}", other.join(", ")));
+    }
+    if !finished.is_empty() {
+        notes.push(format!("an earlier run was cut off; put in place of it first: {}", finished.join(", ")));
     }
     // A record is a map of texts, which cannot fail to be written.
     let bytes = serde_json::to_vec(&record).unwrap_or_default();
     let mut all = outputs;
     all.push(Output { name: RECORD.into(), bytes });
-    write_all(directory, &all)?;
-    Ok(notes)
+    Ok((stage(directory, &all)?, notes))
 }
 
 fn told(changes: &[String]) -> Option<String> {
@@ -188,9 +197,15 @@ fn told(changes: &[String]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn output(text: &str) -> Vec<Output> {
         vec![Output { name: "cam.dxf".into(), bytes: text.into() }]
+    }
+
+    fn write_recorded(directory: &Path, outputs: Vec<Output>, run: &Run<'_>) -> Result<Vec<String>, FilesError> {
+        let (staged, notes) = stage_recorded(directory, outputs, run)?;
+        staged.commit().map(|()| notes)
     }
 
     fn written(directory: &Path, text: &str, rpm: f64, overwrite: bool) -> Result<Vec<String>, FilesError> {

@@ -6,6 +6,7 @@ mod tell;
 
 use super::args::{CamKind, TradeArgs};
 use super::progress::Progress;
+use super::put::put;
 use super::{Failure, Outcome, print};
 use camgen::body::points::{self, Points};
 use camgen::body::{RateTolerance, Request};
@@ -19,7 +20,7 @@ use camgen::report::{Rolled, shown};
 use camgen::verify::{WrittenOutline, rolling};
 use camgen::write::files::Output;
 use camgen::write::number::{names, shortest};
-use camgen::write::record::{Run, refuse_kept, write_recorded};
+use camgen::write::record::{Run, refuse_kept, stage_recorded};
 use camgen::write::{self, dxf, json, proof, svg};
 use camgen::write::{FORMATS, Rendering};
 use serde::Serialize;
@@ -198,7 +199,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let mut inputs = machine.inputs(kind);
     inputs.push(Input::word("command", format!("trade {kind}")));
     inputs.extend(rpm.map(|rpm| Input::number("rpm", rpm)));
-    let files = written(args, outputs, &Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite })?;
+    let files = named(args, &outputs);
     let report = TradeReport {
         schema: 1,
         command: "trade",
@@ -213,12 +214,17 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
         advice,
         files,
     };
-    if args.common.told.json {
-        let bytes = json::write(&report).map_err(Failure::new)?;
-        print(&String::from_utf8_lossy(&bytes))?;
-    } else if !args.common.told.quiet {
-        print(&tell::words(&report))?;
-    }
+    let show = || {
+        if args.common.told.json {
+            let bytes = json::write(&report).map_err(Failure::new)?;
+            print(&String::from_utf8_lossy(&bytes))
+        } else if args.common.told.quiet {
+            Ok(())
+        } else {
+            print(&tell::words(&report))
+        }
+    };
+    written(args, outputs, &Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite }, show)?;
     Ok(Outcome::Fine)
 }
 
@@ -254,14 +260,24 @@ fn traded(args: &TradeArgs, machine: &Machine) -> Result<Traded, Failure> {
     Ok(Traded { kind, rpm: Some(rpm), laws, settings, limits })
 }
 
-/// Writes the files; none in a dry run.
-fn written(args: &TradeArgs, outputs: Vec<Output>, run: &Run<'_>) -> Result<Vec<String>, Failure> {
+/// Where the files go; none in a dry run.
+fn named(args: &TradeArgs, outputs: &[Output]) -> Vec<String> {
+    let outputs = if args.common.told.dry_run { &[] } else { outputs };
+    outputs.iter().map(|output| args.out.join(&output.name).display().to_string()).collect()
+}
+
+/// Tells, and writes the files; none in a dry run.
+fn written(
+    args: &TradeArgs,
+    outputs: Vec<Output>,
+    run: &Run<'_>,
+    show: impl Fn() -> Result<(), Failure>,
+) -> Result<(), Failure> {
     if args.common.told.dry_run {
-        return Ok(Vec::new());
+        return show();
     }
-    let files = outputs.iter().map(|output| args.out.join(&output.name).display().to_string()).collect();
-    write_recorded(&args.out, outputs, run).map_err(Failure::new)?;
-    Ok(files)
+    let stage = || stage_recorded(&args.out, outputs, run).map(|(staged, notes)| (notes, staged)).map_err(Failure::new);
+    put(stage, |_| show())
 }
 
 /// Time of some work, µs, and what it made.

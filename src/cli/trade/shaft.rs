@@ -2,7 +2,7 @@
 
 use super::super::args::TradeArgs;
 use super::super::{Failure, Outcome, print};
-use super::{quantile, timed, written};
+use super::{named, quantile, timed, written};
 use camgen::document::Input;
 use camgen::machine::ShaftMachine;
 use camgen::report::chart::{self, Panel, Point};
@@ -92,16 +92,21 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let outputs = vec![output("csv", table(&rows).into_bytes()), output("svg", picture)];
     let mut inputs = machine.inputs().to_vec();
     inputs.push(Input::word("command", "trade shaft"));
-    let files = written(args, outputs, &Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite })?;
+    let files = named(args, &outputs);
     let advice = advice(&rows);
     let report =
         Report { schema: 1, command: "trade", machine: machine.name(), n1_rpm: truth, rows: &rows, advice, files };
-    if args.common.told.json {
-        let bytes = json::write(&report).map_err(Failure::new)?;
-        print(&String::from_utf8_lossy(&bytes))?;
-    } else if !args.common.told.quiet {
-        print(&words(&report))?;
-    }
+    let show = || {
+        if args.common.told.json {
+            let bytes = json::write(&report).map_err(Failure::new)?;
+            print(&String::from_utf8_lossy(&bytes))
+        } else if args.common.told.quiet {
+            Ok(())
+        } else {
+            print(&words(&report))
+        }
+    };
+    written(args, outputs, &Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite }, show)?;
     Ok(Outcome::Fine)
 }
 
