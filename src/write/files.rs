@@ -5,7 +5,7 @@
 //! target, so that a reader finds the old one or the new one at any time, and the record is removed. A run that opens a directory with
 //! such a record finishes it first; files without one are what is left of a run that was cut off before, and are removed.
 
-use super::directory::{Directory, Owned, Standing, give};
+use super::directory::{Directory, Owned, Stamp, Standing, give};
 use super::record::Kept;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
@@ -70,7 +70,8 @@ pub enum FilesError {
     Moved(PathBuf),
     /// The set is written, and not every file of it is in its place.
     #[error(
-        "cannot put `{}` in its place: {source}; the set is kept, and the next run that writes into this directory puts it in place",
+        "cannot put `{}` in its place: {source}; the set is kept, and the next run that writes into this directory puts it in place, as \
+         soon as nothing stands in its way",
         path.display()
     )]
     Unfinished {
@@ -79,8 +80,16 @@ pub enum FilesError {
         /// Why.
         source: io::Error,
     },
+    /// The set of an earlier run was put in its place, and then this one was refused.
+    #[error("an earlier run was cut off, and its files were put in place: {}; then: {source}", finished.join(", "))]
+    Finished {
+        /// The files of the earlier run.
+        finished: Vec<String>,
+        /// Why this one was refused.
+        source: Box<FilesError>,
+    },
     /// The set of an earlier run cannot be put in its place.
-    #[error("cannot finish what an earlier run left in `{}`: {source}; nothing else was changed", path.display())]
+    #[error("an earlier run was cut off, and cannot be finished at `{}`: {source}; nothing else was changed", path.display())]
     Left {
         /// The file that it failed at.
         path: PathBuf,
@@ -91,8 +100,8 @@ pub enum FilesError {
 
 /// The record of a set that is written, while it is put in place.
 const COMMIT: &str = ".camgen-commit";
-/// The same until it is whole.
-const COMMIT_NEW: &str = ".camgen-commit-new";
+/// What the name of the same begins with until it is whole.
+const COMMIT_NEW: &str = ".camgen-commit-new-";
 /// What the names of files begin with that are not in their places yet.
 const STAGED: &str = ".camgen-new-";
 /// The largest record of a set that is read, bytes.
@@ -103,6 +112,8 @@ const LARGEST: u64 = 1 << 26;
 struct Entry {
     staged: String,
     target: String,
+    /// What stood in the place of the target.
+    replaces: Option<Stamp>,
 }
 
 /// Files that are written beside their targets. Dropped, they are removed, and everything is as it was.
@@ -131,10 +142,15 @@ pub(super) fn opened(path: &Path) -> Result<(Directory, Vec<String>), FilesError
 }
 
 /// The same where the directory is there already.
-pub(super) fn found(path: &Path) -> Result<Option<Directory>, FilesError> {
-    let directory = Directory::found(path)?;
-    directory.iter().try_for_each(|directory| finish(directory).map(|_| ()))?;
-    Ok(directory)
+pub(super) fn found(path: &Path) -> Result<Option<(Directory, Vec<String>)>, FilesError> {
+    let Some(directory) = Directory::found(path)? else { return Ok(None) };
+    let finished = finish(&directory)?;
+    Ok(Some((directory, finished)))
+}
+
+/// An error of a run that has first finished another.
+pub(super) fn after(finished: Vec<String>) -> impl FnOnce(FilesError) -> FilesError {
+    move |source| if finished.is_empty() { source } else { FilesError::Finished { finished, source: Box::new(source) } }
 }
 
 /// Writes files beside their targets.
@@ -144,11 +160,12 @@ pub(super) fn stage(directory: Directory, outputs: &[Output]) -> Result<Staged, 
         let name = format!("{STAGED}{}-{index}", std::process::id());
         let failed = |source| FilesError::File { path: staged.directory.path_of(&output.name), source };
         let owned = target(&staged.directory, &output.name).map_err(failed)?;
-        let mut file = staged.directory.create(&name).map_err(failed)?;
+        let mut file = staged.directory.create(&name, owned.is_some()).map_err(failed)?;
         // From here on it is removed with the others.
-        staged.entries.push(Entry { staged: name, target: output.name.clone() });
+        let replaces = owned.as_ref().map(|owned| owned.stamp().clone());
+        staged.entries.push(Entry { staged: name, target: output.name.clone(), replaces });
         let written = file.write_all(&output.bytes);
-        let given = written.and_then(|()| owned.map_or(Ok(()), |owned| give(&file, owned)));
+        let given = written.and_then(|()| owned.map_or(Ok(()), |owned| give(&file, &owned)));
         let path = || staged.directory.path_of(&output.name);
         given.and_then(|()| file.sync_all()).map_err(|source| FilesError::File { path: path(), source })?;
     }
@@ -162,6 +179,9 @@ fn target(directory: &Directory, name: &str) -> io::Result<Option<Owned>> {
     }
     let why = match directory.standing(name)? {
         Standing::Nothing => return Ok(None),
+        Standing::File(owned) if directory.guards(&owned)? => {
+            "a file of somebody else is in the way, in a directory with the sticky bit"
+        }
         Standing::File(owned) => return Ok(Some(owned)),
         Standing::Directory => "a directory of that name is in the way",
         Standing::Link => {
@@ -189,8 +209,18 @@ impl Staged {
             let path = directory.path_of(name);
             move |source| FilesError::Unfinished { path, source }
         };
-        for entry in &self.entries {
-            directory.rename(&entry.staged, &entry.target).map_err(unfinished(&entry.target))?;
+        for (index, entry) in self.entries.iter().enumerate() {
+            if let Err(source) = directory.rename(&entry.staged, &entry.target) {
+                // Before the first one nothing has changed, if the record can be taken back.
+                let back = index == 0 && take_back(directory);
+                self.recorded = !back;
+                let path = self.directory.path_of(&entry.target);
+                return Err(if back {
+                    FilesError::File { path, source }
+                } else {
+                    FilesError::Unfinished { path, source }
+                });
+            }
         }
         directory.sync().map_err(unfinished(""))?;
         directory.remove(COMMIT).map_err(unfinished(COMMIT))
@@ -204,12 +234,16 @@ impl Staged {
             return Err(FilesError::Moved(directory.path_of("")));
         }
         let bytes = serde_json::to_vec(&self.entries).map_err(|error| failed(error.into()))?;
-        let mut file = directory.create(COMMIT_NEW).map_err(failed)?;
-        file.write_all(&bytes).and_then(|()| file.sync_all()).map_err(failed)?;
-        directory.rename(COMMIT_NEW, COMMIT).map_err(failed)?;
+        let new = commit_new();
+        let mut file = directory.create(&new, false).map_err(failed)?;
+        let written = file.write_all(&bytes).and_then(|()| file.sync_all());
+        if let Err(source) = written.and_then(|()| directory.rename(&new, COMMIT)) {
+            let _ = directory.remove(&new);
+            return Err(failed(source));
+        }
         if let Err(source) = directory.sync() {
             // Where it can be taken back nothing has happened.
-            self.recorded = directory.remove(COMMIT).is_err();
+            self.recorded = !take_back(directory);
             let path = directory.path_of(COMMIT);
             return Err(if self.recorded {
                 FilesError::Unfinished { path, source }
@@ -231,8 +265,19 @@ impl Drop for Staged {
         for entry in &self.entries {
             let _ = self.directory.remove(&entry.staged);
         }
-        let _ = self.directory.remove(COMMIT_NEW);
     }
+}
+
+/// The name of the record of this run until it is whole.
+fn commit_new() -> String {
+    format!("{COMMIT_NEW}{}", std::process::id())
+}
+
+/// Removes the record of a set of which nothing is in its place yet; whether that was possible.
+fn take_back(directory: &Directory) -> bool {
+    let removed = directory.remove(COMMIT).is_ok();
+    let _ = directory.sync();
+    removed
 }
 
 /// Puts the set in place that a run has recorded, and removes what another has left without a record; the names of the files put in place.
@@ -248,7 +293,7 @@ fn finish(directory: &Directory) -> Result<Vec<String>, FilesError> {
     // What another run writes just now must stay; where there are no locks nobody knows.
     if directory.is_locked() {
         let names = directory.names().map_err(failed(""))?;
-        for name in names.iter().filter(|name| name.starts_with(STAGED) || *name == COMMIT_NEW) {
+        for name in names.iter().filter(|name| name.starts_with(STAGED) || name.starts_with(COMMIT_NEW)) {
             directory.remove(name).map_err(failed(name))?;
         }
     }
@@ -271,11 +316,22 @@ fn recorded(directory: &Directory) -> Result<Vec<String>, FilesError> {
         }
     };
     let mut finished = Vec::new();
-    for Entry { staged, target } in entries {
-        if matches!(directory.standing(&staged).map_err(failed(&staged))?, Standing::File(_)) {
-            directory.rename(&staged, &target).map_err(failed(&target))?;
-            finished.push(target);
+    for Entry { staged, target, replaces } in entries {
+        if !matches!(directory.standing(&staged).map_err(failed(&staged))?, Standing::File(_)) {
+            continue;
         }
+        let there = match directory.standing(&target).map_err(failed(&target))? {
+            Standing::Nothing => None,
+            Standing::File(owned) => Some(owned.stamp().clone()),
+            _ => Some(Stamp::default()),
+        };
+        // One that was removed since is no loss.
+        if there.is_some() && there != replaces {
+            let why = "it was changed or put there since: move it away, then run again";
+            return Err(failed(&target)(io::Error::new(io::ErrorKind::AlreadyExists, why)));
+        }
+        directory.rename(&staged, &target).map_err(failed(&target))?;
+        finished.push(target);
     }
     directory.sync().map_err(failed(""))?;
     directory.remove(COMMIT).map_err(failed(COMMIT))?;

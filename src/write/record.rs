@@ -5,7 +5,7 @@
 //! missing or damaged knows nothing: then every file is somebody else's. The record is one of the files that are written all or none.
 
 use super::directory::{Directory, Standing};
-use super::files::{FilesError, Output, Staged, found, opened, stage};
+use super::files::{FilesError, Output, Staged, after, found, opened, stage};
 use super::finite;
 use crate::document::Input;
 use crate::report::sha256;
@@ -134,7 +134,7 @@ impl Record {
 /// [`FilesError::Kept`], as [`stage_recorded`] would.
 pub fn refuse_kept(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
     match found(directory)? {
-        Some(directory) => refuse(&directory, outputs),
+        Some((directory, finished)) => refuse(&directory, outputs).map_err(after(finished)),
         None => Ok(()),
     }
 }
@@ -165,6 +165,14 @@ pub fn stage_recorded(
     let words: Vec<&str> = run.inputs.iter().map(|input| &*input.typed).chain([run.stem]).collect();
     finite::all(&outputs, &words)?;
     let (directory, finished) = opened(directory)?;
+    let (staged, mut notes) = staged(directory, outputs, run).map_err(after(finished.clone()))?;
+    if !finished.is_empty() {
+        notes.push(format!("an earlier run was cut off; put in place of it first: {}", finished.join(", ")));
+    }
+    Ok((staged, notes))
+}
+
+fn staged(directory: Directory, outputs: Vec<Output>, run: &Run<'_>) -> Result<(Staged, Vec<String>), FilesError> {
     if !run.overwrite {
         refuse(&directory, &outputs)?;
     }
@@ -174,9 +182,6 @@ pub fn stage_recorded(
     let other = record.of_other_inputs(run);
     if !other.is_empty() {
         notes.push(format!("still here, and made from other inputs: {}", other.join(", ")));
-    }
-    if !finished.is_empty() {
-        notes.push(format!("an earlier run was cut off; put in place of it first: {}", finished.join(", ")));
     }
     // A record is a map of texts, which cannot fail to be written.
     let bytes = serde_json::to_vec(&record).unwrap_or_default();

@@ -1,13 +1,21 @@
 //! A directory by its path, where the system gives no handle to look names up in.
 
-use super::Standing;
+use super::{Stamp, Standing};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Whose a file is: nothing is known of that.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::write) struct Owned;
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(in crate::write) struct Owned {
+    stamp: Stamp,
+}
+
+impl Owned {
+    pub(in crate::write) fn stamp(&self) -> &Stamp {
+        &self.stamp
+    }
+}
 
 #[derive(Debug)]
 pub(super) struct Held(PathBuf);
@@ -26,12 +34,13 @@ impl Held {
     }
 
     pub(super) fn standing(&self, name: &str) -> io::Result<Standing> {
-        let kind = match fs::symlink_metadata(self.0.join(name)) {
+        let data = match fs::symlink_metadata(self.0.join(name)) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Standing::Nothing),
-            data => data?.file_type(),
+            data => data?,
         };
+        let kind = data.file_type();
         Ok(if kind.is_file() {
-            Standing::File(Owned)
+            Standing::File(Owned { stamp: Stamp(format!("{} {:?}", data.len(), data.modified().ok())) })
         } else if kind.is_dir() {
             Standing::Directory
         } else if kind.is_symlink() {
@@ -41,7 +50,7 @@ impl Held {
         })
     }
 
-    pub(super) fn create(&self, name: &str) -> io::Result<File> {
+    pub(super) fn create(&self, name: &str, _: bool) -> io::Result<File> {
         File::create_new(self.0.join(name))
     }
 
@@ -58,7 +67,14 @@ impl Held {
     }
 
     pub(super) fn names(&self) -> io::Result<Vec<String>> {
-        fs::read_dir(&self.0)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned())).collect()
+        fs::read_dir(&self.0)?
+            .map(|entry| Ok(entry?.file_name().into_string().ok()))
+            .filter_map(Result::transpose)
+            .collect()
+    }
+
+    pub(super) fn guards(&self, _: &Owned) -> io::Result<bool> {
+        Ok(false)
     }
 
     pub(super) fn sync(&self) -> io::Result<()> {
@@ -72,6 +88,6 @@ pub(super) fn has_no_locks(_: &io::Error) -> bool {
 }
 
 /// Nothing is known of owners.
-pub(in crate::write) fn give(_: &File, _: Owned) -> io::Result<()> {
+pub(in crate::write) fn give(_: &File, _: &Owned) -> io::Result<()> {
     Ok(())
 }

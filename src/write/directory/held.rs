@@ -1,6 +1,6 @@
 //! A directory by its handle: every name is looked up in the directory that was opened.
 
-use super::Standing;
+use super::{Stamp, Standing};
 use rustix::fs::{AtFlags, Dir, FileType, Gid, Mode, OFlags, Stat, Uid};
 use rustix::io::Errno;
 use std::fs::{self, File, TryLockError};
@@ -8,17 +8,20 @@ use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
+/// Who may read and write a file that gets its permissions from the one it replaces, until it has them.
+const PRIVATE: Mode = Mode::RUSR.union(Mode::WUSR);
 /// Who may read and write a new file, less what the user's mask takes.
 const NEW: Mode = Mode::RUSR.union(Mode::WUSR).union(Mode::RGRP).union(Mode::WGRP).union(Mode::ROTH).union(Mode::WOTH);
 /// Of a mode, what says who may read, write and execute.
 const PERMISSIONS: Mode = Mode::RWXU.union(Mode::RWXG).union(Mode::RWXO);
 
 /// Whose a file is, and who may do what with it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(in crate::write) struct Owned {
     mode: Mode,
     user: Uid,
     group: Gid,
+    stamp: Stamp,
 }
 
 impl Owned {
@@ -27,7 +30,12 @@ impl Owned {
             mode: Mode::from_raw_mode(stat.st_mode) & PERMISSIONS,
             user: Uid::from_raw(stat.st_uid),
             group: Gid::from_raw(stat.st_gid),
+            stamp: Stamp(format!("{} {} {}.{}", stat.st_ino, stat.st_size, stat.st_mtime, stat.st_mtime_nsec)),
         }
+    }
+
+    pub(in crate::write) fn stamp(&self) -> &Stamp {
+        &self.stamp
     }
 }
 
@@ -66,9 +74,10 @@ impl Held {
         })
     }
 
-    pub(super) fn create(&self, name: &str) -> io::Result<File> {
+    pub(super) fn create(&self, name: &str, private: bool) -> io::Result<File> {
+        let mode = if private { PRIVATE } else { NEW };
         let flags = OFlags::WRONLY | OFlags::CREATE | OFlags::EXCL | OFlags::NOFOLLOW | OFlags::CLOEXEC;
-        Ok(File::from(rustix::fs::openat(&self.0, name, flags, NEW)?))
+        Ok(File::from(rustix::fs::openat(&self.0, name, flags, mode)?))
     }
 
     pub(super) fn file(&self, name: &str) -> io::Result<File> {
@@ -86,8 +95,16 @@ impl Held {
     }
 
     pub(super) fn names(&self) -> io::Result<Vec<String>> {
-        let names = Dir::read_from(&self.0)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
-        names.collect()
+        let names = Dir::read_from(&self.0)?.map(|entry| Ok(entry?.file_name().to_str().map(str::to_owned).ok()));
+        names.filter_map(Result::transpose).collect()
+    }
+
+    /// Whether others who may write here may nevertheless not replace a file of this owner: the sticky bit.
+    pub(super) fn guards(&self, owned: &Owned) -> io::Result<bool> {
+        let own = rustix::fs::fstat(&self.0)?;
+        let user = rustix::process::geteuid();
+        let may = user == Uid::ROOT || user == owned.user || user == Uid::from_raw(own.st_uid);
+        Ok(!may && Mode::from_raw_mode(own.st_mode).contains(Mode::SVTX))
     }
 
     pub(super) fn sync(&self) -> io::Result<()> {
@@ -103,7 +120,7 @@ pub(super) fn has_no_locks(error: &io::Error) -> bool {
 
 /// Makes a file belong to whom another belonged, with its permissions. Only the superuser can give files away: where that is refused the
 /// file is the user's own.
-pub(in crate::write) fn give(file: &File, owned: Owned) -> io::Result<()> {
+pub(in crate::write) fn give(file: &File, owned: &Owned) -> io::Result<()> {
     let own = Owned::of(&rustix::fs::fstat(file)?);
     if (own.user, own.group) != (owned.user, owned.group) {
         let _ = rustix::fs::fchown(file, Some(owned.user), Some(owned.group));

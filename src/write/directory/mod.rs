@@ -10,6 +10,7 @@ mod held;
 use super::files::FilesError;
 use held::Held;
 pub(super) use held::{Owned, give};
+use serde::{Deserialize, Serialize};
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -19,9 +20,15 @@ use std::time::{Duration, Instant};
 /// So long another run that writes into the directory is waited for, looking so often.
 const PATIENCE: Duration = Duration::from_secs(10);
 const PERIOD: Duration = Duration::from_millis(5);
+/// A directory that is gone when its lock is had is made again so often.
+const MOST_TIMES: usize = 8;
+
+/// By what a file is known again: another one has another, and so has one that was changed.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Stamp(String);
 
 /// What stands under a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Standing {
     Nothing,
     File(Owned),
@@ -47,13 +54,24 @@ impl Directory {
     /// Opens a directory, which is made where it is missing, and waits until no other run writes into it.
     pub(super) fn open(path: &Path) -> Result<Self, FilesError> {
         let made = missing(path);
+        let mut opened = Self::made(path, &made);
+        // Another run that gave up may have removed the directory that it had made while this one waited for it.
+        for _ in 0..MOST_TIMES {
+            match &opened {
+                Ok(directory) if !directory.is_where_it_was().unwrap_or(true) => opened = Self::made(path, &made),
+                _ => break,
+            }
+        }
+        opened
+    }
+
+    fn made(path: &Path, made: &[PathBuf]) -> Result<Self, FilesError> {
         let opened = fs::create_dir_all(path).and_then(|()| Held::open(path));
         let opened = opened.map_err(|source| FilesError::Directory { path: path.to_owned(), source });
-        let locked = opened.and_then(|held| lock(&held, path).map(|locked| (held, locked)));
-        match locked {
-            Ok((held, locked)) => Ok(Self { held, path: path.to_owned(), made, locked }),
+        match opened.and_then(|held| lock(&held, path).map(|locked| (held, locked))) {
+            Ok((held, locked)) => Ok(Self { held, path: path.to_owned(), made: made.to_vec(), locked }),
             Err(error) => {
-                remove_empty(&made);
+                remove_empty(made);
                 Err(error)
             }
         }
@@ -75,9 +93,17 @@ impl Directory {
         self.locked
     }
 
-    /// What was made for it stays.
+    /// What was made for it stays, through a power cut where the system can do that.
     pub(super) fn stays(&mut self) {
-        self.made.clear();
+        for parent in self.made.drain(..).filter_map(|made| Some(made.parent()?.to_owned())) {
+            let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { &parent };
+            let _ = Held::open(parent).and_then(|parent| parent.sync());
+        }
+    }
+
+    /// Whether a file in it must not be replaced by others than its owner.
+    pub(super) fn guards(&self, owned: &Owned) -> io::Result<bool> {
+        self.held.guards(owned)
     }
 
     /// The path of a file in it, for words.
@@ -95,9 +121,16 @@ impl Directory {
         self.held.standing(name)
     }
 
-    /// A new file, with the permissions that the user's new files have.
-    pub(super) fn create(&self, name: &str) -> io::Result<File> {
-        self.held.create(name)
+    /// A new file, with the permissions that the user's new files have, or readable to nobody else. One of this name that was left by a
+    /// run with the same number is replaced.
+    pub(super) fn create(&self, name: &str, private: bool) -> io::Result<File> {
+        match self.held.create(name, private) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                self.held.remove(name)?;
+                self.held.create(name, private)
+            }
+            created => created,
+        }
     }
 
     /// The bytes of a file, at the most so many.

@@ -156,3 +156,22 @@ fn two_runs_write_one_after_the_other() {
     assert!(x == y && y == z, "{x} {y} {z}");
     assert_eq!(names(path), ["x", "y", "z"]);
 }
+
+/// What somebody made of a file after a run was cut off is not replaced when that run is finished.
+#[test]
+fn an_edit_after_a_cut_is_kept() {
+    let directory = tempfile::tempdir().expect("a directory");
+    let path = directory.path();
+    write_all(path, &[output("x", "old")]).expect("written");
+    let mut run = staged(path, &[output("x", "new"), output("y", "new")]);
+    run.record().expect("recorded");
+    drop(run);
+    fs::write(path.join("x"), "an edit").expect("written");
+    let error = write_all(path, &[output("x", "newer")]).expect_err("an edit");
+    assert!(error.to_string().contains("move it away"), "{error}");
+    assert_eq!(text(&path.join("x")), "an edit");
+    fs::rename(path.join("x"), path.join("mine")).expect("moved away");
+    let (_, finished) = opened(path).expect("finished");
+    assert_eq!(finished, ["x", "y"]);
+    assert_eq!((text(&path.join("x")), text(&path.join("mine"))), ("new".into(), "an edit".into()));
+}
