@@ -56,8 +56,9 @@ fn of(directory: &Path) -> Vec<String> {
     paths.sort();
     let line = |path: &std::path::PathBuf| {
         let digest = Sha256::digest(fs::read(path).expect("a file"));
-        let digits: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        format!("{} {}", path.file_name().expect("a name").to_string_lossy(), &digits[..16])
+        // Half of it tells any two files apart.
+        let start = digest.first_chunk().map_or(0, |start| u128::from_be_bytes(*start));
+        format!("{} {start:032x}", path.file_name().expect("a name").to_string_lossy())
     };
     paths.iter().map(line).collect()
 }

@@ -93,7 +93,10 @@ fn included(directory: &Path, found: &mut BTreeSet<PathBuf>) {
                     let (name, _) = rest.split_once('"').expect("an end");
                     let folder = path.parent().expect("a folder");
                     found.insert(
-                        folder.join(name).canonicalize().unwrap_or_else(|error| panic!("{path:?} {name}: {error}")),
+                        folder
+                            .join(name)
+                            .canonicalize()
+                            .unwrap_or_else(|error| panic!("{} {name}: {error}", path.display())),
                     );
                 }
             }

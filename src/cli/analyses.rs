@@ -6,7 +6,7 @@ use super::args::{
 };
 use super::cams::{show, source_date};
 use super::progress::Progress;
-use super::put::put;
+use super::put::put_set;
 use super::{Failure, Outcome, print, tell};
 use camgen::analysis::linkage::Goal;
 use camgen::analysis::shaft::{Asked, Solver};
@@ -149,7 +149,7 @@ pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
         shown.outputs().iter().find(|output| output.name.ends_with(ending)).map(|output| output.bytes.as_slice());
     let text = String::from_utf8_lossy(bytes.unwrap_or_default());
     match files {
-        Some(files) => put(|| files.stage().map_err(Failure::new), |_| print(&text))?,
+        Some(files) => put_set(files, |_| print(&text))?,
         None => print(&text)?,
     }
     Ok(Outcome::Fine)
@@ -237,7 +237,7 @@ fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Out
         None
     };
     match files {
-        Some(files) => put(|| files.stage().map_err(Failure::new), |report| show(report, &args.told))?,
+        Some(files) => put_set(files, |report| show(report, &args.told))?,
         None => show(&judged.report(), &args.told)?,
     }
     Ok(if judged.passed() { Outcome::Fine } else { Outcome::CheckFailed })

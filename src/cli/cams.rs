@@ -5,7 +5,7 @@ use super::args::{
     PointsAs, PointsBetween, PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
 };
 use super::progress::Progress;
-use super::put::put;
+use super::put::put_set;
 use super::{Failure, Outcome, print, tell, text};
 use camgen::body::Request;
 use camgen::body::points::{Given, Points};
@@ -255,7 +255,7 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
     let files = files_of(&proven, &writing, common, &left_out);
     drop(progress);
     match files? {
-        Some(files) => put(|| files.stage().map_err(Failure::new), |report| show(report, &common.told))?,
+        Some(files) => put_set(files, |report| show(report, &common.told))?,
         None => show(&proven.report(), &common.told)?,
     }
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })

@@ -91,8 +91,8 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
     let run = Run { stem: &stem, inputs: &inputs, overwrite: args.overwrite };
     let outputs = vec![Output { name, bytes: page }];
     let stage =
-        || stage_recorded(&args.out, outputs, &run).map(|(staged, notes)| (notes, staged)).map_err(Failure::new);
-    put(stage, |_| args.show(&[&one, &two]))?;
+        |place| stage_recorded(place, outputs, &run).map(|(staged, notes)| (notes, staged)).map_err(Failure::new);
+    put(&args.out, stage, |_| args.show(&[&one, &two]))?;
     Ok(if a.passed() && b.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 

@@ -35,15 +35,20 @@ mod held {
         }
 
         /// Ends the program by the signal that came, if one did.
-        pub(in crate::cli) fn released(self) {
-            for id in self.registered {
-                unregister(id);
-            }
-            for (signal, raised) in self.ending {
+        pub(in crate::cli) fn end(&self) {
+            for (signal, raised) in &self.ending {
                 if raised.load(Ordering::SeqCst) {
-                    let _ = emulate_default_handler(signal);
+                    let _ = emulate_default_handler(*signal);
                 }
             }
+        }
+
+        /// Signals end the program again, also by one that has come.
+        pub(in crate::cli) fn released(self) {
+            for id in &self.registered {
+                unregister(*id);
+            }
+            self.end();
         }
     }
 }
@@ -61,6 +66,8 @@ mod held {
         pub(in crate::cli) fn raised(&self) -> bool {
             false
         }
+
+        pub(in crate::cli) fn end(&self) {}
 
         pub(in crate::cli) fn released(self) {}
     }

@@ -5,7 +5,7 @@ use crate::body::Body;
 use crate::document::Input;
 use crate::numeric::parallel;
 use crate::report::{Report, failed};
-use crate::write::files::{self, Staged};
+use crate::write::files::{self, Place, Staged};
 use crate::write::record::{Run, stage_recorded};
 use crate::write::svg;
 use crate::write::{FORMATS, Format, Rendering, When, by_name};
@@ -178,18 +178,27 @@ impl FileSet {
     /// [`Error::Files`], also when a file would be replaced that camgen has not written or that was changed since; then every file
     /// is as it was before.
     pub fn commit(self) -> Result<Report, Error> {
-        let (report, staged) = self.stage()?;
+        let place = self.open()?;
+        let (report, staged) = self.stage(place)?;
         staged.commit()?;
         Ok(report)
     }
 
-    /// The same in two steps: the files are written beside their places, so that the report can be told before they are put there.
+    /// The same step by step: the directory, where another run may have to be waited for.
     ///
     /// # Errors
     /// As [`FileSet::commit`].
-    pub fn stage(self) -> Result<(Report, Staged), Error> {
+    pub fn open(&self) -> Result<Place, Error> {
+        Ok(Place::open(&self.directory)?)
+    }
+
+    /// The files are written beside their places in the directory that was opened, so that the report can be told before they are put there.
+    ///
+    /// # Errors
+    /// As [`FileSet::commit`].
+    pub fn stage(self, place: Place) -> Result<(Report, Staged), Error> {
         let run = Run { stem: &self.stem, inputs: &self.inputs, overwrite: self.overwrite };
-        let (staged, changes) = stage_recorded(&self.directory, self.outputs, &run)?;
+        let (staged, changes) = stage_recorded(place, self.outputs, &run)?;
         let mut report = self.report;
         report.notes.extend(changes);
         Ok((report, staged))

@@ -116,6 +116,33 @@ struct Entry {
     replaces: Option<Stamp>,
 }
 
+/// A directory to write into, in which no other run is.
+#[derive(Debug)]
+pub struct Place {
+    pub(super) directory: Directory,
+    /// The files that were put in place of an earlier run that was cut off.
+    pub(super) finished: Vec<String>,
+}
+
+impl Place {
+    /// Opens a directory, which is made when missing; waits until no other run is in it, and finishes one that was cut off.
+    ///
+    /// # Errors
+    /// [`FilesError`]; then nothing of this run was written.
+    pub fn open(path: &Path) -> Result<Self, FilesError> {
+        let directory = Directory::open(path)?;
+        let finished = finish(&directory)?;
+        Ok(Self { directory, finished })
+    }
+
+    /// The same where it is there already.
+    pub(super) fn found(path: &Path) -> Result<Option<Self>, FilesError> {
+        let Some(directory) = Directory::found(path)? else { return Ok(None) };
+        let finished = finish(&directory)?;
+        Ok(Some(Self { directory, finished }))
+    }
+}
+
 /// Files that are written beside their targets. Dropped, they are removed, and everything is as it was.
 #[derive(Debug)]
 pub struct Staged {
@@ -130,22 +157,7 @@ pub struct Staged {
 /// # Errors
 /// [`FilesError`]; then every file is as it was before, unless the error says that the set is kept.
 pub fn write_all(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
-    let (directory, _) = opened(directory)?;
-    stage(directory, outputs)?.commit()
-}
-
-/// A directory with nothing left in it of an earlier run, and the names of the files that were put in place for that.
-pub(super) fn opened(path: &Path) -> Result<(Directory, Vec<String>), FilesError> {
-    let directory = Directory::open(path)?;
-    let finished = finish(&directory)?;
-    Ok((directory, finished))
-}
-
-/// The same where the directory is there already.
-pub(super) fn found(path: &Path) -> Result<Option<(Directory, Vec<String>)>, FilesError> {
-    let Some(directory) = Directory::found(path)? else { return Ok(None) };
-    let finished = finish(&directory)?;
-    Ok(Some((directory, finished)))
+    stage(Place::open(directory)?.directory, outputs)?.commit()
 }
 
 /// An error of a run that has first finished another.
@@ -179,8 +191,8 @@ fn target(directory: &Directory, name: &str) -> io::Result<Option<Owned>> {
     }
     let why = match directory.standing(name)? {
         Standing::Nothing => return Ok(None),
-        Standing::File(owned) if directory.guards(&owned)? => {
-            "a file of somebody else is in the way, in a directory with the sticky bit"
+        Standing::File(owned) if directory.guards(name, &owned)? => {
+            "it cannot be replaced: it is somebody else's under a sticky bit, immutable, or a mount point"
         }
         Standing::File(owned) => return Ok(Some(owned)),
         Standing::Directory => "a directory of that name is in the way",
@@ -198,6 +210,14 @@ fn is_plain(name: &str) -> bool {
 }
 
 impl Staged {
+    /// Removes what is not in its place; nothing once the record of the set stands.
+    pub fn discard(&self) {
+        let entries = if self.recorded { &[] } else { self.entries.as_slice() };
+        for entry in entries {
+            let _ = self.directory.remove(&entry.staged);
+        }
+    }
+
     /// Puts all files in their places.
     ///
     /// # Errors
@@ -259,12 +279,7 @@ impl Staged {
 
 impl Drop for Staged {
     fn drop(&mut self) {
-        if self.recorded {
-            return;
-        }
-        for entry in &self.entries {
-            let _ = self.directory.remove(&entry.staged);
-        }
+        self.discard();
     }
 }
 

@@ -5,7 +5,7 @@
 //! missing or damaged knows nothing: then every file is somebody else's. The record is one of the files that are written all or none.
 
 use super::directory::{Directory, Standing};
-use super::files::{FilesError, Output, Staged, after, found, opened, stage};
+use super::files::{FilesError, Output, Place, Staged, after, stage};
 use super::finite;
 use crate::document::Input;
 use crate::report::sha256;
@@ -133,8 +133,8 @@ impl Record {
 /// # Errors
 /// [`FilesError::Kept`], as [`stage_recorded`] would.
 pub fn refuse_kept(directory: &Path, outputs: &[Output]) -> Result<(), FilesError> {
-    match found(directory)? {
-        Some((directory, finished)) => refuse(&directory, outputs).map_err(after(finished)),
+    match Place::found(directory)? {
+        Some(Place { directory, finished }) => refuse(&directory, outputs).map_err(after(finished)),
         None => Ok(()),
     }
 }
@@ -157,14 +157,10 @@ fn read(directory: &Directory) -> Result<Option<Record>, FilesError> {
 /// # Errors
 /// [`FilesError::Kept`] when a file stands in a place that camgen has not written, or that was changed since; else as
 /// [`write_all`](super::files::write_all). Every file then is as it was.
-pub fn stage_recorded(
-    directory: &Path,
-    outputs: Vec<Output>,
-    run: &Run<'_>,
-) -> Result<(Staged, Vec<String>), FilesError> {
+pub fn stage_recorded(place: Place, outputs: Vec<Output>, run: &Run<'_>) -> Result<(Staged, Vec<String>), FilesError> {
     let words: Vec<&str> = run.inputs.iter().map(|input| &*input.typed).chain([run.stem]).collect();
     finite::all(&outputs, &words)?;
-    let (directory, finished) = opened(directory)?;
+    let Place { directory, finished } = place;
     let (staged, mut notes) = staged(directory, outputs, run).map_err(after(finished.clone()))?;
     if !finished.is_empty() {
         notes.push(format!("an earlier run was cut off; put in place of it first: {}", finished.join(", ")));
@@ -209,7 +205,7 @@ mod tests {
     }
 
     fn write_recorded(directory: &Path, outputs: Vec<Output>, run: &Run<'_>) -> Result<Vec<String>, FilesError> {
-        let (staged, notes) = stage_recorded(directory, outputs, run)?;
+        let (staged, notes) = stage_recorded(Place::open(directory)?, outputs, run)?;
         staged.commit().map(|()| notes)
     }
 

@@ -276,8 +276,9 @@ fn written(
     if args.common.told.dry_run {
         return show();
     }
-    let stage = || stage_recorded(&args.out, outputs, run).map(|(staged, notes)| (notes, staged)).map_err(Failure::new);
-    put(stage, |_| show())
+    let stage =
+        |place| stage_recorded(place, outputs, run).map(|(staged, notes)| (notes, staged)).map_err(Failure::new);
+    put(&args.out, stage, |_| show())
 }
 
 /// Time of some work, µs, and what it made.

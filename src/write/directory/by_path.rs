@@ -73,7 +73,7 @@ impl Held {
             .collect()
     }
 
-    pub(super) fn guards(&self, _: &Owned) -> io::Result<bool> {
+    pub(super) fn guards(&self, _: &str, _: &Owned) -> io::Result<bool> {
         Ok(false)
     }
 

@@ -99,17 +99,32 @@ impl Held {
         names.filter_map(Result::transpose).collect()
     }
 
-    /// Whether others who may write here may nevertheless not replace a file of this owner: the sticky bit.
-    pub(super) fn guards(&self, owned: &Owned) -> io::Result<bool> {
+    /// Whether a file cannot be replaced by one who may write here: the sticky bit, or a file that the system keeps.
+    pub(super) fn guards(&self, name: &str, owned: &Owned) -> io::Result<bool> {
         let own = rustix::fs::fstat(&self.0)?;
         let user = rustix::process::geteuid();
         let may = user == Uid::ROOT || user == owned.user || user == Uid::from_raw(own.st_uid);
-        Ok(!may && Mode::from_raw_mode(own.st_mode).contains(Mode::SVTX))
+        Ok(!may && Mode::from_raw_mode(own.st_mode).contains(Mode::SVTX) || is_kept(&self.0, name))
     }
 
     pub(super) fn sync(&self) -> io::Result<()> {
         self.0.sync_all()
     }
+}
+
+/// Whether the system lets nobody replace a file: it is immutable, or something is mounted on it.
+#[cfg(target_os = "linux")]
+fn is_kept(directory: &File, name: &str) -> bool {
+    use rustix::fs::{StatxAttributes, StatxFlags, statx};
+    let kept = StatxAttributes::IMMUTABLE | StatxAttributes::APPEND | StatxAttributes::MOUNT_ROOT;
+    // What cannot be asked is tried.
+    let stat = statx(directory, name, AtFlags::SYMLINK_NOFOLLOW, StatxFlags::empty());
+    stat.is_ok_and(|stat| stat.stx_attributes.intersects(kept))
+}
+
+#[cfg(not(target_os = "linux"))]
+fn is_kept(_: &File, _: &str) -> bool {
+    false
 }
 
 /// Whether an error says that the file system has no locks, or none of directories.

@@ -15,7 +15,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// So long another run that writes into the directory is waited for, looking so often.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -101,9 +101,9 @@ impl Directory {
         }
     }
 
-    /// Whether a file in it must not be replaced by others than its owner.
-    pub(super) fn guards(&self, owned: &Owned) -> io::Result<bool> {
-        self.held.guards(owned)
+    /// Whether a file in it cannot be replaced.
+    pub(super) fn guards(&self, name: &str, owned: &Owned) -> io::Result<bool> {
+        self.held.guards(name, owned)
     }
 
     /// The path of a file in it, for words.
@@ -171,11 +171,14 @@ impl Drop for Directory {
 
 /// Waits until no other run is in a directory; `false` where the file system has no locks.
 fn lock(held: &Held, path: &Path) -> Result<bool, FilesError> {
-    let begun = Instant::now();
+    let mut waited = Duration::ZERO;
     loop {
         match held.try_lock() {
             Ok(()) => return Ok(true),
-            Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => sleep(PERIOD),
+            Err(TryLockError::WouldBlock) if waited < PATIENCE => {
+                sleep(PERIOD);
+                waited += PERIOD;
+            }
             Err(TryLockError::WouldBlock) => {
                 return Err(FilesError::Busy { path: path.to_owned(), seconds: PATIENCE.as_secs() });
             }

@@ -19,7 +19,7 @@ fn text(path: &Path) -> String {
 }
 
 fn staged(path: &Path, outputs: &[Output]) -> Staged {
-    stage(opened(path).expect("opened").0, outputs).expect("staged")
+    stage(Place::open(path).expect("opened").directory, outputs).expect("staged")
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn the_next_run_finishes_or_discards() {
         // Nothing is removed any more, as after a kill; the handle closes, and with it goes the lock.
         run.recorded = true;
         drop(run);
-        let (_, finished) = opened(path).expect("opened");
+        let finished = Place::open(path).expect("opened").finished;
         let told: &[&str] = [&[][..], &["x", "y"], &["y"], &[]][cut];
         assert_eq!(finished, told, "{cut}");
         let now = if cut == 0 { "old" } else { "new" };
@@ -171,7 +171,7 @@ fn an_edit_after_a_cut_is_kept() {
     assert!(error.to_string().contains("move it away"), "{error}");
     assert_eq!(text(&path.join("x")), "an edit");
     fs::rename(path.join("x"), path.join("mine")).expect("moved away");
-    let (_, finished) = opened(path).expect("finished");
+    let finished = Place::open(path).expect("finished").finished;
     assert_eq!(finished, ["x", "y"]);
     assert_eq!((text(&path.join("x")), text(&path.join("mine"))), ("new".into(), "an edit".into()));
 }
