@@ -9,6 +9,7 @@ mod contents;
 mod curve;
 mod groups;
 mod join;
+mod limits;
 mod placement;
 mod record;
 mod shape;
@@ -17,8 +18,10 @@ pub mod step;
 mod walk;
 
 pub use join::Chain;
+pub use limits::{LARGEST_FILE, MOST_SEGMENTS};
 
 use contents::Contents;
+use join::Joined;
 use nalgebra::Vector2;
 use walk::Walk;
 
@@ -122,15 +125,44 @@ pub enum ReadError {
     /// It is not DXF.
     #[error("not a DXF file: {0}")]
     NotDxf(String),
+    /// It holds more than is read.
+    #[error("more than a cam: it has over {most} {what}, and camgen reads no more; keep only what is cut of the part")]
+    TooMuch {
+        /// Of what.
+        what: &'static str,
+        /// The limit.
+        most: usize,
+    },
+    /// The outline is far longer than one that goes round once.
+    #[error(
+        "no outline of a cam: {segments} segments on layer CAM_PROFILE are a tangle, {times} times as long as it is wide; an \
+         outline goes round once"
+    )]
+    Tangle {
+        /// Number of its segments.
+        segments: usize,
+        /// Their length over the diagonal of the rectangle about them.
+        times: u64,
+    },
     /// It holds a number that is not finite.
     #[error("an entity holds a number that is not finite, or beyond every drawing")]
     NotFinite,
 }
 
+/// Names that are told in one sentence.
+const MOST_NAMED: usize = 20;
+
+/// The first of some names, in a row.
+pub(crate) fn few(names: &[String]) -> String {
+    let told = names.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    let more = names.len().saturating_sub(MOST_NAMED);
+    if more > 0 { format!("{told} and {more} more") } else { told }
+}
+
 /// Reads a DXF file; ends nearer than `join` (mm) are one, and arcs keep to curves within a twentieth of it.
 ///
 /// # Errors
-/// [`ReadError`] when the bytes are not a DXF file.
+/// [`ReadError`] when the bytes are not a DXF file, or hold more than is read.
 pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
     let kept = groups::kept(bytes)?;
     let contents = Contents::of(&kept)?;
@@ -139,13 +171,15 @@ pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
     if height.abs() > join {
         walk.remarks.push(format!("everything lies at a height of {height} mm"));
     }
-    let joined = join::join(walk.cuts, &walk.sources, join);
+    let Joined { outline, beside, duplicates, points } =
+        join::join(walk.cuts, &walk.sources, join, &mut walk.effort)?;
+    outline.iter().try_for_each(Chain::is_no_tangle)?;
     Ok(Reading {
         unit: contents.unit,
-        chains: joined.outline,
-        beside: joined.beside,
-        duplicates: joined.duplicates,
-        points: joined.points,
+        chains: outline,
+        beside,
+        duplicates,
+        points,
         unreadable: walk.unreadable,
         information: walk.information,
         remarks: walk.remarks,
