@@ -38,18 +38,18 @@ impl Page {
 
 pub(super) fn report(report: &Report, page: Page) -> String {
     let first = format!("{} · {}{}", report.machine, report.noun, report.rpm);
-    written(first, report, page)
+    written(&first, report, page)
 }
 
 /// The report of a checked file: one plain sentence, then the checks.
 pub(super) fn check_report(file: &str, report: &Report, page: Page) -> String {
     let verdict = if report.passed() { "is this cam" } else { "is NOT this cam" };
     let first = format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.rpm);
-    written(first, report, page)
+    written(&first, report, page)
 }
 
-fn written(first: String, report: &Report, page: Page) -> String {
-    let mut lines = vec![plain(&first).into_owned()];
+fn written(first: &str, report: &Report, page: Page) -> String {
+    let mut lines = vec![plain(first).into_owned()];
     lines.extend(report.sections.iter().flat_map(|of| section(of, page)).map(|line| plain(&line).into_owned()));
     if !report.checks.is_empty() {
         lines.push("  checks".into());

@@ -30,10 +30,10 @@ pub struct Row {
 }
 
 /// What is wrong with a file, and the line where.
-pub(super) type Refused = (Misfit, Option<Excerpt>);
+pub(super) type Refused = (Misfit, Option<Box<Excerpt>>);
 
 fn refused<T>(message: String, help: &str, place: Option<Excerpt>) -> Result<T, Refused> {
-    Err((Misfit { message, help: Some(help.to_owned()) }, place))
+    Err((Misfit { message, help: Some(help.to_owned()) }, place.map(Box::new)))
 }
 
 impl Columns {

@@ -30,7 +30,7 @@ pub(super) enum Place {
     /// In an override: which one, from which character on, how many.
     Flag { index: usize, start: usize, width: usize },
     /// In another file.
-    Beside(Excerpt),
+    Beside(Box<Excerpt>),
 }
 
 /// A fault whose line has not been cut out of the text yet.
@@ -244,7 +244,11 @@ impl<'a> Document<'a> {
             })
             .collect();
         if more > 0 {
-            faults.push(Fault { message: format!("{more} more faults, told when these are mended"), help: None, place: None });
+            faults.push(Fault {
+                message: format!("{more} more faults, told when these are mended"),
+                help: None,
+                place: None,
+            });
         }
         faults
     }
@@ -273,7 +277,7 @@ impl<'a> Document<'a> {
     fn excerpt(&self, place: &Place) -> Excerpt {
         match place {
             Place::File(span) => self.excerpt_of_file(span),
-            Place::Beside(excerpt) => excerpt.clone(),
+            Place::Beside(excerpt) => (**excerpt).clone(),
             Place::Flag { index, start, width } => {
                 Excerpt::of("--set", 1, self.flags.get(*index).map_or("", String::as_str), (start + 1, *width))
             }

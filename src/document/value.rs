@@ -125,7 +125,8 @@ impl Named<'_> {
                 misfit(format!("`{}` has more than {LONGEST_TEXT} characters", self.path), Some(self.example()))
             }
             Scalar::Text(text) if !text.chars().all(is_plain) => {
-                let help = "write it without control characters, and without marks that change the direction of writing";
+                let help =
+                    "write it without control characters, and without marks that change the direction of writing";
                 misfit(format!("`{}` holds characters that cannot be shown", self.path), Some(help.into()))
             }
             Scalar::Text(text) if !text.trim().is_empty() => Ok(Value::Text(text.clone())),

@@ -20,14 +20,15 @@ fn is_device(stem: &str) -> bool {
     let numbered = |device: &&str| {
         name.strip_prefix(*device).is_some_and(|rest| rest.len() == 1 && rest.bytes().all(|b| b.is_ascii_digit()))
     };
-    DEVICES.contains(&name.as_str()) || NUMBERED_DEVICES.iter().any(|device| numbered(&device))
+    DEVICES.contains(&name.as_str()) || NUMBERED_DEVICES.iter().any(numbered)
 }
 
 /// Why files cannot be called by a stem; `None` where they can.
 #[must_use]
 pub fn fault_of(stem: &str) -> Option<String> {
     if stem.is_empty() || stem.starts_with(['.', '-', ' ']) || !stem.chars().all(fits) {
-        let why = "a file stem has no path separators, no control characters, no wildcards and no leading dot, dash or blank";
+        let why =
+            "a file stem has no path separators, no control characters, no wildcards and no leading dot, dash or blank";
         return Some(format!("{why}; see --out for a directory"));
     }
     if stem.chars().count() > LONGEST || stem.len() > MOST_BYTES {

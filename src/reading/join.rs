@@ -257,12 +257,7 @@ impl Link {
 ///
 /// # Errors
 /// [`ReadError::TooMuch`] where too many segments lie within the reach of each other.
-pub(super) fn join(
-    cuts: Vec<Cut>,
-    sources: &[Source],
-    reach: f64,
-    effort: &mut Effort,
-) -> Result<Joined, ReadError> {
+pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64, effort: &mut Effort) -> Result<Joined, ReadError> {
     let (mut duplicates, mut points) = (Vec::new(), Vec::new());
     let mut known = Known::new(reach);
     let (mut outline, mut beside) = (Vec::new(), Vec::new());
