@@ -217,10 +217,25 @@ impl Quantity {
     }
 }
 
+/// Longest text of a quantity, bytes: all digits of a number, and a unit.
+const LONGEST: usize = 500;
+/// Characters of a text that an error quotes.
+const MOST_QUOTED: usize = 60;
+
+/// A text as an error quotes it.
+fn quoted(text: &str) -> String {
+    let text = text.trim();
+    match text.char_indices().nth(MOST_QUOTED).and_then(|(end, _)| text.get(..end)) {
+        Some(beginning) => format!("{beginning}…"),
+        None => text.to_owned(),
+    }
+}
+
 /// Splits a text into its leading number and the rest. The longest prefix that is a number wins, so that `1e-3 m`
 /// keeps its exponent and `3 m` does not lose its unit.
 fn split_number(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim();
+    // Each beginning of the text is tried, the longest first.
+    let text = Some(text.trim()).filter(|text| text.len() <= LONGEST)?;
     let mut ends: Vec<usize> = text.char_indices().map(|(at, _)| at).skip(1).collect();
     ends.push(text.len());
     ends.into_iter().rev().find_map(|end| {
@@ -234,7 +249,7 @@ fn split_number(text: &str) -> Option<(f64, &str)> {
 /// # Errors
 /// Every case of [`QuantityError`] but `NotBare`.
 pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, QuantityError> {
-    let found = text.trim().to_owned();
+    let found = quoted(text);
     let Some((number, symbol)) = split_number(text) else {
         return Err(QuantityError::NotANumber { found });
     };
@@ -245,7 +260,7 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, QuantityError
         return Err(QuantityError::MissingUnit { found });
     }
     let Some(unit) = UNITS.iter().find(|u| u.symbol == symbol) else {
-        return Err(QuantityError::UnknownUnit { unit: symbol.to_owned() });
+        return Err(QuantityError::UnknownUnit { unit: quoted(symbol) });
     };
     if unit.dimension != dimension {
         return Err(QuantityError::WrongKind { unit: unit.symbol, found: unit.dimension, expected: dimension });
@@ -275,12 +290,12 @@ pub struct Rate {
 /// Every case of [`QuantityError`] but `WrongKind` and `NotBare`.
 pub fn parse_rate(text: &str, order: u32) -> Result<Rate, QuantityError> {
     let text = text.trim().replace('²', "2").replace('³', "3").replace('^', "");
-    let found = text.clone();
+    let found = quoted(&text);
     let Some((number, symbol)) = split_number(&text) else { return Err(QuantityError::NotANumber { found }) };
     if symbol.is_empty() {
         return Err(QuantityError::MissingUnit { found });
     }
-    let unknown = || QuantityError::UnknownUnit { unit: symbol.to_owned() };
+    let unknown = || QuantityError::UnknownUnit { unit: quoted(symbol) };
     let (of, by) = symbol.split_once('/').ok_or_else(unknown)?;
     let of = UNITS.iter().find(|unit| unit.symbol == of.trim()).ok_or_else(unknown)?;
     let power = if order == 1 { String::new() } else { order.to_string() };
@@ -303,7 +318,7 @@ pub fn parse_rate(text: &str, order: u32) -> Result<Rate, QuantityError> {
 /// # Errors
 /// `NotANumber`, `NotFinite`, or `NotBare` when something follows the number.
 pub fn parse_bare(text: &str) -> Result<f64, QuantityError> {
-    let found = text.trim().to_owned();
+    let found = quoted(text);
     match split_number(text) {
         None => Err(QuantityError::NotANumber { found }),
         Some((number, _)) if !number.is_finite() => Err(QuantityError::NotFinite { found }),
@@ -381,6 +396,10 @@ mod tests {
         assert_eq!(length("180 kg"), E::WrongKind { unit: "kg", found: Dimension::Mass, expected: Dimension::Length });
         assert_eq!(parse_bare("35 rpm"), Err(E::NotBare { found: "35 rpm".into() }));
         assert_eq!(parse_bare(" 35 "), Ok(35.0));
+        let digits = "1".repeat(100_000);
+        let short = format!("{}…", &digits[..60]);
+        assert_eq!(length(&format!("{digits} mm")), E::NotANumber { found: short.clone() });
+        assert_eq!(length(&format!("1 {}", &digits[..400])), E::UnknownUnit { unit: short });
     }
 
     #[test]

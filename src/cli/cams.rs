@@ -6,10 +6,11 @@ use super::args::{
 };
 use super::progress::Progress;
 use super::put::put_set;
-use super::{Failure, Outcome, print, tell, text};
+use super::{Failure, Outcome, print, print_painted, tell, text};
 use camgen::body::Request;
 use camgen::body::points::{Given, Points};
 use camgen::body::wedge::LAW_TOLERANCE;
+use camgen::document::file::text_of;
 use camgen::geometry::points::{Between, Form, Step};
 use camgen::machine::Machine;
 use camgen::motion::equation_18::Solver;
@@ -21,8 +22,6 @@ use camgen::write::number::names;
 use camgen::write::points;
 use camgen::write::step::LATEST;
 use camgen::write::svg;
-use std::io::Read;
-use std::path::Path;
 
 /// Stations of the paper's solver by default: its error is then a hundredth of a millimetre.
 const STATIONS: u32 = 1800;
@@ -179,7 +178,7 @@ impl OutArgs {
     pub(super) fn template(&self) -> Result<String, Failure> {
         match &self.template {
             None => Ok(svg::TEMPLATE.to_owned()),
-            Some(path) => template(path)
+            Some(path) => text_of(path, LARGEST_TEMPLATE)
                 .map_err(|error| Failure(format!("cannot read the template `{}`: {error}", path.display()))),
         }
     }
@@ -187,15 +186,6 @@ impl OutArgs {
 
 /// Largest template, bytes.
 const LARGEST_TEMPLATE: u64 = 1 << 20;
-
-fn template(path: &Path) -> std::io::Result<String> {
-    let mut text = String::new();
-    let read = std::fs::File::open(path)?.take(LARGEST_TEMPLATE + 1).read_to_string(&mut text)?;
-    if read as u64 > LARGEST_TEMPLATE {
-        return Err(std::io::Error::other(format!("it is larger than {LARGEST_TEMPLATE} bytes")));
-    }
-    Ok(text)
-}
 
 /// What the names of the files begin with.
 fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String {
@@ -291,6 +281,6 @@ pub(super) fn show(report: &Report, told: &ToldArgs) -> Result<(), Failure> {
     } else if told.quiet {
         Ok(())
     } else {
-        print(&text::report(report, told.page()))
+        print_painted(&text::report(report, told.page()))
     }
 }

@@ -4,18 +4,16 @@ use super::analyses::of_brake;
 use super::args::{CheckArgs, Checked};
 use super::cams::{of_conoid, of_program};
 use super::progress::Progress;
-use super::{Failure, Outcome, print, text};
+use super::{Failure, Outcome, print, print_painted, text};
 use camgen::body::wedge::LAW_TOLERANCE;
+use camgen::document::file::bytes_of;
 use camgen::machine::{BrakeMachine, Wanted};
 use camgen::motion::equation_18::Solver;
 use camgen::pipeline::{Error, Spec};
+use camgen::reading::LARGEST_FILE;
 use camgen::report::Section;
 use camgen::write::json;
-use std::io::Read;
 use std::path::Path;
-
-/// Largest DXF file that is read, bytes: far more than any cut file needs.
-const LARGEST_FILE: u64 = 1 << 28;
 
 pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let spec = spec(args)?;
@@ -42,7 +40,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
         let json = json::write(&report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&json))?;
     } else if !args.common.told.quiet {
-        print(&text::check_report(&file, &report, args.common.told.page()))?;
+        print_painted(&text::check_report(&file, &report, args.common.told.page()))?;
     }
     Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
@@ -85,15 +83,5 @@ fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    let cannot = |why: String| Failure(format!("cannot read `{}`: {why}", path.display()));
-    if path.is_dir() {
-        return Err(cannot("it is a directory".into()));
-    }
-    let file = std::fs::File::open(path).map_err(|error| cannot(error.to_string()))?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| cannot(error.to_string()))?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(cannot(format!("it is larger than {LARGEST_FILE} bytes")));
-    }
-    Ok(bytes)
+    bytes_of(path, LARGEST_FILE).map_err(|why| Failure(format!("cannot read `{}`: {why}", path.display())))
 }

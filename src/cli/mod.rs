@@ -16,6 +16,7 @@ mod trade;
 mod watch;
 
 use args::{Cli, Command};
+use camgen::document::plain;
 use clap::Parser;
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
@@ -84,8 +85,13 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
     }
 }
 
-/// Prints data on stdout. A reader that closes the pipe early is not an error.
+/// Prints data on stdout, without what a terminal would obey. A reader that closes the pipe early is not an error.
 fn print(text: &str) -> Result<(), Failure> {
+    print_painted(&plain(text))
+}
+
+/// Prints a text that is plain but for colours of our own.
+fn print_painted(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -97,5 +103,5 @@ fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints a message on stderr; when even that fails there is nothing left to do.
 fn tell(message: &str) {
-    let _ = writeln!(io::stderr().lock(), "{message}");
+    let _ = writeln!(io::stderr().lock(), "{}", plain(message));
 }

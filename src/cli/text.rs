@@ -3,6 +3,7 @@
 
 mod glossary;
 
+use camgen::document::plain;
 use camgen::report::{Finding, Place, Report, Section, Verdict};
 use std::io::IsTerminal;
 
@@ -37,25 +38,25 @@ impl Page {
 
 pub(super) fn report(report: &Report, page: Page) -> String {
     let first = format!("{} · {}{}", report.machine, report.noun, report.rpm);
-    written(first, report, page)
+    written(&first, report, page)
 }
 
 /// The report of a checked file: one plain sentence, then the checks.
 pub(super) fn check_report(file: &str, report: &Report, page: Page) -> String {
     let verdict = if report.passed() { "is this cam" } else { "is NOT this cam" };
     let first = format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.rpm);
-    written(first, report, page)
+    written(&first, report, page)
 }
 
-fn written(first: String, report: &Report, page: Page) -> String {
-    let mut lines = vec![first];
-    lines.extend(report.sections.iter().flat_map(|of| section(of, page)));
+fn written(first: &str, report: &Report, page: Page) -> String {
+    let mut lines = vec![plain(first).into_owned()];
+    lines.extend(report.sections.iter().flat_map(|of| section(of, page)).map(|line| plain(&line).into_owned()));
     if !report.checks.is_empty() {
         lines.push("  checks".into());
     }
     lines.extend(checks(&report.checks, page));
     let entries = |entries: &[String]| -> Vec<String> {
-        entries.iter().map(|entry| wrapped(&format!("    {entry}"), 6, page)).collect()
+        entries.iter().map(|entry| wrapped(&format!("    {}", plain(entry)), 6, page)).collect()
     };
     let terms = glossary::of(&lines.join("\n"));
     for (name, told) in [("notes", &report.notes), ("files", &report.files), ("terms", &terms)] {
@@ -97,9 +98,9 @@ fn checks(findings: &[Finding], page: Page) -> Vec<String> {
     for (finding, row) in findings.iter().zip(&rows) {
         let verdict = painted(finding.verdict, page);
         let [check, value, of, bound, place] = row;
-        let line = format!("    {verdict}  {check:<name$}  {value:>number$} {of:<unit$}  {bound:<limit$}  {place}");
-        lines.push(line.trim_end().to_owned());
-        lines.extend(finding.note.iter().map(|note| wrapped(&format!("          {note}"), 10, page)));
+        let line = format!("{check:<name$}  {value:>number$} {of:<unit$}  {bound:<limit$}  {place}");
+        lines.push(format!("    {verdict}  {}", plain(line.trim_end())));
+        lines.extend(finding.note.iter().map(|note| wrapped(&format!("          {}", plain(note)), 10, page)));
     }
     lines
 }

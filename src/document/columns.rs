@@ -1,17 +1,15 @@
 //! A file of two columns of numbers beside the file that names it.
 
-use super::fault::Excerpt;
+use super::fault::{Excerpt, LONGEST_LINE};
+use super::file;
 use super::value::Misfit;
 use crate::units;
-use std::io::Read;
 use std::path::Path;
 
 /// Largest file, bytes.
 const LARGEST: u64 = 1 << 20;
 /// Most rows.
 const MOST_ROWS: usize = 20_000;
-/// Most characters of a line that are shown.
-const LONGEST_SHOWN: usize = 200;
 
 /// Rows of two numbers, each with its line.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,10 +30,10 @@ pub struct Row {
 }
 
 /// What is wrong with a file, and the line where.
-pub(super) type Refused = (Misfit, Option<Excerpt>);
+pub(super) type Refused = (Misfit, Option<Box<Excerpt>>);
 
 fn refused<T>(message: String, help: &str, place: Option<Excerpt>) -> Result<T, Refused> {
-    Err((Misfit { message, help: Some(help.to_owned()) }, place))
+    Err((Misfit { message, help: Some(help.to_owned()) }, place.map(Box::new)))
 }
 
 impl Columns {
@@ -50,7 +48,7 @@ impl Columns {
             let help = "put this machine into a file of its own, beside the table";
             return refused(format!("`{key}`: only a machine file in a folder can name another file"), help, None);
         };
-        let text = text_of(&folder.join(name)).or_else(|why| {
+        let text = file::text_of(&folder.join(name), LARGEST).or_else(|why| {
             let help = "give its path from the folder of the machine file";
             refused(format!("`{key}`: cannot read `{name}`: {why}"), help, None)
         })?;
@@ -77,43 +75,28 @@ impl Columns {
             let place = Some(excerpt(name, index + 1, whole));
             let [Some(first), Some(second)] = numbers.as_slice() else {
                 let help = "each row is two numbers with `,`, `;`, a tab or blanks between them, decimals with a point";
-                return refused(format!("a row of {} is not two numbers", shown(name)), help, place);
+                return refused(format!("a row of {} is not two numbers", quoted(name)), help, place);
             };
             if rows.len() >= MOST_ROWS {
                 return refused(format!("more than {MOST_ROWS} rows"), "leave some out", place);
             }
-            let text = whole.chars().take(LONGEST_SHOWN).collect();
+            let text = whole.chars().take(LONGEST_LINE).collect();
             rows.push(Row { values: [*first, *second], line: index + 1, text });
         }
         if rows.is_empty() {
-            return refused(format!("{} has no rows", shown(name)), "each row is two numbers", None);
+            return refused(format!("{} has no rows", quoted(name)), "each row is two numbers", None);
         }
         Ok(Self { name: name.to_owned(), rows })
     }
 }
 
-fn shown(name: &str) -> String {
+fn quoted(name: &str) -> String {
     format!("`{name}`")
 }
 
 fn excerpt(name: &str, line: usize, text: &str) -> Excerpt {
-    let text: String = text.chars().take(LONGEST_SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect();
-    let width = text.trim_end().chars().count().max(1);
-    Excerpt { source: name.to_owned(), line, column: 1, text, width }
-}
-
-fn text_of(path: &Path) -> Result<String, String> {
-    // A pipe would be waited for.
-    if !std::fs::metadata(path).map_err(|error| error.to_string())?.is_file() {
-        return Err("it is not a file".into());
-    }
-    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(format!("it is larger than {LARGEST} bytes"));
-    }
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
+    let marked = text.trim_end().chars().count();
+    Excerpt::of(name, line, text, (1, marked))
 }
 
 #[cfg(test)]

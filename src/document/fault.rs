@@ -1,5 +1,6 @@
 //! Faults of a file: what was wrong, where, and what would be right.
 
+use super::plain::is_plain;
 use std::fmt;
 
 /// One fault: what was wrong, where, and what would be right.
@@ -22,10 +23,39 @@ pub struct Excerpt {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// The whole line.
+    /// The line, or the part of a long one about the place.
     pub text: String,
+    /// Characters before those to mark.
+    pub before: usize,
     /// Characters to mark.
     pub width: usize,
+}
+
+/// Longest excerpt of a line, in characters, and how many of them stand before the place.
+pub(super) const LONGEST_LINE: usize = 160;
+const BEFORE: usize = 60;
+/// What stands where a line is cut, and in place of a character that a terminal would obey.
+const CUT: &str = "…";
+const NOT_PLAIN: char = '\u{fffd}';
+
+impl Excerpt {
+    /// From a whole line, of which so many characters from a column on are marked.
+    pub(super) fn of(source: &str, line: usize, whole: &str, (column, marked): (usize, usize)) -> Self {
+        let place = column.saturating_sub(1);
+        let from = if whole.chars().nth(LONGEST_LINE).is_some() { place.saturating_sub(BEFORE) } else { 0 };
+        let mut rest = whole.chars().skip(from);
+        // One for one, so that the mark stands below its characters.
+        let part = rest.by_ref().take(LONGEST_LINE).map(|c| match c {
+            '\t' => ' ',
+            c if is_plain(c) => c,
+            _ => NOT_PLAIN,
+        });
+        let part: String = part.collect();
+        let (head, tail) = (if from > 0 { CUT } else { "" }, if rest.next().is_some() { CUT } else { "" });
+        let before = place - from + head.chars().count();
+        let width = marked.min((from + part.chars().count()).saturating_sub(place)).max(1);
+        Self { source: source.to_owned(), line, column, text: format!("{head}{part}{tail}"), before, width }
+    }
 }
 
 impl fmt::Display for Fault {
@@ -35,7 +65,7 @@ impl fmt::Display for Fault {
             let margin = " ".repeat(place.line.to_string().len());
             write!(f, "\n{margin}--> {}:{}:{}", place.source, place.line, place.column)?;
             write!(f, "\n{margin} |\n{} | {}", place.line, place.text)?;
-            write!(f, "\n{margin} | {}{}", " ".repeat(place.column.saturating_sub(1)), "^".repeat(place.width.max(1)))?;
+            write!(f, "\n{margin} | {}{}", " ".repeat(place.before), "^".repeat(place.width.max(1)))?;
         }
         if let Some(help) = &self.help {
             write!(f, "\n  help: {help}")?;
@@ -125,6 +155,21 @@ fn edit_distance(a: &str, b: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_excerpt_shows_its_place_and_not_more() {
+        let whole = format!("{}here{}", "x".repeat(5000), "y".repeat(5000));
+        let shown = Excerpt::of("m.toml", 1, &whole, (5001, 4));
+        assert_eq!(shown.text.chars().count(), LONGEST_LINE + 2);
+        let marked: String = shown.text.chars().skip(shown.before).take(shown.width).collect();
+        assert_eq!((shown.column, marked.as_str()), (5001, "here"));
+        let wide = Excerpt::of("m.toml", 1, &whole, (1, 10_000));
+        assert_eq!((wide.before, wide.width), (0, LONGEST_LINE));
+        let short = Excerpt::of("m.toml", 1, "a\u{1b}[31m\tb\u{202e}", (7, 1));
+        assert_eq!((short.text.as_str(), short.before), ("a\u{fffd}[31m b\u{fffd}", 6));
+        let end = Excerpt::of("m.toml", 1, "ab", (3, 0));
+        assert_eq!((end.before, end.width), (2, 1));
+    }
 
     #[test]
     fn edit_distances() {

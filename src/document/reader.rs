@@ -362,7 +362,7 @@ impl Table<'_> {
     /// Reports a fault at a row, from 0, of the file that a key names.
     pub fn fail_in(&self, field: &Field<Arc<Columns>>, row: usize, message: String, help: Option<String>) {
         match self.get(field).and_then(|columns| columns.excerpt(row)) {
-            Some(place) => self.reader.told(message, help, Some(Place::Beside(place))),
+            Some(place) => self.reader.told(message, help, Some(Place::Beside(Box::new(place)))),
             None => self.fail(field, message, help),
         }
     }

@@ -1,10 +1,12 @@
 //! A TOML text and its overrides, flattened to dotted paths that know their places.
 //!
 //! `[bed] mass` becomes `bed.mass`, and the second `[[motion.segment]]`'s `law` becomes `motion.segment[1].law`. The
-//! paths are whatever the file contains; the reader decides which of them mean something.
+//! paths are whatever the file contains; the reader decides which of them mean something. What is told of a text is plain and
+//! short, whatever it holds.
 
 use super::fault::{Excerpt, Fault};
 use super::key::join;
+use super::plain::shown;
 use super::value::Scalar;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -15,8 +17,10 @@ use toml::de::{DeArray, DeTable, DeValue};
 const DEEPEST: usize = 16;
 /// Longest name of a key, in bytes: with [`DEEPEST`] it bounds the length of a path, of which there is one for each key.
 const LONGEST_NAME: usize = 100;
-/// Most faults reported: the hundredth helps nobody, and each quotes its line.
-pub(super) const MOST_FAULTS: usize = 100;
+/// Most faults reported: the twentieth helps nobody, and each quotes its line.
+pub(super) const MOST_FAULTS: usize = 20;
+/// Longest message of a fault, and longest help, in characters.
+const LONGEST_MESSAGE: usize = 2000;
 
 /// Where something was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,7 +30,7 @@ pub(super) enum Place {
     /// In an override: which one, from which character on, how many.
     Flag { index: usize, start: usize, width: usize },
     /// In another file.
-    Beside(Excerpt),
+    Beside(Box<Excerpt>),
 }
 
 /// A fault whose line has not been cut out of the text yet.
@@ -185,7 +189,7 @@ impl<'a> Document<'a> {
     fn override_with(&mut self, text: &str) {
         let Some((key, value)) = text.split_once('=') else {
             self.faults.push(Found {
-                message: format!("--set {text}: no `=`"),
+                message: format!("--set {}: no `=`", shown(text, LONGEST_NAME)),
                 help: Some("write --set KEY=VALUE, e.g. --set follower.roller.radius=25mm".into()),
                 place: None,
             });
@@ -235,12 +239,16 @@ impl<'a> Document<'a> {
             .into_iter()
             .map(|fault| Fault {
                 place: fault.place.map(|place| self.excerpt(&place)),
-                message: fault.message,
-                help: fault.help,
+                message: brief(&fault.message),
+                help: fault.help.map(|help| brief(&help)),
             })
             .collect();
         if more > 0 {
-            faults.push(Fault { message: format!("{more} more faults"), help: None, place: None });
+            faults.push(Fault {
+                message: format!("{more} more faults, told when these are mended"),
+                help: None,
+                place: None,
+            });
         }
         faults
     }
@@ -269,14 +277,10 @@ impl<'a> Document<'a> {
     fn excerpt(&self, place: &Place) -> Excerpt {
         match place {
             Place::File(span) => self.excerpt_of_file(span),
-            Place::Beside(excerpt) => excerpt.clone(),
-            Place::Flag { index, start, width } => Excerpt {
-                source: "--set".into(),
-                line: 1,
-                column: start + 1,
-                text: self.flags.get(*index).cloned().unwrap_or_default(),
-                width: *width,
-            },
+            Place::Beside(excerpt) => (**excerpt).clone(),
+            Place::Flag { index, start, width } => {
+                Excerpt::of("--set", 1, self.flags.get(*index).map_or("", String::as_str), (start + 1, *width))
+            }
         }
     }
 
@@ -286,14 +290,15 @@ impl<'a> Document<'a> {
         let start = self.lines.get(line - 1).copied().unwrap_or_default();
         let end = self.lines.get(line).map_or(self.text.len(), |next| next - 1);
         let part = |from: usize, to: usize| self.text.get(from..to).unwrap_or_default();
-        Excerpt {
-            source: self.source.to_owned(),
-            line,
-            column: part(start, at).chars().count() + 1,
-            text: part(start, end).trim_end().to_owned(),
-            width: part(at, span.end.clamp(at, end.max(at))).chars().count(),
-        }
+        let column = part(start, at).chars().count() + 1;
+        let marked = part(at, span.end.clamp(at, end.max(at))).chars().count();
+        Excerpt::of(self.source, line, part(start, end).trim_end(), (column, marked))
     }
+}
+
+/// A message that may quote the file.
+fn brief(message: &str) -> String {
+    message.lines().map(|line| shown(line, LONGEST_MESSAGE)).collect::<Vec<_>>().join("\n")
 }
 
 /// The first path that is not before `start`.
@@ -307,8 +312,7 @@ fn not_a_name(name: &str, depth: usize) -> Option<(String, Option<String>)> {
         return Some((format!("tables are nested more than {DEEPEST} deep"), None));
     }
     if name.len() > LONGEST_NAME {
-        let start: String = name.chars().take(LONGEST_NAME / 4).collect();
-        return Some((format!("unknown key `{start}…`"), None));
+        return Some((format!("unknown key `{}`", shown(name, LONGEST_NAME / 4)), None));
     }
     // A quoted key with a dot or bracket in it is another key than the path it looks like.
     let help = || Some("write the dotted path without quotes".into());

@@ -3,6 +3,7 @@
 use super::bounds::Bounds;
 use super::fault::similar;
 use super::key::{Form, Key, LengthOrAngle, Value};
+use super::plain::{is_plain, shown};
 use crate::units::{self, Dimension, QuantityError};
 use std::borrow::Cow;
 
@@ -49,6 +50,11 @@ impl Scalar {
         }
     }
 }
+
+/// Longest text, in characters: that of a formula is shorter.
+const LONGEST_TEXT: usize = 5000;
+/// Characters of a value that a message quotes.
+const MOST_QUOTED: usize = 60;
 
 /// Why a value does not fit its key, and what would.
 #[derive(Debug)]
@@ -115,9 +121,15 @@ impl Named<'_> {
 
     fn text(&self, scalar: &Scalar) -> Result<Value, Misfit> {
         match scalar {
-            Scalar::Text(text) if !text.trim().is_empty() && !text.chars().any(char::is_control) => {
-                Ok(Value::Text(text.clone()))
+            Scalar::Text(text) if text.chars().nth(LONGEST_TEXT).is_some() => {
+                misfit(format!("`{}` has more than {LONGEST_TEXT} characters", self.path), Some(self.example()))
             }
+            Scalar::Text(text) if !text.chars().all(is_plain) => {
+                let help =
+                    "write it without control characters, and without marks that change the direction of writing";
+                misfit(format!("`{}` holds characters that cannot be shown", self.path), Some(help.into()))
+            }
+            Scalar::Text(text) if !text.trim().is_empty() => Ok(Value::Text(text.clone())),
             _ => misfit(format!("`{}` must be a text", self.path), Some(self.example())),
         }
     }
@@ -207,7 +219,7 @@ impl Named<'_> {
             Scalar::Text(text) => position(words, text).map(Value::Word).ok_or_else(|| {
                 let near = similar(text, words.iter().copied());
                 let near = near.map_or(String::new(), |word| format!("did you mean \"{word}\"? It is "));
-                let message = format!("`{}` cannot be \"{text}\"", self.path);
+                let message = format!("`{}` cannot be \"{}\"", self.path, shown(text, MOST_QUOTED));
                 Misfit { message, help: Some(format!("{near}one of {list}")) }
             }),
             _ => misfit(format!("`{}` must be a word", self.path), Some(format!("one of {list}"))),
@@ -242,7 +254,7 @@ impl Named<'_> {
             Ok(quantity) if bounds.holds(quantity.si) => Ok(quantity.si),
             Ok(quantity) => {
                 let limit = bounds.broken(quantity.si, |v| quantity.in_same_unit(v));
-                misfit(format!("`{}` must be {limit}: {}", self.path, text.trim()), None)
+                misfit(format!("`{}` must be {limit}: {}", self.path, shown(text.trim(), MOST_QUOTED)), None)
             }
             Err(error) => self.not_a_quantity(&[dimension], &error, or_words),
         }
@@ -300,6 +312,7 @@ impl Named<'_> {
         let low = self.quantity_text(low, dimension, bounds, "")?;
         let high = self.quantity_text(high, dimension, bounds, "")?;
         if low >= high {
+            let text = shown(text, MOST_QUOTED);
             let message = format!("`{}` must go from the smaller to the larger: {text}", self.path);
             return misfit(message, None);
         }

@@ -63,14 +63,21 @@ fn farthest(chain: &Contour, other: &Track) -> Deviation {
     let away = |point: Vector2<f64>| other.nearest(point).map_or(f64::INFINITY, |nearest| nearest.left.abs());
     let mut best = Deviation { distance: -1.0, at: Vector2::zeros() };
     let mut parts = Vec::new();
+    // Most courses start where the one before ended.
+    let mut last = (Vector2::repeat(f64::NAN), f64::NAN);
     for course in &courses {
-        let ends = [0.0, course.length()].map(|length| (length, away(course.at(length).0)));
-        for (length, distance) in ends {
-            if distance > best.distance {
-                best = Deviation { distance, at: course.at(length).0 };
+        let mut end = |length: f64| {
+            let at = course.at(length).0;
+            if at != last.0 {
+                last = (at, away(at));
             }
-        }
-        parts.push(Part { course, from: ends[0], to: ends[1] });
+            if last.1 > best.distance {
+                best = Deviation { distance: last.1, at };
+            }
+            (length, last.1)
+        };
+        let (from, to) = (end(0.0), end(course.length()));
+        parts.push(Part { course, from, to });
     }
     let mut left = MOST_PARTS;
     let mut highest: Vec<Part<'_>> = Vec::new();

@@ -5,7 +5,7 @@ use crate::buffer::Bed;
 use crate::buffer::bottom_law::Column;
 use crate::document::Presence::{Default, Required, RequiredUnless};
 use crate::document::cams::{OF_A_COLUMN, OF_A_DESIGN, OF_A_LAW, OF_A_SPEED, OF_AIR};
-use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST};
+use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST, THINNEST};
 use crate::document::{Bounds, Field, Occurs, Reader, Section, above, within};
 use crate::linkage::StrokeEnd;
 use crate::units::Dimension::{Length, Pressure};
@@ -87,6 +87,11 @@ pub(super) fn read(reader: &Reader<'_>, bed: Option<Bed>, stroke_end: Option<&St
         let message = format!("end_pressure must be above ambient_pressure: {end} ≤ {ambient}");
         let help = "both are absolute; an end pressure of 1 at gauge is 2 at absolute";
         table.fail(&END_PRESSURE, message, Some(help.into()));
+    }
+    if let Some(lead) = table.get(&LEAD).filter(|lead| *lead > 0.0 && *lead < THINNEST) {
+        let message = format!("`buffer.lead` must be 0, or at least {} mm: {}", 1e3 * THINNEST, table.typed(&LEAD));
+        let help = format!("a lead of {lead:e} m turns the cam by less than a file can tell; write \"0 mm\"");
+        table.fail(&LEAD, message, Some(help));
     }
     Some(Press {
         bed: bed?,

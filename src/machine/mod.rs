@@ -20,6 +20,7 @@ mod press;
 mod settings;
 mod shaft;
 mod start;
+mod stem;
 mod title;
 mod transition;
 mod translating;
@@ -41,19 +42,20 @@ pub use press::{AirColumn, NoPress, NoRoller, Press};
 pub use settings::RegimesData;
 pub use shaft::{ShaftData, ShaftLimits, ShaftMachine};
 pub use start::{followers, template, template_of_program};
+pub use stem::fault_of as fault_of_stem;
 pub use title::Title;
 pub use translating::TranslatingData;
 
 use crate::buffer::Bed;
 use crate::document::Presence::Required;
 use crate::document::cams;
+use crate::document::file;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM};
 use crate::document::{self, Field, Input, Occurs, Reader, Section};
 use crate::follower::{self, FOLLOWERS, Place};
 use crate::linkage::{End, Linkage, StrokeEnd};
 use crate::motion::{Motion, Transition, program};
 use std::fmt;
-use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -517,7 +519,7 @@ fn load_as<T>(
         let source = Source { name: &name, text: embedded.toml, own: false, folder: None };
         return Ok((read(&source)?, embedded.name.to_owned()));
     }
-    let text = read_text(path).map_err(|why| MachineError {
+    let text = file::text_of(path, LARGEST_FILE).map_err(|why| MachineError {
         faults: vec![Fault {
             message: format!("cannot read the machine file `{name_or_path}`: {why}"),
             help: Some(format!(
@@ -530,7 +532,7 @@ fn load_as<T>(
             place: None,
         }],
     })?;
-    let stem = path.file_stem().map_or_else(|| "machine".into(), |stem| stem.to_string_lossy().into_owned());
+    let stem = stem::fitting(&path.file_stem().unwrap_or_default().to_string_lossy());
     let source = Source { folder: path.parent(), ..Source::given(name_or_path, &text) };
     Ok((read(&source)?, stem))
 }
@@ -550,19 +552,6 @@ fn meant(path: &Path) -> Option<String> {
             .filter(|_| files.iter().any(|file| file == near))
             .map_or_else(|| near.to_owned(), |parent| parent.join(near).display().to_string()),
     )
-}
-
-fn read_text(path: &Path) -> Result<String, String> {
-    if path.is_dir() {
-        return Err("it is a directory".into());
-    }
-    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(format!("it is larger than {LARGEST_FILE} bytes"));
-    }
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".into())
 }
 
 #[cfg(test)]

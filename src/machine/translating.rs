@@ -30,11 +30,14 @@ pub struct TranslatingData {
 }
 
 const LENGTH: Bounds = above(0.0, LONGEST);
+/// A shorter arm has no room for its own pivot, m.
+const SHORTEST_ARM: f64 = 1e-3;
+const ARM: Bounds = within(SHORTEST_ARM, LONGEST);
 
 const ROLLER_ARM: Field<f64> =
-    Field::quantity("roller_arm", "arm l1 from the pivot to the roller", Required("300 mm"), Length, LENGTH);
+    Field::quantity("roller_arm", "arm l1 from the pivot to the roller", Required("300 mm"), Length, ARM);
 const BOTTOM_ARM: Field<f64> =
-    Field::quantity("bottom_arm", "arm l2 from the pivot to the cylinder's bottom", Required("300 mm"), Length, LENGTH);
+    Field::quantity("bottom_arm", "arm l2 from the pivot to the cylinder's bottom", Required("300 mm"), Length, ARM);
 const DELTA: Field<f64> = Field::quantity(
     "delta",
     "angle between the roller's velocity and the line of the bed, at most 180 deg",

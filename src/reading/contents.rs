@@ -3,7 +3,9 @@
 use super::ReadError;
 use super::Unit;
 use super::groups::{Group, Kept, Section, TYPE};
+use super::limits::MOST_NAMES;
 use super::record::Record;
+use crate::document;
 use std::collections::BTreeMap;
 
 /// Group codes with a meaning here.
@@ -70,6 +72,11 @@ impl<'g> Contents<'g> {
                 Section::Blocks => contents.blocks(groups)?,
                 Section::Entities => contents.records.extend(records(groups)),
             }
+            for (count, what) in [(contents.layers.len(), "layers"), (contents.blocks.len(), "blocks")] {
+                if count > MOST_NAMES {
+                    return Err(ReadError::TooMuch { what, most: MOST_NAMES });
+                }
+            }
         }
         // Model space is a block, too, and some programs leave its entities there.
         for name in MODEL_SPACE {
@@ -93,7 +100,7 @@ impl<'g> Contents<'g> {
     }
 
     fn tables(&mut self, groups: &'g [Group<'g>]) -> Result<(), ReadError> {
-        for record in records(groups).into_iter().filter(|record| record.is("LAYER")) {
+        for record in records(groups).filter(|record| record.is("LAYER")) {
             let (mut name, mut state) = (None, LayerState::default());
             for Group { code, value } in record.groups {
                 match *code {
@@ -158,9 +165,14 @@ fn unit(number: i64) -> Unit {
 }
 
 /// The groups of a section, record by record; what stands before the first is of none.
-fn records<'g>(groups: &'g [Group<'g>]) -> Vec<Record<'g>> {
-    let starts: Vec<usize> =
-        groups.iter().enumerate().filter(|(_, group)| group.code == TYPE).map(|(index, _)| index).collect();
-    let ends = starts.iter().skip(1).copied().chain([groups.len()]);
-    starts.iter().zip(ends).filter_map(|(start, end)| Record::of(groups.get(*start..end)?)).collect()
+fn records<'g>(groups: &'g [Group<'g>]) -> impl Iterator<Item = Record<'g>> {
+    groups.chunk_by(|_, next| next.code != TYPE).filter_map(Record::of)
+}
+
+/// Characters of a name that a message tells.
+const MOST_SHOWN: usize = 80;
+
+/// The name of a layer or a block, as a message tells it.
+pub(super) fn shown(name: &[u8]) -> String {
+    document::shown(&String::from_utf8_lossy(name), MOST_SHOWN)
 }

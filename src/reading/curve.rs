@@ -4,6 +4,7 @@
 //! polynomial in the parameter (over the square of the weight), whose largest size is below that of its Bernstein coefficients;
 //! where that is too much the piece is halved. Nothing is sampled, so nothing hides between samples.
 
+use super::limits::Effort;
 use super::record::{Fault, fault};
 use crate::geometry::contour::{Cubic, Edge, Segment};
 use nalgebra::Vector2;
@@ -12,8 +13,6 @@ use nalgebra::Vector2;
 pub(super) const HIGHEST_DEGREE: usize = 11;
 /// Halvings of a piece: beyond them it is shorter than rounding.
 const HALVINGS: u32 = 48;
-/// Segments that one curve may become: memory, far above what any cam needs.
-const MOST_SEGMENTS: usize = 2_000_000;
 /// The arcs of a piece turn by less than this from its chord, as a cosine.
 const LEAST_COSINE: f64 = 0.8;
 /// Segments shorter than this are left out, mm: readers drop them.
@@ -163,16 +162,14 @@ impl Strand {
     /// Curves, each from where the one before ends: polynomials up to degree 3 as they are, others within a distance (mm).
     ///
     /// # Errors
-    /// [`Fault`] where they cannot be followed.
-    pub(super) fn follow(&mut self, curves: &[Bezier], within: f64) -> Result<(), Fault> {
+    /// [`Fault`] where they cannot be followed, or only with more work than there is room for.
+    pub(super) fn follow(&mut self, curves: &[Bezier], within: f64, effort: &mut Effort) -> Result<(), Fault> {
         for curve in curves {
             if let Some(edge) = curve.exact() {
                 if !edge.is_finite() {
                     return Err(Fault::File(super::ReadError::NotFinite));
                 }
-                if self.edges.len() > MOST_SEGMENTS {
-                    return fault("is too rough a curve to be followed");
-                }
+                effort.has_room(self.edges.len())?;
                 if curve.points().any(|point| (point - edge.start()).norm() > SHORTEST) {
                     self.edges.push(edge);
                 }
@@ -183,9 +180,8 @@ impl Strand {
                 if !piece.poles.iter().flatten().all(|number| number.is_finite()) {
                     return Err(Fault::File(super::ReadError::NotFinite));
                 }
-                if self.edges.len() > MOST_SEGMENTS {
-                    return fault("is too rough a curve to be followed");
-                }
+                effort.has_room(self.edges.len())?;
+                effort.piece(piece.poles.len())?;
                 if !self.followed(&piece, within) {
                     if left == 0 {
                         return fault("is a curve that cannot be followed");
@@ -326,7 +322,7 @@ mod tests {
     fn arcs_are_as_near_as_they_say() {
         for within in [1e-2, 1e-5, 1e-8] {
             let mut strand = Strand::default();
-            strand.follow(&bumpy(), within).expect("followed");
+            strand.follow(&bumpy(), within, &mut Effort::default()).expect("followed");
             let (curves, edges) = (bumpy(), &strand.edges);
             assert!(farthest(&curves, edges) <= 1.001 * within, "{within}: {}", farthest(&curves, edges));
             assert!(edges.windows(2).all(|pair| pair[0].end() == pair[1].start()));
@@ -340,7 +336,7 @@ mod tests {
     #[test]
     fn tangents_are_kept() {
         let mut strand = Strand::default();
-        strand.follow(&bumpy()[1..2], 1e-7).expect("followed");
+        strand.follow(&bumpy()[1..2], 1e-7, &mut Effort::default()).expect("followed");
         for pair in strand.edges.windows(2) {
             assert!(pair[0].end_tangent().perp(&pair[1].start_tangent()).abs() < 1e-7, "{pair:?}");
         }
@@ -351,7 +347,7 @@ mod tests {
         let axes = (Vector2::new(3.0, 4.0), Vector2::new(-0.8, 0.6));
         let curves = Bezier::ellipse(Vector2::new(1.0, 2.0), axes, (0.0, std::f64::consts::TAU));
         let mut strand = Strand::default();
-        strand.follow(&curves, 1e-9).expect("followed");
+        strand.follow(&curves, 1e-9, &mut Effort::default()).expect("followed");
         for edge in &strand.edges {
             let d = edge.middle() - Vector2::new(1.0, 2.0);
             let (u, v) = (d.dot(&axes.0) / 25.0, d.dot(&axes.1));
@@ -370,11 +366,15 @@ mod tests {
             vec![v(0.0, 0.0), v(1e15, -1e15), v(-1e15, 1e15), v(0.0, 0.0)],
             vec![v(0.0, 0.0), v(0.0, 0.0), v(5.0, 0.0), v(5.0, 0.0)],
         ] {
-            let _ = Strand::default().follow(&[Bezier::polynomial(&poles)], 1e-6);
+            let _ = Strand::default().follow(&[Bezier::polynomial(&poles)], 1e-6, &mut Effort::default());
         }
         let mut there = Strand::default();
         there
-            .follow(&[Bezier::polynomial(&[v(0.0, 0.0), v(30.0, 0.0), v(-20.0, 0.0), v(10.0, 0.0)])], 1e-6)
+            .follow(
+                &[Bezier::polynomial(&[v(0.0, 0.0), v(30.0, 0.0), v(-20.0, 0.0), v(10.0, 0.0)])],
+                1e-6,
+                &mut Effort::default(),
+            )
             .expect("a line");
         assert!(there.edges.iter().map(Edge::length).sum::<f64>() > 15.0, "it goes there and back");
     }

@@ -1,10 +1,12 @@
 //! The group codes of a DXF file, text or binary: what can be cut is kept, before anything is made of it.
 //!
-//! Kept are the version and the unit of the header, the table of layers, and the blocks and entities without extended data and
-//! application groups. What is left out cannot cut metal, and a reader of whole drawings can be made to fail by it: dates that
-//! do not exist, groups nested without end.
+//! Kept are the unit of the header, the table of layers, and of blocks and entities the codes that mean something here, without
+//! extended data and application groups. What is left out cannot cut metal, and a reader of whole drawings can be made to fail by
+//! it: dates that do not exist, groups nested without end. What is kept is counted, so that no file fills the memory.
 
 use super::ReadError;
+use super::contents::shown;
+use super::limits::{LONGEST_VALUE, MOST_GROUPS};
 
 /// First words of a binary file, with what stands between them and the first group.
 const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
@@ -66,7 +68,7 @@ impl<'a> Value<'a> {
 }
 
 fn not_a_number(value: Value<'_>) -> ReadError {
-    ReadError::NotDxf(format!("`{}` stands where a number belongs", String::from_utf8_lossy(value.text())))
+    ReadError::NotDxf(format!("`{}` stands where a number belongs", shown(value.text())))
 }
 
 /// A code with its value.
@@ -85,10 +87,69 @@ pub(super) enum Section {
     Entities,
 }
 
+impl Section {
+    fn named(name: &[u8]) -> Option<Self> {
+        match name {
+            b"HEADER" => Some(Self::Header),
+            b"TABLES" => Some(Self::Tables),
+            b"BLOCKS" => Some(Self::Blocks),
+            b"ENTITIES" => Some(Self::Entities),
+            _ => None,
+        }
+    }
+
+    /// Whether it holds what may cut.
+    fn cuts(self) -> bool {
+        matches!(self, Self::Blocks | Self::Entities)
+    }
+
+    /// Whether a code means something in it.
+    fn needs(self, code: i32) -> bool {
+        match self {
+            Self::Header => matches!(code, 9 | 70),
+            Self::Tables => matches!(code, TYPE | 2 | 62 | 70),
+            // Kind and name, layer, points, numbers, angles, visibility and paper space, flags and counts, extrusion.
+            Self::Blocks | Self::Entities => {
+                matches!(code, TYPE | 2 | 8 | 10..=13 | 20..=23 | 30..=33 | 38..=45 | 50 | 51 | 60 | 67 | 70 | 71 | 90)
+                    || matches!(code, 210 | 220 | 230)
+            }
+        }
+    }
+}
+
 /// What is kept of a file: for each of its sections that matter, the groups between its name and its end.
 #[derive(Debug, Default)]
 pub(super) struct Kept<'a> {
     pub(super) sections: Vec<(Section, Vec<Group<'a>>)>,
+    /// Sections and groups.
+    count: usize,
+}
+
+impl<'a> Kept<'a> {
+    fn count(&mut self) -> Result<(), ReadError> {
+        self.count += 1;
+        if self.count > MOST_GROUPS { Err(ReadError::TooMuch { what: "values", most: MOST_GROUPS }) } else { Ok(()) }
+    }
+
+    fn open(&mut self, section: Section) -> Result<(), ReadError> {
+        self.count()?;
+        self.sections.push((section, Vec::new()));
+        Ok(())
+    }
+
+    fn add(&mut self, group: Group<'a>) -> Result<(), ReadError> {
+        self.count()?;
+        if group.value.as_it_stands().len() > LONGEST_VALUE {
+            return Err(ReadError::NotDxf(format!(
+                "a value of group {} has more than {LONGEST_VALUE} characters",
+                group.code
+            )));
+        }
+        if let Some((_, groups)) = self.sections.last_mut() {
+            groups.push(group);
+        }
+        Ok(())
+    }
 }
 
 /// What is kept of a DXF file.
@@ -119,26 +180,21 @@ fn kept_of<'a>(groups: impl Iterator<Item = Result<Group<'a>, ReadError>>) -> Re
                 (unnamed, within) = (true, None);
             }
             (SECTION_NAME, name) if unnamed => {
-                unnamed = false;
-                within = match name {
-                    b"HEADER" => Some(Section::Header),
-                    b"TABLES" => Some(Section::Tables),
-                    b"BLOCKS" => Some(Section::Blocks),
-                    b"ENTITIES" => Some(Section::Entities),
-                    _ => None,
-                };
-                kept.sections.extend(within.map(|section| (section, Vec::new())));
+                (unnamed, within) = (false, Section::named(name));
+                if let Some(section) = within {
+                    kept.open(section)?;
+                }
             }
             (TYPE, b"ENDSEC") => {
                 entity.keeps(TYPE, b"ENDSEC")?;
                 within = None;
             }
             _ => {
-                let cuts = matches!(within, Some(Section::Blocks | Section::Entities));
-                if (within.is_some() && !cuts || cuts && entity.keeps(code, value.as_it_stands())?)
-                    && let Some((_, groups)) = kept.sections.last_mut()
-                {
-                    groups.push(Group { code, value });
+                let Some(section) = within else { continue };
+                // What is open is followed whether the code means something or not.
+                let cuts = !section.cuts() || entity.keeps(code, value.as_it_stands())?;
+                if cuts && section.needs(code) {
+                    kept.add(Group { code, value })?;
                 }
             }
         }

@@ -1,7 +1,8 @@
 //! Loose edges joined end to end into chains.
 
-use super::Source;
+use super::limits::{Effort, no_tangle};
 use super::walk::Cut;
+use super::{ReadError, Source};
 use crate::geometry::contour::{Contour, Edge};
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
@@ -44,6 +45,16 @@ impl Chain {
     pub fn reversed(&self) -> Self {
         let edges = self.edges.iter().rev().map(Edge::reversed).collect();
         Self { edges, closed: self.closed, sources: self.sources.clone() }
+    }
+
+    /// Refuses a chain of so many segments on top of each other that no measure of it ends in time.
+    pub(super) fn is_no_tangle(&self) -> Result<(), ReadError> {
+        let ends = || self.edges.iter().flat_map(|edge| [edge.start(), edge.end()]);
+        let (low, high) = ends().fold(
+            (Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY)),
+            |(low, high): (Vector2<f64>, Vector2<f64>), end| (low.inf(&end), high.sup(&end)),
+        );
+        no_tangle(self.edges.len(), self.edges.iter().map(Edge::length).sum(), (high - low).norm())
     }
 
     /// What it is made of and where, for a message: "CIRCLE on layer BORE".
@@ -118,12 +129,13 @@ impl Grid {
     }
 
     /// What lies nearest to a place among what is in it, no farther off than the reach, and how far; places no farther off than
-    /// [`NO_LENGTH`] are equally near. What is gone is left out for good.
+    /// [`NO_LENGTH`] are equally near. What is gone is left out for good. `looked` counts what is looked at.
     fn nearest(
         &mut self,
         place: Vector2<f64>,
         gone: impl Fn(usize) -> bool,
         away: impl Fn(usize) -> f64,
+        looked: &mut usize,
     ) -> Option<(f64, usize)> {
         let mut nearest: Option<(f64, usize)> = None;
         let mut met = 0;
@@ -136,6 +148,7 @@ impl Grid {
                     continue;
                 }
                 index += 1;
+                *looked += 1;
                 let distance = away(candidate);
                 if distance > self.reach {
                     continue;
@@ -170,27 +183,28 @@ impl Known {
         [edge.middle(), edge.start(), edge.end()]
     }
 
-    fn has(&self, edge: &Edge) -> bool {
+    fn has(&self, edge: &Edge, effort: &mut Effort) -> Result<bool, ReadError> {
         let [by_middle, by_start, by_end] = &self.by_place;
         let [middle, start, end] = Self::places(edge);
         let middles = by_middle.near(middle);
-        let found = |lists: &[&[usize]]| {
+        let mut found = |(lists, count): &(Vec<&[usize]>, usize)| {
+            effort.compared(*count)?;
             let mut all = lists.iter().flat_map(|list| list.iter()).filter_map(|index| self.edges.get(*index));
-            all.any(|other| same(edge, other, self.reach))
+            Ok(all.any(|other| same(edge, other, self.reach)))
         };
         if middles.1 <= FEW {
-            return found(&middles.0);
+            return found(&middles);
         }
         // A segment that is the same starts where this one starts or ends.
         let (there, back) = (by_start.near(start), by_end.near(start));
         if middles.1 <= there.1 + back.1 {
-            return found(&middles.0);
+            return found(&middles);
         }
         let (forth, round) = (by_end.near(end), by_start.near(end));
         if there.1 + back.1 <= forth.1 + round.1 {
-            found(&there.0) || found(&back.0)
+            Ok(found(&there)? || found(&back)?)
         } else {
-            found(&forth.0) || found(&round.0)
+            Ok(found(&forth)? || found(&round)?)
         }
     }
 
@@ -240,7 +254,10 @@ impl Link {
 
 /// Takes out edges without length and edges that lie on another, then joins what is left end to end: the outline, and
 /// what lies beside it.
-pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64) -> Joined {
+///
+/// # Errors
+/// [`ReadError::TooMuch`] where too many segments lie within the reach of each other.
+pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64, effort: &mut Effort) -> Result<Joined, ReadError> {
     let (mut duplicates, mut points) = (Vec::new(), Vec::new());
     let mut known = Known::new(reach);
     let (mut outline, mut beside) = (Vec::new(), Vec::new());
@@ -253,7 +270,7 @@ pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64) -> Joined {
             for edge in all {
                 if (edge.end() - edge.start()).norm() <= reach.min(NO_LENGTH) {
                     points.push(edge.start());
-                } else if known.has(&edge) {
+                } else if known.has(&edge, effort)? {
                     duplicates.push(edge.middle());
                     // What follows is no longer joined to what was before.
                     links.extend(Link::of(std::mem::take(&mut edges), source));
@@ -265,8 +282,10 @@ pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64) -> Joined {
             links.extend(Link::of(edges, source));
         }
     }
-    let chains = |links| joined(links, reach).into_iter().map(|link| chain(link, sources, reach)).collect();
-    Joined { outline: chains(outline), beside: chains(beside), duplicates, points }
+    let mut chains = |links| -> Result<Vec<Chain>, ReadError> {
+        Ok(joined(links, reach, effort)?.into_iter().map(|link| chain(link, sources, reach)).collect())
+    };
+    Ok(Joined { outline: chains(outline)?, beside: chains(beside)?, duplicates, points })
 }
 
 fn chain(link: Link, sources: &[Source], reach: f64) -> Chain {
@@ -289,7 +308,7 @@ fn same(a: &Edge, b: &Edge, reach: f64) -> bool {
 
 /// Joins links as long as an end of one meets an end of another that is still free, the nearest first: among edges shorter
 /// than the reach it is the one that follows. A chain whose ends meet goes on where a free end is nearer than its own.
-fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
+fn joined(links: Vec<Link>, reach: f64, effort: &mut Effort) -> Result<Vec<Link>, ReadError> {
     // Ends that are the same are found at once, however many others are within reach.
     let mut by_end = [Grid::new(reach.min(NO_LENGTH)), Grid::new(reach)];
     for (index, link) in links.iter().enumerate() {
@@ -319,7 +338,9 @@ fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
                     let ends = ends.get(other).copied().flatten();
                     ends.map_or(f64::INFINITY, |(a, b)| (a - end).norm().min((b - end).norm()))
                 };
-                let nearest = by_end.iter_mut().find_map(|grid| grid.nearest(end, gone, away));
+                let mut looked = 0;
+                let nearest = by_end.iter_mut().find_map(|grid| grid.nearest(end, gone, away, &mut looked));
+                effort.compared(looked)?;
                 let Some((_, other)) = nearest.filter(|(distance, _)| gap.is_none_or(|gap| *distance < gap)) else {
                     break;
                 };
@@ -335,7 +356,7 @@ fn joined(links: Vec<Link>, reach: f64) -> Vec<Link> {
         }
         found.push(link);
     }
-    found
+    Ok(found)
 }
 
 #[cfg(test)]
@@ -365,7 +386,7 @@ mod tests {
         let mixed = (0..1000).map(|i| (i * 389 + 7) % 1000).filter_map(|i| ring.get(i).copied());
         let turned = mixed.enumerate().map(|(i, s)| if i % 3 == 0 { s.reversed() } else { s });
         let links = || turned.clone().filter_map(|segment| Link::of(vec![segment], 0)).collect::<Vec<_>>();
-        let found = joined(links(), 4e-3);
+        let found = joined(links(), 4e-3, &mut Effort::default()).expect("few");
         assert_eq!(found.len(), 1);
         assert!(found.iter().all(|link| !link.open(4e-3) && link.edges.len() == 1000));
         for (a, b) in found.iter().flat_map(|link| link.edges.iter().zip(link.edges.iter().skip(1))) {

@@ -9,6 +9,7 @@ mod contents;
 mod curve;
 mod groups;
 mod join;
+mod limits;
 mod placement;
 mod record;
 mod shape;
@@ -17,8 +18,10 @@ pub mod step;
 mod walk;
 
 pub use join::Chain;
+pub use limits::{LARGEST_FILE, MOST_SEGMENTS};
 
 use contents::Contents;
+use join::Joined;
 use nalgebra::Vector2;
 use walk::Walk;
 
@@ -122,15 +125,44 @@ pub enum ReadError {
     /// It is not DXF.
     #[error("not a DXF file: {0}")]
     NotDxf(String),
+    /// It holds more than is read.
+    #[error("more than a cam: it has over {most} {what}, and camgen reads no more; keep only what is cut of the part")]
+    TooMuch {
+        /// Of what.
+        what: &'static str,
+        /// The limit.
+        most: usize,
+    },
+    /// The outline is far longer than one that goes round once.
+    #[error(
+        "no outline of a cam: {segments} segments on layer CAM_PROFILE are a tangle, {times} times as long as it is wide; an \
+         outline goes round once"
+    )]
+    Tangle {
+        /// Number of its segments.
+        segments: usize,
+        /// Their length over the diagonal of the rectangle about them.
+        times: u64,
+    },
     /// It holds a number that is not finite.
     #[error("an entity holds a number that is not finite, or beyond every drawing")]
     NotFinite,
 }
 
+/// Names that are told in one sentence.
+const MOST_NAMED: usize = 20;
+
+/// The first of some names, in a row.
+pub(crate) fn few(names: &[String]) -> String {
+    let told = names.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    let more = names.len().saturating_sub(MOST_NAMED);
+    if more > 0 { format!("{told} and {more} more") } else { told }
+}
+
 /// Reads a DXF file; ends nearer than `join` (mm) are one, and arcs keep to curves within a twentieth of it.
 ///
 /// # Errors
-/// [`ReadError`] when the bytes are not a DXF file.
+/// [`ReadError`] when the bytes are not a DXF file, or hold more than is read.
 pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
     let kept = groups::kept(bytes)?;
     let contents = Contents::of(&kept)?;
@@ -139,13 +171,14 @@ pub fn read(bytes: &[u8], join: f64) -> Result<Reading, ReadError> {
     if height.abs() > join {
         walk.remarks.push(format!("everything lies at a height of {height} mm"));
     }
-    let joined = join::join(walk.cuts, &walk.sources, join);
+    let Joined { outline, beside, duplicates, points } = join::join(walk.cuts, &walk.sources, join, &mut walk.effort)?;
+    outline.iter().try_for_each(Chain::is_no_tangle)?;
     Ok(Reading {
         unit: contents.unit,
-        chains: joined.outline,
-        beside: joined.beside,
-        duplicates: joined.duplicates,
-        points: joined.points,
+        chains: outline,
+        beside,
+        duplicates,
+        points,
         unreadable: walk.unreadable,
         information: walk.information,
         remarks: walk.remarks,
@@ -272,6 +305,54 @@ mod tests {
             assert!(reading.unreadable[0].why.contains("weights"), "{reading:?}");
         }
         let _ = read(spline(1e15, 1e-300)).expect("numbers");
+    }
+
+    /// The groups of a file as text, entities between head and end.
+    fn of_entities(entities: &str) -> Vec<u8> {
+        format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n").into_bytes()
+    }
+
+    #[test]
+    fn more_than_a_cam_is_told_with_the_limit() {
+        let line = |i: usize| format!("0\nLINE\n8\n0\n10\n{i}\n20\n0\n11\n{i}\n21\n1\n");
+        let lines = |count: usize| of_entities(&(0..count).map(line).collect::<String>());
+        assert!(read(&lines(MOST_SEGMENTS), 1e-6).is_ok());
+        let too_much = |bytes: &[u8], what: &str| match read(bytes, 1e-6) {
+            Err(error @ ReadError::TooMuch { .. }) => assert!(error.to_string().contains(what), "{error}"),
+            other => panic!("{what}: {other:?}"),
+        };
+        too_much(&lines(MOST_SEGMENTS + 1), "over 200000 segments");
+        let vertices = "10\n1\n20\n2\n".repeat(MOST_SEGMENTS + 1);
+        too_much(&of_entities(&format!("0\nLWPOLYLINE\n{vertices}")), "over 200000 segments");
+        let text = "0\nTEXT\n".repeat(1_000_001);
+        too_much(&of_entities(&text), "over 1000000 entities");
+        too_much(&of_entities(&"40\n1\n".repeat(4_000_001)), "over 4000000 values");
+        let short = |i: usize| {
+            let at = |k: usize| 1e-7 * f64::from(u32::try_from((i * 7919 * k) % 1000).expect("small"));
+            format!("0\nLINE\n10\n{:e}\n20\n{:e}\n11\n{:e}\n21\n{:e}\n", at(1), at(3), at(7) + 3e-5, at(11))
+        };
+        let cloud = of_entities(&(0..20_000).map(short).collect::<String>());
+        assert!(matches!(read(&cloud, 1e-3), Err(ReadError::TooMuch { .. })));
+    }
+
+    #[test]
+    fn a_tangle_is_no_outline() {
+        let vertices = |i: u32| format!("10\n{}\n20\n{}\n", i % 2 * 100, f64::from(i) * 1e-3);
+        let tangle = |layer: &str| {
+            let vertices: String = (0..20_000).map(vertices).collect();
+            of_entities(&format!("0\nLWPOLYLINE\n8\n{layer}\n70\n1\n{vertices}"))
+        };
+        assert!(matches!(read(&tangle(OUTLINE_LAYER), 1e-6), Err(ReadError::Tangle { segments: 20_000, .. })));
+        assert!(read(&tangle("HATCHING"), 1e-6).is_ok());
+    }
+
+    #[test]
+    fn names_are_told_without_what_a_terminal_obeys() {
+        let bytes = of_entities("0\nREGION\n8\nA\u{1b}[31m\u{202e}\u{9b}B\n");
+        let told = read(&bytes, 1e-6).expect("read").unreadable[0].to_string();
+        assert!(told.starts_with("REGION on layer A\\u001b[31m\\u202e\\u009bB at"), "{told}");
+        let long = of_entities(&format!("0\nLINE\n8\n{}\n", "x".repeat(3000)));
+        assert!(matches!(read(&long, 1e-6), Err(ReadError::NotDxf(_))));
     }
 
     #[test]

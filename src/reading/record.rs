@@ -1,7 +1,8 @@
 //! One entity as its groups, and what its numbers are.
 
 use super::ReadError;
-use super::groups::{Group, Value};
+use super::contents::shown;
+use super::groups::{Group, TYPE, Value};
 use nalgebra::{Vector2, Vector3};
 
 /// Group codes that every entity has.
@@ -44,9 +45,9 @@ pub(super) fn fault<T>(words: impl Into<String>) -> Result<T, Fault> {
 }
 
 impl<'g> Record<'g> {
-    /// From its groups, the kind the first of them.
+    /// From its groups, the kind the first of them; none where no kind is told.
     pub(super) fn of(groups: &'g [Group<'g>]) -> Option<Self> {
-        let (first, groups) = groups.split_first()?;
+        let (first, groups) = groups.split_first().filter(|(first, _)| first.code == TYPE)?;
         Some(Self { kind: first.value.text(), groups })
     }
 
@@ -61,7 +62,7 @@ impl<'g> Record<'g> {
 
     /// Its kind in capitals.
     pub(super) fn kind(&self) -> String {
-        String::from_utf8_lossy(self.kind).to_ascii_uppercase()
+        shown(&self.kind.to_ascii_uppercase())
     }
 
     /// The name of its layer.

@@ -1,19 +1,18 @@
 //! All that would be cut: the entities of model space that are seen, those of inserted blocks among them.
 
-use super::contents::{Contents, LayerState, folded};
+use super::contents::{Contents, LayerState, folded, shown};
 use super::curve::Strand;
+use super::limits::Effort;
 use super::placement::Placement;
 use super::record::{Fault, Record, fault};
 use super::shape::{self, Piece, Shape};
-use super::{OUTLINE_LAYER, ReadError, Source, Stray};
+use super::{OUTLINE_LAYER, ReadError, Source, Stray, few};
 use crate::geometry::contour::{Edge, Segment};
 use nalgebra::{Vector2, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Blocks within blocks: no drawing needs more.
 const DEEPEST: usize = 32;
-/// Entities that are looked at once blocks are resolved: more is not a cam.
-const MOST_ENTITIES: usize = 1_000_000;
 /// Things of one sort that are told each for itself.
 const MOST_TOLD: usize = 1_000;
 
@@ -33,7 +32,7 @@ pub(super) struct Walk<'c> {
     contents: &'c Contents<'c>,
     /// How near arcs keep to curves, mm.
     within: f64,
-    visited: usize,
+    pub(super) effort: Effort,
     /// The blocks that are being inserted, one within the other.
     open: Vec<Vec<u8>>,
     known_sources: BTreeMap<Source, usize>,
@@ -66,7 +65,7 @@ impl<'c> Walk<'c> {
         let mut walk = Self {
             contents,
             within,
-            visited: 0,
+            effort: Effort::default(),
             open: Vec::new(),
             known_sources: BTreeMap::new(),
             cuts: Vec::new(),
@@ -82,7 +81,7 @@ impl<'c> Walk<'c> {
         walk.entities(&contents.records, Context { placement: Placement::unchanged(), layer: None })?;
         if !walk.thick.is_empty() {
             let kinds: Vec<String> = walk.thick.iter().cloned().collect();
-            walk.remarks.push(format!("a thickness is cut as the line it stands on: {}", kinds.join(", ")));
+            walk.remarks.push(format!("a thickness is cut as the line it stands on: {}", few(&kinds)));
         }
         Ok(walk)
     }
@@ -100,9 +99,7 @@ impl<'c> Walk<'c> {
             }
             let vertices = records.get(first..index).unwrap_or_default();
             let ended = records.get(index).is_some_and(|next| next.is("SEQEND"));
-            if self.too_many(record, context) {
-                return Ok(());
-            }
+            self.count(record, vertices)?;
             match self.entity(record, (vertices, ended), context) {
                 Ok(()) => {}
                 Err(Fault::File(error)) => return Err(error),
@@ -115,14 +112,10 @@ impl<'c> Walk<'c> {
         Ok(())
     }
 
-    /// Counts an entity, or the insertion of a block; the first too many is told.
-    fn too_many(&mut self, record: &Record<'c>, context: Context<'c>) -> bool {
-        self.visited += 1;
-        if self.visited == MOST_ENTITIES + 1 {
-            let why = format!("is one of more than {MOST_ENTITIES} entities once blocks are resolved");
-            self.tell(record, context, (&record.kind(), &why));
-        }
-        self.visited > MOST_ENTITIES
+    /// Counts an entity, or the insertion of a block, with the vertices that follow it.
+    fn count(&mut self, record: &Record<'c>, vertices: &[Record<'c>]) -> Result<(), ReadError> {
+        let groups = vertices.iter().map(|vertex| 1 + vertex.groups.len()).sum::<usize>();
+        self.effort.entity(record.groups.len() + groups)
     }
 
     fn layer_of(record: &Record<'c>, context: Context<'c>) -> &'c [u8] {
@@ -179,6 +172,8 @@ impl<'c> Walk<'c> {
         if record.is("POLYLINE") && !ended {
             return fault("does not end with SEQEND");
         }
+        // A side has a point of its own, and is not made where there are too many.
+        self.effort.has_room(record.all(10).count().max(record.all(11).count()).max(vertices.len()))?;
         let Some(shape) = shape::shape(record, vertices)? else {
             return fault("is nothing that is known to be cut, and nothing that is known not to be");
         };
@@ -203,6 +198,7 @@ impl<'c> Walk<'c> {
 
     /// Puts what an entity cuts in its place in the drawing.
     fn cut(&mut self, shape: &Shape, source: usize, placement: Placement) -> Result<(), Fault> {
+        self.effort.has_room(shape.pieces.len())?;
         let placement = if shape.from_behind { placement.after(&Placement::from_behind()) } else { placement };
         let (keeps_circles, mirrors) = (placement.keeps_circles(), placement.mirrors());
         let mut strand = Strand::default();
@@ -219,9 +215,9 @@ impl<'c> Walk<'c> {
                 Piece::Segment(segment) => {
                     curves.push(segment);
                     let arcs: Vec<_> = shape::as_curves(segment).iter().map(mapped).collect();
-                    strand.follow(&arcs, self.within)?;
+                    strand.follow(&arcs, self.within, &mut self.effort)?;
                 }
-                Piece::Curve(curve) => strand.follow(&[mapped(curve)], self.within)?,
+                Piece::Curve(curve) => strand.follow(&[mapped(curve)], self.within, &mut self.effort)?,
             }
         }
         let inexact = |piece: &Piece| matches!(piece, Piece::Curve(curve) if curve.exact().is_none());
@@ -231,6 +227,7 @@ impl<'c> Walk<'c> {
         if !strand.edges.iter().all(Edge::is_finite) {
             return Err(Fault::File(ReadError::NotFinite));
         }
+        self.effort.segments(strand.edges.len())?;
         let heights = shape.heights.iter().map(|height| placement.height(*height));
         let heights = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
         self.cuts.push(Cut { edges: strand.edges, source, heights });
@@ -269,9 +266,7 @@ impl<'c> Walk<'c> {
         let mut placed = || -> Result<(), Fault> {
             for row in 0..rows {
                 for column in 0..columns {
-                    if self.too_many(record, context) {
-                        return Ok(());
-                    }
+                    self.count(record, &[])?;
                     #[expect(clippy::cast_precision_loss, reason = "below the limit of entities")]
                     let offset = turned.direction(Vector2::new(column as f64 * wide, row as f64 * high));
                     let there = Placement::of(scale, angle, at + Vector3::new(offset.x, offset.y, 0.0));
@@ -316,9 +311,4 @@ impl<'c> Walk<'c> {
         self.unreadable.extend(told);
         common
     }
-}
-
-/// The name of a layer or a block, as a message tells it.
-pub(super) fn shown(name: &[u8]) -> String {
-    String::from_utf8_lossy(name).into_owned()
 }

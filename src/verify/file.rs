@@ -2,7 +2,7 @@
 
 use super::{Bound, Check, Evidence, Explained, place};
 use crate::geometry::contour::Edge;
-use crate::reading::{OUTLINE_LAYER, Reading, Stray, Unit};
+use crate::reading::{OUTLINE_LAYER, Reading, Stray, Unit, few};
 use crate::report::{Finding, Verdict};
 
 pub(super) const LAYER: Check = Check::on_file(
@@ -99,7 +99,7 @@ fn count(check: &Check, found: usize, limit: usize, kept: bool, note: Option<Str
 
 fn layer(reading: &Reading) -> Finding {
     let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(OUTLINE_LAYER));
-    let layers = reading.layers.join(", ");
+    let layers = few(&reading.layers);
     let note = (!there).then(|| format!("nothing lies on layer {OUTLINE_LAYER}; the file's layers are: {layers}"));
     count(&LAYER, usize::from(there), 1, there, note)
 }
@@ -124,7 +124,7 @@ fn readable(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
         notes.push(format!("{} curves were read as arcs", reading.splines));
     }
     if !reading.hidden.is_empty() {
-        notes.push(format!("not seen, so not cut: what is hidden on layer {}", reading.hidden.join(", ")));
+        notes.push(format!("not seen, so not cut: what is hidden on layer {}", few(&reading.hidden)));
     }
     let finding = count(&READABLE, found.len(), 0, found.is_empty(), (!notes.is_empty()).then(|| notes.join("; ")));
     let doubtful = found.is_empty() && !information.is_empty();

@@ -40,6 +40,8 @@ const PIECE_PLACES: u32 = 8;
 const BESIDE: f64 = 1e-12;
 /// Up to so many segments each has four places, beyond that one.
 const FEW_SEGMENTS: usize = 1000;
+/// Of more than so many segments only some have one: the others are shorter than anything that is felt, and `outline` walks them all.
+const MOST_TOUCHED: usize = 50_000;
 /// Between two places a maximum is looked for while it may exceed what was found by more than this, mm.
 const SLACK: f64 = 1e-10;
 /// By so much of what a cubic rises above its ends a maximum may be higher than the cubic.
@@ -238,7 +240,8 @@ impl Roll<'_> {
         let even = (0..EVEN_PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(EVEN_PLACES));
         // An arc near the least possible number of them misses the curve three times, to either side.
         let count: u32 = if self.track.edges().len() <= FEW_SEGMENTS { 4 } else { 1 };
-        let touching = self.track.edges().iter().flat_map(|edge| {
+        let every = self.track.edges().len() / MOST_TOUCHED + 1;
+        let touching = self.track.edges().iter().step_by(every).flat_map(|edge| {
             (0..count).map(|step| {
                 let share = f64::from(step) / f64::from(count);
                 let (point, tangent) = edge.at(share);

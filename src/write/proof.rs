@@ -40,7 +40,10 @@ pub enum ProofError {
     #[error("the DXF file as written holds other entities than were drawn; please report this")]
     OtherEntities,
     /// It does not hold one closed outline.
-    #[error("the DXF file as written does not hold one closed outline; please report this")]
+    #[error(
+        "the outline cannot be written as one closed DXF outline: some of its segments are shorter than a file can tell, 1e-6 mm; \
+         choose a coarser --tolerance, and look in the machine file for a length or an angle that is nearly 0"
+    )]
     NotOneOutline,
     /// The version has no splines.
     #[error("DXF R12 has no SPLINE: use --outline arcs, or --dxf-version r2000 or later")]

@@ -2,7 +2,7 @@
 
 use camgen::body::RateTolerance;
 use camgen::document::{LengthOrAngle, similar};
-use camgen::machine::valid_rpm;
+use camgen::machine::{fault_of_stem, valid_rpm};
 use camgen::shaft::MOST_ORDER;
 use camgen::units::{self, Dimension};
 use camgen::write::by_name;
@@ -217,9 +217,5 @@ fn meant(text: &str, known: &[&str]) -> String {
 
 /// A stem names files in the output directory and must not lead out of it.
 pub(in crate::cli) fn stem(text: &str) -> Result<String, String> {
-    let bad = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
-    if text.is_empty() || text.starts_with('.') || text.contains(bad) {
-        return Err("a file stem has no path separators, no control characters and no leading dot; see --out".into());
-    }
-    Ok(text.to_owned())
+    fault_of_stem(text).map_or_else(|| Ok(text.to_owned()), Err)
 }

@@ -69,7 +69,10 @@ pub enum Wall {
         x_mm: f64,
     },
     /// Too many steps, for none of the reasons above.
-    #[error("equation (18) could not be continued past x = {x_mm:.6} mm; please report this machine")]
+    #[error(
+        "equation (18) could not be continued past x = {x_mm:.6} mm: the bottom moves too steeply there; a longer \
+         translating.bottom_arm, a smaller translating.friction_angle or a longer buffer.column would avoid it"
+    )]
     Unnamed {
         /// Overrun, mm.
         x_mm: f64,

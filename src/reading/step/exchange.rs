@@ -7,9 +7,14 @@ use std::collections::BTreeMap;
 /// Nested lists deeper than this hold nothing that a solid needs.
 const DEEPEST: usize = 64;
 /// More values than these are no cam; they would fill the memory.
-const MOST_VALUES: usize = 8_000_000;
+const MOST_VALUES: usize = 4_000_000;
+/// The same of instances.
+const MOST_INSTANCES: usize = 1_000_000;
 /// Digits of the longest number that is read.
 const LONGEST_NUMBER: usize = 400;
+
+/// Characters of the longest word that is read: no name of an entity has half as many.
+const LONGEST_WORD: usize = 200;
 
 /// Why a file is not an exchange structure.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -123,6 +128,15 @@ impl Scanner<'_> {
         String::from_utf8_lossy(self.bytes.get(from..self.at).unwrap_or_default()).to_ascii_uppercase()
     }
 
+    /// A word of the language, which is never long.
+    fn word(&mut self, fits: impl Fn(u8) -> bool) -> Result<String, StepError> {
+        let word = self.run(fits);
+        if word.len() > LONGEST_WORD {
+            return Err(self.error(format!("a word of more than {LONGEST_WORD} characters")));
+        }
+        Ok(word)
+    }
+
     fn next(&mut self) -> Result<Token, StepError> {
         self.skip()?;
         let Some(byte) = self.peek() else { return Ok(Token::End) };
@@ -144,7 +158,7 @@ impl Scanner<'_> {
             }
             b'.' => {
                 self.at += 1;
-                let name = self.run(|b| b.is_ascii_alphanumeric() || b == b'_');
+                let name = self.word(|b| b.is_ascii_alphanumeric() || b == b'_')?;
                 if self.peek() != Some(b'.') {
                     return Err(self.error(format!("`.{name}` has no dot at its end")));
                 }
@@ -155,7 +169,7 @@ impl Scanner<'_> {
             b'A'..=b'Z' | b'a'..=b'z' | b'_' | b'!' => {
                 self.at += 1;
                 let first = char::from(byte).to_ascii_uppercase();
-                let rest = self.run(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
+                let rest = self.word(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-')?;
                 Ok(Token::Word(format!("{first}{rest}")))
             }
             b'(' | b')' | b',' | b';' | b'=' | b'$' | b'*' | b'{' | b'}' => {
@@ -285,6 +299,9 @@ impl Scanner<'_> {
                 Token::Word(word) if word == "ENDSEC" => return self.expect(b';'),
                 Token::Reference(number) => {
                     let line = self.line;
+                    if exchange.instances.len() >= MOST_INSTANCES {
+                        return Err(self.error(format!("more than {MOST_INSTANCES} instances")));
+                    }
                     self.expect(b'=')?;
                     let instance = Instance { line, parts: self.parts()? };
                     if exchange.instances.insert(number, instance).is_some() {
