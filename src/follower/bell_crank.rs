@@ -48,7 +48,7 @@ impl Follower for BellCrank {
     fn touch(&self, x: f64, lift: &Jet) -> Touch {
         let [psi, first, second, third] = self.lever(lift);
         let theta = self.delta + psi;
-        let (sin, cos) = (libm::sin(theta), libm::cos(theta));
+        let (sin, cos) = libm::sincos(theta);
         let l = self.roller_arm;
         // Differences of sine and cosine by products, exact for a small ψ: sin θ − sin Δ = 2 cos(Δ + ψ/2) sin(ψ/2).
         let (half, middle) = (libm::sin(0.5 * psi), self.delta + 0.5 * psi);

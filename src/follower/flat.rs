@@ -97,7 +97,7 @@ impl Follower for FlatFace {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        let (sin, cos) = (libm::sin(angle + self.tilt), libm::cos(angle + self.tilt));
+        let (sin, cos) = libm::sincos(angle + self.tilt);
         let (normal, along) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
         let support = self.base_radius + lift.s * self.cosine;
         // P' = ρ T: ρ is the speed, negative where the profile has turned back on itself.

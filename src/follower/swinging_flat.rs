@@ -102,7 +102,7 @@ impl SwingingFlat {
     /// ℓ and its derivative by the parameter, m.
     fn lever(&self, lift: &Jet) -> (f64, f64) {
         let psi = self.start + lift.s;
-        let (sin, cos) = (libm::sin(psi), libm::cos(psi));
+        let (sin, cos) = libm::sincos(psi);
         let turn = 1.0 + self.side * lift.ds;
         let lever = self.pivot_distance * cos / turn;
         (lever, -(self.pivot_distance * sin * lift.ds + lever * self.side * lift.dds) / turn)
@@ -121,10 +121,10 @@ impl Follower for SwingingFlat {
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
         let (a, f, t) = (self.pivot_distance, self.face_offset, self.side);
         let psi = self.start + lift.s;
-        let (sp, cp) = (libm::sin(psi), libm::cos(psi));
+        let (sp, cp) = libm::sincos(psi);
         let [d1, d2, d3] = [lift.ds, lift.dds, lift.ddds];
         let heading = angle + t * (psi - FRAC_PI_2);
-        let (sin, cos) = (libm::sin(heading), libm::cos(heading));
+        let (sin, cos) = libm::sincos(heading);
         let (normal, along) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
         let turn = 1.0 + t * d1;
         let cube = turn * turn * turn;

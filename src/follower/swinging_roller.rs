@@ -90,11 +90,11 @@ impl Follower for SwingingRoller {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let (sin, cos) = libm::sincos(angle);
         let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
         let (a, l, t) = (self.pivot_distance, self.arm, self.side);
         let psi = self.start + lift.s;
-        let (sp, cp) = (libm::sin(psi), libm::cos(psi));
+        let (sp, cp) = libm::sincos(psi);
         let [d1, d2, d3] = [lift.ds, lift.dds, lift.ddds];
         // The arm −l (cos ψ, τ sin ψ) in the turning frame, and its derivatives by θ at fixed frame.
         let arm = [

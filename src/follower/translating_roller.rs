@@ -107,7 +107,7 @@ impl Follower for TranslatingRoller {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let (sin, cos) = libm::sincos(angle);
         let along = Vector2::new(cos, sin);
         let across = Vector2::new(-sin, cos);
         let (offset, u) = (self.offset, self.height + lift.s);

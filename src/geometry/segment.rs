@@ -61,16 +61,21 @@ impl Segment {
     /// Point and unit tangent at a share of the sweep, 0 the start, 1 the end.
     #[must_use]
     pub fn at(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
-        // The part of an arc up to there is an arc whose chord leaves the start turned by half its own sweep.
-        let chord = self.end - self.start;
-        if self.bulge == 0.0 {
-            return (self.start + chord * share, self.start_tangent());
+        self.places()(share)
+    }
+
+    /// The same for many shares: what they have in common is found once.
+    pub fn places(&self) -> impl Fn(f64) -> (Vector2<f64>, Vector2<f64>) {
+        let (start, chord, tangent) = (self.start, self.end - self.start, self.start_tangent());
+        let arc = (self.bulge != 0.0).then(|| (self.radius(), self.sweep()));
+        // The part of an arc up to a place is an arc whose chord leaves the start turned by half its own sweep.
+        move |share: f64| {
+            let Some((radius, sweep)) = arc else { return (start + chord * share, tangent) };
+            let (sin, cos) = libm::sincos(0.5 * sweep * share);
+            let turned = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
+            let along = turned(tangent);
+            (start + along * (2.0 * radius * sin), turned(along))
         }
-        let (radius, half) = (self.radius(), 0.5 * self.sweep() * share);
-        let (sin, cos) = (libm::sin(half), libm::cos(half));
-        let turned = |v: Vector2<f64>| Vector2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
-        let along = turned(self.start_tangent());
-        (self.start + along * (2.0 * radius * sin), turned(along))
     }
 
     /// Length, mm.

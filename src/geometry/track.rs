@@ -1,16 +1,17 @@
 //! An outline as something a roller can roll on: exact edges for the verdict, parry2d to find them fast and to measure
 //! the same distances a second way.
 //!
-//! parry's polyline is hollow and made of chords. Its bounding-volume tree over the exact edges is the broad phase;
-//! a polyline of chords much finer than the tolerance gives distances that share no formula with ours.
+//! Its bounding-volume tree over the exact edges is the broad phase; parry's segments along chords much finer than the tolerance
+//! give distances that share no formula with ours. They are asked for at a few hundred places only: boxes about groups of them
+//! find the nearest, which costs a tenth of a tree over thousands of chords.
 
 use crate::geometry::contour::{Contour, Edge, Nearest};
 use nalgebra::Vector2;
 use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
-use parry2d_f64::query::PointQuery;
-use parry2d_f64::shape::{Polyline, PolylineFlags};
+use parry2d_f64::query::{PointQuery, PointQueryWithLocation};
+use parry2d_f64::shape::{Segment, SegmentPointLocation};
 
 /// Largest number of chords: a tolerance that needs more is compared with coarser chords.
 const MOST_CHORDS: f64 = 2e5;
@@ -127,9 +128,15 @@ impl Track {
     }
 }
 
+/// Chords to a box: the square root of a few thousand.
+const TO_A_BOX: usize = 32;
+
 /// The outline as chords, for parry's own distance.
 pub struct Chords {
-    polyline: Polyline,
+    /// Where they begin; each ends where the next one begins, the last where the first does.
+    points: Vec<Vector>,
+    /// About every [`TO_A_BOX`] of them.
+    boxes: Vec<Aabb>,
     /// How many.
     pub count: usize,
     /// Largest distance of a chord from its arc, mm.
@@ -156,35 +163,81 @@ impl Chords {
             let wanted = (swept.abs() * (bow / (8.0 * sagitta)).sqrt()).ceil();
             let count = wanted.clamp(1.0, share.max(1.0));
             worst = worst.max(bow * (swept / count) * (swept / count) / 8.0);
+            // From the chord, so that a nearly straight arc keeps its digits.
+            let places = match &edge {
+                Edge::Segment(segment) => Some(segment.places()),
+                Edge::Cubic(_) => None,
+            };
             let mut step = 1.0;
             while step < count {
-                // From the chord, so that a nearly straight arc keeps its digits.
-                points.push(parry(edge.at(step / count).0));
+                let share = step / count;
+                points.push(parry(places.as_ref().map_or_else(|| edge.at(share), |place| place(share)).0));
                 step += 1.0;
             }
         }
         let count = points.len();
-        let last = u32::try_from(count).unwrap_or(u32::MAX);
-        let closed = (0..last).map(|i| [i, if i + 1 == last { 0 } else { i + 1 }]).collect();
-        let polyline = Polyline::with_flags(points, Some(closed), PolylineFlags::ORIENTED);
-        Self { polyline, count, sagitta: worst }
+        let boxes = (0..count).step_by(TO_A_BOX).map(|from| {
+            // With the end of the last of them.
+            let ends = (from..=from + TO_A_BOX).filter_map(|index| end_of(&points, index));
+            Aabb::from_points(ends)
+        });
+        Self { boxes: boxes.collect(), points, count, sagitta: worst }
     }
 
     /// How far the chords reach in a direction (a unit vector) from the origin.
     #[must_use]
     pub fn farthest(&self, direction: Vector2<f64>) -> f64 {
         let reach = |point: &Vector| point.x * direction.x + point.y * direction.y;
-        self.polyline.vertices().iter().map(reach).fold(f64::NEG_INFINITY, f64::max)
+        self.points.iter().map(reach).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Distance of a point from the chords, positive outside.
     #[must_use]
     pub fn distance(&self, point: Vector2<f64>) -> f64 {
         let from = parry(point);
-        let projection = self.polyline.project_local_point(from, false);
-        let distance = (projection.point - from).length();
-        if projection.is_inside { -distance } else { distance }
+        let boxes: Vec<f64> = self.boxes.iter().map(|own| own.distance_to_local_point(from, true)).collect();
+        // The nearest box first: the others mostly lie farther off than what is found in it.
+        let first = (0..boxes.len()).zip(&boxes).min_by(|a, b| a.1.total_cmp(b.1));
+        let others = (0..boxes.len()).zip(&boxes).filter(|(own, _)| first.is_none_or(|(first, _)| first != *own));
+        let (mut best, mut inside) = (f64::INFINITY, false);
+        for (own, least) in first.into_iter().chain(others) {
+            if !(*least < best) {
+                continue;
+            }
+            for index in (TO_A_BOX * own..self.count).take(TO_A_BOX) {
+                let Some(segment) = self.segment(index) else { continue };
+                let (projection, place) = segment.project_local_point_and_get_location(from, false);
+                let away = from - projection.point;
+                if away.length() < best {
+                    (best, inside) = (away.length(), away.dot(self.outward(index, place)) <= 0.0);
+                }
+            }
+        }
+        if inside { -best } else { best }
     }
+
+    /// A chord.
+    fn segment(&self, index: usize) -> Option<Segment> {
+        Some(Segment::new(end_of(&self.points, index)?, end_of(&self.points, index + 1)?))
+    }
+
+    /// A vector out of the metal on a chord, or where it joins another one between theirs.
+    fn outward(&self, index: usize, place: SegmentPointLocation) -> Vector {
+        let of = |index: usize| {
+            let along = self.segment(index % self.count).map(|segment| segment.b - segment.a).unwrap_or_default();
+            Vector::new(along.y, -along.x) / along.length()
+        };
+        match place {
+            SegmentPointLocation::OnEdge(_) => of(index),
+            SegmentPointLocation::OnVertex(0) => of(index) + of(index + self.count - 1),
+            SegmentPointLocation::OnVertex(_) => of(index) + of(index + 1),
+        }
+    }
+}
+
+/// The point of a closed chain at an index, the first one after the last.
+fn end_of(points: &[Vector], index: usize) -> Option<Vector> {
+    points.get(if index < points.len() { index } else { index - points.len() }).copied()
 }
 
 #[cfg(test)]

@@ -198,10 +198,12 @@ impl Reversal {
 
     fn find_lowest(&self) -> f64 {
         let lowest = self.distinct().iter().enumerate().map(|(index, piece)| {
-            let value = |angle| -self.bottom(index, angle).s;
-            let found =
-                extremum::largest(value, |angle| -self.bottom(index, angle).ds, (piece.start, piece.end), CELLS);
-            -found.value.max(value(0.5 * (piece.start + piece.end)))
+            let both = |angle| {
+                let bottom = self.bottom(index, angle);
+                (-bottom.s, -bottom.ds)
+            };
+            let found = extremum::largest_with_slope(both, (piece.start, piece.end), CELLS);
+            -found.value.max(both(0.5 * (piece.start + piece.end)).0)
         });
         lowest.fold(f64::INFINITY, f64::min)
     }

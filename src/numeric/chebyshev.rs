@@ -104,7 +104,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
     fn look_at(&mut self, low: f64, high: f64) -> bool {
         let mut cell = Cell { low, high, values: Vec::new(), coefficients: Vec::new() };
         let all = Points::all();
-        for (points, grid) in all.of_degree.iter().zip(&all.of_grid) {
+        for ((points, cosines), grid) in all.of_degree.iter().zip(&all.of_grid) {
             let before = std::mem::take(&mut cell.values);
             for (index, point) in points.iter().enumerate() {
                 let known = if index % 2 == 0 { before.get(index / 2).copied() } else { None };
@@ -117,7 +117,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
             if !cell.values.iter().all(|value| value.is_finite()) {
                 return true;
             }
-            cell.coefficients = coefficients(&cell.values, points);
+            cell.coefficients = coefficients(&cell.values, cosines);
             let varies: f64 = cell.coefficients.iter().skip(1).map(|c| c.abs()).sum();
             if varies <= self.negligible || self.cannot_exceed(&cell) {
                 return false;
@@ -194,42 +194,53 @@ fn points(degree: usize) -> Vec<f64> {
     (0..=degree).map(point).collect()
 }
 
-/// The points of every degree that is used, and of the grids on which slopes are looked at, made once.
+/// The points of every degree that is used with their cosines, and the grids on which slopes are looked at, made once.
 struct Points {
-    of_degree: Vec<Vec<f64>>,
+    of_degree: Vec<(Vec<f64>, Vec<Vec<f64>>)>,
     of_grid: Vec<Vec<f64>>,
 }
 
 impl Points {
     fn all() -> &'static Self {
         static ALL: OnceLock<Points> = OnceLock::new();
+        let with_cosines = |points: Vec<f64>| {
+            let cosines = cosines(&points);
+            (points, cosines)
+        };
         ALL.get_or_init(|| {
             let degrees: Vec<usize> =
                 std::iter::successors(Some(LEAST_DEGREE), |degree| Some(2 * degree)).take(DEGREES).collect();
             Self {
-                of_degree: degrees.iter().map(|degree| points(*degree)).collect(),
+                of_degree: degrees.iter().map(|degree| with_cosines(points(*degree))).collect(),
                 of_grid: degrees.iter().map(|degree| points(2 * degree)).collect(),
             }
         })
     }
 }
 
+/// cos(π j k/n) for every j, and of each every k.
+fn cosines(points: &[f64]) -> Vec<Vec<f64>> {
+    let turn: Vec<f64> = points.iter().chain(points.iter().rev().skip(1)).copied().collect();
+    let n = points.len().saturating_sub(1).max(1);
+    let row = |j: usize| (0..points.len()).map(|k| turn.get((j * k) % (2 * n)).copied().unwrap_or(0.0)).collect();
+    (0..points.len()).map(row).collect()
+}
+
 /// Coefficients of the polynomial through values at the Chebyshev points, from the upper end to the lower:
 /// cₖ = (2/n) Σ″ fⱼ cos(π j k/n), the first and the last halved.
-fn coefficients(values: &[f64], points: &[f64]) -> Vec<f64> {
+fn coefficients(values: &[f64], cosines: &[Vec<f64>]) -> Vec<f64> {
     let n = values.len().saturating_sub(1);
-    let cosines: Vec<f64> = points.iter().chain(points.iter().rev().skip(1)).copied().collect();
+    let mut sums = vec![0.0; values.len()];
+    for (j, (value, row)) in values.iter().zip(cosines).enumerate() {
+        let value = if j == 0 || j == n { 0.5 * value } else { *value };
+        sums.iter_mut().zip(row).for_each(|(sum, cosine)| *sum += value * cosine);
+    }
     #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
     let share = 2.0 / n as f64;
-    let coefficient = |k: usize| {
-        let term = |(j, value): (usize, &f64)| {
-            let whole = value * cosines.get((j * k) % (2 * n)).copied().unwrap_or(0.0);
-            if j == 0 || j == n { 0.5 * whole } else { whole }
-        };
-        let sum: f64 = values.iter().enumerate().map(term).sum();
-        share * if k == 0 || k == n { 0.5 * sum } else { sum }
-    };
-    (0..=n).map(coefficient).collect()
+    for (k, sum) in sums.iter_mut().enumerate() {
+        *sum = share * if k == 0 || k == n { 0.5 * *sum } else { *sum };
+    }
+    sums
 }
 
 /// Coefficients of the derivative: c′ₖ₋₁ = c′ₖ₊₁ + 2 k cₖ, the first halved.

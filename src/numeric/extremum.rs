@@ -43,7 +43,12 @@ struct Search<F> {
 
 impl<F: FnMut(f64) -> (f64, f64)> Search<F> {
     fn at(&mut self, at: f64) -> Place {
-        let (value, slope) = (self.both)(at);
+        let found = (self.both)(at);
+        self.known(at, found)
+    }
+
+    /// A place whose value and slope are known.
+    fn known(&mut self, at: f64, (value, slope): (f64, f64)) -> Place {
         if value > self.best.value || self.best.value.is_nan() {
             self.best = Extremum { at, value };
         }
@@ -89,6 +94,33 @@ pub fn largest_with_slope(both: impl FnMut(f64) -> (f64, f64), (low, high): (f64
         left = right;
     }
     search.best
+}
+
+/// The same of a function and of its negative, the places between the cells looked at once for both.
+pub fn both_ways_with_slope(
+    mut both: impl FnMut(f64) -> (f64, f64),
+    (low, high): (f64, f64),
+    cells: u32,
+) -> [Extremum; 2] {
+    let place = |cell: u32| match cell {
+        0 => low,
+        cell if cell == cells => high,
+        cell => low + (high - low) * (f64::from(cell) / f64::from(cells)),
+    };
+    let known: Vec<(f64, (f64, f64))> = (0..=cells).map(place).map(|at| (at, both(at))).collect();
+    [1.0, -1.0].map(|sign| {
+        let signed = |(value, slope): (f64, f64)| (sign * value, sign * slope);
+        let mut search = Search { both: |at| signed(both(at)), best: Extremum { at: low, value: f64::NAN } };
+        let mut left: Option<Place> = None;
+        for (at, found) in &known {
+            let right = search.known(*at, signed(*found));
+            if let Some(left) = left {
+                search.between(left, right, HALVINGS);
+            }
+            left = Some(right);
+        }
+        search.best
+    })
 }
 
 /// Golden sections that shrink a bracket to √ε of its width, where a flat top ends: 0.618 each.

@@ -84,14 +84,25 @@ impl Spline {
     /// Value and first three derivatives; beyond the ends the outer cubics go on. At a knot the later one counts.
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; 4] {
-        let last = self.cubics.len().saturating_sub(1);
-        let index = self.knots.partition_point(|knot| *knot <= x).saturating_sub(1).min(last);
-        let (Some(knot), Some([a, b, c, d])) = (self.knots.get(index), self.cubics.get(index)) else {
+        let index = interval_of(&self.knots, x);
+        let (Some(knot), Some(cubic)) = (self.knots.get(index), self.cubics.get(index)) else {
             return [f64::NAN; 4];
         };
-        let t = x - knot;
-        [((d * t + c) * t + b) * t + a, (3.0 * d * t + 2.0 * c) * t + b, 6.0 * d * t + 2.0 * c, 6.0 * d]
+        cubic_at(cubic, x - knot)
     }
+}
+
+/// The interval between knots in which a place lies: the first or the last one beyond the ends, the later one at a knot.
+#[must_use]
+pub fn interval_of(knots: &[f64], x: f64) -> usize {
+    let last = knots.len().saturating_sub(2);
+    knots.partition_point(|knot| *knot <= x).saturating_sub(1).min(last)
+}
+
+/// Value and first three derivatives of a cubic so far behind the left knot of its interval.
+#[must_use]
+pub fn cubic_at([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
+    [((d * t + c) * t + b) * t + a, (3.0 * d * t + 2.0 * c) * t + b, 6.0 * d * t + 2.0 * c, 6.0 * d]
 }
 
 /// The knots of a cubic B-spline with joints at `knots`: either end four times.

@@ -52,6 +52,19 @@ pub enum Error {
         /// Why the cam cannot have it.
         why: &'static str,
     },
+    /// The point table would have more rows than are written.
+    #[error(
+        "the point table would have {rows} rows for each of {sections} sections, more than {most} in all; give --samples {} at most",
+        most / sections.max(&1)
+    )]
+    TooManyRows {
+        /// Rows of a section.
+        rows: u32,
+        /// Sections.
+        sections: u32,
+        /// The most rows of a table.
+        most: u32,
+    },
     /// A check failed, and `force` was not set.
     #[error("a check failed: {0}")]
     Refused(String),

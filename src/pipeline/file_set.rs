@@ -5,6 +5,7 @@ use crate::body::Body;
 use crate::document::Input;
 use crate::numeric::parallel;
 use crate::report::{Report, failed};
+use crate::write::csv::MOST_ROWS;
 use crate::write::files::{self, Place, Staged};
 use crate::write::record::{Run, stage_recorded};
 use crate::write::svg;
@@ -61,10 +62,14 @@ impl Writing {
     /// The formats that are written for a body, and the default ones it cannot have, with the reason.
     ///
     /// # Errors
-    /// [`Error::NoSuchFormat`]; [`Error::Unfit`] when a format was requested that the body cannot have.
+    /// [`Error::NoSuchFormat`]; [`Error::Unfit`] when a format was requested that the body cannot have; [`Error::TooManyRows`].
     #[expect(clippy::type_complexity, reason = "two lists")]
     pub fn chosen(&self, body: &dyn Body) -> Result<(Vec<&'static Format>, Vec<(&'static str, &'static str)>), Error> {
         let (mut chosen, mut left_out) = (Vec::new(), Vec::new());
+        let sections = body.spatial().map_or(1, |conoid| u32::try_from(conoid.cuts().len()).unwrap_or(u32::MAX));
+        if self.samples.saturating_mul(sections) > MOST_ROWS {
+            return Err(Error::TooManyRows { rows: self.samples, sections, most: MOST_ROWS });
+        }
         if let Some(unknown) = self.formats.iter().flatten().find(|name| !by_name().any(|format| format.name == *name))
         {
             let known: Vec<&str> = by_name().map(|format| format.name).collect();

@@ -26,12 +26,12 @@ fn largest(
         extremum::largest_with_slope(|angle| quantity(index, angle), range, cells)
     };
     let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
-    pieces.map(in_piece).fold(
-        NOTHING,
-        |best, next| {
-            if next.value > best.value || best.value.is_nan() { next } else { best }
-        },
-    )
+    pieces.map(in_piece).fold(NOTHING, larger)
+}
+
+/// The larger of two, the first of equals; what is no number gives way.
+fn larger(best: Extremum, next: Extremum) -> Extremum {
+    if next.value > best.value || best.value.is_nan() { next } else { best }
 }
 
 /// Cells of a piece, and golden sections, in which a value without derivative is searched: forces are smooth with a
@@ -52,7 +52,7 @@ pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f
         .enumerate()
         .filter(|(index, _)| curves.motion.is_rolled(*index))
         .map(of_piece)
-        .fold(NOTHING, |best, next| if next.value > best.value || best.value.is_nan() { next } else { best })
+        .fold(NOTHING, larger)
 }
 
 /// A closed range of the motion's parameter at whose ends a quantity may jump, to what it is inside.
@@ -154,13 +154,16 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
 #[must_use]
 pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
     let rolled = |piece: usize| curves.motion.is_rolled(piece);
-    let signed = |sign: f64| {
-        largest(curves, rolled, |piece, angle| {
-            let contact = curves.contact(piece, angle);
-            (sign * contact.pressure_angle, sign * contact.pressure_angle_slope)
-        })
+    let in_piece = |(index, piece): (usize, &Piece)| {
+        let both = |angle: f64| {
+            let contact = curves.contact(index, angle);
+            (contact.pressure_angle, contact.pressure_angle_slope)
+        };
+        extremum::both_ways_with_slope(both, (piece.start, piece.end), if piece.dwell { 1 } else { CELLS })
     };
-    [signed(1.0), signed(-1.0)]
+    let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| rolled(*index));
+    let all: Vec<[Extremum; 2]> = pieces.map(in_piece).collect();
+    [0, 1].map(|way| all.iter().filter_map(|both| both.get(way)).fold(NOTHING, |best, next| larger(best, *next)))
 }
 
 /// Largest curvature of the follower's curve, 1/m: the sharpest convex place.

@@ -65,6 +65,23 @@ impl Worst {
     }
 }
 
+impl Contact {
+    /// A follower with this lift at a parameter of its motion.
+    #[must_use]
+    pub fn of(follower: &dyn Follower, parameter: f64, lift: Jet) -> Self {
+        let touch = follower.touch(parameter, &lift);
+        let (curve, drive, normal) = (touch.curve, touch.drive, touch.curve.outward());
+        // The normal turns at the rate κ ℓ of the tangent, the drive at its own rate.
+        Self {
+            lift,
+            curve,
+            drive,
+            pressure_angle: libm::atan2(normal.perp(&drive), normal.dot(&drive)),
+            pressure_angle_slope: touch.drive_turn - curve.curvature * curve.speed,
+        }
+    }
+}
+
 impl<'a> Curves<'a> {
     /// The follower at a parameter of a piece of the motion.
     #[must_use]
@@ -75,17 +92,7 @@ impl<'a> Curves<'a> {
     /// The follower's curve and the pressure angle at a parameter of a piece of the motion.
     #[must_use]
     pub fn contact(&self, piece: usize, parameter: f64) -> Contact {
-        let lift = self.motion.jet(piece, parameter);
-        let touch = self.follower.touch(parameter, &lift);
-        let (curve, drive, normal) = (touch.curve, touch.drive, touch.curve.outward());
-        // The normal turns at the rate κ ℓ of the tangent, the drive at its own rate.
-        Contact {
-            lift,
-            curve,
-            drive,
-            pressure_angle: libm::atan2(normal.perp(&drive), normal.dot(&drive)),
-            pressure_angle_slope: touch.drive_turn - curve.curvature * curve.speed,
-        }
+        Contact::of(self.follower, parameter, self.motion.jet(piece, parameter))
     }
 
     /// The profile at a parameter of a piece: the parallel of the follower's curve.
@@ -135,16 +142,12 @@ const LIFT_CELLS: u32 = 64;
 #[must_use]
 pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
     let of_piece = |(index, piece): (usize, &Piece)| {
-        let jet = |at| motion.jet(index, at);
-        let range = (piece.start, piece.end);
-        let of = |sign: f64| {
-            let both = |at: f64| {
-                let jet = jet(at);
-                (sign * jet.s, sign * jet.ds)
-            };
-            extremum::largest_with_slope(both, range, LIFT_CELLS).value
+        let both = |at: f64| {
+            let jet = motion.jet(index, at);
+            (jet.s, jet.ds)
         };
-        (-of(-1.0), of(1.0))
+        let [most, least] = extremum::both_ways_with_slope(both, (piece.start, piece.end), LIFT_CELLS);
+        (-least.value, most.value)
     };
     let all = motion.distinct().iter().enumerate().map(of_piece);
     all.fold((f64::INFINITY, 0.0), |(low, high), (least, top)| (low.min(least), high.max(top)))

@@ -1,13 +1,13 @@
 //! The sphere of a conoid's roller put on its written sections and on the flank of its solid.
 
 use super::{Bound, Check, Evidence, Explained, On, WrittenOutline, at};
-use crate::body::conoid::Conoid;
 use crate::body::conoid::flank::Flank;
+use crate::body::conoid::{Conoid, Slice};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::solid::SplineSurface;
 use crate::geometry::track::Track;
 use crate::machine::Rotation;
-use crate::motion::Motion;
+use crate::motion::{Jet, Motion};
 use crate::numeric::{extremum, parallel};
 use crate::profile::Worst;
 use crate::report::{Finding, Verdict};
@@ -49,31 +49,54 @@ fn or_farther(best: Worst, next: Worst) -> Worst {
     if next.value.abs() > best.value.abs() { next } else { best }
 }
 
+/// A cam angle, the same in its piece, and what the sections of the conoid lift there.
+struct Turned {
+    at: f64,
+    inside: f64,
+    lifts: Vec<Jet>,
+}
+
+impl Turned {
+    fn new(conoid: &Conoid, slice: &Slice<'_>, at: f64) -> Self {
+        let (piece, inside) = slice.locate(at);
+        Self { at, inside, lifts: conoid.lifts(piece, inside) }
+    }
+
+    /// The middles of so many equal parts of a turn: the same for every place along the axis.
+    fn all(conoid: &Conoid, count: u32) -> Vec<Self> {
+        let slice = conoid.slice(0.0);
+        let (first, last) = slice.range();
+        let place = |i: &u32| first + (last - first) * (f64::from(*i) + 0.5) / f64::from(count);
+        parallel::map(&(0..count).collect::<Vec<u32>>(), |i| Self::new(conoid, &slice, place(i)))
+    }
+}
+
 /// The sphere that touches the cut at z stands at ζ, and the plane cuts a circle of radius √(r² − (ζ − z)²) out of it that must
 /// touch the outline.
 pub(super) fn on_sections(evidence: &Evidence<'_>, conoid: &Conoid, check: &Check) -> Option<Finding> {
     let radius = conoid.roller().radius;
+    let places = Turned::all(conoid, ANGLES);
     let of_section = |section: &WrittenOutline| {
         let outline = if turned(conoid) { section.contour.mirrored_about_x() } else { section.contour.clone() };
         let track = Track::new(&outline);
         let slice = conoid.slice(section.z);
-        let gap = |angle: f64| {
-            let (piece, inside) = slice.locate(angle);
-            let (_, zeta) = conoid.cut(piece, inside, section.z)?;
-            let sphere = conoid.contact(piece, inside, zeta);
+        let gap = |turned: &Turned| {
+            let (_, zeta, partials) = conoid.cut_of(&turned.lifts, turned.inside, section.z)?;
+            let sphere = conoid.contact_of(&partials, turned.inside, zeta);
             let away = zeta - section.z;
             let circle = MILLIMETRES * ((radius - away) * (radius + away)).sqrt();
             Some(-track.nearest(sphere.centre.xy() * MILLIMETRES)?.left - circle)
         };
         let (first, last) = slice.range();
-        let place = |i: u32| first + (last - first) * (f64::from(i) + 0.5) / f64::from(ANGLES);
-        let at = |at: f64| Worst { value: gap(at).unwrap_or(f64::INFINITY), at, z: section.z };
-        let mut all: Vec<Worst> = (0..ANGLES).map(|i| at(place(i))).collect();
+        let at = |turned: &Turned| Worst { value: gap(turned).unwrap_or(f64::INFINITY), at: turned.at, z: section.z };
+        let mut all: Vec<Worst> = places.iter().map(at).collect();
         all.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
         let step = (last - first) / f64::from(ANGLES);
         let closer = |worst: &Worst| {
-            let size = |angle: f64| gap(angle).unwrap_or(f64::INFINITY).abs();
-            at(extremum::largest_without_slope(size, (worst.at - step, worst.at + step), 2, CLOSER_SECTIONS).at)
+            let turned = |angle: f64| Turned::new(conoid, &slice, angle);
+            let size = |angle: f64| gap(&turned(angle)).unwrap_or(f64::INFINITY).abs();
+            let range = (worst.at - step, worst.at + step);
+            at(&turned(extremum::largest_without_slope(size, range, 2, CLOSER_SECTIONS).at))
         };
         let looked: Vec<Worst> = all.iter().take(CLOSER_LOOKS).map(closer).collect();
         all.into_iter().chain(looked).fold(none(first, section.z), or_farther)
@@ -101,26 +124,22 @@ fn on_flank(conoid: &Conoid, flank: &Flank) -> Worst {
     let (low, high) = conoid.ends();
     let radius = MILLIMETRES * conoid.roller().radius;
     let sense = if turned { -1.0 } else { 1.0 };
-    let gap = |piece: usize, inside: f64, z: f64| {
-        let contact = conoid.contact(piece, inside, z);
+    let places = Turned::all(conoid, FLANK_ANGLES);
+    let gap = |at: &Turned, z: f64| {
+        let contact = conoid.contact_of(&conoid.lift_of(&at.lifts, z), at.inside, z);
         // Beyond the ends of the cam there is nothing to touch.
         if !(low..=high).contains(&contact.point.z) {
             return 0.0;
         }
-        let u = sense * inside;
+        let u = sense * at.inside;
         let near = |patch: &&SplineSurface| (patch.range()[0].0..=patch.range()[0].1).contains(&u);
         let centre = Vector3::new(contact.centre.x, sense * contact.centre.y, contact.centre.z) * MILLIMETRES;
         let away = |patch: &SplineSurface| patch.distance(&centre, (u, MILLIMETRES * contact.point.z)) - radius;
         flank.patches.iter().find(near).map_or(f64::INFINITY, away)
     };
+    let (first, _) = conoid.slice(0.0).range();
     let at_slice = |z: &f64| {
-        let slice = conoid.slice(*z);
-        let (first, last) = slice.range();
-        let place = |i: u32| first + (last - first) * (f64::from(i) + 0.5) / f64::from(FLANK_ANGLES);
-        let all = (0..FLANK_ANGLES).map(|i| {
-            let (piece, inside) = slice.locate(place(i));
-            Worst { value: gap(piece, inside, *z), at: place(i), z: *z }
-        });
+        let all = places.iter().map(|at| Worst { value: gap(at, *z), at: at.at, z: *z });
         all.fold(none(first, *z), or_farther)
     };
     let all: Vec<Worst> = parallel::map(&conoid.slices(), at_slice);

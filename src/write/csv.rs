@@ -11,6 +11,9 @@ use crate::profile::followed::Followed;
 use crate::table::Table;
 use crate::verify::WrittenOutline;
 
+/// Most rows of a point table: a cam angle of six seconds from one to the next.
+pub const MOST_ROWS: u32 = 200_000;
+
 /// The point table.
 pub const FORMAT: Format = Format {
     name: "csv",
@@ -66,10 +69,13 @@ fn residual(body: &dyn Body, curves: Curves<'_>, place: f64, lift: f64) -> f64 {
     body.unbalanced(piece, parameter, moved, contact.curve.outward())
 }
 
+/// Bytes of most numbers with what stands between two.
+const NUMBER: usize = 16;
+
 /// The table as text with line feeds.
 #[must_use]
 pub fn write(table: &Table) -> Vec<u8> {
-    let mut text = String::new();
+    let mut text = String::with_capacity(NUMBER * table.rows.len() * table.columns.len());
     let named = table.words.as_ref();
     text.extend(named.map(|(name, _)| format!("{name},")));
     text.push_str(&table.columns.join(","));

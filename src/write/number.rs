@@ -4,6 +4,9 @@
 const LEAST_PLAIN: f64 = 1e-6;
 const LARGEST_PLAIN: f64 = 1e17;
 
+/// Sizes that zmij writes without an exponent, and some more that it does.
+const WITHOUT_EXPONENT: std::ops::Range<f64> = 1e-4..1e15;
+
 /// The shortest text that reads back as the same `f64`; `inf`, `-inf`, `NaN` as such, no negative zero.
 #[must_use]
 pub fn shortest(value: f64) -> String {
@@ -27,7 +30,7 @@ pub fn push_shortest(text: &mut String, value: f64) {
     }
     let mut buffer = zmij::Buffer::new();
     let digits = buffer.format_finite(value + 0.0);
-    if !digits.contains('e') {
+    if WITHOUT_EXPONENT.contains(&size) || !digits.contains('e') {
         text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
     } else if size != 0.0 && !(LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
         // Very large or small numbers would fill a line with zeros.
@@ -59,14 +62,83 @@ pub fn names(values: &[f64]) -> Vec<String> {
     values.iter().map(name).collect()
 }
 
+/// Powers of ten, up to the most decimals that are written.
+const POWERS: [u64; 13] = {
+    let mut powers = [1; 13];
+    let mut index = 1;
+    while index < powers.len() {
+        powers[index] = 10 * powers[index - 1];
+        index += 1;
+    }
+    powers
+};
+
+/// A size times a power of ten as a whole number, exact but for its own rounding, ties to even; `None` where it does not fit.
+///
+/// A double is m/2ⁿ with m below 2⁵³, and the power below 2⁴⁰: their product is exact in 128 bits.
+fn times(size: f64, power: u64) -> Option<u64> {
+    const FRACTION: u64 = (1 << 52) - 1;
+    let bits = size.to_bits();
+    let exponent = u32::try_from(bits >> 52).ok()?;
+    // A number below the normal ones is none of the decimals.
+    if exponent == 0 {
+        return Some(0);
+    }
+    let product = u128::from((bits & FRACTION) | (FRACTION + 1)) * u128::from(power);
+    let shift = 1075_u32.checked_sub(exponent).filter(|shift| *shift > 0)?;
+    if shift > 100 {
+        return Some(0);
+    }
+    let (whole, rest, half) = (product >> shift, product & ((1 << shift) - 1), 1_u128 << (shift - 1));
+    let up = rest > half || (rest == half && whole & 1 == 1);
+    u64::try_from(whole + u128::from(up)).ok()
+}
+
 /// A plain decimal with at most `decimals` places and one at the least, as DXF and SVG readers expect it: no exponent,
 /// no negative zero.
 #[must_use]
 pub fn plain(value: f64, decimals: usize) -> String {
-    let fixed = format!("{value:.decimals$}");
-    let trimmed = fixed.trim_end_matches('0');
-    let one = if trimmed.ends_with('.') { format!("{trimmed}0") } else { trimmed.to_owned() };
-    if one == "-0.0" { "0.0".into() } else { one }
+    let mut text = String::with_capacity(20);
+    push_plain(&mut text, value, decimals);
+    text
+}
+
+/// Adds the same to a text.
+pub fn push_plain(text: &mut String, value: f64, decimals: usize) {
+    let power = POWERS.get(decimals).copied().filter(|_| decimals > 0);
+    let Some((whole, power)) = power.and_then(|power| Some((times(value.abs(), power)?, power))) else {
+        let fixed = format!("{value:.decimals$}");
+        let trimmed = fixed.trim_end_matches('0');
+        text.push_str(if trimmed == "-0." { "0." } else { trimmed });
+        text.push_str(if trimmed.ends_with('.') { "0" } else { "" });
+        return;
+    };
+    if value < 0.0 && whole > 0 {
+        text.push('-');
+    }
+    let (mut fraction, mut places) = (whole % power, decimals);
+    while places > 1 && fraction % 10 == 0 {
+        (fraction, places) = (fraction / 10, places - 1);
+    }
+    push_digits(text, whole / power, 1);
+    text.push('.');
+    push_digits(text, fraction, places);
+}
+
+/// Adds the digits of a number, so many at the least.
+fn push_digits(text: &mut String, mut number: u64, least: usize) {
+    let mut digits = [b'0'; 20];
+    let mut used = 0;
+    for slot in digits.iter_mut().rev() {
+        if number == 0 && used >= least {
+            break;
+        }
+        *slot = b'0' + (number % 10) as u8;
+        number /= 10;
+        used += 1;
+    }
+    let used = digits.get(digits.len() - used..).unwrap_or_default();
+    text.push_str(std::str::from_utf8(used).unwrap_or_default());
 }
 
 #[cfg(test)]
@@ -112,5 +184,29 @@ mod tests {
         assert_eq!(plain(1.5, 12), "1.5");
         assert_eq!(plain(120.0, 12), "120.0");
         assert_eq!(plain(-69.123_456_789_012_34, 12), "-69.123456789012");
+    }
+
+    /// The standard library rounds the exact value, ties to even.
+    #[test]
+    fn plain_is_rounded_as_the_standard_library_does() {
+        let by_library = |value: f64, decimals: usize| {
+            let fixed = format!("{value:.decimals$}");
+            let trimmed = fixed.trim_end_matches('0');
+            let one = if trimmed.ends_with('.') { format!("{trimmed}0") } else { trimmed.to_owned() };
+            if one == "-0.0" { "0.0".into() } else { one }
+        };
+        let ties = (0..4000).map(|i| (f64::from(i) - 2000.0) / 1024.0);
+        let ends = [0.0, -0.0, 5e-324, 1e-310, -4.9e-13, 5e-13, 0.5e-6, 1e15, 4_503_599_627_370_495.5, 1e17, 1e300];
+        let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
+        let random = (0..200_000).map(|_| {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from_bits((1023 - 60 + (bits >> 40) % 120) << 52 | bits & 0x800f_ffff_ffff_ffff)
+        });
+        for value in ties.chain(ends).chain(random) {
+            for decimals in [1, 4, 6, 12] {
+                assert_eq!(plain(value, decimals), by_library(value, decimals), "{value:e} {decimals}");
+            }
+        }
+        assert_eq!((plain(f64::NAN, 6), plain(f64::NEG_INFINITY, 6)), ("NaN".into(), "-inf".into()));
     }
 }

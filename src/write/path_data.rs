@@ -1,6 +1,6 @@
 //! Shapes as path data of SVG: arcs are arcs, y is flipped once, in the coordinates.
 
-use super::number::plain;
+use super::number::push_plain;
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::report::sheet::Shape;
@@ -17,64 +17,107 @@ pub(super) struct PathData {
 
 impl PathData {
     pub(super) fn number(self, value: f64) -> String {
-        let text = plain(value, self.decimals);
-        text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+        let mut text = String::with_capacity(16);
+        self.push_number(&mut text, value);
+        text
     }
 
-    pub(super) fn place(self, point: Vector2<f64>) -> String {
-        format!("{},{}", self.number(point.x), self.number(-point.y))
+    pub(super) fn push_number(self, text: &mut String, value: f64) {
+        push_plain(text, value, self.decimals);
+        if text.ends_with(".0") {
+            text.truncate(text.len() - 2);
+        }
+    }
+
+    fn push_place(self, text: &mut String, point: Vector2<f64>) {
+        self.push_number(text, point.x);
+        text.push(',');
+        self.push_number(text, -point.y);
+    }
+
+    /// Places with a sign between two.
+    pub(super) fn push_places(self, text: &mut String, points: &[Vector2<f64>], between: char) {
+        for (index, point) in points.iter().enumerate() {
+            if index > 0 {
+                text.push(between);
+            }
+            self.push_place(text, *point);
+        }
     }
 
     /// A shape; nothing of a text.
     pub(super) fn shape(self, shape: &Shape) -> String {
+        let mut text = String::new();
         match shape {
-            Shape::Entity(Entity::Polyline(contour)) => self.contour(contour),
-            Shape::Entity(Entity::Circle(centre, radius)) => self.contour(&Contour::circle(*centre, *radius)),
-            Shape::Line(a, b) => self.chain(&[*a, *b]),
-            Shape::Path(points) => self.chain(points),
-            Shape::Arc(start, end, bulge) => self.open_arc(&Segment { start: *start, end: *end, bulge: *bulge }),
-            Shape::Triangle(corners) => format!("{}Z", self.chain(corners)),
-            Shape::Text { .. } => String::new(),
+            Shape::Entity(Entity::Polyline(contour)) => self.push_contour(&mut text, contour),
+            Shape::Entity(Entity::Circle(centre, radius)) => {
+                self.push_contour(&mut text, &Contour::circle(*centre, *radius));
+            }
+            Shape::Line(a, b) => self.push_chain(&mut text, &[*a, *b]),
+            Shape::Path(points) => self.push_chain(&mut text, points),
+            Shape::Arc(start, end, bulge) => {
+                self.push_open_arc(&mut text, &Segment { start: *start, end: *end, bulge: *bulge });
+            }
+            Shape::Triangle(corners) => {
+                self.push_chain(&mut text, corners);
+                text.push('Z');
+            }
+            Shape::Text { .. } => {}
         }
+        text
     }
 
-    pub(super) fn contour(self, contour: &Contour) -> String {
-        let start = contour.vertices.first().map(|vertex| self.place(vertex.point)).unwrap_or_default();
-        let edges: Vec<String> = contour.edges().map(|edge| self.edge(&edge)).collect();
-        format!("M{start} {} Z", edges.join(" "))
+    pub(super) fn push_contour(self, text: &mut String, contour: &Contour) {
+        text.push('M');
+        if let Some(first) = contour.vertices.first() {
+            self.push_place(text, first.point);
+        }
+        for edge in contour.edges() {
+            text.push(' ');
+            self.push_edge(text, &edge);
+        }
+        text.push_str(" Z");
     }
 
-    pub(super) fn open_arc(self, segment: &Segment) -> String {
-        format!("M{} {}", self.place(segment.start), self.arc(segment))
+    pub(super) fn push_open_arc(self, text: &mut String, segment: &Segment) {
+        text.push('M');
+        self.push_place(text, segment.start);
+        text.push(' ');
+        self.push_arc(text, segment);
     }
 
-    fn chain(self, points: &[Vector2<f64>]) -> String {
-        let places: Vec<String> = points.iter().map(|point| self.place(*point)).collect();
-        format!("M{}", places.join("L"))
+    fn push_chain(self, text: &mut String, points: &[Vector2<f64>]) {
+        text.push('M');
+        self.push_places(text, points, 'L');
     }
 
-    fn edge(self, edge: &Edge) -> String {
+    fn push_edge(self, text: &mut String, edge: &Edge) {
         match edge {
-            Edge::Segment(segment) => self.arc(segment),
+            Edge::Segment(segment) => self.push_arc(text, segment),
             Edge::Cubic(cubic) => {
-                let [_, leaves, arrives, end] = cubic.points.map(|point| self.place(point));
-                format!("C{leaves} {arrives} {end}")
+                let [_, rest @ ..] = &cubic.points;
+                text.push('C');
+                self.push_places(text, rest, ' ');
             }
         }
     }
 
     /// A line, an arc, or the two halves of a long arc.
-    fn arc(self, segment: &Segment) -> String {
+    fn push_arc(self, text: &mut String, segment: &Segment) {
         if segment.bulge == 0.0 {
-            return format!("L{}", self.place(segment.end));
+            text.push('L');
+            self.push_place(text, segment.end);
+            return;
         }
         let radius = self.number(segment.radius().abs());
         // A left turn upwards is a right turn (sweep flag 0) once y points down.
-        let sweep = u8::from(segment.bulge < 0.0);
-        let to = |point| format!("A{radius},{radius} 0 0 {sweep} {}", self.place(point));
-        if segment.sweep().abs() <= LONGEST_SWEEP {
-            return to(segment.end);
+        let sweep = if segment.bulge < 0.0 { " 0 0 1 " } else { " 0 0 0 " };
+        let middle = (segment.sweep().abs() > LONGEST_SWEEP).then(|| segment.middle());
+        for (index, point) in middle.into_iter().chain([segment.end]).enumerate() {
+            for part in [if index > 0 { " A" } else { "A" }, &radius, ",", &radius, sweep] {
+                text.push_str(part);
+            }
+            self.push_place(text, point);
         }
-        format!("{} {}", to(segment.middle()), to(segment.end))
     }
 }

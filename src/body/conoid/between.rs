@@ -3,9 +3,12 @@
 use super::{Conoid, ConoidError, Interpolation, bottom_law_at};
 use crate::body::ROUNDING_OF_BALANCE;
 use crate::machine::Machine;
-use crate::motion::Motion;
+use crate::motion::{Motion, Reversal, State};
 use crate::numeric::{extremum, parallel};
 use crate::profile::extremes;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Speeds looked at between two sections, and golden sections at the worst: the residual of a strip is a smooth hump or two
 /// across it, whose top is told to 1e-9 when its place is known to a millionth of the strip.
@@ -33,28 +36,55 @@ pub fn residual(conoid: &Conoid, interpolation: Interpolation) -> Residual {
     let pairs = conoid.speeds.iter().copied().zip(conoid.speeds.iter().skip(1).copied());
     let pairs: Vec<(f64, f64)> = pairs.filter(|(low, high)| low < high).collect();
     let in_strip = |&(low, high): &(f64, f64)| {
-        let force = |rpm: f64| at_speed(conoid, rpm, interpolation).force;
+        let known = Known::default();
+        let force = |rpm: f64| at_speed(conoid, rpm, interpolation, &known).force;
         let worst = extremum::largest_without_slope(force, (low, high), SPEEDS, SPEED_SECTIONS);
-        at_speed(conoid, worst.at, interpolation)
+        at_speed(conoid, worst.at, interpolation, &known)
     };
     let worst: Vec<Residual> = parallel::map(&pairs, in_strip);
     let none = Residual { force: 0.0, rpm: conoid.speeds.first().copied().unwrap_or(0.0), angle: 0.0 };
     worst.into_iter().fold(none, |best, next| if next.force > best.force { next } else { best })
 }
 
+/// What the sections do at the cam angles that were asked for: the search asks for the same ones at every speed.
+#[derive(Default)]
+struct Known {
+    /// By piece and the bits of the angle.
+    angles: RefCell<BTreeMap<(usize, u64), Rc<Together>>>,
+}
+
+/// The sections at one cam angle: the state of the first and the bottoms of all.
+struct Together {
+    state: State,
+    bottoms: Vec<f64>,
+}
+
+impl Known {
+    fn at(&self, conoid: &Conoid, section: &Reversal, piece: usize, angle: f64) -> Rc<Together> {
+        let mut angles = self.angles.borrow_mut();
+        let sections = || {
+            let state = section.state(piece, angle);
+            let bottoms = if state.reversing { conoid.bottoms(piece, angle).collect() } else { Vec::new() };
+            Rc::new(Together { state, bottoms })
+        };
+        Rc::clone(angles.entry((piece, angle.to_bits())).or_insert_with(sections))
+    }
+}
+
 /// The largest residual at one speed.
-fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual {
+fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation, known: &Known) -> Residual {
     let bottom_law = bottom_law_at(&conoid.press, &conoid.data, rpm);
     let z = conoid.position(rpm);
     let Some(section) = conoid.sections.first() else { return Residual { force: f64::NAN, rpm, angle: 0.0 } };
     let (unit, slice) = (conoid.cylinder.unit_force(), conoid.slice(z));
     let left = |piece: usize, angle: f64| {
-        let state = section.state(piece, angle);
+        let sections = known.at(conoid, section, piece, angle);
+        let state = &sections.state;
         if !state.reversing {
             return 0.0;
         }
         let bottom = match interpolation {
-            Interpolation::Smooth => slice.bottom(piece, angle),
+            Interpolation::Smooth => slice.of(sections.bottoms.iter().copied()),
             Interpolation::Straight => conoid.displacement(piece, angle, z, interpolation),
         };
         let left = bottom_law.loading() * state.deceleration - (bottom_law.pressure_ratio(state.crank, bottom) - 1.0);
@@ -68,7 +98,7 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation) -> Residual
 
 /// The largest residual of the sections at their own speeds.
 pub(super) fn at_sections(conoid: &Conoid) -> Residual {
-    let all = parallel::map(&conoid.speeds, |rpm| at_speed(conoid, *rpm, Interpolation::Smooth));
+    let all = parallel::map(&conoid.speeds, |rpm| at_speed(conoid, *rpm, Interpolation::Smooth, &Known::default()));
     let none = Residual { force: 0.0, rpm: conoid.speeds.first().copied().unwrap_or(0.0), angle: 0.0 };
     all.into_iter().fold(none, |best, next| if next.force > best.force { next } else { best })
 }
@@ -93,6 +123,8 @@ pub(super) fn air_at(conoid: &Conoid, rpm: f64) -> (f64, f64) {
 
 /// Angles of a reversal at which the middle of a strip is tried before its largest residual is searched.
 const TRIED: u32 = 16;
+/// Share of the largest inertia that is the rounding of the balance.
+const ROUNDING: f64 = 1e-9;
 /// What the transition itself leaves at the speed of a section no number of sections mends: how much more is taken for the same.
 const NEARLY: f64 = 1.05;
 
@@ -118,19 +150,26 @@ fn exceeds(conoid: &Conoid, limit: f64) -> bool {
 }
 
 /// The conoid, its size not yet found, with the fewest speeds out of `spaced` between two that leaves no more than a residual
-/// force (N), or, when even [`MOST_SECTIONS`] leave more, the one with that many; and whether it leaves no more.
-fn with_fewest(machine: &Machine, limit: f64, spaced: impl Fn(u32) -> Vec<f64>) -> Result<(Conoid, bool), ConoidError> {
+/// force (N), or no more than the transition itself leaves; `None` when even [`MOST_SECTIONS`] leave more. And whether it is no more
+/// than that force.
+fn with_fewest(
+    machine: &Machine,
+    limit: f64,
+    spaced: impl Fn(u32) -> Vec<f64>,
+) -> Result<Option<(Conoid, bool)>, ConoidError> {
     let ends = Conoid::unsized_of(machine, &spaced(2))?;
-    let own = ends.speeds.iter().map(|rpm| at_speed(&ends, *rpm, Interpolation::Smooth).force).fold(0.0, f64::max);
+    let known = Known::default();
+    let at_end = |rpm: &f64| at_speed(&ends, *rpm, Interpolation::Smooth, &known).force;
+    let own = ends.speeds.iter().map(at_end).fold(0.0, f64::max);
     let reachable = if own > limit { own * NEARLY } else { limit };
     for count in 2..=MOST_SECTIONS {
         // The size does not change the law: it is found once, when the count is known.
         let conoid = Conoid::unsized_of(machine, &spaced(count))?;
         if !exceeds(&conoid, reachable) && conoid.left_between().force <= reachable {
-            return Ok((conoid, own <= limit));
+            return Ok(Some((conoid, own <= limit)));
         }
     }
-    Ok((Conoid::unsized_of(machine, &spaced(MOST_SECTIONS))?, false))
+    Ok(None)
 }
 
 /// Evenly spaced speeds from one to another, `count` of them.
@@ -140,12 +179,18 @@ fn evenly((first, last): (f64, f64), count: u32) -> Vec<f64> {
 }
 
 /// The conoid with the fewest evenly spaced speeds between two that leaves no more than a residual force
-/// (N), or, when no number of them does, the one that comes nearest with fewest.
+/// (N), or, when the transition itself leaves more, no more than that.
 ///
 /// # Errors
-/// [`ConoidError`] when a conoid cannot be made.
-pub fn fewest(machine: &Machine, range: (f64, f64), limit: f64) -> Result<Conoid, ConoidError> {
-    with_fewest(machine, limit, |count| evenly(range, count))?.0.interpolated()
+/// [`ConoidError`] when a conoid cannot be made, the force lies in the rounding of the balance, or [`MOST_SECTIONS`] leave more.
+pub fn fewest(machine: &Machine, (from, to): (f64, f64), limit: f64) -> Result<Conoid, ConoidError> {
+    let least = ROUNDING * machine.press()?.largest_inertia(to);
+    if limit < least {
+        return Err(ConoidError::TooFine { limit, least });
+    }
+    let found = with_fewest(machine, limit, |count| evenly((from, to), count))?;
+    let too_many = ConoidError::TooManySections { most: MOST_SECTIONS, from, to, limit };
+    found.ok_or(too_many)?.0.interpolated()
 }
 
 /// Thousandths of a rpm: no shop sets a speed more finely.
@@ -165,7 +210,7 @@ impl Conoid {
             }
             speeds
         };
-        let (conoid, kept) = with_fewest(&self.machine, limit, spaced).ok()?;
+        let (conoid, kept) = with_fewest(&self.machine, limit, spaced).ok()??;
         kept.then_some(conoid.speeds)
     }
 }
@@ -197,6 +242,14 @@ mod tests {
                 _ => assert!(smooth < straight),
             }
         }
+    }
+
+    #[test]
+    fn what_no_sections_leave_is_refused() {
+        let machine = Machine::load("dpi", &[]).expect("valid").0;
+        assert!(matches!(fewest(&machine, (25.0, 45.0), 1e-9), Err(ConoidError::TooFine { .. })));
+        let wide = fewest(&machine, (1.0, 1e4), 1.0);
+        assert!(matches!(wide, Err(ConoidError::TooManySections { most: MOST_SECTIONS, .. })), "{wide:?}");
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::Conoid;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::solid::SplineSurface;
 use crate::machine::Rotation;
+use crate::motion::Jet;
 use crate::numeric::extremum::larger;
 use crate::numeric::parallel;
 use crate::numeric::spline::{Spline, bspline_basis, bspline_knots};
@@ -72,11 +73,17 @@ struct ExactFlank<'a> {
 }
 
 impl ExactFlank<'_> {
-    /// Point (mm), derivative by the angle and outward normal in the plane, where the cut at z (mm) has the angle u.
-    fn at(&self, piece: usize, u: f64, z: f64) -> (Vector2<f64>, Vector2<f64>, Vector2<f64>) {
+    /// What the sections lift at the angle u.
+    fn lifts(&self, piece: usize, u: f64) -> Vec<Jet> {
+        self.conoid.lifts(piece, if self.turned { -u } else { u })
+    }
+
+    /// Point (mm), derivative by the angle and outward normal in the plane, where the cut at z (mm) has the angle u, at which the
+    /// sections have these lifts.
+    fn at(&self, lifts: &[Jet], u: f64, z: f64) -> (Vector2<f64>, Vector2<f64>, Vector2<f64>) {
         let angle = if self.turned { -u } else { u };
         let nowhere = Vector2::new(f64::NAN, f64::NAN);
-        let Some((frame, _)) = self.conoid.cut(piece, angle, z / MILLIMETRES) else {
+        let Some((frame, ..)) = self.conoid.cut_of(lifts, angle, z / MILLIMETRES) else {
             return (nowhere, nowhere, nowhere);
         };
         let mirrored = |v: Vector2<f64>| if self.turned { Vector2::new(v.x, -v.y) } else { v };
@@ -164,10 +171,11 @@ fn patch(exact: &ExactFlank<'_>, stretch: Stretch, spans: u32, places: &[f64]) -
     let angles: Vec<f64> = (0..=spans).map(angle).collect();
     // Control values along the axis of a quantity known at the stations.
     let along_axis = |values: &[f64]| Spline::not_a_knot(places, values).controls();
-    let columns: Vec<Column> = angles
-        .iter()
-        .map(|u| places.iter().map(|z| exact.at(stretch.piece, *u, *z)).map(|(p, d, _)| (p, d)).unzip())
-        .collect();
+    let column = |u: &f64| -> Column {
+        let lifts = exact.lifts(stretch.piece, *u);
+        places.iter().map(|z| exact.at(&lifts, *u, *z)).map(|(p, d, _)| (p, d)).unzip()
+    };
+    let columns: Vec<Column> = angles.iter().map(column).collect();
     let component = |vectors: &[Vector2<f64>], axis: usize| -> Vec<f64> {
         along_axis(&vectors.iter().map(|v| v.get(axis).copied().unwrap_or(f64::NAN)).collect::<Vec<f64>>())
     };
@@ -233,6 +241,7 @@ impl SplineSurface {
             let (a, b) = (gap.dot(&by_u), gap.dot(&by_v));
             let determinant = e * g - f * f;
             let mut step = ((g * a - f * b) / determinant, (e * b - f * a) / determinant);
+            let before = nearest;
             for _ in 0..FOOT_STEPS {
                 let next = ((u + step.0).clamp(u0, u1), (v + step.1).clamp(v0, v1));
                 let found = away(next.0, next.1);
@@ -241,6 +250,10 @@ impl SplineSurface {
                     break;
                 }
                 step = (0.5 * step.0, 0.5 * step.1);
+            }
+            // Where no part of the step came nearer, the next one would be the same.
+            if nearest == before {
+                break;
             }
         }
         nearest
@@ -255,14 +268,17 @@ fn deviation(exact: &ExactFlank<'_>, stretch: Stretch, patch: &SplineSurface) ->
     let middles =
         |list: &[f64]| -> Vec<f64> { list.iter().zip(list.iter().skip(1)).map(|(a, b)| 0.5 * (a + b)).collect() };
     let (angles, places) = (joints(&patch.u), joints(&patch.v));
-    let off = |u: f64, v: f64| {
-        let (point, _, normal) = exact.at(stretch.piece, u, v);
+    let off = |lifts: &[Jet], u: f64, v: f64| {
+        let (point, _, normal) = exact.at(lifts, u, v);
         let [found, ..] = patch.at(u, v);
         (found.xy() - point).dot(&normal).abs()
     };
     let over = |angles: &[f64], places: &[f64]| {
-        let all = angles.iter().flat_map(|u| places.iter().map(move |v| (*u, *v)));
-        all.map(|(u, v)| off(u, v)).fold(0.0, larger)
+        let at_angle = |u: &f64| {
+            let lifts = exact.lifts(stretch.piece, *u);
+            places.iter().map(|v| off(&lifts, *u, *v)).fold(0.0, larger)
+        };
+        angles.iter().map(at_angle).fold(0.0, larger)
     };
     let both = over(&middles(&angles), &middles(&places));
     [over(&middles(&angles), &places), larger(over(&angles, &middles(&places)), both)]

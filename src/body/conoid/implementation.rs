@@ -17,7 +17,7 @@ use crate::numeric::parallel;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, MotionTolerance, Outline, OutlineError};
 use crate::profile::size::rounded_up;
-use crate::profile::{Curves, Worst, boundary, extremes, followed};
+use crate::profile::{Contact, Curves, Worst, boundary, extremes, followed};
 use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{Section, Speeds};
@@ -129,19 +129,20 @@ impl Conoid {
         parallel::map(&self.cuts(), part).into_iter().collect()
     }
 
-    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), plane: Curves<'_>, at: Turned) -> Row {
+    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), (at, lifts): &(Turned, Vec<Jet>)) -> Row {
         let (piece, angle) = section.locate(at.angle);
-        let (state, lift) = (section.state(piece, angle), self.lift(piece, angle, z));
-        let contact = self.contact(piece, angle, z);
-        let in_plane = plane.contact(piece, angle);
-        let cut = self.cut(piece, angle, z).map(|(frame, _)| frame);
+        let (state, lift) = (section.state(piece, angle), self.lift_of(lifts, z));
+        let contact = self.contact_of(&lift, angle, z);
+        let jet = Jet { s: lift[0][0], ds: lift[1][0], dds: lift[2][0], ddds: lift[3][0] };
+        let in_plane = Contact::of(&self.follower, angle, jet);
+        let cut = self.cut_of(lifts, angle, z).map(|(frame, ..)| frame);
         let force = self.path_force(section, rpm, piece, angle);
         let turned = |point: Vector2<f64>| point_as_turned(&self.machine, point * MILLIMETRES);
         let touch = turned(contact.point.xy());
         let nowhere = Vector2::new(f64::NAN, f64::NAN);
         Row {
             cam_deg: Some(at.cam_deg),
-            lift: Some(Jet { s: lift[0][0], ds: lift[1][0], dds: lift[2][0], ddds: lift[3][0] }),
+            lift: Some(jet),
             bed: Some(BedRow {
                 crank_deg: Some(at.crank_deg),
                 x: MILLIMETRES * state.overrun,
@@ -160,7 +161,7 @@ impl Conoid {
                 lift_per_z: lift[0][1],
                 contact: Vector3::new(touch.x, touch.y, MILLIMETRES * contact.point.z),
                 axial_angle_deg: libm::asin(-contact.normal.z).to_degrees(),
-                principal_radius: MILLIMETRES / self.principal_curvatures(piece, angle, z).0,
+                principal_radius: MILLIMETRES / self.curvatures_of(&lift).0,
                 axial_force: -force * lift[0][1],
             }),
             ..Row::default()
@@ -344,11 +345,15 @@ impl Body for Conoid {
 
     /// `samples` rows for each speed, at 360 i/samples degrees.
     fn rows(&self, samples: u32) -> Vec<Row> {
-        let rows = |cut: &(f64, f64, &Reversal)| -> Vec<Row> {
-            let slice = self.slice(cut.1);
-            let plane = self.plane_of(&slice);
-            (0..samples).map(|i| self.row(*cut, plane, turned(i, samples, self.machine.cam.lobes))).collect()
+        let at = |i: &u32| {
+            let at = turned(*i, samples, self.machine.cam.lobes);
+            let (piece, angle) = self.sections.first().map_or((0, at.angle), |section| section.locate(at.angle));
+            (at, self.lifts(piece, angle))
         };
+        // What the sections do at an angle is the same for the rows of all of them.
+        let places: Vec<(Turned, Vec<Jet>)> = parallel::map(&(0..samples).collect::<Vec<u32>>(), at);
+        let rows =
+            |cut: &(f64, f64, &Reversal)| -> Vec<Row> { places.iter().map(|place| self.row(*cut, place)).collect() };
         parallel::map(&self.cuts(), rows).into_iter().flatten().collect()
     }
 

@@ -8,7 +8,7 @@
 
 use super::{Conoid, ConoidError};
 use crate::machine::Shift;
-use crate::numeric::spline::Spline;
+use crate::numeric::spline::{Spline, cubic_at, interval_of};
 use std::sync::OnceLock;
 
 /// The values c that are tried, as shares of the largest v.
@@ -48,7 +48,10 @@ impl Variable {
 /// The share of each section in the law at a place along the axis.
 #[derive(Debug, Clone)]
 pub(super) struct Weights {
-    splines: Vec<Spline>,
+    /// The variable at the sections.
+    knots: Vec<f64>,
+    /// For each interval the cubics of all sections, so that a place is looked up once for all of them.
+    cubics: Vec<Vec<[f64; 4]>>,
     variable: Variable,
 }
 
@@ -56,22 +59,25 @@ impl Weights {
     /// Of sections at these places along the axis, m.
     pub(super) fn new(positions: &[f64], variable: Variable) -> Self {
         let knots: Vec<f64> = positions.iter().map(|z| variable.at(*z)[0]).collect();
-        let unit = |index: usize| {
+        let mut cubics = vec![Vec::with_capacity(knots.len()); knots.len().saturating_sub(1)];
+        for index in 0..knots.len() {
             let values: Vec<f64> = (0..knots.len()).map(|other| f64::from(u8::from(other == index))).collect();
-            Spline::not_a_knot(&knots, &values)
-        };
-        Self { splines: (0..knots.len()).map(unit).collect(), variable }
+            let spline = Spline::not_a_knot(&knots, &values);
+            cubics.iter_mut().zip(spline.cubics()).for_each(|(interval, cubic)| interval.push(*cubic));
+        }
+        Self { knots, cubics, variable }
     }
 
-    /// The weights at a place along the axis, m, and their first three derivatives by it.
-    pub(super) fn at(&self, z: f64) -> Vec<[f64; 4]> {
+    /// The weights at a place along the axis, m, and their first three derivatives by it, section by section.
+    pub(super) fn at(&self, z: f64) -> impl Iterator<Item = [f64; 4]> + '_ {
         let [t, t1, t2, t3] = self.variable.at(z);
-        let by_place = |spline: &Spline| {
-            let [w, w1, w2, w3] = spline.at(t);
+        let interval = interval_of(&self.knots, t);
+        let knot = self.knots.get(interval).copied().unwrap_or(f64::NAN);
+        self.cubics.get(interval).into_iter().flatten().map(move |cubic| {
+            let [w, w1, w2, w3] = cubic_at(cubic, t - knot);
             // Faà di Bruno's rule.
             [w, w1 * t1, w2 * t1 * t1 + w1 * t2, w3 * t1 * t1 * t1 + 3.0 * w2 * t1 * t2 + w1 * t3]
-        };
-        self.splines.iter().map(by_place).collect()
+        })
     }
 
     /// Whether the splines are cubic in the place along the axis itself.

@@ -49,8 +49,13 @@ use std::sync::{Arc, OnceLock};
 /// The cam for many speeds.
 pub const KIND: Kind = Kind { command: "conoid", noun: "conoid", keys: cams::CONOID };
 
-/// Slices between two sections at which the surface is searched for its worst places.
+/// Slices between two sections at which the surface is looked at.
 const SLICES: u32 = 6;
+/// The same where the search for its worst places begins: that many while they are no more than so many in all, but the section and
+/// the middle at the least. Between two sections the second derivative along the axis is linear in the splines' variable, so that
+/// the sharpest places lie at the sections.
+const FEWEST_SLICES: u32 = 2;
+const MOST_SEARCHED: u32 = 120;
 /// Least distance of two sections over the axial travel: nearer, the splines along the axis multiply their roundings.
 const LEAST_DISTANCE: f64 = 1e-3;
 /// Halvings of the last growth: to a micrometre of a metre.
@@ -144,6 +149,31 @@ pub enum ConoidError {
         second: f64,
         /// Their distance along the axis, mm.
         apart_mm: f64,
+    },
+    /// A residual force between the sections below what rounding leaves of the balance.
+    #[error(
+        "a residual force of {limit:e} N lies in the rounding of the balance: give a --residual of at least {least:.1e} N"
+    )]
+    TooFine {
+        /// What was asked for, N.
+        limit: f64,
+        /// The least that can be asked for, N.
+        least: f64,
+    },
+    /// A range of speeds that no number of sections covers.
+    #[error(
+        "{most} evenly spaced sections from {from} to {to} rpm leave more than {limit} N between them; give a larger \
+         --residual, or a narrower range of speeds in --rpm"
+    )]
+    TooManySections {
+        /// The most that are tried.
+        most: u32,
+        /// The slowest speed, rpm.
+        from: f64,
+        /// The fastest, rpm.
+        to: f64,
+        /// What was asked for, N.
+        limit: f64,
     },
     /// No speed at all.
     #[error("a conoid needs at least one speed")]
@@ -294,7 +324,7 @@ impl Conoid {
     fn smallest_of_slices(&self, required: &Required) -> Result<f64, NoRadius> {
         let of_slice =
             |z: &f64| size::smallest(&self.slice(*z), &self.follower, required).map(|smallest| smallest.prime_radius);
-        let radii: Result<Vec<f64>, _> = parallel::map(&self.slices(), of_slice).into_iter().collect();
+        let radii: Result<Vec<f64>, _> = parallel::map(&self.searched(), of_slice).into_iter().collect();
         Ok(radii?.into_iter().fold(required.least, f64::max))
     }
 
@@ -391,11 +421,12 @@ impl Conoid {
 
     /// Weights of the sections at z and their first three derivatives.
     fn weights_at(&self, z: f64) -> Vec<[f64; 4]> {
-        self.weights.at(z)
+        self.weights.at(z).collect()
     }
 
-    /// Lifts of the sections at a cam angle, counted from the common lowest point.
-    fn lifts(&self, piece: usize, angle: f64) -> Vec<Jet> {
+    /// Lifts of the sections at a cam angle, counted from the common lowest point: they do not depend on the place along the axis.
+    #[must_use]
+    pub fn lifts(&self, piece: usize, angle: f64) -> Vec<Jet> {
         let lift = |section: &Reversal| {
             let bottom = section.bottom(piece, angle);
             Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.machine.cam.lever)
@@ -403,7 +434,8 @@ impl Conoid {
         self.sections.iter().map(lift).collect()
     }
 
-    fn partials(lifts: &[Jet], weights: &[[f64; 4]]) -> Partials {
+    /// Lift and its derivatives where the sections have these lifts and weights.
+    fn partials(lifts: &[Jet], weights: impl IntoIterator<Item = [f64; 4]>) -> Partials {
         let mut partials = [[0.0; 4]; 4];
         for (lift, weight) in lifts.iter().zip(weights) {
             for (row, derivative) in partials.iter_mut().zip([lift.s, lift.ds, lift.dds, lift.ddds]) {
@@ -415,25 +447,50 @@ impl Conoid {
         partials
     }
 
+    /// Lift at a place along the axis (m), with its derivatives, at the cam angle of these lifts of the sections.
+    #[must_use]
+    pub fn lift_of(&self, lifts: &[Jet], z: f64) -> Partials {
+        Self::partials(lifts, self.weights.at(z))
+    }
+
+    /// What [`Self::wander`] needs of the same, the other derivatives left at 0: it is asked for at every step to the roller of a cut.
+    fn lift_for_wander(&self, lifts: &[Jet], z: f64) -> Partials {
+        let (mut along, mut across) = ([0.0; 3], [0.0; 2]);
+        for (lift, weight) in lifts.iter().zip(self.weights.at(z)) {
+            along.iter_mut().zip(weight).for_each(|(slot, w)| *slot += w * lift.s);
+            across.iter_mut().zip(weight).for_each(|(slot, w)| *slot += w * lift.ds);
+        }
+        let ([s, s_z, s_zz], [a, a_z]) = (along, across);
+        [[s, s_z, s_zz, 0.0], [a, a_z, 0.0, 0.0], [0.0; 4], [0.0; 4]]
+    }
+
     /// Lift at a cam angle of a piece and a place along the axis (m), with its derivatives.
     #[must_use]
     pub fn lift(&self, piece: usize, angle: f64, z: f64) -> Partials {
-        Self::partials(&self.lifts(piece, angle), &self.weights_at(z))
+        self.lift_of(&self.lifts(piece, angle), z)
+    }
+
+    /// Δx of the bottom of every section at a cam angle, m.
+    fn bottoms(&self, piece: usize, angle: f64) -> impl Iterator<Item = f64> + '_ {
+        self.sections.iter().map(move |section| section.bottom(piece, angle).s)
     }
 
     /// Δx of the bottom, m, when a section z (m) of the surface is under the roller.
     #[must_use]
     pub fn displacement(&self, piece: usize, angle: f64, z: f64, interpolation: Interpolation) -> f64 {
-        let bottoms = self.sections.iter().map(|section| section.bottom(piece, angle).s);
         match interpolation {
-            Interpolation::Smooth => bottoms.zip(self.weights_at(z)).map(|(bottom, weight)| bottom * weight[0]).sum(),
+            Interpolation::Smooth => {
+                let shares = self.bottoms(piece, angle).zip(self.weights.at(z));
+                shares.map(|(bottom, weight)| bottom * weight[0]).sum()
+            }
             Interpolation::Straight => {
-                let bottoms: Vec<f64> = bottoms.collect();
                 let right = self.positions.partition_point(|place| *place <= z).clamp(1, self.positions.len() - 1);
-                let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(f64::NAN);
-                let (a, b) = (at(&self.positions, right - 1), at(&self.positions, right));
+                let place = |index: usize| self.positions.get(index).copied().unwrap_or(f64::NAN);
+                let bottom =
+                    |index: usize| self.sections.get(index).map_or(f64::NAN, |section| section.bottom(piece, angle).s);
+                let (a, b) = (place(right - 1), place(right));
                 let share = (z - a) / (b - a);
-                at(&bottoms, right - 1) * (1.0 - share) + at(&bottoms, right) * share
+                bottom(right - 1) * (1.0 - share) + bottom(right) * share
             }
         }
     }
@@ -441,7 +498,7 @@ impl Conoid {
     /// The law in one plane across the axis.
     #[must_use]
     pub fn slice(&self, z: f64) -> Slice<'_> {
-        Slice { conoid: self, weights: self.weights_at(z).into_iter().map(|weight| weight[0]).collect() }
+        Slice { conoid: self, weights: self.weights.at(z).map(|weight| weight[0]).collect() }
     }
 
     /// Motion and follower in one plane, as if the roller were a disc in it.
@@ -499,9 +556,8 @@ pub struct Slice<'a> {
 }
 
 impl Slice<'_> {
-    /// Δx of the bottom, m, with this section of the surface under the roller.
-    fn bottom(&self, piece: usize, angle: f64) -> f64 {
-        let bottoms = self.conoid.sections.iter().map(|section| section.bottom(piece, angle).s);
+    /// Δx of the bottom, m, with this section of the surface under the roller, where the bottoms of the sections are known.
+    fn of(&self, bottoms: impl Iterator<Item = f64>) -> f64 {
         bottoms.zip(&self.weights).map(|(bottom, weight)| bottom * weight).sum()
     }
 }

@@ -73,7 +73,7 @@ impl Conoid {
         let in_slice = |z: &f64| -> Vec<f64> {
             let weights = self.weights_at(*z);
             let at = |node: &Node| {
-                let partials = Self::partials(&node.lifts, &weights);
+                let partials = Self::partials(&node.lifts, weights.iter().copied());
                 value(self, &Place { piece: node.piece, angle: node.angle, z: *z, partials, lifts: &node.lifts })
             };
             nodes.iter().map(at).collect()
@@ -118,7 +118,7 @@ impl Conoid {
             let along_axis = |angle: f64| {
                 let lifts = self.lifts(piece, angle);
                 let at = |z: f64| {
-                    let partials = Self::partials(&lifts, &self.weights_at(z));
+                    let partials = Self::partials(&lifts, self.weights.at(z));
                     value(self, &Place { piece, angle, z, partials, lifts: &lifts })
                 };
                 extremum::largest_without_slope(at, (low, high), 2, if low < high { SECTIONS } else { 0 })

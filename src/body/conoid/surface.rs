@@ -18,7 +18,8 @@ impl Conoid {
     }
 
     /// The same by lift and derivatives there.
-    pub(super) fn contact_of(&self, partials: &Partials, angle: f64, z: f64) -> SpatialContact {
+    #[must_use]
+    pub fn contact_of(&self, partials: &Partials, angle: f64, z: f64) -> SpatialContact {
         let (u, a) = self.height_and_slope(partials);
         let axes = Axes::new(angle);
         let length = libm::hypot(a, u);
@@ -72,7 +73,14 @@ impl Conoid {
     /// surface folds along the axis.
     #[must_use]
     pub fn cut(&self, piece: usize, angle: f64, z: f64) -> Option<(CurvePoint, f64)> {
-        let (partials, zeta) = self.roller_of_cut(&self.lifts(piece, angle), z)?;
+        let (frame, zeta, _) = self.cut_of(&self.lifts(piece, angle), angle, z)?;
+        Some((frame, zeta))
+    }
+
+    /// The same by the lifts of the sections at the angle, and lift and derivatives where that roller stands.
+    #[must_use]
+    pub fn cut_of(&self, lifts: &[Jet], angle: f64, z: f64) -> Option<(CurvePoint, f64, Partials)> {
+        let (partials, zeta) = self.roller_of_cut(lifts, z)?;
         let axial = |first: f64, second: f64| self.along(&partials, angle, Series([zeta, first, second])).axial.0;
         // Each coefficient of ζ enters the coefficient of its power linearly.
         let (without, with) = (axial(0.0, 0.0)[1], axial(1.0, 0.0)[1]);
@@ -93,7 +101,7 @@ impl Conoid {
             curvature: turn / speed,
             curvature_slope: (2.0 * turn2 * speed - turn * speed1) / (speed * speed * speed),
         };
-        Some((frame, zeta))
+        Some((frame, zeta, partials))
     }
 
     /// The roller that touches the cut at z (m) at the cam angle of these lifts of the sections: lift and derivatives there,
@@ -101,7 +109,7 @@ impl Conoid {
     pub(super) fn roller_of_cut(&self, lifts: &[Jet], z: f64) -> Option<(Partials, f64)> {
         let mut zeta = z;
         for _ in 0..CUT_STEPS {
-            let (wander, slope) = self.wander(&Self::partials(lifts, &self.weights_at(zeta)));
+            let (wander, slope) = self.wander(&self.lift_for_wander(lifts, zeta));
             // A surface that folds back along the axis has no single roller for the cut.
             if !(1.0 + slope > 0.0) {
                 return None;
@@ -112,7 +120,7 @@ impl Conoid {
                 break;
             }
         }
-        Some((Self::partials(lifts, &self.weights_at(zeta)), zeta))
+        Some((self.lift_of(lifts, zeta), zeta))
     }
 
     /// What follows from the lift along θ ↦ (θ, ζ(θ)), as series in θ.

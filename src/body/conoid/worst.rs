@@ -1,6 +1,6 @@
 //! The worst places of a conoid: over every turn of slices along its axis, and over its sections.
 
-use super::{Conoid, Partials, Place, SLICES};
+use super::{Conoid, FEWEST_SLICES, MOST_SEARCHED, Partials, Place, SLICES};
 use crate::motion::{Motion, Reversal};
 use crate::profile::Worst;
 use crate::profile::extremes::{self, Acting};
@@ -11,15 +11,26 @@ impl Conoid {
     /// them.
     #[must_use]
     pub fn slices(&self) -> Vec<f64> {
+        self.sliced(SLICES)
+    }
+
+    /// The sections, and so many slices from each to the next.
+    fn sliced(&self, each: u32) -> Vec<f64> {
         let pairs = self.positions.iter().zip(self.positions.iter().skip(1));
-        let between = pairs.flat_map(|(a, b)| (0..SLICES).map(move |i| a + (b - a) * f64::from(i) / f64::from(SLICES)));
+        let between = pairs.flat_map(|(a, b)| (0..each).map(move |i| a + (b - a) * f64::from(i) / f64::from(each)));
         between.chain(self.positions.last().copied()).collect()
     }
 
+    /// Places along the axis from which the worst ones are searched, m.
+    pub(super) fn searched(&self) -> Vec<f64> {
+        let pairs = u32::try_from(self.positions.len()).unwrap_or(u32::MAX).saturating_sub(1).max(1);
+        self.sliced((MOST_SEARCHED / pairs).clamp(FEWEST_SLICES, SLICES))
+    }
+
     /// The same with the ends of the cam.
-    pub(super) fn slices_and_ends(&self) -> Vec<f64> {
+    fn searched_and_ends(&self) -> Vec<f64> {
         let (low, high) = self.ends();
-        let mut all = self.slices();
+        let mut all = self.searched();
         all.extend([low, high]);
         all.sort_by(f64::total_cmp);
         all.dedup();
@@ -44,7 +55,7 @@ impl Conoid {
     /// metal: those that touch a cut between the ends of the cam. Infinite where the surface folds along the axis.
     #[must_use]
     pub fn worst_of_metal(&self, value: impl Fn(&Self, &Partials) -> f64 + Sync) -> Worst {
-        self.worst_over(&self.slices_and_ends(), |conoid, place| {
+        self.worst_over(&self.searched_and_ends(), |conoid, place| {
             let touching = conoid.roller_of_cut(place.lifts, place.z);
             touching.map_or(f64::INFINITY, |(partials, _)| value(conoid, &partials))
         })
@@ -53,7 +64,7 @@ impl Conoid {
     /// The largest value of something over the surface on which the roller may stand.
     #[must_use]
     pub fn worst(&self, value: impl Fn(&Self, &Place<'_>) -> f64 + Sync) -> Worst {
-        self.worst_over(&self.slices(), value)
+        self.worst_over(&self.searched(), value)
     }
 
     /// How far beyond the axial travel the roller touches at the most while it stands within it, m, and where the roller
@@ -147,7 +158,7 @@ impl Conoid {
     /// The smallest radius of the cam about its axis, m, and where it is.
     #[must_use]
     pub fn smallest_radius(&self) -> Worst {
-        let worst = self.worst_over(&self.slices_and_ends(), |conoid, place| {
+        let worst = self.worst_over(&self.searched_and_ends(), |conoid, place| {
             let touching = conoid.roller_of_cut(place.lifts, place.z);
             touching.map_or(0.0, |(partials, zeta)| -conoid.contact_of(&partials, place.angle, zeta).point.xy().norm())
         });

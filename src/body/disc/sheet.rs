@@ -73,13 +73,17 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
 /// Where the outline crosses the positive X axis, mm, to a hundredth of an edge; the base radius where it does not.
 fn profile_radius_at_zero(outline: Option<&Contour>, base: f64) -> f64 {
     const STEPS: u32 = 100;
+    // Farther from the axis than this, mm, no rounding brings an edge across it.
+    const CLEAR: f64 = 1e-3;
     let crossing = |edge: Edge| {
-        let at = |step: u32| edge.at(f64::from(step) / f64::from(STEPS)).0;
-        let across = |step: &u32| {
-            let (a, b) = (at(*step), at(step + 1));
-            a.x > 0.0 && (a.y <= 0.0) != (b.y <= 0.0)
-        };
-        (0..STEPS).filter(across).map(|step| 0.5 * (at(step).x + at(step + 1).x)).reduce(f64::max)
+        let extents = edge.extents();
+        if extents.least.y > CLEAR || extents.largest.y < -CLEAR || extents.largest.x < -CLEAR {
+            return None;
+        }
+        let points: Vec<Vector2<f64>> = (0..=STEPS).map(|step| edge.at(f64::from(step) / f64::from(STEPS)).0).collect();
+        let pairs = points.iter().zip(points.iter().skip(1));
+        let across = pairs.filter(|(a, b)| a.x > 0.0 && (a.y <= 0.0) != (b.y <= 0.0));
+        across.map(|(a, b)| 0.5 * (a.x + b.x)).reduce(f64::max)
     };
     outline.and_then(|outline| outline.edges().filter_map(crossing).reduce(f64::max)).unwrap_or(base)
 }

@@ -1,6 +1,6 @@
 //! Flags of the commands that write files.
 
-use super::parse::{cutter, dxf_version, format, stem};
+use super::parse::{cutter, dxf_version, format, samples, stem};
 use camgen::write::dxf::Version;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -75,7 +75,7 @@ pub(in crate::cli) struct FileArgs {
     pub(in crate::cli) format: Option<Vec<String>>,
 
     /// Rows of the CSV table over one turn of the cam, or steps of x over the stroke of a plate
-    #[arg(long, value_name = "N", default_value = "720", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value = "720", value_parser = samples)]
     pub(in crate::cli) samples: u32,
 
     #[command(flatten)]

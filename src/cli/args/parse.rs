@@ -6,6 +6,7 @@ use camgen::machine::{fault_of_stem, valid_rpm};
 use camgen::shaft::MOST_ORDER;
 use camgen::units::{self, Dimension};
 use camgen::write::by_name;
+use camgen::write::csv::MOST_ROWS;
 use camgen::write::dxf::Version;
 use std::f64::consts::PI;
 
@@ -190,6 +191,15 @@ pub(super) fn cutter(text: &str) -> Result<f64, String> {
         Ok(quantity.si)
     } else {
         Err(format!("must be above 0 and at most {}", quantity.in_same_unit(1.0)))
+    }
+}
+
+pub(super) fn samples(text: &str) -> Result<u32, String> {
+    let rows = text.parse().map_err(|_| "must be a whole number")?;
+    if (1..=MOST_ROWS).contains(&rows) {
+        Ok(rows)
+    } else {
+        Err(format!("a table has from 1 to {MOST_ROWS} rows; for a curve that a control follows see --format points"))
     }
 }
 

@@ -296,7 +296,7 @@ mod tests {
     /// An ellipse by its parameter: κ' changes sign at the ends of the axes.
     fn ellipse(a: f64, b: f64) -> impl Fn(f64) -> CurvePoint {
         move |t| {
-            let (sin, cos) = (libm::sin(t), libm::cos(t));
+            let (sin, cos) = libm::sincos(t);
             CurvePoint::from_derivatives(
                 Vector2::new(a * cos, b * sin),
                 Vector2::new(-a * sin, b * cos),
@@ -388,7 +388,7 @@ mod tests {
                 let g = height * libm::exp(-u * u);
                 let (g1, g2) = (-2.0 * u * g / width, (4.0 * u * u - 2.0) * g / (width * width));
                 let g3 = (12.0 * u - 8.0 * u * u * u) * g / (width * width * width);
-                let (sin, cos) = (libm::sin(t), libm::cos(t));
+                let (sin, cos) = libm::sincos(t);
                 let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
                 let r = 50.0 + g;
                 CurvePoint::from_derivatives(

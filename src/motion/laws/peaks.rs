@@ -83,8 +83,11 @@ impl Curve {
                 f(&[s, first, second, third, self.derivative(part, x, 4)])
             };
             for sign in [1.0, -1.0] {
-                let range = self.range_of(part);
-                let found = extremum::largest(|x| sign * both(x).0, |x| sign * both(x).1, range, self.cells(part));
+                let signed = |x: f64| {
+                    let (value, slope) = both(x);
+                    (sign * value, sign * slope)
+                };
+                let found = extremum::largest_with_slope(signed, self.range_of(part), self.cells(part));
                 if found.value > best.value {
                     best = found;
                 }

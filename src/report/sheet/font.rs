@@ -20,15 +20,28 @@ fn face() -> Option<&'static Face<'static>> {
     FACE.get_or_init(|| Face::parse(FONT, 0).ok()).as_ref()
 }
 
+/// Width of a letter over the size.
+fn advance(letter: char) -> f64 {
+    let Some(face) = face() else { return UNKNOWN };
+    let glyph = face.glyph_index(letter).and_then(|glyph| face.glyph_hor_advance(glyph));
+    glyph.map_or(UNKNOWN, |advance| f64::from(advance) / f64::from(face.units_per_em()))
+}
+
+/// The same of every letter of ASCII, of which most texts are: the tables of the font are searched once for each.
+fn advances() -> &'static [f64; 128] {
+    static ADVANCES: OnceLock<[f64; 128]> = OnceLock::new();
+    ADVANCES.get_or_init(|| {
+        let mut advances = [UNKNOWN; 128];
+        advances.iter_mut().zip('\0'..).for_each(|(slot, letter)| *slot = advance(letter));
+        advances
+    })
+}
+
 /// Width of a text of a size, in the unit of the size.
 #[must_use]
 pub fn width(text: &str, size: f64) -> f64 {
-    let Some(face) = face() else { return size * UNKNOWN * length(text) };
-    let units = f64::from(face.units_per_em());
-    let advance = |letter: char| {
-        let glyph = face.glyph_index(letter).and_then(|glyph| face.glyph_hor_advance(glyph));
-        glyph.map_or(UNKNOWN, |advance| f64::from(advance) / units)
-    };
+    let known = advances();
+    let advance = |letter: char| known.get(letter as usize).copied().unwrap_or_else(|| advance(letter));
     size * text.chars().map(advance).sum::<f64>()
 }
 
@@ -40,11 +53,6 @@ pub fn missing(text: &str) -> Vec<char> {
     missing.sort_unstable();
     missing.dedup();
     missing
-}
-
-#[expect(clippy::cast_precision_loss, reason = "a text")]
-fn length(text: &str) -> f64 {
-    text.chars().count() as f64
 }
 
 /// A text in lines no wider than `room`, broken between words, and within a word that is wider than a line.
