@@ -221,7 +221,6 @@ fn a_block_is_cut_where_it_is_inserted() {
     });
     for (blocks, insert, words) in [
         (round, "2 X", "holds itself"),
-        (bomb, "2 B12", "more than"),
         (String::new(), "2 NONE", "which the file does not have"),
         (block("Z", BORE), "2 Z\n41 0", "scaled to nothing"),
         (block("Z", BORE) + &block("z", BORE), "2 Z", "of which the file has two"),
@@ -229,6 +228,9 @@ fn a_block_is_cut_where_it_is_inserted() {
     ] {
         fails(&file(&blocks, &format!("{outline}\n0 INSERT\n8 0\n10 0\n20 0\n{insert}")), "readable", &[words]);
     }
+    let many = file(&bomb, &format!("{outline}\n0 INSERT\n8 0\n10 0\n20 0\n2 B12"));
+    let refused = check_of(0, &many).expect_err("too many").to_string();
+    assert!(refused.contains("over 1000000 entities"), "{refused}");
 }
 
 fn scaled(by: f64) -> Contour {

@@ -327,9 +327,10 @@ mod tests {
         let text = "0\nTEXT\n".repeat(1_000_001);
         too_much(&of_entities(&text), "over 1000000 entities");
         too_much(&of_entities(&"40\n1\n".repeat(4_000_001)), "over 4000000 values");
-        let short = |i: usize| {
-            let at = |k: usize| 1e-7 * f64::from(u32::try_from((i * 7919 * k) % 1000).expect("small"));
-            format!("0\nLINE\n10\n{:e}\n20\n{:e}\n11\n{:e}\n21\n{:e}\n", at(1), at(3), at(7) + 3e-5, at(11))
+        let short = |i: u32| {
+            let at = |share: f64| 1e-4 * (f64::from(i) * share).fract();
+            let [a, b, c, d] = [0.618_034, 0.754_878, 0.549_700, 0.856_675].map(at);
+            format!("0\nLINE\n10\n{a:e}\n20\n{b:e}\n11\n{c:e}\n21\n{d:e}\n")
         };
         let cloud = of_entities(&(0..20_000).map(short).collect::<String>());
         assert!(matches!(read(&cloud, 1e-3), Err(ReadError::TooMuch { .. })));
