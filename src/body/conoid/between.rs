@@ -248,7 +248,7 @@ mod tests {
     fn what_no_sections_leave_is_refused() {
         let machine = Machine::load("dpi", &[]).expect("valid").0;
         assert!(matches!(fewest(&machine, (25.0, 45.0), 1e-9), Err(ConoidError::TooFine { .. })));
-        let wide = fewest(&machine, (1.0, 1e4), 1.0);
+        let wide = fewest(&machine, (1.0, 1e4), 10.0);
         assert!(matches!(wide, Err(ConoidError::TooManySections { most: MOST_SECTIONS, .. })), "{wide:?}");
     }
 
