@@ -383,7 +383,7 @@ fn what_is_wrong_with_a_motion_in_one_is_told_at_its_place() {
             &["point 3", "the spline closes by itself"],
         ),
         ("table = \"none.csv\"", &["cannot read `none.csv`", "cam.toml:4:"]),
-        ("table = \".\"", &["it is not a file"]),
+        ("table = \".\"", &["it is a directory"]),
         ("table = \"back.csv\"", &["80 is not behind 90", "back.csv:4:1"]),
         ("table = \"open.csv\"", &["does not end where it begins", "open.csv:4:1"]),
         ("table = \"words.csv\"", &["a row of `words.csv` is not two numbers", "words.csv:3:1", "1 | "]),

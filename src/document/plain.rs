@@ -6,10 +6,17 @@ use std::borrow::Cow;
 /// Whether a character is a letter, sign or blank that stands where it is written and does nothing else.
 #[must_use]
 pub fn is_plain(c: char) -> bool {
-    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let breaks = matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}');
+    let marks = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}' | '\u{feff}');
+    is_text(c) && !marks
+}
+
+/// Whether a character may stand in a name: marks of languages that are written from the right, and of the ends of lines and paragraphs, may;
+/// what turns the text after it round may not.
+#[must_use]
+pub fn is_text(c: char) -> bool {
+    let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let is_no_character = u32::from(c) & 0xfffe == 0xfffe || matches!(c, '\u{fdd0}'..='\u{fdef}');
-    !(c.is_control() || turns || breaks || is_no_character)
+    !(c.is_control() || turns || is_no_character)
 }
 
 fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {

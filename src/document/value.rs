@@ -3,7 +3,7 @@
 use super::bounds::Bounds;
 use super::fault::similar;
 use super::key::{Form, Key, LengthOrAngle, Value};
-use super::plain::{is_plain, shown};
+use super::plain::{is_text, shown};
 use crate::units::{self, Dimension, QuantityError};
 use std::borrow::Cow;
 
@@ -124,7 +124,7 @@ impl Named<'_> {
             Scalar::Text(text) if text.chars().nth(LONGEST_TEXT).is_some() => {
                 misfit(format!("`{}` has more than {LONGEST_TEXT} characters", self.path), Some(self.example()))
             }
-            Scalar::Text(text) if !text.chars().all(is_plain) => {
+            Scalar::Text(text) if !text.chars().all(is_text) => {
                 let help =
                     "write it without control characters, and without marks that change the direction of writing";
                 misfit(format!("`{}` holds characters that cannot be shown", self.path), Some(help.into()))
