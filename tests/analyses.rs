@@ -13,14 +13,13 @@ use program::{Run, camgen, camgen_in, files, report};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The rows of a CSV file by the names of their values; an empty cell has none.
+/// The rows of a CSV file by the names of their values.
 fn table(path: &Path) -> Vec<Vec<(String, f64)>> {
     let text = fs::read_to_string(path).expect("a table");
     let mut lines = text.lines();
     let names: Vec<String> = lines.next().expect("a head").split(',').map(str::to_owned).collect();
     let row = |line: &str| {
-        let values =
-            line.split(',').map(|value| if value.is_empty() { f64::NAN } else { value.parse().expect("a number") });
+        let values = line.split(',').map(|value| value.parse().expect("a number"));
         names.iter().cloned().zip(values).collect()
     };
     lines.map(row).collect()

@@ -12,8 +12,7 @@ pub fn is_plain(c: char) -> bool {
 
 /// Whether a character may stand in a name: marks of languages that are written from the right, and of the ends of lines and paragraphs, may;
 /// what turns the text after it round may not.
-#[must_use]
-pub fn is_text(c: char) -> bool {
+pub(super) fn is_text(c: char) -> bool {
     let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let is_no_character = u32::from(c) & 0xfffe == 0xfffe || matches!(c, '\u{fdd0}'..='\u{fdef}');
     !(c.is_control() || turns || is_no_character)

@@ -198,7 +198,7 @@ pub struct Table {
     pub columns: Vec<&'static str>,
     /// Rows, each as long as `columns`.
     pub rows: Vec<Vec<f64>>,
-    /// Of each column whether a row may have no value in it, which is NaN then and an empty cell in a file.
+    /// Of each column whether a row may have no value in it, which is NaN then.
     pub may_lack: Vec<bool>,
     /// A column of words before the others, with its name: a word for each row.
     pub words: Option<(&'static str, Vec<&'static str>)>,

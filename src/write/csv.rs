@@ -1,8 +1,8 @@
-//! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted, behind a word where rows have names. A cell
-//! is empty where there is no value.
+//! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted, behind a word where rows have names. Where there is no
+//! value a cell is `NaN`.
 
 use super::number::push_shortest;
-use super::{Format, OfAnalysis, When, fits_all};
+use super::{Format, FormatError, OfAnalysis, When, fits_all};
 use crate::body::Body;
 use crate::geometry::MILLIMETRES;
 use crate::motion::Quantity;
@@ -21,7 +21,10 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".csv".into()],
-    write: |cam| Ok(vec![write(&table(cam.body, cam.second.map(|(body, _)| body), cam.outlines, cam.samples))]),
+    write: |cam| {
+        let table = table(cam.body, cam.second.map(|(body, _)| body), cam.outlines, cam.samples);
+        Ok(vec![write(&whole(table)?)])
+    },
     of_analysis: Some(OfAnalysis {
         endings: |analysis| analysis.tables.iter().map(|(ending, _)| format!("{ending}.csv")).collect(),
         write: |account| Ok(account.analysis.tables.iter().map(|(_, table)| write(table)).collect()),
@@ -72,6 +75,20 @@ fn residual(body: &dyn Body, curves: Curves<'_>, place: f64, lift: f64) -> f64 {
 /// Bytes of most numbers with what stands between two.
 const NUMBER: usize = 16;
 
+/// A table in which every value is a number, but where there may be none.
+///
+/// # Errors
+/// [`FormatError::NotFinite`].
+fn whole(table: Table) -> Result<Table, FormatError> {
+    for (index, row) in table.rows.iter().enumerate() {
+        let cells = row.iter().zip(&table.may_lack).zip(&table.columns);
+        if let Some((_, column)) = cells.into_iter().find(|((value, may_lack), _)| value.is_nan() && !**may_lack) {
+            return Err(FormatError::NotFinite { column, row: index + 1 });
+        }
+    }
+    Ok(table)
+}
+
 /// The table as text with line feeds.
 #[must_use]
 pub fn write(table: &Table) -> Vec<u8> {
@@ -83,13 +100,11 @@ pub fn write(table: &Table) -> Vec<u8> {
     let mut words = named.map_or(&[][..], |(_, words)| words.as_slice()).iter();
     for row in &table.rows {
         text.extend(words.next().map(|word| format!("{word},")));
-        for (index, (value, may_lack)) in row.iter().zip(&table.may_lack).enumerate() {
+        for (index, value) in row.iter().enumerate() {
             if index > 0 {
                 text.push(',');
             }
-            if !(value.is_nan() && *may_lack) {
-                push_shortest(&mut text, *value);
-            }
+            push_shortest(&mut text, *value);
         }
         text.push('\n');
     }

@@ -3,12 +3,10 @@
 use super::files::{FilesError, Output};
 
 /// The texts of what is no number, and of what is infinite.
-const NONE: [&str; 3] = ["NaN", "nan", "NAN"];
-const INFINITE: [&str; 4] = ["inf", "Inf", "infinity", "Infinity"];
-/// In a table a straight place has a radius of curvature of `inf`, and a law that jumps a jerk.
-const TABLE: &str = ".csv";
-/// Ends of the names of files that are numbers and few words. A page has programs, JSON has `null`, the others are not text.
-const LOOKED_AT: [&str; 5] = [".csv", ".dxf", ".svg", ".step", ".toml"];
+const NONE: [&str; 7] = ["NaN", "nan", "NAN", "inf", "Inf", "infinity", "Infinity"];
+/// Ends of the names of files that are numbers and few words. A page has programs, JSON has `null`; in a table a straight place has a radius
+/// of `inf`, and what must be there is looked at when it is made.
+const LOOKED_AT: [&str; 4] = [".dxf", ".svg", ".step", ".toml"];
 
 /// Looks at all files; `words` are those of the user, which may hold such texts.
 ///
@@ -16,26 +14,39 @@ const LOOKED_AT: [&str; 5] = [".csv", ".dxf", ".svg", ".step", ".toml"];
 /// [`FilesError::NotFinite`] for the first one found.
 pub(super) fn all(outputs: &[Output], words: &[&str]) -> Result<(), FilesError> {
     let own = |text: &&str| !words.iter().any(|word| word.contains(text));
-    let none: Vec<&str> = NONE.into_iter().filter(own).collect();
-    let all: Vec<&str> = NONE.into_iter().chain(INFINITE).filter(own).collect();
+    let texts: Vec<&str> = NONE.into_iter().filter(own).collect();
     for output in outputs.iter().filter(|output| LOOKED_AT.iter().any(|end| output.name.ends_with(end))) {
-        let texts = if output.name.ends_with(TABLE) { &none } else { &all };
-        let found = output.bytes.split(|byte| *byte == b'\n').position(|line| is_in(line, texts));
-        if let Some(before) = found {
-            return Err(FilesError::NotFinite { name: output.name.clone(), line: before + 1 });
+        if let Some(at) = first(&output.bytes, &texts) {
+            let line = output.bytes.get(..at).unwrap_or_default().split(|byte| *byte == b'\n').count();
+            return Err(FilesError::NotFinite { name: output.name.clone(), line });
         }
     }
     Ok(())
 }
 
-/// Whether one of the texts stands in a line as a word of its own.
-fn is_in(line: &[u8], texts: &[&str]) -> bool {
-    // Every one of them has this letter, and most lines have it not.
-    if !line.iter().any(|byte| matches!(byte, b'n' | b'N')) {
-        return false;
-    }
-    let mut words = line.split(|byte| !byte.is_ascii_alphanumeric());
-    words.any(|word| texts.iter().any(|text| text.as_bytes() == word))
+/// Bytes looked at together: most blocks of numbers have no letter that matters.
+const BLOCK: usize = 64;
+
+/// Where the first of the texts stands as a word of its own.
+fn first(bytes: &[u8], texts: &[&str]) -> Option<usize> {
+    // Every one of the texts has this letter.
+    let is_n = |byte: u8| byte | 0x20 == b'n';
+    let hits = |(index, block): (usize, &[u8])| {
+        if !block.iter().fold(false, |hit, byte| hit | is_n(*byte)) {
+            return None;
+        }
+        let places = block.iter().enumerate().filter(|(_, byte)| is_n(**byte)).map(|(place, _)| BLOCK * index + place);
+        places.into_iter().find(|place| texts.iter().any(|text| word(bytes, *place) == text.as_bytes()))
+    };
+    bytes.chunks(BLOCK).enumerate().find_map(hits)
+}
+
+/// The word of letters and digits around a place.
+fn word(bytes: &[u8], place: usize) -> &[u8] {
+    let (before, after) = bytes.split_at_checked(place).unwrap_or_default();
+    let start = before.iter().rposition(|byte| !byte.is_ascii_alphanumeric()).map_or(0, |end| end + 1);
+    let length = after.iter().position(|byte| !byte.is_ascii_alphanumeric()).unwrap_or(after.len());
+    bytes.get(start..place + length).unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -53,9 +64,9 @@ mod tests {
     fn a_number_that_is_none_is_found() {
         let none = [("a,b\n1,NaN\n", Some(2)), ("1\n\n-nan", Some(3)), ("information, Nancy, cinf_1", None)];
         for (text, line) in none {
-            assert_eq!((of("x.csv", text, &[]), of("x.svg", text, &[])), (line, line), "{text}");
+            assert_eq!((of("x.step", text, &[]), of("x.svg", text, &[])), (line, line), "{text}");
         }
-        assert_eq!((of("x.csv", "1,-inf", &[]), of("x.svg", "M0,-inf L1", &[])), (None, Some(1)));
+        assert_eq!((of("x.csv", "1,inf", &[]), of("x.svg", "M0,-inf L1", &[])), (None, Some(1)));
         assert_eq!(of("x.html", "NaN", &[]), None);
         assert_eq!(of("x.dxf", "NaN", &["cam of NaN Ltd"]), None);
         assert_eq!(of("x.dxf", "inf", &["cam of NaN Ltd"]), Some(1));

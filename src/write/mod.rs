@@ -95,6 +95,14 @@ pub enum FormatError {
     /// Points are drawn and proved with the cam.
     #[error("no table of points was requested with the drawing, or the cutter has no path")]
     NoPoints,
+    /// A value of the table is none: a fault of camgen.
+    #[error("row {row} of the table would hold no number in {column}; nothing was written; please report this")]
+    NotFinite {
+        /// The column.
+        column: &'static str,
+        /// The row, from 1.
+        row: usize,
+    },
     /// The report could not be serialised.
     #[error(transparent)]
     Json(#[from] serde_json::Error),

@@ -235,7 +235,7 @@ class Judge:
     def table(self, path, follower):
         program, size = self.program, self.program.size
         text = path.read_text().split("\n")
-        rows = np.array([[cell or "nan" for cell in line.split(",")] for line in text[1:] if line]).astype(float)
+        rows = np.array([line.split(",") for line in text[1:] if line]).astype(float)
         columns = dict(zip(text[0].split(","), rows.T))
         # Where an undercut leaves a corner nothing is told of the speed as cut.
         untold = re.compile("_cut_(mm|rad)_per_rad" if self.failed & {"undercut", "outline"} else "nothing")
