@@ -30,7 +30,7 @@ impl Owned {
             mode: Mode::from_raw_mode(stat.st_mode) & PERMISSIONS,
             user: Uid::from_raw(stat.st_uid),
             group: Gid::from_raw(stat.st_gid),
-            stamp: Stamp(format!("{} {} {}.{}", stat.st_ino, stat.st_size, stat.st_mtime, stat.st_mtime_nsec)),
+            stamp: Stamp(format!("{} {}.{}", stat.st_size, stat.st_mtime, stat.st_mtime_nsec)),
         }
     }
 

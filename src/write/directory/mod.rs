@@ -23,7 +23,7 @@ const PERIOD: Duration = Duration::from_millis(5);
 /// A directory that is gone when its lock is had is made again so often.
 const MOST_TIMES: usize = 8;
 
-/// By what a file is known again: another one has another, and so has one that was changed.
+/// By what a file is known again, also in a copy of its directory: its size and the time of its last change.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Stamp(String);
 
