@@ -243,7 +243,9 @@ impl Staged {
             }
         }
         directory.sync().map_err(unfinished(""))?;
-        directory.remove(COMMIT).map_err(unfinished(COMMIT))
+        directory.remove(COMMIT).map_err(unfinished(COMMIT))?;
+        self.directory.stays();
+        Ok(())
     }
 
     /// Puts the record of the set in place.
@@ -272,7 +274,6 @@ impl Staged {
             });
         }
         self.recorded = true;
-        self.directory.stays();
         Ok(())
     }
 }
