@@ -113,6 +113,41 @@ impl<const N: usize> Together<N> {
         Self { range, coefficients: (0..terms).map(term).collect() }
     }
 
+    /// Those that have these values at [`ChebyshevSeries::points`].
+    #[must_use]
+    pub fn through(range: (f64, f64), values: &[[f64; N]]) -> Self {
+        let count = values.len();
+        let terms = u32::try_from(count).unwrap_or(u32::MAX);
+        // cos(n (i + ½) π/count) has as many values as there are quarters of a turn over the count.
+        let cosines: Vec<f64> = (0..4 * terms).map(|k| libm::cos(0.5 * PI * f64::from(k) / f64::from(terms))).collect();
+        let term = |n: usize| {
+            let mut sum = [0.0; N];
+            for (i, value) in values.iter().enumerate() {
+                let cosine = cosines.get(n * (2 * i + 1) % (4 * count)).copied().unwrap_or(f64::NAN);
+                sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += cosine * value);
+            }
+            let share = if n == 0 { 1.0 } else { 2.0 } / f64::from(terms);
+            sum.map(|sum| share * sum)
+        };
+        Self { range, coefficients: (0..count).map(term).collect() }
+    }
+
+    /// The largest size of so many last coefficients of each.
+    #[must_use]
+    pub fn last(&self, count: usize) -> [f64; N] {
+        let last = self.coefficients.iter().rev().take(count);
+        last.fold([0.0; N], |most, terms| std::array::from_fn(|i| most[i].max(terms[i].abs())))
+    }
+
+    /// Without the last terms that are smaller than this in each.
+    #[must_use]
+    pub fn without_terms_below(mut self, least: [f64; N]) -> Self {
+        while self.coefficients.last().is_some_and(|last| last.iter().zip(least).all(|(c, least)| c.abs() <= least)) {
+            self.coefficients.pop();
+        }
+        self
+    }
+
     /// Their values at a place of the interval.
     #[must_use]
     pub fn at(&self, x: f64) -> [f64; N] {
@@ -136,6 +171,31 @@ fn angle(index: u32, count: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Series made together are those made one by one, and terms that are left out are missing by no more than their sum.
+    #[test]
+    fn series_made_together_are_those_made_alone() {
+        let range = (-0.5, 2.0);
+        let points = ChebyshevSeries::points(range, 40);
+        let both: Vec<[f64; 2]> = points.iter().map(|x| [libm::exp(*x), libm::sin(3.0 * x)]).collect();
+        let alone = [0, 1].map(|which| {
+            let values: Vec<f64> = both.iter().map(|values| values[which]).collect();
+            ChebyshevSeries::through(range, &values, 0.0)
+        });
+        let together = Together::through(range, &both);
+        assert!(together.last(3).iter().all(|last| *last < 1e-14), "{:?}", together.last(3));
+        let shorter = together.clone().without_terms_below([1e-9; 2]);
+        assert!(shorter.coefficients.len() < 25 && shorter.coefficients.len() > 10);
+        for i in 0..=50 {
+            let x = range.0 + 2.5 * f64::from(i) / 50.0;
+            let exact = [libm::exp(x), libm::sin(3.0 * x)];
+            for (which, exact) in exact.into_iter().enumerate() {
+                assert!((together.at(x)[which] - exact).abs() < 1e-14, "{x}");
+                assert!((together.at(x)[which] - alone[which].at(x)).abs() < 1e-14, "{x}");
+                assert!((shorter.at(x)[which] - exact).abs() < 1e-8, "{x}");
+            }
+        }
+    }
 
     /// e^x sin 3x and three derivatives, to rounding times the square of the terms for each.
     #[test]

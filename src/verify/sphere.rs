@@ -2,12 +2,12 @@
 
 use super::{Bound, Check, Evidence, Explained, On, WrittenOutline, at};
 use crate::body::conoid::flank::Flank;
-use crate::body::conoid::{Conoid, Slice};
+use crate::body::conoid::{AllStrips, Conoid, Slice, Strips, StripsNear};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::solid::SplineSurface;
 use crate::geometry::track::Track;
 use crate::machine::Rotation;
-use crate::motion::{Jet, Motion};
+use crate::motion::Motion;
 use crate::numeric::{extremum, parallel};
 use crate::profile::Worst;
 use crate::report::{Finding, Verdict};
@@ -50,16 +50,24 @@ fn or_farther(best: Worst, next: Worst) -> Worst {
 }
 
 /// A cam angle, the same in its piece, and what the sections of the conoid lift there.
-struct Turned {
+struct Turned<L> {
     at: f64,
     inside: f64,
-    lifts: Vec<Jet>,
+    lifts: L,
 }
 
-impl Turned {
-    fn new(conoid: &Conoid, slice: &Slice<'_>, at: f64) -> Self {
+impl<'a> Turned<StripsNear<'a>> {
+    /// For one place along the axis.
+    fn near(conoid: &'a Conoid, slice: &Slice<'_>, at: f64) -> Self {
         let (piece, inside) = slice.locate(at);
         Self { at, inside, lifts: conoid.lifts(piece, inside) }
+    }
+}
+
+impl Turned<AllStrips> {
+    fn new(conoid: &Conoid, slice: &Slice<'_>, at: f64) -> Self {
+        let (piece, inside) = slice.locate(at);
+        Self { at, inside, lifts: conoid.all_lifts(piece, inside) }
     }
 
     /// The middles of so many equal parts of a turn: the same for every place along the axis.
@@ -80,23 +88,26 @@ pub(super) fn on_sections(evidence: &Evidence<'_>, conoid: &Conoid, check: &Chec
         let outline = if turned(conoid) { section.contour.mirrored_about_x() } else { section.contour.clone() };
         let track = Track::new(&outline);
         let slice = conoid.slice(section.z);
-        let gap = |turned: &Turned| {
-            let (_, zeta, partials) = conoid.cut_of(&turned.lifts, turned.inside, section.z)?;
-            let sphere = conoid.contact_of(&partials, turned.inside, zeta);
+        let gap = |lifts: &dyn Strips, angle: f64| {
+            let (_, zeta, partials) = conoid.cut_of(lifts, angle, section.z)?;
+            let sphere = conoid.contact_of(&partials, angle, zeta);
             let away = zeta - section.z;
             let circle = MILLIMETRES * ((radius - away) * (radius + away)).sqrt();
             Some(-track.nearest(sphere.centre.xy() * MILLIMETRES)?.left - circle)
         };
         let (first, last) = slice.range();
-        let at = |turned: &Turned| Worst { value: gap(turned).unwrap_or(f64::INFINITY), at: turned.at, z: section.z };
-        let mut all: Vec<Worst> = places.iter().map(at).collect();
+        let worst = |value: Option<f64>, at: f64| Worst { value: value.unwrap_or(f64::INFINITY), at, z: section.z };
+        let of_place = |turned: &Turned<AllStrips>| worst(gap(&turned.lifts, turned.inside), turned.at);
+        let mut all: Vec<Worst> = places.iter().map(of_place).collect();
         all.sort_by(|a, b| b.value.abs().total_cmp(&a.value.abs()));
         let step = (last - first) / f64::from(ANGLES);
-        let closer = |worst: &Worst| {
-            let turned = |angle: f64| Turned::new(conoid, &slice, angle);
-            let size = |angle: f64| gap(&turned(angle)).unwrap_or(f64::INFINITY).abs();
-            let range = (worst.at - step, worst.at + step);
-            at(&turned(extremum::largest_without_slope(size, range, 2, CLOSER_SECTIONS).at))
+        let closer = |around: &Worst| {
+            let near = |angle: f64| {
+                let turned = Turned::near(conoid, &slice, angle);
+                worst(gap(&turned.lifts, turned.inside), angle)
+            };
+            let range = (around.at - step, around.at + step);
+            near(extremum::largest_without_slope(|angle| near(angle).value.abs(), range, 2, CLOSER_SECTIONS).at)
         };
         let looked: Vec<Worst> = all.iter().take(CLOSER_LOOKS).map(closer).collect();
         all.into_iter().chain(looked).fold(none(first, section.z), or_farther)
@@ -125,7 +136,7 @@ fn on_flank(conoid: &Conoid, flank: &Flank) -> Worst {
     let radius = MILLIMETRES * conoid.roller().radius;
     let sense = if turned { -1.0 } else { 1.0 };
     let places = Turned::all(conoid, FLANK_ANGLES);
-    let gap = |at: &Turned, z: f64| {
+    let gap = |at: &Turned<AllStrips>, z: f64| {
         let contact = conoid.contact_of(&conoid.lift_of(&at.lifts, z), at.inside, z);
         // Beyond the ends of the cam there is nothing to touch.
         if !(low..=high).contains(&contact.point.z) {

@@ -24,21 +24,28 @@ pub(super) fn all(outputs: &[Output], words: &[&str]) -> Result<(), FilesError> 
     Ok(())
 }
 
-/// Bytes looked at together: most blocks of numbers have no letter that matters.
-const BLOCK: usize = 64;
+/// Bytes looked at together: most blocks have nothing like the beginning of such a text.
+const BLOCK: usize = 256;
+
+/// Whether letters are the first three of one of the texts, in capitals or not.
+fn begins(letters: [u8; 3]) -> bool {
+    let [first, second, third] = letters.map(|letter| letter | 0x20);
+    // Without branches, so that the compiler takes many places at once.
+    (third == b'n') & (first == b'n') & (second == b'a') | (first == b'i') & (second == b'n') & (third == b'f')
+}
 
 /// Where the first of the texts stands as a word of its own.
 fn first(bytes: &[u8], texts: &[&str]) -> Option<usize> {
-    // Every one of the texts has this letter.
-    let is_n = |byte: u8| byte | 0x20 == b'n';
-    let hits = |(index, block): (usize, &[u8])| {
-        if !block.iter().fold(false, |hit, byte| hit | is_n(*byte)) {
+    let (second, third) = (bytes.get(1..)?, bytes.get(2..)?);
+    let blocks = bytes.chunks(BLOCK).zip(second.chunks(BLOCK)).zip(third.chunks(BLOCK)).enumerate();
+    blocks.into_iter().find_map(|(index, ((first, second), third))| {
+        let places = || first.iter().zip(second).zip(third).map(|((a, b), c)| begins([*a, *b, *c]));
+        if !places().fold(false, |any, found| any | found) {
             return None;
         }
-        let places = block.iter().enumerate().filter(|(_, byte)| is_n(**byte)).map(|(place, _)| BLOCK * index + place);
-        places.into_iter().find(|place| texts.iter().any(|text| word(bytes, *place) == text.as_bytes()))
-    };
-    bytes.chunks(BLOCK).enumerate().find_map(hits)
+        let found = places().enumerate().filter(|(_, found)| *found).map(|(place, _)| BLOCK * index + place);
+        found.into_iter().find(|place| texts.iter().any(|text| word(bytes, *place) == text.as_bytes()))
+    })
 }
 
 /// The word of letters and digits around a place.

@@ -1,6 +1,6 @@
 //! What camgen has written into a directory, so that it replaces its own files and nobody else's.
 //!
-//! A record beside the files holds the SHA-256 of each as it was written, and the inputs of the last run under each stem. A file
+//! A record beside the files holds a digest of each as it was written, and the inputs of the last run under each stem. A file
 //! that is as recorded, or as it would be written now, is replaced; any other is not, unless that is asked for. A record that is
 //! missing or damaged knows nothing: then every file is somebody else's. The record is one of the files that are written all or none.
 
@@ -10,6 +10,7 @@ use super::finite;
 use crate::document::Input;
 use crate::report::sha256;
 use serde::{Deserialize, Serialize};
+use siphasher::sip128::SipHasher13;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
@@ -19,6 +20,8 @@ use std::path::{Path, PathBuf};
 pub const RECORD: &str = ".camgen.json";
 /// Largest record that is read, bytes: far above that of ten thousand cams.
 const LARGEST: u64 = 1 << 26;
+/// Hexadecimal digits of SHA-256.
+const SHA256_DIGITS: usize = 64;
 /// More changes than these are counted.
 const MOST_TOLD: usize = 8;
 
@@ -52,13 +55,23 @@ impl fmt::Display for Kept {
 /// The record of a directory.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Record {
-    /// SHA-256 of each file.
+    /// Digest of each file.
     files: BTreeMap<String, String>,
     /// By stem and key, the value as it is compared and as it was typed.
     inputs: BTreeMap<String, BTreeMap<String, (String, String)>>,
     /// Digest of the inputs that each file was made from.
     #[serde(default)]
     made_from: BTreeMap<String, String>,
+}
+
+/// Digest of a file: SipHash-1-3 of 128 bits. It finds what was edited by anybody but an attacker, who could write the record as well.
+fn file_digest(bytes: &[u8]) -> String {
+    format!("{:032x}", SipHasher13::new().hash(bytes).as_u128())
+}
+
+/// Whether a file is as recorded; by an earlier version its SHA-256 was.
+fn is_as_recorded(bytes: &[u8], recorded: &str) -> bool {
+    recorded == if recorded.len() == SHA256_DIGITS { sha256(bytes) } else { file_digest(bytes) }
 }
 
 /// Digest of the inputs of a run.
@@ -86,7 +99,7 @@ impl Record {
             if matches!(directory.standing(&output.name).map_err(failed)?, Standing::File(_)) {
                 let found = directory.read(&output.name, u64::MAX).map_err(failed)?;
                 let recorded = self.files.get(&output.name);
-                if found != output.bytes && recorded.is_none_or(|hash| *hash != sha256(&found)) {
+                if found != output.bytes && recorded.is_none_or(|digest| !is_as_recorded(&found, digest)) {
                     kept.push(Kept { path, changed: recorded.is_some() });
                 }
             }
@@ -109,7 +122,7 @@ impl Record {
 
     fn add(&mut self, directory: &Directory, outputs: &[Output], run: &Run<'_>) {
         self.files.retain(|name, _| !matches!(directory.standing(name), Ok(Standing::Nothing)));
-        self.files.extend(outputs.iter().map(|output| (output.name.clone(), sha256(&output.bytes))));
+        self.files.extend(outputs.iter().map(|output| (output.name.clone(), file_digest(&output.bytes))));
         let made_from = digest(run.inputs);
         self.made_from.extend(outputs.iter().map(|output| (output.name.clone(), made_from.clone())));
         let files = &self.files;

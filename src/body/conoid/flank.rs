@@ -5,11 +5,10 @@
 //! one direction after the other. A patch ends where the law has a break and at the latest after 30°: then even a reader
 //! that integrates edge by edge finds the mass.
 
-use super::Conoid;
+use super::{AllStrips, Conoid};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::solid::SplineSurface;
 use crate::machine::Rotation;
-use crate::motion::Jet;
 use crate::numeric::extremum::larger;
 use crate::numeric::parallel;
 use crate::numeric::spline::{Spline, bspline_basis, bspline_knots};
@@ -74,13 +73,13 @@ struct ExactFlank<'a> {
 
 impl ExactFlank<'_> {
     /// What the sections lift at the angle u.
-    fn lifts(&self, piece: usize, u: f64) -> Vec<Jet> {
-        self.conoid.lifts(piece, if self.turned { -u } else { u })
+    fn lifts(&self, piece: usize, u: f64) -> AllStrips {
+        self.conoid.all_lifts(piece, if self.turned { -u } else { u })
     }
 
     /// Point (mm), derivative by the angle and outward normal in the plane, where the cut at z (mm) has the angle u, at which the
     /// sections have these lifts.
-    fn at(&self, lifts: &[Jet], u: f64, z: f64) -> (Vector2<f64>, Vector2<f64>, Vector2<f64>) {
+    fn at(&self, lifts: &AllStrips, u: f64, z: f64) -> (Vector2<f64>, Vector2<f64>, Vector2<f64>) {
         let angle = if self.turned { -u } else { u };
         let nowhere = Vector2::new(f64::NAN, f64::NAN);
         let Some((frame, ..)) = self.conoid.cut_of(lifts, angle, z / MILLIMETRES) else {
@@ -268,7 +267,7 @@ fn deviation(exact: &ExactFlank<'_>, stretch: Stretch, patch: &SplineSurface) ->
     let middles =
         |list: &[f64]| -> Vec<f64> { list.iter().zip(list.iter().skip(1)).map(|(a, b)| 0.5 * (a + b)).collect() };
     let (angles, places) = (joints(&patch.u), joints(&patch.v));
-    let off = |lifts: &[Jet], u: f64, v: f64| {
+    let off = |lifts: &AllStrips, u: f64, v: f64| {
         let (point, _, normal) = exact.at(lifts, u, v);
         let [found, ..] = patch.at(u, v);
         (found.xy() - point).dot(&normal).abs()

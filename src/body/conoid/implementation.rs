@@ -1,6 +1,6 @@
 //! The conoid as a [`Body`]: what checks, drawings, tables and reports use of it.
 
-use super::{Conoid, KIND, flank, mechanism, report, sheet};
+use super::{AllStrips, Conoid, KIND, flank, mechanism, report, sheet};
 use crate::body::balance::Balance;
 use crate::body::part::{self, Part, point_as_turned};
 use crate::body::picture::{RIGID, of_its_press};
@@ -129,7 +129,7 @@ impl Conoid {
         parallel::map(&self.cuts(), part).into_iter().collect()
     }
 
-    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), (at, lifts): &(Turned, Vec<Jet>)) -> Row {
+    fn row(&self, (rpm, z, section): (f64, f64, &Reversal), (at, lifts): &(Turned, AllStrips)) -> Row {
         let (piece, angle) = section.locate(at.angle);
         let (state, lift) = (section.state(piece, angle), self.lift_of(lifts, z));
         let contact = self.contact_of(&lift, angle, z);
@@ -348,10 +348,10 @@ impl Body for Conoid {
         let at = |i: &u32| {
             let at = turned(*i, samples, self.machine.cam.lobes);
             let (piece, angle) = self.sections.first().map_or((0, at.angle), |section| section.locate(at.angle));
-            (at, self.lifts(piece, angle))
+            (at, self.all_lifts(piece, angle))
         };
         // What the sections do at an angle is the same for the rows of all of them.
-        let places: Vec<(Turned, Vec<Jet>)> = parallel::map(&(0..samples).collect::<Vec<u32>>(), at);
+        let places: Vec<(Turned, AllStrips)> = parallel::map(&(0..samples).collect::<Vec<u32>>(), at);
         let rows =
             |cut: &(f64, f64, &Reversal)| -> Vec<Row> { places.iter().map(|place| self.row(*cut, place)).collect() };
         parallel::map(&self.cuts(), rows).into_iter().flatten().collect()

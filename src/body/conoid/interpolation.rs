@@ -6,15 +6,17 @@
 //! speeds that grow by a factor lie evenly, and at v ≪ c, and beyond the ends of the cam, t is smooth in z all the same. A
 //! crowned roller needs that: straight strips from section to section would have a ridge at each section.
 
-use super::{Conoid, ConoidError};
+use super::{Conoid, ConoidError, Searched};
 use crate::machine::Shift;
+use crate::motion::Jet;
 use crate::numeric::spline::{Spline, cubic_at, interval_of};
-use std::sync::OnceLock;
 
 /// The values c that are tried, as shares of the largest v.
 const SHARES: [f64; 6] = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 /// Share of a force that is rounding, and of the largest one: a force that small is nothing.
 const ROUNDING: f64 = 1e-9;
+/// Of the largest share of a section in a slope, what is rounding of the slope: they fall by 3.7 from one section to the next.
+const NEGLIGIBLE: f64 = 1e-18;
 
 /// The variable in which the splines are cubic.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +54,8 @@ pub(super) struct Weights {
     knots: Vec<f64>,
     /// For each interval the cubics of all sections, so that a place is looked up once for all of them.
     cubics: Vec<Vec<[f64; 4]>>,
+    /// For each section the shares of all in the slope there, from the first on that has one.
+    slope_shares: Vec<(usize, Vec<f64>)>,
     variable: Variable,
 }
 
@@ -65,7 +69,36 @@ impl Weights {
             let spline = Spline::not_a_knot(&knots, &values);
             cubics.iter_mut().zip(spline.cubics()).for_each(|(interval, cubic)| interval.push(*cubic));
         }
-        Self { knots, cubics, variable }
+        let slope_shares = (0..knots.len()).map(|knot| shares_at(&knots, &cubics, knot)).collect();
+        Self { knots, cubics, slope_shares, variable }
+    }
+
+    /// Where a place along the axis, m, lies: the interval, how far behind its first section the variable is and its first three
+    /// derivatives by the place, and the width of the interval in the variable.
+    pub(super) fn place(&self, z: f64) -> (usize, [f64; 4], f64) {
+        let [t, t1, t2, t3] = self.variable.at(z);
+        let interval = interval_of(&self.knots, t);
+        let knot = self.knots.get(interval).copied().unwrap_or(f64::NAN);
+        (interval, [t - knot, t1, t2, t3], self.width_of(interval))
+    }
+
+    fn width_of(&self, interval: usize) -> f64 {
+        let knot = |index: usize| self.knots.get(index).copied().unwrap_or(f64::NAN);
+        knot(interval + 1) - knot(interval)
+    }
+
+    /// The larger width of the intervals beside a section.
+    pub(super) fn width_at(&self, section: usize) -> f64 {
+        self.width_of(section).max(section.checked_sub(1).map_or(0.0, |before| self.width_of(before)))
+    }
+
+    /// The slopes by the variable at every section of what has these values there.
+    pub(super) fn slopes(&self, values: &[Jet]) -> Vec<Jet> {
+        let slope = |(first, shares): &(usize, Vec<f64>)| {
+            let terms = values.iter().skip(*first).zip(shares);
+            terms.fold(Jet::default(), |sum, (value, share)| sum.plus(value.scaled(*share)))
+        };
+        self.slope_shares.iter().map(slope).collect()
     }
 
     /// The weights at a place along the axis, m, and their first three derivatives by it, section by section.
@@ -86,6 +119,19 @@ impl Weights {
     }
 }
 
+/// The shares of all sections in the slope at one, by the cubics of the intervals; those that are rounding are left out at either end.
+fn shares_at(knots: &[f64], cubics: &[Vec<[f64; 4]>], section: usize) -> (usize, Vec<f64>) {
+    let interval = section.min(cubics.len().saturating_sub(1));
+    let knot = |index: usize| knots.get(index).copied().unwrap_or(f64::NAN);
+    let behind = knot(section) - knot(interval);
+    let all: Vec<f64> = cubics.get(interval).into_iter().flatten().map(|cubic| cubic_at(cubic, behind)[1]).collect();
+    let least = NEGLIGIBLE * all.iter().fold(0.0_f64, |most, share| most.max(share.abs()));
+    let counts = |share: &f64| share.abs() > least;
+    let first = all.iter().position(counts).unwrap_or(0);
+    let last = all.iter().rposition(counts).map_or(0, |last| last + 1);
+    (first, all.get(first..last).unwrap_or_default().to_vec())
+}
+
 impl Conoid {
     /// Sized, with the splines along the axis that leave the least between the sections of those that some radius lets keep
     /// the limits, where the splines in the place along it leave more than straight strips.
@@ -95,7 +141,8 @@ impl Conoid {
         }
         let with = |weights: Weights| {
             let mut conoid = Self { weights, ..self.clone() };
-            conoid.found.between = OnceLock::new();
+            // What was found with other splines is found anew.
+            conoid.found = Searched { strips: conoid.found.strips, ..Searched::default() };
             conoid
         };
         let mut all: Vec<Self> = SHARES.iter().filter_map(|share| self.by_speed(*share)).map(with).collect();

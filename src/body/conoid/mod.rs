@@ -25,12 +25,14 @@ mod missed;
 mod report;
 mod search;
 mod sheet;
+mod strips;
 mod surface;
 mod worst;
 
 pub use error::ConoidError;
 pub use missed::{BESIDE, Missed, OfSection};
 pub use search::Place;
+pub use strips::{AllStrips, Strips, StripsNear};
 pub use surface::SpatialContact;
 
 use super::{Body, Kind};
@@ -116,6 +118,7 @@ pub struct Conoid {
 #[derive(Debug, Clone, Default)]
 struct Searched {
     nodes: OnceLock<Vec<search::Node>>,
+    slopes: OnceLock<Option<strips::SlopeSeries>>,
     sharpest: OnceLock<Worst>,
     wander: OnceLock<Worst>,
     axial_force: OnceLock<Worst>,
@@ -210,8 +213,8 @@ impl Conoid {
     fn resize(&mut self, prime_radius: f64) {
         self.follower = TranslatingRoller::new(prime_radius, self.roller.offset, self.roller.radius);
         let found = std::mem::take(&mut self.found);
-        let (between, strips, nodes) = (found.between, found.strips, found.nodes);
-        self.found = Searched { nodes, between, strips, ..Searched::default() };
+        let (between, strips, nodes, slopes) = (found.between, found.strips, found.nodes, found.slopes);
+        self.found = Searched { nodes, slopes, between, strips, ..Searched::default() };
     }
 
     /// The laws of the sections and their interpolation, on a prime radius of a metre.
@@ -354,48 +357,9 @@ impl Conoid {
     }
 
     /// Weights of the sections at z and their first three derivatives.
+    #[cfg(test)]
     fn weights_at(&self, z: f64) -> Vec<[f64; 4]> {
         self.weights.at(z).collect()
-    }
-
-    /// Lifts of the sections at a cam angle, counted from the common lowest point: they do not depend on the place along the axis.
-    #[must_use]
-    pub fn lifts(&self, piece: usize, angle: f64) -> Vec<Jet> {
-        let lift = |section: &Reversal| {
-            let bottom = section.bottom(piece, angle);
-            Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.machine.cam.lever)
-        };
-        self.sections.iter().map(lift).collect()
-    }
-
-    /// Lift and its derivatives where the sections have these lifts and weights.
-    fn partials(lifts: &[Jet], weights: impl IntoIterator<Item = [f64; 4]>) -> Partials {
-        let mut partials = [[0.0; 4]; 4];
-        for (lift, weight) in lifts.iter().zip(weights) {
-            for (row, derivative) in partials.iter_mut().zip([lift.s, lift.ds, lift.dds, lift.ddds]) {
-                for (slot, w) in row.iter_mut().zip(weight) {
-                    *slot += w * derivative;
-                }
-            }
-        }
-        partials
-    }
-
-    /// Lift at a place along the axis (m), with its derivatives, at the cam angle of these lifts of the sections.
-    #[must_use]
-    pub fn lift_of(&self, lifts: &[Jet], z: f64) -> Partials {
-        Self::partials(lifts, self.weights.at(z))
-    }
-
-    /// What [`Self::wander`] needs of the same, the other derivatives left at 0: it is asked for at every step to the roller of a cut.
-    fn lift_for_wander(&self, lifts: &[Jet], z: f64) -> Partials {
-        let (mut along, mut across) = ([0.0; 3], [0.0; 2]);
-        for (lift, weight) in lifts.iter().zip(self.weights.at(z)) {
-            along.iter_mut().zip(weight).for_each(|(slot, w)| *slot += w * lift.s);
-            across.iter_mut().zip(weight).for_each(|(slot, w)| *slot += w * lift.ds);
-        }
-        let ([s, s_z, s_zz], [a, a_z]) = (along, across);
-        [[s, s_z, s_zz, 0.0], [a, a_z, 0.0, 0.0], [0.0; 4], [0.0; 4]]
     }
 
     /// Lift at a cam angle of a piece and a place along the axis (m), with its derivatives.
@@ -432,7 +396,7 @@ impl Conoid {
     /// The law in one plane across the axis.
     #[must_use]
     pub fn slice(&self, z: f64) -> Slice<'_> {
-        Slice { conoid: self, weights: self.weights.at(z).map(|weight| weight[0]).collect() }
+        Slice { conoid: self, z, weights: self.weights.at(z).map(|weight| weight[0]).collect() }
     }
 
     /// Motion and follower in one plane, as if the roller were a disc in it.
@@ -486,6 +450,8 @@ impl Conoid {
 #[derive(Debug, Clone)]
 pub struct Slice<'a> {
     conoid: &'a Conoid,
+    /// Place along the axis, m.
+    z: f64,
     weights: Vec<f64>,
 }
 
@@ -506,13 +472,8 @@ impl Motion for Slice<'_> {
     }
 
     fn jet(&self, piece: usize, angle: f64) -> Jet {
-        let lifts = self.conoid.lifts(piece, angle);
-        lifts.iter().zip(&self.weights).fold(Jet::default(), |sum, (lift, weight)| Jet {
-            s: sum.s + weight * lift.s,
-            ds: sum.ds + weight * lift.ds,
-            dds: sum.dds + weight * lift.dds,
-            ddds: sum.ddds + weight * lift.ddds,
-        })
+        let [[s, ..], [ds, ..], [dds, ..], [ddds, ..]] = self.conoid.lift(piece, angle, self.z);
+        Jet { s, ds, dds, ddds }
     }
 }
 

@@ -4,8 +4,7 @@
 //! The lifts of the sections at an angle depend neither on the place along the axis nor on the prime radius: they are
 //! computed once for each angle of the grid.
 
-use super::{Conoid, Partials};
-use crate::motion::Jet;
+use super::{AllStrips, Conoid, Partials, Strips};
 use crate::numeric::{extremum, parallel};
 use crate::profile::Worst;
 
@@ -29,7 +28,7 @@ pub struct Place<'a> {
     /// Lift and its derivatives there.
     pub partials: Partials,
     /// Lifts of the sections at the angle.
-    pub(super) lifts: &'a [Jet],
+    pub(super) lifts: &'a dyn Strips,
 }
 
 /// A cam angle of the grid.
@@ -37,7 +36,7 @@ pub struct Place<'a> {
 pub(super) struct Node {
     piece: usize,
     angle: f64,
-    lifts: Vec<Jet>,
+    lifts: AllStrips,
 }
 
 /// A local maximum of the grid.
@@ -63,7 +62,7 @@ impl Conoid {
             (0..=cells).map(move |i| (piece, angle(i)))
         };
         let places: Vec<(usize, f64)> = self.pieces().iter().enumerate().flat_map(of_piece).collect();
-        parallel::map(&places, |&(piece, angle)| Node { piece, angle, lifts: self.lifts(piece, angle) })
+        parallel::map(&places, |&(piece, angle)| Node { piece, angle, lifts: self.all_lifts(piece, angle) })
     }
 
     /// The largest value of something between the first and the last of these places along the axis, rising; where it is
@@ -71,9 +70,8 @@ impl Conoid {
     pub(super) fn worst_over(&self, slices: &[f64], value: impl Fn(&Self, &Place<'_>) -> f64 + Sync) -> Worst {
         let nodes = self.found.nodes.get_or_init(|| self.nodes());
         let in_slice = |z: &f64| -> Vec<f64> {
-            let weights = self.weights_at(*z);
             let at = |node: &Node| {
-                let partials = Self::partials(&node.lifts, weights.iter().copied());
+                let partials = self.lift_of(&node.lifts, *z);
                 value(self, &Place { piece: node.piece, angle: node.angle, z: *z, partials, lifts: &node.lifts })
             };
             nodes.iter().map(at).collect()
@@ -118,7 +116,7 @@ impl Conoid {
             let along_axis = |angle: f64| {
                 let lifts = self.lifts(piece, angle);
                 let at = |z: f64| {
-                    let partials = Self::partials(&lifts, self.weights.at(z));
+                    let partials = self.lift_of(&lifts, z);
                     value(self, &Place { piece, angle, z, partials, lifts: &lifts })
                 };
                 extremum::largest_without_slope(at, (low, high), 2, if low < high { SECTIONS } else { 0 })

@@ -1,8 +1,7 @@
 //! The surface of a conoid: contact of the sphere, principal curvatures, cuts.
 
-use super::{Conoid, Partials};
+use super::{Conoid, Partials, Strips};
 use crate::geometry::CurvePoint;
-use crate::motion::Jet;
 use crate::numeric::series::Series;
 use nalgebra::{Vector2, Vector3};
 
@@ -79,7 +78,7 @@ impl Conoid {
 
     /// The same by the lifts of the sections at the angle, and lift and derivatives where that roller stands.
     #[must_use]
-    pub fn cut_of(&self, lifts: &[Jet], angle: f64, z: f64) -> Option<(CurvePoint, f64, Partials)> {
+    pub fn cut_of(&self, lifts: &(impl Strips + ?Sized), angle: f64, z: f64) -> Option<(CurvePoint, f64, Partials)> {
         let (partials, zeta) = self.roller_of_cut(lifts, z)?;
         let axial = |first: f64, second: f64| self.along(&partials, angle, Series([zeta, first, second])).axial.0;
         // Each coefficient of ζ enters the coefficient of its power linearly.
@@ -106,10 +105,10 @@ impl Conoid {
 
     /// The roller that touches the cut at z (m) at the cam angle of these lifts of the sections: lift and derivatives there,
     /// and its place ζ. `None` where the surface folds along the axis.
-    pub(super) fn roller_of_cut(&self, lifts: &[Jet], z: f64) -> Option<(Partials, f64)> {
+    pub(super) fn roller_of_cut(&self, lifts: &(impl Strips + ?Sized), z: f64) -> Option<(Partials, f64)> {
         let mut zeta = z;
         for _ in 0..CUT_STEPS {
-            let (wander, slope) = self.wander(&self.lift_for_wander(lifts, zeta));
+            let (wander, slope) = self.wander(&self.lift_of(lifts, zeta));
             // A surface that folds back along the axis has no single roller for the cut.
             if !(1.0 + slope > 0.0) {
                 return None;
