@@ -38,7 +38,7 @@ use crate::motion::{BrakeDisc, Quantity};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
-use crate::profile::{Curves, Worst, boundary, envelope, extremes, followed};
+use crate::profile::{Curves, Worst, boundary, envelope, extremes};
 use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{Place, Rolled, Section, Speeds};
@@ -292,7 +292,8 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// Largest velocity and acceleration of the motion by the angle of that shaft, m or rad per rad and rad².
     fn largest_rates(&self) -> [f64; 2] {
-        self.plane().map_or([0.0; 2], |curves| followed::largest_rates(curves.motion))
+        let found = self.plane().zip(self.worst_places());
+        found.map_or([0.0; 2], |(curves, worst)| worst.largest_rates(curves.motion))
     }
 
     /// The parameter at which a point of the drawing (m) lies.

@@ -2,7 +2,8 @@
 
 use super::plane;
 use crate::follower::Element;
-use crate::profile::{Curves, Worst, extremes};
+use crate::motion::Motion;
+use crate::profile::{Curves, Worst, extremes, followed};
 use std::sync::OnceLock;
 
 /// Worst places of a plane cam, searched once, on demand.
@@ -11,11 +12,16 @@ pub struct WorstPlaces {
     pressure_angles: OnceLock<[Worst; 2]>,
     least_radius: OnceLock<Worst>,
     least_rolled_radius: OnceLock<Worst>,
+    largest_rates: OnceLock<[f64; 2]>,
 }
 
 impl WorstPlaces {
     pub(super) fn pressure_angles(&self, curves: Curves<'_>) -> [Worst; 2] {
         *self.pressure_angles.get_or_init(|| extremes::pressure_angles(curves).map(plane))
+    }
+
+    pub(super) fn largest_rates(&self, motion: &dyn Motion) -> [f64; 2] {
+        *self.largest_rates.get_or_init(|| followed::largest_rates(motion))
     }
 
     pub(super) fn least_radius(&self, curves: Curves<'_>) -> Worst {

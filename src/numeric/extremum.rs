@@ -96,23 +96,29 @@ pub fn largest_with_slope(both: impl FnMut(f64) -> (f64, f64), (low, high): (f64
     search.best
 }
 
-/// The same of a function and of its negative, the places between the cells looked at once for both.
-pub fn both_ways_with_slope(
-    mut both: impl FnMut(f64) -> (f64, f64),
-    (low, high): (f64, f64),
-    cells: u32,
-) -> [Extremum; 2] {
-    let place = |cell: u32| match cell {
+/// Places between the cells, the ends of the interval with them.
+pub fn between_cells((low, high): (f64, f64), cells: u32) -> impl Iterator<Item = f64> {
+    (0..=cells).map(move |cell| match cell {
         0 => low,
         cell if cell == cells => high,
         cell => low + (high - low) * (f64::from(cell) / f64::from(cells)),
-    };
-    let known: Vec<(f64, (f64, f64))> = (0..=cells).map(place).map(|at| (at, both(at))).collect();
+    })
+}
+
+/// The same of a function and of its negative, the places between the cells looked at once for both.
+pub fn both_ways_with_slope(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> [Extremum; 2] {
+    let known: Vec<(f64, (f64, f64))> = between_cells(range, cells).map(|at| (at, both(at))).collect();
+    both_ways_from(&known, both)
+}
+
+/// The same where value and slope at [`between_cells`] are known.
+pub fn both_ways_from(known: &[(f64, (f64, f64))], mut both: impl FnMut(f64) -> (f64, f64)) -> [Extremum; 2] {
+    let low = known.first().map_or(f64::NAN, |(at, _)| *at);
     [1.0, -1.0].map(|sign| {
         let signed = |(value, slope): (f64, f64)| (sign * value, sign * slope);
         let mut search = Search { both: |at| signed(both(at)), best: Extremum { at: low, value: f64::NAN } };
         let mut left: Option<Place> = None;
-        for (at, found) in &known {
+        for (at, found) in known {
             let right = search.known(*at, signed(*found));
             if let Some(left) = left {
                 search.between(left, right, HALVINGS);

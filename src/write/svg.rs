@@ -19,12 +19,12 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
-    write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
+    write: |cam| Ok(vec![marked(write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
     of_analysis: Some(OfAnalysis {
         endings: |_| vec![".svg".into()],
         write: |account| {
             let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
-            Ok(vec![marked(&write(&sheet, account.template)?, &account.report.mark())])
+            Ok(vec![marked(write(&sheet, account.template)?, &account.report.mark())])
         },
     }),
 };
@@ -134,13 +134,13 @@ pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>,
 }
 
 /// The file with a comment before its root, whatever the template.
-fn marked(file: &[u8], comment: &str) -> Vec<u8> {
-    let text = String::from_utf8_lossy(file);
+fn marked(file: Vec<u8>, comment: &str) -> Vec<u8> {
+    let text = String::from_utf8(file).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
     let (declaration, rest) = match text.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {
         Some((declaration, rest)) => (format!("<?xml{declaration}?>\n"), rest.trim_start()),
         None => (String::new(), &*text),
     };
-    format!("{declaration}<!-- {comment} -->\n{rest}").into_bytes()
+    [&*declaration, "<!-- ", comment, " -->\n", rest].concat().into_bytes()
 }
 
 fn without_comments(template: &str) -> String {

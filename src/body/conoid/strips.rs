@@ -133,8 +133,7 @@ impl Conoid {
     /// The same for many.
     #[must_use]
     pub fn all_lifts(&self, piece: usize, angle: f64) -> AllStrips {
-        let lifts: Vec<Jet> =
-            (0..self.sections.len()).map(|index| self.lift_of_section(index, piece, angle)).collect();
+        let lifts: Vec<Jet> = (0..self.sections.len()).map(|index| self.lift_of_section(index, piece, angle)).collect();
         let slopes = self.weights.slopes(&lifts);
         AllStrips { sections: lifts.into_iter().zip(slopes).collect() }
     }

@@ -217,7 +217,10 @@ fn strips_are_the_sum_of_all_sections() {
                         let of_strip = strip.powi(-i32::try_from(n).expect("small"));
                         let rounding = 1e-14 * sizes.max(of_strip) * LARGEST[m];
                         let missed = [near[m][n] - sum, all[m][n] - sum];
-                        assert!(missed.iter().all(|missed| missed.abs() <= rounding), "{m} {n} {missed:?} {rounding:e}");
+                        assert!(
+                            missed.iter().all(|missed| missed.abs() <= rounding),
+                            "{m} {n} {missed:?} {rounding:e}"
+                        );
                     }
                 }
             }

@@ -135,7 +135,7 @@ impl Disc {
         let told = program.segments();
         let segments: Vec<Segment> = told.iter().map(|told| segment(told, size, self.speed)).collect();
         let mut words: Vec<String> =
-            segments.iter().zip(&told).map(|(segment, told)| line(segment, told, unit)).collect();
+            segments.iter().zip(told).map(|(segment, told)| line(segment, told, unit)).collect();
         let of_time = if swings { "rad" } else { "m" };
         words.extend(at_speed(&segments, of_time));
         if self.motion.lobes() > 1 {

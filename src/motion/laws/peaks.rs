@@ -9,6 +9,13 @@ const PANELS: u32 = 8;
 /// A smaller share of the peak is rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// Value and slope of something by s, s', …, s⁗.
+type OfCurve = fn(&[f64; 5]) -> (f64, f64);
+
+const VELOCITY: OfCurve = |s| (s[1], s[2]);
+const ACCELERATION: OfCurve = |s| (s[2], s[3]);
+const JERK: OfCurve = |s| (s[3], s[4]);
+
 /// The peaks of a curve, as sizes, each with its place x; in units of travel and width of the segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peaks {
@@ -28,22 +35,26 @@ impl Curve {
     /// The peaks, to rounding.
     #[must_use]
     pub fn peaks(&self) -> Peaks {
-        let of = |f: fn(&[f64; 5]) -> (f64, f64)| self.largest(f);
-        let mut jerk = of(|s| (s[3], s[4]));
-        if let Some(part) = self.first_jump(2) {
-            jerk = Extremum { at: self.range_of(part).0, value: f64::INFINITY };
-        }
         let squares = (0..self.parts()).map(|part| {
             let square = |x: f64| self.derivative(part, x, 2) * self.derivative(part, x, 2);
             quadrature::integrate(square, self.range_of(part), PANELS)
         });
-        Peaks {
-            velocity: of(|s| (s[1], s[2])),
-            acceleration: of(|s| (s[2], s[3])),
-            jerk,
-            torque: of(|s| (s[1] * s[2], s[2] * s[2] + s[1] * s[3])),
-            square: squares.sum(),
-        }
+        let torque: OfCurve = |s| (s[1] * s[2], s[2] * s[2] + s[1] * s[3]);
+        let [velocity, acceleration, jerk, torque] = self.largest([VELOCITY, ACCELERATION, JERK, torque]);
+        Peaks { velocity, acceleration, jerk: self.or_jump(jerk), torque, square: squares.sum() }
+    }
+
+    /// Of these the peaks of velocity, acceleration and jerk.
+    #[must_use]
+    pub fn peak_rates(&self) -> [Extremum; 3] {
+        let [velocity, acceleration, jerk] = self.largest([VELOCITY, ACCELERATION, JERK]);
+        [velocity, acceleration, self.or_jump(jerk)]
+    }
+
+    /// The peak of the jerk; infinite where the acceleration jumps inside.
+    fn or_jump(&self, jerk: Extremum) -> Extremum {
+        let jump = |part| Extremum { at: self.range_of(part).0, value: f64::INFINITY };
+        self.first_jump(2).map_or(jerk, jump)
     }
 
     /// The least peak acceleration possible over this curve's: of laws between rests with the same peak jerk, or with any where
@@ -74,22 +85,22 @@ impl Curve {
         Some(4.0 / (1.0 - ramp) / peaks.acceleration.value)
     }
 
-    /// The largest size of a function of s, s', …, s⁗, which gives its value and its slope.
-    fn largest(&self, f: fn(&[f64; 5]) -> (f64, f64)) -> Extremum {
-        let mut best = Extremum { at: 0.0, value: f64::NEG_INFINITY };
+    /// The largest sizes of functions of s, s', …, s⁗, which give their values and slopes.
+    fn largest<const N: usize>(&self, of: [OfCurve; N]) -> [Extremum; N] {
+        let mut best = [Extremum { at: 0.0, value: f64::NEG_INFINITY }; N];
         for part in 0..self.parts() {
-            let both = |x: f64| {
+            let all = |x: f64| {
                 let [s, first, second, third] = self.at(part, x);
-                f(&[s, first, second, third, self.derivative(part, x, 4)])
+                [s, first, second, third, self.derivative(part, x, 4)]
             };
-            for sign in [1.0, -1.0] {
-                let signed = |x: f64| {
-                    let (value, slope) = both(x);
-                    (sign * value, sign * slope)
-                };
-                let found = extremum::largest_with_slope(signed, self.range_of(part), self.cells(part));
-                if found.value > best.value {
-                    best = found;
+            let places = extremum::between_cells(self.range_of(part), self.cells(part));
+            let known: Vec<(f64, [f64; 5])> = places.map(|x| (x, all(x))).collect();
+            for (best, f) in best.iter_mut().zip(of) {
+                let known: Vec<(f64, (f64, f64))> = known.iter().map(|(x, s)| (*x, f(s))).collect();
+                for found in extremum::both_ways_from(&known, |x| f(&all(x))) {
+                    if found.value > best.value {
+                        *best = found;
+                    }
                 }
             }
         }

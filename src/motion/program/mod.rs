@@ -23,6 +23,7 @@ use super::{Jet, Motion, Piece, Quantity};
 use crate::numeric::extremum;
 use std::f64::consts::TAU;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Most cells in which the lowest point of a part is searched: it may bulge below its ends when it begins or ends in motion.
 const CELLS: u32 = 16;
@@ -220,6 +221,8 @@ pub struct Program {
     lowest: f64,
     /// The load for which it is the motion of the cam.
     load: Option<Polydyne>,
+    /// What is told of the segments, once it is asked for.
+    told: OnceLock<Vec<SegmentTold>>,
 }
 
 impl Program {
@@ -296,7 +299,7 @@ impl Program {
 
     fn empty(quantity: Quantity, lobes: u32) -> Self {
         let (pieces, sources, segments) = (Vec::new(), Vec::new(), Vec::new());
-        Self { quantity, rpm: None, lobes, pieces, sources, segments, lowest: 0.0, load: None }
+        Self { quantity, rpm: None, lobes, pieces, sources, segments, lowest: 0.0, load: None, told: OnceLock::new() }
     }
 
     /// With its lowest place.
@@ -358,6 +361,7 @@ impl Program {
             }
         }
         self.segments.push(segment);
+        self.told = OnceLock::new();
     }
 
     /// The position in the program, with its derivatives.

@@ -81,8 +81,8 @@ pub struct Jump {
 impl Program {
     /// Its segments, of the first lobe.
     #[must_use]
-    pub fn segments(&self) -> Vec<SegmentTold> {
-        self.segments.iter().map(told).collect()
+    pub fn segments(&self) -> &[SegmentTold] {
+        self.told.get_or_init(|| self.segments.iter().map(told).collect())
     }
 
     /// The largest jump of the lowest derivative that jumps up to the jerk; `None` where none does.
@@ -146,7 +146,7 @@ fn told(segment: &super::Segment) -> SegmentTold {
         optimum: segment.optimum,
     };
     let Some(curve) = &segment.curve else { return rest };
-    let peaks = curve.peaks();
+    let [velocity, acceleration, jerk] = curve.peak_rates();
     let (travel, width) = (segment.travel.abs(), segment.width);
     let place = |found: crate::numeric::extremum::Extremum, power: i32| {
         (found.value * travel / width.powi(power), segment.start + found.at * width)
@@ -158,7 +158,7 @@ fn told(segment: &super::Segment) -> SegmentTold {
         // Rounding at the ends is no overshoot.
         overshoot: if !segment.whole && over > ROUNDING * travel.max(most - least) { over } else { 0.0 },
         range: (low, top),
-        peaks: [place(peaks.velocity, 1), place(peaks.acceleration, 2), place(peaks.jerk, 3)],
+        peaks: [place(velocity, 1), place(acceleration, 2), place(jerk, 3)],
         humps: curve.humps(),
         ..rest
     }
