@@ -190,8 +190,9 @@ mod tests {
             let x = range.0 + 2.5 * f64::from(i) / 50.0;
             let exact = [libm::exp(x), libm::sin(3.0 * x)];
             for (which, exact) in exact.into_iter().enumerate() {
-                assert!((together.at(x)[which] - exact).abs() < 1e-14, "{x}");
-                assert!((together.at(x)[which] - alone[which].at(x)).abs() < 1e-14, "{x}");
+                // Forty terms of sums up to e².
+                assert!((together.at(x)[which] - exact).abs() < 5e-14, "{x}");
+                assert!((together.at(x)[which] - alone[which].at(x)).abs() < 5e-14, "{x}");
                 assert!((shorter.at(x)[which] - exact).abs() < 1e-8, "{x}");
             }
         }

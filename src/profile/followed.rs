@@ -15,6 +15,7 @@
 
 use super::{Curves, Worst};
 use crate::follower::Element;
+use crate::geometry::CurvePoint;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
 use crate::motion::{Jet, Motion, Piece, Quantity};
@@ -434,22 +435,22 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
     let size = start.curve.point.norm();
     let (mut before, (mut gap_before, normal)) = (law.s, off(start.curve.point));
     let mut lift = law.s - gap_before / (normal.dot(&start.drive) * curves.follower.leverage(&law));
+    let mut here = touch(Jet { s: lift, ..law }).curve;
     for _ in 0..LIFT_STEPS {
-        let gap = off(touch(Jet { s: lift, ..law }).curve.point).0;
+        let gap = off(here.point).0;
         let step = gap * (lift - before) / (gap - gap_before);
         (before, gap_before) = (lift, gap);
         if gap.abs() <= TOUCHING * size || !step.is_finite() {
             break;
         }
         lift -= step;
+        here = touch(Jet { s: lift, ..law }).curve;
     }
     let law = Jet { s: lift, ..law };
-    let normal = off(touch(law).curve.point).1;
-    let along = |ds: f64| {
-        let curve = touch(Jet { ds, ..law }).curve;
-        normal.dot(&(curve.tangent * curve.speed))
-    };
-    let ds = law.ds - CHANGE * along(law.ds) / (along(law.ds + CHANGE) - along(law.ds));
+    let normal = off(here.point).1;
+    let along = |curve: &CurvePoint| normal.dot(&(curve.tangent * curve.speed));
+    let (own, more) = (along(&here), along(&touch(Jet { ds: law.ds + CHANGE, ..law }).curve));
+    let ds = law.ds - CHANGE * own / (more - own);
     let law = Jet { ds, ..law };
     // C'' along the normal: κ ℓ² to the left of the tangent.
     let bend = |dds: f64| {

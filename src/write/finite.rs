@@ -27,13 +27,12 @@ pub(super) fn all(outputs: &[Output], words: &[&str]) -> Result<(), FilesError> 
 /// Bytes looked at together: most blocks have nothing like the beginning of such a text.
 const BLOCK: usize = 256;
 
-/// Whether letters are the first three of one of the texts, in capitals or not.
-fn begins(letters: [u8; 3]) -> bool {
-    const BEGINNINGS: [u32; 2] = [u32::from_be_bytes(*b"\0nan"), u32::from_be_bytes(*b"\0inf")];
-    let [first, second, third] = letters;
-    // As one number, so that the compiler takes many places at once.
-    let small = u32::from_be_bytes([0, first, second, third]) | 0x20_2020;
-    BEGINNINGS.contains(&small)
+/// 0 where letters are the first three of one of the texts, in capitals or not. Whole blocks of it take no branches.
+fn off(first: u8, second: u8, third: u8) -> u8 {
+    let [first, second, third] = [first, second, third].map(|letter| letter | 0x20);
+    let nan = (first ^ b'n') | (second ^ b'a') | (third ^ b'n');
+    let inf = (first ^ b'i') | (second ^ b'n') | (third ^ b'f');
+    nan.min(inf)
 }
 
 /// Where the first of the texts stands as a word of its own.
@@ -41,11 +40,11 @@ fn first(bytes: &[u8], texts: &[&str]) -> Option<usize> {
     let (second, third) = (bytes.get(1..)?, bytes.get(2..)?);
     let blocks = bytes.chunks(BLOCK).zip(second.chunks(BLOCK)).zip(third.chunks(BLOCK)).enumerate();
     blocks.into_iter().find_map(|(index, ((first, second), third))| {
-        let places = || first.iter().zip(second).zip(third).map(|((a, b), c)| begins([*a, *b, *c]));
-        if !places().fold(false, |any, found| any | found) {
+        let places = || first.iter().zip(second).zip(third).map(|((a, b), c)| off(*a, *b, *c));
+        if places().fold(u8::MAX, u8::min) > 0 {
             return None;
         }
-        let found = places().enumerate().filter(|(_, found)| *found).map(|(place, _)| BLOCK * index + place);
+        let found = places().enumerate().filter(|(_, off)| *off == 0).map(|(place, _)| BLOCK * index + place);
         found.into_iter().find(|place| texts.iter().any(|text| word(bytes, *place) == text.as_bytes()))
     })
 }
