@@ -435,6 +435,9 @@ class Program:
                 self.solve_one(segment, wanted)
             except Illegal as fault:
                 faults.add(str(fault))
+                # Where there is nothing to match, that is a fault beside any other.
+                if segment in later and wanted is None:
+                    faults.add("inflection")
         if faults:
             raise Illegal(", ".join(sorted(faults)))
 
@@ -589,7 +592,8 @@ class Program:
         return found
 
     def extreme(self, function, parts=None, cells=128):
-        """Largest of function(part, angles) over parts, and where: a grid, then ever finer ones about the three best places of each."""
+        """Largest of function(part, angles) over parts, and where: a grid, then ever finer ones about the best places of each: three, and more
+        of what has many humps alike."""
         best, place = -math.inf, None
         for i in range(len(self.parts)) if parts is None else parts:
             low, high, segment, _ = self.parts[i]
@@ -601,7 +605,7 @@ class Program:
             values[np.isnan(values)] = math.inf
             padded = np.concatenate([[-math.inf], values, [-math.inf]])
             tops = np.nonzero((values >= padded[:-2]) & (values >= padded[2:]))[0]
-            for top in tops[np.argsort(-values[tops])][:3]:
+            for top in tops[np.argsort(-values[tops])][: max(3, own // 16) if own > cells else 3]:
                 if values[top] > best:
                     best, place = float(values[top]), float(coarse[top])
                 grid, at = coarse, top

@@ -23,6 +23,8 @@ const LONGEST_DWELL: f64 = 1.9 * PI;
 
 /// Largest coordinate a drawing may have, mm: readers treat larger ones as mistakes.
 pub const LARGEST_COORDINATE: f64 = 1e6;
+/// Places of a piece at which its size is looked at first.
+const LOOKS: u32 = 8;
 
 /// Tolerance of the pitch curve on a sheet, which is for viewing only: a fifth of a thin pen, m.
 const PITCH_TOLERANCE: f64 = 0.05e-3;
@@ -314,7 +316,11 @@ pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, Outli
 
 /// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
 pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), OutlineError> {
-    let radius_mm = pieces.iter().enumerate().map(|(i, p)| frame(i, p.start).point.norm()).fold(0.0, f64::max);
+    let place = |piece: &Piece, part: u32| piece.start + (piece.end - piece.start) * f64::from(part) / f64::from(LOOKS);
+    let radius = |(index, piece): (usize, &Piece)| {
+        (0..LOOKS).map(|part| frame(index, place(piece, part)).point.norm()).fold(0.0, f64::max)
+    };
+    let radius_mm = pieces.iter().enumerate().map(radius).fold(0.0, f64::max);
     if radius_mm <= LARGEST_COORDINATE { Ok(()) } else { Err(OutlineError::TooLarge { radius_mm }) }
 }
 
