@@ -545,3 +545,14 @@ fn what_is_wrong_with_an_optimum_is_told() {
         assert!(run.err.contains("cam.toml:"), "{}", run.err);
     }
 }
+
+/// The roller was taken not to touch wherever the outline lies farther from the exact one than its radius.
+#[test]
+fn a_roller_smaller_than_the_tolerance_is_felt_all_round() {
+    let text = TURN.replace("radius = \"10 mm\"", "radius = \"0.002 mm\"");
+    let made = run(&text, &["--tolerance", "50um", "--format", "csv"]);
+    assert_eq!(made.code, 0, "{}", made.err);
+    let csv = fs::read_to_string(made.directory.path().join("output/cam-make.csv")).expect("a table");
+    let none: Vec<&str> = csv.lines().filter(|line| line.contains("NaN")).collect();
+    assert!(csv.starts_with("cam_deg,") && none.is_empty(), "{none:?}");
+}

@@ -26,6 +26,9 @@ use nalgebra::Vector2;
 pub(super) const HAIR: f64 = 1e-8;
 /// Steps of the secant to the lift: two are mostly enough.
 const LIFT_STEPS: u32 = 8;
+/// The follower as placed by the motion is near the chain within the radius of its roller, but at least within this, m: a chain may
+/// lie farther from the profile than a small roller is large.
+const LEAST_REACH: f64 = 2e-3;
 /// Roundings of a length at which the roller touches.
 const TOUCHING: f64 = 2.0 * f64::EPSILON;
 /// A curve of less curvature, 1/m, is straight.
@@ -122,6 +125,7 @@ impl<'a> Followed<'a> {
         let reach = MILLIMETRES * out;
         let face = curves.element() == Element::Face;
         // NaN where the follower, placed by the motion, is nowhere near: on the end or the other flank of a plate.
+        let nearby = curves.offset().max(LEAST_REACH);
         let parameter = |point: Vector2<f64>, tangent: Vector2<f64>| {
             let normal = outward(tangent);
             let centre = (point + normal * reach) / MILLIMETRES;
@@ -129,7 +133,7 @@ impl<'a> Followed<'a> {
             let (piece, inside) = curves.motion.locate(parameter);
             let touch = curves.touch(piece, inside);
             // A knife edge is on a disc, which has one flank.
-            let near = face || curves.offset() == 0.0 || (centre - touch.curve.point).norm() < curves.offset();
+            let near = face || curves.offset() == 0.0 || (centre - touch.curve.point).norm() < nearby;
             if near && normal.dot(&touch.drive) > 0.0 { parameter } else { f64::NAN }
         };
         let period = curves.motion.period();
