@@ -264,4 +264,23 @@ mod tests {
             }
         }
     }
+
+    /// Places all round the circle of arcs short and long: ahead up to the middle of what an arc leaves of it, then back.
+    #[test]
+    fn lengths_to_places_of_the_circle_count_back_behind_the_arc() {
+        for (curvature, share) in [0.5, -0.05, 4.0].into_iter().flat_map(|k| [0.01, 0.3, 0.6, 0.95].map(|s| (k, s))) {
+            let round = 2.0 * PI / f64::abs(curvature);
+            let (start, heading) = (Vector2::zeros(), Vector2::new(1.0, 0.0));
+            let arc = Round { start, heading, curvature, length: share * round };
+            for i in 1..200 {
+                let ahead = round * f64::from(i) / 200.0;
+                let beyond = ahead - 0.5 * (arc.length + round);
+                if beyond.abs() > 1e-6 * round {
+                    let place = arc.at(ahead).0;
+                    let off = arc.along(place.y, place.x) - if beyond > 0.0 { ahead - round } else { ahead };
+                    assert!(off.abs() < 1e-12 * round, "{curvature} {share} {i}: {off}");
+                }
+            }
+        }
+    }
 }

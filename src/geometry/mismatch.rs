@@ -145,4 +145,24 @@ mod tests {
             Contour { vertices: vec![at(4.5, 0.1, 1.0), at(-0.5, 0.1, 0.99), at(4.49, 0.0, 0.0), at(0.0, 0.05, 0.0)] };
         assert!(farthest(&circle, &spiked, 1e-9).distance < 0.1 && farthest(&spiked, &circle, 1e-9).distance > 0.4);
     }
+
+    /// An arc of radius 9 about (1.05, 0) beside one of radius 10 about (0, 0) reaches 0.05 beyond it, on the x axis; both moved.
+    #[test]
+    fn an_arc_is_farthest_from_an_arc_on_the_line_of_their_centres() {
+        let arc = |x: f64, radius: f64, half: f64| {
+            let end = Vector2::new(radius * libm::cos(half), radius * libm::sin(half));
+            let middle = Vector2::new(3.0 + x, -2.0);
+            Segment { start: middle + Vector2::new(end.x, -end.y), end: middle + end, bulge: libm::tan(0.5 * half) }
+        };
+        let turned = |s: Segment| Segment { start: s.end, end: s.start, bulge: -s.bulge };
+        for (x, radius, apart) in [(1.05, 9.0, 0.05), (0.95, 9.0, -0.05)] {
+            let (piece, along) = (arc(x, radius, 0.2), arc(0.0, 10.0, 0.6));
+            let ends = (((piece.end - Vector2::new(3.0, -2.0)).norm() - 10.0).abs()).max(f64::abs(apart));
+            for piece in [piece, turned(piece)] {
+                let found = alongside(&piece, &along, 1e-9).expect("beside it");
+                assert!((found - ends).abs() < 1e-12, "{found} {ends}");
+            }
+        }
+        assert_eq!(alongside(&arc(1.05, 9.0, 0.3), &arc(0.0, 10.0, 0.6), 1e-9), None, "too wide");
+    }
 }

@@ -424,4 +424,27 @@ mod tests {
         }
         assert!(quarter.cubics(1.0).is_none(), "no polynomial");
     }
+
+    #[test]
+    fn knots_without_a_span_carry_nothing() {
+        for degree in 1..=4 {
+            let values = vec![1.0; 2 * (degree + 1)];
+            assert!(!Knots { degree, values }.carry(degree + 1), "{degree}");
+        }
+    }
+
+    /// Two straight lines of different degrees, which have no control points to compare: the distance is that of their far ends.
+    #[test]
+    fn curves_of_two_degrees_are_as_far_apart_as_their_farthest_points() {
+        let line = |degree: u32, end: Vector3<f64>| {
+            let count = degree as usize;
+            let values = [vec![0.0; count + 1], vec![1.0; count + 1]].concat();
+            let place = |i: u32| weighted(end * (f64::from(i) / f64::from(degree)), 1.0);
+            Curve { knots: Knots { degree: count, values }, controls: (0..=degree).map(place).collect() }
+        };
+        let (one, other) = (line(1, Vector3::new(9.0, 0.0, 0.0)), line(3, Vector3::new(9.0, 4.0, 3.0)));
+        assert!((one.farthest(&other) - 5.0).abs() < 1e-12 && (other.farthest(&one) - 5.0).abs() < 1e-12);
+        assert!((one.farthest(&other.reversed()) - 106.0_f64.sqrt()).abs() < 1e-12);
+        assert!(one.farthest(&line(2, Vector3::new(9.0, 0.0, 0.0))) < 1e-12);
+    }
 }

@@ -327,4 +327,18 @@ mod tests {
         assert!(largest_size(noise, (0.0, 1.0), 1e-12).value <= 1e-15);
         assert_eq!(calls, LEAST_DEGREE + 2);
     }
+
+    /// A top nearer to an end than any sample.
+    #[test]
+    fn a_top_beside_an_end_is_found() {
+        for (from_end, low) in [1e-4, 1e-3, 1e-2].into_iter().flat_map(|a| [(a, true), (a, false)]) {
+            let top = if low { from_end } else { 1.0 - from_end };
+            let found = largest(|x| 1.0 - (x - top) * (x - top), (0.0, 1.0), 0.0);
+            assert!((found.at - top).abs() < 1e-7 && (found.value - 1.0).abs() < 1e-14, "{top}: {found:?}");
+        }
+        // Lowest at a and highest at b, both nearer to the end than any sample: b² (b − 3a)/6 from 0.
+        let (a, b) = (2e-4, 2e-3);
+        let found = largest(|x| -x * (x * (x / 3.0 - 0.5 * (a + b)) + a * b), (0.0, 1.0), 0.0);
+        assert!((found.value / (b * b * (b - 3.0 * a) / 6.0) - 1.0).abs() < 1e-9, "{found:?}");
+    }
 }

@@ -119,4 +119,14 @@ mod tests {
         let lost = Double::sum(1.0, 1e-25) - Double::from(1.0);
         assert!((lost.high - 1e-25).abs() < 1e-40);
     }
+
+    /// Each of the three quotients counts where the quotient is far from both numbers.
+    #[test]
+    fn quotients_of_any_size_are_right_to_the_same_share() {
+        for (a, b) in [(1.0, 7e15), (3.0, 1.1e-20), (-5e18, 0.7), (1e-30, 9e30)] {
+            let quotient = Double::from(a) / Double::from(b);
+            let off = quotient * Double::from(b) - Double::from(a);
+            assert!((off.high + off.low).abs() < 1e-30 * f64::abs(a), "{a} / {b}: {off:?}");
+        }
+    }
 }

@@ -553,3 +553,6 @@ fn words(rolled: &Rolled, kept: bool, agree: bool) -> String {
     let double = rolled.double_contact_at.map_or(String::new(), |at| format!("; two contacts at once at {at}"));
     if kept { format!("{compared}{double}") } else { format!("{fault}; {compared}{double}") }
 }
+
+#[cfg(test)]
+mod tests;

@@ -261,3 +261,25 @@ impl Mesh {
         Some(nodes)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Arcs of 1, 2, … 9 mm: the longest one counts, by its heading where that is the less, else by its curvature.
+    #[test]
+    fn the_farthest_lobe_is_that_of_the_longest_arc() {
+        for (heading, curvature, times_k) in [(1e-3, 1.0, 12e-3 * 9.0), (1.0, 1e-4, 2e-4 * 81.0)] {
+            let place = |i: u32| Vector2::new(100.0 + 0.5 * f64::from(i * (i + 1)), 7.0);
+            let allowed = Allowed { heading, curvature };
+            let node = |i: u32| {
+                let (along, still) = (Vector2::new(1.0, 0.0), Vector2::zeros());
+                let point = CurvePoint::from_derivatives(place(i), along, still, still);
+                Node { share: f64::from(i), ..Node::new((point, allowed), 0.0, 0.0, 1.0) }
+            };
+            let nodes: Vec<Node> = (0..10).map(node).collect();
+            let found = CHAIN * farthest_lobe(&nodes);
+            assert!((found - times_k).abs() < 1e-12, "{found} {times_k}");
+        }
+    }
+}

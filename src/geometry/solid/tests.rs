@@ -55,3 +55,16 @@ fn a_broken_boundary_is_not_closed_or_not_the_volume() {
     moved.boundaries[0].vertices[5].x += 1e-6;
     assert!(largest_gap(&moved) > 1e-7);
 }
+
+/// The sagitta of a chord c with a bulge b is b c/2, its radius c (1/b + b)/4.
+#[test]
+fn an_arc_is_a_line_where_nobody_could_tell() {
+    for (bulge, straight) in [(1e-8, true), (-1e-8, true), (2.2e-8, false), (1e-7, false), (0.01, false)] {
+        let (start, end) = (Vector2::new(3.0, 4.0), Vector2::new(63.0, 84.0));
+        let carried = edges(&Edge::Segment(Segment { start, end, bulge }));
+        assert!(
+            matches!(carried[..], [Edge::Segment(line)] if (line.bulge == 0.0) == straight),
+            "{bulge}: {carried:?}"
+        );
+    }
+}

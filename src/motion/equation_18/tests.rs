@@ -204,3 +204,35 @@ fn a_run_up_lies_along_the_way_of_the_bed() {
         assert!(matches!(wide, Err(WedgeMotionError::BlendTooWide { .. })));
     }
 }
+
+/// The force of a roller on a flank at α is the lever's P C cos ρ over sin(θ−α∓ρ), and what the lever loses, by angles.
+#[test]
+fn the_force_on_the_flank_is_that_of_the_triangle() {
+    let mechanism = mechanism(&law(&end(3.0, End::Outer), 2.0, Column::Return), 6.0, 0.9, ExactOn::Braking);
+    let rho = mechanism.friction_angle;
+    for (x, bottom) in [(0.02, 0.01), (0.05, -0.02)] {
+        let psi = mechanism.psi(bottom);
+        let (theta, arms) = (mechanism.delta + psi, mechanism.arm_ratio * libm::cos(psi));
+        for alpha in [-0.3, -0.05, 0.1, 0.4] {
+            let slope = arms * libm::sin(alpha) / libm::sin(theta - alpha);
+            assert!((mechanism.slope_angle(bottom, slope) - alpha).abs() < 1e-14, "{alpha}");
+            let side = Mechanism::trend_of(slope);
+            // What is braked and rises, or falls on the way back, costs the lever's losses; else they help.
+            let (braking, returning) = if alpha > 0.0 { (0.9, 1.0 / 0.9) } else { (1.0 / 0.9, 0.9) };
+            for (way, turned, eta) in [(Way::Braking, -rho, braking), (Way::Return, rho, returning)] {
+                let lever = mechanism.air(x, bottom) * arms * libm::cos(rho);
+                let want = lever / (eta * libm::sin(theta - alpha + turned));
+                let got = mechanism.normal_force(side, way, x, bottom, slope);
+                assert!((got / want - 1.0).abs() < 1e-13, "{way:?} {alpha}: {got} is not {want}");
+            }
+        }
+    }
+}
+
+/// The looser the tolerance, the fewer steps are told.
+#[test]
+fn more_digits_take_more_steps() {
+    let mechanism = mechanism(&law(&end(3.0, End::Outer), 2.0, Column::Matched), 3.0, 1.0, ExactOn::Braking);
+    let of = |tolerance: f64| Solution::new(&mechanism, tolerance).expect("no wall").steps();
+    assert!(1 < of(1e-6) && of(1e-6) < of(1e-15), "{} {}", of(1e-6), of(1e-15));
+}
