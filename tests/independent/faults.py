@@ -1378,6 +1378,10 @@ def main():
     parser.add_argument("--only", help="kinds with this word")
     options = parser.parse_args()
     options.rounds = options.rounds or (120 if options.full else 12)
+    # What runs in the background of a shell ignores interrupts, and so would all that it starts.
+    for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
+        if signal.getsignal(number) == signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
     options.directory.mkdir(parents=True, exist_ok=True)
     bench = Bench(options.binary, options.directory, options)
     if not bench.strace:
