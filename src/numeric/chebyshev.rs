@@ -31,6 +31,9 @@ const LEAST_CELL: f64 = 1e-9;
 /// middle (Ehlich & Zeller 1964).
 const BETWEEN_SAMPLES: f64 = 0.21;
 
+/// How far beside a place where the slope is rounding its sign is looked at, as a share of the way to the next.
+const BESIDE: f64 = 1.0 / 64.0;
+
 /// The fourth quarter of the coefficients over the third where the rest is known to be smaller than both.
 const FALLING: f64 = 0.25;
 
@@ -40,6 +43,42 @@ struct Cell {
     high: f64,
     values: Vec<f64>,
     coefficients: Vec<f64>,
+}
+
+/// The derivatives of the polynomial of a cell, by t in [−1, 1].
+struct Slopes {
+    first: Vec<f64>,
+    second: Vec<f64>,
+    /// A slope below this is rounding.
+    rounding: f64,
+    /// What the second derivative does not exceed.
+    most_bend: f64,
+}
+
+/// A place with the two.
+#[derive(Clone, Copy)]
+struct Place {
+    at: f64,
+    slope: f64,
+    bend: f64,
+}
+
+impl Slopes {
+    fn of(coefficients: &[f64]) -> Self {
+        let first = derivative(coefficients);
+        let second = derivative(&first);
+        let most = |of: &[f64]| of.iter().map(|c| c.abs()).sum::<f64>();
+        Self { rounding: ROUNDING * most(&first), most_bend: most(&second), first, second }
+    }
+
+    fn at(&self, at: f64) -> Place {
+        Place { at, slope: series(&self.first, at), bend: series(&self.second, at) }
+    }
+}
+
+/// How far a function whose second derivative does not exceed this leaves its chord of a width.
+fn leaves_chord(bend: f64, width: f64) -> f64 {
+    0.125 * bend * width * width
 }
 
 /// The search: the goal is what is to be largest, the value or its size.
@@ -105,7 +144,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
         let mut cell = Cell { low, high, values: Vec::new(), coefficients: Vec::new() };
         let all = Points::all();
         for ((points, cosines), grid) in all.of_degree.iter().zip(&all.of_grid) {
-            let before = std::mem::take(&mut cell.values);
+            let before = std::mem::replace(&mut cell.values, Vec::with_capacity(points.len()));
             for (index, point) in points.iter().enumerate() {
                 let known = if index % 2 == 0 { before.get(index / 2).copied() } else { None };
                 let at = cell.place(*point);
@@ -145,28 +184,59 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
         falling && most + BETWEEN_SAMPLES * (most - least) + 4.0 * (third + fourth) < self.best.value
     }
 
-    /// Tries the function where the derivative of the cell's polynomial vanishes.
+    /// Tries the function where the derivative of the cell's polynomial vanishes, but for where the polynomial stays below the largest
+    /// value known.
     fn try_stationary_points(&mut self, cell: &Cell, grid: &[f64]) {
-        let first = derivative(&cell.coefficients);
-        let second = derivative(&first);
-        let slope = |t: f64| series(&first, t);
-        let bend = |t: f64| series(&second, t);
-        let (mut left, mut left_slope, mut left_bend) = (-1.0, slope(-1.0), bend(-1.0));
-        for &right in grid.iter().rev().skip(1) {
-            let (right_slope, right_bend) = (slope(right), bend(right));
-            // Two stationary points within a cell of the grid: the slope has an extremum between them.
-            let turns =
-                left_slope * right_slope > 0.0 && left_bend * left_slope < 0.0 && right_bend * right_slope > 0.0;
-            let split = if turns { root::bracketed(bend, left, right, 0.0).ok() } else { None };
-            let ends = [(left, split.unwrap_or(right)), (split.unwrap_or(right), right)];
-            for (a, b) in ends.into_iter().take(if split.is_some() { 2 } else { 1 }) {
-                if slope(a) * slope(b) < 0.0
-                    && let Ok(t) = root::bracketed(slope, a, b, 0.0)
-                {
-                    self.sample(cell.place(t));
-                }
+        let slopes = Slopes::of(&cell.coefficients);
+        let mut before: Option<Place> = None;
+        // The grid has a place between two samples, both from the upper end to the lower.
+        for (values, places) in cell.values.windows(2).zip(grid.windows(3).step_by(2)).rev() {
+            let (&[high, low], &[right, middle, left]) = (values, places) else { continue };
+            let most = (self.goal)(high).max((self.goal)(low));
+            if most + leaves_chord(slopes.most_bend, right - left) < self.best.value {
+                continue;
             }
-            (left, left_slope, left_bend) = (right, right_slope, right_bend);
+            let mut from = before.filter(|place| place.at == left).unwrap_or_else(|| slopes.at(left));
+            for to in [middle, right].map(|at| slopes.at(at)) {
+                self.try_between(cell, &slopes, from, to);
+                from = to;
+            }
+            before = Some(from);
+        }
+    }
+
+    /// Tries the function where the slope changes its sign between two places.
+    fn try_between(&mut self, cell: &Cell, slopes: &Slopes, left: Place, right: Place) {
+        let from = self.beside(cell, slopes, left, right.at);
+        let to = self.beside(cell, slopes, right, left.at);
+        let slope = |t: f64| series(&slopes.first, t);
+        // Two stationary points within a cell of the grid: the slope has an extremum between them.
+        let turns = from.slope * to.slope > 0.0 && from.bend * from.slope < 0.0 && to.bend * to.slope > 0.0;
+        let split = if turns { root::bracketed(|t| series(&slopes.second, t), from.at, to.at, 0.0).ok() } else { None };
+        let Some(split) = split else {
+            if from.slope * to.slope < 0.0 {
+                self.try_root(cell, slope, (from.at, to.at));
+            }
+            return;
+        };
+        if from.slope * slope(split) < 0.0 {
+            self.try_root(cell, slope, (from.at, split));
+            self.try_root(cell, slope, (split, to.at));
+        }
+    }
+
+    /// A place; where its slope is rounding, and with it the sign, the function is tried there and the place moved a little to another.
+    fn beside(&mut self, cell: &Cell, slopes: &Slopes, place: Place, other: f64) -> Place {
+        if place.slope.abs() > slopes.rounding {
+            return place;
+        }
+        self.sample(cell.place(place.at));
+        slopes.at(place.at + BESIDE * (other - place.at))
+    }
+
+    fn try_root(&mut self, cell: &Cell, slope: impl Fn(f64) -> f64, (low, high): (f64, f64)) {
+        if let Ok(t) = root::bracketed(slope, low, high, 0.0) {
+            self.sample(cell.place(t));
         }
     }
 }
@@ -326,6 +396,17 @@ mod tests {
         };
         assert!(largest_size(noise, (0.0, 1.0), 1e-12).value <= 1e-15);
         assert_eq!(calls, LEAST_DEGREE + 2);
+    }
+
+    /// A top beside a saddle on a sample, where slope and bend are rounding.
+    #[test]
+    fn a_top_beside_a_saddle_on_a_sample_is_found() {
+        for a in [1e-3, 1e-2, 0.04] {
+            // x⁴/4 − a x³/3, downwards: slope x² (a − x).
+            let top = |x: f64| 3.0 + a * x * x * x / 3.0 - x * x * x * x / 4.0 + 1e-17 * libm::sin(1e9 * x);
+            let found = largest(top, (-1.0, 1.0), 0.0);
+            assert!(found.value >= top(a) * (1.0 - 2e-11), "{a}: {found:?} {}", top(a));
+        }
     }
 
     /// A top nearer to an end than any sample.
