@@ -129,6 +129,35 @@ pub fn both_ways_from(known: &[(f64, (f64, f64))], mut both: impl FnMut(f64) -> 
     })
 }
 
+/// The same of value, slope and the slope's own slope at once: where the slope turns towards zero and back between two cells it is looked at
+/// where it is nearest to it, so that no pair of stationary places beside each other stays unseen.
+pub fn both_ways_with_bend(mut all: impl FnMut(f64) -> [f64; 3], range: (f64, f64), cells: u32) -> [Extremum; 2] {
+    let mut known: Vec<(f64, (f64, f64))> = Vec::new();
+    let mut before: Option<(f64, [f64; 3])> = None;
+    for at in between_cells(range, cells) {
+        let here = (at, all(at));
+        if let Some(before) = before.filter(|before| turns_back(before.1, here.1))
+            && let Ok(turn) = root::bracketed(|at| all(at)[2], before.0, at, 0.0)
+        {
+            let [value, slope, _] = all(turn);
+            known.push((turn, (value, slope)));
+        }
+        known.push((at, (here.1[0], here.1[1])));
+        before = Some(here);
+    }
+    both_ways_from(&known, |at| {
+        let [value, slope, _] = all(at);
+        (value, slope)
+    })
+}
+
+/// Whether a slope that has one sign at both ends of a cell, or is 0 at one, may have the other between them.
+fn turns_back([_, slope, bend]: [f64; 3], [_, end_slope, end_bend]: [f64; 3]) -> bool {
+    let sign = if slope == 0.0 { end_slope } else { slope };
+    let inwards = |slope: f64, falls: f64| slope == 0.0 || slope * sign > 0.0 && falls < 0.0;
+    bend * sign < 0.0 && end_bend * sign > 0.0 && inwards(slope, bend * sign) && inwards(end_slope, -end_bend * sign)
+}
+
 /// Golden sections that shrink a bracket to √ε of its width, where a flat top ends: 0.618 each.
 pub const TO_ROUNDING: u32 = 38;
 
@@ -215,6 +244,20 @@ mod tests {
         assert!((without.at - exact).abs() < 1e-7 && (without.value - hills(exact)).abs() < 1e-15, "{without:?}");
         let end = largest(|x| x * x, |x| 2.0 * x, (-1.0, 2.0), 4);
         assert_eq!(end, Extremum { at: 2.0, value: 4.0 });
+    }
+
+    /// Two stationary places much nearer to each other than a cell is wide, and one beside a stationary end.
+    #[test]
+    fn finds_what_the_bend_shows() {
+        // x³/3 − (a + b) x²/2 + a b x has its top at a and its valley at b.
+        for (a, b) in [(0.4, 0.4001), (1e-7, 2e-5), (0.0, 1e-6), (0.999_99, 1.0)] {
+            let cubic = |x: f64| [x * (x * (x / 3.0 - 0.5 * (a + b)) + a * b), (x - a) * (x - b), 2.0 * x - a - b];
+            let [top, low] = both_ways_with_bend(|x| cubic(x).map(|y| y), (0.0, 1.0), 7);
+            let (valley, hill) = (cubic(b)[0], cubic(a)[0]);
+            let ends = [cubic(0.0)[0], cubic(1.0)[0]];
+            assert_eq!(-low.value, ends[0].min(ends[1]).min(valley), "{a} {b}: {low:?}");
+            assert_eq!(top.value, ends[0].max(ends[1]).max(hill), "{a} {b}: {top:?}");
+        }
     }
 
     /// A rise from rest that dips first, and a hill beside a valley within a cell.

@@ -105,9 +105,13 @@ impl<'a> Curves<'a> {
     /// the parameter.
     #[must_use]
     pub fn face_radius(&self, piece: usize, parameter: f64) -> (f64, f64) {
-        let lift = self.motion.jet(piece, parameter);
-        let curve = self.follower.touch(parameter, &lift).curve;
-        let turn = self.follower.on_face(&lift).map_or(1.0, |face| face.turn);
+        self.face_radius_of(parameter, &self.motion.jet(piece, parameter))
+    }
+
+    /// The same of a lift.
+    pub(crate) fn face_radius_of(&self, parameter: f64, lift: &Jet) -> (f64, f64) {
+        let curve = self.follower.touch(parameter, lift).curve;
+        let turn = self.follower.on_face(lift).map_or(1.0, |face| face.turn);
         // ℓ = ρ β', which is right where κ = 1/ρ is not; dρ/dθ = −κ' ℓ/κ².
         let radius = curve.speed / turn;
         (radius, -curve.curvature_slope * curve.speed * radius * radius)
@@ -142,11 +146,11 @@ const LIFT_CELLS: u32 = 64;
 #[must_use]
 pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
     let of_piece = |(index, piece): (usize, &Piece)| {
-        let both = |at: f64| {
+        let all = |at: f64| {
             let jet = motion.jet(index, at);
-            (jet.s, jet.ds)
+            [jet.s, jet.ds, jet.dds]
         };
-        let [most, least] = extremum::both_ways_with_slope(both, (piece.start, piece.end), LIFT_CELLS);
+        let [most, least] = extremum::both_ways_with_bend(all, (piece.start, piece.end), LIFT_CELLS);
         (-least.value, most.value)
     };
     let all = motion.distinct().iter().enumerate().map(of_piece);

@@ -305,13 +305,13 @@ impl Program {
     /// With its lowest place.
     fn finished(mut self) -> Self {
         let least = self.pieces.iter().zip(&self.sources).enumerate().map(|(index, (piece, source))| {
-            let depth = |at: f64| {
+            let all = |at: f64| {
                 let position = self.position(index, at);
-                (-position.s, -position.ds)
+                [position.s, position.ds, position.dds]
             };
             let curve = self.segments.get(source.segment).and_then(|segment| segment.curve.as_ref());
             let cells = curve.map_or(1, |curve| source.parts.clone().map(|part| curve.cells(part).min(CELLS)).sum());
-            -extremum::largest_with_slope(depth, (piece.start, piece.end), cells).value
+            -extremum::both_ways_with_bend(all, (piece.start, piece.end), cells)[1].value
         });
         self.lowest = least.fold(f64::INFINITY, f64::min);
         self

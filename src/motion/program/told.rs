@@ -3,6 +3,7 @@
 use super::{Program, State};
 use crate::motion::Motion;
 use crate::motion::laws::optimum::Optimum;
+use crate::numeric::extremum;
 
 /// How a segment begins or ends (VDI 2143).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,12 +120,12 @@ impl Program {
 pub(super) fn range(segment: &super::Segment) -> (f64, f64) {
     let Some(curve) = &segment.curve else { return (segment.from, segment.from) };
     let ranges = (0..curve.parts()).map(|part| {
-        let at = |x: f64| segment.from + segment.travel * curve.at(part, x)[0];
-        let slope = |x: f64| segment.travel * curve.at(part, x)[1];
-        let (range, cells) = (curve.range_of(part), curve.cells(part));
-        let top = crate::numeric::extremum::largest(at, slope, range, cells).value;
-        let low = -crate::numeric::extremum::largest(|x| -at(x), |x| -slope(x), range, cells).value;
-        (low, top)
+        let all = |x: f64| {
+            let [value, slope, bend, _] = curve.at(part, x).map(|value| segment.travel * value);
+            [segment.from + value, slope, bend]
+        };
+        let [top, low] = extremum::both_ways_with_bend(all, curve.range_of(part), curve.cells(part));
+        (-low.value, top.value)
     });
     ranges.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, top), (l, t)| (low.min(l), top.max(t)))
 }
@@ -148,15 +149,16 @@ fn told(segment: &super::Segment) -> SegmentTold {
     let Some(curve) = &segment.curve else { return rest };
     let [velocity, acceleration, jerk] = curve.peak_rates();
     let (travel, width) = (segment.travel.abs(), segment.width);
-    let place = |found: crate::numeric::extremum::Extremum, power: i32| {
+    let place = |found: extremum::Extremum, power: i32| {
         (found.value * travel / width.powi(power), segment.start + found.at * width)
     };
     let (low, top) = range(segment);
     let (least, most) = (positions.0.min(positions.1), positions.0.max(positions.1));
     let over = (top - most).max(least - low).max(0.0);
+    let rounding = ROUNDING * (top - low) + 8.0 * f64::EPSILON * most.abs().max(least.abs());
     SegmentTold {
         // Rounding at the ends is no overshoot.
-        overshoot: if !segment.whole && over > ROUNDING * travel.max(most - least) { over } else { 0.0 },
+        overshoot: if !segment.whole && over > rounding { over } else { 0.0 },
         range: (low, top),
         peaks: [place(velocity, 1), place(acceleration, 2), place(jerk, 3)],
         humps: curve.humps(),
