@@ -13,7 +13,7 @@ use crate::motion::laws::{self, Inflection, LAWS, Law, LawError, Parameters};
 use crate::units;
 use std::f64::consts::{PI, TAU};
 
-/// By how much the sum of the segments may differ from a whole turn, rad: rounding of typed angles.
+/// By how much the sum of the segments may differ from a whole turn, rad: rounding of typed angles. No segment is as short.
 const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 /// By how much the last position may miss the first, over the largest: rounding of sums.
 const SAME_PLACE: f64 = 1e-12;
@@ -166,7 +166,7 @@ fn step(segment: &Table<'_>, whole: Whole, (position, sum, last): (f64, f64, boo
             segment.fail(&VELOCITY, "the velocity leads away from `to`".into(), Some("turn its sign".into()));
             return None;
         }
-        (None, _) if last && sum < whole.fill => whole.fill - sum,
+        (None, _) if last && sum < whole.fill - WHOLE_TURN => whole.fill - sum,
         (None, _) => {
             let help = "only the last segment may omit it; it then takes the rest of the turn";
             segment.fail(&OVER, "a segment has no `over`".into(), Some(help.into()));
@@ -223,7 +223,7 @@ fn width(segment: &Table<'_>, whole: Whole, sum: f64, rest: bool) -> Result<Opti
     if segment.has(&UNTIL) {
         let until = segment.get(&UNTIL).ok_or(Told)?;
         let over = until - (whole.at + sum);
-        if !(over > 0.0 && over <= TAU + WHOLE_TURN) {
+        if !(over > WHOLE_TURN && over <= TAU + WHOLE_TURN) {
             let from = (whole.at + sum).to_degrees();
             let message = format!("`until` must be behind the start of the segment, {from:.6} deg");
             segment.fail(&UNTIL, message, None);
@@ -232,9 +232,15 @@ fn width(segment: &Table<'_>, whole: Whole, sum: f64, rest: bool) -> Result<Opti
         return Ok(Some(over));
     }
     if segment.has(&OVER) {
-        return segment.get(&OVER).map(Some).ok_or(Told);
+        let over = segment.get(&OVER).ok_or(Told)?;
+        if over <= WHOLE_TURN {
+            let message = "a segment must take more than 1e-9 deg";
+            segment.fail(&OVER, message.into(), Some("make it longer, or leave it out".into()));
+            return Err(Told);
+        }
+        return Ok(Some(over));
     }
-    if rest && sum >= whole.fill {
+    if rest && sum >= whole.fill - WHOLE_TURN {
         let message = format!("the segments before the last already cover {:.6} deg", sum.to_degrees());
         segment.fail(&OVER, message, Some("make them shorter, or remove the last".into()));
         return Err(Told);
