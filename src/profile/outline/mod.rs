@@ -160,9 +160,34 @@ pub enum OutlineError {
         /// Cam angle, degrees.
         cam_deg: f64,
     },
+    /// A part of a turning cam is not smooth, or the tolerance cannot be kept there.
+    #[error(
+        "no edges follow the outline between {from_deg:.3} and {to_deg:.3} deg of the cam: {error}. Where the motion is too \
+         steep for any, give it more cam angle or a larger cam.base_radius"
+    )]
+    Part {
+        /// First cam angle, degrees.
+        from_deg: f64,
+        /// Last cam angle, degrees.
+        to_deg: f64,
+        /// What is the matter.
+        error: FitError,
+    },
     /// The curve is not smooth, or the tolerance cannot be kept.
     #[error(transparent)]
     Fit(#[from] FitError),
+}
+
+impl OutlineError {
+    /// With the range of cam angles it is about, where there is one.
+    fn between(self, (from, to): (f64, f64), period: Option<f64>) -> Self {
+        match self {
+            Self::Fit(error) if period.is_some() => {
+                Self::Part { from_deg: from.to_degrees(), to_deg: to.to_degrees(), error }
+            }
+            other => other,
+        }
+    }
 }
 
 impl Outline {
@@ -352,7 +377,8 @@ fn parallel(
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
                 outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
-                outline.lay_felt(curves, (index, distance, stands_for), range, fit)?;
+                let laid = outline.lay_felt(curves, (index, distance, stands_for), range, fit);
+                laid.map_err(|error| error.between(range, period))?;
             }
             // Readers drop a shorter arc.
             let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
@@ -364,14 +390,30 @@ fn parallel(
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
         // At a concave corner of the pitch curve the roller turns in place: an arc of its own radius.
         if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
-            && distance > 0.0
+            && MILLIMETRES * corner.turn.abs() * distance > SHORTEST_ARC
             && whole
         {
             let bulge = libm::tan(0.25 * corner.turn);
             outline.contour.vertices.push(Vertex::new(frame(index, piece.end).point, bulge));
         }
+        if whole && steps_forward(curves, index) {
+            outline.contour.vertices.push(Vertex::new(frame(index, piece.end).point, 0.0));
+        }
     }
     Ok(outline)
+}
+
+/// Whether the contact under a flat face moves on along it at the end of a piece, because the velocity grows there at once: between both
+/// places the profile is straight.
+fn steps_forward(curves: Curves<'_>, index: usize) -> bool {
+    let pieces = curves.motion.pieces();
+    let next = (index + 1) % pieces.len();
+    let (Element::Face, Some(piece), Some(after)) = (curves.element(), pieces.get(index), pieces.get(next)) else {
+        return false;
+    };
+    let here = curves.touch(index, piece.end).curve;
+    let there = curves.touch(next, after.start).curve;
+    MILLIMETRES * (there.point - here.point).dot(&here.tangent) > SHORTEST_ARC
 }
 
 /// Whether a gap starts at a parameter, by whole turns.

@@ -82,7 +82,7 @@ fn what_cannot_be_drawn_is_told() {
     let huge = rotary(&["cam.base_radius=1000m"]);
     assert!(matches!(profile(huge.curves(), 0.005), Err(OutlineError::TooLarge { .. })));
     let cam = rotary(&[]);
-    assert!(matches!(profile(cam.curves(), 1e-16), Err(OutlineError::Fit(_))));
+    assert!(matches!(profile(cam.curves(), 1e-16), Err(OutlineError::Part { .. })));
 }
 
 /// At a concave corner the roller turns in place, its centre in that of the arc: the distance from there is the radius, whatever
