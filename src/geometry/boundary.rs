@@ -18,6 +18,13 @@ const LEAST_GAP: f64 = 1e-7;
 /// be one, 1e-7 rad, sets the profile under a roller of 100 mm back by as much. A line would run against the profile.
 const LEAST_STEP_BACK: f64 = 1e-5;
 
+/// A stretch of a curve turns by no more than a third of a half turn, so that the normals at its ends tell what lies before and behind
+/// them: the least cosine between its ends and its middle. Where that would not be seen its curvature is high.
+const LEAST_COSINE: f64 = 0.5;
+const MOST_TURN: f64 = 4.0;
+/// Halvings of a stretch that turns more.
+const HALVINGS: u32 = 16;
+
 /// The point of a curve at a parameter of one of its pieces, mm.
 pub type Frame<'a> = dyn Fn(usize, f64) -> CurvePoint + 'a;
 
@@ -100,22 +107,24 @@ impl<'a> Boundary<'a> {
     fn joined(frame: Box<Frame<'a>>, stretches: &[Stretch], closed: bool) -> Self {
         let mut boundary = Self { frame, stretches: Vec::new(), ends: Vec::new() };
         let mut ends: Vec<[CurvePoint; 2]> = Vec::new();
-        let mut before: Option<&Stretch> = None;
+        let mut parts: Vec<Stretch> = Vec::with_capacity(stretches.len());
         for stretch in stretches {
             // A range that goes on where the one before ended starts with the same point.
-            let start = match (before.filter(|before| before.goes_on(stretch)), ends.last()) {
+            let start = match (parts.last().filter(|before| before.goes_on(stretch)), ends.last()) {
                 (Some(_), Some(last)) => last[1],
                 _ => boundary.on(stretch, stretch.from),
             };
-            ends.push([start, boundary.on(stretch, stretch.to)]);
-            before = Some(stretch);
+            boundary.turning_little(*stretch, [start, boundary.on(stretch, stretch.to)], HALVINGS, &mut |part, own| {
+                parts.push(part);
+                ends.push(own);
+            });
         }
         let next = ends.iter().skip(1).chain(ends.first());
-        for (index, ((stretch, own), next)) in stretches.iter().zip(&ends).zip(next).enumerate() {
+        for (index, ((stretch, own), next)) in parts.iter().zip(&ends).zip(next).enumerate() {
             boundary.stretches.push(*stretch);
             boundary.ends.push(*own);
             let (start, end) = (own[1].point, next[0].point);
-            let last = index + 1 == stretches.len();
+            let last = index + 1 == parts.len();
             let gap = end - start;
             let back = gap.dot(&own[1].tangent) < 0.0 && gap.norm() <= LEAST_STEP_BACK;
             if (closed || !last) && gap.norm() > LEAST_GAP && !back {
@@ -125,6 +134,33 @@ impl<'a> Boundary<'a> {
             }
         }
         boundary
+    }
+
+    /// Adds a stretch with its ends, halved until it turns little.
+    fn turning_little(
+        &self,
+        stretch: Stretch,
+        ends: [CurvePoint; 2],
+        halvings: u32,
+        add: &mut impl FnMut(Stretch, [CurvePoint; 2]),
+    ) {
+        if matches!(stretch.kind, Kind::Segment(_)) {
+            return add(stretch, ends);
+        }
+        let halfway = 0.5 * (stretch.from + stretch.to);
+        let middle = self.on(&stretch, halfway);
+        let rate = |point: &CurvePoint| (point.speed * point.curvature).abs();
+        let most = ends.iter().map(rate).fold(rate(&middle), f64::max);
+        let [first, between, last] = [ends[0], middle, ends[1]].map(|point| point.tangent);
+        let cosines = [first.dot(&between), between.dot(&last), first.dot(&last)];
+        let little =
+            most * (stretch.to - stretch.from) <= MOST_TURN && cosines.iter().all(|cosine| *cosine > LEAST_COSINE);
+        if little || halvings == 0 || !(stretch.from < halfway && halfway < stretch.to) {
+            return add(stretch, ends);
+        }
+        let [start, end] = ends;
+        self.turning_little(Stretch { to: halfway, ..stretch }, [start, middle], halvings - 1, add);
+        self.turning_little(Stretch { from: halfway, ..stretch }, [middle, end], halvings - 1, add);
     }
 
     /// Its stretches in order.
