@@ -106,6 +106,9 @@ pub struct Followed<'a> {
     closed: bool,
 }
 
+/// Shortest edge that is followed, mm: what it turns by moves a follower by less than rounding.
+const LEAST_EDGE: f64 = 1e-6;
+
 /// The outward unit normal at a tangent of an outline that runs counter-clockwise.
 fn outward(tangent: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(tangent.y, -tangent.x)
@@ -144,7 +147,8 @@ impl<'a> Followed<'a> {
         let corner = |from: f64, to: f64, point: Vector2<f64>| {
             (from, to, Guide::Circle(point / MILLIMETRES, if face { out } else { out.abs() }))
         };
-        for edge in edges {
+        // What is shorter has any direction where its ends were rounded, and is passed over.
+        for edge in edges.iter().filter(|edge| edge.length() > LEAST_EDGE) {
             let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
             let from = parameter(edge.start(), edge.start_tangent());
             let to = parameter(edge.end(), edge.end_tangent());
