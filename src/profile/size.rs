@@ -104,25 +104,36 @@ struct Sizing<'a> {
     required: &'a Required,
     /// The largest lift that has to be in reach.
     top: f64,
-    /// Lifts at which the pressure angle is looked at first, with the follower's place where it has one.
-    sampled: Option<(Place, f64, Vec<Jet>)>,
+    /// What is looked at first where sizes are tried one by one.
+    sampled: Option<Sampled>,
 }
 
-/// By how much a pressure angle is clearly too large, rad: nearer to its limit it is solved, so that sizes are compared alike there.
+/// Places at which a size is looked at first: nearly all that do not pass are clearly broken at one of them.
+struct Sampled {
+    /// Cam angle and lift.
+    lifts: Vec<(f64, Jet)>,
+    /// The follower's place where it has one.
+    place: Option<(Place, f64)>,
+}
+
+/// By how much a pressure angle is clearly too large, rad, or a profile too sharp, as a share: nearer to its limit it is solved, so that
+/// sizes are compared alike there.
 const CLEARLY: f64 = 0.03;
-/// Steps of a piece at which a pressure angle is looked at first.
+/// Steps of a piece at which a size is looked at first.
 const SAMPLES: u32 = 24;
 
 /// The lifts of a motion under a follower of limited reach, whose sizes are tried one by one.
-fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<(Place, f64, Vec<Jet>)> {
-    let place = follower.place().filter(|_| follower.prime_radii().1.is_finite())?;
+fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<Sampled> {
+    if follower.prime_radii().1.is_infinite() {
+        return None;
+    }
     let pieces = motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index));
     let lifts = pieces.flat_map(|(index, piece)| {
         let steps = if piece.dwell { 1 } else { SAMPLES };
         let at = move |step: u32| piece.start + (piece.end - piece.start) * f64::from(step) / f64::from(steps);
-        (0..=steps).map(move |step| motion.jet(index, at(step)))
+        (0..=steps).map(move |step| (at(step), motion.jet(index, at(step))))
     });
-    Some((place, place.of(follower), lifts.collect()))
+    Some(Sampled { lifts: lifts.collect(), place: follower.place().map(|place| (place, place.of(follower))) })
 }
 
 impl Sizing<'_> {
@@ -163,24 +174,36 @@ impl Sizing<'_> {
         worse(excess, sharpest(false) * CLOSING_OVER_ROLLER * roller - 1.0)
     }
 
-    /// The worse of both limits; of the pressure angle alone where it is clearly too large at one of the lifts that are looked at first.
+    /// The worse of both limits; of one alone where that is clearly broken at one of the lifts that are looked at first.
     fn either(&self, radius: f64) -> f64 {
-        match self.sampled_pressure(radius) {
-            Some(excess) if excess > CLEARLY => excess,
-            _ => worse(self.pressure(radius), self.curvature(radius)),
-        }
+        let clearly = |excess: Option<f64>| excess.filter(|excess| *excess > CLEARLY);
+        clearly(self.sampled_pressure(radius))
+            .or_else(|| clearly(self.sampled_sharpness(radius)))
+            .unwrap_or_else(|| worse(self.pressure(radius), self.curvature(radius)))
     }
 
     /// By how much the pressure angle is too large at the lifts that are looked at first.
     fn sampled_pressure(&self, radius: f64) -> Option<f64> {
-        let (place, choice, lifts) = self.sampled.as_ref()?;
+        let Sampled { lifts, place } = self.sampled.as_ref()?;
+        let (place, choice) = place.as_ref()?;
         let shaft = place.shaft(*choice, radius)?;
         let [most, least] = self.required.pressure_angles;
-        let excess = |lift: &Jet| {
+        let excess = |(_, lift): &(f64, Jet)| {
             let angle = place.pressure_angle(lift, shaft);
             (angle - most).max(-angle - least)
         };
         Some(lifts.iter().map(excess).fold(f64::NEG_INFINITY, f64::max))
+    }
+
+    /// By how much the profile under a face is too sharp at the lifts that are looked at first.
+    fn sampled_sharpness(&self, radius: f64) -> Option<f64> {
+        if self.follower.element() != Element::Face {
+            return None;
+        }
+        let follower = self.follower.sized(radius).filter(|follower| self.top <= follower.reach().1)?;
+        let curves = Curves { motion: self.motion, follower: &*follower };
+        let least = self.sampled.as_ref()?.lifts.iter().map(|(at, lift)| curves.face_radius_of(*at, lift).0);
+        Some((self.required.convex_radius - least.fold(f64::INFINITY, f64::min)) / radius)
     }
 
     /// The prime radius that the pressure angle alone asks for under a roller on a straight path with its offset: tan α = (s' − ε)/(u0 + s)
@@ -237,12 +260,18 @@ pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &Require
 fn first_of_falling(least: f64, sizing: &Sizing<'_>) -> Result<f64, NoRadius> {
     let (pressure, curvature) = (|radius: f64| sizing.pressure(radius), |radius: f64| sizing.curvature(radius));
     let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
-    let mut radius = sizing.by_pressure_angle().map_or(least, |by_angle| just_above(by_angle, pressure).max(least));
+    let by_angle = sizing.by_pressure_angle().map(|by_angle| passing_just_above(by_angle, pressure));
+    let mut radius = by_angle.map_or(least, |by_angle| by_angle.unwrap_or_else(|missed| missed).max(least));
+    // The radius at which each limit was seen to be kept last.
+    let mut kept = [by_angle.and_then(Result::ok), None];
     for _ in 0..ROUNDS {
-        for limit in limits {
-            radius = first_at_or_above(radius, limit)?;
+        for (limit, kept) in limits.iter().zip(&mut kept) {
+            if *kept != Some(radius) {
+                radius = first_at_or_above(radius, limit)?;
+                *kept = Some(radius);
+            }
         }
-        if limits.iter().all(|limit| limit(radius) <= 0.0) {
+        if kept.iter().all(|kept| *kept == Some(radius)) {
             return Ok(radius);
         }
     }
@@ -254,8 +283,13 @@ const ULPS: u32 = 64;
 
 /// A radius that should just pass, on the side that does.
 fn just_above(radius: f64, excess: impl Fn(f64) -> f64) -> f64 {
+    passing_just_above(radius, excess).unwrap_or_else(|missed| missed)
+}
+
+/// The same; the radius itself as an error where none so near passes.
+fn passing_just_above(radius: f64, excess: impl Fn(f64) -> f64) -> Result<f64, f64> {
     let grown = (0..=ULPS.ilog2()).map(|power| radius * (1.0 + f64::from(1_u32 << power) * f64::EPSILON));
-    std::iter::once(radius).chain(grown).find(|radius| excess(*radius) <= 0.0).unwrap_or(radius)
+    std::iter::once(radius).chain(grown).find(|radius| excess(*radius) <= 0.0).ok_or(radius)
 }
 
 /// The first radius from `low` on at which `excess` is not positive.
@@ -272,7 +306,7 @@ fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRad
             while excess(radius) > 0.0 && radius < passing {
                 radius *= 1.0 + 4.0 * f64::EPSILON;
             }
-            return Ok(radius);
+            return Ok(radius.min(passing));
         }
         (failing, passing) = (passing, 2.0 * passing);
     }

@@ -9,7 +9,7 @@ use crate::body::{Body, plane};
 use crate::geometry::MILLIMETRES;
 use crate::load::{Pressing, guide};
 use crate::machine::{GuideData, Machine, SpringData};
-use crate::motion::{Motion, Piece, Quantity};
+use crate::motion::{Jet, Motion, Piece, Quantity};
 use crate::numeric::digits::three_digits_up;
 use crate::numeric::root;
 use crate::profile::extremes::{self, Acting};
@@ -94,12 +94,17 @@ impl Disc {
     /// the follower: along a straight path, N; about the pivot of one that swings, N·m. `None` where no force is known.
     #[must_use]
     pub fn acting_force(&self, piece: usize, angle: f64) -> Option<f64> {
+        self.acting_force_of((piece, angle), || self.motion.jet(piece, angle))
+    }
+
+    /// The same where the lift may be known.
+    fn acting_force_of(&self, (piece, angle): (usize, f64), lift: impl FnOnce() -> Jet) -> Option<f64> {
         let pressing = self.pressing()?;
         let load = self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle));
         if pressing.is_constant() {
             return Some(load + pressing.constant);
         }
-        Some(load + pressing.at(&self.motion.jet(piece, angle)))
+        Some(load + pressing.at(&lift()))
     }
 
     /// The same as a force along the path of what touches the cam, N.
@@ -115,7 +120,12 @@ impl Disc {
     /// What the cam drives the follower with: as [`Self::acting_force`], with the friction of its guide.
     #[must_use]
     pub fn driving_force(&self, piece: usize, angle: f64) -> Option<f64> {
-        let acting = self.acting_force(piece, angle)?;
+        self.driving_force_of((piece, angle), || self.motion.jet(piece, angle))
+    }
+
+    /// The same where the lift may be known.
+    fn driving_force_of(&self, (piece, angle): (usize, f64), lift: impl FnOnce() -> Jet) -> Option<f64> {
+        let acting = self.acting_force_of((piece, angle), lift)?;
         let Some(guide) = self.own.guide.filter(|_| acting > 0.0) else { return Some(acting) };
         let contact = self.curves().contact(piece, angle);
         Some(acting * libm::cos(contact.pressure_angle) / self.share_borne(&guide, (piece, angle), &contact).max(0.0))
@@ -124,8 +134,9 @@ impl Disc {
     /// Force along the normal, N, with the friction of the guide; infinite where it jams, 0 where the follower has left the cam.
     #[must_use]
     pub fn normal_force(&self, piece: usize, angle: f64) -> Option<f64> {
-        let acting = self.acting_force(piece, angle)?;
-        Some(self.along_normal(acting, (piece, angle), &self.curves().contact(piece, angle)).max(0.0))
+        let contact = self.curves().contact(piece, angle);
+        let acting = self.acting_force_of((piece, angle), || contact.lift)?;
+        Some(self.along_normal(acting, (piece, angle), &contact).max(0.0))
     }
 
     fn along_normal(&self, acting: f64, at: (usize, f64), contact: &Contact) -> f64 {
@@ -167,10 +178,10 @@ impl Disc {
 
     /// The forces of a row of the table.
     pub(super) fn force_row(&self, (piece, angle): (usize, f64), contact: &Contact) -> Option<ForceRow> {
-        let acting = self.acting_force(piece, angle)?;
+        let acting = self.acting_force_of((piece, angle), || contact.lift)?;
         Some(ForceRow {
             path: acting / self.follower.leverage(&contact.lift),
-            torque: self.torque(piece, angle),
+            torque: self.torque_of((piece, angle), contact.lift),
             contact: Some(self.along_normal(acting, (piece, angle), contact)),
         })
     }
@@ -188,10 +199,14 @@ impl Disc {
 
     /// Torque of the shaft, N·m; NaN where no force is known.
     pub(super) fn torque(&self, piece: usize, angle: f64) -> f64 {
+        self.torque_of((piece, angle), self.motion.jet(piece, angle))
+    }
+
+    fn torque_of(&self, at: (usize, f64), lift: Jet) -> f64 {
         // Where the follower rests there is no work, jammed or not.
-        match self.motion.jet(piece, angle).ds {
+        match lift.ds {
             0.0 => 0.0,
-            velocity => self.driving_force(piece, angle).unwrap_or(f64::NAN) * velocity,
+            velocity => self.driving_force_of(at, || lift).unwrap_or(f64::NAN) * velocity,
         }
     }
 

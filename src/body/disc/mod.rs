@@ -499,7 +499,7 @@ impl Body for Disc {
         let outline = outline::profile(curves, request.fit).map_err(|error| match error {
             OutlineError::Undercut(_) => DrawError::NoOutline(error.to_string()),
             // Cusps of an undercut profile can lie too near each other to be told apart.
-            OutlineError::Fit(_) if self.least_radius().value <= curves.offset() => {
+            OutlineError::Fit(_) | OutlineError::Part { .. } if self.least_radius().value <= curves.offset() => {
                 DrawError::NoOutline(error.to_string())
             }
             other => DrawError::Outline(other),

@@ -62,11 +62,12 @@ impl Disc {
         let required = self.required();
         let by_shape = size::smallest(&*self.motion, &*self.follower, &required);
         let smallest = by_shape.ok().and_then(|smallest| self.keeping_all(smallest));
-        let base = match (self.machine.cam.base_radius, smallest) {
-            (Some(base), _) => base,
-            (None, Some(smallest)) => smallest.base_radius,
+        let (base, smallest) = match (self.machine.cam.base_radius, smallest) {
+            (Some(base), smallest) => (base, smallest.map(|(smallest, _)| smallest)),
+            // Its worst places are known.
+            (None, Some((smallest, disc))) => return Ok(Self { smallest: Some(smallest), ..disc }),
             // A limit that no radius keeps: its check says so.
-            (None, None) => by_shape?.base_radius,
+            (None, None) => (by_shape?.base_radius, None),
         };
         let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
         let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
@@ -95,21 +96,25 @@ impl Disc {
     }
 
     /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each
-    /// as its check measures it; `None` when no size in reach does.
-    fn keeping_all(&self, smallest: Smallest) -> Option<Smallest> {
+    /// as its check measures it, and the cam on its base radius; `None` when no size in reach does.
+    fn keeping_all(&self, smallest: Smallest) -> Option<(Smallest, Self)> {
         let offset = self.follower.element().offset();
         let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
-        if keeps(smallest.base_radius) {
-            return Some(self.before_rounding(smallest, keeps));
+        let disc = self.on(smallest.base_radius);
+        let broken = disc.as_ref().map(|disc| broken_limit(disc));
+        if let (Some(disc), Some(None)) = (&disc, broken) {
+            return Some((self.before_rounding(smallest, keeps), disc.clone()));
         }
-        if self.on(smallest.base_radius).is_some_and(|disc| disc.has_corner()) {
+        // A larger cam has the corner, too, until it is too small to be seen.
+        let hollow = broken == Some(Some("cutter_radius"));
+        if disc.is_some_and(|disc| disc.has_corner() || hollow && disc.has_hollow_corner()) {
             return None;
         }
         let largest = (self.follower.prime_radii().1 - offset).min(LARGEST_BASE);
         let prime_radius = size::first_that_keeps(smallest.base_radius, largest, keeps)? + offset;
         let rounded = size::rounded_up(prime_radius - offset);
         let base_radius = if keeps(rounded) { rounded } else { prime_radius - offset };
-        Some(Smallest { prime_radius, base_radius })
+        Some((Smallest { prime_radius, base_radius }, self.on(base_radius)?))
     }
 
     /// A size that keeps every limit when it is rounded: as small as it does, where more than pressure angle and curvature matters.
@@ -129,6 +134,12 @@ impl Disc {
         extremes::fold(curves).is_some() || extremes::corners(curves).iter().any(|corner| corner.turn > 0.0)
     }
 
+    /// Whether its profile has a hollow corner at any size, because the velocity of an edge grows at once.
+    fn has_hollow_corner(&self) -> bool {
+        let curves = self.curves();
+        curves.offset() == 0.0 && extremes::corners(curves).iter().any(|corner| corner.turn < 0.0)
+    }
+
     /// The smallest size with a choice of its follower's place; `least` is a prime radius (m) below which none passes.
     #[must_use]
     pub fn smallest_at(&self, place: Place, chosen: f64, least: f64) -> Option<Smallest> {
@@ -136,7 +147,7 @@ impl Disc {
         let required = disc.required();
         let required = Required { least: required.least.max(least), ..required };
         let by_shape = size::smallest(&*disc.motion, &*disc.follower, &required).ok()?;
-        disc.keeping_all(by_shape)
+        Some(disc.keeping_all(by_shape)?.0)
     }
 
     /// The same by the pressure angle alone, m.
