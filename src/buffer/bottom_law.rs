@@ -52,6 +52,11 @@ pub fn column_for(shortening: f64, end_loading: f64, exponent: f64) -> f64 {
 
 /// g(u) − 1 for p = 1/k and u ≥ 0, to a few ulp at any u; p = 0 is the limit g = ln(1+u)/u.
 pub(super) fn g_minus_one(u: f64, p: f64) -> f64 {
+    g_minus_one_with(u, p, || libm::log1p(u))
+}
+
+/// The same where ln(1 + u) may be known.
+fn g_minus_one_with(u: f64, p: f64, log: impl FnOnce() -> f64) -> f64 {
     if u < SERIES_LIMIT {
         let (mut term, mut sum, mut n) = (1.0, 0.0, 1.0);
         loop {
@@ -65,9 +70,9 @@ pub(super) fn g_minus_one(u: f64, p: f64) -> f64 {
         }
     }
     if p == 0.0 {
-        return libm::log1p(u) / u - 1.0;
+        return log() / u - 1.0;
     }
-    -libm::expm1(-p * libm::log1p(u)) / (p * u) - 1.0
+    -libm::expm1(-p * log()) / (p * u) - 1.0
 }
 
 /// g(u) − 1 with twice the digits.
@@ -192,18 +197,23 @@ impl BottomLaw {
     /// The same with y = r − x given by the caller, who may know it more accurately than the subtraction gives it.
     #[must_use]
     pub fn displacement_between(&self, x: f64, y: f64) -> f64 {
+        self.displacement_with(x, y, || libm::log1p(self.loading * x))
+    }
+
+    /// The same where ln(1 + A x) may be known.
+    fn displacement_with(&self, x: f64, y: f64, log: impl FnOnce() -> f64) -> f64 {
         if x <= START && self.lead == 0.0 && (self.start_slope == 0.0 || self.returns) {
             return self.start(x, y);
         }
         let (p, u) = (1.0 / self.exponent, self.loading * x);
         let without_lead = if self.returns {
-            self.returning(x, y, u, p)
+            self.returning(x, y, u, p, log)
         } else if self.start_slope == 0.0 && u < PRINTED_LIMIT {
-            x * g_minus_one(u, p)
+            x * g_minus_one_with(u, p, log)
         } else if u < SERIES_LIMIT {
-            x * (self.start_slope + (1.0 + self.start_slope) * g_minus_one(u, p))
+            x * (self.start_slope + (1.0 + self.start_slope) * g_minus_one_with(u, p, log))
         } else {
-            -self.column * libm::expm1(-p * libm::log1p(u)) - x
+            -self.column * libm::expm1(-p * log()) - x
         };
         without_lead - self.lead
     }
@@ -229,14 +239,14 @@ impl BottomLaw {
         (x * (less - self.end_less) / (one + self.end_less)).high
     }
 
-    fn returning(&self, x: f64, y: f64, u: f64, p: f64) -> f64 {
+    fn returning(&self, x: f64, y: f64, u: f64, p: f64, log: impl FnOnce() -> f64) -> f64 {
         let end = self.loading * self.stroke;
         if end < SERIES_LIMIT {
             x * self.loading * y * g_divided_difference(u, end, p) * (1.0 + self.start_slope)
         } else if x < y && u > PRINTED_LIMIT {
-            -self.column * libm::expm1(-p * libm::log1p(u)) - x
+            -self.column * libm::expm1(-p * log()) - x
         } else if x < y {
-            x * (g_minus_one(u, p) - g_minus_one(end, p)) * (1.0 + self.start_slope)
+            x * (g_minus_one_with(u, p, log) - g_minus_one(end, p)) * (1.0 + self.start_slope)
         } else {
             let shrunk = self.column * libm::exp(-p * libm::log1p(end));
             y - shrunk * libm::expm1(p * libm::log1p(self.loading * y / (1.0 + u)))
@@ -248,7 +258,8 @@ impl BottomLaw {
     pub fn bottom(&self, x: f64, y: f64) -> Bottom {
         let (p, a, u) = (1.0 / self.exponent, self.loading, self.loading * x);
         let c = 1.0 + self.start_slope;
-        let log = -(p + 1.0) * libm::log1p(u);
+        let of_one_more = libm::log1p(u);
+        let log = -(p + 1.0) * of_one_more;
         // Both (1+u)^(−p−1) and its distance from 1 are needed to full relative accuracy; one call gives both where the
         // other's digits are not yet lost.
         let (power, fall) = if u < 1.0 {
@@ -261,7 +272,7 @@ impl BottomLaw {
         let second = -c * a * (p + 1.0) * power / (1.0 + u);
         let third = -second * a * (p + 2.0) / (1.0 + u);
         Bottom {
-            value: self.displacement_between(x, y),
+            value: self.displacement_with(x, y, || of_one_more),
             slope: self.start_slope + c * fall,
             second,
             third,
