@@ -1,5 +1,7 @@
 //! Numbers as text.
 
+use std::fmt::Write as _;
+
 /// Sizes written without an exponent: where neither form is much longer than the other.
 const LEAST_PLAIN: f64 = 1e-6;
 const LARGEST_PLAIN: f64 = 1e17;
@@ -33,10 +35,14 @@ pub fn push_shortest(text: &mut String, value: f64) {
     if WITHOUT_EXPONENT.contains(&size) || !digits.contains('e') {
         text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
     } else if size != 0.0 && !(LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
-        // Very large or small numbers would fill a line with zeros.
-        text.push_str(&format!("{value:e}"));
+        // Very large or small numbers would fill a line with zeros. A text takes all that is written.
+        if size < 1.0 {
+            text.push_str(digits);
+        } else {
+            let _ = write!(text, "{value:e}");
+        }
     } else {
-        text.push_str(&format!("{value}"));
+        let _ = write!(text, "{value}");
     }
 }
 

@@ -80,13 +80,29 @@ impl Taken {
             self.fill(&field);
         }
         for chain in shape.chains(0.5 * CELL) {
-            for (from, to) in chain.iter().zip(chain.iter().skip(1)) {
-                for point in Self::along(*from, *to) {
-                    if let Some(cell) = self.cell(point).and_then(|cell| self.lines.get_mut(cell)) {
-                        *cell = true;
-                    }
+            let mut from = None;
+            for &to in &chain {
+                let here = self.cell(to);
+                match from {
+                    // All between two points of a cell is in it.
+                    Some((_, Some(cell))) if Some(cell) == here => self.line_in(cell),
+                    Some((start, _)) => Self::along(start, to).for_each(|point| self.line_at(point)),
+                    None => {}
                 }
+                from = Some((to, here));
             }
+        }
+    }
+
+    fn line_at(&mut self, point: Vector2<f64>) {
+        if let Some(cell) = self.cell(point) {
+            self.line_in(cell);
+        }
+    }
+
+    fn line_in(&mut self, cell: usize) {
+        if let Some(taken) = self.lines.get_mut(cell) {
+            *taken = true;
         }
     }
 
