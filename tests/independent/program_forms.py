@@ -240,7 +240,7 @@ def broken(rng, case, rounded, text):
     elif kind == 3:
         more, keys = rng.choice([
             ({"fourier": {}}, "fourier|position"), ({"fourier": {"cos": [0, 0]}}, "fourier|position"), ({"fourier": {"cos": [1]}, "formula": "cos(th)"}, "formula"),
-            ({"points": points, "formula": "cos(th)"}, "formula"), ({"points": points, "degree": 4}, "degree"), ({"fourier": {"cos": ["a"]}}, "cos"),
+            ({"points": points, "formula": "cos(th)"}, "formula"), ({"points": points, "degree": 4}, "degree|point"), ({"fourier": {"cos": ["a"]}}, "cos"),
             ({"fourier": {"tan": [1]}}, "tan"), ({"formula": "2"}, "position|formula"), ({"formula": "cos(th)", "polydyne": {"damping": 0.1}}, "natural_frequency"),
             ({"formula": "cos(th)", "rpm": 100, "polydyne": {"natural_frequency": "-3 Hz"}}, "natural_frequency"),
             ({"formula": "cos(th)", "rpm": 100, "polydyne": {"natural_frequency": "3 Hz", "damping": 2}}, "damping"),
@@ -251,7 +251,7 @@ def broken(rng, case, rounded, text):
         first, second, keys = rng.choice([
             ({"law": "formula"}, None, "formula"), ({"law": "table"}, None, "table"), ({"law": "spline"}, None, "points"),
             *(({"law": "formula", "formula": wrong}, None, "formula") for wrong in ("x+0.1", "2*x", "sin(th)", "x/(x-0.5)/2", "x^0.5", "log(x)")),
-            ({"law": "spline", "points": [["130 deg", middle[1]]]}, None, "point"), ({"law": "spline", "points": [middle, middle]}, None, "point"),
+            ({"law": "spline", "points": [["-130 deg", middle[1]]]}, None, "point"), ({"law": "spline", "points": [middle, middle]}, None, "point"),
             ({"law": "spline", "points": [["1 mm", "50 deg"]]}, None, "point"),
             ({"law": "polynomial", "velocity": "auto"}, {"law": "cycloidal"}, "auto"), ({"law": "cycloidal", "velocity": "auto"}, None, "auto"),
             ({"law": "formula", "formula": "x", "velocity": "auto"}, None, "velocity"), ({"law": "dwell", "to": None, "velocity": "auto"}, None, "velocity|dwell"),

@@ -369,7 +369,8 @@ class Program:
         if rpm is None:
             raise Illegal("speed")
         self.finish()
-        if max(self.jump()) > 1e-7:
+        self.jumped = max(self.jump())
+        if self.jumped > 1e-7:
             raise Illegal("impact")
         share = rpm / 60 / float(polydyne["natural_frequency"].split()[0])
         for segment in self.segments:

@@ -27,6 +27,8 @@ from program_judge import Judge
 from program_motion import Illegal, Program, law_pieces, quantity
 
 LIMIT_S = 20.0
+# Tangent of a pressure angle of 89°.
+STEEP = 57
 REASONS = {
     "serve": "cannot ", "accelerated": "cannot begin or end with an acceleration", "travel": "needs a travel|needs `to`", "inflection": "inflection",
     "parameter": "must be ", "sum": "leads away|the segments|must be behind|already cover|greater than|above 0|`over`", "rpm": "needs motion.rpm",
@@ -96,7 +98,11 @@ def one(runner, case, name, rng, tally, samples):
     if case["broken"] and code == 2:
         return refused_broken(case, stderr, files, tally)
     if code == 2:
-        return refused(case, stderr, files, reason, program, tally, samples)
+        return refused(case, stderr, files, reason, program, follower, tally, samples)
+    if reason == "reach" and on_the_wall(case):
+        tally["on the wall"] += 1
+        shutil.rmtree(out, ignore_errors=True)
+        return []
     if reason:
         return [f"exit {code}, but the file is illegal: {reason}"]
     report = json.loads(stdout)
@@ -143,7 +149,14 @@ def one(runner, case, name, rng, tally, samples):
     return judge.wrong
 
 
-def refused(case, stderr, files, reason, program, tally, samples):
+def on_the_wall(case):
+    """Whether an offset is the prime radius but for rounding, which may be in reach or not."""
+    given = case["follower"]
+    prime = quantity(case["cam"]["base_radius"]) + (quantity(given["radius"]) if "radius" in given else 0.0)
+    return case["kind"] in ("roller", "knife") and abs(abs(quantity(given.get("offset", "0 mm"))) - prime) < 1e-12 * prime
+
+
+def refused(case, stderr, files, reason, program, follower, tally, samples):
     """Exit 2: no file, a place in the file, and a reason known here."""
     wrong = [f"exit 2 wrote {files}"] if files else []
     message = stderr.split("\n")[0]
@@ -153,10 +166,16 @@ def refused(case, stderr, files, reason, program, tally, samples):
         reason = "no automatic size"
     if reason is None and program and program.near and re.search(REASONS["accelerated"], stderr):
         reason = "accelerated by rounding"
+    # A jump is small beside the peak of a steep segment elsewhere.
+    if "of the load jumps" in stderr and program and getattr(program, "jumped", 0.0) > 1e-10:
+        reason = "impact"
     # A face needs as much radius as the acceleration falls, an edge as the velocity asks for.
     peak = lambda order: program.extreme(lambda i, t: np.abs(program.jet(i, t, order)[order]))[0]
     if "more than a drawing holds" in stderr and program and max(peak(0), peak(1), peak(2) * (case["kind"] == "flat")) > 1e5:
         reason = "too large"
+    # Within a degree of the radius no edges follow a profile: the cam is a spike.
+    if "no edges follow the outline" in stderr and program and follower and peak(1) > STEEP * follower.base:
+        reason = "a spike"
     if reason is None:
         wrong.append(f"refused, but legal: {stderr[:400]}")
     tally[f"exit 2 {reason}"] += 1
