@@ -26,6 +26,37 @@ fn word(value: &Value) -> &str {
     value.as_str().unwrap_or_default()
 }
 
+/// The packages of a lock file: name, version and what each needs.
+fn locked(path: &str) -> BTreeMap<String, (String, BTreeSet<String>)> {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("a lock file");
+    let package = |text: &str| {
+        let quoted =
+            |key: &str| text.lines().find_map(|line| line.strip_prefix(&format!("{key} = \""))?.strip_suffix('"'));
+        let needs = text.lines().filter_map(|line| line.strip_prefix(" \"")?.split(['"', ' ']).next());
+        (
+            quoted("name").expect("a name").to_owned(),
+            (quoted("version").expect("a version").to_owned(), needs.map(str::to_owned).collect()),
+        )
+    };
+    text.split("[[package]]\n").skip(1).map(package).collect()
+}
+
+/// What is fuzzed is built from the same crates as what is released: its lock file follows camgen's.
+#[test]
+fn the_fuzzed_program_has_the_same_crates() {
+    let (own, fuzzed) = (locked("Cargo.lock"), locked("fuzz/Cargo.lock"));
+    let camgen = packages().into_iter().find(|package| package["name"] == "camgen").expect("camgen");
+    let direct = camgen["dependencies"].as_array().expect("a list").iter().filter(|of| of["kind"].is_null());
+    let direct: BTreeSet<String> = direct.map(|of| word(&of["name"]).to_owned()).collect();
+    let (_, needed) = fuzzed.get("camgen").expect("camgen in fuzz/Cargo.lock");
+    assert_eq!(*needed, direct, "run cargo metadata --manifest-path fuzz/Cargo.toml");
+    for name in direct {
+        let version =
+            |of: &BTreeMap<String, (String, BTreeSet<String>)>| of.get(&name).map(|package| package.0.clone());
+        assert_eq!(version(&own), version(&fuzzed), "{name}");
+    }
+}
+
 /// The words in quotes of a list of `deny.toml`.
 fn list(key: &str) -> BTreeSet<String> {
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("deny.toml")).expect("a file");
