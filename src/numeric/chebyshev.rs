@@ -92,24 +92,39 @@ struct Search<V, G> {
     negligible: f64,
 }
 
-/// The largest value of `value` on `[low, high]`, where it is smooth; differences below `negligible` do not matter. Infinite
-/// where the function is somewhere.
-pub fn largest(value: impl FnMut(f64) -> f64, range: (f64, f64), negligible: f64) -> Extremum {
-    search(value, |value| value, range, negligible)
+/// What is known when a search begins, and what it need not tell apart.
+#[derive(Debug, Clone, Copy)]
+pub struct Known {
+    /// A value that was found elsewhere: what does not exceed it is not looked for, and it comes back where nothing does.
+    pub best: Extremum,
+    /// Differences below this do not matter.
+    pub negligible: f64,
+}
+
+impl Known {
+    /// Of the first search.
+    #[must_use]
+    pub fn nothing(negligible: f64) -> Self {
+        Self { best: Extremum { at: 0.0, value: f64::NEG_INFINITY }, negligible }
+    }
+}
+
+/// The largest value of `value` on `[low, high]`, where it is smooth, or what was known. Infinite where the function is somewhere.
+pub fn largest(value: impl FnMut(f64) -> f64, range: (f64, f64), known: Known) -> Extremum {
+    search(value, |value| value, range, known)
 }
 
 /// The largest size |value| on `[low, high]`, where `value`, with its sign, is smooth; as [`largest`].
-pub fn largest_size(value: impl FnMut(f64) -> f64, range: (f64, f64), negligible: f64) -> Extremum {
-    search(value, f64::abs, range, negligible)
+pub fn largest_size(value: impl FnMut(f64) -> f64, range: (f64, f64), known: Known) -> Extremum {
+    search(value, f64::abs, range, known)
 }
 
 fn search(
     value: impl FnMut(f64) -> f64,
     goal: impl Fn(f64) -> f64,
     (low, high): (f64, f64),
-    negligible: f64,
+    Known { best, negligible }: Known,
 ) -> Extremum {
-    let best = Extremum { at: low, value: f64::NEG_INFINITY };
     let mut search = Search { value, goal, best, scale: 0.0, negligible };
     let mut cells = vec![(low, high)];
     let mut looked_at = 0;
@@ -365,7 +380,7 @@ mod tests {
                 calls += 1;
                 value(x)
             };
-            let found = largest(counted, *range, 0.0);
+            let found = largest(counted, *range, Known::nothing(0.0));
             let scan = (0..=2_000_000).map(|i| value(range.0 + (range.1 - range.0) * f64::from(i) / 2e6));
             let scan = scan.fold(f64::NEG_INFINITY, f64::max);
             assert!(found.value >= scan * (1.0 - 1e-12), "{name}: {found:?} but {scan}");
@@ -376,13 +391,13 @@ mod tests {
 
     #[test]
     fn sizes_and_what_is_infinite_or_undefined() {
-        let fall = largest_size(|x| 0.5 - x * x, (0.0, 2.0), 0.0);
+        let fall = largest_size(|x| 0.5 - x * x, (0.0, 2.0), Known::nothing(0.0));
         assert_eq!(fall, Extremum { at: 2.0, value: 3.5 });
-        let inner = largest_size(|x| x * x * x - 3.0 * x, (-0.5, 1.5), 0.0);
+        let inner = largest_size(|x| x * x * x - 3.0 * x, (-0.5, 1.5), Known::nothing(0.0));
         assert!((inner.at - 1.0).abs() < 1e-7 && (inner.value - 2.0).abs() < 1e-15, "{inner:?}");
-        assert_eq!(largest(|x| 1.0 / (x - 0.5).max(0.0), (0.0, 1.0), 0.0).value, f64::INFINITY);
+        assert_eq!(largest(|x| 1.0 / (x - 0.5).max(0.0), (0.0, 1.0), Known::nothing(0.0)).value, f64::INFINITY);
         // Undefined on one side: the other side still has its largest value.
-        let half = largest(|x| if x < 0.3 { f64::NAN } else { 1.0 - x }, (0.0, 1.0), 0.0);
+        let half = largest(|x| if x < 0.3 { f64::NAN } else { 1.0 - x }, (0.0, 1.0), Known::nothing(0.0));
         assert!((half.value - 0.7).abs() < 1e-9, "{half:?}");
     }
 
@@ -394,7 +409,7 @@ mod tests {
             calls += 1;
             1e-15 * libm::sin(1e9 * x)
         };
-        assert!(largest_size(noise, (0.0, 1.0), 1e-12).value <= 1e-15);
+        assert!(largest_size(noise, (0.0, 1.0), Known::nothing(1e-12)).value <= 1e-15);
         assert_eq!(calls, LEAST_DEGREE + 2);
     }
 
@@ -404,7 +419,7 @@ mod tests {
         for a in [1e-3, 1e-2, 0.04] {
             // x⁴/4 − a x³/3, downwards: slope x² (a − x).
             let top = |x: f64| 3.0 + a * x * x * x / 3.0 - x * x * x * x / 4.0 + 1e-17 * libm::sin(1e9 * x);
-            let found = largest(top, (-1.0, 1.0), 0.0);
+            let found = largest(top, (-1.0, 1.0), Known::nothing(0.0));
             assert!(found.value >= top(a) * (1.0 - 2e-11), "{a}: {found:?} {}", top(a));
         }
     }
@@ -414,12 +429,12 @@ mod tests {
     fn a_top_beside_an_end_is_found() {
         for (from_end, low) in [1e-4, 1e-3, 1e-2].into_iter().flat_map(|a| [(a, true), (a, false)]) {
             let top = if low { from_end } else { 1.0 - from_end };
-            let found = largest(|x| 1.0 - (x - top) * (x - top), (0.0, 1.0), 0.0);
+            let found = largest(|x| 1.0 - (x - top) * (x - top), (0.0, 1.0), Known::nothing(0.0));
             assert!((found.at - top).abs() < 1e-7 && (found.value - 1.0).abs() < 1e-14, "{top}: {found:?}");
         }
         // Lowest at a and highest at b, both nearer to the end than any sample: b² (b − 3a)/6 from 0.
         let (a, b) = (2e-4, 2e-3);
-        let found = largest(|x| -x * (x * (x / 3.0 - 0.5 * (a + b)) + a * b), (0.0, 1.0), 0.0);
+        let found = largest(|x| -x * (x * (x / 3.0 - 0.5 * (a + b)) + a * b), (0.0, 1.0), Known::nothing(0.0));
         assert!((found.value / (b * b * (b - 3.0 * a) / 6.0) - 1.0).abs() < 1e-9, "{found:?}");
     }
 }

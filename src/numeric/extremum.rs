@@ -16,23 +16,58 @@ const HALVINGS: u32 = 6;
 /// A cell hides one when its values differ from what the slopes at its ends make them by more than this share of its width times the
 /// larger slope: a parabola makes 0 of it, a cube of the distance from an end a sixth.
 const HIDES: f64 = 0.2;
+/// Differences below this share of the values are rounding.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A place with value and slope.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    at: f64,
-    value: f64,
-    slope: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Argument.
+    pub at: f64,
+    /// Value.
+    pub value: f64,
+    /// Derivative of the value.
+    pub slope: f64,
 }
 
-/// Whether more than one stationary place may lie between two: where one of them is stationary itself, or the values do not follow from
-/// the slopes.
-fn hides(left: Place, right: Place) -> bool {
-    let width = right.at - left.at;
-    let by_slopes = 0.5 * width * (left.slope + right.slope);
+impl Place {
+    /// The same of the negative.
+    #[must_use]
+    pub fn negative(self) -> Self {
+        Self { value: -self.value, slope: -self.slope, ..self }
+    }
+}
+
+/// What may lie between two places.
+enum Between {
+    /// At most one stationary place: the values follow from the slopes.
+    Plain,
+    /// Another beside one of them, which is stationary itself.
+    BesideAnEnd,
+    /// Any number: the values do not follow from the slopes.
+    Anything,
+}
+
+impl Between {
+    fn of(left: Place, right: Place) -> Self {
+        let width = right.at - left.at;
+        let by_slopes = 0.5 * width * (left.slope + right.slope);
+        let size = left.slope.abs().max(right.slope.abs());
+        let rounding = ROUNDING * left.value.abs().max(right.value.abs());
+        if (right.value - left.value - by_slopes).abs() > HIDES * width * size + rounding {
+            Self::Anything
+        } else if (left.slope == 0.0 || right.slope == 0.0) && size > 0.0 {
+            Self::BesideAnEnd
+        } else {
+            Self::Plain
+        }
+    }
+}
+
+/// As high as a function rises between two places whose values follow from the slopes, with room for slopes of twice the size.
+fn rises_to(left: Place, right: Place) -> f64 {
     let size = left.slope.abs().max(right.slope.abs());
-    let either = left.slope == 0.0 || right.slope == 0.0;
-    (either && size > 0.0) || (right.value - left.value - by_slopes).abs() > HIDES * width * size
+    left.value.max(right.value) + 2.0 * size * (right.at - left.at)
 }
 
 /// A search of the largest of values given with their slopes.
@@ -43,24 +78,22 @@ struct Search<F> {
 
 impl<F: FnMut(f64) -> (f64, f64)> Search<F> {
     fn at(&mut self, at: f64) -> Place {
-        let found = (self.both)(at);
-        self.known(at, found)
-    }
-
-    /// A place whose value and slope are known.
-    fn known(&mut self, at: f64, (value, slope): (f64, f64)) -> Place {
-        if value > self.best.value || self.best.value.is_nan() {
-            self.best = Extremum { at, value };
-        }
-        Place { at, value, slope }
+        let (value, slope) = (self.both)(at);
+        let place = Place { at, value, slope };
+        self.best = highest(self.best, &[place]);
+        place
     }
 
     fn between(&mut self, left: Place, right: Place, halvings: u32) {
+        let between = Between::of(left, right);
+        if !matches!(between, Between::Anything) && rises_to(left, right) < self.best.value {
+            return;
+        }
         if left.slope > 0.0 && right.slope < 0.0 {
             if let Ok(at) = root::bracketed(|at| (self.both)(at).1, left.at, right.at, 0.0) {
                 self.at(at);
             }
-        } else if halvings > 0 && hides(left, right) {
+        } else if halvings > 0 && !matches!(between, Between::Plain) {
             let middle = self.at(0.5 * (left.at + right.at));
             self.between(left, middle, halvings - 1);
             self.between(middle, right, halvings - 1);
@@ -84,14 +117,38 @@ pub fn largest(
 }
 
 /// The same of value and slope at once.
-pub fn largest_with_slope(both: impl FnMut(f64) -> (f64, f64), (low, high): (f64, f64), cells: u32) -> Extremum {
-    let mut search = Search { both, best: Extremum { at: low, value: f64::NAN } };
-    let mut left = search.at(low);
-    for cell in 1..=cells {
-        let end = if cell == cells { high } else { low + (high - low) * (f64::from(cell) / f64::from(cells)) };
-        let right = search.at(end);
-        search.between(left, right, HALVINGS);
-        left = right;
+pub fn largest_with_slope(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> Extremum {
+    let places = places(&mut both, range, cells);
+    let first = Extremum { at: range.0, value: f64::NAN };
+    beyond(highest(first, &places), &places, both)
+}
+
+/// The places between the cells with value and slope.
+pub fn places(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> Vec<Place> {
+    let place = |at: f64| {
+        let (value, slope) = both(at);
+        Place { at, value, slope }
+    };
+    between_cells(range, cells).map(place).collect()
+}
+
+/// The highest of places and of what is known; the first of equals.
+#[must_use]
+pub fn highest(known: Extremum, places: &[Place]) -> Extremum {
+    places.iter().fold(known, |best, place| {
+        let higher = place.value > best.value || best.value.is_nan();
+        if higher { Extremum { at: place.at, value: place.value } } else { best }
+    })
+}
+
+/// The largest value between places, or what is known, these and others among it, where nothing exceeds it: a cell that cannot is not
+/// looked into. As [`largest`] otherwise.
+pub fn beyond(known: Extremum, places: &[Place], both: impl FnMut(f64) -> (f64, f64)) -> Extremum {
+    let mut search = Search { both, best: known };
+    for pair in places.windows(2) {
+        if let [left, right] = pair {
+            search.between(*left, *right, HALVINGS);
+        }
     }
     search.best
 }
@@ -105,34 +162,10 @@ pub fn between_cells((low, high): (f64, f64), cells: u32) -> impl Iterator<Item 
     })
 }
 
-/// The same of a function and of its negative, the places between the cells looked at once for both.
-pub fn both_ways_with_slope(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> [Extremum; 2] {
-    let known: Vec<(f64, (f64, f64))> = between_cells(range, cells).map(|at| (at, both(at))).collect();
-    both_ways_from(&known, both)
-}
-
-/// The same where value and slope at [`between_cells`] are known.
-pub fn both_ways_from(known: &[(f64, (f64, f64))], mut both: impl FnMut(f64) -> (f64, f64)) -> [Extremum; 2] {
-    let low = known.first().map_or(f64::NAN, |(at, _)| *at);
-    [1.0, -1.0].map(|sign| {
-        let signed = |(value, slope): (f64, f64)| (sign * value, sign * slope);
-        let mut search = Search { both: |at| signed(both(at)), best: Extremum { at: low, value: f64::NAN } };
-        let mut left: Option<Place> = None;
-        for (at, found) in known {
-            let right = search.known(*at, signed(*found));
-            if let Some(left) = left {
-                search.between(left, right, HALVINGS);
-            }
-            left = Some(right);
-        }
-        search.best
-    })
-}
-
-/// The same of value, slope and the slope's own slope at once: where the slope turns towards zero and back between two cells it is looked at
+/// The largest value of a function and of its negative, given with its slope and the slope's own slope: where the slope turns towards zero and back between two cells it is looked at
 /// where it is nearest to it, so that no pair of stationary places beside each other stays unseen.
 pub fn both_ways_with_bend(mut all: impl FnMut(f64) -> [f64; 3], range: (f64, f64), cells: u32) -> [Extremum; 2] {
-    let mut known: Vec<(f64, (f64, f64))> = Vec::new();
+    let mut places: Vec<Place> = Vec::new();
     let mut before: Option<(f64, [f64; 3])> = None;
     for at in between_cells(range, cells) {
         let here = (at, all(at));
@@ -140,14 +173,20 @@ pub fn both_ways_with_bend(mut all: impl FnMut(f64) -> [f64; 3], range: (f64, f6
             && let Ok(turn) = root::bracketed(|at| all(at)[2], before.0, at, 0.0)
         {
             let [value, slope, _] = all(turn);
-            known.push((turn, (value, slope)));
+            places.push(Place { at: turn, value, slope });
         }
-        known.push((at, (here.1[0], here.1[1])));
+        let [value, slope, _] = here.1;
+        places.push(Place { at, value, slope });
         before = Some(here);
     }
-    both_ways_from(&known, |at| {
-        let [value, slope, _] = all(at);
-        (value, slope)
+    let first = Extremum { at: range.0, value: f64::NAN };
+    [1.0, -1.0].map(|sign| {
+        let places: Vec<Place> =
+            places.iter().map(|place| if sign < 0.0 { place.negative() } else { *place }).collect();
+        beyond(highest(first, &places), &places, |at| {
+            let [value, slope, _] = all(at);
+            (sign * value, sign * slope)
+        })
     })
 }
 

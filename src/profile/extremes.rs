@@ -2,7 +2,7 @@
 
 use super::Curves;
 use crate::motion::{Jet, Motion, Piece};
-use crate::numeric::chebyshev;
+use crate::numeric::chebyshev::{self, Known};
 use crate::numeric::extremum::{self, Extremum};
 
 /// Cells a piece is cut into: pressure angle and curvature of a piece have a handful of extrema.
@@ -20,13 +20,23 @@ fn largest(
     searched: impl Fn(usize) -> bool,
     quantity: impl Fn(usize, f64) -> (f64, f64),
 ) -> Extremum {
+    let all = places(curves, searched, &quantity);
+    let known = all.iter().fold(NOTHING, |best, (_, places)| extremum::highest(best, places));
+    all.iter().fold(known, |best, (index, places)| extremum::beyond(best, places, |at| quantity(*index, at)))
+}
+
+/// The places between the cells of every piece that is searched, with the number of the piece.
+fn places(
+    curves: Curves<'_>,
+    searched: impl Fn(usize) -> bool,
+    quantity: impl Fn(usize, f64) -> (f64, f64),
+) -> Vec<(usize, Vec<extremum::Place>)> {
     let in_piece = |(index, piece): (usize, &Piece)| {
         let cells = if piece.dwell { 1 } else { CELLS };
-        let range = (piece.start, piece.end);
-        extremum::largest_with_slope(|angle| quantity(index, angle), range, cells)
+        (index, extremum::places(|at| quantity(index, at), (piece.start, piece.end), cells))
     };
     let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
-    pieces.map(in_piece).fold(NOTHING, larger)
+    pieces.map(in_piece).collect()
 }
 
 /// The larger of two, the first of equals; what is no number gives way.
@@ -85,23 +95,18 @@ pub fn stretches(piece: &Piece, acting: &[Acting]) -> Vec<(f64, f64)> {
 /// `acting`.
 fn of_smooth(
     motion: &dyn Motion,
-    acting: &[Acting],
+    (acting, negligible): (&[Acting], f64),
     value: impl Fn(usize, f64) -> f64,
-    search: impl Fn(&dyn Fn(f64) -> f64, (f64, f64)) -> Extremum,
+    search: impl Fn(&dyn Fn(f64) -> f64, (f64, f64), Known) -> Extremum,
 ) -> Extremum {
-    let mut best = NOTHING;
-    let mut consider = |next: Extremum| {
-        if next.value > best.value {
-            best = next;
-        }
-    };
+    let mut known = Known::nothing(negligible);
     // Where the follower rests a force may change still.
     for (index, piece) in motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index)) {
         for range in stretches(piece, acting) {
-            consider(search(&|at| value(index, at), range));
+            known.best = search(&|at| value(index, at), range, known);
         }
     }
-    best
+    known.best
 }
 
 /// Largest value, where a follower runs, of something that is smooth on each piece but for the ends of the ranges `acting`;
@@ -115,12 +120,8 @@ pub fn largest_smooth(
 }
 
 /// The same of something that does not depend on the follower.
-pub fn largest_of_motion(
-    motion: &dyn Motion,
-    (acting, negligible): (&[Acting], f64),
-    value: impl Fn(usize, f64) -> f64,
-) -> Extremum {
-    of_smooth(motion, acting, value, |value, range| chebyshev::largest(value, range, negligible))
+pub fn largest_of_motion(motion: &dyn Motion, smooth: (&[Acting], f64), value: impl Fn(usize, f64) -> f64) -> Extremum {
+    of_smooth(motion, smooth, value, |value, range, known| chebyshev::largest(value, range, known))
 }
 
 /// The same for the size of something that has a sign.
@@ -135,10 +136,10 @@ pub fn largest_size(
 /// The same of something that does not depend on the follower.
 pub fn largest_size_of_motion(
     motion: &dyn Motion,
-    (acting, negligible): (&[Acting], f64),
+    smooth: (&[Acting], f64),
     value: impl Fn(usize, f64) -> f64,
 ) -> Extremum {
-    of_smooth(motion, acting, value, |value, range| chebyshev::largest_size(value, range, negligible))
+    of_smooth(motion, smooth, value, |value, range, known| chebyshev::largest_size(value, range, known))
 }
 
 const NOTHING: Extremum = Extremum { at: 0.0, value: f64::NEG_INFINITY };
@@ -153,17 +154,24 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
 /// Largest pressure angle and largest one of the other sign, as a positive number, where a follower runs, rad.
 #[must_use]
 pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
-    let rolled = |piece: usize| curves.motion.is_rolled(piece);
-    let in_piece = |(index, piece): (usize, &Piece)| {
-        let both = |angle: f64| {
-            let contact = curves.contact(index, angle);
-            (contact.pressure_angle, contact.pressure_angle_slope)
-        };
-        extremum::both_ways_with_slope(both, (piece.start, piece.end), if piece.dwell { 1 } else { CELLS })
+    let both = |piece: usize, angle: f64| {
+        let contact = curves.contact(piece, angle);
+        (contact.pressure_angle, contact.pressure_angle_slope)
     };
-    let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| rolled(*index));
-    let all: Vec<[Extremum; 2]> = pieces.map(in_piece).collect();
-    [0, 1].map(|way| all.iter().filter_map(|both| both.get(way)).fold(NOTHING, |best, next| larger(best, *next)))
+    let rising = places(curves, |piece| curves.motion.is_rolled(piece), both);
+    let negative = |(index, places): &(usize, Vec<extremum::Place>)| {
+        (*index, places.iter().map(|place| place.negative()).collect())
+    };
+    let falling: Vec<_> = rising.iter().map(negative).collect();
+    [(rising, 1.0), (falling, -1.0)].map(|(all, sign)| {
+        let known = all.iter().fold(NOTHING, |best, (_, places)| extremum::highest(best, places));
+        all.iter().fold(known, |best, (index, places)| {
+            extremum::beyond(best, places, |at| {
+                let (angle, slope) = both(*index, at);
+                (sign * angle, sign * slope)
+            })
+        })
+    })
 }
 
 /// Largest curvature of the follower's curve, 1/m: the sharpest convex place.

@@ -18,8 +18,10 @@ use crate::follower::Element;
 use crate::geometry::CurvePoint;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
+use crate::motion::program::SegmentTold;
 use crate::motion::{Jet, Motion, Piece, Quantity};
-use crate::numeric::{chebyshev, extremum, root};
+use crate::numeric::chebyshev::{self, Known};
+use crate::numeric::{extremum, root};
 use nalgebra::Vector2;
 
 /// Stretches of the motion shorter than this, rad or m, are the rounding of a joint: the direction of an arc is known to 1e-9.
@@ -529,20 +531,29 @@ pub(super) fn face_lift(curves: Curves<'_>, parameter: f64, law: Jet, guide: Gui
 /// The largest sizes of velocity and acceleration of a motion where its follower runs, by the angle of the shaft that gives the time.
 #[must_use]
 pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
-    let of_piece = |(index, piece): (usize, &Piece)| {
-        if piece.dwell || !motion.is_rolled(index) {
-            return [0.0; 2];
-        }
+    if let Some(program) = motion.program() {
+        // It tells the peaks of its segments, and its shaft turns evenly.
+        let peak = |index: usize| {
+            let of_segment = |told: &SegmentTold| told.peaks.get(index).map_or(0.0, |(peak, _)| *peak);
+            program.segments().iter().map(of_segment).fold(0.0, f64::max)
+        };
+        return [peak(0), peak(1)];
+    }
+    let mut known = [Known::nothing(0.0); 2];
+    let moving = |(index, piece): &(usize, &Piece)| !piece.dwell && motion.is_rolled(*index);
+    for (index, piece) in motion.distinct().iter().enumerate().filter(moving) {
         let range = (piece.start, piece.end);
         let velocity = |at: f64| motion.jet(index, at).ds * motion.pace(at).0;
         let acceleration = |at: f64| {
             let (jet, (first, second)) = (motion.jet(index, at), motion.pace(at));
             jet.dds * first * first + jet.ds * second
         };
-        [chebyshev::largest_size(velocity, range, 0.0).value, chebyshev::largest_size(acceleration, range, 0.0).value]
-    };
-    let larger = |[v, a]: [f64; 2], [w, b]: [f64; 2]| [v.max(w), a.max(b)];
-    motion.distinct().iter().enumerate().map(of_piece).fold([0.0; 2], larger)
+        let [v, a] = &mut known;
+        v.best = chebyshev::largest_size(velocity, range, *v);
+        a.best = chebyshev::largest_size(acceleration, range, *a);
+    }
+    // A follower that always rests has none.
+    known.map(|known| known.best.value.max(0.0))
 }
 
 #[cfg(test)]

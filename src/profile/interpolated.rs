@@ -17,7 +17,9 @@ use crate::follower::Element;
 use crate::geometry::points::{Feel, Interpolant};
 use crate::geometry::{CurvePoint, MILLIMETRES};
 use crate::motion::Jet;
-use crate::numeric::{chebyshev, root};
+use crate::numeric::chebyshev::{self, Known};
+use crate::numeric::extremum::Extremum;
+use crate::numeric::root;
 
 /// Errors are found to this share of those at the ends and in the middle of an interval, but not closer than to this share of the
 /// largest velocity and acceleration, which is rounding.
@@ -139,10 +141,11 @@ impl<'a> Interpolated<'a> {
         let seen = places.map(|at| self.off_at(run, part, at));
         let rate = |index: usize| {
             let of = |errors: &[f64; 2]| errors.get(index).copied().unwrap_or(0.0);
-            let known = seen.iter().map(|errors| of(errors).abs()).fold(0.0, f64::max);
-            let negligible = (SHARE * known).max(ROUNDING * of(&self.largest));
-            if known.is_finite() {
-                chebyshev::largest_size(|at| of(&self.off_at(run, part, at)), range, negligible).value.max(known)
+            let seen = seen.iter().map(|errors| of(errors).abs()).fold(0.0, f64::max);
+            let negligible = (SHARE * seen).max(ROUNDING * of(&self.largest));
+            let known = Known { best: Extremum { at: range.0, value: seen }, negligible };
+            if seen.is_finite() {
+                chebyshev::largest_size(|at| of(&self.off_at(run, part, at)), range, known).value
             } else {
                 f64::INFINITY
             }

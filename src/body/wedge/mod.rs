@@ -14,7 +14,7 @@ use crate::linkage::Linkage;
 use crate::machine::{Machine, NoPress, Press, TranslatingData};
 use crate::motion::equation_18::{ExactOn, Mechanism, Solver, Way, WedgeMotionError};
 use crate::motion::{Motion, WedgeMotion};
-use crate::numeric::chebyshev;
+use crate::numeric::chebyshev::{self, Known};
 use crate::profile::extremes::{self, Acting};
 use crate::profile::{Curves, Worst};
 use nalgebra::Vector2;
@@ -207,7 +207,7 @@ impl Wedge {
         let motion = self.motion.motion();
         let breaks = motion.breaks().iter().map(|b| b.x).chain([self.stroke()]);
         let ranges = breaks.scan(0.0, |from, to| Some((std::mem::replace(from, to), to)));
-        let of = |range| chebyshev::largest_size(|x| motion.at(x, false)[0], range, 0.0);
+        let of = |range| chebyshev::largest_size(|x| motion.at(x, false)[0], range, Known::nothing(0.0));
         let worst = ranges.map(of).fold(
             (0.0, 0.0),
             |best: (f64, f64), next| {

@@ -1,7 +1,7 @@
 //! The largest velocity, acceleration, jerk and torque of a curve, and how near it comes to what is possible.
 
 use super::curve::Curve;
-use crate::numeric::extremum::{self, Extremum};
+use crate::numeric::extremum::{self, Extremum, Place};
 use crate::numeric::quadrature;
 
 /// Panels of a part over which the square is integrated: 1e-16 of ten half waves.
@@ -87,23 +87,36 @@ impl Curve {
 
     /// The largest sizes of functions of s, s', …, s⁗, which give their values and slopes.
     fn largest<const N: usize>(&self, of: [OfCurve; N]) -> [Extremum; N] {
-        let mut best = [Extremum { at: 0.0, value: f64::NEG_INFINITY }; N];
-        for part in 0..self.parts() {
-            let all = |x: f64| {
-                let [s, first, second, third] = self.at(part, x);
-                [s, first, second, third, self.derivative(part, x, 4)]
+        let all = |part: usize, x: f64| {
+            let [s, first, second, third] = self.at(part, x);
+            [s, first, second, third, self.derivative(part, x, 4)]
+        };
+        let parts: Vec<Vec<(f64, [f64; 5])>> = (0..self.parts())
+            .map(|part| {
+                let places = extremum::between_cells(self.range_of(part), self.cells(part));
+                places.map(|x| (x, all(part, x))).collect()
+            })
+            .collect();
+        of.map(|f| {
+            let place = |(at, s): &(f64, [f64; 5])| {
+                let (value, slope) = f(s);
+                Place { at: *at, value, slope }
             };
-            let places = extremum::between_cells(self.range_of(part), self.cells(part));
-            let known: Vec<(f64, [f64; 5])> = places.map(|x| (x, all(x))).collect();
-            for (best, f) in best.iter_mut().zip(of) {
-                let known: Vec<(f64, (f64, f64))> = known.iter().map(|(x, s)| (*x, f(s))).collect();
-                for found in extremum::both_ways_from(&known, |x| f(&all(x))) {
-                    if found.value > best.value {
-                        *best = found;
-                    }
-                }
-            }
-        }
-        best
+            let nothing = Extremum { at: 0.0, value: f64::NEG_INFINITY };
+            let rising: Vec<Vec<Place>> = parts.iter().map(|part| part.iter().map(place).collect()).collect();
+            let negative = |part: &Vec<Place>| part.iter().map(|place| place.negative()).collect();
+            let falling: Vec<Vec<Place>> = rising.iter().map(negative).collect();
+            let known = rising
+                .iter()
+                .zip(&falling)
+                .fold(nothing, |best, (rising, falling)| extremum::highest(extremum::highest(best, rising), falling));
+            rising.iter().zip(&falling).enumerate().fold(known, |best, (part, (rising, falling))| {
+                let best = extremum::beyond(best, rising, |x| f(&all(part, x)));
+                extremum::beyond(best, falling, |x| {
+                    let (value, slope) = f(&all(part, x));
+                    (-value, -slope)
+                })
+            })
+        })
     }
 }
