@@ -15,7 +15,7 @@ use crate::numeric::root;
 use crate::profile::extremes::{self, Acting};
 use crate::profile::{Contact, Worst};
 use crate::table::ForceRow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// What only the follower of a motion program has.
 #[derive(Debug, Clone, Default)]
@@ -25,7 +25,9 @@ pub(super) struct Own {
     pub(super) crown_radius: Option<f64>,
     /// Where the follower is lowered, under the friction of a guide.
     lowered: Arc<[Acting]>,
-    pub(super) vibration: Arc<std::sync::OnceLock<Option<super::Vibration>>>,
+    pub(super) vibration: Arc<OnceLock<Option<super::Vibration>>>,
+    /// The speed at which it first leaves the cam: of mass, spring and motion alone, not of the size of the cam.
+    pub(super) jump: Arc<OnceLock<Worst>>,
 }
 
 /// Of the force along the normal, what is borne along the path without any friction.

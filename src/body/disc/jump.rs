@@ -33,8 +33,10 @@ impl Disc {
         if !(pressing.constant > 0.0) {
             return Some(Err("nothing presses the follower on at its lowest position; give spring.preload".into()));
         }
-        let undamped = self.undamped_jump(&pressing);
-        Some(Ok(if pressing.damping == 0.0 { undamped } else { self.damped_jump(&pressing, undamped) }))
+        Some(Ok(*self.own.jump.get_or_init(|| {
+            let undamped = self.undamped_jump(&pressing);
+            if pressing.damping == 0.0 { undamped } else { self.damped_jump(&pressing, undamped) }
+        })))
     }
 
     fn undamped_jump(&self, pressing: &Pressing) -> Worst {
