@@ -341,6 +341,10 @@ impl Roll<'_> {
     /// far as the parabola through it and its neighbours tells, is solved by parabolas.
     fn worst_residual(&self, samples: &[Sample]) -> Vec<Sample> {
         let mut best = samples.iter().map(|s| s.residual).fold(0.0, f64::max);
+        if best == 0.0 {
+            // No air force that could be left.
+            return Vec::new();
+        }
         let highest =
             |[a, b, c]: &[Sample; 3]| a.piece == c.piece && b.residual >= a.residual && b.residual >= c.residual;
         let inner = samples.windows(3).filter_map(|three| <[Sample; 3]>::try_from(three).ok());
