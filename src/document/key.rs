@@ -125,8 +125,21 @@ impl Section {
     /// Dotted path of a key in this table; in a repeated one the index is left open, `motion.segment[].law`.
     #[must_use]
     pub fn path_of(&self, key: &Key) -> String {
-        let index = if self.occurs == Occurs::Repeated { "[]" } else { "" };
-        join(&format!("{}{index}", self.path), key.name)
+        if self.path.is_empty() {
+            return key.name.to_owned();
+        }
+        [self.path, if self.occurs == Occurs::Repeated { "[]." } else { "." }, key.name].concat()
+    }
+
+    /// Whether that is the path.
+    #[must_use]
+    pub fn is_path_of(&self, key: &Key, path: &str) -> bool {
+        let Some(table) = path.strip_suffix(key.name) else { return false };
+        if self.path.is_empty() {
+            return table.is_empty();
+        }
+        let index = if self.occurs == Occurs::Repeated { "[]." } else { "." };
+        table.strip_suffix(index) == Some(self.path)
     }
 
     /// The kinds of cam on which a key of this table has an effect; empty: every one.
@@ -138,7 +151,7 @@ impl Section {
 
 /// A path and a name below it.
 pub(super) fn join(path: &str, name: &str) -> String {
-    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+    if path.is_empty() { name.to_owned() } else { [path, ".", name].concat() }
 }
 
 /// A length or an angle, in SI units.

@@ -10,7 +10,7 @@ use super::input::Input;
 use super::key::{Field, Form, Key, Occurs, Presence, Section, Value, join};
 use super::text::{Document, Entry, Found, MOST_FAULTS, Place};
 use super::value::{self, Misfit, Scalar};
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
@@ -171,17 +171,19 @@ impl<'a> Reader<'a> {
 
     /// Reports every key and table that is in no section.
     fn unknown(&mut self) {
-        let known: Vec<String> =
-            self.sections.iter().flat_map(|section| section.keys.iter().map(|key| section.path_of(key))).collect();
+        let keys = || self.sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
+        let is_known = |path: &str| keys().any(|(section, key)| section.is_path_of(key, path));
+        let known: OnceCell<Vec<String>> = OnceCell::new();
+        let known = || known.get_or_init(|| keys().map(|(section, key)| section.path_of(key)).collect());
         let mut faults = Vec::new();
         for (path, entry) in &self.document.entries {
             if self.is_inside_misshapen(path) || self.is_empty_list_of_tables(path, entry) {
                 continue;
             }
             let (pattern, indices) = pattern(path);
-            let (message, help) = if !known.contains(&pattern) {
+            let (message, help) = if !is_known(&pattern) {
                 // Faults beyond those reported need no suggestion.
-                let near = if faults.len() < MOST_FAULTS { nearest(&pattern, &known) } else { None };
+                let near = if faults.len() < MOST_FAULTS { nearest(&pattern, known()) } else { None };
                 let near = near.map(|near| filled(near, &indices));
                 if let Some(near) = &near {
                     // The key is there under a wrong name: do not report it, or its table, as missing too.
@@ -284,7 +286,7 @@ impl<'a> Reader<'a> {
         let of_one_kind = |path: &str| {
             let (pattern, _) = pattern(path);
             let mut sections = self.sections.iter().filter(|section| !section.cams.is_empty());
-            sections.any(|section| section.keys.iter().any(|key| section.path_of(key) == pattern))
+            sections.any(|section| section.keys.iter().any(|key| section.is_path_of(key, &pattern)))
         };
         let entries = self.document.entries.iter();
         let given = entries.filter(|(path, entry)| entry.by_override() || (file && !of_one_kind(path)));
