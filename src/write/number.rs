@@ -119,32 +119,51 @@ pub fn push_plain(text: &mut String, value: f64, decimals: usize) {
         text.push_str(if trimmed.ends_with('.') { "0" } else { "" });
         return;
     };
-    if value < 0.0 && whole > 0 {
-        text.push('-');
-    }
     let (mut fraction, mut places) = (whole % power, decimals);
     while places > 1 && fraction % 10 == 0 {
         (fraction, places) = (fraction / 10, places - 1);
     }
-    push_digits(text, whole / power, 1);
-    text.push('.');
-    push_digits(text, fraction, places);
+    let mut digits = Digits::default();
+    digits.put(fraction, places);
+    digits.put_byte(b'.');
+    digits.put(whole / power, 1);
+    if value < 0.0 && whole > 0 {
+        digits.put_byte(b'-');
+    }
+    text.push_str(digits.text());
 }
 
-/// Adds the digits of a number, so many at the least.
-fn push_digits(text: &mut String, mut number: u64, least: usize) {
-    let mut digits = [b'0'; 20];
-    let mut used = 0;
-    for slot in digits.iter_mut().rev() {
-        if number == 0 && used >= least {
-            break;
-        }
-        *slot = b'0' + (number % 10) as u8;
-        number /= 10;
-        used += 1;
+/// A number that is written from its end.
+struct Digits {
+    bytes: [u8; 40],
+    from: usize,
+}
+
+impl Default for Digits {
+    fn default() -> Self {
+        Self { bytes: [0; 40], from: 40 }
     }
-    let used = digits.get(digits.len() - used..).unwrap_or_default();
-    text.push_str(std::str::from_utf8(used).unwrap_or_default());
+}
+
+impl Digits {
+    fn put_byte(&mut self, byte: u8) {
+        let Some(slot) = self.from.checked_sub(1).and_then(|at| self.bytes.get_mut(at)) else { return };
+        *slot = byte;
+        self.from -= 1;
+    }
+
+    /// The digits of a number, so many at the least.
+    fn put(&mut self, mut number: u64, least: usize) {
+        let mut put = 0;
+        while number > 0 || put < least {
+            self.put_byte(b'0' + (number % 10) as u8);
+            (number, put) = (number / 10, put + 1);
+        }
+    }
+
+    fn text(&self) -> &str {
+        self.bytes.get(self.from..).and_then(|used| std::str::from_utf8(used).ok()).unwrap_or_default()
+    }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! truck-stepio numbers and writes topology and geometry; its frame is not used, because its product has no name, its
 //! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is written here.
 
-use super::number::shortest;
+use super::number::push_shortest;
 use super::{Format, FormatError, Rendering, When};
 use crate::geometry::solid::{Boundary, Curve, FaceSurface, Solid, SolidError, SplineCurve, SplineSurface, conical};
 use std::fmt::{Formatter, Result};
@@ -56,30 +56,56 @@ fn time_stamp(created: Option<u64>) -> String {
 
 /// A real of a STEP file: shortest, with its decimal point.
 fn real(value: f64) -> String {
-    let text = shortest(value);
-    match text.split_once('e') {
-        Some((mantissa, exponent)) if mantissa.contains('.') => format!("{mantissa}E{exponent}"),
-        Some((mantissa, exponent)) => format!("{mantissa}.E{exponent}"),
-        None if text.contains('.') => text,
-        None => format!("{text}."),
+    let mut text = String::with_capacity(24);
+    push_real(&mut text, value);
+    text
+}
+
+/// Adds the same to a text.
+fn push_real(text: &mut String, value: f64) {
+    let from = text.len();
+    push_shortest(text, value);
+    let own = text.get(from..).unwrap_or_default();
+    let pointed = own.bytes().any(|byte| byte == b'.');
+    match own.bytes().position(|byte| byte == b'e') {
+        Some(mantissa) => {
+            let exponent = text.split_off(from + mantissa);
+            text.push_str(if pointed { "E" } else { ".E" });
+            text.push_str(exponent.trim_start_matches('e'));
+        }
+        None if pointed => {}
+        None => text.push('.'),
     }
 }
 
-fn point(p: Point3) -> String {
-    format!("CARTESIAN_POINT('', ({}, {}, {}))", real(p.x), real(p.y), real(p.z))
+/// Writes a line of an entity of three reals.
+fn triple(f: &mut Formatter<'_>, index: usize, kind: &str, reals: [f64; 3]) -> Result {
+    let mut text = String::with_capacity(128);
+    for part in ["#", &index.to_string(), " = ", kind, "('', ("] {
+        text.push_str(part);
+    }
+    for (value, after) in reals.into_iter().zip([", ", ", ", "));\n"]) {
+        push_real(&mut text, value);
+        text.push_str(after);
+    }
+    f.write_str(&text)
 }
 
-fn direction(v: Vector3) -> String {
-    format!("DIRECTION('', ({}, {}, {}))", real(v.x), real(v.y), real(v.z))
+fn point(f: &mut Formatter<'_>, index: usize, p: Point3) -> Result {
+    triple(f, index, "CARTESIAN_POINT", p.into())
+}
+
+fn direction(f: &mut Formatter<'_>, index: usize, v: Vector3) -> Result {
+    triple(f, index, "DIRECTION", v.into())
 }
 
 /// AXIS2_PLACEMENT_3D with its point and directions, in the lines from `index` on.
 fn placement(f: &mut Formatter<'_>, index: usize, origin: Point3, axis: Vector3, along: Vector3) -> Result {
     let (a, b, c) = (index + 1, index + 2, index + 3);
     writeln!(f, "#{index} = AXIS2_PLACEMENT_3D('', #{a}, #{b}, #{c});")?;
-    writeln!(f, "#{a} = {};", point(origin))?;
-    writeln!(f, "#{b} = {};", direction(axis))?;
-    writeln!(f, "#{c} = {};", direction(along))
+    point(f, a, origin)?;
+    direction(f, b, axis)?;
+    direction(f, c, along)
 }
 
 impl StepLength for Curve {
@@ -108,9 +134,9 @@ impl DisplayByStep for Curve {
             Curve::Line { origin, direction: along } => {
                 let (vector, unit) = (index + 2, index + 3);
                 writeln!(f, "#{index} = LINE('', #{next}, #{vector});")?;
-                writeln!(f, "#{next} = {};", point(*origin))?;
+                point(f, next, *origin)?;
                 writeln!(f, "#{vector} = VECTOR('', #{unit}, 1.);")?;
-                writeln!(f, "#{unit} = {};", direction(*along))
+                direction(f, unit, *along)
             }
             Curve::Circle { centre, radius, .. } => {
                 writeln!(f, "#{index} = CIRCLE('', #{next}, {});", real(*radius))?;
@@ -123,7 +149,7 @@ impl DisplayByStep for Curve {
                     "#{index} = B_SPLINE_CURVE_WITH_KNOTS('', 3, ({places}), .UNSPECIFIED., .F., .F., ({counts}), \
                      ({knots}), .UNSPECIFIED.);"
                 )?;
-                controls.iter().zip(next..).try_for_each(|(p, at)| writeln!(f, "#{at} = {};", point(*p)))
+                controls.iter().zip(next..).try_for_each(|(p, at)| point(f, at, *p))
             }
         }
     }
@@ -180,7 +206,7 @@ impl DisplayByStep for FaceSurface {
                     rows.join(", ")
                 )?;
                 let places = controls.iter().flatten();
-                places.zip(next..).try_for_each(|(p, at)| writeln!(f, "#{at} = {};", point(*p)))
+                places.zip(next..).try_for_each(|(p, at)| point(f, at, *p))
             }
         }
     }
@@ -198,7 +224,7 @@ impl StepLength for Place {
 
 impl DisplayByStep for Place {
     fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
-        writeln!(f, "#{index} = {};", point(self.0))
+        point(f, index, self.0)
     }
 }
 
@@ -258,8 +284,7 @@ pub fn write_marked(solid: &Solid, product: &str, created: Option<u64>, remark: 
     let start = written.find(FIRST).unwrap_or(0);
     let data = written.get(start..).unwrap_or_default().replace("= FACE_SURFACE(", "= ADVANCED_FACE(");
     // The category comes after the last of truck's lines.
-    let category = data.lines().filter_map(|line| line.strip_prefix('#')?.split(' ').next()?.parse::<u32>().ok()).max();
-    let category = category.unwrap_or(16) + 1;
+    let category = data.lines().filter_map(number).max().unwrap_or(16) + 1;
     let name = escaped(product);
     let remark = if remark.is_empty() { String::new() } else { format!(", '{}'", escaped(remark)) };
     let (version, time) = (env!("CARGO_PKG_VERSION"), time_stamp(created));
@@ -292,6 +317,12 @@ END-ISO-10303-21;
 "
     )
     .into_bytes()
+}
+
+/// The number of an entity, from its line.
+fn number(line: &str) -> Option<u64> {
+    let digits = line.strip_prefix('#')?.bytes().take_while(u8::is_ascii_digit);
+    digits.map(|digit| u64::from(digit - b'0')).reduce(|number, digit| 10 * number + digit)
 }
 
 fn with_places(boundary: &Boundary) -> truck_topology::compress::CompressedSolid<Place, Curve, FaceSurface> {

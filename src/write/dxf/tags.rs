@@ -52,7 +52,11 @@ pub(super) struct Tags {
 
 impl Tags {
     pub(super) fn text(&mut self, code: u16, value: &str) {
-        self.text.push_str(&format!("{code:>3}\n{value}\n"));
+        let code = code.to_string();
+        // Codes stand in three places.
+        for part in ["   ".get(code.len()..).unwrap_or_default(), &code, "\n", value, "\n"] {
+            self.text.push_str(part);
+        }
     }
 
     pub(super) fn integer(&mut self, code: u16, value: impl Into<i64>) {
