@@ -1014,6 +1014,20 @@ def signals(bench, wrong):
     return f"{tried} signals, exit codes {ends}"
 
 
+def ignored(bench, wrong):
+    """Signals that are to be ignored, as nohup asks, are: the set is written."""
+    needs_strace(bench)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        where = bench.copy("rotary-dxf", "old")
+        call = "fsync"
+        prefix = [*bench.tracer([call]), "-e", f"inject={call}:signal={number.name}:when=1"]
+        ignore = f"trap '' {number.name.removeprefix('SIG')}; exec \"$@\""
+        run = bench.run(bench.words("rotary-dxf"), where, ["sh", "-c", ignore, "sh", *prefix])
+        if run.code != 0 or contents(where / OUT) != bench.after("rotary-dxf", "old"):
+            wrong.add(f"{number.name} is ignored: exit {run.code}: {run.err.strip()[-200:]}", run.line)
+    return "3 signals"
+
+
 def modes(bench, wrong):
     """The mask of the user for new files; what the old ones had for those that replace them."""
     for mask in (0o077, 0o022, 0o002, 0o027):
@@ -1352,6 +1366,7 @@ KINDS = {
     "another user": unprivileged,
     "files that cannot be replaced": in_the_way,
     "signals": signals,
+    "signals that are ignored": ignored,
     "modes": modes,
     "odd names": odd_names,
     "records of none": records,
