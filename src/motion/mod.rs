@@ -99,6 +99,9 @@ pub struct Piece {
 /// turns; beyond, whole turns are taken off at once.
 const TURNS_ONE_BY_ONE: f64 = 16.0;
 
+/// Cells of a movement: pressure angle and curvature have a handful of extrema on it.
+const CELLS: u32 = 32;
+
 /// A follower motion: over one turn of the cam, or over the stroke of a cam that is run over once and back.
 pub trait Motion: std::fmt::Debug + Send + Sync {
     /// The pieces in order; together they cover exactly one period, a turn starting anywhere in (−2π, 2π).
@@ -154,6 +157,12 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         let pieces = self.pieces();
         let count = usize::try_from(self.lobes()).ok().and_then(|lobes| pieces.len().checked_div(lobes));
         count.and_then(|count| pieces.get(..count)).unwrap_or(pieces)
+    }
+
+    /// In how many cells the extremes on a piece of what a follower does are told apart.
+    fn cells(&self, piece: usize) -> u32 {
+        let dwells = self.pieces().get(piece).is_some_and(|piece| piece.dwell);
+        if dwells { 1 } else { CELLS }
     }
 
     /// First and last value of the parameter.

@@ -5,9 +5,6 @@ use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::chebyshev::{self, Known};
 use crate::numeric::extremum::{self, Extremum};
 
-/// Cells a piece is cut into: pressure angle and curvature of a piece have a handful of extrema.
-const CELLS: u32 = 32;
-
 /// Of every piece, as what is searched.
 fn everywhere(_piece: usize) -> bool {
     true
@@ -32,7 +29,7 @@ fn places(
     quantity: impl Fn(usize, f64) -> (f64, f64),
 ) -> Vec<(usize, Vec<extremum::Place>)> {
     let in_piece = |(index, piece): (usize, &Piece)| {
-        let cells = if piece.dwell { 1 } else { CELLS };
+        let cells = curves.motion.cells(index);
         (index, extremum::places(|at| quantity(index, at), (piece.start, piece.end), cells))
     };
     let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));

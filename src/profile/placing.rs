@@ -9,8 +9,6 @@ use crate::motion::{Motion, Piece};
 use crate::numeric::extremum::{self, Extremum};
 use nalgebra::Vector2;
 
-/// Cells in which a piece is searched for the condition broken most: as many as for its pressure angle.
-const CELLS: u32 = 32;
 /// Rounds of the exchange. Each settles the broken places to second order, so that few are needed.
 const ROUNDS: usize = 60;
 /// By how much a condition may be broken, over the size of the figures in it: rounding.
@@ -75,7 +73,7 @@ fn broken(motion: &dyn Motion, place: Place, (limit, falling): (f64, bool), shaf
             let plane = plane(at);
             (plane.least - plane.normal.dot(&shaft), plane.least_slope - plane.normal_slope.dot(&shaft))
         };
-        let cells = if piece.dwell { 1 } else { CELLS };
+        let cells = motion.cells(index);
         let Extremum { at, value } = extremum::largest_with_slope(lack, (piece.start, piece.end), cells);
         let plane = plane(at);
         (value > BROKEN * (size + plane.least.abs())).then_some(Held { plane, of: Binding { at, falling } })

@@ -58,9 +58,6 @@ fn rounded_up_to(radius: f64, steps_per_metre: f64) -> f64 {
     (radius * steps_per_metre - BASE_STEP_NOISE).ceil() / steps_per_metre
 }
 
-/// Cells in which the height that a pressure angle asks for is searched.
-const CELLS: u32 = 32;
-
 /// Doublings from the least radius before giving up: 1 µm to 1e9 m.
 const DOUBLINGS: u32 = 50;
 
@@ -218,7 +215,7 @@ impl Sizing<'_> {
                     let over = plane.normal.x;
                     ((plane.least - plane.normal.y * offset) / over, plane.least_slope / over)
                 };
-                let cells = if piece.dwell { 1 } else { CELLS };
+                let cells = self.motion.cells(index);
                 extremum::largest_with_slope(height, (piece.start, piece.end), cells).value
             };
             let pieces = self.motion.distinct().iter().enumerate().filter(|(index, _)| self.motion.is_rolled(*index));

@@ -19,7 +19,7 @@ pub use told::{Class, Jump, SegmentTold};
 
 use super::laws::optimum::Optimum;
 use super::laws::{self, Curve, End, Inflection, Law, LawError, Parameters, Task, polynomial};
-use super::{Jet, Motion, Piece, Quantity};
+use super::{CELLS as CELLS_OF_MOVEMENT, Jet, Motion, Piece, Quantity};
 use crate::numeric::extremum;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -27,6 +27,8 @@ use std::sync::OnceLock;
 
 /// Most cells in which the lowest point of a part is searched: it may bulge below its ends when it begins or ends in motion.
 const CELLS: u32 = 16;
+/// Least cells of a short piece of a segment.
+const LEAST_CELLS: f64 = 8.0;
 
 /// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
 const SMOOTH: u32 = 3;
@@ -495,6 +497,18 @@ impl Motion for Program {
 
     fn program(&self) -> Option<&Program> {
         Some(self)
+    }
+
+    /// Of a segment of several pieces each takes its share of the cells.
+    fn cells(&self, piece: usize) -> u32 {
+        let own = self.pieces.get(piece).filter(|piece| !piece.dwell);
+        let source = self.sources.get(piece % self.sources.len().max(1));
+        let segment = source.and_then(|source| self.segments.get(source.segment));
+        let Some((own, segment)) = own.zip(segment) else { return 1 };
+        let share = f64::from(CELLS_OF_MOVEMENT) * ((own.end - own.start) / segment.width);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between its bounds")]
+        let cells = share.ceil().clamp(LEAST_CELLS, f64::from(CELLS_OF_MOVEMENT)) as u32;
+        cells
     }
 }
 
