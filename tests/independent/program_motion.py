@@ -288,7 +288,7 @@ class Program:
         self.first, self.at = quantity(motion["start"]), quantity(motion.get("at", "0 deg"))
         self.lobes = motion.get("repeat", 1)
         self.fill = TAU / self.lobes
-        self.segments, self.noise, self.driven, self.near = [], np.zeros(5), "polydyne" in motion, False
+        self.segments, self.noise, self.driven, self.near = [], np.zeros(7), "polydyne" in motion, False
         forms = [key for key in ("formula", "points", "table", "fourier") if key in motion]
         if forms:
             self.whole(forms[0], motion)
@@ -353,7 +353,7 @@ class Program:
 
     def rounding(self, values, step):
         """What the rounding of positions makes of each derivative of a spline."""
-        self.noise = np.maximum(self.noise, 2e-16 * np.abs(values).max() * np.array([1.0, 10.0, 100.0, 1000.0, 1e4]) / step ** np.arange(5))
+        self.noise = np.maximum(self.noise, 2e-16 * np.abs(values).max() * 10.0 ** np.arange(7) / step ** np.arange(7))
 
     def spline_pieces(self, parts, apart):
         """One piece where the jerk is continuous; an elastic load asks for more."""
@@ -373,6 +373,9 @@ class Program:
         if self.jumped > 1e-7:
             raise Illegal("impact")
         share = rpm / 60 / float(polydyne["natural_frequency"].split()[0])
+        # The cam is the load's motion with two of its derivatives, and so is what rounding leaves.
+        velocity, acceleration = 2 * polydyne.get("damping", 0.0) * share * self.noise[1:6], share**2 * self.noise[2:]
+        self.noise[:5] += velocity + acceleration
         for segment in self.segments:
             if segment.law != "dwell":
                 first, second = 2 * polydyne.get("damping", 0.0) * share / segment.width, (share / segment.width) ** 2
