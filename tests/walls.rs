@@ -322,3 +322,35 @@ cutter_radius = "34 mm"
     assert!(number(&report["cam"]["base_radius_mm"]) < 100.0, "{}", report["cam"]);
     assert_eq!(finding(&report, "cutter_radius")["verdict"], "fail");
 }
+
+/// A spline that swings out by 164 m and passes its lowest place with an acceleration of 129 m/rad²: there the path of the roller is hollow,
+/// with a radius down to 0.07 mm, over 2.5° of a piece of 279°. The figure is that of the independent program of `tests/independent`.
+#[test]
+fn a_spike_of_the_curvature_within_a_long_piece_is_found() {
+    let text = r#"name = "spike"
+[motion]
+start = "0 m"
+[[motion.segment]]
+law = "spline"
+over = "359 deg"
+to = "0.02133 m"
+end = "turn"
+points = [["60.9 deg", "3.3969700503249327 mm"], ["79.63 deg", "0.4099 cm"]]
+[[motion.segment]]
+law = "spline"
+to = "0 m"
+velocity = "-43.38194197961008 in/rad"
+acceleration = "0.8357188320264773 mm/rad2"
+points = [["359.7451240601503 deg", "4.93067 mm"]]
+[follower.roller]
+radius = "0.00931 m"
+[cam]
+base_radius = "0.0864 m"
+[limits]
+cutter_radius = "10 mm"
+"#;
+    let report = report(&run(text, &["--dry-run"]));
+    let found = finding(&report, "cutter_radius");
+    assert!((number(&found["value"]) / 9.380_530_932_795_192 - 1.0).abs() < 1e-9, "{found}");
+    assert_eq!(found["verdict"], "fail");
+}

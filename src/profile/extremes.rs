@@ -4,6 +4,7 @@ use super::Curves;
 use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::chebyshev::{self, Known};
 use crate::numeric::extremum::{self, Extremum};
+use nalgebra::Vector2;
 
 /// Of every piece, as what is searched.
 fn everywhere(_piece: usize) -> bool {
@@ -17,7 +18,11 @@ fn largest(
     searched: impl Fn(usize) -> bool,
     quantity: impl Fn(usize, f64) -> (f64, f64),
 ) -> Extremum {
-    let all = places(curves, searched, &quantity);
+    largest_beyond(&places(curves, searched, &quantity), quantity)
+}
+
+/// The same with the places between the cells, and the number of their piece.
+fn largest_beyond(all: &[(usize, Vec<extremum::Place>)], quantity: impl Fn(usize, f64) -> (f64, f64)) -> Extremum {
     let known = all.iter().fold(NOTHING, |best, (_, places)| extremum::highest(best, places));
     all.iter().fold(known, |best, (index, places)| extremum::beyond(best, places, |at| quantity(*index, at)))
 }
@@ -34,6 +39,51 @@ fn places(
     };
     let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
     pieces.map(in_piece).collect()
+}
+
+/// Cosine of the turn of the follower's curve within a cell below which the cell is halved, and how often: where a curve turns by half a
+/// radian its curvature may have a spike, as where a small radius is passed with a large acceleration.
+const LEAST_COSINE: f64 = 0.88;
+const MOST_HALVED: u32 = 20;
+
+/// A place and the direction of the follower's curve there.
+type Along = (extremum::Place, Vector2<f64>);
+
+/// The same of a quantity that comes with the direction of the follower's curve: no cell of a movement turns much.
+fn places_along(
+    curves: Curves<'_>,
+    searched: impl Fn(usize) -> bool,
+    quantity: impl Fn(usize, f64) -> (f64, f64, Vector2<f64>),
+) -> Vec<(usize, Vec<extremum::Place>)> {
+    let in_piece = |(index, piece): (usize, &Piece)| {
+        let at = |at: f64| {
+            let (value, slope, direction) = quantity(index, at);
+            (extremum::Place { at, value, slope }, direction)
+        };
+        let cells = curves.motion.cells(index);
+        let mut places = Vec::with_capacity(cells as usize + 1);
+        let mut before: Option<Along> = None;
+        for next in extremum::between_cells((piece.start, piece.end), cells).map(at) {
+            if let Some(before) = before.filter(|_| !piece.dwell) {
+                halved(before, next, MOST_HALVED, &at, &mut places);
+            }
+            places.push(next.0);
+            before = Some(next);
+        }
+        (index, places)
+    };
+    let pieces = curves.motion.distinct().iter().enumerate().filter(|(index, _)| searched(*index));
+    pieces.map(in_piece).collect()
+}
+
+/// Adds the places within a cell that turns much.
+fn halved(from: Along, to: Along, times: u32, at: &impl Fn(f64) -> Along, places: &mut Vec<extremum::Place>) {
+    if times > 0 && from.1.dot(&to.1) < LEAST_COSINE {
+        let middle = at(0.5 * (from.0.at + to.0.at));
+        halved(from, middle, times - 1, at, places);
+        places.push(middle.0);
+        halved(middle, to, times - 1, at, places);
+    }
 }
 
 /// The larger of two, the first of equals; what is no number gives way.
@@ -151,22 +201,19 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
 /// Largest pressure angle and largest one of the other sign, as a positive number, where a follower runs, rad.
 #[must_use]
 pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
-    let both = |piece: usize, angle: f64| {
+    let along = |piece: usize, angle: f64| {
         let contact = curves.contact(piece, angle);
-        (contact.pressure_angle, contact.pressure_angle_slope)
+        (contact.pressure_angle, contact.pressure_angle_slope, contact.curve.tangent)
     };
-    let rising = places(curves, |piece| curves.motion.is_rolled(piece), both);
+    let rising = places_along(curves, |piece| curves.motion.is_rolled(piece), along);
     let negative = |(index, places): &(usize, Vec<extremum::Place>)| {
         (*index, places.iter().map(|place| place.negative()).collect())
     };
     let falling: Vec<_> = rising.iter().map(negative).collect();
     [(rising, 1.0), (falling, -1.0)].map(|(all, sign)| {
-        let known = all.iter().fold(NOTHING, |best, (_, places)| extremum::highest(best, places));
-        all.iter().fold(known, |best, (index, places)| {
-            extremum::beyond(best, places, |at| {
-                let (angle, slope) = both(*index, at);
-                (sign * angle, sign * slope)
-            })
+        largest_beyond(&all, |piece, at| {
+            let (angle, slope, _) = along(piece, at);
+            (sign * angle, sign * slope)
         })
     })
 }
@@ -180,9 +227,18 @@ pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
 /// The same over the pieces that are searched; −∞ where none is.
 #[must_use]
 pub fn convex_curvature_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Extremum {
-    largest(curves, searched, |piece, angle| {
-        let pitch = curves.touch(piece, angle).curve;
-        (pitch.curvature, pitch.curvature_slope * pitch.speed)
+    largest_curvature(curves, searched, 1.0)
+}
+
+/// The largest curvature of one sign.
+fn largest_curvature(curves: Curves<'_>, searched: impl Fn(usize) -> bool, sign: f64) -> Extremum {
+    let along = |piece: usize, at: f64| {
+        let pitch = curves.touch(piece, at).curve;
+        (sign * pitch.curvature, sign * pitch.curvature_slope * pitch.speed, pitch.tangent)
+    };
+    largest_beyond(&places_along(curves, searched, along), |piece, at| {
+        let (curvature, slope, _) = along(piece, at);
+        (curvature, slope)
     })
 }
 
@@ -235,10 +291,7 @@ pub fn least_turn(curves: Curves<'_>) -> Option<Extremum> {
 /// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
 #[must_use]
 pub fn concave_profile_curvature(curves: Curves<'_>) -> Extremum {
-    let pitch = largest(curves, everywhere, |piece, angle| {
-        let pitch = curves.touch(piece, angle).curve;
-        (-pitch.curvature, -pitch.curvature_slope * pitch.speed)
-    });
+    let pitch = largest_curvature(curves, everywhere, -1.0);
     Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * curves.offset()) }
 }
 
