@@ -163,6 +163,10 @@ class Outline:
     def least_distance(self, centre, radius, sweep, middle):
         """Of the outline from the shaft."""
         best = np.abs(self.start).min()
+        # A straight edge under a face has its nearest place where the face is square to the ray.
+        chord = np.roll(self.start, -1) - self.start
+        share = np.clip(-(np.conj(chord) * self.start).real / np.abs(chord) ** 2, 0, 1)
+        best = min(best, np.abs(self.start + share * chord)[~self.arc].min(initial=math.inf))
         for i in np.nonzero(self.arc)[0]:
             foot = -centre[i] / abs(centre[i]) if abs(centre[i]) > 1e-9 else middle[i]
             for direction in (foot, -foot):
