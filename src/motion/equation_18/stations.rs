@@ -110,6 +110,11 @@ impl Station<'_> {
         }
     }
 
+    /// Δx at which the air is used up.
+    fn column(&self) -> f64 {
+        self.mechanism.bottom_law.column() * (1.0 - MARGIN) - self.x
+    }
+
     /// The furthest Δx on a side before the solution ends, and why it ends there.
     fn furthest(&self, side: Trend) -> (f64, Wall) {
         let (m, x_mm) = (self.mechanism, 1e3 * self.x);
@@ -120,7 +125,7 @@ impl Station<'_> {
         if line < arm {
             least = (line, Wall::Line { x_mm });
         }
-        let column = m.bottom_law.column() * (1.0 - MARGIN) - self.x;
+        let column = self.column();
         if side == Trend::Rising && column < least.0 {
             least = (column, Wall::Column { x_mm });
         }
@@ -132,7 +137,11 @@ impl Station<'_> {
         if !(self.free(self.before) > 0.0) {
             return Err(Wall::Jam { x_mm });
         }
-        let (side, sign) = if self.remainder(self.before, Trend::Rising) > 0.0 {
+        // Where the piston would meet the bottom as it stands the air drives it back.
+        let mut near = self.before.min(self.column());
+        let (side, sign) = if near < self.before {
+            (Trend::Falling, -1.0)
+        } else if self.remainder(self.before, Trend::Rising) > 0.0 {
             (Trend::Rising, 1.0)
         } else if self.remainder(self.before, Trend::Falling) < 0.0 {
             (Trend::Falling, -1.0)
@@ -140,7 +149,6 @@ impl Station<'_> {
             return Ok(self.before);
         };
         let (furthest, wall) = self.furthest(side);
-        let mut near = self.before;
         let mut width = FIRST_WIDTH * self.step;
         for _ in 0..DOUBLINGS {
             let mut far = self.before + sign * width;
