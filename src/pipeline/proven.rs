@@ -93,7 +93,7 @@ impl<'c> Drawing<'c> {
         let path = self.drawn.as_ref().ok().and_then(|drawn| drawn.cutter_path.as_ref()).zip(self.request.cutter);
         let cutter_path = path.map(|(outline, radius)| {
             let contour = match outline {
-                Ok(outline) => proof::cutter_path(outline, version).map_err(|error| error.to_string()),
+                Ok(outline) => proof::cutter_path(&outline.contour, version).map_err(|error| error.to_string()),
                 Err(error) => Err(error.to_string()),
             };
             WrittenPath { radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour }

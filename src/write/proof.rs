@@ -8,7 +8,6 @@ use crate::body::{Layer, Part};
 use crate::geometry::Entity;
 use crate::geometry::contour::Contour;
 use crate::geometry::cubics::{Run, runs};
-use crate::profile::outline::Outline;
 use crate::reading::{self, Chain, ReadError};
 use ::dxf::entities::EntityType;
 use nalgebra::Vector2;
@@ -83,8 +82,8 @@ pub fn write_marked(part: &Part, version: Version, mark: &str) -> Result<Written
 ///
 /// # Errors
 /// [`ProofError`] when what was written is not what was drawn.
-pub fn cutter_path(outline: &Outline, version: Version) -> Result<Contour, ProofError> {
-    let bytes = dxf::cutter_path(outline, version);
+pub fn cutter_path(path: &Contour, version: Version) -> Result<Contour, ProofError> {
+    let bytes = dxf::cutter_path(path, version);
     // The reader takes the layer of the outline for what is cut.
     let text = String::from_utf8_lossy(&bytes).replace(Layer::CutterPath.name(), Layer::CamProfile.name());
     let reading = reading::read(text.as_bytes(), JOIN)?;
@@ -180,6 +179,32 @@ fn same_run(run: &Run, found: &EntityType) -> bool {
 mod tests {
     use super::*;
     use crate::geometry::contour::Bend;
+
+    /// A chain of the dxf crate is the one that was drawn when it has every vertex, no other, and is closed.
+    #[test]
+    fn a_chain_is_the_same_with_all_of_it() {
+        let circle = Contour::circle(Vector2::new(3.0, 4.0), 50.0);
+        let rows = |contour: &Contour| -> Vec<[f64; 3]> {
+            contour.vertices.iter().map(|v| [v.point.x, v.point.y, v.bulge().expect("an arc")]).collect()
+        };
+        let all = rows(&circle);
+        let same = |closed: bool, found: &[[f64; 3]]| same_chain(&circle, closed, &mut found.iter().copied());
+        assert!(same(true, &all));
+        assert!(!same(false, &all), "open");
+        assert!(!same(true, &[&all[..], &all[..1]].concat()), "one more");
+        assert!(!same(true, &all[1..]), "one less");
+    }
+
+    /// A path that runs out and back along the same line is two lines in one place, and no outline.
+    #[test]
+    fn a_path_that_covers_itself_is_no_outline() {
+        let vertex = |x: f64| crate::geometry::contour::Vertex::new(Vector2::new(x, 0.0), 0.0);
+        let there_and_back = Contour { vertices: vec![vertex(0.0), vertex(30.0)] };
+        let found = cutter_path(&there_and_back, Version::R2000);
+        assert_eq!(found, Err(ProofError::NotOneOutline));
+        let circle = Contour::circle(Vector2::new(3.0, 4.0), 50.0);
+        assert!(cutter_path(&circle, Version::R2000).is_ok_and(|found| found.vertices.len() == circle.vertices.len()));
+    }
 
     #[test]
     fn the_second_reader_misses_nothing_and_finds_nothing_more() {

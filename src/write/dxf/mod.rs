@@ -40,7 +40,7 @@ pub const CUTTER_PATH: Format = Format {
     endings: |drawn| drawn.cutter_path.iter().map(|_| "-cutter.dxf".into()).collect(),
     write: |cam| {
         let path = |outline: &Result<Outline, OutlineError>| match outline {
-            Ok(outline) => Ok(marked(cutter_path(outline, cam.dxf_version), &cam.report.mark())),
+            Ok(outline) => Ok(marked(cutter_path(&outline.contour, cam.dxf_version), &cam.report.mark())),
             Err(error) => Err((*error).into()),
         };
         cam.drawn.cutter_path.iter().map(path).collect()
@@ -50,8 +50,8 @@ pub const CUTTER_PATH: Format = Format {
 
 /// The file of a cutter's path.
 #[must_use]
-pub fn cutter_path(outline: &Outline, version: Version) -> Vec<u8> {
-    write(&[(Layer::CutterPath, Entity::Polyline(outline.contour.clone()))], version)
+pub fn cutter_path(path: &Contour, version: Version) -> Vec<u8> {
+    write(&[(Layer::CutterPath, Entity::Polyline(path.clone()))], version)
 }
 
 /// Version of a DXF file.
