@@ -492,3 +492,50 @@ fn a_moved_row_is_felt() {
         assert!(felt(&moved)[1] > 1.05 * told[1], "{points:?}: {:?} {told:?}", felt(&moved));
     }
 }
+
+/// The note tells what the head of the file tells, and the place is that where the curve is farthest from the exact one.
+#[test]
+fn the_check_tells_rates_and_the_place_of_the_worst() {
+    let cam = own(LIFTER);
+    let curves = cam.body().plane().expect("plane");
+    let exact: Vec<_> = (0..36_000)
+        .map(|i| {
+            let (piece, angle) = curves.motion.locate(TAU * f64::from(i) / 36e3);
+            curves.touch(piece, angle).curve
+        })
+        .collect();
+    for between in [Between::Linear, Between::Cubic] {
+        let points = Points { given: Given::Centre, form: Some(Form::Plane), step: Some(Step::Angle), between };
+        let proven = cam.draw(request(points, None, 2e-5)).expect("drawn").prove().expect("proved");
+        let found = proven.findings().iter().find(|finding| finding.check == "points").expect("checked").clone();
+        let text = table(&proven);
+        let note = found.note.expect("a note");
+        let velocity = note.split("the velocity off by ").nth(1).and_then(|rest| rest.split(' ').next()).expect(&note);
+        let velocity: f64 = velocity.parse().expect("a number");
+        assert!((velocity / number(&text, "velocity_error_mm_per_rad") - 1.0).abs() < 1e-3, "{note}");
+        if between == Between::Cubic {
+            assert!(note.contains(", the acceleration by ") && !note.contains("no acceleration"), "{note}");
+            continue;
+        }
+        assert!(note.contains("no acceleration is kept where the control goes straight"), "{note}");
+        let rows = read(text.as_bytes()).expect("a table").rows;
+        let chords = rows.windows(2).map(|pair| {
+            let [a, b] = [pair[0], pair[1]].map(Vector2::from);
+            let middle = 0.5 * (a + b);
+            let near = exact.iter().map(|point| (point.point * 1e3 - middle, point));
+            let (away, nearest) =
+                near.min_by(|a, b| a.0.norm_squared().total_cmp(&b.0.norm_squared())).expect("points");
+            (away.dot(&nearest.outward()).abs(), middle, (b - a).norm())
+        });
+        let chords: Vec<_> = chords.collect();
+        let worst = chords.iter().map(|chord| chord.0).fold(0.0, f64::max);
+        assert!((worst / found.value - 1.0).abs() < 0.02, "{worst} {}", found.value);
+        let (piece, angle) = curves.motion.locate(found.place.cam_deg.expect("a place").to_radians());
+        let told = curves.touch(piece, angle).curve.point * 1e3;
+        let there = |(off, middle, chord): &(f64, Vector2<f64>, f64)| {
+            *off > 0.99 * worst && (told - middle).norm() < 0.05 * chord
+        };
+        let top: Vec<_> = chords.iter().filter(|chord| chord.0 > 0.99 * worst).collect();
+        assert!(chords.iter().any(there), "{told:?}: {top:?}");
+    }
+}

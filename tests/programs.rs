@@ -351,6 +351,23 @@ fn segments_by_formula_table_and_spline() {
     near(at(&closed), at(POINTS), 1e-11);
 }
 
+/// What ends in motion by its own formula hands its velocity and acceleration on: the acceleration jumps where the formula begins alone.
+#[test]
+fn a_segment_by_formula_hands_its_state_on() {
+    let keys = "[[motion.segment]]\nlaw = \"formula\"\nformula = \"x^2\"\nover = \"120 deg\"\nto = \"20 mm\"\n\
+                [[motion.segment]]\nlaw = \"polynomial\"\nover = \"60 deg\"\nto = \"30 mm\"\n\
+                [[motion.segment]]\nlaw = \"polynomial\"\nto = \"0 mm\"\n";
+    let report = told(&in_one(keys));
+    let segments = report["motion"]["segments"].as_array().expect("segments");
+    assert_eq!(segments.iter().map(|segment| &segment["class"]).collect::<Vec<_>>(), ["R-B", "B-R", "R-R"]);
+    let checks = report["checks"].as_array().expect("checks");
+    let continuity = checks.iter().find(|check| check["check"] == "continuity").expect("checked");
+    // 40 mm over (2π/3)², where the formula begins.
+    let at = (&continuity["value"], &continuity["cam_deg"]);
+    assert_eq!((at.0.as_f64(), at.1.as_f64()), (Some(1.0), Some(0.0)), "{continuity}");
+    assert!(continuity["note"].as_str().is_some_and(|note| note.contains("9.1189 mm/rad²")), "{continuity}");
+}
+
 /// Messages for motions in one, each with its line and column.
 #[test]
 fn what_is_wrong_with_a_motion_in_one_is_told_at_its_place() {

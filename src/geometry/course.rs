@@ -265,6 +265,28 @@ mod tests {
         }
     }
 
+    /// Points all round lines and arcs short and long, inside and outside: none of many places is nearer.
+    #[test]
+    fn the_nearest_place_is_the_nearest_of_many() {
+        let (start, heading) = (Vector2::new(1.0, 2.0), Vector2::new(0.6, 0.8));
+        let arcs = [0.5, -0.05]
+            .into_iter()
+            .flat_map(|k| [0.01, 0.3, 0.6, 0.95].map(|share| (k, share * 2.0 * PI / f64::abs(k))));
+        for (curvature, length) in arcs.chain([(0.0, 3.0)]) {
+            let arc = Round { start, heading, curvature, length };
+            for i in 0..48 {
+                let (sin, cos) = libm::sincos(2.0 * PI * f64::from(i) / 48.0);
+                for reach in [0.3, 2.5, 60.0] {
+                    let point = start + Vector2::new(reach * cos, reach * sin);
+                    let found = (arc.at(arc.nearest(point)).0 - point).norm();
+                    let scan = (0..=2000).map(|i| (arc.at(length * f64::from(i) / 2e3).0 - point).norm());
+                    let scan = scan.fold(f64::INFINITY, f64::min);
+                    assert!(found <= scan + 1e-12, "{arc:?} from {point:?}: {found} {scan}");
+                }
+            }
+        }
+    }
+
     /// Places all round the circle of arcs short and long: ahead up to the middle of what an arc leaves of it, then back.
     #[test]
     fn lengths_to_places_of_the_circle_count_back_behind_the_arc() {

@@ -34,3 +34,17 @@ impl Entity {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_circle_reaches_as_far_as_its_contour() {
+        let circle = Entity::Circle(Vector2::new(3.0, -4.0), 5.0);
+        let extents = circle.extents();
+        assert_eq!((extents.least, extents.largest), (Vector2::new(-2.0, -9.0), Vector2::new(8.0, 1.0)));
+        let contour = Entity::Polyline(circle.contour()).extents();
+        assert!((contour.least - extents.least).norm() + (contour.largest - extents.largest).norm() < 1e-14);
+    }
+}

@@ -429,10 +429,15 @@ impl Walk<'_, '_> {
 
     /// The points of the outline between a foot and a corner nearby, seen from the point over the foot.
     fn sliver(&mut self, node: &Node, corner: Vector2<f64>) {
-        let apart = (node.foot.point - corner).norm();
-        let seen = node.off.abs().max((node.point - corner).norm());
-        self.record(seen + 0.125 * node.foot.curvature.abs() * apart * apart, node.point);
+        self.record(farthest_of_sliver(node, corner), node.point);
     }
+}
+
+/// What the distance from the point over a foot to the points of the outline between the foot and a corner nearby does not exceed.
+fn farthest_of_sliver(node: &Node, corner: Vector2<f64>) -> f64 {
+    let apart = (node.foot.point - corner).norm();
+    let seen = node.off.abs().max((node.point - corner).norm());
+    seen + 0.125 * node.foot.curvature.abs() * apart * apart
 }
 
 /// The interval in which d'' lies between two points of an edge with curvatures in this interval over one stretch; `None` where they are too

@@ -280,3 +280,80 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let finding = CHECK.found(size, Some(limit), "mm", Verdict::of(kept));
     Some(at(evidence.body, &found.worst, finding, Some(words.join("; "))))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::nurbs::{Knots, weighted};
+    use crate::machine::Machine;
+    use crate::pipeline::{Cam, Spec};
+
+    fn conoid() -> Cam {
+        let machine = Machine::load("dpi", &[]).expect("valid").0;
+        Spec::conoid(machine, vec![20.0, 35.0], None).solve().expect("a conoid")
+    }
+
+    /// A point beside the flank, on its normal, is as far from it as that, also seen along a normal that is off by a tenth of a radian.
+    #[test]
+    fn a_deviation_is_the_distance_from_the_nearest_place() {
+        let cam = conoid();
+        let conoid = cam.body().spatial().expect("a conoid");
+        let (exact, slice) = (Exact { conoid, turned: false }, conoid.slice(0.0));
+        let (low, high) = conoid.ends();
+        let radius = conoid.roller().radius;
+        for i in 0..60 {
+            let (piece, angle) = slice.locate(TAU * f64::from(i) / 60.0);
+            let z = low + (high - low) * f64::from(i % 7 + 1) / 9.0;
+            let (place, [by_angle, by_z], _) = exact.pitch(piece, angle, z);
+            let outward = by_angle.cross(&by_z).normalize();
+            for (off, turned) in [(0.0, 0.0), (2e-6, 0.1), (-3e-6, -0.1)] {
+                let point = (place - outward * (radius - off)) * MILLIMETRES;
+                let normal = (outward + by_angle.normalize() * turned).normalize();
+                let (found, cosine) = exact.deviation(&slice, point, normal);
+                assert!((found.value + MILLIMETRES * off).abs() < 1e-10, "{i} {off}: {found:?}");
+                assert!((cosine - outward.dot(&normal)).abs() < 1e-6, "{i} {off}: {cosine}");
+            }
+        }
+    }
+
+    /// A bilinear patch between four corners.
+    fn bilinear(corners: [[Vector3<f64>; 2]; 2]) -> Surface {
+        let knots = || Knots { degree: 1, values: vec![0.0, 0.0, 1.0, 1.0] };
+        let controls = corners.iter().map(|row| row.iter().map(|corner| weighted(*corner, 1.0)).collect()).collect();
+        Surface { u: knots(), v: knots(), controls }
+    }
+
+    /// A quarter of a turn, four high, three above the plane: whichever way its sides run.
+    #[test]
+    fn a_patch_goes_round_by_its_angle_and_height() {
+        let at = |x: f64, y: f64, z: f64| Vector3::new(x, y, z);
+        let (a, b) = ([at(50.0, 0.0, 3.0), at(50.0, 0.0, 7.0)], [at(0.0, 40.0, 3.0), at(0.0, 40.0, 7.0)]);
+        let area = around(&bilinear([a, b]), true);
+        assert!((area - 0.5 * PI * 4.0).abs() < 1e-9, "{area}");
+        assert_eq!(around(&bilinear([a, b]), false), -area);
+        let other = around(&bilinear([b, a]), true);
+        assert!((other + area).abs() < 1e-9, "{other}");
+    }
+
+    /// Where the places are doubled all of them are counted: 8², 16², 32² and 64².
+    #[test]
+    fn every_place_of_a_cell_is_counted() {
+        let cam = conoid();
+        let conoid = cam.body().spatial().expect("a conoid");
+        let (exact, slice) = (Exact { conoid, turned: false }, conoid.slice(0.0));
+        let (low, high) = conoid.ends();
+        let on = |angle: f64, z: f64| {
+            let (piece, inside) = slice.locate(angle);
+            let (place, [by_angle, by_z], _) = exact.pitch(piece, inside, z);
+            (place - by_angle.cross(&by_z).normalize() * conoid.roller().radius) * MILLIMETRES
+        };
+        let (z, height) = (0.5 * (low + high), 0.1 * (high - low));
+        let patch = bilinear([[on(1.0, z), on(1.0, z + height)], [on(1.1, z), on(1.1, z + height)]]);
+        let cell = Cell { patch: &patch, outward: true, u: (0.0, 1.0), v: (0.0, 1.0) };
+        let finest = cell.at_places(&exact, &slice, PLACES << DOUBLINGS);
+        assert!(!finest.folded && finest.worst.value.abs() > 0.0 && finest.bound > finest.worst.value.abs());
+        // Larger than anything found, and smaller than any bound.
+        let found = cell.found(&exact, &slice, finest.worst.value.abs() * (1.0 + 1e-12));
+        assert_eq!(found.samples, 64 + 256 + 1024 + 4096);
+    }
+}

@@ -53,6 +53,7 @@ fn each_check_passes_a_good_cam_and_fails_a_broken_one() {
         assert_eq!(of(&findings("dpi", &bad), check).verdict, Verdict::Fail, "{check}");
     }
     assert_eq!(of(&good, "force_closure").verdict, Verdict::Info);
+    assert_eq!(of(&good, "cutter_radius").limit, Some(10.0));
     for check in ["tangency", "outline", "rolling"] {
         assert_eq!(of(&good, check).verdict, Verdict::Pass, "{check}: {good:?}");
     }
@@ -170,6 +171,11 @@ fn the_residual_is_judged_by_what_a_fixed_bottom_leaves() {
     }
     let wide = ["transition.kind=blend", "transition.width=180deg"];
     assert_eq!(of(&findings("dpi", &wide), "residual").verdict, Verdict::Fail);
+    // Better than none, and not by half.
+    let less_wide = findings("dpi", &["transition.kind=blend", "transition.width=135deg"]);
+    let residual = of(&less_wide, "residual");
+    let share = residual.value / residual.limit.expect("a limit");
+    assert!(residual.verdict == Verdict::Warn && 0.5 < share && share < 1.0, "{residual:?}");
     // A limit of one's own takes the place of the default, in either direction.
     let allowed = [&wide[..], &["limits.residual_share=0.5"]].concat();
     assert_eq!(of(&findings("dpi", &allowed), "residual").verdict, Verdict::Pass);
@@ -188,6 +194,7 @@ fn a_bottom_that_hits_the_piston_fails_and_the_note_tells_what_fits() {
         let rest = note.split(after).nth(1).expect(note);
         rest.split(before).next().and_then(|text| text.trim().parse().ok()).expect(note)
     };
+    assert!((0.0015..0.0025).contains(&number("leaves ", " mm of air")), "{note}");
     let (speed, tolerance) = (number("; at ", " rpm"), number("tolerance of ", " um"));
     assert!((50.0..1000.0).contains(&speed) && (0.01..5.0).contains(&tolerance), "{note}");
     for (rpm, tolerance) in [(speed, 5e-6), (1000.0, 1e-6 * tolerance)] {

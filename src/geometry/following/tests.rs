@@ -49,3 +49,71 @@ fn circles_in_closed_form() {
         }
     }
 }
+
+/// The lower of two parabolas, by many places: both fall, their tops inside, at an end, and where they cross.
+#[test]
+fn the_highest_place_is_that_of_the_lower_parabola() {
+    for (a, b, bend) in [
+        ((0.0, 0.25), (-1.0, -3.0), -0.5),
+        ((0.0, 0.25), (0.02, -0.3), -0.2),
+        ((-1.0, 3.0), (0.0, -0.25), -0.5),
+        ((0.0, 1.0), (0.0, -1.0), 0.0),
+        ((0.3, -0.2), (0.1, -0.3), 0.4),
+        ((0.0, -0.5), (0.0, 0.5), 0.8),
+    ] {
+        let length = 2.0;
+        let lower = |x: f64| {
+            let y = length - x;
+            let (from_a, from_b) = (a.0 + a.1 * x + 0.5 * bend * x * x, b.0 - b.1 * y + 0.5 * bend * y * y);
+            from_a.min(from_b)
+        };
+        let scan = (0..=200_000).map(|i| lower(length * f64::from(i) / 2e5)).fold(f64::NEG_INFINITY, f64::max);
+        let found = highest(a, b, length, bend);
+        assert!((found - scan).abs() < 2e-5, "{a:?} {b:?} {bend}: {found} {scan}");
+    }
+}
+
+/// A point over a circle, on its normal.
+fn over(angle: f64, off: f64) -> Node {
+    let (sin, cos) = libm::sincos(angle);
+    let foot = CurvePoint {
+        point: Vector2::new(RADIUS * cos, RADIUS * sin),
+        tangent: Vector2::new(-sin, cos),
+        speed: RADIUS,
+        curvature: 1.0 / RADIUS,
+        curvature_slope: 0.0,
+    };
+    let point = Vector2::new((RADIUS + off) * cos, (RADIUS + off) * sin);
+    Node { length: RADIUS * angle, point, foot, parameter: angle, off, sine: 0.0 }
+}
+
+/// What d'' may be between two points on the circle itself, of an arc of its own curvature: also where the arc has left the circle by as
+/// much as these very bounds let it.
+#[test]
+fn the_bend_holds_where_it_leads() {
+    let kappa = 1.0 / RADIUS;
+    for length in [0.1, 1.0, 4.0] {
+        let (low, high) = bend((kappa, kappa), &over(0.0, 0.0), &over(length / RADIUS, 0.0), length).expect("near");
+        let turned = 0.5 * length * low.abs().max(high.abs());
+        let off = 0.5 * length * turned;
+        // −(k − κ/(1 + κ d)) at Δ = 0.
+        for d in [-off, off] {
+            let own = kappa / (1.0 + kappa * d) - kappa;
+            assert!(low <= own && own <= high, "{length}: {own} is not in {low} … {high}");
+        }
+    }
+}
+
+/// Beside a corner nothing of the outline lies beyond what is told, seen from either side of it.
+#[test]
+fn a_sliver_is_seen_as_a_whole() {
+    for off in [-0.2, 0.0, 1e-3, 0.2] {
+        for to in [1e-4, 1e-3, 2e-3] {
+            let (node, corner) = (over(0.0, off), over(to, 0.0).point);
+            let told = farthest_of_sliver(&node, corner);
+            let points = (0..=100).map(|i| (over(to * f64::from(i) / 100.0, 0.0).point - node.point).norm());
+            let farthest = points.fold(0.0, f64::max);
+            assert!(farthest <= told && told <= farthest + 1e-3 * to * RADIUS, "{off} {to}: {told} {farthest}");
+        }
+    }
+}

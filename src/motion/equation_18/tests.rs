@@ -236,3 +236,30 @@ fn more_digits_take_more_steps() {
     let of = |tolerance: f64| Solution::new(&mechanism, tolerance).expect("no wall").steps();
     assert!(1 < of(1e-6) && of(1e-6) < of(1e-15), "{} {}", of(1e-6), of(1e-15));
 }
+
+/// A few long steps under a short column: the place where the forces balance lies close before the end of the air, and is found.
+#[test]
+fn a_station_lies_within_the_column() {
+    let (mut tried, mut close) = (0, 0);
+    for column in [0.2, 0.21, 0.23, 0.26, 0.3, 0.4] {
+        for q in [2.0, 5.0, 40.0, 1000.0] {
+            let law = law(&end(3.0, End::Outer), q, Column::Length(column));
+            let mechanism = mechanism(&law, 0.0, 1.0, ExactOn::Braking);
+            for count in [1, 2, 3, 5] {
+                let Ok(stations) = Stations::new(&mechanism, count) else { continue };
+                tried += 1;
+                let places: Vec<(f64, f64)> =
+                    stations.overruns.iter().copied().zip(stations.bottoms.iter().copied()).collect();
+                for pair in places.windows(2) {
+                    let [(x0, y0), (x, y)] = pair else { unreachable!("two") };
+                    let slope = (y - y0) / (x - x0);
+                    let trend = Mechanism::trend_of(slope);
+                    let left = mechanism.residual_on(trend, *x, *y, slope, Way::Braking);
+                    close += u32::from(x + y > 0.8 * law.column());
+                    assert!(x + y < law.column() && left.abs() < 1e-9, "{column} {q} {count} at {x}: {y}, {left}");
+                }
+            }
+        }
+    }
+    assert!(tried > 20 && close > 5, "{tried} {close}");
+}

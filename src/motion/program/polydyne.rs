@@ -100,6 +100,10 @@ mod tests {
         let load = Polydyne { ratio: 0.1, damping: 0.05 };
         let cam = program.polydyne(load).expect("continuous to the jerk");
         let origin = cam.origin().expect("a program");
+        let ends = cam.segments().iter().map(|segment| segment.positions);
+        for (found, known) in ends.zip([(0.0, 0.03), (0.03, 0.03), (0.03, 0.0), (0.0, 0.0)]) {
+            assert!((found.0 - known.0).abs() + (found.1 - known.1).abs() < 1e-15, "{found:?} {known:?}");
+        }
         let (piece, angle) = cam.locate(40.0_f64.to_radians());
         let found = 1e3 * (cam.jet(piece, angle).s + origin);
         assert!((found - 5.891_800_890_792_68).abs() < 1e-13, "{found}");

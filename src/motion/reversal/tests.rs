@@ -29,14 +29,20 @@ fn joints_are_smooth_under_any_linkage() {
             let law = ReversalLaw { bottom_law, lever: 1.0, lobes: 1, transition };
             let Ok(motion) = Reversal::new(law) else { continue };
             let pieces = motion.pieces();
+            let mut jump = 0.0_f64;
             for i in 0..pieces.len() {
                 let next = (i + 1) % pieces.len();
                 let (a, b) = (motion.jet(i, pieces[i].end), motion.jet(next, pieces[next].start));
+                if motion.follows_law(i) || motion.follows_law(next) {
+                    jump = jump.max((a.ds - b.ds).abs());
+                }
                 assert!((a.s - b.s).abs() < 1e-13, "{linkage:?} {lead} {transition:?}: {a:?} {b:?}");
                 if transition != Transition::None && lead == 0.0 {
                     assert!((a.ds - b.ds).abs() < 1e-12, "{linkage:?} {transition:?}: {a:?} {b:?}");
                 }
             }
+            let told = motion.velocity_jump().0.abs();
+            assert!((told - jump).abs() < 1e-9, "{linkage:?} {lead} {transition:?}: {told} is not {jump}");
         }
     }
     assert!(early > 5, "{early} reversals end with the piston out of the column");
@@ -158,4 +164,18 @@ fn the_ends_of_the_reversal_are_exact() {
     assert_eq!(with_lead.state(piece, angle).displacement, -0.02);
     let (piece, angle) = with_lead.locate(TAU - 0.02 / 0.18);
     assert!(with_lead.state(piece, angle).displacement.abs() < 1e-15, "the retreat starts at 0");
+}
+
+/// Under a crank and rod in line both ends of the reversal are alike: the jump is told at its start.
+#[test]
+fn a_symmetric_motion_jumps_at_its_start() {
+    let slider = crate::linkage::Slider { rod_ratio: 4.0, offset_ratio: 0.0 };
+    for end in [End::Outer, End::Inner] {
+        let end = StrokeEnd::new(Linkage::CrankSlider(slider), 0.18, end).expect("two reversals");
+        let loading = 1.0 / end.largest_deceleration().value;
+        let bottom_law = CrankLaw::Linkage(LinkageLaw::new(loading, 1.35, end, Column::Return, 0.0));
+        let law = ReversalLaw { bottom_law, lever: 1.0, lobes: 1, transition: Transition::None };
+        let (jump, at_end) = Reversal::new(law).expect("fits").velocity_jump();
+        assert!(jump.abs() > 1e-3 && !at_end, "{jump} {at_end}");
+    }
 }
