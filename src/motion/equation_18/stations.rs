@@ -138,8 +138,11 @@ impl Station<'_> {
             return Err(Wall::Jam { x_mm });
         }
         // Where the piston would meet the bottom as it stands the air drives it back.
-        let mut near = self.before.min(self.column());
-        let (side, sign) = if near < self.before {
+        let start = self.before.min(self.column());
+        let (side, sign) = if start < self.before {
+            if !(self.remainder(start, Trend::Falling) < 0.0) {
+                return Err(Wall::Column { x_mm });
+            }
             (Trend::Falling, -1.0)
         } else if self.remainder(self.before, Trend::Rising) > 0.0 {
             (Trend::Rising, 1.0)
@@ -149,9 +152,10 @@ impl Station<'_> {
             return Ok(self.before);
         };
         let (furthest, wall) = self.furthest(side);
+        let mut near = start;
         let mut width = FIRST_WIDTH * self.step;
         for _ in 0..DOUBLINGS {
-            let mut far = self.before + sign * width;
+            let mut far = start + sign * width;
             let at_wall = sign * (far - furthest) >= 0.0;
             if at_wall {
                 far = furthest;

@@ -256,7 +256,7 @@ fn a_station_lies_within_the_column() {
                     let trend = Mechanism::trend_of(slope);
                     let left = mechanism.residual_on(trend, *x, *y, slope, Way::Braking);
                     close += u32::from(x + y > 0.8 * law.column());
-                    assert!(x + y < law.column() && left.abs() < 1e-9, "{column} {q} {count} at {x}: {y}, {left}");
+                    assert!(x + y < law.column() && left.abs() < 1e-9 * q, "{column} {q} {count} at {x}: {y}, {left}");
                 }
             }
         }
