@@ -354,3 +354,19 @@ cutter_radius = "10 mm"
     assert!((number(&found["value"]) / 9.380_530_932_795_192 - 1.0).abs() < 1e-9, "{found}");
     assert_eq!(found["verdict"], "fail");
 }
+
+/// Two hundred waves, each with a place where motion is lost: eight of them are told, and how many more there are.
+#[test]
+fn of_many_places_where_motion_is_lost_some_are_told() {
+    let text = "name = \"waves\"\n[motion]\nstart = \"0 mm\"\nformula = \"(2+cos(th))*sin(200*th)\"\n[follower.roller]\nradius = \"10 mm\"\n\
+                [cam]\nbase_radius = \"60 mm\"\n";
+    let report = report(&run(text, &["--dry-run"]));
+    let undercut = finding(&report, "undercut");
+    let note = undercut["note"].as_str().expect("a note");
+    assert_eq!(note.matches("motion is lost from").count(), 8, "{note}");
+    assert!(note.contains("and at 192 more places, nowhere more of it"), "{note}");
+    let lost: Vec<f64> =
+        note.split(" mm at ").map(|part| part.rsplit(' ').next().and_then(|n| n.parse().ok()).unwrap_or(0.0)).collect();
+    // The waves are highest at 0.
+    assert!(lost.iter().take(8).all(|lost| *lost > 5.9), "{note}");
+}

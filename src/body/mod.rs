@@ -68,6 +68,8 @@ pub const KINDS: &[&Kind] =
 
 /// Least tolerance of velocity or acceleration, over the largest of the motion.
 const FINEST_RATE: f64 = 1e-6;
+/// Places that are told of those where motion is lost.
+const MOST_LOSSES: usize = 8;
 
 /// A largest error of velocity or acceleration, as it is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -360,22 +362,28 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         (smooth.value > 0.0).then(|| Worst { value: 1.0 / smooth.value, at: smooth.at, z: 0.0 })
     }
 
-    /// What the follower loses of its motion where the profile is undercut, a sentence each.
+    /// What the follower loses of its motion where the profile is undercut, a sentence each: of many places those where it is most.
     fn lost_motion(&self) -> Vec<String> {
         let Some(curves) = self.plane() else { return Vec::new() };
-        match envelope::losses(curves) {
-            Err(error) => vec![format!("{error}, at {}", self.place(error.parameter))],
-            Ok(losses) => losses
-                .iter()
-                .map(|loss| {
-                    let [from, to, at] = [loss.from, loss.to, loss.lost_at].map(|place| self.place(place));
-                    let lost = MILLIMETRES * loss.lost;
-                    // Seven digits, as exactly as it is known.
-                    let lost = if lost < 1e-4 { format!("{lost:.6e}") } else { format!("{lost:.6}") };
-                    format!("motion is lost from {from} to {to}, {lost} mm at {at}")
-                })
-                .collect(),
+        let mut losses = match envelope::losses(curves) {
+            Err(error) => return vec![format!("{error}, at {}", self.place(error.parameter))],
+            Ok(losses) => losses,
+        };
+        let more = losses.len().saturating_sub(MOST_LOSSES);
+        if more > 0 {
+            losses.sort_by(|a, b| b.lost.total_cmp(&a.lost));
+            losses.truncate(MOST_LOSSES);
+            losses.sort_by(|a, b| a.from.total_cmp(&b.from));
         }
+        let told = losses.iter().map(|loss| {
+            let [from, to, at] = [loss.from, loss.to, loss.lost_at].map(|place| self.place(place));
+            let lost = MILLIMETRES * loss.lost;
+            // Seven digits, as exactly as it is known.
+            let lost = if lost < 1e-4 { format!("{lost:.6e}") } else { format!("{lost:.6}") };
+            format!("motion is lost from {from} to {to}, {lost} mm at {at}")
+        });
+        let others = (more > 0).then(|| format!("and at {more} more places, nowhere more of it"));
+        told.chain(others).collect()
     }
 
     /// Radius of the roller, m; `None` under a flat face or a knife edge.

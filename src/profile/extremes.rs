@@ -45,6 +45,8 @@ fn places(
 /// radian its curvature may have a spike, as where a small radius is passed with a large acceleration.
 const LEAST_COSINE: f64 = 0.88;
 const MOST_HALVED: u32 = 20;
+/// Places of a piece with which halving ends: a motion of a million waves turns in every cell however short.
+const MOST_PLACES: usize = 4096;
 
 /// A place and the direction of the follower's curve there.
 type Along = (extremum::Place, Vector2<f64>);
@@ -78,7 +80,7 @@ fn places_along(
 
 /// Adds the places within a cell that turns much.
 fn halved(from: Along, to: Along, times: u32, at: &impl Fn(f64) -> Along, places: &mut Vec<extremum::Place>) {
-    if times > 0 && from.1.dot(&to.1) < LEAST_COSINE {
+    if times > 0 && places.len() < MOST_PLACES && from.1.dot(&to.1) < LEAST_COSINE {
         let middle = at(0.5 * (from.0.at + to.0.at));
         halved(from, middle, times - 1, at, places);
         places.push(middle.0);
