@@ -260,6 +260,42 @@ fn rolling_tells_its_maxima() {
     }
 }
 
+/// Under a flat face the largest gap is that of the face put at 60 000 places against the outline's own support.
+#[test]
+fn rolling_tells_the_maximum_of_a_face() {
+    let machine = Machine::load("valve", &[]).expect("valid").0;
+    let cam = Spec::of_program(machine, None).expect("a program").solve().expect("a cam");
+    for tolerance in [5e-5, 5e-6] {
+        let proven = cam.draw(tolerance).expect("drawn").prove().expect("proved");
+        let rolled = proven.rolled().expect("rolled");
+        let segments = proven.outlines()[0].contour.segments().expect("arcs and lines");
+        let support = |normal: Vector2<f64>| {
+            let of_each = segments.iter().map(|segment| {
+                let ends = segment.start.dot(&normal).max(segment.end.dot(&normal));
+                let first = segment.start_tangent();
+                let outward = Vector2::new(first.y, -first.x);
+                let turn = libm::atan2(outward.perp(&normal), outward.dot(&normal));
+                if segment.bulge > 0.0 && (0.0..=segment.sweep()).contains(&turn.rem_euclid(TAU)) {
+                    segment.centre().dot(&normal) + segment.radius()
+                } else {
+                    ends
+                }
+            });
+            of_each.fold(f64::NEG_INFINITY, f64::max)
+        };
+        let curves = cam.body().plane().expect("plane");
+        let gap = (0..60_000).map(|i| {
+            let (piece, angle) = curves.motion.locate(f64::from(i) * TAU / 60_000.0);
+            let curve = curves.touch(piece, angle).curve;
+            let outward = curve.outward();
+            let drawn = if cam.body().mirrored() == [true] { Vector2::new(outward.x, -outward.y) } else { outward };
+            ((curve.point * 1e3).dot(&outward) - support(drawn)).abs()
+        });
+        let gap = gap.fold(0.0, f64::max);
+        assert!((-1e-10..2e-4 * gap).contains(&(rolled.gap_mm.abs() - gap)), "{tolerance}: {} {gap}", rolled.gap_mm);
+    }
+}
+
 /// Taken for inches the outline runs near the centres of curvature of the exact one, where no distance can be bounded: the
 /// search ends all the same.
 #[test]
