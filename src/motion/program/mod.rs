@@ -27,8 +27,8 @@ use std::sync::OnceLock;
 
 /// Most cells in which the lowest point of a part is searched: it may bulge below its ends when it begins or ends in motion.
 const CELLS: u32 = 16;
-/// Least cells of a short piece of a segment.
-const LEAST_CELLS: f64 = 8.0;
+/// Least cells of a part of a curve in a short piece of a segment.
+const LEAST_CELLS: u32 = 8;
 
 /// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
 const SMOOTH: u32 = 3;
@@ -499,15 +499,17 @@ impl Motion for Program {
         Some(self)
     }
 
-    /// Of a segment of several pieces each takes its share of the cells.
+    /// Of a segment of several pieces each takes its share of the cells, but some for every part of its curve.
     fn cells(&self, piece: usize) -> u32 {
         let own = self.pieces.get(piece).filter(|piece| !piece.dwell);
         let source = self.sources.get(piece % self.sources.len().max(1));
         let segment = source.and_then(|source| self.segments.get(source.segment));
         let Some((own, segment)) = own.zip(segment) else { return 1 };
+        let parts = source.map_or(1, |source| u32::try_from(source.parts.len()).unwrap_or(u32::MAX));
+        let least = LEAST_CELLS.saturating_mul(parts).min(CELLS_OF_MOVEMENT);
         let share = f64::from(CELLS_OF_MOVEMENT) * ((own.end - own.start) / segment.width);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between its bounds")]
-        let cells = share.ceil().clamp(LEAST_CELLS, f64::from(CELLS_OF_MOVEMENT)) as u32;
+        let cells = share.ceil().clamp(f64::from(least), f64::from(CELLS_OF_MOVEMENT)) as u32;
         cells
     }
 }
