@@ -182,6 +182,10 @@ fn bad_input_is_told_and_writes_nothing() {
             &["--set", "cam.bore_radius=80mm", "--set", "cam.base_radius=75mm"],
             &["bore_radius must be below base_radius"],
         ),
+        (
+            &["--set", "cam.bore_radius=104mm", "--set", "cam.base_radius=10.4cm"],
+            &["bore_radius must be below base_radius: 104mm ≥ 10.4cm"],
+        ),
         (&["--set", "transition.width=120deg"], &["more than one turn"]),
         (
             &["--set", "cam.cam_turns_per_crank_turn=2"],

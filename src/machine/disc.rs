@@ -311,9 +311,12 @@ pub(super) fn reached_by(reader: &Reader<'_>, cam: &CamData, follower: &Follower
     }
 }
 
+/// Share of a radius by which one in other units may differ and be the same: 10.4 cm and 104 mm differ in the last digit.
+const SAME_RADIUS: f64 = 1e-12;
+
 fn base_radius_and_bore(table: &Table<'_>) {
     if let (Some(Some(base)), Some(bore)) = (table.get(&BASE_RADIUS), table.get(&BORE_RADIUS))
-        && bore >= base
+        && bore >= base * (1.0 - SAME_RADIUS)
     {
         let (base, bore) = (table.typed(&BASE_RADIUS), table.typed(&BORE_RADIUS));
         table.fail(&BORE_RADIUS, format!("bore_radius must be below base_radius: {bore} ≥ {base}"), None);
