@@ -52,27 +52,46 @@ pub fn column_for(shortening: f64, end_loading: f64, exponent: f64) -> f64 {
 
 /// g(u) − 1 for p = 1/k and u ≥ 0, to a few ulp at any u; p = 0 is the limit g = ln(1+u)/u.
 pub(super) fn g_minus_one(u: f64, p: f64) -> f64 {
-    g_minus_one_with(u, p, || libm::log1p(u))
+    Air::at(u, p).less
 }
 
-/// The same where ln(1 + u) may be known.
-fn g_minus_one_with(u: f64, p: f64, log: impl FnOnce() -> f64) -> f64 {
-    if u < SERIES_LIMIT {
-        let (mut term, mut sum, mut n) = (1.0, 0.0, 1.0);
-        loop {
-            term *= -u * (p + n) / (n + 1.0);
-            sum += term;
-            // Written so that a NaN ends it too.
-            if !(term.abs() > f64::EPSILON * 0.125 * sum.abs()) {
-                return sum;
-            }
-            n += 1.0;
+/// What the air does at a loading u, each to a few ulp at any u: nothing cancels on the way from one to the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Air {
+    /// g(u) − 1.
+    less: f64,
+    /// (1+u)^−p − 1 = −p u g(u).
+    shrinks: f64,
+    /// (1+u)^−p.
+    shrunk: f64,
+}
+
+impl Air {
+    fn at(u: f64, p: f64) -> Self {
+        if u < SERIES_LIMIT {
+            let less = series(u, p);
+            let shrinks = -p * u * (1.0 + less);
+            return Self { less, shrinks, shrunk: 1.0 + shrinks };
         }
+        let log = libm::log1p(u);
+        let shrinks = libm::expm1(-p * log);
+        let shrunk = if shrinks > -0.5 { 1.0 + shrinks } else { libm::exp(-p * log) };
+        Self { less: if p == 0.0 { log / u - 1.0 } else { -shrinks / (p * u) - 1.0 }, shrinks, shrunk }
     }
-    if p == 0.0 {
-        return log() / u - 1.0;
+}
+
+/// g(u) − 1 below [`SERIES_LIMIT`].
+fn series(u: f64, p: f64) -> f64 {
+    let (mut term, mut sum, mut n) = (1.0, 0.0, 1.0);
+    loop {
+        term *= -u * (p + n) / (n + 1.0);
+        sum += term;
+        // Written so that a NaN ends it too.
+        if !(term.abs() > f64::EPSILON * 0.125 * sum.abs()) {
+            return sum;
+        }
+        n += 1.0;
     }
-    -libm::expm1(-p * log()) / (p * u) - 1.0
 }
 
 /// g(u) − 1 with twice the digits.
@@ -150,7 +169,9 @@ pub struct BottomLaw {
     /// c − 1, the slope of the law at x = 0.
     pub start_slope: f64,
     returns: bool,
-    /// g(U) − 1.
+    /// The air at the end of the stroke.
+    end: Air,
+    /// g(U) − 1 with twice the digits, of a column that brings the bottom back.
     end_less: Double,
 }
 
@@ -159,12 +180,13 @@ impl BottomLaw {
     #[must_use]
     pub fn new(loading: f64, exponent: f64, stroke: f64, column: Column, lead: f64) -> Self {
         let end = loading * stroke;
+        let at_end = Air::at(end, 1.0 / exponent);
         let (column_length, start_slope) = match column {
             Column::Matched => (exponent / loading, 0.0),
             Column::Return => {
                 // c = 1/g(U). Near U = 0 c − 1 is small and has the digits of g − 1, far from it c is large and has L's.
                 let length = column_for(stroke, end, exponent);
-                let less = g_minus_one(end, 1.0 / exponent);
+                let less = at_end.less;
                 let start_slope =
                     if end < SERIES_LIMIT { -less / (1.0 + less) } else { length * loading / exponent - 1.0 };
                 (length, start_slope)
@@ -181,7 +203,7 @@ impl BottomLaw {
         } else {
             Double::from(0.0)
         };
-        Self { loading, exponent, stroke, column: column_length, lead, start_slope, returns, end_less }
+        Self { loading, exponent, stroke, column: column_length, lead, start_slope, returns, end: at_end, end_less }
     }
 
     /// Δx at overrun x in [0, r], m.
@@ -197,23 +219,28 @@ impl BottomLaw {
     /// The same with y = r − x given by the caller, who may know it more accurately than the subtraction gives it.
     #[must_use]
     pub fn displacement_between(&self, x: f64, y: f64) -> f64 {
-        self.displacement_with(x, y, || libm::log1p(self.loading * x))
+        self.displacement_with(x, y, || self.air(x))
     }
 
-    /// The same where ln(1 + A x) may be known.
-    fn displacement_with(&self, x: f64, y: f64, log: impl FnOnce() -> f64) -> f64 {
+    /// The air at overrun x.
+    fn air(&self, x: f64) -> Air {
+        Air::at(self.loading * x, 1.0 / self.exponent)
+    }
+
+    /// The same where what the air does may be known.
+    fn displacement_with(&self, x: f64, y: f64, air: impl FnOnce() -> Air) -> f64 {
         if x <= START && self.lead == 0.0 && (self.start_slope == 0.0 || self.returns) {
             return self.start(x, y);
         }
-        let (p, u) = (1.0 / self.exponent, self.loading * x);
+        let u = self.loading * x;
         let without_lead = if self.returns {
-            self.returning(x, y, u, p, log)
+            self.returning(x, y, u, air)
         } else if self.start_slope == 0.0 && u < PRINTED_LIMIT {
-            x * g_minus_one_with(u, p, log)
+            x * air().less
         } else if u < SERIES_LIMIT {
-            x * (self.start_slope + (1.0 + self.start_slope) * g_minus_one_with(u, p, log))
+            x * (self.start_slope + (1.0 + self.start_slope) * air().less)
         } else {
-            -self.column * libm::expm1(-p * log()) - x
+            -self.column * air().shrinks - x
         };
         without_lead - self.lead
     }
@@ -239,16 +266,16 @@ impl BottomLaw {
         (x * (less - self.end_less) / (one + self.end_less)).high
     }
 
-    fn returning(&self, x: f64, y: f64, u: f64, p: f64, log: impl FnOnce() -> f64) -> f64 {
-        let end = self.loading * self.stroke;
+    fn returning(&self, x: f64, y: f64, u: f64, air: impl FnOnce() -> Air) -> f64 {
+        let (end, p) = (self.loading * self.stroke, 1.0 / self.exponent);
         if end < SERIES_LIMIT {
             x * self.loading * y * g_divided_difference(u, end, p) * (1.0 + self.start_slope)
         } else if x < y && u > PRINTED_LIMIT {
-            -self.column * libm::expm1(-p * log()) - x
+            -self.column * air().shrinks - x
         } else if x < y {
-            x * (g_minus_one_with(u, p, log) - g_minus_one(end, p)) * (1.0 + self.start_slope)
+            x * (air().less - self.end.less) * (1.0 + self.start_slope)
         } else {
-            let shrunk = self.column * libm::exp(-p * libm::log1p(end));
+            let shrunk = self.column * self.end.shrunk;
             y - shrunk * libm::expm1(p * libm::log1p(self.loading * y / (1.0 + u)))
         }
     }
@@ -258,21 +285,13 @@ impl BottomLaw {
     pub fn bottom(&self, x: f64, y: f64) -> Bottom {
         let (p, a, u) = (1.0 / self.exponent, self.loading, self.loading * x);
         let c = 1.0 + self.start_slope;
-        let of_one_more = libm::log1p(u);
-        let log = -(p + 1.0) * of_one_more;
-        // Both (1+u)^(−p−1) and its distance from 1 are needed to full relative accuracy; one call gives both where the
-        // other's digits are not yet lost.
-        let (power, fall) = if u < 1.0 {
-            let fall = libm::expm1(log);
-            (1.0 + fall, fall)
-        } else {
-            let power = libm::exp(log);
-            (power, power - 1.0)
-        };
+        let air = Air::at(u, p);
+        // (1+u)^(−p−1) and its distance from 1, whose two terms are of one sign.
+        let (power, fall) = (air.shrunk / (1.0 + u), (air.shrinks - u) / (1.0 + u));
         let second = -c * a * (p + 1.0) * power / (1.0 + u);
         let third = -second * a * (p + 2.0) / (1.0 + u);
         Bottom {
-            value: self.displacement_with(x, y, || of_one_more),
+            value: self.displacement_with(x, y, || air),
             slope: self.start_slope + c * fall,
             second,
             third,
@@ -297,9 +316,14 @@ impl BottomLaw {
     #[must_use]
     pub fn pressure_ratio(&self, x: f64, displacement: f64) -> f64 {
         // As a distance from the exact law, where the ratio is 1 + A x, so that an exact bottom has an exact force.
-        let balanced = self.column * libm::exp(-libm::log1p(self.loading * x) / self.exponent);
         let away = displacement - self.displacement(x);
-        (1.0 + self.loading * x) * libm::exp(-self.exponent * libm::log1p(-away / balanced))
+        (1.0 + self.loading * x) * libm::exp(-self.exponent * libm::log1p(-away / self.air_left(x)))
+    }
+
+    /// Length of the air where the forces balance at overrun x, m: L (1 + A x)^(−1/k).
+    #[must_use]
+    pub fn air_left(&self, x: f64) -> f64 {
+        self.column * self.air(x).shrunk
     }
 }
 

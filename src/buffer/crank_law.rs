@@ -305,21 +305,28 @@ impl CrankLaw {
     /// Pressure ratio p/p0 at a crank angle of the reversal with the bottom at Δx, equation (8) with lead.
     #[must_use]
     pub fn pressure_ratio(&self, angle: f64, displacement: f64) -> f64 {
-        match self {
-            Self::Yoke(law) => law.pressure_ratio(self.bed(angle)[0], displacement),
-            Self::Linkage(law) => {
-                // As a distance from the exact law, as for a yoke.
-                let [_, a] = self.bed(angle);
-                let away = displacement - law.at(angle)[0];
-                (1.0 + law.loading * a) * libm::exp(-law.exponent * libm::log1p(-away / self.air_left(a)))
-            }
+        let [_, deceleration] = self.bed(angle);
+        self.pressure_ratio_off(deceleration, displacement - self.displacement(angle))
+    }
+
+    /// The same where the bed decelerates by so much (m) and the bottom is off by so much (m, towards the piston) from where the forces
+    /// balance. There the ratio is 1 + A a, so that an exact bottom has an exact force.
+    #[must_use]
+    pub fn pressure_ratio_off(&self, deceleration: f64, off: f64) -> f64 {
+        let balanced = 1.0 + self.loading() * deceleration;
+        if off == 0.0 {
+            return balanced;
         }
+        balanced * libm::exp(-self.exponent() * libm::log1p(-off / self.air_left(deceleration)))
     }
 
     /// Length of the air where it balances a deceleration a (m), m: L (1 + A a)^(−1/k).
     #[must_use]
     pub fn air_left(&self, deceleration: f64) -> f64 {
-        self.column() * libm::exp(-libm::log1p(self.loading() * deceleration) / self.exponent())
+        match self {
+            Self::Yoke(law) => law.air_left(deceleration),
+            Self::Linkage(law) => law.column * libm::exp(-libm::log1p(law.loading * deceleration) / law.exponent),
+        }
     }
 
     /// The Δx of largest size over the reversal, m, with the overrun there, m.

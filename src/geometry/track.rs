@@ -2,8 +2,8 @@
 //! the same distances a second way.
 //!
 //! Its bounding-volume tree over the exact edges is the broad phase; parry's segments along chords much finer than the tolerance
-//! give distances that share no formula with ours. They are asked for at a few hundred places only: boxes about groups of them
-//! find the nearest, which costs a tenth of a tree over thousands of chords.
+//! give distances that share no formula with ours. They are asked for at a few hundred places only, so that a tree over groups of
+//! them costs a tenth of one over thousands of chords.
 
 use crate::geometry::contour::{Contour, Edge, Nearest};
 use nalgebra::Vector2;
@@ -59,16 +59,30 @@ impl Track {
         Some(self.at_vertex(point, leaf, nearest))
     }
 
+    /// The same, and on which edge, where one that may be the nearest is known: the tree is left where none can be nearer.
+    #[must_use]
+    pub fn nearest_about(&self, point: Vector2<f64>, known: usize) -> Option<(usize, Nearest)> {
+        let about = self.edges.get(known).map(|edge| edge.nearest(point));
+        let most = about.map_or(f64::MAX, |nearest| nearest.left.abs());
+        let found = self.nearer_than(point, most).or_else(|| about.map(|nearest| (known, nearest)));
+        let (leaf, nearest) = found.filter(|(_, nearest)| nearest.left.is_finite())?;
+        Some((leaf, self.at_vertex(point, leaf, nearest)))
+    }
+
     /// The segment nearest to a point, with its own nearest point; `None` for a point that is not finite.
     #[must_use]
     pub fn nearest_segment(&self, point: Vector2<f64>) -> Option<(usize, Nearest)> {
+        self.nearer_than(point, f64::MAX)
+    }
+
+    fn nearer_than(&self, point: Vector2<f64>, most: f64) -> Option<(usize, Nearest)> {
         let from = parry(point);
         let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
         let distance = |leaf: u32, _: f64| {
             let nearest = self.edges.get(leaf as usize)?.nearest(point);
             Some((nearest.left.abs(), (leaf as usize, nearest)))
         };
-        let (_, (_, found)) = self.tree.find_best(f64::MAX, distance_to_box, distance)?;
+        let (_, (_, found)) = self.tree.find_best(most, distance_to_box, distance)?;
         Some(found)
     }
 
@@ -109,11 +123,11 @@ impl Track {
     /// In how many separate places the outline comes within `reach` of a point. Neighbouring segments are one place.
     #[must_use]
     pub fn places_within(&self, point: Vector2<f64>, reach: f64) -> usize {
-        let corner = Vector2::new(reach, reach);
-        let region = Aabb::new(parry(point - corner), parry(point + corner));
+        let from = parry(point);
         let near =
             |leaf: &u32| self.edges.get(*leaf as usize).is_some_and(|edge| edge.nearest(point).left.abs() <= reach);
-        let mut touching: Vec<u32> = self.tree.intersect_aabb(&region).filter(near).collect();
+        let within = |node: &BvhNode| node.aabb().distance_to_local_point(from, true) <= reach;
+        let mut touching: Vec<u32> = self.tree.leaves(within).filter(near).collect();
         touching.sort_unstable();
         let gaps = touching.windows(2).filter(|pair| matches!(pair, [a, b] if b - a > 1)).count();
         let closes = match (touching.first(), touching.last()) {
@@ -128,15 +142,15 @@ impl Track {
     }
 }
 
-/// Chords to a box: the square root of a few thousand.
-const TO_A_BOX: usize = 32;
+/// Chords to a leaf of their tree.
+const TO_A_LEAF: usize = 12;
 
 /// The outline as chords, for parry's own distance.
 pub struct Chords {
     /// Where they begin; each ends where the next one begins, the last where the first does.
     points: Vec<Vector>,
-    /// About every [`TO_A_BOX`] of them.
-    boxes: Vec<Aabb>,
+    /// Over every [`TO_A_LEAF`] of them.
+    tree: Bvh,
     /// How many.
     pub count: usize,
     /// Largest distance of a chord from its arc, mm.
@@ -176,12 +190,13 @@ impl Chords {
             }
         }
         let count = points.len();
-        let boxes = (0..count).step_by(TO_A_BOX).map(|from| {
+        let boxes = (0..count).step_by(TO_A_LEAF).map(|from| {
             // With the end of the last of them.
-            let ends = (from..=from + TO_A_BOX).filter_map(|index| end_of(&points, index));
+            let ends = (from..=from + TO_A_LEAF).filter_map(|index| end_of(&points, index));
             Aabb::from_points(ends)
         });
-        Self { boxes: boxes.collect(), points, count, sagitta: worst }
+        let boxes: Vec<Aabb> = boxes.collect();
+        Self { tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), points, count, sagitta: worst }
     }
 
     /// How far the chords reach in a direction (a unit vector) from the origin.
@@ -195,25 +210,20 @@ impl Chords {
     #[must_use]
     pub fn distance(&self, point: Vector2<f64>) -> f64 {
         let from = parry(point);
-        let boxes: Vec<f64> = self.boxes.iter().map(|own| own.distance_to_local_point(from, true)).collect();
-        // The nearest box first: the others mostly lie farther off than what is found in it.
-        let first = (0..boxes.len()).zip(&boxes).min_by(|a, b| a.1.total_cmp(b.1));
-        let others = (0..boxes.len()).zip(&boxes).filter(|(own, _)| first.is_none_or(|(first, _)| first != *own));
-        let (mut best, mut inside) = (f64::INFINITY, false);
-        for (own, least) in first.into_iter().chain(others) {
-            if !(*least < best) {
-                continue;
-            }
-            for index in (TO_A_BOX * own..self.count).take(TO_A_BOX) {
-                let Some(segment) = self.segment(index) else { continue };
-                let (projection, place) = segment.project_local_point_and_get_location(from, false);
+        let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
+        let distance = |leaf: u32, _: f64| {
+            let first = TO_A_LEAF * leaf as usize;
+            let chords = (first..self.count.min(first + TO_A_LEAF)).filter_map(|index| {
+                let (projection, place) = self.segment(index)?.project_local_point_and_get_location(from, false);
                 let away = from - projection.point;
-                if away.length() < best {
-                    (best, inside) = (away.length(), away.dot(self.outward(index, place)) <= 0.0);
-                }
-            }
+                Some((away.length(), (index, place, away)))
+            });
+            chords.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        match self.tree.find_best(f64::INFINITY, distance_to_box, distance) {
+            Some((_, (distance, (index, place, away)))) if away.dot(self.outward(index, place)) <= 0.0 => -distance,
+            found => found.map_or(f64::INFINITY, |(_, (distance, _))| distance),
         }
-        if inside { -best } else { best }
     }
 
     /// A chord.

@@ -84,16 +84,13 @@ impl Load for AirBuffer {
 
     /// 2 (p − p0) F / lever.
     fn pressing(&self, piece: usize, at: f64) -> f64 {
-        self.cylinder.force(self.state(piece, at).pressure_ratio) / self.reversal.law().lever
+        self.pressing_when(piece, at, 0.0)
     }
 
     fn pressing_when(&self, piece: usize, at: f64, moved: f64) -> f64 {
-        let (state, law) = (self.state(piece, at), self.reversal.law());
-        if !state.reversing {
-            return self.cylinder.force(state.pressure_ratio) / law.lever;
-        }
-        let bottom = state.displacement + moved / law.lever;
-        self.cylinder.force(law.bottom_law.pressure_ratio(state.crank, bottom)) / law.lever
+        let lever = self.reversal.law().lever;
+        let ratio = self.reversal.air(piece, at, moved / lever).map_or(1.0, |[_, ratio]| ratio);
+        self.cylinder.force(ratio) / lever
     }
 
     fn raised(&self, piece: usize, at: f64) -> f64 {
@@ -102,14 +99,9 @@ impl Load for AirBuffer {
 
     /// Inertia less air; 0 outside the reversal, at its ends what it is inside.
     fn residual(&self, piece: usize, at: f64, moved: f64, _: Vector2<f64>) -> f64 {
-        let state = self.state(piece, at);
-        if !state.reversing {
-            return 0.0;
-        }
-        let law = self.bottom_law();
-        let bottom = state.displacement + moved / self.reversal.law().lever;
-        let air = law.pressure_ratio(state.crank, bottom) - 1.0;
-        let left = law.loading() * state.deceleration - air;
+        let off = moved / self.reversal.law().lever;
+        let Some([deceleration, ratio]) = self.reversal.air(piece, at, off) else { return 0.0 };
+        let left = self.bottom_law().loading() * deceleration - (ratio - 1.0);
         // A bottom that is beyond the piston leaves no air.
         if left.is_nan() { f64::NEG_INFINITY } else { self.cylinder.unit_force() * left }
     }

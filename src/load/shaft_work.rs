@@ -89,7 +89,7 @@ impl ShaftWork {
         let count = f64::from(self.reversal.law().lobes.max(1));
         let torque = |crank: f64| {
             let (piece, angle) = self.reversal.locate(crank / count);
-            let air = self.cylinder.force(self.reversal.state(piece, angle).pressure_ratio);
+            let air = self.cylinder.force(self.reversal.air(piece, angle, 0.0).map_or(1.0, |[_, ratio]| ratio));
             air * self.reversal.bottom(piece, angle).ds / count
         };
         quadrature::integrate(torque, (0.0, crank), PANELS)

@@ -182,7 +182,7 @@ impl Reversal {
 
     /// The part of a lobe that a piece shows, and the crank angle in it at a cam angle, rad.
     fn part_at(&self, piece: usize, angle: f64) -> Option<(&Part, f64)> {
-        let part = self.parts.get(piece.checked_rem(self.parts.len())?)?;
+        let part = self.parts.get(piece).or_else(|| self.parts.get(piece.checked_rem(self.parts.len())?))?;
         let span = self.pieces.get(piece)?;
         // An end of a piece is the same crank angle in every lobe, to the last bit.
         if angle <= span.start {
@@ -190,6 +190,9 @@ impl Reversal {
         }
         if angle >= span.end {
             return Some((part, part.end));
+        }
+        if self.law.lobes <= 1 {
+            return Some((part, angle.clamp(part.start, part.end)));
         }
         let lobe = u32::try_from(piece / self.parts.len()).unwrap_or(0);
         let crank = (angle - self.origin(lobe)) * self.count();
@@ -211,9 +214,10 @@ impl Reversal {
     /// Δx and its derivatives by the cam angle; m.
     #[must_use]
     pub fn bottom(&self, piece: usize, angle: f64) -> Jet {
-        let Some((&Part { shape, mirrored, .. }, at)) = self.part_at(piece, angle) else {
-            return Jet::default();
-        };
+        self.part_at(piece, angle).map_or(Jet::default(), |(part, at)| self.bottom_of(part, at))
+    }
+
+    fn bottom_of(&self, &Part { shape, mirrored, .. }: &Part, at: f64) -> Jet {
         let (mirrored, crank) = self.seen(shape, mirrored, at);
         let [s, ds, dds, ddds] = match (shape, &self.law.bottom_law) {
             (Shape::Dwell(level), _) => [level, 0.0, 0.0, 0.0],
@@ -222,7 +226,8 @@ impl Reversal {
             (Shape::Retreat, CrankLaw::Linkage(law)) => law.retreat(crank),
             (Shape::Reversal, law) => law_at(law, crank),
         };
-        let jet = Jet { s, ds, dds, ddds }.by_angle_times(1.0 / self.count());
+        let jet = Jet { s, ds, dds, ddds };
+        let jet = if self.law.lobes > 1 { jet.by_angle_times(1.0 / self.count()) } else { jet };
         let jet = if mirrored { jet.mirrored() } else { jet };
         match &self.raised {
             Some(raised) if shape == Shape::Reversal => jet.plus(raised.jet(at).by_angle_times(1.0 / self.count())),
@@ -233,8 +238,12 @@ impl Reversal {
     /// What the bottom is raised by at a cam angle of a piece, m: 0 outside the reversal.
     #[must_use]
     pub fn raised(&self, piece: usize, angle: f64) -> f64 {
-        match (&self.raised, self.part_at(piece, angle)) {
-            (Some(raised), Some((part, crank))) if part.shape == Shape::Reversal => raised.at(crank)[0],
+        self.part_at(piece, angle).map_or(0.0, |(part, crank)| self.raised_of(part, crank))
+    }
+
+    fn raised_of(&self, part: &Part, crank: f64) -> f64 {
+        match &self.raised {
+            Some(raised) if part.shape == Shape::Reversal => raised.at(crank)[0],
             _ => 0.0,
         }
     }
@@ -256,18 +265,39 @@ impl Reversal {
     /// The state of bed, bottom and air at a cam angle of a piece.
     #[must_use]
     pub fn state(&self, piece: usize, angle: f64) -> State {
-        let crank = self.part_at(piece, angle).map_or(0.0, |(_, crank)| crank);
-        let displacement = self.bottom(piece, angle).s - self.raised(piece, angle);
+        let (crank, displacement, air) = self.part_at(piece, angle).map_or((0.0, 0.0, None), |(part, crank)| {
+            let displacement = self.bottom_of(part, crank).s - self.raised_of(part, crank);
+            (crank, displacement, self.air_of(part, crank, 0.0, || displacement))
+        });
         let law = &self.law.bottom_law;
-        let ([overrun, deceleration], pressure_ratio) = if (0.0..=law.angle()).contains(&crank) {
-            (law.bed(crank), law.pressure_ratio(crank, displacement))
-        } else {
-            let place = if matches!(law, CrankLaw::Yoke(_)) { 0.0 } else { law.place(crank) * law.stroke() };
-            ([place, 0.0], 1.0)
+        let (overrun, [deceleration, pressure_ratio]) = match air {
+            Some((overrun, air)) => (overrun, air),
+            None if matches!(law, CrankLaw::Yoke(_)) => (0.0, [0.0, 1.0]),
+            None => (law.place(crank) * law.stroke(), [0.0, 1.0]),
         };
         let turn = if crank < 0.0 { crank + TAU } else { crank };
-        let crank = turn % TAU;
+        let crank = if turn < TAU { turn } else { turn % TAU };
         State { crank, reversing: crank <= law.angle(), overrun, deceleration, displacement, pressure_ratio }
+    }
+
+    /// Deceleration of the bed over the square of the crank speed, m, and pressure ratio with the bottom off by so much (m, towards the
+    /// piston) from where it stands; `None` outside the reversal.
+    #[must_use]
+    pub fn air(&self, piece: usize, angle: f64, off: f64) -> Option<[f64; 2]> {
+        let (part, crank) = self.part_at(piece, angle)?;
+        let displacement = || self.bottom_of(part, crank).s - self.raised_of(part, crank);
+        self.air_of(part, crank, off, displacement).map(|(_, air)| air)
+    }
+
+    /// The same with the overrun, m, of a part whose bottom may be known. Over the law itself the bottom is off by no more than that.
+    fn air_of(&self, part: &Part, crank: f64, off: f64, displacement: impl FnOnce() -> f64) -> Option<(f64, [f64; 2])> {
+        let law = &self.law.bottom_law;
+        if !(0.0..=law.angle()).contains(&crank) {
+            return None;
+        }
+        let own = if part.shape == Shape::Reversal { 0.0 } else { displacement() - law.displacement(crank) };
+        let [overrun, deceleration] = law.bed(crank);
+        Some((overrun, [deceleration, law.pressure_ratio_off(deceleration, own + off)]))
     }
 
     /// The crank angle of the braking or returning half at an angle of a piece, rad; below 0 before the reversal.
@@ -542,16 +572,15 @@ fn law_at(law: &CrankLaw, crank: f64) -> Derivatives {
     }
 }
 
-/// x = r sin φ and y = r − x, both to full relative accuracy, for φ in [0, π/2].
-fn overrun(stroke: f64, crank: f64) -> (f64, f64) {
-    let half = libm::sin(0.5 * (FRAC_PI_2 - crank));
-    (stroke * libm::sin(crank), 2.0 * stroke * half * half)
+/// x = r sin φ, y = r − x and x' = r cos φ, all to full relative accuracy, for φ in [0, π/2].
+fn overrun(stroke: f64, crank: f64) -> [f64; 3] {
+    let (sine, cosine) = libm::sincos(0.5 * (FRAC_PI_2 - crank));
+    [stroke * libm::sin(crank), 2.0 * stroke * sine * sine, 2.0 * stroke * sine * cosine]
 }
 
 /// Δx by the crank angle in [0, π/2]: x' = r cos φ, x'' = −x, x''' = −x'.
 fn bottom_law_at(bottom_law: &BottomLaw, crank: f64) -> Derivatives {
-    let (x, y) = overrun(bottom_law.stroke, crank);
-    let x1 = bottom_law.stroke * libm::sin(FRAC_PI_2 - crank);
+    let [x, y, x1] = overrun(bottom_law.stroke, crank);
     let bottom = bottom_law.bottom(x, y);
     [
         bottom.value,
@@ -563,8 +592,7 @@ fn bottom_law_at(bottom_law: &BottomLaw, crank: f64) -> Derivatives {
 
 /// d⁴Δx/dφ⁴ in [0, π/2]; the fourth derivative of x = r sin φ is x itself.
 fn fourth_of_law(bottom_law: &BottomLaw, crank: f64) -> f64 {
-    let (x, y) = overrun(bottom_law.stroke, crank);
-    let x1 = bottom_law.stroke * libm::sin(FRAC_PI_2 - crank);
+    let [x, y, x1] = overrun(bottom_law.stroke, crank);
     let bottom = bottom_law.bottom(x, y);
     let square = x1 * x1;
     let cross = bottom.second * (3.0 * x * x - 4.0 * square);

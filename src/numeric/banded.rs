@@ -21,6 +21,11 @@ impl<const W: usize> Banded<W> {
         }
     }
 
+    /// The entries of a row from the diagonal on, to add to.
+    pub fn row_mut(&mut self, row: usize) -> Option<&mut [f64; W]> {
+        self.rows.get_mut(row)
+    }
+
     /// The factors L D Lᵀ, without pivoting: for positive definite matrices, and for quasi-definite ones in an order in
     /// which every pivot has its sign when it is reached. Golub, Van Loan, Matrix Computations, §4.3.
     #[must_use]

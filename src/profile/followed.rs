@@ -14,8 +14,7 @@
 //! frame of the follower; under a face on an arm p by secants, and q and ρ from what is linear, q β' = p' and ρ.
 
 use super::{Curves, Worst};
-use crate::follower::Element;
-use crate::geometry::CurvePoint;
+use crate::follower::{Element, Touch};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
 use crate::motion::program::SegmentTold;
@@ -26,8 +25,10 @@ use nalgebra::Vector2;
 
 /// Stretches of the motion shorter than this, rad or m, are the rounding of a joint: the direction of an arc is known to 1e-9.
 pub(super) const HAIR: f64 = 1e-8;
-/// Steps of the secant to the lift: two are mostly enough.
+/// Steps to the lift: two are mostly enough.
 const LIFT_STEPS: u32 = 8;
+/// A gap of this share of the distance from the shaft leaves less than a rounding after one more step of Newton's method.
+const SETTLED: f64 = 1e-9;
 /// The follower as placed by the motion is near the chain within the radius of its roller, but at least within this, m: a chain may
 /// lie farther from the profile than a small roller is large.
 const LEAST_REACH: f64 = 2e-3;
@@ -429,8 +430,10 @@ pub(super) fn on_guide(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guid
 }
 
 /// The jet of a roller whose centre follows a guide.
+///
+/// By Newton's method: the centre moves by the leverage along the drive for a unit of lift, and C' and C'' change by as much for a
+/// unit of its first and second derivative.
 fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
-    let touch = |jet: Jet| curves.follower.touch(parameter, &jet);
     // How far a point is off the guide, and the normal of the guide there.
     let off = |point: Vector2<f64>| match guide {
         Guide::Circle(centre, radius) => {
@@ -441,40 +444,31 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
         Guide::Line(on, normal) => ((point - on).dot(&normal), normal),
         Guide::Curve(_) => (f64::NAN, Vector2::zeros()),
     };
-    let start = touch(law);
-    let size = start.curve.point.norm();
-    let (mut before, (mut gap_before, normal)) = (law.s, off(start.curve.point));
-    let mut lift = law.s - gap_before / (normal.dot(&start.drive) * curves.follower.leverage(&law));
-    let mut here = touch(Jet { s: lift, ..law }).curve;
+    let (mut jet, mut here) = (law, curves.follower.touch(parameter, &law));
+    let size = here.curve.point.norm();
+    let (mut gap, mut normal) = off(here.curve.point);
+    let along_normal =
+        |jet: &Jet, here: &Touch, normal: Vector2<f64>| normal.dot(&here.drive) * curves.follower.leverage(jet);
     for _ in 0..LIFT_STEPS {
-        let gap = off(here.point).0;
-        let step = gap * (lift - before) / (gap - gap_before);
-        (before, gap_before) = (lift, gap);
-        if gap.abs() <= TOUCHING * size || !step.is_finite() {
+        let last = gap.abs() <= SETTLED * size;
+        jet.s -= gap / along_normal(&jet, &here, normal);
+        here = curves.follower.touch(parameter, &jet);
+        (gap, normal) = off(here.curve.point);
+        if last || !(gap.abs() > TOUCHING * size) {
             break;
         }
-        lift -= step;
-        here = touch(Jet { s: lift, ..law }).curve;
     }
-    let law = Jet { s: lift, ..law };
-    let normal = off(here.point).1;
-    let along = |curve: &CurvePoint| normal.dot(&(curve.tangent * curve.speed));
-    let (own, more) = (along(&here), along(&touch(Jet { ds: law.ds + CHANGE, ..law }).curve));
-    let ds = law.ds - CHANGE * own / (more - own);
-    let law = Jet { ds, ..law };
+    let rate = along_normal(&jet, &here, normal);
+    jet.ds -= here.curve.speed * normal.dot(&here.curve.tangent) / rate;
     // C'' along the normal: κ ℓ² to the left of the tangent.
-    let bend = |dds: f64| {
-        let curve = touch(Jet { dds, ..law }).curve;
-        let square = curve.speed * curve.speed;
-        (-curve.outward().dot(&normal) * curve.curvature * square, square)
-    };
-    let (own, square) = bend(law.dds);
+    let curve = curves.follower.touch(parameter, &jet).curve;
+    let square = curve.speed * curve.speed;
     let wanted = match guide {
         Guide::Circle(_, radius) => -square / radius,
         Guide::Line(..) | Guide::Curve(_) => 0.0,
     };
-    let dds = law.dds + CHANGE * (wanted - own) / (bend(law.dds + CHANGE).0 - own);
-    (lift.is_finite() && ds.is_finite() && dds.is_finite()).then_some(Jet { dds, ..law })
+    jet.dds += (wanted + curve.outward().dot(&normal) * curve.curvature * square) / rate;
+    (jet.s.is_finite() && jet.ds.is_finite() && jet.dds.is_finite()).then_some(jet)
 }
 
 /// The jet of a flat face on an arc.

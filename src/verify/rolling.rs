@@ -17,6 +17,7 @@ use crate::numeric::extremum;
 use crate::profile::Curves;
 use crate::report::{Finding, Place, Rolled, Verdict};
 use nalgebra::Vector2;
+use std::cell::Cell;
 
 pub(super) const CHECK: Check = Check {
     name: "rolling",
@@ -105,6 +106,8 @@ struct Roll<'a> {
     track: Track,
     /// How far the element reaches from the follower's curve, mm.
     radius: f64,
+    /// The edge that was nearest last: the next one asked for mostly is that, or its neighbour.
+    last: Cell<usize>,
 }
 
 impl Roll<'_> {
@@ -113,7 +116,8 @@ impl Roll<'_> {
     fn clearance(&self, contact: &Touch, centre: Vector2<f64>) -> Option<(f64, Vector2<f64>)> {
         match self.curves.element() {
             Element::Roller { .. } => {
-                let nearest = self.track.nearest(centre)?;
+                let (edge, nearest) = self.track.nearest_about(centre, self.last.get())?;
+                self.last.set(edge);
                 // From a vertex the normal is that of the roller.
                 let away = centre - nearest.foot;
                 let distance = away.norm();
@@ -282,15 +286,15 @@ impl Roll<'_> {
                 [a, b] if a.piece == b.piece => Some((*a, *b, DEEPEST)),
                 _ => None,
             });
-            let promise = |cell: &Cell| {
+            let promise = |cell: &Between| {
                 [promise_of(cell, value), promise_of_jump(cell, value)]
                     .into_iter()
                     .flatten()
                     .max_by(|a, b| a.0.total_cmp(&b.0))
             };
-            let mut cells: Vec<(f64, Cell)> = pairs.filter_map(|cell| Some((promise(&cell)?.0, cell))).collect();
+            let promised = pairs.filter_map(|cell| Some((promise(&cell)?.0, cell)));
+            let mut cells: Vec<(f64, Between)> = promised.filter(|(promise, _)| *promise > best + SLACK).collect();
             // The most promising last, where they are taken from.
-            cells.retain(|(promise, _)| *promise > best + SLACK);
             cells.sort_by(|a, b| a.0.total_cmp(&b.0));
             let mut left = MOST_CLOSER;
             while let Some((promised, cell)) = cells.pop() {
@@ -446,11 +450,11 @@ fn top_of([a, b, c]: &[Sample; 3]) -> (f64, f64) {
 }
 
 /// Two neighbouring samples, and how often what lies between may still be halved.
-type Cell = (Sample, Sample, u32);
+type Between = (Sample, Sample, u32);
 
 /// How high the size of a value may rise between two samples, and where: by the cubic through its values and slopes, with room
 /// for what is no cubic; `None` where it does not rise above them.
-fn promise_of((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
+fn promise_of((a, b, _): &Between, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
     let width = b.parameter - a.parameter;
     let ((low, rise), (high, fall)) = (value(a), value(b));
     let (rise, fall) = (rise * width, fall * width);
@@ -468,7 +472,7 @@ fn promise_of((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option
 
 /// The same where the foot jumps from one part of the outline to another, as it does where motion is lost: up to there the value
 /// follows one part, from there on the other, and it may be as high as the tangents of both where they cross.
-fn promise_of_jump((a, b, _): &Cell, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
+fn promise_of_jump((a, b, _): &Between, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
     if (a.foot - b.foot).norm() <= JUMP * (a.centre - b.centre).norm() {
         return None;
     }
@@ -490,7 +494,8 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
     let mut tracks = Vec::new();
     for mirrored in body.mirrored() {
         let contour = if *mirrored { contour.mirrored_about_x() } else { contour.clone() };
-        let roll = Roll { body, curves, track: Track::new(&contour), radius: 1e3 * curves.offset() };
+        let roll =
+            Roll { body, curves, track: Track::new(&contour), radius: 1e3 * curves.offset(), last: Cell::new(0) };
         let chords = Chords::new(&contour, CHORD_SHARE * tolerance);
         let found = roll.samples(&chords, tolerance);
         let lifts: Vec<f64> = found.iter().filter_map(|s| s.lift_error).map(f64::abs).collect();
@@ -500,8 +505,8 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         (chord_count, sagitta) = (chord_count + chords.count, sagitta.max(chords.sagitta));
         tracks.push(roll.track);
     }
-    errors.sort_by(f64::total_cmp);
-    let q99 = errors.get((errors.len() * 99 / 100).min(errors.len().saturating_sub(1))).copied();
+    let ninety_nine = (errors.len() * 99 / 100).min(errors.len().saturating_sub(1));
+    let q99 = (!errors.is_empty()).then(|| *errors.select_nth_unstable_by(ninety_nine, f64::total_cmp).1);
     let doubles: Vec<&Sample> = samples.iter().filter(|s| s.double).collect();
     let worst = samples.iter().max_by(|a, b| a.gap.abs().total_cmp(&b.gap.abs()));
     let residual = samples.iter().max_by(|a, b| a.residual.total_cmp(&b.residual));

@@ -410,7 +410,7 @@ impl Conoid {
     #[must_use]
     pub fn path_force(&self, section: &Reversal, rpm: f64, piece: usize, angle: f64) -> f64 {
         let (lever, follower) = (self.machine.cam.lever, &self.machine.follower);
-        let air = self.cylinder.force(section.state(piece, angle).pressure_ratio) / lever;
+        let air = self.cylinder.force(section.air(piece, angle, 0.0).map_or(1.0, |[_, ratio]| ratio)) / lever;
         let inertia = follower.mass.map_or(0.0, |mass| {
             let speed = self.press.bed.crank_speed(rpm) / f64::from(self.machine.cam.lobes);
             mass * speed * speed * lever * section.bottom(piece, angle).dds

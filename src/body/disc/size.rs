@@ -8,6 +8,7 @@ use crate::numeric::extremum::{self, TO_ROUNDING};
 use crate::profile::placing::{self, Nearest};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
 use crate::profile::{Curves, Worst, extremes};
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// Half millimetres, in which an offset or a pivot distance is chosen, m.
@@ -99,21 +100,28 @@ impl Disc {
     /// as its check measures it, and the cam on its base radius; `None` when no size in reach does.
     fn keeping_all(&self, smallest: Smallest) -> Option<(Smallest, Self)> {
         let offset = self.follower.element().offset();
-        let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
+        let cornered = Cell::new(false);
+        let kept = |disc: &Self| {
+            let broken = broken_limit(disc);
+            cornered.set(cornered.get() || broken.is_some_and(|limit| disc.has_corner_that_breaks(limit)));
+            broken.is_none()
+        };
+        let keeps = |base: f64| self.on(base).is_some_and(|disc| kept(&disc));
         let disc = self.on(smallest.base_radius);
-        let broken = disc.as_ref().map(|disc| broken_limit(disc));
-        if let (Some(disc), Some(None)) = (&disc, broken) {
+        if let Some(disc) = disc.as_ref().filter(|disc| kept(disc)) {
             return Some((self.before_rounding(smallest, keeps), disc.clone()));
         }
         // A larger cam has the corner, too, until it is too small to be seen.
-        let hollow = broken == Some(Some("cutter_radius"));
-        if disc.is_some_and(|disc| disc.has_corner() || hollow && disc.has_hollow_corner()) {
+        if cornered.get() || disc.is_some_and(|disc| disc.has_corner()) {
             return None;
         }
         let largest = (self.follower.prime_radii().1 - offset).min(LARGEST_BASE);
         let prime_radius = size::first_that_keeps(smallest.base_radius, largest, keeps)? + offset;
         let rounded = size::rounded_up(prime_radius - offset);
         let base_radius = if keeps(rounded) { rounded } else { prime_radius - offset };
+        if cornered.get() {
+            return None;
+        }
         Some((Smallest { prime_radius, base_radius }, self.on(base_radius)?))
     }
 
@@ -134,10 +142,17 @@ impl Disc {
         extremes::fold(curves).is_some() || extremes::corners(curves).iter().any(|corner| corner.turn > 0.0)
     }
 
-    /// Whether its profile has a hollow corner at any size, because the velocity of an edge grows at once.
-    fn has_hollow_corner(&self) -> bool {
-        let curves = self.curves();
-        curves.offset() == 0.0 && extremes::corners(curves).iter().any(|corner| corner.turn < 0.0)
+    /// Whether a limit is broken because of a corner that the profile has at any size: an edge, or a place as hollow as the follower's
+    /// element, which no cutter of the limit can cut, because the velocity grows at once.
+    fn has_corner_that_breaks(&self, limit: &str) -> bool {
+        let (curves, cutter) = (self.curves(), self.machine.limits.cutter_radius.unwrap_or(0.0));
+        match limit {
+            "undercut" => self.has_corner(),
+            "cutter_radius" => {
+                curves.offset() < cutter && extremes::corners(curves).iter().any(|corner| corner.turn < 0.0)
+            }
+            _ => false,
+        }
     }
 
     /// The smallest size with a choice of its follower's place; `least` is a prime radius (m) below which none passes.

@@ -14,16 +14,16 @@
 //! steps run out; it only saves time.
 
 use super::nodes::Node;
-use super::trial::{Link, Place, Step, Trial, place_of};
+use super::trial::{Link, Place, Step, Trial, free, place_of};
 use super::{Joint, Target};
 use crate::numeric::banded::Banded;
 use crate::numeric::extremum::larger;
-use nalgebra::{Matrix4, Vector2, Vector4};
+use nalgebra::{Vector2, Vector4};
 
 /// Most steps: of 1552 chains that exist all were found within twelve.
 const MOST_STEPS: u32 = 14;
 /// The level starts so far above the largest deviation, and is kept so far above it.
-const ROOM: (f64, f64) = (10.0, 1.02);
+const ROOM: (f64, f64) = (2.0, 1.02);
 /// Share of the mean product of slack and multiplier that a step aims at.
 const CENTRE: f64 = 0.2;
 /// Share of the way to the boundary that a step may take.
@@ -34,6 +34,12 @@ const LONGEST_STEP: f64 = 0.4;
 const STAY: [f64; 3] = [0.1, 1e-9, 1e-9];
 /// Weight of the multipliers, which keeps the pivots from zero.
 const GIVE: f64 = 1e-9;
+/// Room for the extrema of the curvature of a piece.
+const FEW_TURNS: usize = 8;
+/// Where the freedoms of both joints of an arc stand in a [`Step`], from the first of the earlier joint on, and the multiplier of its
+/// opening.
+const PLACES: [usize; 6] = [0, 1, 2, 4, 5, 6];
+const MULTIPLIER: usize = 7;
 /// What closing may add to the deviation, as a share of the widest opening: above, it is not tried.
 const CLOSING: f64 = 0.1;
 /// The dual value is trusted once the chain is open by less: wider, it says little about chains that are closed.
@@ -91,14 +97,90 @@ struct Program {
     tolerance: f64,
 }
 
-/// Newton's system for a step: the band, the right side, the border of the level with its corner, and what the multipliers of the
-/// level exceed their sum by.
-struct System {
-    matrix: Banded<8>,
-    right: Vec<f64>,
-    border: Vec<f64>,
+/// What both conditions of a sample do to a step: the force on what is kept, the same on the level, and the stiffness of either.
+struct Push {
+    force: f64,
+    on_level: f64,
+    pull: f64,
+    stiff: f64,
+}
+
+impl Push {
+    fn of(sides: &[Slack; 2], aim: f64) -> Self {
+        let [(force, stiff), (back, stiff_back)] =
+            sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
+        Self { force: force - back, on_level: force + back, pull: stiff - stiff_back, stiff: stiff + stiff_back }
+    }
+}
+
+/// What the samples of an arc do to the six freedoms of its two joints, and to the level.
+struct Pressed {
+    /// Only the upper triangle.
+    stiff: [[f64; 6]; 6],
+    push: [f64; 6],
+    pull: [f64; 6],
+    /// The sums over the samples by their basis: stiffness, its upper triangle, force and pull.
+    moments: [[f64; 4]; 4],
+    forces: [[f64; 2]; 4],
     corner: f64,
     excess: f64,
+}
+
+impl Pressed {
+    fn by(samples: &[Sample], aim: f64) -> Self {
+        let (mut moments, mut forces, mut corner, mut excess) = ([[0.0; 4]; 4], [[0.0; 2]; 4], 0.0, 0.0);
+        for sample in samples {
+            let push = Push::of(&sample.sides, aim);
+            let [basis] = sample.basis.data.0;
+            for row in 0..4 {
+                let weighted = push.stiff * basis[row];
+                for column in row..4 {
+                    moments[row][column] += weighted * basis[column];
+                }
+                forces[row][0] += push.force * basis[row];
+                forces[row][1] += push.pull * basis[row];
+            }
+            corner += push.stiff;
+            excess += push.on_level;
+        }
+        Self { stiff: [[0.0; 6]; 6], push: [0.0; 6], pull: [0.0; 6], moments, forces, corner, excess }
+    }
+
+    /// Takes the sums by the basis to the freedoms.
+    fn spread(&mut self, off_by: &[Vector4<f64>; 6]) {
+        let m = &self.moments;
+        for row in 0..6 {
+            let [[a, b, c, d]] = off_by[row].data.0;
+            let weighted = [
+                m[0][0] * a + m[0][1] * b + m[0][2] * c + m[0][3] * d,
+                m[0][1] * a + m[1][1] * b + m[1][2] * c + m[1][3] * d,
+                m[0][2] * a + m[1][2] * b + m[2][2] * c + m[2][3] * d,
+                m[0][3] * a + m[1][3] * b + m[2][3] * c + m[3][3] * d,
+            ];
+            for (stiff, other) in self.stiff[row].iter_mut().zip(off_by).skip(row) {
+                let [[e, f, g, h]] = other.data.0;
+                *stiff += weighted[0] * e + weighted[1] * f + weighted[2] * g + weighted[3] * h;
+            }
+            for ([push, pull], by) in self.forces.iter().zip([a, b, c, d]) {
+                self.push[row] += push * by;
+                self.pull[row] += pull * by;
+            }
+        }
+    }
+
+    /// Adds what is kept at a joint.
+    fn press(&mut self, off_by: &[f64; 6], push: &Push) {
+        for row in 0..6 {
+            let weighted = push.stiff * off_by[row];
+            for (stiff, other) in self.stiff[row].iter_mut().zip(off_by).skip(row) {
+                *stiff += weighted * other;
+            }
+            self.push[row] += push.force * off_by[row];
+            self.pull[row] += push.pull * off_by[row];
+        }
+        self.corner += push.stiff;
+        self.excess += push.on_level;
+    }
 }
 
 /// Joints of a chain within `tolerance` at the nodes, from a first guess; `None` when none was found.
@@ -132,10 +214,7 @@ pub(super) fn relax(
         let (step, rise) = program.direction(&trial, aim);
         let (primal, dual) = program.shares(&trial, &step, rise, aim);
         let primal = primal.min(trial.careful(&step, LONGEST_STEP));
-        let ends = program.ends.iter_mut().flatten().flat_map(|end| &mut end.sides);
-        for side in program.samples.iter_mut().flat_map(|sample| &mut sample.sides).chain(ends) {
-            side.multiplier += dual * side.change;
-        }
+        program.press_on(dual);
         places = trial.moved(&step, primal, tolerance);
         level = Some(top + primal * rise);
     }
@@ -144,29 +223,37 @@ pub(super) fn relax(
 
 impl Program {
     fn new(nodes: &[Node], arcs: usize, tolerance: f64) -> Self {
-        let kept = |(index, &node): (usize, &Node)| {
-            // Between the joints the curvature is farthest off where that of the curve turns back.
-            let other = index.checked_sub(1).and_then(|before| nodes.get(before)).or(nodes.get(index + 1));
-            let turns = other.is_some_and(|other| other.best_heading.signum() != node.best_heading.signum());
-            let heading = node.allowed.heading.is_finite().then_some(Kept::Heading(node.tangent, node.allowed.heading));
-            let curvature = (turns && node.allowed.curvature.is_finite())
-                .then_some(Kept::Curvature(node.curvature, node.allowed.curvature));
-            let all = [Some(Kept::Distance), heading, curvature];
-            all.into_iter().flatten().map(move |kept| (node.point, node.parameter, kept))
-        };
-        let all: Vec<(Vector2<f64>, f64, Kept)> = nodes.iter().enumerate().flat_map(kept).collect();
         let bent = nodes.iter().any(|node| node.allowed.curvature.is_finite());
         let turned = nodes.iter().any(|node| node.allowed.heading.is_finite());
+        let sides = [Slack { distance: 0.0, multiplier: 0.0, change: 0.0 }; 2];
+        let mut samples = Vec::with_capacity(if turned { 2 } else { 1 } * nodes.len() + FEW_TURNS);
+        let mut before = nodes.get(1);
+        for node in nodes {
+            let &Node { point, parameter, tangent, curvature, allowed, .. } = node;
+            let mut keep =
+                |kept| samples.push(Sample { point, parameter, kept, basis: Vector4::zeros(), off: 0.0, sides });
+            keep(Kept::Distance);
+            if allowed.heading.is_finite() {
+                keep(Kept::Heading(tangent, allowed.heading));
+            }
+            // Between the joints the curvature is farthest off where that of the curve turns back.
+            let turns = before.is_some_and(|other| other.best_heading.signum() != node.best_heading.signum());
+            if turns && allowed.curvature.is_finite() {
+                keep(Kept::Curvature(curvature, allowed.curvature));
+            }
+            before = Some(node);
+        }
         let kept: Vec<usize> =
             [bent, bent, turned].into_iter().zip(0..).filter_map(|(is, bend)| is.then_some(bend)).collect();
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
-        let multiplier = 0.5 * arcs as f64 / (all.len() + kept.len() * arcs) as f64;
-        let sides = [Slack { distance: 0.0, multiplier, change: 0.0 }; 2];
-        let sample =
-            |(point, parameter, kept)| Sample { point, parameter, kept, basis: Vector4::zeros(), off: 0.0, sides };
+        let multiplier = 0.5 * arcs as f64 / (samples.len() + kept.len() * arcs) as f64;
+        let sides = sides.map(|side| Slack { multiplier, ..side });
+        for sample in &mut samples {
+            sample.sides = sides;
+        }
         let ends: Vec<End> = kept.into_iter().map(|bend| End { bend, off: 0.0, off_by: [0.0; 6], sides }).collect();
         let ends = if ends.is_empty() { Vec::new() } else { vec![ends; arcs] };
-        Self { samples: all.into_iter().map(sample).collect(), ends, tolerance }
+        Self { samples, ends, tolerance }
     }
 
     /// Every arc with its samples, up to the foot of its end.
@@ -175,7 +262,7 @@ impl Program {
         trial.links.iter().zip(trial.parameters().skip(1)).map(move |(link, end)| {
             let all = std::mem::take(&mut rest);
             // The last joint is the last sample.
-            let count = all.iter().take_while(|sample| sample.parameter <= end).count();
+            let count = all.partition_point(|sample| sample.parameter <= end);
             let (mine, others) = all.split_at_mut(count);
             rest = others;
             (link, mine)
@@ -208,12 +295,17 @@ impl Program {
     /// multiplier to aim at.
     fn slacks(&mut self, level: f64, arcs: usize) -> (f64, f64) {
         let mut product = 0.0;
-        let ends = self.ends.iter_mut().flatten().map(|end| (end.off, &mut end.sides));
-        for (off, sides) in self.samples.iter_mut().map(|sample| (sample.off, &mut sample.sides)).chain(ends) {
+        let mut slacken = |off: f64, sides: &mut [Slack; 2]| {
             for (side, distance) in sides.iter_mut().zip([level - off, level + off]) {
                 side.distance = distance;
                 product += distance * side.multiplier;
             }
+        };
+        for sample in &mut self.samples {
+            slacken(sample.off, &mut sample.sides);
+        }
+        for end in self.ends.iter_mut().flatten() {
+            slacken(end.off, &mut end.sides);
         }
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
         let (arcs, count) =
@@ -231,44 +323,40 @@ impl Program {
         let mut border = vec![0.0; 4 * arcs];
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
         let (mut corner, mut excess) = (0.0, -(arcs as f64));
+        let mut ends = std::mem::take(&mut self.ends);
         for (index, (link, samples)) in self.by_arc(trial).enumerate() {
-            let mut moments = Matrix4::zeros();
-            let (mut push, mut pull) = (Vector4::zeros(), Vector4::zeros());
-            for sample in samples {
-                let [(force, stiff), (back, stiff_back)] =
-                    sample.sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
-                moments += sample.basis * (sample.basis * (stiff + stiff_back)).transpose();
-                push += sample.basis * (force - back);
-                pull += sample.basis * (stiff - stiff_back);
-                corner += stiff + stiff_back;
-                excess += force + back;
+            let mut pressed = Pressed::by(samples, aim);
+            pressed.spread(&link.off_by);
+            for end in ends.get(index).into_iter().flatten() {
+                pressed.press(&end.off_by, &Push::of(&end.sides, aim));
             }
-            let multiplier = 4 * index + 3;
-            let freedoms = link.freedoms(index, arcs);
-            for (row, open_by, off_by) in freedoms.clone() {
-                let weighted = moments * off_by;
-                for (column, _, other) in freedoms.clone().filter(|(column, ..)| *column >= row) {
-                    matrix.add(row, column, weighted.dot(other));
-                }
-                matrix.add(row, multiplier, open_by);
-                for (value, amount) in [(&mut right, push.dot(off_by)), (&mut border, pull.dot(off_by))] {
-                    if let Some(value) = value.get_mut(row) {
-                        *value -= amount;
+            (corner, excess) = (corner + pressed.corner, excess + pressed.excess);
+            let (free, first) = (free(index, arcs), (4 * index).wrapping_sub(4));
+            for (row, place) in PLACES.into_iter().enumerate().filter(|(row, _)| free[*row]) {
+                let at = first.wrapping_add(place);
+                if let Some(entries) = matrix.row_mut(at) {
+                    for (column, other) in PLACES.into_iter().enumerate().skip(row).filter(|(column, _)| free[*column])
+                    {
+                        entries[other - place] += pressed.stiff[row][column];
                     }
+                    entries[MULTIPLIER - place] += link.open_by[row];
+                }
+                if let (Some(right), Some(border)) = (right.get_mut(at), border.get_mut(at)) {
+                    *right -= pressed.push[row];
+                    *border -= pressed.pull[row];
                 }
             }
             for (row, stay) in (4 * index..).zip(STAY) {
                 // The last joint is fixed; its rows hold nothing else.
                 matrix.add(row, row, if index + 1 == arcs { 1.0 } else { stay });
             }
+            let multiplier = 4 * index + 3;
             matrix.add(multiplier, multiplier, -GIVE);
             if let Some(value) = right.get_mut(multiplier) {
                 *value = -link.open;
             }
         }
-        let mut system = System { matrix, right, border, corner, excess };
-        self.press_ends(&mut system, aim, arcs);
-        let System { matrix, mut right, mut border, corner, excess } = system;
+        std::mem::swap(&mut self.ends, &mut ends);
         let factors = matrix.factored();
         let edge = border.clone();
         factors.solve(&mut right);
@@ -278,41 +366,33 @@ impl Program {
         (Step(right.iter().zip(&border).map(|(r, b)| r - b * rise).collect()), rise)
     }
 
-    /// The part of Newton's step that keeps the curvature at the joints.
-    fn press_ends(&self, system: &mut System, aim: f64, arcs: usize) {
-        let ends = self.ends.iter().enumerate().flat_map(|(index, ends)| ends.iter().map(move |end| (index, end)));
-        for (index, end) in ends {
-            let [(force, stiff), (back, stiff_back)] =
-                end.sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
-            system.corner += stiff + stiff_back;
-            system.excess += force + back;
-            let freedoms = end.off_by.iter().enumerate();
-            let freedoms = freedoms.filter_map(|(freedom, by)| Some((place_of(freedom, index, arcs)?, *by)));
-            for (row, by) in freedoms.clone() {
-                for (column, other) in freedoms.clone().filter(|(column, _)| *column >= row) {
-                    system.matrix.add(row, column, (stiff + stiff_back) * by * other);
-                }
-                let sums = [(&mut system.right, (force - back) * by), (&mut system.border, (stiff - stiff_back) * by)];
-                for (value, amount) in sums {
-                    if let Some(value) = value.get_mut(row) {
-                        *value -= amount;
-                    }
-                }
+    /// Changes the multipliers by a share of what is kept with the samples.
+    fn press_on(&mut self, share: f64) {
+        let press = |sides: &mut [Slack; 2]| {
+            for side in sides {
+                side.multiplier += share * side.change;
             }
-        }
+        };
+        self.samples.iter_mut().for_each(|sample| press(&mut sample.sides));
+        self.ends.iter_mut().flatten().for_each(|end| press(&mut end.sides));
     }
 
     /// Shares of a step that slacks and multipliers allow; the changes of the multipliers are kept with the samples.
     fn shares(&mut self, trial: &Trial, step: &Step, rise: f64, aim: f64) -> (f64, f64) {
         let (mut primal, mut dual) = (1.0_f64, 1.0_f64);
+        let least = |share: &mut f64, most: f64| {
+            if most < *share {
+                *share = most;
+            }
+        };
         let mut allow = |sides: &mut [Slack; 2], off: f64| {
             for (side, moved) in sides.iter_mut().zip([rise - off, rise + off]) {
                 side.change = (aim - side.multiplier * moved) / side.distance - side.multiplier;
                 if moved < 0.0 {
-                    primal = primal.min(-BOUNDARY * side.distance / moved);
+                    least(&mut primal, -BOUNDARY * side.distance / moved);
                 }
                 if side.change < 0.0 {
-                    dual = dual.min(-BOUNDARY * side.multiplier / side.change);
+                    least(&mut dual, -BOUNDARY * side.multiplier / side.change);
                 }
             }
         };

@@ -54,12 +54,14 @@ fn densest([distance, heading, curvature]: [f64; 3]) -> f64 {
 }
 
 impl Node {
-    fn new((frame, allowed): (CurvePoint, Allowed), parameter: f64, share: f64, seen: f64) -> Self {
-        let size = libm::cbrt(CHAIN * seen);
-        let density = densest(density(&frame, allowed, size));
+    /// Of the curve at a parameter, for chains of this (K tol)^(1/3).
+    fn new((frame, allowed): (CurvePoint, Allowed), parameter: f64, share: f64, size: f64) -> Self {
+        let densities = density(&frame, allowed, size);
+        let density = densest(densities);
         // −κ' h²/12, h = size/density.
         let best_heading = if allowed == Allowed::ANY {
-            -libm::cbrt(frame.curvature_slope) * size * size / 12.0
+            let [root, ..] = densities;
+            -root.copysign(frame.curvature_slope) * size * size / 12.0
         } else {
             -frame.curvature_slope * size * size / (12.0 * density * density).max(f64::MIN_POSITIVE)
         };
@@ -176,6 +178,7 @@ pub(super) fn sample(
 
 /// Adds nodes at more places, with their shares in between.
 pub(super) fn insert(nodes: &mut Vec<Node>, target: &impl Target, parameters: &[f64], seen: f64) {
+    let size = libm::cbrt(CHAIN * seen);
     for &parameter in parameters {
         let next = nodes.partition_point(|node| node.parameter < parameter);
         let (Some(before), Some(after)) = (next.checked_sub(1).and_then(|at| nodes.get(at)), nodes.get(next)) else {
@@ -186,7 +189,7 @@ pub(super) fn insert(nodes: &mut Vec<Node>, target: &impl Target, parameters: &[
         }
         let part = (parameter - before.parameter) / (after.parameter - before.parameter);
         let share = before.share + part * (after.share - before.share);
-        nodes.insert(next, Node::new(target.at(parameter), parameter, share, seen));
+        nodes.insert(next, Node::new(target.at(parameter), parameter, share, size));
     }
 }
 
@@ -237,7 +240,12 @@ impl Mesh {
         let position = |(parameter, share): &(f64, f64)| {
             (1.0 - even) * share / self.total.max(f64::MIN_POSITIVE) + even * (parameter - first) / (last - first)
         };
-        let mut nodes = Vec::new();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "below the largest number of nodes"
+        )]
+        let mut nodes = Vec::with_capacity(count as usize + 1);
         let mut cells = self.bounds.as_slice();
         let mut index = 0.0;
         while index <= count {
@@ -255,7 +263,7 @@ impl Mesh {
             let here = target.at(parameter);
             // A circle has no I₃; its nodes count as one arc.
             let share = if self.total > 0.0 { between(low.1, high.1) / size } else { wanted };
-            nodes.push(Node::new(here, parameter, share, seen));
+            nodes.push(Node::new(here, parameter, share, size));
             index += 1.0;
         }
         Some(nodes)
@@ -275,7 +283,7 @@ mod tests {
             let node = |i: u32| {
                 let (along, still) = (Vector2::new(1.0, 0.0), Vector2::zeros());
                 let point = CurvePoint::from_derivatives(place(i), along, still, still);
-                Node { share: f64::from(i), ..Node::new((point, allowed), 0.0, 0.0, 1.0) }
+                Node { share: f64::from(i), ..Node::new((point, allowed), 0.0, 0.0, libm::cbrt(CHAIN)) }
             };
             let nodes: Vec<Node> = (0..10).map(node).collect();
             let found = CHAIN * farthest_lobe(&nodes);

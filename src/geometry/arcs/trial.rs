@@ -134,6 +134,12 @@ impl Link {
     }
 }
 
+/// Which of the six freedoms of both joints of the arc number `index` of `arcs` are free: the ends of the piece are not.
+pub(super) fn free(index: usize, arcs: usize) -> [bool; 6] {
+    let (start, end) = (index > 0, index + 1 < arcs);
+    [start, start, start, end, end, end]
+}
+
 /// Where one of the six freedoms of both joints of the arc number `index` of `arcs` stands in a [`Step`]; the ends of the piece
 /// have none.
 pub(super) fn place_of(freedom: usize, index: usize, arcs: usize) -> Option<usize> {
