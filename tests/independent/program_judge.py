@@ -364,6 +364,8 @@ class Judge:
             concave = own["concave"] or math.inf
             # A velocity that rises leaves the roller's own shape.
             fits = (min(concave, follower.radius) if self.rises else concave) >= cutter
-            return own["alpha"] <= limit + 1e-9 and own["convex"] > max(1.0, ratio) * follower.radius and fits
+            # A circle of 36 mm keeps a limit of 36 mm; a curve of the roller's own radius is an edge.
+            blunt = own["convex"] > follower.radius and own["convex"] >= ratio * follower.radius * (1 - 1e-9)
+            return own["alpha"] <= limit + 1e-9 and blunt and fits
         # Sharper than a millimetre is an edge.
         return own["alpha"] <= limit + 1e-9 and own["radius"] >= 1.0 and own["turn"] > 0

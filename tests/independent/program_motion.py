@@ -326,7 +326,9 @@ class Program:
         segment = Segment(form, self.at, self.fill, {}, self.first, self.first, STILL)
         segment.scale, segment.whole = 1.0, True
         if form == "formula":
-            segment.pieces = [Formula(motion["formula"], "th", 0.0, self.fill, 0.25 / (3 * self.lobes), unit)]
+            piece = Formula(motion["formula"], "th", 0.0, self.fill, 0.25 / (3 * self.lobes), unit)
+            segment.pieces = [piece]
+            self.noise = np.maximum(self.noise, piece.noise())
         elif form == "fourier":
             waves = [(a * unit, TAU * k, PI / 2) for k, a in enumerate(motion["fourier"].get("cos", []), 1)]
             waves += [(b * unit, TAU * k, 0.0) for k, b in enumerate(motion["fourier"].get("sin", []), 1)]

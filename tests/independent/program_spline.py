@@ -170,6 +170,12 @@ class Formula:
         mean = (ring * self.around ** -float(order)).mean(axis=1).real
         return mean * math.factorial(order) * (self.width / self.circle) ** order
 
+    def noise(self):
+        """What the rounding of values on the circle makes of each derivative by the variable: 5e-7 of a jerk of 64 under an elastic load,
+        of which 40 digits say that it was told right."""
+        size = np.abs(self.at(np.linspace(0.0, 1.0, 64), 0)).max()
+        return np.array([1e-15 * size * math.factorial(order) / self.circle**order for order in range(7)])
+
 
 class Driven:
     """The cam of an elastic load: s + first·s' + second·s'' of a piece."""
