@@ -298,8 +298,11 @@ impl<'a> Followed<'a> {
                 self.off(stretch, parameter).and_then(|off| off.get(index).copied()).unwrap_or(0.0)
             };
             for pair in places.windows(2) {
-                let [(low, [_, left, _]), (high, [_, right, _])] = pair else { continue };
+                let [(low, [error, left, _]), (high, [_, right, _])] = pair else { continue };
+                // Where the acceleration goes straight from one to the other the velocity is off by so much between them.
+                let way = left / (left - right) * (high - low) / self.curves.motion.pace(low + stretch.shift).0;
                 if left * right < 0.0
+                    && (error + 0.5 * left * way).abs() > NEAR * errors.velocity.value
                     && let Ok(at) = root::bracketed(|at| of(at, 1), *low, *high, ROOT * (high - low))
                 {
                     errors.velocity = errors.velocity.or_larger(place(stretch, at, of(at, 0)));
