@@ -126,6 +126,7 @@ struct Pressed {
     excess: f64,
 }
 
+#[expect(clippy::needless_range_loop, reason = "only the upper triangles")]
 impl Pressed {
     fn by(samples: &[Sample], aim: f64) -> Self {
         let (mut moments, mut forces, mut corner, mut excess) = ([[0.0; 4]; 4], [[0.0; 2]; 4], 0.0, 0.0);
@@ -157,9 +158,9 @@ impl Pressed {
                 m[0][2] * a + m[1][2] * b + m[2][2] * c + m[2][3] * d,
                 m[0][3] * a + m[1][3] * b + m[2][3] * c + m[3][3] * d,
             ];
-            for (stiff, other) in self.stiff[row].iter_mut().zip(off_by).skip(row) {
-                let [[e, f, g, h]] = other.data.0;
-                *stiff += weighted[0] * e + weighted[1] * f + weighted[2] * g + weighted[3] * h;
+            for column in row..6 {
+                let [[e, f, g, h]] = off_by[column].data.0;
+                self.stiff[row][column] += weighted[0] * e + weighted[1] * f + weighted[2] * g + weighted[3] * h;
             }
             for ([push, pull], by) in self.forces.iter().zip([a, b, c, d]) {
                 self.push[row] += push * by;
@@ -172,8 +173,8 @@ impl Pressed {
     fn press(&mut self, off_by: &[f64; 6], push: &Push) {
         for row in 0..6 {
             let weighted = push.stiff * off_by[row];
-            for (stiff, other) in self.stiff[row].iter_mut().zip(off_by).skip(row) {
-                *stiff += weighted * other;
+            for column in row..6 {
+                self.stiff[row][column] += weighted * off_by[column];
             }
             self.push[row] += push.force * off_by[row];
             self.pull[row] += push.pull * off_by[row];
