@@ -209,7 +209,8 @@ fn arcs_keep_the_acceleration_with_the_least_number() {
     }
 }
 
-/// The default cam: 5 µm and 5 % with at most 70 arcs, 5 µm alone with 36 as ever; the errors of force fall with it.
+/// The default cam: 5 µm and 5 % with at most 70 arcs, 5 µm alone with 36 as ever. What the follower feels falls with it; the force that is
+/// left is that of the distance, of which both make use.
 #[test]
 fn the_default_cam_has_few_arcs_and_keeps_five_per_cent() {
     let cam = rotary("dpi", &[], 35.0);
@@ -223,7 +224,8 @@ fn the_default_cam_has_few_arcs_and_keeps_five_per_cent() {
     assert!((felt(&alone).acceleration_error.0 - 78.95).abs() < 0.05);
     assert!(felt(&both).velocity_error.0 < felt(&alone).velocity_error.0);
     let residual = |proven: &Proven<'_>| proven.rolled().expect("plane").residual_max_n;
-    assert!(residual(&both) < residual(&alone));
+    assert!(felt(&both).acceleration_error.0 < 0.25 * felt(&alone).acceleration_error.0);
+    assert!((residual(&both) / residual(&alone) - 1.0).abs() < 0.05, "{} {}", residual(&both), residual(&alone));
 }
 
 /// A dwell over most of the turn is one arc, along which the follower rests.

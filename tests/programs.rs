@@ -578,7 +578,7 @@ fn a_roller_smaller_than_the_tolerance_is_felt_all_round() {
 /// one of 135 mm was promised.
 #[test]
 fn no_radius_is_promised_where_a_corner_is_only_too_small_to_be_seen() {
-    let text = r#"
+    let text = r#"name = "a corner"
 [motion]
 rpm = 60
 start = "-16.6559 deg"
@@ -619,5 +619,5 @@ cutter_radius = "33.8 mm"
     assert_eq!((refused.code, &found["verdict"]), (1, &Value::from("fail")));
     assert!((number(&found["value"]) - 15.4108).abs() < 1e-9, "{found}");
     let note = found["note"].as_str().expect("a note");
-    assert!(note.contains("no base radius would pass"), "{note}");
+    assert!(note.contains("no base radius that would pass was found"), "{note}");
 }
