@@ -14,7 +14,6 @@
 use crate::load::Load;
 use crate::numeric::root;
 use crate::profile::Curves;
-use nalgebra::Vector2;
 
 /// How a shaft gives way at its cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +79,7 @@ impl Pressed<'_> {
         let below = root::bracketed(missing, 0.0, give * rigid, 0.0).unwrap_or(give * rigid);
         let force = if give == 0.0 { rigid } else { below / give };
         let raised = self.load.map_or(0.0, |load| load.raised(piece, angle));
-        let residual = |load: &dyn Load| load.residual(piece, angle, raised - below, Vector2::zeros());
+        let residual = |load: &dyn Load| load.residual(piece, angle, raised - below);
         Lowered {
             force,
             pressure_angle: contact.pressure_angle,

@@ -23,7 +23,7 @@ pub(crate) use balance::reversal_of_bed;
 pub use balance::{AsCut, Balance, USEFUL};
 pub use loaded::{Lowered, Yielding};
 pub use part::{Layer, NEGLIGIBLE_MM, Part};
-pub use sheet::acceleration_as_cut;
+pub use sheet::traces;
 use sizing::{broken_limit, no_radius, passing};
 pub use worst_places::WorstPlaces;
 use worst_places::radius_of;
@@ -34,7 +34,7 @@ use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::RunUp;
 use crate::machine::Machine;
-use crate::motion::{BrakeDisc, Quantity};
+use crate::motion::{BrakeDisc, Quantity, State};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
@@ -465,6 +465,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// Size of the residual force that the force balance leaves, N, with the follower `moved` (m) along its path from where the
     /// motion puts it, touching the cam where its normal is this unit vector out of the metal; 0 without a load.
     fn unbalanced(&self, piece: usize, parameter: f64, moved: f64, normal: Vector2<f64>) -> f64;
+
+    /// The same of a cam that turns, with its press in a state.
+    fn unbalanced_in(&self, _state: &State, _moved: f64) -> f64 {
+        0.0
+    }
 
     /// The exact outline as it lies in the drawing, mm, of a cut at a place along the axis, m; `None` where there is no cut.
     ///

@@ -3,10 +3,12 @@
 use super::Body;
 use super::balancing::Balancing;
 use super::part::point_as_turned;
-use crate::geometry::contour::{Contour, Extents};
+use super::torque::{self, Cut};
+use crate::geometry::contour::Extents;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::motion::Quantity;
+use crate::profile::Curves;
 use crate::profile::followed::Followed;
 use crate::report::sheet::{Group, Mark, PlaceTable, Shape, rounded};
 use crate::report::trace::Trace;
@@ -172,16 +174,20 @@ pub(super) fn places(body: &dyn Body) -> Vec<PlaceTable> {
         .collect()
 }
 
-/// The acceleration of the follower on an outline (mm) beside that of the motion, of a plane cam.
+/// What the follower of a plane cam does on its outline: its acceleration beside that of the motion, and the torque of the shaft, with a
+/// second disc on it that of both.
 #[must_use]
-pub fn acceleration_as_cut(body: &dyn Body, outline: &Contour) -> Option<Trace> {
-    let curves = body.plane()?;
-    let followed = Followed::on(curves, outline, body.mirrored());
+pub fn traces(first: Cut<'_>, second: Option<Cut<'_>>) -> Vec<Trace> {
+    let (Some(curves), Some(followed)) = (first.0.plane(), torque::followed(first)) else { return Vec::new() };
+    std::iter::once(acceleration(curves, &followed)).chain(torque::trace(first.0, &followed, second)).collect()
+}
+
+fn acceleration(curves: Curves<'_>, followed: &Followed<'_>) -> Trace {
     let turns = curves.motion.period().is_some();
     let swings = curves.motion.quantity() == Quantity::Angle;
     let (place, value) = (if turns { 1.0_f64.to_degrees() } else { 1e3 }, if swings { 1.0 } else { 1e3 });
     let points = followed.accelerations(TRACE_SHARE);
-    Some(Trace {
+    Trace {
         head: format!(
             "Follower's acceleration, {}: motion (thin), as cut (bold)",
             if swings { "rad/rad²" } else { "mm/rad²" }
@@ -190,7 +196,7 @@ pub fn acceleration_as_cut(body: &dyn Body, outline: &Contour) -> Option<Trace> 
         step: if turns { 30.0 } else { 20.0 },
         period: turns.then_some(360.0),
         points: points.into_iter().map(|[at, motion, cut]| [place * at, value * motion, value * cut]).collect(),
-    })
+    }
 }
 
 /// A stretch of a curve that nobody may overlook.

@@ -16,25 +16,33 @@ const INSET: f64 = 1e-6;
 /// A disc that turns, and its outline, mm.
 pub type Cut<'a> = (&'a dyn Body, &'a Contour);
 
+/// The follower of a disc on its outline; `None` of what is no disc.
+pub(super) fn followed((body, outline): Cut<'_>) -> Option<Followed<'_>> {
+    Some(Followed::on(body.plane()?, outline, body.mirrored()))
+}
+
 /// A disc whose follower is on its outline.
 struct Turning<'a> {
     body: &'a dyn Body,
-    followed: Followed<'a>,
+    followed: &'a Followed<'a>,
 }
 
 impl<'a> Turning<'a> {
     /// `None` where it does not turn.
-    fn new((body, outline): Cut<'a>) -> Option<Self> {
-        let curves = body.plane()?;
-        curves.motion.period()?;
-        Some(Self { body, followed: Followed::on(curves, outline, body.mirrored()) })
+    fn new(body: &'a dyn Body, followed: &'a Followed<'a>) -> Option<Self> {
+        body.plane()?.motion.period()?;
+        Some(Self { body, followed })
     }
 
-    /// Force along the follower's path times the slope that the normal gives where it touches, N·m; `None` where the force is not known
-    /// or the follower is not in touch.
+    /// Torque by the law, and force along the follower's path times the slope that the normal gives where it touches, N·m; `None` where
+    /// the force is not known or the follower is not in touch.
+    fn torques(&self, angle: f64) -> Option<[f64; 2]> {
+        let [force, law] = self.body.force_and_torque(angle)?;
+        Some([law, force * self.followed.at(angle)?.ds])
+    }
+
     fn torque(&self, angle: f64) -> Option<f64> {
-        let [force, _] = self.body.force_and_torque(angle)?;
-        Some(force * self.followed.at(angle)?.ds)
+        self.torques(angle).map(|[_, cut]| cut)
     }
 
     /// Places of its stretches, from a hair behind the one end to a hair before the other.
@@ -51,7 +59,8 @@ impl<'a> Turning<'a> {
 /// touch.
 #[must_use]
 pub fn left(first: Cut<'_>, second: Cut<'_>) -> Option<f64> {
-    let (one, two) = (Turning::new(first)?, Turning::new(second)?);
+    let (on_first, on_second) = (followed(first)?, followed(second)?);
+    let (one, two) = (Turning::new(first.0, &on_first)?, Turning::new(second.0, &on_second)?);
     let both = |angle: f64| Some((one.torque(angle)? + two.torque(angle)?).abs());
     let mut all = one.places(PLACES).chain(two.places(PLACES)).map(both);
     all.try_fold(0.0_f64, |largest, torque| Some(largest.max(torque?)))
@@ -59,18 +68,18 @@ pub fn left(first: Cut<'_>, second: Cut<'_>) -> Option<f64> {
 
 /// The torque of the shaft of a disc by its law, and as cut; with a second disc on the same shaft that of both as cut. `None` where no
 /// force is known.
-#[must_use]
-pub fn trace(first: Cut<'_>, second: Option<Cut<'_>>) -> Option<Trace> {
-    first.0.force_and_torque(0.0)?;
-    let one = Turning::new(first)?;
+pub(super) fn trace(body: &dyn Body, on_outline: &Followed<'_>, second: Option<Cut<'_>>) -> Option<Trace> {
+    body.force_and_torque(0.0)?;
+    let one = Turning::new(body, on_outline)?;
+    let on_second = second.and_then(followed);
     let two = match second {
-        Some(second) => Some(Turning::new(second)?),
+        Some((second, _)) => Some(Turning::new(second, on_second.as_ref()?)?),
         None => None,
     };
     let point = |angle: f64| {
-        let [_, law] = one.body.force_and_torque(angle)?;
+        let [law, cut] = one.torques(angle)?;
         let beside = two.as_ref().map_or(Some(0.0), |two| two.torque(angle))?;
-        Some([angle.to_degrees(), law, one.torque(angle)? + beside])
+        Some([angle.to_degrees(), law, cut + beside])
     };
     let lines = match &two {
         Some(_) => "without (thin), with the compensating cam as cut (bold)",

@@ -11,7 +11,6 @@ use crate::profile::Worst;
 use crate::profile::extremes::{self, Acting};
 use crate::report::{AirLaw, Section};
 use crate::table::BalanceRow;
-use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -31,6 +30,13 @@ impl AirBuffer {
 
     fn bottom_law(&self) -> &CrankLaw {
         &self.reversal.law().bottom_law
+    }
+
+    /// Inertia less air of a bed that decelerates by so much (m) against air at a pressure ratio, N.
+    fn left(&self, [deceleration, ratio]: [f64; 2]) -> f64 {
+        let left = self.bottom_law().loading() * deceleration - (ratio - 1.0);
+        // A bottom that is beyond the piston leaves no air.
+        if left.is_nan() { f64::NEG_INFINITY } else { self.cylinder.unit_force() * left }
     }
 }
 
@@ -87,6 +93,10 @@ impl Load for AirBuffer {
         self.pressing_when(piece, at, 0.0)
     }
 
+    fn pressing_in(&self, state: &State) -> f64 {
+        self.cylinder.force(state.pressure_ratio) / self.reversal.law().lever
+    }
+
     fn pressing_when(&self, piece: usize, at: f64, moved: f64) -> f64 {
         let lever = self.reversal.law().lever;
         let ratio = self.reversal.air(piece, at, moved / lever).map_or(1.0, |[_, ratio]| ratio);
@@ -98,16 +108,21 @@ impl Load for AirBuffer {
     }
 
     /// Inertia less air; 0 outside the reversal, at its ends what it is inside.
-    fn residual(&self, piece: usize, at: f64, moved: f64, _: Vector2<f64>) -> f64 {
+    fn residual(&self, piece: usize, at: f64, moved: f64) -> f64 {
         let off = moved / self.reversal.law().lever;
-        let Some([deceleration, ratio]) = self.reversal.air(piece, at, off) else { return 0.0 };
-        let left = self.bottom_law().loading() * deceleration - (ratio - 1.0);
-        // A bottom that is beyond the piston leaves no air.
-        if left.is_nan() { f64::NEG_INFINITY } else { self.cylinder.unit_force() * left }
+        self.reversal.air(piece, at, off).map_or(0.0, |air| self.left(air))
     }
 
-    fn balance_row(&self, piece: usize, at: f64) -> BalanceRow {
-        balance_row(&self.cylinder, self.bottom_law(), &self.state(piece, at))
+    fn residual_in(&self, state: &State, moved: f64) -> f64 {
+        if !state.reversing {
+            return 0.0;
+        }
+        let bottom = state.displacement + moved / self.reversal.law().lever;
+        self.left([state.deceleration, self.bottom_law().pressure_ratio(state.crank, bottom)])
+    }
+
+    fn balance_row(&self, state: &State) -> BalanceRow {
+        balance_row(&self.cylinder, self.bottom_law(), state)
     }
 
     fn state(&self, piece: usize, at: f64) -> State {

@@ -17,7 +17,6 @@ use crate::profile::Worst;
 use crate::profile::extremes::Acting;
 use crate::report::Section;
 use crate::table::BalanceRow;
-use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// The lift that a run-up adds.
@@ -52,7 +51,12 @@ pub trait Load: std::fmt::Debug + Send + Sync {
 
     /// Force that presses the follower onto the cam along its path, N; spring, weight and inertia of the follower itself
     /// come on top.
-    fn pressing(&self, piece: usize, at: f64) -> f64;
+    fn pressing(&self, piece: usize, at: f64) -> f64 {
+        self.pressing_in(&self.state(piece, at))
+    }
+
+    /// The same in a state of the machine.
+    fn pressing_in(&self, state: &State) -> f64;
 
     /// The same with the follower `moved` (m) along its path from where the motion puts it.
     fn pressing_when(&self, piece: usize, at: f64, moved: f64) -> f64;
@@ -63,11 +67,16 @@ pub trait Load: std::fmt::Debug + Send + Sync {
     }
 
     /// The residual force that the force balance leaves, inertia less air, N, with the follower `moved` (m) along its path from where
-    /// the motion puts it and touching where the cam's normal (a unit vector out of the metal) is.
-    fn residual(&self, piece: usize, at: f64, moved: f64, normal: Vector2<f64>) -> f64;
+    /// the motion puts it.
+    fn residual(&self, piece: usize, at: f64, moved: f64) -> f64 {
+        self.residual_in(&self.state(piece, at), moved)
+    }
 
-    /// The forces that are to balance, where the follower is as the motion has it.
-    fn balance_row(&self, piece: usize, at: f64) -> BalanceRow;
+    /// The same in a state of the machine.
+    fn residual_in(&self, state: &State, moved: f64) -> f64;
+
+    /// The forces that are to balance in a state of the machine, where the follower is as the motion has it.
+    fn balance_row(&self, state: &State) -> BalanceRow;
 
     /// The state of the machine.
     fn state(&self, piece: usize, at: f64) -> State;

@@ -3,7 +3,7 @@
 //! A row holds what a cam knows at one place, in the units of the table; what a cam does not have stays empty, and so does the
 //! column. A new column is one function and one line in [`COLUMNS`].
 
-use crate::motion::Jet;
+use crate::motion::{Jet, State};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
@@ -20,6 +20,8 @@ pub struct Row {
     pub swing: Option<Jet>,
     /// Bed, bottom and crank of a press.
     pub bed: Option<BedRow>,
+    /// The press under a cam that turns, as its forces are computed from.
+    pub state: Option<State>,
     /// A point of the follower's curve.
     pub curve: Option<Vector2<f64>>,
     /// A point of the profile.
@@ -291,6 +293,7 @@ mod tests {
             lift: Some(Jet::default()),
             swing: None,
             bed: Some(BedRow { crank_deg: Some(1.0), ..BedRow::default() }),
+            state: None,
             curve: Some(Vector2::zeros()),
             profile: Some(Vector2::zeros()),
             pressure_angle_deg: Some(1.0),

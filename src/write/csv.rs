@@ -5,8 +5,7 @@ use super::number::push_shortest;
 use super::{Format, FormatError, OfAnalysis, When, fits_all};
 use crate::body::Body;
 use crate::geometry::MILLIMETRES;
-use crate::motion::Quantity;
-use crate::profile::Curves;
+use crate::motion::{Jet, Quantity};
 use crate::profile::followed::Followed;
 use crate::table::Table;
 use crate::verify::WrittenOutline;
@@ -52,9 +51,10 @@ pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutl
                 let (first, second) = motion.pace(place);
                 [cut.ds * first, cut.dds * first * first + cut.ds * second]
             });
-            // What is left of the forces of a plate depends on the slope as cut, too.
-            if row.balance.is_some() && row.plate.is_none() {
-                let left = followed.map(|(place, cut)| residual(body, curves, place, cut.s));
+            // Of a press only: what is left of the forces of a plate depends on the slope as cut, too, and is not told.
+            if let (Some(state), Some(law)) = (&row.state, row.lift.or(row.swing)) {
+                let moved = |cut: Jet| (cut.s - law.s) * curves.follower.leverage(&law);
+                let left = followed.map(|(_, cut)| body.unbalanced_in(state, moved(cut)));
                 row.residual_cut = Some(left.unwrap_or(f64::NAN));
             }
             row.swings = motion.quantity() == Quantity::Angle;
@@ -62,14 +62,6 @@ pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutl
         }
     }
     Table::of(&rows)
-}
-
-/// Size of the residual force with the follower where the outline as written puts it, N.
-fn residual(body: &dyn Body, curves: Curves<'_>, place: f64, lift: f64) -> f64 {
-    let (piece, parameter) = curves.motion.locate(place);
-    let contact = curves.contact(piece, parameter);
-    let moved = (lift - contact.lift.s) * curves.follower.leverage(&contact.lift);
-    body.unbalanced(piece, parameter, moved, contact.curve.outward())
 }
 
 /// Bytes of most numbers with what stands between two.

@@ -3,7 +3,7 @@
 
 use super::path_data::PathData;
 use super::{Format, FormatError, OfAnalysis, Rendering, When, fits_all};
-use crate::body::{self, torque};
+use crate::body;
 use crate::geometry::contour::Segment;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::outline::Fit;
@@ -37,9 +37,7 @@ pub fn sheet(cam: &Rendering<'_>) -> Result<Sheet, FormatError> {
     let view = cam.body.view(cam.drawn)?;
     let outline = cam.outlines.first().map(|outline| &outline.contour);
     let second = cam.second.and_then(|(body, outlines)| Some((body, &outlines.first()?.contour)));
-    let acceleration = outline.and_then(|outline| body::acceleration_as_cut(cam.body, outline));
-    let torque = outline.and_then(|outline| torque::trace((cam.body, outline), second));
-    let traces: Vec<_> = acceleration.into_iter().chain(torque).collect();
+    let traces = outline.map_or_else(Vec::new, |outline| body::traces((cam.body, outline), second));
     let profile_tolerance = tolerance_words(&cam.fit);
     Ok(compose(&view, cam.report, &Extras { profile_tolerance: &profile_tolerance, traces: &traces }))
 }

@@ -9,7 +9,7 @@ use crate::body::{Body, plane};
 use crate::geometry::MILLIMETRES;
 use crate::load::{Pressing, guide};
 use crate::machine::{GuideData, Machine, SpringData};
-use crate::motion::{Jet, Motion, Piece, Quantity};
+use crate::motion::{Jet, Motion, Piece, Quantity, State};
 use crate::numeric::digits::three_digits_up;
 use crate::numeric::root;
 use crate::profile::extremes::{self, Acting};
@@ -66,6 +66,16 @@ fn between_turns(motion: &dyn Motion, index: usize, piece: &Piece) -> Vec<Acting
     cuts.iter().copied().zip(cuts.iter().copied().skip(1)).collect()
 }
 
+/// What presses on beside a load and with it; the lift matters where that is not constant.
+fn with_load(pressing: &Pressing, load: f64, lift: impl FnOnce() -> Jet) -> f64 {
+    load + if pressing.is_constant() { pressing.constant } else { pressing.at(&lift()) }
+}
+
+/// Torque of the shaft against a force at a velocity: where the follower rests there is no work, jammed or not.
+fn work(force: f64, velocity: f64) -> f64 {
+    if velocity == 0.0 { 0.0 } else { force * velocity }
+}
+
 impl Own {
     pub(super) fn of(machine: &Machine, motion: &dyn Motion) -> Self {
         let (spring, guide) = (machine.spring(), machine.guide());
@@ -102,11 +112,7 @@ impl Disc {
     /// The same where the lift may be known.
     fn acting_force_of(&self, (piece, angle): (usize, f64), lift: impl FnOnce() -> Jet) -> Option<f64> {
         let pressing = self.pressing()?;
-        let load = self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle));
-        if pressing.is_constant() {
-            return Some(load + pressing.constant);
-        }
-        Some(load + pressing.at(&lift()))
+        Some(with_load(&pressing, self.load.as_ref().map_or(0.0, |load| load.pressing(piece, angle)), lift))
     }
 
     /// The same as a force along the path of what touches the cam, N.
@@ -127,10 +133,21 @@ impl Disc {
 
     /// The same where the lift may be known.
     fn driving_force_of(&self, (piece, angle): (usize, f64), lift: impl FnOnce() -> Jet) -> Option<f64> {
-        let acting = self.acting_force_of((piece, angle), lift)?;
-        let Some(guide) = self.own.guide.filter(|_| acting > 0.0) else { return Some(acting) };
+        Some(self.driving(self.acting_force_of((piece, angle), lift)?, (piece, angle)))
+    }
+
+    /// What the cam drives the follower with where this force acts on it.
+    fn driving(&self, acting: f64, (piece, angle): (usize, f64)) -> f64 {
+        let Some(guide) = self.own.guide.filter(|_| acting > 0.0) else { return acting };
         let contact = self.curves().contact(piece, angle);
-        Some(acting * libm::cos(contact.pressure_angle) / self.share_borne(&guide, (piece, angle), &contact).max(0.0))
+        acting * libm::cos(contact.pressure_angle) / self.share_borne(&guide, (piece, angle), &contact).max(0.0)
+    }
+
+    /// As [`Body::force_and_torque`].
+    pub(super) fn driving_force_and_torque(&self, piece: usize, angle: f64) -> Option<[f64; 2]> {
+        let lift = self.motion.jet(piece, angle);
+        let driving = self.driving_force_of((piece, angle), || lift)?;
+        Some([driving, work(driving, lift.ds)])
     }
 
     /// Force along the normal, N, with the friction of the guide; infinite where it jams, 0 where the follower has left the cam.
@@ -178,13 +195,14 @@ impl Disc {
         Some(Worst { value: -least.value, ..least })
     }
 
-    /// The forces of a row of the table.
-    pub(super) fn force_row(&self, (piece, angle): (usize, f64), contact: &Contact) -> Option<ForceRow> {
-        let acting = self.acting_force_of((piece, angle), || contact.lift)?;
+    /// The forces of a row of the table, where its load is in a state.
+    pub(super) fn force_row(&self, at: (usize, f64), contact: &Contact, state: Option<&State>) -> Option<ForceRow> {
+        let of_load = self.load.as_ref().zip(state).map_or(0.0, |(load, state)| load.pressing_in(state));
+        let acting = with_load(&self.pressing()?, of_load, || contact.lift);
         Some(ForceRow {
             path: acting / self.follower.leverage(&contact.lift),
-            torque: self.torque_of((piece, angle), contact.lift),
-            contact: Some(self.along_normal(acting, (piece, angle), contact)),
+            torque: work(self.driving(acting, at), contact.lift.ds),
+            contact: Some(self.along_normal(acting, at, contact)),
         })
     }
 
@@ -201,15 +219,8 @@ impl Disc {
 
     /// Torque of the shaft, N·m; NaN where no force is known.
     pub(super) fn torque(&self, piece: usize, angle: f64) -> f64 {
-        self.torque_of((piece, angle), self.motion.jet(piece, angle))
-    }
-
-    fn torque_of(&self, at: (usize, f64), lift: Jet) -> f64 {
-        // Where the follower rests there is no work, jammed or not.
-        match lift.ds {
-            0.0 => 0.0,
-            velocity => self.driving_force_of(at, || lift).unwrap_or(f64::NAN) * velocity,
-        }
+        let lift = self.motion.jet(piece, angle);
+        work(self.driving_force_of((piece, angle), || lift).unwrap_or(f64::NAN), lift.ds)
     }
 
     /// Largest |torque| on the camshaft, N·m, and where; `None` where no force is known.

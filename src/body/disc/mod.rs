@@ -33,7 +33,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load, RunUp};
 use crate::machine::{DiscOfBrakeError, Machine, NoPress, Press, Rotation};
 use crate::motion::counter_torque::CounterTorqueError;
-use crate::motion::{BrakeDisc, Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, Transition};
+use crate::motion::{BrakeDisc, Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, State, Transition};
 use crate::profile::extremes;
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{NoRadius, Smallest};
@@ -293,7 +293,7 @@ impl Disc {
     pub fn residual_max(&self) -> Worst {
         let Some(load) = &self.load else { return Worst { value: 0.0, ..Worst::NONE } };
         let limits = (load.acting(), ROUNDING_OF_BALANCE * load.largest());
-        let left = |piece: usize, angle: f64| load.residual(piece, angle, 0.0, Vector2::zeros());
+        let left = |piece: usize, angle: f64| load.residual(piece, angle, 0.0);
         plane(extremes::largest_size(self.curves(), (&limits.0, limits.1), left))
     }
 
@@ -316,13 +316,11 @@ impl Disc {
         let (piece, angle) = curves.motion.locate(at.angle);
         let contact = curves.contact(piece, angle);
         let profile = contact.curve.offset_inward(curves.offset());
-        let bed = self.load.as_ref().map(|load| {
-            let state = load.state(piece, angle);
-            BedRow {
-                crank_deg: Some(at.crank_deg),
-                x: MILLIMETRES * state.overrun,
-                dx: MILLIMETRES * state.displacement,
-            }
+        let state = self.load.as_ref().map(|load| load.state(piece, angle));
+        let bed = state.map(|state| BedRow {
+            crank_deg: Some(at.crank_deg),
+            x: MILLIMETRES * state.overrun,
+            dx: MILLIMETRES * state.displacement,
         });
         Row {
             cam_deg: Some(at.cam_deg),
@@ -335,8 +333,9 @@ impl Disc {
             pressure_angle_deg: Some(contact.pressure_angle.to_degrees()),
             curve_radius: Some(MILLIMETRES / contact.curve.curvature),
             profile_radius: Some(MILLIMETRES / profile.curvature),
-            force: self.force_row((piece, angle), &contact),
-            balance: self.load.as_ref().map(|load| load.balance_row(piece, angle)),
+            force: self.force_row((piece, angle), &contact, state.as_ref()),
+            balance: self.load.as_ref().zip(state).map(|(load, state)| load.balance_row(&state)),
+            state,
             face: curves.follower.on_face(&contact.lift).map(|face| MILLIMETRES * face.place),
             ..Row::default()
         }
@@ -401,8 +400,7 @@ impl Body for Disc {
 
     fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {
         let (piece, inside) = self.motion.locate(angle);
-        let force = self.driving_force(piece, inside)?;
-        Some([force, self.torque(piece, inside)])
+        self.driving_force_and_torque(piece, inside)
     }
 
     fn compensating(&self) -> Option<Result<(Disc, Compensated), DiscError>> {
@@ -451,8 +449,12 @@ impl Body for Disc {
         self.largest_force(|piece, angle| self.path_force(piece, angle).map_or(f64::NAN, |force| -force))
     }
 
-    fn unbalanced(&self, piece: usize, angle: f64, moved: f64, normal: Vector2<f64>) -> f64 {
-        self.load.as_ref().map_or(0.0, |load| load.residual(piece, angle, moved, normal).abs())
+    fn unbalanced(&self, piece: usize, angle: f64, moved: f64, _: Vector2<f64>) -> f64 {
+        self.load.as_ref().map_or(0.0, |load| load.residual(piece, angle, moved).abs())
+    }
+
+    fn unbalanced_in(&self, state: &State, moved: f64) -> f64 {
+        self.load.as_ref().map_or(0.0, |load| load.residual_in(state, moved).abs())
     }
 
     fn force_jumps(&self) -> Vec<f64> {

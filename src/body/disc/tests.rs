@@ -83,7 +83,7 @@ fn a_narrow_blend_is_told_to_rounding() {
                 let half = 0.5 * width.to_radians();
                 let left = |i: u32| {
                     let (piece, angle) = blend.motion.locate(half * f64::from(i) / 1e5);
-                    load.residual(piece, angle, 0.0, Vector2::zeros()).abs()
+                    load.residual(piece, angle, 0.0).abs()
                 };
                 let scan = (0..=100_000).map(left).fold(0.0, f64::max);
                 let told = blend.residual_max().value;
