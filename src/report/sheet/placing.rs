@@ -6,6 +6,8 @@ use nalgebra::Vector2;
 
 /// Side of a cell, mm.
 const CELL: f64 = 0.8;
+/// Distance of two points of a line that tell in which cells it is, mm.
+const NEAR: f64 = 0.5 * CELL;
 
 /// How soon the corner of a text, not its side, looks back at its place.
 const LEAN: f64 = 1.6;
@@ -57,14 +59,14 @@ impl Taken {
             return None;
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative; saturates")]
-        let (column, row) = (place.x as usize, place.y as usize);
+        let (column, row) = (place.x as u32 as usize, place.y as u32 as usize);
         (column < self.across && row < self.rows).then_some(row * self.across + column)
     }
 
     /// The points of a straight line, half a cell apart.
     fn along(from: Vector2<f64>, to: Vector2<f64>) -> impl Iterator<Item = Vector2<f64>> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most ten thousand")]
-        let steps = ((to - from).norm() / (0.5 * CELL)).ceil().clamp(1.0, 1e4) as u32;
+        let steps = ((to - from).norm() / NEAR).ceil().clamp(1.0, 1e4) as u32;
         (0..=steps).map(move |step| from + (to - from) * (f64::from(step) / f64::from(steps)))
     }
 
@@ -79,13 +81,17 @@ impl Taken {
         if let Some(field) = shape.text_field() {
             self.fill(&field);
         }
-        for chain in shape.chains(0.5 * CELL) {
-            let mut from = None;
+        for chain in shape.chains(NEAR) {
+            let mut from: Option<(Vector2<f64>, Option<usize>)> = None;
             for &to in &chain {
                 let here = self.cell(to);
                 match from {
                     // All between two points of a cell is in it.
                     Some((_, Some(cell))) if Some(cell) == here => self.line_in(cell),
+                    // So near that there is no point between them.
+                    Some((start, before)) if (to - start).norm_squared() <= NEAR * NEAR => {
+                        before.into_iter().chain(here).for_each(|cell| self.line_in(cell));
+                    }
                     Some((start, _)) => Self::along(start, to).for_each(|point| self.line_at(point)),
                     None => {}
                 }

@@ -175,5 +175,16 @@ fn chain(edge: &Edge, step: f64) -> Vec<Vector2<f64>> {
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
     let pieces = (edge.length() / step).ceil().clamp(1.0, MOST) as u32;
-    (0..=pieces).map(|index| edge.at(f64::from(index) / f64::from(pieces)).0).collect()
+    let share = 1.0 / f64::from(pieces);
+    let Edge::Segment(arc) = edge else {
+        return (0..=pieces).map(|index| edge.at(f64::from(index) * share).0).collect();
+    };
+    // Each chord is the one before, turned by the same angle: rounding adds up to far less than the finest line.
+    let (sin, cos) = libm::sincos(arc.sweep() * share);
+    let first = (arc.start, arc.at(share).0 - arc.start);
+    let next = |(point, chord): &(Vector2<f64>, Vector2<f64>)| {
+        let turned = Vector2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y);
+        Some((point + chord, turned))
+    };
+    std::iter::successors(Some(first), next).take(pieces as usize).map(|(point, _)| point).chain([arc.end]).collect()
 }
