@@ -5,10 +5,10 @@ use crate::body::part::{as_turned, point_as_turned};
 use crate::body::sheet::{PATH_OVER_RADIUS, axes, bore, lost_motion, overall, places, pressure_angle, roller, turning};
 use crate::body::{Body, Drawn};
 use crate::follower::Element;
-use crate::geometry::contour::{Contour, Edge, Extents};
+use crate::geometry::contour::{Contour, Edge, Extents, Vertex};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::envelope;
-use crate::profile::outline::{OutlineError, pitch};
+use crate::profile::outline::{Outline, OutlineError, pitch};
 use crate::report::sheet::{Facts, Group, Mark, Shape, View, rounded};
 use nalgebra::Vector2;
 
@@ -25,11 +25,11 @@ const NOWHERE: Extents = Extents { least: Vector2::new(0.0, 0.0), largest: Vecto
 /// [`OutlineError`] when the pitch curve cannot be drawn.
 pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
     // A flat face and a knife edge have no pitch curve: their curve is the profile, which may be undercut.
+    let part = drawn.parts.first();
     let pitch_curve = match disc.roller_radius() {
-        Some(_) => Some(as_turned(&disc.machine, pitch(disc.curves())?.contour)),
+        Some(radius) => Some(pitch_curve(disc, part.map(|part| &part.outline), MILLIMETRES * radius)?),
         None => None,
     };
-    let part = drawn.parts.first();
     let outline = part.map_or(NOWHERE, |part| part.outline.contour.extents());
     let (prime, base) = (MILLIMETRES * disc.prime_radius(), MILLIMETRES * disc.base_radius());
     let profile = part.map(|part| Shape::Entity(Entity::Polyline(part.outline.contour.clone())));
@@ -68,6 +68,40 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
         notes: Vec::new(),
         lost: if disc.least_radius().value <= disc.curves().offset() { disc.lost_motion() } else { Vec::new() },
     })
+}
+
+/// Largest distance of an outline from the exact one, mm, at which its parallel is shown: a fifth of a thin pen.
+const SHOWN: f64 = 0.05;
+/// Least radius of an arc of the pitch curve, mm, that is taken from the outline: within it the roller turns about its centre.
+const LEAST_RADIUS: f64 = 1e-3;
+/// Largest turn of a joint without a corner, rad.
+const SMOOTH: f64 = 1e-6;
+
+/// The follower's curve as it lies in the drawing: beside an outline of tangent arcs and lines the same about the same centres, else
+/// fitted anew.
+fn pitch_curve(disc: &Disc, outline: Option<&Outline>, radius: f64) -> Result<Contour, OutlineError> {
+    match outline.filter(|outline| outline.deviation <= SHOWN).and_then(|outline| beside(&outline.contour, radius)) {
+        Some(curve) => Ok(curve),
+        None => Ok(as_turned(&disc.machine, pitch(disc.curves())?.contour)),
+    }
+}
+
+/// The parallel so far outside a contour of tangent arcs and lines that has the metal on its left; `None` of any other.
+fn beside(contour: &Contour, distance: f64) -> Option<Contour> {
+    if contour.tangent_breaks().iter().any(|turn| turn.abs() > SMOOTH) {
+        return None;
+    }
+    let moved = |edge: Edge| {
+        let segment = edge.segment()?;
+        let left = segment.bulge > 0.0;
+        // A line has an infinite radius.
+        if !left && segment.radius().abs() < distance + LEAST_RADIUS {
+            return None;
+        }
+        let tangent = segment.start_tangent();
+        Some(Vertex::new(segment.start + Vector2::new(tangent.y, -tangent.x) * distance, segment.bulge))
+    };
+    Some(Contour { vertices: contour.edges().map(moved).collect::<Option<_>>()? })
 }
 
 /// Where the outline crosses the positive X axis, mm, to a hundredth of an edge; the base radius where it does not.
