@@ -15,7 +15,7 @@ mod text;
 mod trade;
 mod watch;
 
-use args::{Cli, Command};
+use args::{Cli, Command, Later};
 use camgen::document::plain;
 use clap::Parser;
 use std::io::{self, ErrorKind, Write};
@@ -61,21 +61,21 @@ pub(crate) fn main() -> ExitCode {
 
 fn run(command: &Command) -> Result<Outcome, Failure> {
     match command {
-        Command::Rotary(args) => cams::rotary(args),
-        Command::Translating(args) => cams::translating(args),
-        Command::Conoid(args) => cams::conoid(args),
-        Command::Make(args) => cams::make(args),
-        Command::Regimes(args) => analyses::regimes(args),
-        Command::Spring(args) => analyses::spring(args),
-        Command::Drive(args) => analyses::drive(args),
-        Command::Linkage(args) => analyses::linkage(args),
-        Command::Shaft(args) => analyses::shaft(args),
-        Command::Brake(args) => analyses::brake(args),
-        Command::Size(args) => analyses::size(args),
-        Command::Laws(args) => analyses::laws(args),
-        Command::SideBySide(args) => side_by_side::run(args),
-        Command::Check(args) => check::run(args),
-        Command::Trade(args) => trade::run(args),
+        Command::Rotary(Later(args)) => cams::rotary(args),
+        Command::Translating(Later(args)) => cams::translating(args),
+        Command::Conoid(Later(args)) => cams::conoid(args),
+        Command::Make(Later(args)) => cams::make(args),
+        Command::Regimes(Later(args)) => analyses::regimes(args),
+        Command::Spring(Later(args)) => analyses::spring(args),
+        Command::Drive(Later(args)) => analyses::drive(args),
+        Command::Linkage(Later(args)) => analyses::linkage(args),
+        Command::Shaft(Later(args)) => analyses::shaft(args),
+        Command::Brake(Later(args)) => analyses::brake(args),
+        Command::Size(Later(args)) => analyses::size(args),
+        Command::Laws(Later(args)) => analyses::laws(args),
+        Command::SideBySide(Later(args)) => side_by_side::run(args),
+        Command::Check(Later(args)) => check::run(args),
+        Command::Trade(Later(args)) => trade::run(args),
         Command::Machines(args) => machines::run(args),
         Command::Init(args) => pages::init(args),
         Command::Explain(args) => explain::run(args),

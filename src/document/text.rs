@@ -211,10 +211,13 @@ impl<'a> Document<'a> {
 
     /// Whether anything within a path is in the file or is set by an override.
     pub(super) fn has_inside(&self, path: &str) -> bool {
-        let starts = [format!("{path}."), format!("{path}[")];
-        starts.iter().any(|start| {
-            first_from(&self.entries, start).is_some_and(|key| key.starts_with(start))
-                || first_from(&self.tables, start).is_some_and(|key| key.starts_with(start))
+        let mut start = String::with_capacity(path.len() + 1);
+        ['.', '['].iter().any(|after| {
+            start.clear();
+            start.push_str(path);
+            start.push(*after);
+            first_from(&self.entries, &start).is_some_and(|key| key.starts_with(&start))
+                || first_from(&self.tables, &start).is_some_and(|key| key.starts_with(&start))
         })
     }
 

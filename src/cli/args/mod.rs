@@ -4,6 +4,7 @@ mod analyses;
 mod common;
 mod files;
 mod help;
+mod later;
 mod parse;
 
 pub(super) use analyses::{
@@ -14,6 +15,7 @@ pub(super) use common::{AccuracyArgs, CommonArgs, EndOf, ToldArgs};
 pub(super) use files::{
     CutterArgs, FileArgs, LaidArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
 };
+pub(super) use later::Later;
 pub(super) use parse::{Order, Speed};
 
 use camgen::motion::equation_18::ExactOn;
@@ -42,79 +44,79 @@ pub(super) enum Command {
     ///
     /// The cam moves the bottom of the air buffers so that the air force equals the inertia force of the bed.
     #[command(after_help = help::ROTARY)]
-    Rotary(RotaryArgs),
+    Rotary(Later<RotaryArgs>),
     /// Wedge cam of a press: a plate on the bed, by equation (18)
     ///
     /// The plate rides on the bed and moves the bottom through a bell crank with a roller on each flank.
     #[command(after_help = help::TRANSLATING)]
-    Translating(TranslatingArgs),
+    Translating(Later<TranslatingArgs>),
     /// Three-dimensional cam of a press for many speeds
     ///
     /// The cam is shifted along its axis as the speed changes; it is written as sections and as a solid.
     #[command(after_help = help::CONOID)]
-    Conoid(ConoidArgs),
+    Conoid(Later<ConoidArgs>),
     /// Disc cam of any motion under any follower, from a file
     ///
     /// The file has a program of segments, `[motion]` and `[[motion.segment]]`, and a follower.
     #[command(after_help = help::MAKE)]
-    Make(DiscArgs),
+    Make(Later<DiscArgs>),
     /// One cam of a press at other speeds: the column is reset, or air is added
     ///
     /// The cam stays as it is cut. Equations (14) and (15) give the column and the volume for each speed, and the residual force that
     /// is left then.
     #[command(after_help = help::REGIMES)]
-    Regimes(RegimesArgs),
+    Regimes(Later<RegimesArgs>),
     /// Buffers of a press whose bottoms rest on springs, without a cam
     ///
     /// Equations (26) to (28): travel of the springs, air, residual force and setting of the screw, for each stiffness and speed.
     #[command(after_help = help::SPRING)]
-    Spring(SpringArgs),
+    Spring(Later<SpringArgs>),
     /// Drive of a bed without a cam: the speed of the crank that plain buffers ask for
     ///
     /// The drive slows down so that the crank carries nothing while plain buffers brake the bed.
     #[command(after_help = help::DRIVE)]
-    Drive(DriveArgs),
+    Drive(Later<DriveArgs>),
     /// Linkage that moves a bed: dead points, accelerations, transmission angles, torque
     ///
     /// A crank-slider, or a six-bar whose drag link turns the crank of the slider unevenly.
     #[command(after_help = help::LINKAGE)]
-    Linkage(LinkageArgs),
+    Linkage(Later<LinkageArgs>),
     /// The shaft under a cam, or alone: critical speeds, lift error, unbalance
     ///
     /// What bending and twist of the shaft take off the lift, and the force that this leaves, for the cam of the file.
     #[command(after_help = help::SHAFT)]
-    Shaft(ShaftArgs),
+    Shaft(Later<ShaftArgs>),
     /// Belt brake of a paper roll: web tension, and the disc that holds it
     ///
     /// What a hinged frame with a belt makes of the tension, the paper's equations beside it, frames that hold it by themselves, and a
     /// disc on the frame's shaft that holds it exactly.
     #[command(after_help = help::BRAKE)]
-    Brake(BrakeArgs),
+    Brake(Later<BrakeArgs>),
     /// Smallest disc for a motion program, and which limit binds it
     ///
     /// Base radius, and offset or pivot distance where they are left open; how the size changes with the place of the follower.
     #[command(after_help = help::SIZE)]
-    Size(SizeArgs),
+    Size(Later<SizeArgs>),
     /// Every law of motion at the numbers of a design, in one table
     ///
     /// Peaks of velocity, acceleration and jerk; with a file also pressure angle, size, forces, jump speed, vibration and harmonics.
     #[command(after_help = help::LAWS)]
-    Laws(LawsArgs),
+    Laws(Later<LawsArgs>),
     /// Two disc cams in one HTML report, beside each other
     ///
     /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
     #[command(after_help = help::SIDE_BY_SIDE)]
-    SideBySide(super::side_by_side::SideBySideArgs),
+    SideBySide(Later<super::side_by_side::SideBySideArgs>),
     /// Is this DXF or STEP file that cam, and if not, why?
     ///
     /// The file may have been edited or written by another program. The follower is rolled on what it holds.
     #[command(after_help = help::CHECK)]
-    Check(CheckArgs),
+    Check(Later<CheckArgs>),
     /// Speed against accuracy, measured on this computer
     ///
     /// Arcs, splines and tables of points side by side: time of each stage, pieces, bytes, true error and residual force.
     #[command(after_help = help::TRADE)]
-    Trade(TradeArgs),
+    Trade(Later<TradeArgs>),
     /// The machine files that camgen carries
     #[command(after_help = help::MACHINES)]
     Machines(MachinesArgs),
@@ -139,16 +141,16 @@ impl Command {
     /// The files that `--watch` looks at, when it is asked for: the machine file, and the file that is checked.
     pub(super) fn watched(&self) -> Option<Vec<PathBuf>> {
         let (common, more) = match self {
-            Command::Rotary(RotaryArgs { disc: args, .. }) | Command::Make(args) => {
+            Command::Rotary(Later(RotaryArgs { disc: args, .. })) | Command::Make(Later(args)) => {
                 (&args.common, args.files.to.template.as_ref())
             }
-            Command::Translating(args) => (&args.common, args.files.to.template.as_ref()),
-            Command::Conoid(args) => (&args.common, args.files.to.template.as_ref()),
-            Command::Check(args) => {
+            Command::Translating(Later(args)) => (&args.common, args.files.to.template.as_ref()),
+            Command::Conoid(Later(args)) => (&args.common, args.files.to.template.as_ref()),
+            Command::Check(Later(args)) => {
                 let machine = args.design.as_ref().unwrap_or(&args.common.machine);
                 return args.common.told.watch.then(|| vec![PathBuf::from(machine), args.file.clone()]);
             }
-            Command::Trade(args) => (&args.common, None),
+            Command::Trade(Later(args)) => (&args.common, None),
             other => return other.analysis_watched(),
         };
         common.told.watch.then(|| std::iter::once(PathBuf::from(&common.machine)).chain(more.cloned()).collect())
@@ -156,17 +158,17 @@ impl Command {
 
     /// The same of an analysis.
     fn analysis_watched(&self) -> Option<Vec<PathBuf>> {
-        if let Command::Laws(LawsArgs { machine: Some(machine), analysis, .. }) = self {
+        if let Command::Laws(Later(LawsArgs { machine: Some(machine), analysis, .. })) = self {
             return analysis.told.watch.then(|| vec![PathBuf::from(machine)]);
         }
         let (machine, args) = match self {
-            Command::Regimes(args) => (&args.machine, &args.analysis),
-            Command::Spring(args) => (&args.machine, &args.analysis),
-            Command::Drive(args) => (&args.machine, &args.analysis),
-            Command::Linkage(args) => (&args.machine, &args.analysis),
-            Command::Shaft(args) => (&args.machine, &args.analysis),
-            Command::Brake(args) => (&args.machine, &args.analysis),
-            Command::Size(args) => (&args.machine, &args.analysis),
+            Command::Regimes(Later(args)) => (&args.machine, &args.analysis),
+            Command::Spring(Later(args)) => (&args.machine, &args.analysis),
+            Command::Drive(Later(args)) => (&args.machine, &args.analysis),
+            Command::Linkage(Later(args)) => (&args.machine, &args.analysis),
+            Command::Shaft(Later(args)) => (&args.machine, &args.analysis),
+            Command::Brake(Later(args)) => (&args.machine, &args.analysis),
+            Command::Size(Later(args)) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();
