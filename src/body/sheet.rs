@@ -8,6 +8,7 @@ use crate::geometry::contour::Extents;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::motion::Quantity;
+use crate::numeric::decimal::fixed;
 use crate::profile::Curves;
 use crate::profile::followed::Followed;
 use crate::report::sheet::{Group, Mark, PlaceTable, Shape, rounded};
@@ -154,22 +155,22 @@ pub(super) fn places(body: &dyn Body) -> Vec<PlaceTable> {
     const EVERY: [(u32, usize); 2] = [(5, 1), (10, 2)];
     let rows = body.rows(72);
     let rolls = body.roller_radius().is_some();
-    let cell = |value: Option<f64>, decimals: usize| {
-        value.map_or("–".to_owned(), |value| format!("{:.decimals$}", value + 0.0))
-    };
+    let cell =
+        |value: Option<f64>, decimals: usize| value.map_or("–".to_owned(), |value| fixed(value + 0.0, decimals));
     let swings = rows.first().is_some_and(|row| row.swing.is_some());
     let row = |row: &Row| {
         let at = if rolls { row.curve } else { row.profile };
         let lift = row.lift.map(|lift| MILLIMETRES * lift.s).or(row.swing.map(|swing| swing.s.to_degrees()));
         vec![cell(row.cam_deg, 0), cell(at.map(|at| at.norm()), 3), cell(lift, 3)]
     };
+    let rows: Vec<Vec<String>> = rows.iter().map(row).collect();
     let what = if rolls { "R of the roller's centre" } else { "R of the point of contact" };
     EVERY
         .iter()
         .map(|(degrees, every)| PlaceTable {
             title: format!("Cam angle θ, {what}, lift, each {degrees}°"),
             heads: vec!["θ, °".into(), "R, mm".into(), if swings { "lift, °".into() } else { "lift, mm".into() }],
-            rows: rows.iter().step_by(*every).map(row).collect(),
+            rows: rows.iter().step_by(*every).cloned().collect(),
         })
         .collect()
 }

@@ -6,6 +6,7 @@ pub mod banded;
 pub mod bernstein;
 pub mod chebyshev;
 pub mod chebyshev_series;
+pub(crate) mod decimal;
 pub mod digits;
 pub mod double;
 pub mod extremum;

@@ -84,21 +84,29 @@ fn whole(table: Table) -> Result<Table, FormatError> {
 /// The table as text with line feeds.
 #[must_use]
 pub fn write(table: &Table) -> Vec<u8> {
-    let mut text = String::with_capacity(NUMBER * table.rows.len() * table.columns.len());
+    let mut text = Vec::with_capacity(NUMBER * (table.rows.len() + 1) * table.columns.len());
     let named = table.words.as_ref();
-    text.extend(named.map(|(name, _)| format!("{name},")));
-    text.push_str(&table.columns.join(","));
-    text.push('\n');
+    let word = |text: &mut Vec<u8>, word: &str| {
+        text.extend_from_slice(word.as_bytes());
+        text.push(b',');
+    };
+    if let Some((name, _)) = named {
+        word(&mut text, name);
+    }
+    text.extend_from_slice(table.columns.join(",").as_bytes());
+    text.push(b'\n');
     let mut words = named.map_or(&[][..], |(_, words)| words.as_slice()).iter();
     for row in &table.rows {
-        text.extend(words.next().map(|word| format!("{word},")));
+        if let Some(own) = words.next() {
+            word(&mut text, own);
+        }
         for (index, value) in row.iter().enumerate() {
             if index > 0 {
-                text.push(',');
+                text.push(b',');
             }
             push_shortest(&mut text, *value);
         }
-        text.push('\n');
+        text.push(b'\n');
     }
-    text.into_bytes()
+    text
 }

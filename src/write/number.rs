@@ -1,6 +1,7 @@
-//! Numbers as text.
+//! Numbers as text. Files are written as bytes, since each number that joins a `String` would be checked to be UTF-8 once more.
 
-use std::fmt::Write as _;
+use crate::numeric::decimal::push_fixed;
+use std::io::Write as _;
 
 /// Sizes written without an exponent: where neither form is much longer than the other.
 const LEAST_PLAIN: f64 = 1e-6;
@@ -12,37 +13,48 @@ const WITHOUT_EXPONENT: std::ops::Range<f64> = 1e-4..1e15;
 /// The shortest text that reads back as the same `f64`; `inf`, `-inf`, `NaN` as such, no negative zero.
 #[must_use]
 pub fn shortest(value: f64) -> String {
-    let mut text = String::new();
+    let mut text = Vec::with_capacity(24);
     push_shortest(&mut text, value);
-    text
+    String::from_utf8(text).unwrap_or_default()
 }
 
 /// Adds the same to a text.
-pub fn push_shortest(text: &mut String, value: f64) {
+pub fn push_shortest(text: &mut Vec<u8>, value: f64) {
+    let size = value.abs();
+    if size == 0.0 {
+        text.push(b'0');
+    } else if WITHOUT_EXPONENT.contains(&size) {
+        let mut buffer = zmij::Buffer::new();
+        let digits = buffer.format_finite(value).as_bytes();
+        text.extend_from_slice(digits.strip_suffix(b".0").unwrap_or(digits));
+    } else {
+        push_very_large_or_small(text, value);
+    }
+}
+
+/// The same of what may need an exponent.
+fn push_very_large_or_small(text: &mut Vec<u8>, value: f64) {
     let size = value.abs();
     if !size.is_finite() {
-        text.push_str(if value.is_nan() {
-            "NaN"
-        } else if value > 0.0 {
-            "inf"
-        } else {
-            "-inf"
+        text.extend_from_slice(match value {
+            value if value.is_nan() => b"NaN",
+            value if value > 0.0 => b"inf",
+            _ => b"-inf",
         });
         return;
     }
     let mut buffer = zmij::Buffer::new();
-    let digits = buffer.format_finite(value + 0.0);
-    if WITHOUT_EXPONENT.contains(&size) || !digits.contains('e') {
-        text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
-    } else if size != 0.0 && !(LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
-        // Very large or small numbers would fill a line with zeros. A text takes all that is written.
-        if size < 1.0 {
-            text.push_str(digits);
-        } else {
-            let _ = write!(text, "{value:e}");
-        }
-    } else {
+    let digits = buffer.format_finite(value);
+    if !digits.contains('e') {
+        text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
+    } else if (LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
+        // A text in memory takes all that is written.
         let _ = write!(text, "{value}");
+    } else if size < 1.0 {
+        // Very large or small numbers would fill a line with zeros.
+        text.extend_from_slice(digits.as_bytes());
+    } else {
+        let _ = write!(text, "{value:e}");
     }
 }
 
@@ -68,101 +80,28 @@ pub fn names(values: &[f64]) -> Vec<String> {
     values.iter().map(name).collect()
 }
 
-/// Powers of ten, up to the most decimals that are written.
-const POWERS: [u64; 13] = {
-    let mut powers = [1; 13];
-    let mut index = 1;
-    while index < powers.len() {
-        powers[index] = 10 * powers[index - 1];
-        index += 1;
-    }
-    powers
-};
-
-/// A size times a power of ten as a whole number, exact but for its own rounding, ties to even; `None` where it does not fit.
-///
-/// A double is m/2ⁿ with m below 2⁵³, and the power below 2⁴⁰: their product is exact in 128 bits.
-fn times(size: f64, power: u64) -> Option<u64> {
-    const FRACTION: u64 = (1 << 52) - 1;
-    let bits = size.to_bits();
-    let exponent = u32::try_from(bits >> 52).ok()?;
-    // A number below the normal ones is none of the decimals.
-    if exponent == 0 {
-        return Some(0);
-    }
-    let product = u128::from((bits & FRACTION) | (FRACTION + 1)) * u128::from(power);
-    let shift = 1075_u32.checked_sub(exponent).filter(|shift| *shift > 0)?;
-    if shift > 100 {
-        return Some(0);
-    }
-    let (whole, rest, half) = (product >> shift, product & ((1 << shift) - 1), 1_u128 << (shift - 1));
-    let up = rest > half || (rest == half && whole & 1 == 1);
-    u64::try_from(whole + u128::from(up)).ok()
-}
-
 /// A plain decimal with at most `decimals` places and one at the least, as DXF and SVG readers expect it: no exponent,
 /// no negative zero.
 #[must_use]
 pub fn plain(value: f64, decimals: usize) -> String {
-    let mut text = String::with_capacity(20);
+    let mut text = Vec::with_capacity(20);
     push_plain(&mut text, value, decimals);
-    text
+    String::from_utf8(text).unwrap_or_default()
 }
 
 /// Adds the same to a text.
-pub fn push_plain(text: &mut String, value: f64, decimals: usize) {
-    let power = POWERS.get(decimals).copied().filter(|_| decimals > 0);
-    let Some((whole, power)) = power.and_then(|power| Some((times(value.abs(), power)?, power))) else {
-        let fixed = format!("{value:.decimals$}");
-        let trimmed = fixed.trim_end_matches('0');
-        text.push_str(if trimmed == "-0." { "0." } else { trimmed });
-        text.push_str(if trimmed.ends_with('.') { "0" } else { "" });
+pub fn push_plain(text: &mut Vec<u8>, value: f64, decimals: usize) {
+    let from = text.len();
+    push_fixed(text, value, decimals);
+    if decimals == 0 || !value.is_finite() {
         return;
-    };
-    let (mut fraction, mut places) = (whole % power, decimals);
-    while places > 1 && fraction % 10 == 0 {
-        (fraction, places) = (fraction / 10, places - 1);
     }
-    let mut digits = Digits::default();
-    digits.put(fraction, places);
-    digits.put_byte(b'.');
-    digits.put(whole / power, 1);
-    if value < 0.0 && whole > 0 {
-        digits.put_byte(b'-');
+    // One zero stays behind the point.
+    while text.ends_with(b"0") && !text.ends_with(b".0") {
+        text.pop();
     }
-    text.push_str(digits.text());
-}
-
-/// A number that is written from its end.
-struct Digits {
-    bytes: [u8; 40],
-    from: usize,
-}
-
-impl Default for Digits {
-    fn default() -> Self {
-        Self { bytes: [0; 40], from: 40 }
-    }
-}
-
-impl Digits {
-    fn put_byte(&mut self, byte: u8) {
-        let Some(slot) = self.from.checked_sub(1).and_then(|at| self.bytes.get_mut(at)) else { return };
-        *slot = byte;
-        self.from -= 1;
-    }
-
-    /// The digits of a number, so many at the least.
-    fn put(&mut self, mut number: u64, least: usize) {
-        let mut put = 0;
-        while number > 0 || put < least {
-            self.put_byte(b'0' + (number % 10) as u8);
-            (number, put) = (number / 10, put + 1);
-        }
-    }
-
-    fn text(&self) -> &str {
-        self.bytes.get(self.from..).and_then(|used| std::str::from_utf8(used).ok()).unwrap_or_default()
+    if text.get(from..) == Some(b"-0.0") {
+        text.remove(from);
     }
 }
 

@@ -17,26 +17,26 @@ pub(super) struct PathData {
 
 impl PathData {
     pub(super) fn number(self, value: f64) -> String {
-        let mut text = String::with_capacity(16);
+        let mut text = Vec::with_capacity(16);
         self.push_number(&mut text, value);
-        text
+        String::from_utf8(text).unwrap_or_default()
     }
 
-    pub(super) fn push_number(self, text: &mut String, value: f64) {
+    pub(super) fn push_number(self, text: &mut Vec<u8>, value: f64) {
         push_plain(text, value, self.decimals);
-        if text.ends_with(".0") {
+        if text.ends_with(b".0") {
             text.truncate(text.len() - 2);
         }
     }
 
-    fn push_place(self, text: &mut String, point: Vector2<f64>) {
+    fn push_place(self, text: &mut Vec<u8>, point: Vector2<f64>) {
         self.push_number(text, point.x);
-        text.push(',');
+        text.push(b',');
         self.push_number(text, -point.y);
     }
 
     /// Places with a sign between two.
-    pub(super) fn push_places(self, text: &mut String, points: &[Vector2<f64>], between: char) {
+    pub(super) fn push_places(self, text: &mut Vec<u8>, points: &[Vector2<f64>], between: u8) {
         for (index, point) in points.iter().enumerate() {
             if index > 0 {
                 text.push(between);
@@ -47,7 +47,7 @@ impl PathData {
 
     /// A shape; nothing of a text.
     pub(super) fn shape(self, shape: &Shape) -> String {
-        let mut text = String::new();
+        let mut text = Vec::new();
         match shape {
             Shape::Entity(Entity::Polyline(contour)) => self.push_contour(&mut text, contour),
             Shape::Entity(Entity::Circle(centre, radius)) => {
@@ -60,52 +60,52 @@ impl PathData {
             }
             Shape::Triangle(corners) => {
                 self.push_chain(&mut text, corners);
-                text.push('Z');
+                text.push(b'Z');
             }
             Shape::Text { .. } => {}
         }
-        text
+        String::from_utf8(text).unwrap_or_default()
     }
 
-    pub(super) fn push_contour(self, text: &mut String, contour: &Contour) {
-        text.push('M');
+    pub(super) fn push_contour(self, text: &mut Vec<u8>, contour: &Contour) {
+        text.push(b'M');
         if let Some(first) = contour.vertices.first() {
             self.push_place(text, first.point);
         }
         for edge in contour.edges() {
-            text.push(' ');
+            text.push(b' ');
             self.push_edge(text, &edge);
         }
-        text.push_str(" Z");
+        text.extend_from_slice(b" Z");
     }
 
-    pub(super) fn push_open_arc(self, text: &mut String, segment: &Segment) {
-        text.push('M');
+    pub(super) fn push_open_arc(self, text: &mut Vec<u8>, segment: &Segment) {
+        text.push(b'M');
         self.push_place(text, segment.start);
-        text.push(' ');
+        text.push(b' ');
         self.push_arc(text, segment);
     }
 
-    fn push_chain(self, text: &mut String, points: &[Vector2<f64>]) {
-        text.push('M');
-        self.push_places(text, points, 'L');
+    fn push_chain(self, text: &mut Vec<u8>, points: &[Vector2<f64>]) {
+        text.push(b'M');
+        self.push_places(text, points, b'L');
     }
 
-    fn push_edge(self, text: &mut String, edge: &Edge) {
+    fn push_edge(self, text: &mut Vec<u8>, edge: &Edge) {
         match edge {
             Edge::Segment(segment) => self.push_arc(text, segment),
             Edge::Cubic(cubic) => {
                 let [_, rest @ ..] = &cubic.points;
-                text.push('C');
-                self.push_places(text, rest, ' ');
+                text.push(b'C');
+                self.push_places(text, rest, b' ');
             }
         }
     }
 
     /// A line, an arc, or the two halves of a long arc.
-    fn push_arc(self, text: &mut String, segment: &Segment) {
+    fn push_arc(self, text: &mut Vec<u8>, segment: &Segment) {
         if segment.bulge == 0.0 {
-            text.push('L');
+            text.push(b'L');
             self.push_place(text, segment.end);
             return;
         }
@@ -115,7 +115,7 @@ impl PathData {
         let middle = (segment.sweep().abs() > LONGEST_SWEEP).then(|| segment.middle());
         for (index, point) in middle.into_iter().chain([segment.end]).enumerate() {
             for part in [if index > 0 { " A" } else { "A" }, &radius, ",", &radius, sweep] {
-                text.push_str(part);
+                text.extend_from_slice(part.as_bytes());
             }
             self.push_place(text, point);
         }

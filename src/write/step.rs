@@ -3,7 +3,7 @@
 //! truck-stepio numbers and writes topology and geometry; its frame is not used, because its product has no name, its
 //! texts are not escaped and its faces are of a kind CAD systems do not read without a message. The frame is written here.
 
-use super::number::push_shortest;
+use super::number::shortest;
 use super::{Format, FormatError, Rendering, When};
 use crate::geometry::solid::{Boundary, Curve, FaceSurface, Solid, SolidError, SplineCurve, SplineSurface, conical};
 use std::fmt::{Formatter, Result};
@@ -64,7 +64,7 @@ fn real(value: f64) -> String {
 /// Adds the same to a text.
 fn push_real(text: &mut String, value: f64) {
     let from = text.len();
-    push_shortest(text, value);
+    text.push_str(&shortest(value));
     let own = text.get(from..).unwrap_or_default();
     let pointed = own.bytes().any(|byte| byte == b'.');
     match own.bytes().position(|byte| byte == b'e') {

@@ -19,12 +19,12 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
-    write: |cam| Ok(vec![marked(write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
+    write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
     of_analysis: Some(OfAnalysis {
         endings: |_| vec![".svg".into()],
         write: |account| {
             let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
-            Ok(vec![marked(write(&sheet, account.template)?, &account.report.mark())])
+            Ok(vec![marked(&write(&sheet, account.template)?, &account.report.mark())])
         },
     }),
 };
@@ -74,6 +74,9 @@ const KNOWN: &str = "width, height, left, top, stroke, thick, heavy, dash, dot, 
 /// The coordinates of the sheet.
 const DATA: PathData = PathData { decimals: DECIMALS };
 
+/// Bytes of a sheet of a usual cam.
+const ROOM: usize = 1 << 17;
+
 fn number(value: f64) -> String {
     DATA.number(value)
 }
@@ -90,8 +93,8 @@ pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
 pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>, TemplateError> {
     let size = sheet.extents.size();
     let dashes = |parts: &[f64]| parts.iter().map(|n| number(n * sheet.stroke)).collect::<Vec<_>>().join(" ");
-    let lookup = |name: &str| {
-        Some(match name {
+    let push = |text: &mut Vec<u8>, name: &str| {
+        let value = match name {
             "width" => number(size.x),
             "height" => number(size.y),
             "left" => number(sheet.extents.least.x),
@@ -104,41 +107,41 @@ pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>,
             "dot" => dashes(&[8.0, 8.0]),
             "title" => escaped(&sheet.title),
             "drawing" => {
-                let mut text = String::new();
                 for (index, shown) in sheet.groups.iter().enumerate() {
-                    text.push_str(if index > 0 { "\n" } else { "" });
-                    text.push_str(&group(shown, sheet.scale, told));
+                    text.extend_from_slice(if index > 0 { b"\n" } else { b"" });
+                    text.extend_from_slice(group(shown, sheet.scale, told).as_bytes());
                 }
-                text
+                return Ok(());
             }
-            _ => return None,
-        })
+            _ => return Err(TemplateError::Unknown(name.to_owned())),
+        };
+        text.extend_from_slice(value.as_bytes());
+        Ok(())
     };
     if !template.contains("{{drawing}}") {
         return Err(TemplateError::NoDrawing);
     }
     // The comment that explains the placeholders belongs to the template and is left out of the sheet.
-    let mut text = String::with_capacity(template.len() * 4);
+    let mut text = Vec::with_capacity(template.len() + ROOM);
     let template = without_comments(template);
     let mut rest = template.as_str();
     while let Some((before, behind)) = rest.split_once("{{") {
         let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
-        text.push_str(before);
-        text.push_str(&lookup(name.trim()).ok_or_else(|| TemplateError::Unknown(name.trim().to_owned()))?);
+        text.extend_from_slice(before.as_bytes());
+        push(&mut text, name.trim())?;
         rest = after;
     }
-    text.push_str(rest);
-    Ok(text.into_bytes())
+    text.extend_from_slice(rest.as_bytes());
+    Ok(text)
 }
 
 /// The file with a comment before its root, whatever the template.
-fn marked(file: Vec<u8>, comment: &str) -> Vec<u8> {
-    let text = String::from_utf8(file).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
-    let (declaration, rest) = match text.strip_prefix("<?xml").and_then(|rest| rest.split_once("?>")) {
-        Some((declaration, rest)) => (format!("<?xml{declaration}?>\n"), rest.trim_start()),
-        None => (String::new(), &*text),
-    };
-    [&*declaration, "<!-- ", comment, " -->\n", rest].concat().into_bytes()
+fn marked(file: &[u8], comment: &str) -> Vec<u8> {
+    let end = b"?>";
+    let declared = file.starts_with(b"<?xml").then(|| file.windows(end.len()).position(|pair| pair == end)).flatten();
+    let (declaration, rest) = file.split_at(declared.map_or(0, |at| at + end.len()));
+    let (line, rest) = if declaration.is_empty() { (&b""[..], rest) } else { (&b"\n"[..], rest.trim_ascii_start()) };
+    [declaration, line, b"<!-- ", comment.as_bytes(), b" -->\n", rest].concat()
 }
 
 fn without_comments(template: &str) -> String {
@@ -154,9 +157,9 @@ fn without_comments(template: &str) -> String {
 
 /// Text that may stand in XML: escaped, control characters left out.
 fn escaped(text: &str) -> String {
-    let mut out = String::new();
+    let mut out = Vec::new();
     push_escaped(&mut out, text);
-    out
+    String::from_utf8(out).unwrap_or_default()
 }
 
 /// Whether XML has a place for a character: for no control and neither of the two noncharacters.
@@ -165,28 +168,33 @@ fn is_printable(c: char) -> bool {
 }
 
 /// Adds a text without what XML has no place for, escaped.
-fn push_escaped(out: &mut String, text: &str) {
+fn push_escaped(out: &mut Vec<u8>, text: &str) {
+    if text.bytes().all(|byte| matches!(byte, b' '..=b'~') && !matches!(byte, b'&' | b'<' | b'>')) {
+        return out.extend_from_slice(text.as_bytes());
+    }
     for c in text.chars().filter(|c| is_printable(*c)) {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            c => out.push(c),
-        }
+        let mut own = [0; 4];
+        let escaped = match c {
+            '&' => "&amp;",
+            '<' => "&lt;",
+            '>' => "&gt;",
+            c => c.encode_utf8(&mut own),
+        };
+        out.extend_from_slice(escaped.as_bytes());
     }
 }
 
 /// Adds an attribute whose value is written by a function.
-fn attribute(out: &mut String, name: &str, value: impl FnOnce(&mut String)) {
+fn attribute(out: &mut Vec<u8>, name: &str, value: impl FnOnce(&mut Vec<u8>)) {
     for part in [" ", name, "=\""] {
-        out.push_str(part);
+        out.extend_from_slice(part.as_bytes());
     }
     value(out);
-    out.push('"');
+    out.push(b'"');
 }
 
 /// Adds attributes that are numbers.
-fn numbers(out: &mut String, values: &[(&str, f64)]) {
+fn numbers(out: &mut Vec<u8>, values: &[(&str, f64)]) {
     for (name, value) in values {
         attribute(out, name, |out| DATA.push_number(out, *value));
     }
@@ -208,15 +216,15 @@ fn group(group: &Group, scale: f64, told: bool) -> String {
     if group.shapes.is_empty() {
         return node.to_string();
     }
-    let mut shapes = String::new();
+    let mut shapes = Vec::new();
     for (index, shape) in group.shapes.iter().enumerate() {
-        shapes.push_str(if index > 0 { "\n" } else { "" });
+        shapes.extend_from_slice(if index > 0 { b"\n" } else { b"" });
         push_shape(&mut shapes, shape, told);
     }
-    node.add(Blob::new(shapes)).to_string()
+    node.add(Blob::new(String::from_utf8(shapes).unwrap_or_default())).to_string()
 }
 
-fn push_shape(out: &mut String, shape: &Shape, told: bool) {
+fn push_shape(out: &mut Vec<u8>, shape: &Shape, told: bool) {
     let element = match shape {
         Shape::Entity(Entity::Polyline(_)) | Shape::Arc(..) => "<path",
         Shape::Entity(Entity::Circle(..)) => "<circle",
@@ -225,46 +233,46 @@ fn push_shape(out: &mut String, shape: &Shape, told: bool) {
         Shape::Triangle(_) => "<polygon",
         Shape::Text { at, height, anchor, text } => return push_words(out, (*at, *height, *anchor), text, told),
     };
-    out.push_str(element);
+    out.extend_from_slice(element.as_bytes());
     match shape {
         Shape::Entity(Entity::Polyline(contour)) => attribute(out, "d", |out| DATA.push_contour(out, contour)),
         Shape::Entity(Entity::Circle(centre, radius)) => {
             numbers(out, &[("cx", centre.x), ("cy", -centre.y), ("r", *radius)]);
         }
         Shape::Line(a, b) => numbers(out, &[("x1", a.x), ("x2", b.x), ("y1", -a.y), ("y2", -b.y)]),
-        Shape::Path(points) => attribute(out, "points", |out| DATA.push_places(out, points, ' ')),
+        Shape::Path(points) => attribute(out, "points", |out| DATA.push_places(out, points, b' ')),
         Shape::Arc(start, end, bulge) => {
             let segment = Segment { start: *start, end: *end, bulge: *bulge };
             attribute(out, "d", |out| DATA.push_open_arc(out, &segment));
         }
-        Shape::Triangle(corners) => attribute(out, "points", |out| DATA.push_places(out, corners, ' ')),
+        Shape::Triangle(corners) => attribute(out, "points", |out| DATA.push_places(out, corners, b' ')),
         Shape::Text { .. } => {}
     }
-    out.push_str("/>");
+    out.extend_from_slice(b"/>");
 }
 
 /// Adds a text at a place, of a height, on its anchor.
-fn push_words(out: &mut String, (at, height, anchor): (Vector2<f64>, f64, TextAnchor), text: &str, told: bool) {
+fn push_words(out: &mut Vec<u8>, (at, height, anchor): (Vector2<f64>, f64, TextAnchor), text: &str, told: bool) {
     let anchor = match anchor {
         TextAnchor::Start => "start",
         TextAnchor::Middle => "middle",
         TextAnchor::End => "end",
     };
-    out.push_str("<text");
+    out.extend_from_slice(b"<text");
     numbers(out, &[("font-size", height)]);
     if told {
-        out.push_str(r#" lengthAdjust="spacingAndGlyphs""#);
+        out.extend_from_slice(br#" lengthAdjust="spacingAndGlyphs""#);
     }
-    attribute(out, "text-anchor", |out| out.push_str(anchor));
+    attribute(out, "text-anchor", |out| out.extend_from_slice(anchor.as_bytes()));
     if told {
         numbers(out, &[("textLength", font::width(text, height))]);
     }
     numbers(out, &[("x", at.x)]);
-    out.push_str(r#" xml:space="preserve""#);
+    out.extend_from_slice(br#" xml:space="preserve""#);
     numbers(out, &[("y", -at.y)]);
-    out.push_str(">\n");
+    out.extend_from_slice(b">\n");
     push_escaped(out, text);
-    out.push_str("\n</text>");
+    out.extend_from_slice(b"\n</text>");
 }
 
 #[cfg(test)]

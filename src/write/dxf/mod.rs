@@ -84,6 +84,9 @@ impl Version {
     }
 }
 
+/// Bytes of a file of one outline of arcs.
+const ROOM: usize = 1 << 14;
+
 /// The entities as a DXF file.
 #[must_use]
 pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
@@ -93,7 +96,7 @@ pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
     layers.sort_unstable();
     layers.dedup();
     // The header holds the first free handle, which is known only at the end: it is written last, put first.
-    let mut body = Tags { text: String::new(), version, next_handle: handle::FIRST_FREE };
+    let mut body = Tags { text: Vec::with_capacity(ROOM), version, next_handle: handle::FIRST_FREE };
     if body.modern() {
         body.section("CLASSES", |_| {});
     }
@@ -110,10 +113,10 @@ pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
         body.section("OBJECTS", |tags| objects::objects(tags, &extents));
     }
     body.text(0, "EOF");
-    let mut head = Tags { text: String::new(), version, next_handle: body.next_handle };
+    let mut head = Tags { text: Vec::with_capacity(ROOM), version, next_handle: body.next_handle };
     header(&mut head, &extents);
-    head.text.push_str(&body.text);
-    head.text.into_bytes()
+    head.text.extend_from_slice(&body.text);
+    head.text
 }
 
 /// The file with a comment at its head, where every reader passes over it.

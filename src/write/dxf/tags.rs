@@ -1,7 +1,7 @@
 //! Group codes and values, handles and owners: the grammar of the file.
 
 use super::Version;
-use crate::write::number::plain;
+use crate::write::number::push_plain;
 use nalgebra::Vector2;
 
 /// Decimals of coordinates and bulges: 1e-12 mm lies in the rounding of a metre; a bulge cut to six decimals would move
@@ -45,18 +45,24 @@ pub(super) mod handle {
 
 /// A growing file of group codes and values.
 pub(super) struct Tags {
-    pub(super) text: String,
+    pub(super) text: Vec<u8>,
     pub(super) version: Version,
     pub(super) next_handle: u32,
 }
 
 impl Tags {
+    /// A code stands in three places.
+    fn code(&mut self, code: u16) {
+        let digit = |of: u16| b'0' + (code / of % 10) as u8;
+        let hundreds = if code < 100 { b' ' } else { digit(100) };
+        let tens = if code < 10 { b' ' } else { digit(10) };
+        self.text.extend_from_slice(&[hundreds, tens, digit(1), b'\n']);
+    }
+
     pub(super) fn text(&mut self, code: u16, value: &str) {
-        let code = code.to_string();
-        // Codes stand in three places.
-        for part in ["   ".get(code.len()..).unwrap_or_default(), &code, "\n", value, "\n"] {
-            self.text.push_str(part);
-        }
+        self.code(code);
+        self.text.extend_from_slice(value.as_bytes());
+        self.text.push(b'\n');
     }
 
     pub(super) fn integer(&mut self, code: u16, value: impl Into<i64>) {
@@ -64,15 +70,18 @@ impl Tags {
     }
 
     pub(super) fn real(&mut self, code: u16, value: f64) {
-        self.text(code, &plain(value, DECIMALS));
+        self.code(code);
+        push_plain(&mut self.text, value, DECIMALS);
+        self.text.push(b'\n');
     }
 
     /// The bulge of a vertex, of an arc only: FreeCAD's importer drops an edge of bulge 0 as a degenerate arc, and a line is what
     /// every reader takes a vertex without the group for.
     pub(super) fn bulge(&mut self, value: f64) {
-        let text = plain(value, DECIMALS);
-        if text != "0.0" {
-            self.text(42, &text);
+        let before = self.text.len();
+        self.real(42, value);
+        if self.text.ends_with(b"\n0.0\n") {
+            self.text.truncate(before);
         }
     }
 
