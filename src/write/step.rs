@@ -6,7 +6,7 @@
 use super::number::shortest;
 use super::{Format, FormatError, Rendering, When};
 use crate::geometry::solid::{Boundary, Curve, FaceSurface, Solid, SolidError, SplineCurve, SplineSurface, conical};
-use std::fmt::{Formatter, Result};
+use std::fmt::{Formatter, Result, Write};
 use truck_modeling::{Point3, Vector3};
 use truck_stepio::out::{DisplayByStep, StepCurve, StepLength, StepModel, StepSurface};
 
@@ -30,6 +30,8 @@ fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {
     }
 }
 
+/// Bytes of the entities that an edge brings with it.
+const ROOM: usize = 640;
 /// First entity truck writes; the frame takes the numbers below.
 const FIRST: &str = "#16 = ";
 /// The last second of the year 9999: later years have no place in a date of ISO 8601.
@@ -280,11 +282,14 @@ pub fn write(solid: &Solid, product: &str, created: Option<u64>) -> Vec<u8> {
 #[must_use]
 pub fn write_marked(solid: &Solid, product: &str, created: Option<u64>, remark: &str) -> Vec<u8> {
     let boundary = with_places(&solid.boundary);
-    let written = StepModel::from(&boundary).to_string();
+    let edges: usize = boundary.boundaries.iter().map(|shell| shell.edges.len()).sum();
+    let mut written = String::with_capacity(ROOM * edges);
+    // A String takes all that is written to it.
+    _ = write!(written, "{}", StepModel::from(&boundary));
     let start = written.find(FIRST).unwrap_or(0);
     let data = written.get(start..).unwrap_or_default().replace("= FACE_SURFACE(", "= ADVANCED_FACE(");
-    // The category comes after the last of truck's lines.
-    let category = data.lines().filter_map(number).max().unwrap_or(16) + 1;
+    // The category comes after the last of truck's entities, which stand in the order of their numbers.
+    let category = data.trim_end().rsplit('\n').next().and_then(number).unwrap_or(16) + 1;
     let name = escaped(product);
     let remark = if remark.is_empty() { String::new() } else { format!(", '{}'", escaped(remark)) };
     let (version, time) = (env!("CARGO_PKG_VERSION"), time_stamp(created));
