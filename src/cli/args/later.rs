@@ -7,17 +7,31 @@ use clap::{ArgMatches, Args, Command, Error, FromArgMatches, Id};
 #[derive(Debug)]
 pub(in crate::cli) struct Later<T>(pub(in crate::cli) T);
 
+/// A command with its arguments. What they say of themselves would otherwise stand in place of what it says, since it spoke first.
+fn about_itself(command: Command, with_arguments: fn(Command) -> Command) -> Command {
+    let (short, long) = (command.get_about().cloned(), command.get_long_about().cloned());
+    let command = with_arguments(command);
+    let command = match short {
+        Some(short) => command.about(short),
+        None => command.about(None::<&str>),
+    };
+    match long {
+        Some(long) => command.long_about(long),
+        None => command.long_about(None::<&str>),
+    }
+}
+
 impl<T: Args> Args for Later<T> {
     fn group_id() -> Option<Id> {
         T::group_id()
     }
 
     fn augment_args(command: Command) -> Command {
-        command.defer(T::augment_args)
+        command.defer(|command| about_itself(command, T::augment_args))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
-        command.defer(T::augment_args_for_update)
+        command.defer(|command| about_itself(command, T::augment_args_for_update))
     }
 }
 
