@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::buffer::bottom_law::Column;
+use crate::buffer::crank_law::LinkageLaw;
 use crate::linkage::{End, Linkage, StrokeEnd};
 use std::f64::consts::PI;
 
