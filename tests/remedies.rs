@@ -116,6 +116,56 @@ fn no_radius_is_promised_where_none_passes() {
     }
 }
 
+/// A velocity that grows at once leaves a place as hollow as the roller on any cam, though on a large one it is too small to be seen;
+/// one of 135 mm was promised.
+#[test]
+fn no_radius_is_promised_where_a_corner_is_only_too_small_to_be_seen() {
+    let text = r#"name = "a corner"
+[motion]
+rpm = 60
+start = "-16.6559 deg"
+at = "7.692597632670461 deg"
+[[motion.segment]]
+law = "line"
+velocity = "117.17189922738055 deg/s"
+to = "12.918095050202488 deg"
+[[motion.segment]]
+law = "modified-trapezoid"
+over = "2.13001 rad"
+to = "-0.158 rad"
+[[motion.segment]]
+law = "modified-sine-cv66"
+over = "1.382 rad"
+by = "0.205116301105386 rad"
+[[motion.segment]]
+law = "cubic"
+over = "1.1853096482690058 rad"
+to = "-16.6559 deg"
+velocity = "0.3254771894126496 rad/rad"
+[follower.swinging-roller]
+radius = "15.4108 mm"
+arm = "147.6 mm"
+pivot_distance = "85.1 mm"
+side = "trailing"
+[cam]
+base_radius = "60 mm"
+bore_radius = "19.5 mm"
+[limits]
+pressure_angle = "75 deg"
+min_convex_pitch_radius_over_roller = 0.5
+cutter_radius = "33.8 mm"
+"#;
+    let machine = Machine::from_toml("corner.toml", text, &[]).expect("valid");
+    let (motion, rpm) = machine.motion().expect("a motion");
+    let cam = Spec::of_motion(machine.clone(), motion, rpm).solve().expect("a cam");
+    let drawing = cam.draw(5e-6).expect("a drawing");
+    let proven = drawing.prove().expect("proven");
+    let found = proven.findings().iter().find(|finding| finding.check == "cutter_radius").expect("the check");
+    assert!(found.verdict == Verdict::Fail && (found.value - 15.4108).abs() < 1e-9, "{found:?}");
+    let note = found.note.as_deref().expect("a note");
+    assert!(note.contains("no base radius that would pass was found"), "{note}");
+}
+
 #[test]
 fn an_automatic_radius_keeps_every_limit_that_depends_on_it() {
     for limit in ["limits.cutter_radius=900mm", "limits.contact_stress=1040MPa", "limits.wall=80mm"] {
