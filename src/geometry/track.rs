@@ -271,6 +271,28 @@ mod tests {
         assert!(surface.nearest(Vector2::new(f64::NAN, 0.0)).is_none());
     }
 
+    /// From whatever edge the search begins, and from one that is none: the same point is found, also at vertices and where the nearest
+    /// edge lies across the outline.
+    #[test]
+    fn the_nearest_place_does_not_depend_on_the_edge_that_is_known() {
+        let at = |x: f64, y: f64, bulge: f64| Vertex::new(Vector2::new(x, y), bulge);
+        let slot = Contour {
+            vertices: vec![at(0.0, -10.0, 0.0), at(40.0, -10.0, 1.0), at(40.0, 10.0, -0.1), at(0.0, 10.0, 1.0)],
+        };
+        let track = Track::new(&slot);
+        let grid = (0..35)
+            .flat_map(|i| (0..25).map(move |j| Vector2::new(f64::from(i) * 3.0 - 30.0, f64::from(j) * 2.0 - 25.0)));
+        for point in grid.chain([Vector2::new(40.0, -10.0), Vector2::new(0.0, 10.0), Vector2::new(45.0, 20.0)]) {
+            let wanted = track.nearest(point).expect("finite");
+            for known in 0..6 {
+                let (edge, found) = track.nearest_about(point, known).expect("finite");
+                assert!(edge < 4 && (found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{point} from {known}");
+                assert!((point - found.foot).norm() < wanted.left.abs() + 1e-12, "{point} from {known}");
+            }
+        }
+        assert!(track.nearest_about(Vector2::new(f64::NAN, 0.0), 1).is_none());
+    }
+
     #[test]
     fn separate_places_are_counted() {
         let at = |x: f64, y: f64| Vertex::new(Vector2::new(x, y), 0.0);
