@@ -209,6 +209,12 @@ impl Chords {
     /// Distance of a point from the chords, positive outside.
     #[must_use]
     pub fn distance(&self, point: Vector2<f64>) -> f64 {
+        self.distance_about(point, f64::INFINITY)
+    }
+
+    /// The same, where the distance from the outline is known: farther chords are looked at only when none is as near as that.
+    #[must_use]
+    pub fn distance_about(&self, point: Vector2<f64>, known: f64) -> f64 {
         let from = parry(point);
         let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
         let distance = |leaf: u32, _: f64| {
@@ -220,7 +226,9 @@ impl Chords {
             });
             chords.min_by(|a, b| a.0.total_cmp(&b.0))
         };
-        match self.tree.find_best(f64::INFINITY, distance_to_box, distance) {
+        let nearer_than = |most: f64| self.tree.find_best(most, distance_to_box, distance);
+        let found = nearer_than(known.abs() + 2.0 * self.sagitta).or_else(|| nearer_than(f64::INFINITY));
+        match found {
             Some((_, (distance, (index, place, away)))) if away.dot(self.outward(index, place)) <= 0.0 => -distance,
             found => found.map_or(f64::INFINITY, |(_, (distance, _))| distance),
         }

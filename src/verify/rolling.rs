@@ -33,7 +33,7 @@ pub(super) const CHECK: Check = Check {
     run: check,
 };
 
-/// Even places beside those at which the roller touches the segments.
+/// No two places lie farther apart than so many even ones over the motion.
 const EVEN_PLACES: u32 = 360;
 /// Parts into which every piece of the motion is cut at the least.
 const PIECE_PLACES: u32 = 8;
@@ -237,11 +237,11 @@ impl Roll<'_> {
         if step.abs() < LONGEST_STEP { near - step } else { near }
     }
 
-    /// Even places, both ends of every piece, and those at which the roller touches the segments; by piece.
+    /// Both ends of every piece, places at which the roller touches the segments, and as many between them that none lies
+    /// farther from the next than even ones would; by piece.
     fn places(&self) -> Vec<(usize, f64)> {
         let (first, last) = self.curves.motion.range();
         let period = self.curves.motion.period();
-        let even = (0..EVEN_PLACES).map(|i| first + (last - first) * f64::from(i) / f64::from(EVEN_PLACES));
         // An arc near the least possible number of them misses the curve three times, to either side.
         let count: u32 = if self.track.edges().len() <= FEW_SEGMENTS { 4 } else { 1 };
         let every = self.track.edges().len() / MOST_TOUCHED + 1;
@@ -254,7 +254,7 @@ impl Roll<'_> {
         });
         let within =
             |parameter: &f64| parameter.is_finite() && (period.is_some() || (first..=last).contains(parameter));
-        let located = even.chain(touching).filter(within).map(|parameter| self.curves.motion.locate(parameter));
+        let located = touching.filter(within).map(|parameter| self.curves.motion.locate(parameter));
         let pieces = self.curves.motion.pieces().iter().enumerate();
         let ends = pieces.flat_map(|(index, piece)| [(index, piece.start), (index, piece.end)]);
         // Where the air closes and opens the residual force jumps, also in the middle of a piece: both sides of it.
@@ -271,6 +271,17 @@ impl Roll<'_> {
         let mut places: Vec<(usize, f64)> = located.chain(ends).chain(jumps).chain(own).collect();
         places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         places.dedup();
+        let most = (last - first) / f64::from(EVEN_PLACES);
+        let pairs = places.iter().zip(places.iter().skip(1)).filter(|(a, b)| a.0 == b.0);
+        let wide = pairs.flat_map(|(&(piece, from), &(_, to))| {
+            let steps = ((to - from) / most).ceil();
+            let further =
+                std::iter::successors(Some(1.0), |step| Some(step + 1.0)).take_while(move |step| *step < steps);
+            further.map(move |step| (piece, from + (to - from) * step / steps))
+        });
+        let wide: Vec<(usize, f64)> = wide.collect();
+        places.extend(wide);
+        places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         places
     }
 
@@ -422,10 +433,13 @@ impl Roll<'_> {
             if index % thinned != 0 {
                 continue;
             }
-            let contact = self.curves.touch(sample.piece, sample.parameter);
-            let centre = contact.curve.point * 1e3;
-            let normal = contact.curve.outward();
-            let by_chords = if rolls { chords.distance(centre) } else { centre.dot(&normal) - chords.farthest(normal) };
+            let centre = sample.centre;
+            let by_chords = if rolls {
+                chords.distance_about(centre, sample.gap + self.radius)
+            } else {
+                let normal = self.curves.touch(sample.piece, sample.parameter).curve.outward();
+                centre.dot(&normal) - chords.farthest(normal)
+            };
             sample.difference = (by_chords - (sample.gap + self.radius)).abs();
             sample.double =
                 rolls && sample.gap.abs() <= tolerance && self.track.places_within(centre, self.radius + tolerance) > 1;
