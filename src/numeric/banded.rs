@@ -58,19 +58,35 @@ pub struct Factored<const W: usize> {
 impl<const W: usize> Factored<W> {
     /// Solves for one right-hand side, in place.
     pub fn solve(&self, right: &mut [f64]) {
+        let (alone, _) = right.as_chunks_mut::<1>();
+        self.solve_each(alone);
+    }
+
+    /// Solves for several right-hand sides at once, each a column, in place.
+    pub fn solve_each<const N: usize>(&self, right: &mut [[f64; N]]) {
         let mut rest = &mut *right;
         for row in &self.rows {
-            let Some((value, below)) = rest.split_first_mut() else { break };
-            for (factor, target) in row.iter().skip(1).zip(below.iter_mut()) {
-                *target -= factor * *value;
+            let Some((values, below)) = rest.split_first_mut() else { break };
+            for (factor, targets) in row.iter().skip(1).zip(below.iter_mut()) {
+                for (target, value) in targets.iter_mut().zip(&*values) {
+                    *target -= factor * value;
+                }
             }
             rest = below;
         }
         let size = right.len();
         for (index, row) in self.rows.iter().enumerate().take(size).rev() {
-            let Some((value, below)) = right.get_mut(index..).and_then(<[f64]>::split_first_mut) else { break };
-            let known: f64 = row.iter().skip(1).zip(below.iter()).map(|(factor, value)| factor * value).sum();
-            *value = *value / row.first().copied().unwrap_or(1.0) - known;
+            let Some((values, below)) = right.get_mut(index..).and_then(<[[f64; N]]>::split_first_mut) else { break };
+            let mut known = [0.0; N];
+            for (factor, solved) in row.iter().skip(1).zip(below.iter()) {
+                for (known, value) in known.iter_mut().zip(solved) {
+                    *known += factor * value;
+                }
+            }
+            let pivot = row.first().copied().unwrap_or(1.0);
+            for (value, known) in values.iter_mut().zip(known) {
+                *value = *value / pivot - known;
+            }
         }
     }
 }

@@ -19,8 +19,9 @@
 //! From there joints and headings are moved together until no node is off by more than the tolerance (`trial`, `minimax`);
 //! where that cannot be, one more arc is tried. Tangency is a condition of the same system, and is met to rounding in the end.
 //!
-//! Nodes lie dense enough that the lobes are seen to a percent. The finished chain is checked again between them, and fitted
-//! again with the places that exceed the tolerance as further nodes.
+//! The distance at a node is that of the top of its lobe, as far as half way to the next node, so that the lobes are seen to
+//! a percent. The finished chain is checked again between the nodes, and fitted again with the places that exceed the
+//! tolerance as further nodes.
 
 mod minimax;
 mod nodes;
@@ -37,8 +38,8 @@ use spacing::Spacing;
 /// Share of the tolerance that the lobes may take as seen at the nodes; the rest is what is not seen there.
 const SEEN: f64 = 0.992;
 /// Points per arc at which the finished chain is checked.
-const CHECKS_PER_ARC: u32 = 64;
-const FEWER_CHECKS: u32 = 16;
+const CHECKS_PER_ARC: u32 = 16;
+const FEWER_CHECKS: u32 = 8;
 /// Further nodes beyond which less is taken as well.
 const MANY: usize = 200;
 /// Share of the tolerance that may lie unseen between two of them, twice what a lobe leaves, and how often a stretch is
@@ -232,8 +233,8 @@ fn one_arc(curve: &impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64
 ///
 /// Each arc, as its two points and its bulge give it, is compared with its stretch of the curve at
 /// so many points and one more. Between two of them the distance cannot exceed the larger by more than
-/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points. Where that is not small against the
-/// tolerance the stretch is halved. A NaN anywhere is the result.
+/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points. Where that may be more than what was found
+/// elsewhere and is not small against the tolerance the stretch is halved. A NaN anywhere is the result.
 fn check(
     curve: &impl Fn(f64) -> CurvePoint,
     joints: &[Joint],
@@ -241,26 +242,32 @@ fn check(
     tolerance: f64,
     checks: u32,
 ) -> (f64, Vec<f64>) {
+    let mut beyond = Vec::new();
+    let mut at = |arc: &Arc, place: f64| {
+        let frame = curve(place);
+        let distance = arc.distance(frame.point).abs();
+        if distance > tolerance {
+            beyond.push(place);
+        }
+        Checked { place, distance, bend: frame.speed * frame.speed / 8.0 * (arc.curvature - frame.curvature).abs() }
+    };
     let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
-    let (mut worst, mut beyond) = (0.0, Vec::new());
+    let mut looks = Vec::with_capacity(joints.len());
+    let mut worst = 0.0;
     for (joint, (parameter, point)) in joints.iter().zip(ends) {
         let segment = Segment { start: joint.point, end: point, bulge: joint.bulge };
         let curvature = if joint.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
         let arc = Arc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge };
-        let mut at = |place: f64| {
-            let frame = curve(place);
-            let distance = arc.distance(frame.point).abs();
-            if distance > tolerance {
-                beyond.push(place);
-            }
-            Checked { place, distance, bend: frame.speed * frame.speed / 8.0 * (curvature - frame.curvature).abs() }
-        };
         let step = (parameter - joint.parameter) / f64::from(checks);
-        let mut before = at(joint.parameter);
-        for check in 1..=checks {
-            let after = at(joint.parameter + step * f64::from(check));
-            worst = larger(worst, between(&mut at, before, after, tolerance, HALVINGS));
-            before = after;
+        let along: Vec<Checked> =
+            (0..=checks).map(|check| at(&arc, joint.parameter + step * f64::from(check))).collect();
+        worst = along.iter().map(|checked| checked.distance).fold(worst, larger);
+        looks.push((arc, along));
+    }
+    for (arc, along) in &looks {
+        for (before, after) in along.iter().zip(along.iter().skip(1)) {
+            let mut on_arc = |place| at(arc, place);
+            worst = larger(worst, between(&mut on_arc, *before, *after, (tolerance, worst), HALVINGS));
         }
     }
     (worst, beyond)
@@ -275,17 +282,25 @@ struct Checked {
     bend: f64,
 }
 
-/// Largest distance between two points, with the bound for what lies between.
-fn between(at: &mut impl FnMut(f64) -> Checked, a: Checked, b: Checked, tolerance: f64, halvings: u32) -> f64 {
+/// Largest distance between two points, with the bound for what lies between; no closer where it is less than what is known.
+fn between(
+    at: &mut impl FnMut(f64) -> Checked,
+    a: Checked,
+    b: Checked,
+    (tolerance, known): (f64, f64),
+    halvings: u32,
+) -> f64 {
     let step = b.place - a.place;
     let unseen = step * step * larger(a.bend, b.bend);
     let seen = larger(a.distance, b.distance);
-    // A distance already beyond the tolerance need not be refined.
-    if unseen <= UNSEEN * tolerance || seen > tolerance || halvings == 0 {
+    // A distance already beyond the tolerance need not be refined. Written so that a NaN is not either.
+    let refined = seen + unseen > known && unseen > UNSEEN * tolerance && seen <= tolerance;
+    if !refined || halvings == 0 {
         return seen + unseen;
     }
     let middle = at(a.place + 0.5 * step);
-    larger(between(at, a, middle, tolerance, halvings - 1), between(at, middle, b, tolerance, halvings - 1))
+    let first = between(at, a, middle, (tolerance, known), halvings - 1);
+    larger(first, between(at, middle, b, (tolerance, larger(known, first)), halvings - 1))
 }
 
 #[cfg(test)]

@@ -5,17 +5,20 @@ use crate::geometry::{Allowed, CurvePoint};
 use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
 
-/// Nodes per best possible arc: they see the lobes to 0.9 %.
-const NODES_PER_ARC: f64 = 24.0;
+/// Nodes per best possible arc: each sees the top of a lobe as far as half way to the next.
+const NODES_PER_ARC: f64 = 10.0;
 /// Nodes for every arc more that the curvature asks for: the distances of short arcs are no limit, and the curvature is kept at the
 /// joints.
 const NODES_PER_SHORT_ARC: f64 = 6.0;
 /// Nodes a piece has at the least, so that a short piece or a nearly circular one is seen at all.
-const LEAST_NODES: f64 = 96.0;
+const LEAST_NODES: f64 = 32.0;
+/// Cells of equal share where those of the first round are too wide: per best possible arc, and at the least.
+const CELLS_PER_ARC: f64 = 24.0;
+const LEAST_CELLS: f64 = 96.0;
 /// Cells in which I₃ is summed up first; the integrand has cusps where κ' changes sign, seen to 1e-3 of I₃ with 256.
 const SHARE_CELLS: u32 = 256;
 /// Difference of the two sums of I₃ at which the cells are narrow enough, and how often they are divided again.
-const AGREEMENT: f64 = 0.01;
+const AGREEMENT: f64 = 0.02;
 const MOST_ROUNDS: u32 = 5;
 /// Share of the nodes that is spread evenly over the piece, so that stretches of constant curvature are not empty.
 const EVEN_SHARE: f64 = 0.05;
@@ -30,6 +33,8 @@ pub(super) struct Node {
     pub(super) point: Vector2<f64>,
     pub(super) tangent: Vector2<f64>,
     pub(super) curvature: f64,
+    /// κ' by the length.
+    pub(super) slope: f64,
     pub(super) parameter: f64,
     /// What the chain may miss here beside the distance.
     pub(super) allowed: Allowed,
@@ -65,8 +70,8 @@ impl Node {
         } else {
             -frame.curvature_slope * size * size / (12.0 * density * density).max(f64::MIN_POSITIVE)
         };
-        let CurvePoint { point, tangent, curvature, .. } = frame;
-        Self { point, tangent, curvature, parameter, allowed, share, best_heading, density }
+        let CurvePoint { point, tangent, curvature, curvature_slope: slope, .. } = frame;
+        Self { point, tangent, curvature, slope, parameter, allowed, share, best_heading, density }
     }
 }
 
@@ -144,7 +149,7 @@ pub(super) struct Counts {
 /// Samples the curve at nodes of equal share, so many to an arc within `seen`, and returns N* for the whole tolerance.
 ///
 /// I₃ is summed up in cells, and again along the nodes; where the two do not agree a feature is narrower than the cells,
-/// and the nodes, which lie closer there, are the next cells.
+/// and the next ones are closer there.
 pub(super) fn sample(
     target: &impl Target,
     range: (f64, f64),
@@ -172,7 +177,9 @@ pub(super) fn sample(
             };
             return Ok((nodes, counts));
         }
-        bounds = nodes.iter().map(|node| node.parameter).collect();
+        bounds.extend(mesh.closer(seen).ok_or(FitError::ToleranceTooFine { tolerance })?);
+        bounds.sort_by(f64::total_cmp);
+        bounds.dedup();
     }
 }
 
@@ -228,10 +235,22 @@ impl Mesh {
     /// Nodes of equal share, with a little spread evenly; `None` when they are too many.
     fn nodes(&self, target: &impl Target, seen: f64) -> Option<Vec<Node>> {
         let size = libm::cbrt(CHAIN * seen);
+        let node = |(parameter, share)| Node::new(target.at(parameter), parameter, share, size);
+        Some(self.places((NODES_PER_ARC, NODES_PER_SHORT_ARC, LEAST_NODES), size)?.into_iter().map(node).collect())
+    }
+
+    /// The ends of closer cells.
+    fn closer(&self, seen: f64) -> Option<Vec<f64>> {
+        let places = self.places((CELLS_PER_ARC, NODES_PER_SHORT_ARC, LEAST_CELLS), libm::cbrt(CHAIN * seen))?;
+        Some(places.into_iter().map(|(parameter, _)| parameter).collect())
+    }
+
+    /// Places of equal share, so many to an arc, to a short one and beside these, with their shares; `None` when they are too many.
+    fn places(&self, (per_arc, per_short_arc, least): (f64, f64, f64), size: f64) -> Option<Vec<(f64, f64)>> {
         let [for_distance, for_heading, _] = self.each;
         let long = for_distance.max(for_heading);
         let shorter = (self.total - long).max(0.0);
-        let count = ((NODES_PER_ARC * long + NODES_PER_SHORT_ARC * shorter) / size).ceil() + LEAST_NODES;
+        let count = ((per_arc * long + per_short_arc * shorter) / size).ceil() + least;
         if count > MOST_NODES {
             return None;
         }
@@ -245,7 +264,7 @@ impl Mesh {
             clippy::cast_sign_loss,
             reason = "below the largest number of nodes"
         )]
-        let mut nodes = Vec::with_capacity(count as usize + 1);
+        let mut places = Vec::with_capacity(count as usize + 1);
         let mut cells = self.bounds.as_slice();
         let mut index = 0.0;
         while index <= count {
@@ -260,13 +279,12 @@ impl Mesh {
             let within = ((wanted - position(low)) / (position(high) - position(low))).clamp(0.0, 1.0);
             let between = |a: f64, b: f64| a + within * (b - a);
             let parameter = if index == count { *last } else { between(low.0, high.0) };
-            let here = target.at(parameter);
             // A circle has no I₃; its nodes count as one arc.
             let share = if self.total > 0.0 { between(low.1, high.1) / size } else { wanted };
-            nodes.push(Node::new(here, parameter, share, size));
+            places.push((parameter, share));
             index += 1.0;
         }
-        Some(nodes)
+        Some(places)
     }
 }
 
