@@ -395,10 +395,10 @@ def table(binary, directory):
     m = dict(mass=1500.0, r=0.18, k=1.35, q=2.0, column="matched", lead=0.0, kind="run-up", width=math.radians(20), roller=0.03,
              offset=0.0, lever=1.0, lobes=1, bore=0.025, material="steel", thickness=0.03, preload=None, follower_mass=None,
              pressure_angle=30.0, ratio=2.0, cutter=0.01, wall=0.005, ccw=False, base=0.069, stress=None, share=None)
-    known = {"50um": (18, 49, 2.55, 154), "5um": (36, 5.3, 0.52, 78.7), "0.5um": (68, 0.54, 0.21, 52.3), "0.05um": (146, 0.055, 0.040, 24.3)}
+    known = {"50um": (18, 2.55, 0.01, 154), "5um": (36, 0.52, 0.01, 78.7), "0.5um": (68, 0.21, 0.01, 52.3), "0.05um": (146, 0.040, 0.001, 24.3)}
     failed = 0
     print(f"{'tolerance':>9} {'arcs':>5} {'velocity mm/rad':>16} {'acceleration mm/rad2':>21} {'each 0.1 deg':>13} {'m/s2':>7}")
-    for tolerance, (arcs, _, velocity, sampled) in known.items():
+    for tolerance, (arcs, velocity, digit, sampled) in known.items():
         extra = ["--tolerance", tolerance, "--tolerance-acceleration", "none"]
         _, wrong, (found, report, track) = rotary(binary, directory, f"table-{tolerance}", random.Random(1), extra, m, 35.0)
         disc = Disc(m, 35.0, 0.099)
@@ -411,8 +411,10 @@ def table(binary, directory):
             for i in range(math.ceil(low / step), math.floor(high / step) + 1):
                 worst = max(worst, abs(follower.jet(arc, i * step)[2] - law(i * step + 1e-12)[0](i * step)[2]))
         count, speed = report["outline"]["arcs"], 3 * 35 * 2 * math.pi / 60
-        # Three digits, or what the table gives; its acceleration is of a sampled roller, up to 2 % short of the joints.
-        good = count == arcs and abs(found["velocity"] / velocity - 1) < 0.02 and 0.98 < sampled / found["acceleration"] < 1.005
+        # The table's velocities are rounded to a digit, and another chain of as many arcs within the tolerance has one up to 2 % off;
+        # its acceleration is of a sampled roller, up to 2 % short of the joints.
+        near = abs(found["velocity"] - velocity) < 0.02 * velocity + 0.5 * digit
+        good = count == arcs and near and 0.98 < sampled / found["acceleration"] < 1.005
         failed += not good or bool(wrong)
         print(f"{tolerance:>9} {count:5} {found['velocity']:16.4f} {found['acceleration']:21.3f} {worst:13.3f} "
               f"{1e-3 * speed**2 * found['acceleration']:7.3f}{'' if good else '  NOT AS KNOWN'}", *wrong)
