@@ -82,6 +82,11 @@ impl Explanation {
         Self { cause: causes.join(" and "), value, unit, changes, remaining_mm }
     }
 
+    /// How many of its changes have a value.
+    fn numbers(&self) -> usize {
+        self.changes.iter().filter(|change| change.value.is_some()).count()
+    }
+
     fn words(&self) -> String {
         let changes: Vec<&str> = self.changes.iter().map(|change| &*change.words).collect();
         format!("It would be this cam {}: {:.4} mm remain", changes.join(" and "), self.remaining_mm)
@@ -313,11 +318,12 @@ impl Search<'_> {
         }
     }
 
-    /// The explanations, best first: within the tolerance the simpler one is the better.
+    /// The explanations, best first: within the tolerance the simpler one is the better, and one that fits no number of its own: a
+    /// symmetric motion run the other way round is the cam turned by some angle too.
     fn told(mut self) -> Section {
         let worth = |found: &Explanation| found.remaining_mm.max(MILLIMETRES * self.tolerance);
         self.explanations.sort_by(|a, b| {
-            let simpler = a.changes.len().cmp(&b.changes.len());
+            let simpler = a.changes.len().cmp(&b.changes.len()).then(a.numbers().cmp(&b.numbers()));
             worth(a).total_cmp(&worth(b)).then(simpler).then(a.remaining_mm.total_cmp(&b.remaining_mm))
         });
         // One that leaves many times more than the best is no explanation beside it.
