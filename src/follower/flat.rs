@@ -116,6 +116,10 @@ impl Follower for FlatFace {
         libm::atan2(outward.y, outward.x) - self.tilt
     }
 
+    fn is_symmetric(&self) -> bool {
+        self.tilt == 0.0
+    }
+
     fn prime_radius(&self) -> Option<f64> {
         Some(self.base_radius)
     }

@@ -288,6 +288,11 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
         1.0
     }
 
+    /// Whether nothing of it lies to one side, so that a motion in the mirror gives the mirrored curve.
+    fn is_symmetric(&self) -> bool {
+        false
+    }
+
     /// How a flat face touches with a lift; `None` of a roller.
     fn on_face(&self, _lift: &Jet) -> Option<FaceTouch> {
         None

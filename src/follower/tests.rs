@@ -32,6 +32,28 @@ fn followers() -> Vec<Box<dyn Follower>> {
     ]
 }
 
+/// One that says that it is symmetric gives the mirrored curve of a motion in the mirror; of the others some does not.
+#[test]
+fn a_symmetric_follower_has_a_mirror() {
+    let lift = Jet { s: 0.013, ds: 0.021, dds: -0.034, ddds: 0.055 };
+    let differs = |follower: &dyn Follower| {
+        let (there, back) = (follower.touch(0.7, &lift).curve, follower.touch(-0.7, &lift.mirrored()).curve);
+        let pairs = [
+            (there.point - Vector2::new(back.point.x, -back.point.y)).norm(),
+            (there.tangent + Vector2::new(back.tangent.x, -back.tangent.y)).norm(),
+            (there.speed - back.speed).abs(),
+            (there.curvature - back.curvature).abs(),
+            (there.curvature_slope + back.curvature_slope).abs(),
+        ];
+        pairs.into_iter().fold(0.0, f64::max)
+    };
+    let symmetric = followers().into_iter().filter(|follower| follower.is_symmetric());
+    let differences: Vec<f64> = symmetric.map(|follower| differs(follower.as_ref())).collect();
+    assert!(differences.len() == 2 && differences.iter().all(|off| *off < 1e-11), "{differences:?}");
+    let others = followers().into_iter().filter(|follower| !follower.is_symmetric());
+    assert!(others.map(|follower| differs(follower.as_ref())).fold(0.0, f64::max) > 1e-3);
+}
+
 /// Tangent, curvature and slope of the curvature against central differences of the points, and the inverse.
 #[test]
 fn a_curve_point_belongs_to_its_curve() {

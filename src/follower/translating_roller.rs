@@ -126,6 +126,10 @@ impl Follower for TranslatingRoller {
         libm::atan2(centre.y, centre.x) - libm::atan2(self.offset, height)
     }
 
+    fn is_symmetric(&self) -> bool {
+        self.offset == 0.0
+    }
+
     fn prime_radius(&self) -> Option<f64> {
         Some(self.prime_radius)
     }

@@ -159,6 +159,11 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         count.and_then(|count| pieces.get(..count)).unwrap_or(pieces)
     }
 
+    /// The piece that a piece repeats, turned, or in its mirror where that is told; itself where it repeats none.
+    fn repeats(&self, piece: usize) -> (usize, bool) {
+        (piece.checked_rem(self.distinct().len()).unwrap_or(piece), false)
+    }
+
     /// In how many cells the extremes on a piece of what a follower does are told apart.
     fn cells(&self, piece: usize) -> u32 {
         let dwells = self.pieces().get(piece).is_some_and(|piece| piece.dwell);
@@ -195,6 +200,12 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
         let index = pieces.iter().rposition(|p| p.start <= inside).unwrap_or(0);
         (index, inside)
     }
+}
+
+/// The pieces of a motion that repeat none, not in the mirror either, with their numbers: what is as large in the mirror is looked for on
+/// these.
+pub fn own_pieces(motion: &dyn Motion) -> impl Iterator<Item = (usize, &Piece)> {
+    motion.distinct().iter().enumerate().filter(|(index, _)| motion.repeats(*index).0 == *index)
 }
 
 #[cfg(test)]
@@ -263,6 +274,36 @@ mod tests {
                 assert!(piece.start <= inside && inside <= piece.end, "{name} at {angle}: {inside}");
             }
         }
+    }
+
+    /// A piece that repeats another is as long, and has its lift and derivatives turned or in the mirror, but for the rounding of the angle.
+    #[test]
+    fn pieces_repeat_what_they_say() {
+        let mut mirrored = 0;
+        for (name, law) in laws() {
+            for (index, piece) in law.pieces().iter().enumerate() {
+                let (other, in_mirror) = law.repeats(index);
+                let own = law.pieces()[other];
+                assert!(other <= index && law.repeats(other) == (other, false), "{name}: {index} repeats {other}");
+                assert!((piece.end - piece.start - (own.end - own.start)).abs() < 1e-12, "{name}: {index}");
+                mirrored += usize::from(in_mirror);
+                for i in 0..=50 {
+                    let along = (piece.end - piece.start) * f64::from(i) / 50.0;
+                    let jet = law.jet(index, piece.start + along);
+                    let wanted = if in_mirror {
+                        law.jet(other, own.end - along).mirrored()
+                    } else {
+                        law.jet(other, own.start + along)
+                    };
+                    let pairs =
+                        [(jet.s, wanted.s), (jet.ds, wanted.ds), (jet.dds, wanted.dds), (jet.ddds, wanted.ddds)];
+                    for (own, wanted) in pairs {
+                        assert!((own - wanted).abs() < 1e-10 * (1.0 + wanted.abs()), "{name}: {index} at {along}");
+                    }
+                }
+            }
+        }
+        assert!(mirrored > 10, "{mirrored}");
     }
 
     #[test]

@@ -13,7 +13,7 @@
 mod sides;
 
 use super::transition::{Derivatives, Quintic, Transition};
-use super::{Jet, Motion, Piece, Raised};
+use super::{Jet, Motion, Piece, Raised, own_pieces};
 use crate::buffer::bottom_law::BottomLaw;
 use crate::buffer::crank_law::CrankLaw;
 use crate::numeric::extremum;
@@ -198,7 +198,7 @@ impl Reversal {
     }
 
     fn find_lowest(&self) -> f64 {
-        let lowest = self.distinct().iter().enumerate().map(|(index, piece)| {
+        let lowest = own_pieces(self).map(|(index, piece)| {
             let both = |angle| {
                 let bottom = self.bottom(index, angle);
                 (-bottom.s, -bottom.ds)
@@ -448,6 +448,17 @@ impl Motion for Reversal {
 
     fn lobes(&self) -> u32 {
         self.law.lobes.max(1)
+    }
+
+    /// What lies behind the reversal of a symmetric motion is what lies before it, in the mirror.
+    fn repeats(&self, piece: usize) -> (usize, bool) {
+        let Some(own) = piece.checked_rem(self.parts.len()) else { return (piece, false) };
+        let in_mirror = |part: &Part| {
+            let twin = |before: &&Part| before.shape == part.shape && !before.mirrored;
+            self.parts.iter().take(own).position(|before| part.mirrored && twin(&before))
+        };
+        let before = self.parts.get(own).and_then(in_mirror);
+        before.map_or((own, false), |before| (before, true))
     }
 
     fn jet(&self, piece: usize, angle: f64) -> Jet {

@@ -238,6 +238,9 @@ fn largest_curvature(curves: Curves<'_>, searched: impl Fn(usize) -> bool, sign:
         let pitch = curves.touch(piece, at).curve;
         (sign * pitch.curvature, sign * pitch.curvature_slope * pitch.speed, pitch.tangent)
     };
+    // In the mirror it is the same.
+    let repeated = |piece: usize| curves.follower.is_symmetric() && curves.motion.repeats(piece).0 != piece;
+    let searched = |piece: usize| searched(piece) && !repeated(piece);
     largest_beyond(&places_along(curves, searched, along), |piece, at| {
         let (curvature, slope, _) = along(piece, at);
         (curvature, slope)

@@ -15,7 +15,7 @@ pub mod size;
 
 use crate::follower::{Element, Follower, Touch};
 use crate::geometry::CurvePoint;
-use crate::motion::{Jet, Motion, Piece};
+use crate::motion::{Jet, Motion, Piece, own_pieces};
 use crate::numeric::extremum;
 use nalgebra::Vector2;
 
@@ -153,7 +153,7 @@ pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
         let [most, least] = extremum::both_ways_with_bend(all, (piece.start, piece.end), LIFT_CELLS);
         (-least.value, most.value)
     };
-    let all = motion.distinct().iter().enumerate().map(of_piece);
+    let all = own_pieces(motion).map(of_piece);
     all.fold((f64::INFINITY, 0.0), |(low, high), (least, top)| (low.min(least), high.max(top)))
 }
 

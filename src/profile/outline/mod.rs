@@ -4,6 +4,7 @@
 
 mod laying;
 
+use laying::Strips;
 pub(crate) use laying::allowed;
 
 use super::envelope::{Approach, Loop, NoEnvelope, Parallel};
@@ -367,7 +368,7 @@ fn parallel(
     let spans: Vec<(f64, f64)> = gaps.iter().map(|gap| (gap.from, gap.to)).collect();
     // A closed outline starts on a dwell.
     let first = period.and_then(|_| pieces.iter().position(|piece| piece.dwell)).unwrap_or(0);
-    let mut outline = Outline::empty();
+    let (mut outline, mut strips) = (Outline::empty(), Strips::default());
     let in_turn = pieces.iter().enumerate().cycle().skip(first).take(pieces.len());
     for (index, piece) in in_turn {
         let ranges = parts(piece, &spans, period);
@@ -377,7 +378,7 @@ fn parallel(
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
                 outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
-                let laid = outline.lay_felt(curves, (index, distance, stands_for), range, fit);
+                let laid = outline.lay_felt(&mut strips, curves, (index, distance, stands_for), range, fit);
                 laid.map_err(|error| error.between(range, period))?;
             }
             // Readers drop a shorter arc.
