@@ -52,8 +52,6 @@ const TELLING: f64 = 2.0;
 enum Kept {
     /// The distance.
     Distance(Beside),
-    /// The heading, with the tangent of the curve, rad.
-    Heading(Vector2<f64>, f64),
     /// The curvature.
     Curvature(f64, f64),
 }
@@ -195,10 +193,11 @@ impl Pressed {
         Self { stiff: [[0.0; 6]; 6], push: [0.0; 6], pull: [0.0; 6], moments, forces, corner, excess }
     }
 
-    /// Takes the sums by the basis to the freedoms.
+    /// Takes the sums by the basis to the freedoms. Those of the later joint change the curvature only, the last of the four.
     fn spread(&mut self, off_by: &[Vector4<f64>; 6]) {
         let m = &self.moments;
-        for row in 0..6 {
+        let bends = [off_by[3].w, off_by[4].w, off_by[5].w];
+        for row in 0..3 {
             let [[a, b, c, d]] = off_by[row].data.0;
             let weighted = [
                 m[0][0] * a + m[0][1] * b + m[0][2] * c + m[0][3] * d,
@@ -206,14 +205,26 @@ impl Pressed {
                 m[0][2] * a + m[1][2] * b + m[2][2] * c + m[2][3] * d,
                 m[0][3] * a + m[1][3] * b + m[2][3] * c + m[3][3] * d,
             ];
-            for column in row..6 {
+            for column in row..3 {
                 let [[e, f, g, h]] = off_by[column].data.0;
                 self.stiff[row][column] += weighted[0] * e + weighted[1] * f + weighted[2] * g + weighted[3] * h;
+            }
+            for (column, bend) in (3..).zip(bends) {
+                self.stiff[row][column] += weighted[3] * bend;
             }
             for ([push, pull], by) in self.forces.iter().zip([a, b, c, d]) {
                 self.push[row] += push * by;
                 self.pull[row] += pull * by;
             }
+        }
+        let [push, pull] = self.forces[3];
+        for (row, bend) in (3..).zip(bends) {
+            let weighted = m[3][3] * bend;
+            for column in row..6 {
+                self.stiff[row][column] += weighted * bends[column - 3];
+            }
+            self.push[row] += push * bend;
+            self.pull[row] += pull * bend;
         }
     }
 
@@ -275,7 +286,7 @@ impl Program {
         let bent = nodes.iter().any(|node| node.allowed.curvature.is_finite());
         let turned = nodes.iter().any(|node| node.allowed.heading.is_finite());
         let sides = [Slack { distance: 0.0, multiplier: 0.0, change: 0.0 }; 2];
-        let mut samples = Vec::with_capacity(if turned { 2 } else { 1 } * nodes.len() + FEW_TURNS);
+        let mut samples = Vec::with_capacity(nodes.len() + FEW_TURNS);
         for (index, node) in nodes.iter().enumerate() {
             let &Node { point, tangent, curvature, slope, parameter, allowed, .. } = node;
             let mut keep =
@@ -283,9 +294,6 @@ impl Program {
             let (before, after) = (index.checked_sub(1).and_then(|index| nodes.get(index)), nodes.get(index + 1));
             let (back, ahead) = (reach(node, before, tolerance), reach(node, after, tolerance));
             keep(Kept::Distance(Beside { tangent, curvature, slope, back, ahead }));
-            if allowed.heading.is_finite() {
-                keep(Kept::Heading(tangent, allowed.heading));
-            }
             // Between the joints the curvature is farthest off where that of the curve turns back.
             let before = before.or(after);
             let turns = before.is_some_and(|other| other.best_heading.signum() != node.best_heading.signum());
@@ -472,16 +480,6 @@ impl Sample {
                 let there = if along == 0.0 { self.point } else { beside.point(self.point, along) };
                 let (basis, distance) = link.arc.seen_from(there);
                 (basis, distance / tolerance)
-            }
-            &Kept::Heading(tangent, allowed) => {
-                let arc = &link.arc;
-                let (along, across) = (arc.heading.dot(&tangent), arc.heading.perp(&tangent));
-                let [_, a, b, square] = basis.data.0[0];
-                // The gradient of the distance along the curve's tangent is the sine between the two.
-                let gradient = (1.0 - arc.curvature * (2.0 * b - arc.curvature * square)).max(f64::MIN_POSITIVE).sqrt();
-                let off = (across - arc.curvature * (a * along + b * across)) / gradient;
-                let basis = Vector4::new(0.0, along, across, 2.0 * (a * along + b * across)) * (tolerance / allowed);
-                (basis, off / allowed)
             }
             &Kept::Curvature(curvature, allowed) => {
                 (Vector4::new(0.0, 0.0, 0.0, -2.0 * tolerance / allowed), (link.arc.curvature - curvature) / allowed)
