@@ -157,8 +157,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
     /// Looks at a cell; whether it has to be halved.
     fn look_at(&mut self, low: f64, high: f64) -> bool {
         let mut cell = Cell { low, high, values: Vec::new(), coefficients: Vec::new() };
-        let all = Points::all();
-        for ((points, cosines), grid) in all.of_degree.iter().zip(&all.of_grid) {
+        for Points { points, cosines, grid } in Points::of_degrees() {
             let before = std::mem::replace(&mut cell.values, Vec::with_capacity(points.len()));
             for (index, point) in points.iter().enumerate() {
                 let known = if index % 2 == 0 { before.get(index / 2).copied() } else { None };
@@ -279,26 +278,23 @@ fn points(degree: usize) -> Vec<f64> {
     (0..=degree).map(point).collect()
 }
 
-/// The points of every degree that is used with their cosines, and the grids on which slopes are looked at, made once.
+/// The points of a degree that is used with their cosines, and the grid on which slopes are looked at, made once.
 struct Points {
-    of_degree: Vec<(Vec<f64>, Vec<Vec<f64>>)>,
-    of_grid: Vec<Vec<f64>>,
+    points: Vec<f64>,
+    cosines: Vec<Vec<f64>>,
+    grid: Vec<f64>,
 }
 
 impl Points {
-    fn all() -> &'static Self {
-        static ALL: OnceLock<Points> = OnceLock::new();
-        let with_cosines = |points: Vec<f64>| {
-            let cosines = cosines(&points);
-            (points, cosines)
-        };
-        ALL.get_or_init(|| {
-            let degrees: Vec<usize> =
-                std::iter::successors(Some(LEAST_DEGREE), |degree| Some(2 * degree)).take(DEGREES).collect();
-            Self {
-                of_degree: degrees.iter().map(|degree| with_cosines(points(*degree))).collect(),
-                of_grid: degrees.iter().map(|degree| points(2 * degree)).collect(),
-            }
+    /// Of every degree, the lowest first.
+    fn of_degrees() -> impl Iterator<Item = &'static Self> {
+        static ALL: [OnceLock<Points>; DEGREES] = [const { OnceLock::new() }; DEGREES];
+        let degrees = std::iter::successors(Some(LEAST_DEGREE), |degree| Some(2 * degree));
+        ALL.iter().zip(degrees).map(|(made, degree)| {
+            made.get_or_init(|| {
+                let points = points(degree);
+                Self { cosines: cosines(&points), points, grid: self::points(2 * degree) }
+            })
         })
     }
 }
@@ -306,8 +302,11 @@ impl Points {
 /// cos(π j k/n) for every j, and of each every k.
 fn cosines(points: &[f64]) -> Vec<Vec<f64>> {
     let turn: Vec<f64> = points.iter().chain(points.iter().rev().skip(1)).copied().collect();
-    let n = points.len().saturating_sub(1).max(1);
-    let row = |j: usize| (0..points.len()).map(|k| turn.get((j * k) % (2 * n)).copied().unwrap_or(0.0)).collect();
+    let whole = 2 * points.len().saturating_sub(1).max(1);
+    let row = |j: usize| {
+        let places = std::iter::successors(Some(0), |at| Some(if at + j < whole { at + j } else { at + j - whole }));
+        places.take(points.len()).map(|at| turn.get(at).copied().unwrap_or(0.0)).collect()
+    };
     (0..points.len()).map(row).collect()
 }
 
