@@ -38,7 +38,7 @@ use crate::motion::{BrakeDisc, Quantity, State};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
-use crate::profile::{Curves, Worst, boundary, envelope, extremes};
+use crate::profile::{Contact, Curves, Worst, boundary, envelope, extremes};
 use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{Place, Rolled, Section, Speeds};
@@ -402,8 +402,9 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Force between follower and cam along the normal, N; `None` where no force is known.
-    fn contact_force(&self, piece: usize, parameter: f64) -> Option<f64>;
+    /// Force between follower and cam along the normal, N, at a parameter of a piece where it stands like this; `None` where no force
+    /// is known.
+    fn contact_force(&self, at: (usize, f64), contact: &Contact) -> Option<f64>;
 
     /// Force of the cam on the follower along its path, N, or its moment about the pivot of one that swings, N·m, and the torque of the
     /// shaft against it, N·m, at a cam angle; `None` where no force is known.

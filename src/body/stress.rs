@@ -15,6 +15,12 @@ fn contact_modulus(material: Material) -> f64 {
     1.0 / (1.0 / Material::Steel.contact_modulus() + 1.0 / material.contact_modulus())
 }
 
+/// The force where the motion begins, N; `None` where none is known anywhere.
+fn force_at_start(body: &dyn Body, curves: Curves<'_>) -> Option<f64> {
+    let (piece, start) = curves.motion.locate(curves.motion.range().0);
+    body.contact_force((piece, start), &curves.contact(piece, start))
+}
+
 /// The largest pressure in the line of contact: p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative.
 /// The roller is of steel and as wide as the cam is thick (K. L. Johnson, Contact Mechanics, 1985, §4.2).
 pub(super) fn of_lines(body: &dyn Body, (curves, acting): (Curves<'_>, &[Acting]), machine: &Machine) -> Option<Worst> {
@@ -25,13 +31,12 @@ pub(super) fn of_lines(body: &dyn Body, (curves, acting): (Curves<'_>, &[Acting]
     let (width, modulus) = (machine.cam.thickness?, contact_modulus(machine.cam.material?));
     let bend = body.roller_radius().map_or(0.0, |radius| 1.0 / radius);
     let square = |piece: usize, at: f64| {
-        let profile = curves.profile(piece, at);
+        let contact = curves.contact(piece, at);
         // On an edge (undercut) the curvature means nothing; there the check `undercut` fails.
-        let curvature = (bend + profile.curvature).max(0.0);
-        body.contact_force(piece, at).unwrap_or(f64::NAN) * modulus * curvature / (PI * width)
+        let curvature = (bend + contact.curve.offset_inward(curves.offset()).curvature).max(0.0);
+        body.contact_force((piece, at), &contact).unwrap_or(f64::NAN) * modulus * curvature / (PI * width)
     };
-    let (piece, start) = curves.motion.locate(curves.motion.range().0);
-    body.contact_force(piece, start)?;
+    force_at_start(body, curves)?;
     let worst = super::plane(extremes::largest_smooth(curves, (acting, 0.0), square));
     Some(Worst { value: worst.value.max(0.0).sqrt(), ..worst })
 }
@@ -84,12 +89,12 @@ pub(super) fn of_crown(
     crown: f64,
 ) -> Option<Worst> {
     let (modulus, roller) = (contact_modulus(machine.cam.material?), body.roller_radius()?);
-    let (piece, start) = curves.motion.locate(curves.motion.range().0);
-    body.contact_force(piece, start)?;
+    force_at_start(body, curves)?;
     // The cube is smooth where the force is 0.
     let cube = |piece: usize, at: f64| {
-        let bend = (1.0 / roller + curves.profile(piece, at).curvature).max(0.0);
-        let force = body.contact_force(piece, at).unwrap_or(f64::NAN);
+        let contact = curves.contact(piece, at);
+        let bend = (1.0 / roller + contact.curve.offset_inward(curves.offset()).curvature).max(0.0);
+        let force = body.contact_force((piece, at), &contact).unwrap_or(f64::NAN);
         let pressure = in_ellipse(force, (bend, 1.0 / crown), modulus);
         pressure * pressure * pressure
     };

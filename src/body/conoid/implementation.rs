@@ -253,7 +253,7 @@ impl Body for Conoid {
         Some((nearest.value - bore, Some(nearest)))
     }
 
-    fn contact_force(&self, _: usize, _: f64) -> Option<f64> {
+    fn contact_force(&self, _: (usize, f64), _: &Contact) -> Option<f64> {
         None
     }
 

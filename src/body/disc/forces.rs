@@ -153,9 +153,13 @@ impl Disc {
     /// Force along the normal, N, with the friction of the guide; infinite where it jams, 0 where the follower has left the cam.
     #[must_use]
     pub fn normal_force(&self, piece: usize, angle: f64) -> Option<f64> {
-        let contact = self.curves().contact(piece, angle);
-        let acting = self.acting_force_of((piece, angle), || contact.lift)?;
-        Some(self.along_normal(acting, (piece, angle), &contact).max(0.0))
+        self.normal_force_of((piece, angle), &self.curves().contact(piece, angle))
+    }
+
+    /// The same where the follower's place is known.
+    pub(super) fn normal_force_of(&self, at: (usize, f64), contact: &Contact) -> Option<f64> {
+        let acting = self.acting_force_of(at, || contact.lift)?;
+        Some(self.along_normal(acting, at, contact).max(0.0))
     }
 
     fn along_normal(&self, acting: f64, at: (usize, f64), contact: &Contact) -> f64 {

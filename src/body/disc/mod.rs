@@ -37,7 +37,7 @@ use crate::motion::{BrakeDisc, Motion, MotionError, Quantity, Raised, Reversal, 
 use crate::profile::extremes;
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{NoRadius, Smallest};
-use crate::profile::{Curves, Worst, lifts};
+use crate::profile::{Contact, Curves, Worst, lifts};
 use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{CamMeasures, Forces, Section, Speeds};
@@ -394,8 +394,8 @@ impl Body for Disc {
         self.machine.cam.bore_reach().map(|bore| (self.base_radius() - bore, None))
     }
 
-    fn contact_force(&self, piece: usize, angle: f64) -> Option<f64> {
-        self.normal_force(piece, angle)
+    fn contact_force(&self, at: (usize, f64), contact: &Contact) -> Option<f64> {
+        self.normal_force_of(at, contact)
     }
 
     fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {

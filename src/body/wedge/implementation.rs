@@ -17,7 +17,7 @@ use crate::motion::equation_18::{BottomMotion, EfficiencyModel, ExactOn, Solver,
 use crate::motion::{Jet, Motion};
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{self, Fit, Outline, OutlineError};
-use crate::profile::{Curves, Worst, boundary};
+use crate::profile::{Contact, Curves, Worst, boundary};
 use crate::report::mechanism::Mechanism;
 use crate::report::sheet::View;
 use crate::report::{
@@ -254,7 +254,7 @@ impl Body for Wedge {
         Some(&self.worst)
     }
 
-    fn contact_force(&self, piece: usize, x: f64) -> Option<f64> {
+    fn contact_force(&self, (piece, x): (usize, f64), _: &Contact) -> Option<f64> {
         Some(self.normal_force(piece, x))
     }
 
