@@ -18,7 +18,7 @@ use crate::follower::{Element, Touch};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
 use crate::motion::program::SegmentTold;
-use crate::motion::{Jet, Motion, Piece, Quantity};
+use crate::motion::{Jet, Motion, Piece, Quantity, own_pieces};
 use crate::numeric::chebyshev::{self, Known};
 use crate::numeric::{extremum, root};
 use nalgebra::Vector2;
@@ -38,8 +38,11 @@ const TOUCHING: f64 = 2.0 * f64::EPSILON;
 pub(super) const STRAIGHT: f64 = 1e-9;
 /// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
 const CHANGE: f64 = 0.1;
-/// Parts into which a stretch is cut to find its largest error, and golden sections where one is largest within it.
-const CELLS: u32 = 4;
+/// Parts into which a stretch is cut to find its largest error, so many more where the error of the acceleration is not straight to this
+/// share of its size, and golden sections where an error is largest within a stretch.
+const CELLS: u32 = 2;
+const MORE_CELLS: u32 = 4;
+const NEARLY_STRAIGHT: f64 = 0.1;
 const SECTIONS: u32 = 22;
 /// How exactly the place of the largest velocity error is found, in such parts: its value is right to the square.
 const ROOT: f64 = 1e-5;
@@ -109,6 +112,8 @@ pub struct Followed<'a> {
     closed: bool,
 }
 
+/// Turn between two edges that is rounding, rad.
+const SMOOTH: f64 = 1e-10;
 /// Shortest edge that is followed, mm: what it turns by moves a follower by less than rounding.
 const LEAST_EDGE: f64 = 1e-6;
 
@@ -143,7 +148,9 @@ impl<'a> Followed<'a> {
             if near && normal.dot(&touch.drive) > 0.0 { parameter } else { f64::NAN }
         };
         let period = curves.motion.period();
-        // Every segment, and what lies between it and the one before: an edge about which the follower turns.
+        // Every segment, and what lies between it and the one before: an edge about which the follower turns. Where the one goes on in the
+        // direction of the other there is none.
+        let mut ended: Option<(Vector2<f64>, Vector2<f64>, f64)> = None;
         let mut runs: Vec<(f64, f64, Guide)> = Vec::with_capacity(edges.len());
         let mut last: Option<f64> = None;
         let mut first: Option<(f64, Vector2<f64>)> = None;
@@ -153,8 +160,13 @@ impl<'a> Followed<'a> {
         // What is shorter has any direction where its ends were rounded, and is passed over.
         for edge in edges.iter().filter(|edge| edge.length() > LEAST_EDGE) {
             let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
-            let from = parameter(edge.start(), edge.start_tangent());
+            let (start, tangent) = (edge.start(), edge.start_tangent());
+            let goes_on = ended.filter(|(end, before, _)| {
+                *end == start && before.perp(&tangent).abs() < SMOOTH && before.dot(&tangent) > 0.0
+            });
+            let from = goes_on.map_or_else(|| parameter(start, tangent), |(.., at)| at);
             let to = parameter(edge.end(), edge.end_tangent());
+            ended = Some((edge.end(), edge.end_tangent(), to));
             let from = last.map_or(from, |last| near(from, last));
             // An arc of a dwell may go round by more than a half turn.
             let to = near(to, from + edge.turning());
@@ -270,9 +282,21 @@ impl<'a> Followed<'a> {
             if !self.is_rolled(stretch) {
                 return Vec::new();
             }
-            let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(CELLS);
-            let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
-            (0..=CELLS).map(found).collect::<Option<Vec<Off>>>().unwrap_or_default()
+            let in_cells = |cells: u32| {
+                let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(cells);
+                let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
+                (0..=cells).map(found).collect::<Option<Vec<Off>>>().unwrap_or_default()
+            };
+            let few = in_cells(CELLS);
+            let straight = |[(_, left), (_, middle), (_, right)]: &[Off; 3]| {
+                let size = left[1].abs().max(right[1].abs());
+                (middle[1] - 0.5 * (left[1] + right[1])).abs() <= NEARLY_STRAIGHT * size
+            };
+            if few.windows(3).all(|three| <&[Off; 3]>::try_from(three).is_ok_and(straight)) {
+                few
+            } else {
+                in_cells(MORE_CELLS)
+            }
         };
         let all: Vec<(&Stretch, Vec<Off>)> = self.stretches.iter().map(|stretch| (stretch, places(stretch))).collect();
         let place = |stretch: &Stretch, parameter: f64, value: f64| Worst {
@@ -538,7 +562,7 @@ pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
     }
     let mut known = [Known::nothing(0.0); 2];
     let moving = |(index, piece): &(usize, &Piece)| !piece.dwell && motion.is_rolled(*index);
-    for (index, piece) in motion.distinct().iter().enumerate().filter(moving) {
+    for (index, piece) in own_pieces(motion).filter(moving) {
         let range = (piece.start, piece.end);
         let velocity = |at: f64| motion.jet(index, at).ds * motion.pace(at).0;
         let acceleration = |at: f64| {
