@@ -8,6 +8,8 @@ use crate::profile::extremes::{self, Corner};
 
 /// Cells of a piece: its sharpness has a handful of extrema.
 const CELLS: u32 = 256;
+/// What κ d is at the most where no fold can hide beside the sharpest place found.
+const CLEARLY: f64 = 0.75;
 
 /// The corners at which the curve steps backwards.
 pub(super) fn corners(parallel: Parallel<'_>) -> Vec<Corner> {
@@ -21,8 +23,10 @@ pub(super) fn corners(parallel: Parallel<'_>) -> Vec<Corner> {
 pub(super) fn folds(parallel: Parallel<'_>) -> Vec<(f64, f64)> {
     let motion = parallel.curves.motion;
     let mut folds: Vec<(f64, f64)> = corners(parallel).iter().map(|c| (c.at, c.at)).collect();
-    for (index, piece) in motion.pieces().iter().enumerate() {
-        folds.extend(in_piece(parallel, index, piece));
+    if !clearly_forward(parallel) {
+        for (index, piece) in motion.pieces().iter().enumerate() {
+            folds.extend(in_piece(parallel, index, piece));
+        }
     }
     folds.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut merged: Vec<(f64, f64)> = Vec::new();
@@ -40,6 +44,14 @@ pub(super) fn folds(parallel: Parallel<'_>) -> Vec<(f64, f64)> {
         merged.pop();
     }
     merged
+}
+
+/// Whether the sharpest convex place of a roller's curve is so far from the distance that no cell needs to be looked at.
+fn clearly_forward(parallel: Parallel<'_>) -> bool {
+    let of_roller = matches!(parallel.curves.element(), Element::Roller { .. });
+    of_roller && parallel.distance >= 0.0 && {
+        extremes::convex_curvature(parallel.curves).value * parallel.distance < CLEARLY
+    }
 }
 
 /// A number with the sign of the curve's speed, and its derivative.
