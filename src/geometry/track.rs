@@ -16,6 +16,20 @@ use parry2d_f64::shape::{Segment, SegmentPointLocation};
 /// Largest number of chords: a tolerance that needs more is compared with coarser chords.
 const MOST_CHORDS: f64 = 2e5;
 
+/// So much farther than the nearest edge, as a share of its distance, others are looked for, so that the next place may do without.
+const ROOM: f64 = 1e-3;
+
+/// What is known about a place near an outline.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct About {
+    /// The edge that is nearest there.
+    edge: usize,
+    /// No edge but this one and the two beside it is nearer to `point` than `clear`, mm.
+    middle: usize,
+    point: Vector2<f64>,
+    clear: f64,
+}
+
 /// The outline, prepared for the search of the nearest point.
 pub struct Track {
     edges: Vec<Edge>,
@@ -59,26 +73,42 @@ impl Track {
         Some(self.at_vertex(point, leaf, nearest))
     }
 
-    /// The same, and on which edge, where one that may be the nearest is known: the tree is left where none can be nearer.
+    /// The same, where something is known of a place nearby; `about` becomes what is known here.
     #[must_use]
-    pub fn nearest_about(&self, point: Vector2<f64>, known: usize) -> Option<(usize, Nearest)> {
-        let about = self.edges.get(known).map(|edge| edge.nearest(point));
-        let most = about.map_or(f64::MAX, |nearest| nearest.left.abs());
-        let found = self.nearer_than(point, most).or_else(|| about.map(|nearest| (known, nearest)));
-        let (leaf, nearest) = found.filter(|(_, nearest)| nearest.left.is_finite())?;
-        Some((leaf, self.at_vertex(point, leaf, nearest)))
+    pub fn nearest_about(&self, point: Vector2<f64>, about: &mut About) -> Option<Nearest> {
+        let n = self.edges.len();
+        let middle = about.edge.min(n.checked_sub(1)?);
+        let known = [(middle + n - 1) % n, middle, (middle + 1) % n];
+        let of_known = known.iter().filter_map(|edge| Some((*edge, self.edges.get(*edge)?.nearest(point))));
+        let (mut edge, mut nearest) = of_known.min_by(|a, b| a.1.left.abs().total_cmp(&b.1.left.abs()))?;
+        let distance = nearest.left.abs();
+        if about.middle != middle || !((point - about.point).norm() + distance <= about.clear) {
+            let clear = (1.0 + ROOM) * distance;
+            let found = self.nearer_than(point, clear, &known);
+            let clear = found.map_or(clear, |(_, other)| other.left.abs());
+            *about = About { edge, middle, point, clear };
+            if let Some((leaf, other)) = found.filter(|(_, other)| other.left.abs() < distance) {
+                (edge, nearest) = (leaf, other);
+            }
+        }
+        about.edge = edge;
+        nearest.left.is_finite().then(|| self.at_vertex(point, edge, nearest))
     }
 
     /// The segment nearest to a point, with its own nearest point; `None` for a point that is not finite.
     #[must_use]
     pub fn nearest_segment(&self, point: Vector2<f64>) -> Option<(usize, Nearest)> {
-        self.nearer_than(point, f64::MAX)
+        self.nearer_than(point, f64::MAX, &[])
     }
 
-    fn nearer_than(&self, point: Vector2<f64>, most: f64) -> Option<(usize, Nearest)> {
+    /// The nearest of the edges that are nearer than `most`, but for some that are known.
+    fn nearer_than(&self, point: Vector2<f64>, most: f64, known: &[usize]) -> Option<(usize, Nearest)> {
         let from = parry(point);
         let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
         let distance = |leaf: u32, _: f64| {
+            if known.contains(&(leaf as usize)) {
+                return None;
+            }
             let nearest = self.edges.get(leaf as usize)?.nearest(point);
             Some((nearest.left.abs(), (leaf as usize, nearest)))
         };
@@ -293,12 +323,21 @@ mod tests {
         for point in grid.chain([Vector2::new(40.0, -10.0), Vector2::new(0.0, 10.0), Vector2::new(45.0, 20.0)]) {
             let wanted = track.nearest(point).expect("finite");
             for known in 0..6 {
-                let (edge, found) = track.nearest_about(point, known).expect("finite");
-                assert!(edge < 4 && (found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{point} from {known}");
+                let mut about = About { edge: known, ..About::default() };
+                let found = track.nearest_about(point, &mut about).expect("finite");
+                assert!(about.edge < 4 && (found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{point} from {known}");
                 assert!((point - found.foot).norm() < wanted.left.abs() + 1e-12, "{point} from {known}");
+                // Steps of all sizes from there, in turn, with what is known of the last.
+                for step in 0..24 {
+                    let (sin, cos) = libm::sincos(f64::from(7 * step));
+                    let next = point + Vector2::new(cos, sin) * libm::exp2(f64::from(step - 20));
+                    let wanted = track.nearest(next).expect("finite");
+                    let found = track.nearest_about(next, &mut about).expect("finite");
+                    assert!((found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{next} after {point} from {known}");
+                }
             }
         }
-        assert!(track.nearest_about(Vector2::new(f64::NAN, 0.0), 1).is_none());
+        assert!(track.nearest_about(Vector2::new(f64::NAN, 0.0), &mut About::default()).is_none());
     }
 
     #[test]

@@ -10,8 +10,8 @@ use super::{Bound, Check, Evidence, Explained, On, felt, sphere};
 use crate::body::Body;
 use crate::body::tension;
 use crate::follower::{Element, Touch};
-use crate::geometry::contour::Contour;
-use crate::geometry::track::{Chords, Track};
+use crate::geometry::contour::{Contour, Edge};
+use crate::geometry::track::{About, Chords, Track};
 use crate::motion::{Jet, Quantity};
 use crate::numeric::extremum;
 use crate::profile::Curves;
@@ -35,12 +35,20 @@ pub(super) const CHECK: Check = Check {
 
 /// No two places lie farther apart than so many even ones over the motion.
 const EVEN_PLACES: u32 = 360;
+/// On a rest they may lie so many times farther apart: the gap from an arc is smooth, and is looked for between them by its slopes.
+const RESTING: f64 = 10.0;
 /// Parts into which every piece of the motion is cut at the least.
 const PIECE_PLACES: u32 = 8;
 /// How far from a jump of the force its sides are, rad or m.
 const BESIDE: f64 = 1e-12;
-/// Up to so many segments each has four places, beyond that one.
+/// Up to so many segments each has four places, beyond that one: an arc near the least possible number of them misses the curve three
+/// times, to either side.
 const FEW_SEGMENTS: usize = 1000;
+const TOUCHED: u32 = 4;
+/// An edge over which the roller goes so little way, rad or m, is short.
+const SHORT: f64 = 0.1;
+/// Turn between two edges that is rounding, rad.
+const SMOOTH: f64 = 1e-10;
 /// Of more than so many segments only some have one: the others are shorter than anything that is felt, and `outline` walks them all.
 const MOST_TOUCHED: usize = 50_000;
 /// Between two places a maximum is looked for while it may exceed what was found by more than this, mm.
@@ -65,7 +73,7 @@ const MOST_PEAKS: usize = 32;
 const NEARLY: f64 = 0.1;
 const LEAST_STEP: f64 = 1e-6;
 /// Places at which parry measures as well, and two contacts at once are looked for.
-const PARRY_PLACES: usize = 240;
+const PARRY_PLACES: usize = 120;
 /// Chords for parry lie within this share of the tolerance.
 const CHORD_SHARE: f64 = 0.1;
 /// Newton steps along the path, and the cosine below which the roller slides off rather than touches.
@@ -106,8 +114,8 @@ struct Roll<'a> {
     track: Track,
     /// How far the element reaches from the follower's curve, mm.
     radius: f64,
-    /// The edge that was nearest last: the next one asked for mostly is that, or its neighbour.
-    last: Cell<usize>,
+    /// What is known about the last place: the next one is near it mostly.
+    last: Cell<About>,
 }
 
 impl Roll<'_> {
@@ -116,8 +124,10 @@ impl Roll<'_> {
     fn clearance(&self, contact: &Touch, centre: Vector2<f64>) -> Option<(f64, Vector2<f64>)> {
         match self.curves.element() {
             Element::Roller { .. } => {
-                let (edge, nearest) = self.track.nearest_about(centre, self.last.get())?;
-                self.last.set(edge);
+                let mut about = self.last.get();
+                let nearest = self.track.nearest_about(centre, &mut about);
+                self.last.set(about);
+                let nearest = nearest?;
                 // From a vertex the normal is that of the roller.
                 let away = centre - nearest.foot;
                 let distance = away.norm();
@@ -141,7 +151,7 @@ impl Roll<'_> {
     fn lift_error(&self, contact: &Touch, first: (f64, Vector2<f64>)) -> Option<(f64, Vector2<f64>)> {
         let (centre, drive) = (contact.curve.point * 1e3, contact.drive);
         let (mut moved, (mut gap, mut normal)) = (0.0, first);
-        for _ in 0..TOUCH_STEPS {
+        for step in 0..TOUCH_STEPS {
             if gap.abs() <= TOUCHING {
                 return Some((moved, normal));
             }
@@ -149,7 +159,12 @@ impl Roll<'_> {
             if cosine < LEAST_COSINE {
                 return None;
             }
-            moved -= gap / cosine;
+            let way = gap / cosine;
+            moved -= way;
+            // What such a step leaves is its square over the radius at the most, where the last one has shown that the foot stays.
+            if step > 0 && way * way <= TOUCHING * self.radius {
+                return Some((moved, normal));
+            }
             (gap, normal) = self.clearance(contact, centre + drive * moved)?;
         }
         (gap.abs() <= TOUCHING).then_some((moved, normal))
@@ -237,31 +252,57 @@ impl Roll<'_> {
         if step.abs() < LONGEST_STEP { near - step } else { near }
     }
 
+    /// The parameters at which the roller touches the start of every edge and so many places more of it.
+    fn touching(&self) -> Vec<f64> {
+        let edges = self.track.edges();
+        let over = |edge: &Edge, share: f64| {
+            let (point, tangent) = edge.at(share);
+            self.parameter_over(point, Vector2::new(tangent.y, -tangent.x))
+        };
+        if edges.len() > FEW_SEGMENTS {
+            return edges.iter().step_by(edges.len() / MOST_TOUCHED + 1).map(|edge| over(edge, 0.0)).collect();
+        }
+        let period = self.curves.motion.period();
+        let mut before: Option<(Vector2<f64>, f64)> = None;
+        let mut touching = Vec::with_capacity(edges.len() * TOUCHED as usize);
+        for edge in edges {
+            let tangent = edge.start_tangent();
+            let smooth =
+                before.filter(|(before, _)| before.perp(&tangent).abs() < SMOOTH && before.dot(&tangent) > 0.0);
+            let from = smooth.map_or_else(|| over(edge, 0.0), |(_, at)| at);
+            let to = over(edge, 1.0);
+            before = Some((edge.end_tangent(), to));
+            let way = to - from;
+            let way = period.map_or(way, |period| way - period * (way / period).round());
+            // Over a short edge the places need not be exact.
+            let short = way > 0.0 && way < SHORT;
+            touching.extend((0..TOUCHED).map(|step| {
+                let share = f64::from(step) / f64::from(TOUCHED);
+                match step {
+                    0 => from,
+                    _ if short => from + share * way,
+                    _ => over(edge, share),
+                }
+            }));
+        }
+        touching
+    }
+
     /// Both ends of every piece, places at which the roller touches the segments, and as many between them that none lies
     /// farther from the next than even ones would; by piece.
     fn places(&self) -> Vec<(usize, f64)> {
         let (first, last) = self.curves.motion.range();
         let period = self.curves.motion.period();
-        // An arc near the least possible number of them misses the curve three times, to either side.
-        let count: u32 = if self.track.edges().len() <= FEW_SEGMENTS { 4 } else { 1 };
-        let every = self.track.edges().len() / MOST_TOUCHED + 1;
-        let touching = self.track.edges().iter().step_by(every).flat_map(|edge| {
-            (0..count).map(|step| {
-                let share = f64::from(step) / f64::from(count);
-                let (point, tangent) = edge.at(share);
-                self.parameter_over(point, Vector2::new(tangent.y, -tangent.x))
-            })
-        });
         let within =
             |parameter: &f64| parameter.is_finite() && (period.is_some() || (first..=last).contains(parameter));
-        let located = touching.filter(within).map(|parameter| self.curves.motion.locate(parameter));
-        let pieces = self.curves.motion.pieces().iter().enumerate();
-        let ends = pieces.flat_map(|(index, piece)| [(index, piece.start), (index, piece.end)]);
+        let located = self.touching().into_iter().filter(within).map(|parameter| self.curves.motion.locate(parameter));
+        let pieces = self.curves.motion.pieces();
+        let ends = pieces.iter().enumerate().flat_map(|(index, piece)| [(index, piece.start), (index, piece.end)]);
         // Where the air closes and opens the residual force jumps, also in the middle of a piece: both sides of it.
         let jumps = self.body.force_jumps().into_iter().flat_map(|at| [at - BESIDE, at, at + BESIDE]);
         let jumps = jumps.filter(within).map(|parameter| self.curves.motion.locate(parameter));
         // However short a piece is, it has its own places.
-        let own = self.curves.motion.pieces().iter().enumerate().filter(|(_, piece)| !piece.dwell);
+        let own = pieces.iter().enumerate().filter(|(_, piece)| !piece.dwell);
         let own = own.flat_map(|(index, piece)| {
             (1..PIECE_PLACES).map(move |i| {
                 let share = f64::from(i) / f64::from(PIECE_PLACES);
@@ -274,7 +315,8 @@ impl Roll<'_> {
         let most = (last - first) / f64::from(EVEN_PLACES);
         let pairs = places.iter().zip(places.iter().skip(1)).filter(|(a, b)| a.0 == b.0);
         let wide = pairs.flat_map(|(&(piece, from), &(_, to))| {
-            let steps = ((to - from) / most).ceil();
+            let rests = pieces.get(piece).is_some_and(|piece| piece.dwell);
+            let steps = ((to - from) / if rests { RESTING * most } else { most }).ceil();
             let further =
                 std::iter::successors(Some(1.0), |step| Some(step + 1.0)).take_while(move |step| *step < steps);
             further.map(move |step| (piece, from + (to - from) * step / steps))
@@ -509,7 +551,7 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
     for mirrored in body.mirrored() {
         let contour = if *mirrored { contour.mirrored_about_x() } else { contour.clone() };
         let roll =
-            Roll { body, curves, track: Track::new(&contour), radius: 1e3 * curves.offset(), last: Cell::new(0) };
+            Roll { body, curves, track: Track::new(&contour), radius: 1e3 * curves.offset(), last: Cell::default() };
         let chords = Chords::new(&contour, CHORD_SHARE * tolerance);
         let found = roll.samples(&chords, tolerance);
         let lifts: Vec<f64> = found.iter().filter_map(|s| s.lift_error).map(f64::abs).collect();
