@@ -2,8 +2,9 @@
 
 use super::{Conoid, ConoidError, Interpolation, bottom_law_at};
 use crate::body::ROUNDING_OF_BALANCE;
+use crate::buffer::crank_law::CrankLaw;
 use crate::machine::Machine;
-use crate::motion::{Motion, Reversal, State};
+use crate::motion::{Motion, State};
 use crate::numeric::{extremum, parallel};
 use crate::profile::extremes;
 use std::cell::RefCell;
@@ -14,6 +15,10 @@ use std::rc::Rc;
 /// across it, whose top is told to 1e-9 when its place is known to a millionth of the strip.
 const SPEEDS: u32 = 12;
 const SPEED_SECTIONS: u32 = 24;
+
+/// Roundings that a pressure ratio is taken to have, of itself and of the lengths it is made of: the lift of a section between others is a
+/// sum of all of them.
+const ROUNDINGS: f64 = 16.0;
 
 /// Most sections that are tried.
 pub const MOST_SECTIONS: u32 = 65;
@@ -53,21 +58,23 @@ struct Known {
     angles: RefCell<BTreeMap<(usize, u64), Rc<Together>>>,
 }
 
-/// The sections at one cam angle: the state of the first and the bottoms of all.
+/// The sections at one cam angle: the state of the first and the bottoms of all, where they are asked for.
 struct Together {
     state: State,
     bottoms: Vec<f64>,
 }
 
 impl Known {
-    fn at(&self, conoid: &Conoid, section: &Reversal, piece: usize, angle: f64) -> Rc<Together> {
+    fn at(&self, conoid: &Conoid, interpolation: Interpolation, piece: usize, angle: f64) -> Option<Rc<Together>> {
+        let section = conoid.sections.first()?;
         let mut angles = self.angles.borrow_mut();
         let sections = || {
             let state = section.state(piece, angle);
-            let bottoms = if state.reversing { conoid.bottoms(piece, angle).collect() } else { Vec::new() };
+            let all = state.reversing && interpolation == Interpolation::Smooth;
+            let bottoms = if all { conoid.bottoms(piece, angle).collect() } else { Vec::new() };
             Rc::new(Together { state, bottoms })
         };
-        Rc::clone(angles.entry((piece, angle.to_bits())).or_insert_with(sections))
+        Some(Rc::clone(angles.entry((piece, angle.to_bits())).or_insert_with(sections)))
     }
 }
 
@@ -78,7 +85,7 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation, known: &Kno
     let Some(section) = conoid.sections.first() else { return Residual { force: f64::NAN, rpm, angle: 0.0 } };
     let (unit, slice) = (conoid.cylinder.unit_force(), conoid.slice(z));
     let left = |piece: usize, angle: f64| {
-        let sections = known.at(conoid, section, piece, angle);
+        let Some(sections) = known.at(conoid, interpolation, piece, angle) else { return 0.0 };
         let state = &sections.state;
         if !state.reversing {
             return 0.0;
@@ -91,9 +98,18 @@ fn at_speed(conoid: &Conoid, rpm: f64, interpolation: Interpolation, known: &Kno
         // A bottom that is beyond the piston leaves no air.
         if left.is_nan() { f64::NEG_INFINITY } else { unit * left }
     };
-    let negligible = ROUNDING_OF_BALANCE * unit * bottom_law.loading() * bottom_law.largest_deceleration();
+    let negligible = unit * rounding_of_balance(&bottom_law);
     let worst = extremes::largest_size_of_motion(section, (&conoid.acting(), negligible), left);
     Residual { force: worst.value.max(0.0), rpm, angle: worst.at }
+}
+
+/// What of the pressure ratio is rounding: a share of the largest inertia; where that is small beside the air itself, what the
+/// ratio, (air/air left)^k in small differences of lengths as long as the column, is rounded to.
+fn rounding_of_balance(bottom_law: &CrankLaw) -> f64 {
+    let largest = bottom_law.largest_deceleration();
+    let inertia = bottom_law.loading() * largest;
+    let lengths = 1.0 + bottom_law.exponent() * bottom_law.column() / bottom_law.air_left(largest);
+    (ROUNDING_OF_BALANCE * inertia).max(ROUNDINGS * f64::EPSILON * (1.0 + inertia) * lengths)
 }
 
 /// The largest residual of the sections at their own speeds.
