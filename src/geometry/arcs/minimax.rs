@@ -14,7 +14,7 @@
 //! steps run out; it only saves time.
 
 use super::nodes::Node;
-use super::trial::{Link, Place, Step, Trial, free, place_of};
+use super::trial::{Link, Place, Step, Trial};
 use super::{Joint, Target};
 use crate::numeric::banded::Banded;
 use crate::numeric::extremum::larger;
@@ -38,8 +38,8 @@ const STAY: [f64; 3] = [0.1, 1e-9, 1e-9];
 const GIVE: f64 = 1e-9;
 /// Room for the extrema of the curvature of a piece.
 const FEW_TURNS: usize = 8;
-/// Where the freedoms of both joints of an arc stand in a [`Step`], from the first of the earlier joint on, and the multiplier of its
-/// opening.
+/// Where the freedoms of both joints of an arc stand among the unknowns, from the first of the earlier joint on, and the multiplier of
+/// its opening.
 const PLACES: [usize; 6] = [0, 1, 2, 4, 5, 6];
 const MULTIPLIER: usize = 7;
 /// What closing may add to the deviation, as a share of the widest opening: above, it is not tried.
@@ -376,12 +376,14 @@ impl Program {
     /// The multipliers of the samples are eliminated; the level is a border of the band.
     fn direction(&mut self, trial: &Trial, aim: f64) -> (Step, f64) {
         let arcs = trial.links.len();
-        let mut matrix = Banded::<8>::zero(4 * arcs);
+        let mut matrix = Banded::<8>::zero(4 * (arcs + 1));
         // The right-hand side, and the border of the level.
-        let mut right = vec![[0.0; 2]; 4 * arcs];
+        let mut right = vec![[0.0; 2]; 4 * (arcs + 1)];
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
         let (mut corner, mut excess) = (0.0, -(arcs as f64));
         let mut ends = std::mem::take(&mut self.ends);
+        // Both ends are held; their rows hold nothing else.
+        (0..4).for_each(|row| matrix.add(row, row, 1.0));
         for (index, (link, samples)) in self.by_arc(trial).enumerate() {
             let mut pressed = Pressed::by(samples, aim);
             pressed.spread(&link.off_by);
@@ -389,26 +391,23 @@ impl Program {
                 pressed.press(&end.off_by, &Push::of(&end.sides, aim));
             }
             (corner, excess) = (corner + pressed.corner, excess + pressed.excess);
-            let (free, first) = (free(index, arcs), (4 * index).wrapping_sub(4));
-            for (row, place) in PLACES.into_iter().enumerate().filter(|(row, _)| free[*row]) {
-                let at = first.wrapping_add(place);
-                if let Some(entries) = matrix.row_mut(at) {
-                    for (column, other) in PLACES.into_iter().enumerate().skip(row).filter(|(column, _)| free[*column])
-                    {
-                        entries[other - place] += pressed.stiff[row][column];
+            let first = 4 * index;
+            for (row, place) in PLACES.into_iter().enumerate() {
+                if let Some(entries) = matrix.row_mut(first + place) {
+                    for (other, stiff) in PLACES.into_iter().zip(pressed.stiff[row]).skip(row) {
+                        entries[other - place] += stiff;
                     }
                     entries[MULTIPLIER - place] += link.open_by[row];
                 }
-                if let Some([right, border]) = right.get_mut(at) {
+                if let Some([right, border]) = right.get_mut(first + place) {
                     *right -= pressed.push[row];
                     *border -= pressed.pull[row];
                 }
             }
-            for (row, stay) in (4 * index..).zip(STAY) {
-                // The last joint is fixed; its rows hold nothing else.
+            for (row, stay) in (first + 4..).zip(STAY) {
                 matrix.add(row, row, if index + 1 == arcs { 1.0 } else { stay });
             }
-            let multiplier = 4 * index + 3;
+            let multiplier = first + MULTIPLIER;
             matrix.add(multiplier, multiplier, -GIVE);
             if let Some([right, _]) = right.get_mut(multiplier) {
                 *right = -link.open;
@@ -419,7 +418,8 @@ impl Program {
         matrix.factored().solve_each(&mut right);
         let dot = |of: usize| edge.iter().zip(&right).map(|(edge, solved)| edge * solved[of]).sum::<f64>();
         let rise = (excess - dot(0)) / (corner - dot(1));
-        (Step(right.iter().map(|[r, b]| r - b * rise).collect()), rise)
+        let (joints, _) = right.as_chunks::<4>();
+        (Step(joints.iter().map(|joint| joint.map(|[r, b]| r - b * rise)).collect()), rise)
     }
 
     /// Changes the multipliers by a share of what is kept with the samples.
@@ -458,12 +458,10 @@ impl Program {
                 allow(&mut sample.sides, sample.basis.dot(&change));
             }
         }
-        let arcs = trial.links.len();
         for (index, ends) in self.ends.iter_mut().enumerate() {
+            let step = step.of_arc(index);
             for end in ends {
-                let by = end.off_by.iter().enumerate();
-                let moved = |(freedom, by): (usize, &f64)| Some(by * step.0.get(place_of(freedom, index, arcs)?)?);
-                allow(&mut end.sides, by.filter_map(moved).sum());
+                allow(&mut end.sides, end.off_by.iter().zip(step).map(|(by, step)| by * step).sum());
             }
         }
         (primal, dual)

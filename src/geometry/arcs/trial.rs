@@ -44,6 +44,8 @@ struct Stand {
     allowed: Allowed,
     /// Half the sum of the chords beside it, the length its freedoms are measured by.
     length: f64,
+    /// At an end of the piece, where it has no freedoms.
+    held: bool,
 }
 
 impl Stand {
@@ -51,12 +53,15 @@ impl Stand {
         let (frame, allowed) = target.at(place.parameter);
         let left = -frame.outward();
         let heading = (frame.tangent + left * place.slope).normalize();
-        Self { place, frame, point: frame.point + left * place.offset, heading, allowed, length: 0.0 }
+        Self { place, frame, point: frame.point + left * place.offset, heading, allowed, length: 0.0, held: false }
     }
 
     /// Change of the point and of the angle of the heading with the three freedoms: along the curve by the length, across
-    /// it by the tolerance, in heading by the tolerance over the length.
+    /// it by the tolerance, in heading by the tolerance over the length; none where it is held.
     fn freedoms(&self, tolerance: f64) -> [(Vector2<f64>, f64); 3] {
+        if self.held {
+            return [(Vector2::zeros(), 0.0); 3];
+        }
         let shrunk = 1.0 - self.frame.curvature * self.place.offset;
         let turn = tolerance / self.length / (1.0 + self.place.slope * self.place.slope);
         [
@@ -67,20 +72,17 @@ impl Stand {
     }
 
     /// The place after a step of the freedoms.
-    fn moved(&self, step: &[f64], share: f64, tolerance: f64) -> Place {
+    fn moved(&self, [along, across, turn, _]: [f64; 4], share: f64, tolerance: f64) -> Place {
         let Place { parameter, offset, slope } = self.place;
-        match step {
-            [along, across, turn, ..] => Place {
-                parameter: parameter + share * along * self.length / self.frame.speed,
-                offset: offset + share * across * tolerance,
-                slope: slope + share * turn * tolerance / self.length,
-            },
-            _ => self.place,
+        Place {
+            parameter: parameter + share * along * self.length / self.frame.speed,
+            offset: offset + share * across * tolerance,
+            slope: slope + share * turn * tolerance / self.length,
         }
     }
 }
 
-/// An arc of the chain with its derivatives by the six freedoms of its two joints.
+/// An arc of the chain with its derivatives by the six freedoms of its two joints, 0 by those of a joint that is held.
 #[derive(Debug)]
 pub(super) struct Link {
     pub(super) arc: Arc,
@@ -120,32 +122,6 @@ impl Link {
         }
         Some(link)
     }
-
-    /// Where the freedoms of both joints of the arc number `index` of `arcs` stand in a [`Step`], with the derivatives of
-    /// opening and deviation; the ends of the piece have none.
-    pub(super) fn freedoms(
-        &self,
-        index: usize,
-        arcs: usize,
-    ) -> impl Iterator<Item = (usize, f64, &Vector4<f64>)> + Clone {
-        let place = move |freedom| place_of(freedom, index, arcs);
-        let derivatives = self.open_by.iter().zip(&self.off_by).enumerate();
-        derivatives.filter_map(move |(freedom, (open_by, off_by))| Some((place(freedom)?, *open_by, off_by)))
-    }
-}
-
-/// Which of the six freedoms of both joints of the arc number `index` of `arcs` are free: the ends of the piece are not.
-pub(super) fn free(index: usize, arcs: usize) -> [bool; 6] {
-    let (start, end) = (index > 0, index + 1 < arcs);
-    [start, start, start, end, end, end]
-}
-
-/// Where one of the six freedoms of both joints of the arc number `index` of `arcs` stands in a [`Step`]; the ends of the piece
-/// have none.
-pub(super) fn place_of(freedom: usize, index: usize, arcs: usize) -> Option<usize> {
-    let at_end = freedom > 2;
-    let free = if at_end { index + 1 < arcs } else { index > 0 };
-    free.then(|| if at_end { 4 * index + freedom - 3 } else { 4 * index + freedom - 4 })
 }
 
 /// How much an arc misses the curvature, or the heading, of the curve at one of its joints, in what is allowed, and its derivatives
@@ -156,9 +132,20 @@ pub(super) struct Bend {
     pub(super) off_by: [f64; 6],
 }
 
-/// A step of every freedom of a chain: four numbers an arc, three for the joint at its end and the multiplier of its opening.
+/// A step of every freedom of a chain: four numbers a joint, its three freedoms and the multiplier of the opening of the arc that ends
+/// there.
 #[derive(Debug, Clone)]
-pub(super) struct Step(pub(super) Vec<f64>);
+pub(super) struct Step(pub(super) Vec<[f64; 4]>);
+
+impl Step {
+    /// The six freedoms of both joints of an arc.
+    pub(super) fn of_arc(&self, index: usize) -> [f64; 6] {
+        match self.0.get(index..).unwrap_or_default() {
+            [[a, b, c, _], [d, e, f, _], ..] => [*a, *b, *c, *d, *e, *f],
+            _ => [0.0; 6],
+        }
+    }
+}
 
 /// A chain with its arcs.
 #[derive(Debug)]
@@ -181,6 +168,9 @@ impl Trial {
         for ((stand, before), after) in stands.iter_mut().zip(before).zip(after) {
             stand.length = 0.5 * (before + after);
         }
+        if let [first, .., last] = stands.as_mut_slice() {
+            (first.held, last.held) = (true, true);
+        }
         let pairs = stands.iter().zip(stands.iter().skip(1));
         let links = pairs.map(|(start, end)| Link::new(start, end, tolerance)).collect::<Option<Vec<Link>>>()?;
         Some(Self { stands, links })
@@ -193,13 +183,13 @@ impl Trial {
             let allowed = stand.allowed.curvature;
             let mut off_by = link.off_by.map(|by| -2.0 * tolerance * by.w / allowed);
             // The joint moves along the curve, whose curvature changes.
-            if let Some(by) = off_by.get_mut(along) {
+            if let Some(by) = off_by.get_mut(along).filter(|_| !stand.held) {
                 *by -= stand.frame.curvature_slope * stand.length / allowed;
             }
             Bend { off: (link.arc.curvature - stand.frame.curvature) / allowed, off_by }
         };
         let slope = end.place.slope;
-        let by = tolerance / (end.length * (1.0 + slope * slope) * end.allowed.heading);
+        let by = if end.held { 0.0 } else { tolerance / (end.length * (1.0 + slope * slope) * end.allowed.heading) };
         let turn = Bend { off: libm::atan(slope) / end.allowed.heading, off_by: [0.0, 0.0, 0.0, 0.0, 0.0, by] };
         Some([bend(start, 0), bend(end, 3), turn])
     }
@@ -216,28 +206,22 @@ impl Trial {
 
     /// What a step does to the deviation from an arc, as factors of the basis.
     pub(super) fn change(&self, index: usize, step: &Step) -> Vector4<f64> {
-        let freedoms = self.links.get(index).into_iter().flat_map(|link| link.freedoms(index, self.links.len()));
-        freedoms
-            .fold(Vector4::zeros(), |sum, (place, _, off_by)| sum + off_by * step.0.get(place).copied().unwrap_or(0.0))
+        let Some(link) = self.links.get(index) else { return Vector4::zeros() };
+        link.off_by.iter().zip(step.of_arc(index)).fold(Vector4::zeros(), |sum, (off_by, by)| sum + off_by * by)
     }
 
     /// Share of a step that moves no joint along the curve by more than `most` of the shorter chord beside it.
     pub(super) fn careful(&self, step: &Step, most: f64) -> f64 {
         let beside = self.links.iter().zip(self.links.iter().skip(1));
-        let of_joint = |(step, (before, after)): (&[f64], (&Link, &Link))| {
-            let along = step.first().copied().unwrap_or(0.0).abs();
-            most * before.chord.min(after.chord) / (along * 0.5 * (before.chord + after.chord))
+        let of_joint = |([along, ..], (before, after)): (&[f64; 4], (&Link, &Link))| {
+            most * before.chord.min(after.chord) / (along.abs() * 0.5 * (before.chord + after.chord))
         };
-        step.0.chunks_exact(4).zip(beside).map(of_joint).fold(1.0, f64::min)
+        step.0.iter().skip(1).zip(beside).map(of_joint).fold(1.0, f64::min)
     }
 
     /// The joints after a share of a step.
     pub(super) fn moved(&self, step: &Step, share: f64, tolerance: f64) -> Vec<Place> {
-        let last = self.links.len();
-        let ends = [0.0; 4];
-        let steps =
-            std::iter::once(ends.as_slice()).chain(step.0.chunks_exact(4).take(last - 1)).chain([ends.as_slice()]);
-        self.stands.iter().zip(steps).map(|(stand, step)| stand.moved(step, share, tolerance)).collect()
+        self.stands.iter().zip(&step.0).map(|(stand, step)| stand.moved(*step, share, tolerance)).collect()
     }
 
     /// The joints with the bulges of their arcs.
@@ -276,9 +260,7 @@ impl Trial {
         let mut forces: Vec<f64> = self.links.iter().map(|link| -link.open).collect();
         let mut before: Option<&Link> = None;
         for (index, link) in self.links.iter().enumerate() {
-            for (_, open_by, _) in link.freedoms(index, arcs) {
-                matrix.add(index, index, open_by * open_by);
-            }
+            matrix.add(index, index, link.open_by.iter().map(|open_by| open_by * open_by).sum());
             if let (Some(above), Some(before)) = (index.checked_sub(1), before) {
                 let shared = before.open_by.iter().skip(3).zip(&link.open_by);
                 matrix.add(above, index, shared.map(|(end, start)| end * start).sum());
@@ -286,12 +268,11 @@ impl Trial {
             before = Some(link);
         }
         matrix.factored().solve(&mut forces);
-        let mut step = vec![0.0; 4 * arcs];
-        for (index, (link, force)) in self.links.iter().zip(&forces).enumerate() {
-            for (place, open_by, _) in link.freedoms(index, arcs) {
-                if let Some(value) = step.get_mut(place) {
-                    *value += open_by * force;
-                }
+        let mut step = vec![[0.0; 4]; arcs + 1];
+        for ((index, link), force) in self.links.iter().enumerate().zip(&forces) {
+            let both = step.iter_mut().skip(index).flat_map(|joint| joint.iter_mut().take(3));
+            for (value, open_by) in both.zip(link.open_by) {
+                *value += open_by * force;
             }
         }
         Step(step)
@@ -326,8 +307,8 @@ mod tests {
         let of = |trial: &Trial| (trial.links[1].open, trial.links[1].arc.seen_from(point).1 / tolerance);
         for freedom in 0..6 {
             let small = 1e-6;
-            let mut step = Step(vec![0.0; 12]);
-            step.0[freedom + freedom / 3] = small;
+            let mut step = Step(vec![[0.0; 4]; 4]);
+            step.0[1 + freedom / 3][freedom % 3] = small;
             let there = Trial::new(&target, &trial.moved(&step, 1.0, tolerance), tolerance).expect("in order");
             let back = Trial::new(&target, &trial.moved(&step, -1.0, tolerance), tolerance).expect("in order");
             let ((open, off), (open_back, off_back)) = (of(&there), of(&back));
