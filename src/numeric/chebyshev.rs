@@ -281,7 +281,7 @@ fn points(degree: usize) -> Vec<f64> {
 /// The points of a degree that is used with their cosines, and the grid on which slopes are looked at, made once.
 struct Points {
     points: Vec<f64>,
-    cosines: Vec<Vec<f64>>,
+    cosines: Vec<f64>,
     grid: Vec<f64>,
 }
 
@@ -299,23 +299,28 @@ impl Points {
     }
 }
 
-/// cos(π j k/n) for every j, and of each every k.
-fn cosines(points: &[f64]) -> Vec<Vec<f64>> {
+/// cos(π j k/n) for every j, and of each every k, one after the other.
+fn cosines(points: &[f64]) -> Vec<f64> {
     let turn: Vec<f64> = points.iter().chain(points.iter().rev().skip(1)).copied().collect();
     let whole = 2 * points.len().saturating_sub(1).max(1);
-    let row = |j: usize| {
-        let places = std::iter::successors(Some(0), |at| Some(if at + j < whole { at + j } else { at + j - whole }));
-        places.take(points.len()).map(|at| turn.get(at).copied().unwrap_or(0.0)).collect()
-    };
-    (0..points.len()).map(row).collect()
+    let mut cosines = Vec::with_capacity(points.len() * points.len());
+    for j in 0..points.len() {
+        let mut at = 0;
+        for _ in points {
+            cosines.push(turn.get(at).copied().unwrap_or(0.0));
+            at += j;
+            at = if at < whole { at } else { at - whole };
+        }
+    }
+    cosines
 }
 
 /// Coefficients of the polynomial through values at the Chebyshev points, from the upper end to the lower:
 /// cₖ = (2/n) Σ″ fⱼ cos(π j k/n), the first and the last halved.
-fn coefficients(values: &[f64], cosines: &[Vec<f64>]) -> Vec<f64> {
+fn coefficients(values: &[f64], cosines: &[f64]) -> Vec<f64> {
     let n = values.len().saturating_sub(1);
     let mut sums = vec![0.0; values.len()];
-    for (j, (value, row)) in values.iter().zip(cosines).enumerate() {
+    for (j, (value, row)) in values.iter().zip(cosines.chunks(values.len().max(1))).enumerate() {
         let value = if j == 0 || j == n { 0.5 * value } else { *value };
         sums.iter_mut().zip(row).for_each(|(sum, cosine)| *sum += value * cosine);
     }
