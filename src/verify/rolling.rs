@@ -313,18 +313,19 @@ impl Roll<'_> {
         places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         places.dedup();
         let most = (last - first) / f64::from(EVEN_PLACES);
-        let pairs = places.iter().zip(places.iter().skip(1)).filter(|(a, b)| a.0 == b.0);
-        let wide = pairs.flat_map(|(&(piece, from), &(_, to))| {
+        let mut all = Vec::with_capacity(2 * places.len());
+        for (index, &(piece, from)) in places.iter().enumerate() {
+            all.push((piece, from));
+            let Some(&(_, to)) = places.get(index + 1).filter(|next| next.0 == piece) else { continue };
             let rests = pieces.get(piece).is_some_and(|piece| piece.dwell);
             let steps = ((to - from) / if rests { RESTING * most } else { most }).ceil();
-            let further =
-                std::iter::successors(Some(1.0), |step| Some(step + 1.0)).take_while(move |step| *step < steps);
-            further.map(move |step| (piece, from + (to - from) * step / steps))
-        });
-        let wide: Vec<(usize, f64)> = wide.collect();
-        places.extend(wide);
-        places.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        places
+            let mut step = 1.0;
+            while step < steps {
+                all.push((piece, from + (to - from) * step / steps));
+                step += 1.0;
+            }
+        }
+        all
     }
 
     /// The largest gap and lift error between the places: the samples that lie higher than those of the places, each where the
