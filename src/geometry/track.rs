@@ -2,8 +2,8 @@
 //! the same distances a second way.
 //!
 //! Its bounding-volume tree over the exact edges is the broad phase; parry's segments along chords much finer than the tolerance
-//! give distances that share no formula with ours. They are asked for at a few hundred places only, so that a tree over groups of
-//! them costs a tenth of one over thousands of chords.
+//! give distances that share no formula with ours. They are asked for at a hundred places only, so that a tree over them would cost
+//! more than to look at the box of every dozen.
 
 use crate::geometry::contour::{Contour, Edge, Nearest};
 use nalgebra::Vector2;
@@ -172,15 +172,15 @@ impl Track {
     }
 }
 
-/// Chords to a leaf of their tree.
-const TO_A_LEAF: usize = 12;
+/// Chords to a box.
+const TO_A_BOX: usize = 12;
 
 /// The outline as chords, for parry's own distance.
 pub struct Chords {
     /// Where they begin; each ends where the next one begins, the last where the first does.
     points: Vec<Vector>,
-    /// Over every [`TO_A_LEAF`] of them.
-    tree: Bvh,
+    /// About every [`TO_A_BOX`] of them.
+    boxes: Vec<Aabb>,
     /// How many.
     pub count: usize,
     /// Largest distance of a chord from its arc, mm.
@@ -220,13 +220,12 @@ impl Chords {
             }
         }
         let count = points.len();
-        let boxes = (0..count).step_by(TO_A_LEAF).map(|from| {
+        let boxes = (0..count).step_by(TO_A_BOX).map(|from| {
             // With the end of the last of them.
-            let ends = (from..=from + TO_A_LEAF).filter_map(|index| end_of(&points, index));
+            let ends = (from..=from + TO_A_BOX).filter_map(|index| end_of(&points, index));
             Aabb::from_points(ends)
         });
-        let boxes: Vec<Aabb> = boxes.collect();
-        Self { tree: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes), points, count, sagitta: worst }
+        Self { boxes: boxes.collect(), points, count, sagitta: worst }
     }
 
     /// How far the chords reach in a direction (a unit vector) from the origin.
@@ -246,22 +245,33 @@ impl Chords {
     #[must_use]
     pub fn distance_about(&self, point: Vector2<f64>, known: f64) -> f64 {
         let from = parry(point);
-        let distance_to_box = |node: &BvhNode, _: f64| node.aabb().distance_to_local_point(from, true);
-        let distance = |leaf: u32, _: f64| {
-            let first = TO_A_LEAF * leaf as usize;
-            let chords = (first..self.count.min(first + TO_A_LEAF)).filter_map(|index| {
-                let (projection, place) = self.segment(index)?.project_local_point_and_get_location(from, false);
-                let away = from - projection.point;
-                Some((away.length(), (index, place, away)))
-            });
-            chords.min_by(|a, b| a.0.total_cmp(&b.0))
-        };
-        let nearer_than = |most: f64| self.tree.find_best(most, distance_to_box, distance);
-        let found = nearer_than(known.abs() + 2.0 * self.sagitta).or_else(|| nearer_than(f64::INFINITY));
-        match found {
-            Some((_, (distance, (index, place, away)))) if away.dot(self.outward(index, place)) <= 0.0 => -distance,
-            found => found.map_or(f64::INFINITY, |(_, (distance, _))| distance),
+        let found = self.nearer_than(from, known.abs() + 2.0 * self.sagitta);
+        match found.or_else(|| self.nearer_than(from, f64::INFINITY)) {
+            Some(Near { distance, index, place, away }) if away.dot(self.outward(index, place)) <= 0.0 => -distance,
+            found => found.map_or(f64::INFINITY, |near| near.distance),
         }
+    }
+
+    /// The nearest chord of those that are nearer than `most`.
+    fn nearer_than(&self, from: Vector, most: f64) -> Option<Near> {
+        let mut nearest: Option<Near> = None;
+        for (number, about) in self.boxes.iter().enumerate() {
+            let least = nearest.as_ref().map_or(most, |near| near.distance);
+            if about.distance_to_local_point(from, true) >= least {
+                continue;
+            }
+            let first = TO_A_BOX * number;
+            for index in first..self.count.min(first + TO_A_BOX) {
+                let Some(chord) = self.segment(index) else { continue };
+                let (projection, place) = chord.project_local_point_and_get_location(from, false);
+                let away = from - projection.point;
+                let distance = away.length();
+                if distance < nearest.as_ref().map_or(most, |near| near.distance) {
+                    nearest = Some(Near { distance, index, place, away });
+                }
+            }
+        }
+        nearest
     }
 
     /// A chord.
@@ -281,6 +291,15 @@ impl Chords {
             SegmentPointLocation::OnVertex(_) => of(index) + of(index + 1),
         }
     }
+}
+
+/// The nearest chord to a point.
+struct Near {
+    distance: f64,
+    index: usize,
+    place: SegmentPointLocation,
+    /// From the chord to the point.
+    away: Vector,
 }
 
 /// The point of a closed chain at an index, the first one after the last.
