@@ -72,7 +72,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("checks", |b| b.iter(|| verify::run(black_box(&evidence))));
     let solved = Spec::rotary(machine, 35.0).solve().expect("a cam");
     let proven = solved.draw(5e-6).expect("an outline").prove().expect("one outline");
-    let report = proven.report();
+    let report = proven.told();
     let rendering = proven.rendering(&report, 720, svg::TEMPLATE).expect("an outline");
     let sheet = svg::sheet(&rendering).expect("a sheet");
     let entities = part.entities();

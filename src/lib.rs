@@ -136,7 +136,7 @@ pub use pipeline::{Builder, Cam, Drawing, Error, FileSet, Judged, Output, Proven
 #[doc(inline)]
 pub use profile::outline::{Fit, Outline, Side};
 #[doc(inline)]
-pub use report::{Finding, Place, Report, Rolled, Section, Speeds, Verdict};
+pub use report::{Finding, Place, Report, Rolled, Section, Speeds, Told, Verdict};
 #[doc(inline)]
 pub use table::Table;
 #[doc(inline)]

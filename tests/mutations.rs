@@ -148,13 +148,14 @@ fn good_files() -> (Vec<Vec<u8>>, Vec<Vec<u8>>) {
     let files = |laid: Laid, version: Version, formats: &[&str]| {
         let request = Request::within(Fit { laid, ..Fit::from(20e-6) });
         let proven = cam.draw(request).expect("drawn").prove_as(version).expect("proven");
-        proven.files(&Writing::to("nowhere", "part").formats(formats)).expect("files")
+        let files = proven.files(&Writing::to("nowhere", "part").formats(formats)).expect("files");
+        files.outputs().iter().map(|output| output.bytes.clone()).collect::<Vec<_>>()
     };
-    let arcs = files(Laid::Arcs, Version::R2000, &["dxf", "step"]);
-    let others = [files(Laid::Splines, Version::R2000, &["dxf"]), files(Laid::Arcs, Version::R12, &["dxf"])];
-    let bytes = |files: &camgen::FileSet, ending: &str| files.bytes(ending).expect("bytes").to_vec();
-    let drawings = std::iter::once(&arcs).chain(&others).map(|files| bytes(files, ".dxf"));
-    (drawings.collect(), vec![bytes(&arcs, ".step")])
+    let mut drawings = files(Laid::Arcs, Version::R2000, &["dxf", "step"]);
+    let solids = drawings.split_off(1);
+    drawings.extend(files(Laid::Splines, Version::R2000, &["dxf"]));
+    drawings.extend(files(Laid::Arcs, Version::R12, &["dxf"]));
+    (drawings, solids)
 }
 
 fn is_told_plainly(text: &str) {

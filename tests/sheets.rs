@@ -32,7 +32,7 @@ fn solved(command: &str, machine: &str, overrides: &[&str], rpm: &[f64]) -> Draw
     };
     let cam = spec.solve().expect("a cam");
     let proven = cam.draw(5e-6).expect("drawn").prove().expect("proved");
-    let report = proven.report();
+    let report = proven.told();
     let rendering = proven.rendering(&report, 72, svg::TEMPLATE).expect("an outline");
     Drawn { sheet: svg::sheet(&rendering).expect("a sheet"), passed: proven.passed() }
 }

@@ -15,7 +15,7 @@ use camgen::buffer::regime::Reset;
 use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine, Wanted};
 use camgen::motion::BrakeDisc;
 use camgen::pipeline::{Judged, Spec, Writing};
-use camgen::report::Speeds;
+use camgen::report::{Speeds, Told};
 use camgen::shaft::Whirl;
 use camgen::write::number::names;
 use std::sync::Arc;
@@ -238,7 +238,7 @@ fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Out
     };
     match files {
         Some(files) => put_set(files, |report| show(report, &args.told))?,
-        None => show(&judged.report(), &args.told)?,
+        None => show(&Told::new(Box::new(|| judged.report())), &args.told)?,
     }
     Ok(if judged.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }

@@ -16,7 +16,7 @@ use camgen::machine::Machine;
 use camgen::motion::equation_18::Solver;
 use camgen::pipeline::{Cam, FileSet, Proven, Spec, Writing};
 use camgen::profile::outline::{Fit, Laid, Side};
-use camgen::report::{Report, Speeds};
+use camgen::report::{Speeds, Told};
 use camgen::write::json;
 use camgen::write::number::names;
 use camgen::write::points;
@@ -246,18 +246,18 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
     drop(progress);
     match files? {
         Some(files) => put_set(files, |report| show(report, &common.told))?,
-        None => show(&proven.report(), &common.told)?,
+        None => show(&proven.told(), &common.told)?,
     }
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
 /// The files of a cam that passed, or is forced, and are to be written.
-fn files_of(
-    proven: &Proven<'_>,
+fn files_of<'p>(
+    proven: &'p Proven<'_>,
     writing: &Writing,
     common: &CommonArgs,
     left_out: &[(&str, &str)],
-) -> Result<Option<FileSet>, Failure> {
+) -> Result<Option<FileSet<'p>>, Failure> {
     if let Some(why) = proven.no_outline() {
         tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
         return Ok(None);
@@ -274,9 +274,9 @@ fn files_of(
 }
 
 /// Prints a report as it was asked for.
-pub(super) fn show(report: &Report, told: &ToldArgs) -> Result<(), Failure> {
+pub(super) fn show(report: &Told<'_>, told: &ToldArgs) -> Result<(), Failure> {
     if told.json {
-        let bytes = json::write(report).map_err(Failure::new)?;
+        let bytes = json::write(&**report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&bytes))
     } else if told.quiet {
         Ok(())

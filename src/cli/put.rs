@@ -4,7 +4,7 @@
 use super::Failure;
 use super::signals::Signals;
 use camgen::FileSet;
-use camgen::report::Report;
+use camgen::report::Told;
 use camgen::write::files::{Place, Staged};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,7 +15,7 @@ use std::time::Duration;
 const PERIOD: Duration = Duration::from_millis(20);
 
 /// The same for the files of a cam or an analysis.
-pub(super) fn put_set(files: FileSet, show: impl FnOnce(&Report) -> Result<(), Failure>) -> Result<(), Failure> {
+pub(super) fn put_set(files: FileSet<'_>, show: impl FnOnce(&Told<'_>) -> Result<(), Failure>) -> Result<(), Failure> {
     let place = files.open().map_err(Failure::new)?;
     placed(place, |place| files.stage(place).map_err(Failure::new), show)
 }

@@ -72,7 +72,7 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
         refuse_kept(&args.out, &[Output { name: name.clone(), bytes: Vec::new() }]).map_err(Failure::new)?;
     }
     let (a, b) = (args.proven(&a)?, args.proven(&b)?);
-    let [mut one, mut two] = [&a, &b].map(Proven::report);
+    let [mut one, mut two] = [&a, &b].map(|proven| Box::new(proven.report()));
     if let Some(why) = a.no_outline().or(b.no_outline()) {
         tell(&format!("refused: {why}; there is no outline to show"));
         args.show(&[&one, &two])?;

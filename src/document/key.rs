@@ -131,22 +131,24 @@ impl Section {
         [self.path, if self.occurs == Occurs::Repeated { "[]." } else { "." }, key.name].concat()
     }
 
-    /// Whether that is the path.
-    #[must_use]
-    pub fn is_path_of(&self, key: &Key, path: &str) -> bool {
-        let Some(table) = path.strip_suffix(key.name) else { return false };
-        if self.path.is_empty() {
-            return table.is_empty();
-        }
-        let index = if self.occurs == Occurs::Repeated { "[]." } else { "." };
-        table.strip_suffix(index) == Some(self.path)
-    }
-
     /// The kinds of cam on which a key of this table has an effect; empty: every one.
     #[must_use]
     pub const fn cams_of(&self, key: &Key) -> &'static [&'static str] {
         if key.cams.is_empty() { self.cams } else { key.cams }
     }
+}
+
+/// The key at a path, indices left open, with its table.
+pub(super) fn key_at<'s>(sections: &[&'s Section], path: &str) -> Option<(&'s Section, &'s Key)> {
+    let (table, name) = match path.rsplit_once('.') {
+        None => ("", path),
+        Some(("", _)) => return None,
+        Some(parts) => parts,
+    };
+    let (table, repeated) = table.strip_suffix("[]").map_or((table, false), |table| (table, true));
+    let is_table = |section: &&&Section| section.path == table && (section.occurs == Occurs::Repeated) == repeated;
+    let mut keys = sections.iter().filter(is_table).flat_map(|section| section.keys.iter().map(|key| (*section, key)));
+    keys.find(|(_, key)| key.name == name)
 }
 
 /// A path and a name below it.

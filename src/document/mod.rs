@@ -29,31 +29,26 @@ pub use reader::{Reader, Table};
 pub use schema::schema;
 pub use template::{Start, template};
 
-use std::collections::BTreeSet;
-
 /// Of the keys given, those that have no effect on a kind of cam, in the order given.
 #[must_use]
 pub fn without_effect(sections: &[&Section], given: &[String], cam: &str) -> Vec<String> {
-    let idle = idle(sections, cam);
-    given.iter().filter(|path| idle.contains(&reader::pattern(path).0)).cloned().collect()
+    given.iter().filter(|path| is_idle(sections, path, cam)).cloned().collect()
 }
 
 /// Of the values of a file, those that have an effect on a kind of cam, in the order given.
 #[must_use]
 pub fn with_effect(sections: &[&Section], inputs: &[Input], cam: &str) -> Vec<Input> {
-    let idle = idle(sections, cam);
-    inputs.iter().filter(|input| !idle.contains(&reader::pattern(&input.key).0)).cloned().collect()
+    inputs.iter().filter(|input| !is_idle(sections, &input.key, cam)).cloned().collect()
 }
 
-/// The patterns of the keys that have no effect on a kind of cam.
-fn idle(sections: &[&Section], cam: &str) -> BTreeSet<String> {
-    let keys = sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
-    let idle = keys.filter(|(section, key)| {
+/// Whether a path is that of a key that has no effect on a kind of cam.
+fn is_idle(sections: &[&Section], path: &str, cam: &str) -> bool {
+    let (pattern, _) = reader::pattern(path);
+    key::key_at(sections, &pattern).is_some_and(|(section, key)| {
         let cams = section.cams_of(key);
-        let of_all = cams.is_empty() && !self::cams::ANALYSES.contains(&cam);
+        let of_all = cams.is_empty() && !cams::ANALYSES.contains(&cam);
         !of_all && !cams.contains(&cam)
-    });
-    idle.map(|(section, key)| section.path_of(key)).collect()
+    })
 }
 
 #[cfg(test)]

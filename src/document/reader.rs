@@ -7,9 +7,10 @@
 use super::columns::Columns;
 use super::fault::{Fault, nearest};
 use super::input::Input;
-use super::key::{Field, Form, Key, Occurs, Presence, Section, Value, join};
+use super::key::{Field, Form, Key, Occurs, Presence, Section, Value, join, key_at};
 use super::text::{Document, Entry, Found, MOST_FAULTS, Place};
 use super::value::{self, Misfit, Scalar};
+use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -93,12 +94,11 @@ impl<'a> Reader<'a> {
                     continue;
                 }
                 entry.key.clone()
-            } else if let Some((span, _)) = self.document.arrays.get(around).filter(|_| !repeated) {
-                Place::File(span.clone())
-            } else if let Some(span) = self.document.tables.get(around).filter(|_| repeated) {
-                Place::File(span.clone())
             } else {
-                continue;
+                let arrays = || self.document.arrays.get(around).map(|(span, _)| span);
+                let other = if repeated { self.document.tables.get(around) } else { arrays() };
+                let Some(span) = other else { continue };
+                Place::File(span.clone())
             };
             let (shape, brackets) =
                 if repeated { ("an array of tables", ["[[", "]]"]) } else { ("a table", ["[", "]"]) };
@@ -172,7 +172,6 @@ impl<'a> Reader<'a> {
     /// Reports every key and table that is in no section.
     fn unknown(&mut self) {
         let keys = || self.sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
-        let is_known = |path: &str| keys().any(|(section, key)| section.is_path_of(key, path));
         let known: OnceCell<Vec<String>> = OnceCell::new();
         let known = || known.get_or_init(|| keys().map(|(section, key)| section.path_of(key)).collect());
         let mut faults = Vec::new();
@@ -181,7 +180,7 @@ impl<'a> Reader<'a> {
                 continue;
             }
             let (pattern, indices) = pattern(path);
-            let (message, help) = if !is_known(&pattern) {
+            let (message, help) = if key_at(self.sections, &pattern).is_none() {
                 // Faults beyond those reported need no suggestion.
                 let near = if faults.len() < MOST_FAULTS { nearest(&pattern, known()) } else { None };
                 let near = near.map(|near| filled(near, &indices));
@@ -285,8 +284,7 @@ impl<'a> Reader<'a> {
     pub fn given(&self, file: bool) -> Vec<String> {
         let of_one_kind = |path: &str| {
             let (pattern, _) = pattern(path);
-            let mut sections = self.sections.iter().filter(|section| !section.cams.is_empty());
-            sections.any(|section| section.keys.iter().any(|key| section.is_path_of(key, &pattern)))
+            key_at(self.sections, &pattern).is_some_and(|(section, _)| !section.cams.is_empty())
         };
         let entries = self.document.entries.iter();
         let given = entries.filter(|(path, entry)| entry.by_override() || (file && !of_one_kind(path)));
@@ -380,14 +378,20 @@ fn missing(key: &Key, path: &str, source: &str, place: Option<Place>) -> Found {
 
 /// Whether a table with this pattern is the section's, or around it.
 fn is_around(pattern: &str, section: &Section) -> bool {
-    let path = if section.occurs == Occurs::Repeated { format!("{}[]", section.path) } else { section.path.to_owned() };
-    path.strip_prefix(pattern).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    if section.occurs == Occurs::Repeated && pattern.strip_suffix("[]") == Some(section.path) {
+        return true;
+    }
+    let own = |rest: &str| rest.is_empty() && section.occurs != Occurs::Repeated;
+    section.path.strip_prefix(pattern).is_some_and(|rest| own(rest) || rest.starts_with('.'))
 }
 
 /// A path with its indices left open, and the indices: `motion.segment[1].law` gives `motion.segment[].law` and `1`.
 /// Anything but a plain index is kept, so that it matches no key.
-pub(super) fn pattern(path: &str) -> (String, Vec<&str>) {
+pub(super) fn pattern(path: &str) -> (Cow<'_, str>, Vec<&str>) {
     let mut indices = Vec::new();
+    if !path.contains('[') {
+        return (path.into(), indices);
+    }
     let parts: Vec<String> = path
         .split('.')
         .map(|part| {
@@ -401,7 +405,7 @@ pub(super) fn pattern(path: &str) -> (String, Vec<&str>) {
             }
         })
         .collect();
-    (parts.join("."), indices)
+    (parts.join(".").into(), indices)
 }
 
 /// A pattern with indices put into it; 0 where none is left.

@@ -117,6 +117,20 @@ fn the_same_fault_is_told_once() {
 }
 
 #[test]
+fn a_key_is_found_at_its_path_alone() {
+    let found = |path: &str| key::key_at(SECTIONS, path).map(|(section, key)| (section.path, key.name));
+    for section in SECTIONS {
+        for key in section.keys {
+            assert_eq!(found(&section.path_of(key)), Some((section.path, key.name)));
+            assert!(!key.name.contains('.'), "{} would not be found", key.name);
+        }
+    }
+    for path in ["", ".name", "motion.name", "motion[].start", "motion.segment.to", "motion.segment[1].to", "rate"] {
+        assert_eq!(found(path), None, "{path}");
+    }
+}
+
+#[test]
 fn keys_without_effect_come_from_the_table() {
     let given = texts(&["name", "spring.rate", "motion.segment[1].to"]);
     assert_eq!(without_effect(SECTIONS, &given, "disc"), Vec::<String>::new());

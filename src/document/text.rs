@@ -9,7 +9,7 @@ use super::key::join;
 use super::plain::shown;
 use super::value::Scalar;
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::ops::{Bound, Range};
 use toml::de::{DeArray, DeTable, DeValue};
 
 /// Deepest nesting of tables that is read, so that hostile files cannot make paths of any length. No section is deeper
@@ -73,8 +73,6 @@ impl Entry {
 pub(super) struct Document<'a> {
     source: &'a str,
     text: &'a str,
-    /// Where each line begins.
-    lines: Vec<usize>,
     /// The overrides as shown in messages, `key=value`.
     flags: Vec<String>,
     /// Every value.
@@ -95,7 +93,6 @@ impl<'a> Document<'a> {
         let mut document = Self {
             source,
             text,
-            lines: std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect(),
             flags: Vec::new(),
             entries: BTreeMap::new(),
             tables: BTreeMap::new(),
@@ -211,14 +208,7 @@ impl<'a> Document<'a> {
 
     /// Whether anything within a path is in the file or is set by an override.
     pub(super) fn has_inside(&self, path: &str) -> bool {
-        let mut start = String::with_capacity(path.len() + 1);
-        ['.', '['].iter().any(|after| {
-            start.clear();
-            start.push_str(path);
-            start.push(*after);
-            first_from(&self.entries, &start).is_some_and(|key| key.starts_with(&start))
-                || first_from(&self.tables, &start).is_some_and(|key| key.starts_with(&start))
-        })
+        any_inside(&self.entries, path) || any_inside(&self.tables, path)
     }
 
     /// Where the table at a path begins, when its header is in the file.
@@ -289,9 +279,11 @@ impl<'a> Document<'a> {
 
     fn excerpt_of_file(&self, span: &Range<usize>) -> Excerpt {
         let at = span.start.min(self.text.len());
-        let line = self.lines.partition_point(|start| *start <= at).max(1);
-        let start = self.lines.get(line - 1).copied().unwrap_or_default();
-        let end = self.lines.get(line).map_or(self.text.len(), |next| next - 1);
+        let (before, after) = self.text.as_bytes().split_at(at);
+        let is_break = |byte: &u8| *byte == b'\n';
+        let line = before.iter().filter(|byte| is_break(byte)).count() + 1;
+        let start = before.iter().rposition(is_break).map_or(0, |last| last + 1);
+        let end = at + after.iter().position(is_break).unwrap_or(after.len());
         let part = |from: usize, to: usize| self.text.get(from..to).unwrap_or_default();
         let column = part(start, at).chars().count() + 1;
         let marked = part(at, span.end.clamp(at, end.max(at))).chars().count();
@@ -304,9 +296,10 @@ fn brief(message: &str) -> String {
     message.lines().map(|line| shown(line, LONGEST_MESSAGE)).collect::<Vec<_>>().join("\n")
 }
 
-/// The first path that is not before `start`.
-fn first_from<'m, V>(map: &'m BTreeMap<String, V>, start: &str) -> Option<&'m String> {
-    map.range::<str, _>((std::ops::Bound::Included(start), std::ops::Bound::Unbounded)).next().map(|(key, _)| key)
+/// Whether a key of the map is one within a path.
+fn any_inside<V>(map: &BTreeMap<String, V>, path: &str) -> bool {
+    let from = map.range::<str, _>((Bound::Included(path), Bound::Unbounded));
+    from.map_while(|(key, _)| key.strip_prefix(path)).any(|rest| rest.starts_with(['.', '[']))
 }
 
 /// Why a name in the file cannot be that of a key, and what would be right.

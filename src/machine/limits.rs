@@ -333,12 +333,13 @@ fn pressure_angle(table: &Table<'_>, in_table: f64, follower: &dyn Follower) -> 
 /// The inputs of a file, the limit of the pressure angle as it holds for a follower in the place of the default of its key.
 pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower) -> Vec<Input> {
     let (table, path) = (reader.table(&SECTION), SECTION.path_of(&PRESSURE_ANGLE.key));
-    let of = |input: Input| match table.get(&PRESSURE_ANGLE) {
-        Some(in_table) if input.key == path => match pressure_angle(&table, in_table, follower) {
+    let of = |input: Input| {
+        let in_table = if input.key == path { table.get(&PRESSURE_ANGLE) } else { None };
+        let Some(in_table) = in_table else { return Some(input) };
+        match pressure_angle(&table, in_table, follower) {
             Some(limit) if limit != in_table => Some(Input::quantity(&path, limit, ("deg", 1.0_f64.to_radians()))),
             limit => limit.map(|_| input),
-        },
-        _ => Some(input),
+        }
     };
     reader.inputs().into_iter().filter_map(of).collect()
 }

@@ -4,7 +4,7 @@ use super::{Error, Proven};
 use crate::body::Body;
 use crate::document::Input;
 use crate::numeric::parallel;
-use crate::report::{Report, failed};
+use crate::report::{Report, Told, failed};
 use crate::write::csv::MOST_ROWS;
 use crate::write::files::{self, Place, Staged};
 use crate::write::record::{Run, stage_recorded};
@@ -89,18 +89,18 @@ impl Writing {
 }
 
 /// Files in memory, ready to be written.
-#[derive(Debug, Clone)]
-pub struct FileSet {
+#[derive(Debug)]
+pub struct FileSet<'p> {
     directory: PathBuf,
     stem: String,
     inputs: Vec<Input>,
     overwrite: bool,
-    report: Report,
+    report: Told<'p>,
     outputs: Vec<Output>,
 }
 
 /// Makes the files of a proven cam.
-pub(super) fn files(proven: &Proven<'_>, writing: &Writing) -> Result<FileSet, Error> {
+pub(super) fn files<'p>(proven: &'p Proven<'_>, writing: &Writing) -> Result<FileSet<'p>, Error> {
     let of_second = proven.second().map(|second| {
         let stem = format!("{}-{}", writing.stem, second.cam.body().kind().command);
         (second, Writing { stem, ..writing.clone() })
@@ -128,15 +128,15 @@ pub(super) fn names(proven: &Proven<'_>, writing: &Writing) -> Result<Vec<String
 }
 
 /// Without those of the second disc.
-fn files_alone(proven: &Proven<'_>, writing: &Writing, beside: &[String]) -> Result<FileSet, Error> {
+fn files_alone<'p>(proven: &'p Proven<'_>, writing: &Writing, beside: &[String]) -> Result<FileSet<'p>, Error> {
     if !proven.passed() && !writing.force {
         return Err(Error::Refused(failed(proven.findings()).join(", ")));
     }
     let (formats, _) = writing.chosen(proven.cam.body())?;
     let names = names(proven, writing)?;
-    let mut report = proven.report();
     let placed = names.iter().chain(beside).map(|name| writing.directory.join(name).display().to_string());
-    report.files = placed.collect();
+    let files: Vec<String> = placed.collect();
+    let report = Told::new(Box::new(|| Report { files, ..proven.report() }));
     let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
     let rendering = Rendering { created: writing.created, ..rendering };
     let made = parallel::map(&formats, |format| (format.write)(&rendering));
@@ -145,13 +145,18 @@ fn files_alone(proven: &Proven<'_>, writing: &Writing, beside: &[String]) -> Res
 }
 
 /// Named bytes where they are to be written.
-pub(super) fn set(writing: &Writing, inputs: Vec<Input>, report: Report, named: Vec<(String, Vec<u8>)>) -> FileSet {
+pub(super) fn set<'p>(
+    writing: &Writing,
+    inputs: Vec<Input>,
+    report: Told<'p>,
+    named: Vec<(String, Vec<u8>)>,
+) -> FileSet<'p> {
     let outputs = named.into_iter().map(|(name, bytes)| Output { name, bytes }).collect();
     let (directory, stem) = (writing.directory.clone(), writing.stem.clone());
     FileSet { directory, stem, inputs, overwrite: writing.overwrite, report, outputs }
 }
 
-impl FileSet {
+impl<'p> FileSet<'p> {
     /// The report, with the names of the files.
     #[must_use]
     pub fn report(&self) -> &Report {
@@ -186,7 +191,7 @@ impl FileSet {
         let place = self.open()?;
         let (report, staged) = self.stage(place)?;
         staged.commit()?;
-        Ok(report)
+        Ok(Report::clone(&report))
     }
 
     /// The same step by step: the directory, where another run may have to be waited for.
@@ -201,11 +206,15 @@ impl FileSet {
     ///
     /// # Errors
     /// As [`FileSet::commit`].
-    pub fn stage(self, place: Place) -> Result<(Report, Staged), Error> {
+    pub fn stage(self, place: Place) -> Result<(Told<'p>, Staged), Error> {
         let run = Run { stem: &self.stem, inputs: &self.inputs, overwrite: self.overwrite };
         let (staged, changes) = stage_recorded(place, self.outputs, &run)?;
-        let mut report = self.report;
-        report.notes.extend(changes);
-        Ok((report, staged))
+        let report = self.report;
+        let told = Told::new(Box::new(move || {
+            let mut report = Report::clone(&report);
+            report.notes.extend(changes);
+            report
+        }));
+        Ok((told, staged))
     }
 }

@@ -4,7 +4,7 @@ use super::{Error, FileSet, Proven, Writing, file_set};
 use crate::analysis::Analysis;
 use crate::document::Input;
 use crate::numeric::parallel;
-use crate::report::{Finding, Inputs, Report, failed, passed, worst_first};
+use crate::report::{Finding, Inputs, Report, Told, failed, passed, worst_first};
 use crate::verify;
 use crate::write::{Account, Format, OfAnalysis, When, by_name};
 
@@ -87,7 +87,7 @@ impl<'c> Judged<'c> {
     /// # Errors
     /// [`Error::Refused`] when a check failed and `writing.force` is not set; [`Error::NoSuchFormat`], [`Error::Format`],
     /// [`Error::NoOutline`].
-    pub fn files(&self, writing: &Writing) -> Result<FileSet, Error> {
+    pub fn files(&self, writing: &Writing) -> Result<FileSet<'_>, Error> {
         if !self.passed() && !writing.force {
             return Err(Error::Refused(failed(&self.findings).join(", ")));
         }
@@ -108,7 +108,7 @@ impl<'c> Judged<'c> {
         let of_cam = of_cam.transpose()?;
         named
             .extend(of_cam.iter().flat_map(FileSet::outputs).map(|output| (output.name.clone(), output.bytes.clone())));
-        Ok(file_set::set(writing, self.inputs(), report, named))
+        Ok(file_set::set(writing, self.inputs(), Told::new(Box::new(|| report)), named))
     }
 
     /// The files of the analysis, and the report that names them and those beside them.

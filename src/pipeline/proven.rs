@@ -9,13 +9,14 @@ use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Between, Interpolant};
 use crate::numeric::parallel;
 use crate::profile::lifts;
-use crate::report::{Compensation, Finding, Inputs, PointMeasures, PreloadAt, Report, Rolled, passed};
+use crate::report::{Compensation, Finding, Inputs, PointMeasures, PreloadAt, Report, Rolled, Told, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
 use crate::write::Rendering;
 use crate::write::csv;
 use crate::write::dxf::Version;
 use crate::write::{points, proof};
+use std::ops::Deref;
 
 /// A cam whose cut files were written to memory, read back, and checked.
 #[derive(Debug)]
@@ -284,6 +285,12 @@ impl Proven<'_> {
         report
     }
 
+    /// The same, made when somebody looks into it.
+    #[must_use]
+    pub fn told(&self) -> Told<'_> {
+        Told::new(Box::new(|| self.report()))
+    }
+
     /// The point table with so many rows over a turn of the cam, or steps over the stroke of a plate.
     #[must_use]
     pub fn table(&self, samples: u32) -> Table {
@@ -296,7 +303,7 @@ impl Proven<'_> {
     /// [`Error::NoOutline`] when there is nothing to write.
     pub fn rendering<'a>(
         &'a self,
-        report: &'a Report,
+        report: &'a (dyn Deref<Target = Report> + Sync),
         samples: u32,
         template: &'a str,
     ) -> Result<Rendering<'a>, Error> {
@@ -311,6 +318,7 @@ impl Proven<'_> {
             points: &self.points,
             fit: self.request.fit,
             dxf_version,
+            findings: &self.findings,
             report,
             samples,
             template,
@@ -327,7 +335,7 @@ impl Proven<'_> {
     /// # Errors
     /// [`Error::Refused`] when a check failed and `writing.force` is not set; [`Error::NoOutline`], [`Error::Unfit`],
     /// [`Error::Format`].
-    pub fn files(&self, writing: &Writing) -> Result<FileSet, Error> {
+    pub fn files(&self, writing: &Writing) -> Result<FileSet<'_>, Error> {
         file_set::files(self, writing)
     }
 }

@@ -163,7 +163,8 @@ pub(super) fn kept(bytes: &[u8]) -> Result<Kept<'_>, ReadError> {
     let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     // A file of the old Macintosh ends its lines with carriage returns alone.
     let end = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-    kept_of(Text { lines: bytes.split(move |byte| *byte == end), line: 0 })
+    let returns = end == b'\n' && bytes.contains(&b'\r');
+    kept_of(Text { lines: bytes.split(move |byte| *byte == end), line: 0, returns })
 }
 
 fn kept_of<'a>(groups: impl Iterator<Item = Result<Group<'a>, ReadError>>) -> Result<Kept<'a>, ReadError> {
@@ -275,6 +276,17 @@ fn kind(code: i32) -> Option<Kind> {
 struct Text<L> {
     lines: L,
     line: usize,
+    /// Whether a line may hold a carriage return.
+    returns: bool,
+}
+
+/// A group code as a line of a text has it: nearly always digits alone, which need no more than counting.
+fn code_of(line: &[u8]) -> Option<i32> {
+    let digits = line.trim_ascii();
+    if matches!(digits.len(), 1..=4) && digits.iter().all(u8::is_ascii_digit) {
+        return Some(digits.iter().fold(0, |code, digit| 10 * code + i32::from(digit - b'0')));
+    }
+    std::str::from_utf8(line).ok()?.trim().parse().ok()
 }
 
 impl<'a, L: Iterator<Item = &'a [u8]>> Iterator for Text<L> {
@@ -284,13 +296,12 @@ impl<'a, L: Iterator<Item = &'a [u8]>> Iterator for Text<L> {
         let code = self.lines.next()?;
         let value = self.lines.next()?;
         self.line += 2;
-        let number = std::str::from_utf8(code).ok().and_then(|text| text.trim().parse().ok());
         let value = value.strip_suffix(b"\r").unwrap_or(value);
-        if value.contains(&b'\r') {
+        if self.returns && value.contains(&b'\r') {
             // Some readers take it for the end of a line.
             return Some(Err(ReadError::NotDxf(format!("line {} holds a carriage return within", self.line))));
         }
-        Some(match number {
+        Some(match code_of(code) {
             Some(code) => Ok(Group { code, value: Value::Text(value) }),
             None => Err(ReadError::NotDxf(format!("line {} is not a group code", self.line - 1))),
         })
@@ -401,6 +412,24 @@ mod tests {
             left.sections[1].1.iter().map(|group| (group.code, group.value.text())).collect();
         let expected: [(i32, &[u8]); 4] = [(0, b"LINE"), (8, b"CAM_PROFILE"), (0, b"line"), (10, b"1.5")];
         assert_eq!(entities, expected);
+    }
+
+    #[test]
+    fn a_code_is_a_whole_number_however_it_is_written() {
+        let codes: [(&str, Option<i32>); 9] = [
+            ("  0", Some(0)),
+            ("10\r", Some(10)),
+            ("\t1071 ", Some(1071)),
+            ("0070", Some(70)),
+            ("+8", Some(8)),
+            ("-5", Some(-5)),
+            ("\u{a0}000070", Some(70)),
+            ("1 0", None),
+            ("", None),
+        ];
+        for (line, code) in codes {
+            assert_eq!(code_of(line.as_bytes()), code, "{line:?}");
+        }
     }
 
     #[test]

@@ -166,27 +166,23 @@ impl Grid {
     }
 }
 
-/// Segments that were kept, found by their ends and middles: of many with one of them in common few have another.
+/// Segments that were kept, found by their middles, and by their ends: of many with one of them in common few have another.
 struct Known {
     edges: Vec<Edge>,
-    by_place: [Grid; 3],
+    by_middle: Grid,
+    /// By start, and by end, once too many have a middle in common.
+    by_ends: Option<[Grid; 2]>,
     reach: f64,
 }
 
 impl Known {
     fn new(reach: f64) -> Self {
-        Self { edges: Vec::new(), by_place: std::array::from_fn(|_| Grid::new(reach)), reach }
+        Self { edges: Vec::new(), by_middle: Grid::new(reach), by_ends: None, reach }
     }
 
-    /// Start and end in an order that does not depend on the direction, and middle.
-    fn places(edge: &Edge) -> [Vector2<f64>; 3] {
-        [edge.middle(), edge.start(), edge.end()]
-    }
-
-    fn has(&self, edge: &Edge, effort: &mut Effort) -> Result<bool, ReadError> {
-        let [by_middle, by_start, by_end] = &self.by_place;
-        let [middle, start, end] = Self::places(edge);
-        let middles = by_middle.near(middle);
+    fn has(&mut self, edge: &Edge, effort: &mut Effort) -> Result<bool, ReadError> {
+        let (start, end) = (edge.start(), edge.end());
+        let middles = self.by_middle.near(edge.middle());
         let mut found = |(lists, count): &(Vec<&[usize]>, usize)| {
             effort.compared(*count)?;
             let mut all = lists.iter().flat_map(|list| list.iter()).filter_map(|index| self.edges.get(*index));
@@ -195,6 +191,7 @@ impl Known {
         if middles.1 <= FEW {
             return found(&middles);
         }
+        let [by_start, by_end] = self.by_ends.get_or_insert_with(|| ends_of(&self.edges, self.reach));
         // A segment that is the same starts where this one starts or ends.
         let (there, back) = (by_start.near(start), by_end.near(start));
         if middles.1 <= there.1 + back.1 {
@@ -209,11 +206,25 @@ impl Known {
     }
 
     fn add(&mut self, edge: Edge) {
-        for (grid, place) in self.by_place.iter_mut().zip(Self::places(&edge)) {
-            grid.insert(place, self.edges.len());
+        let index = self.edges.len();
+        self.by_middle.insert(edge.middle(), index);
+        if let Some([by_start, by_end]) = &mut self.by_ends {
+            by_start.insert(edge.start(), index);
+            by_end.insert(edge.end(), index);
         }
         self.edges.push(edge);
     }
+}
+
+/// Edges by their starts, and by their ends.
+fn ends_of(edges: &[Edge], reach: f64) -> [Grid; 2] {
+    let mut grids = [Grid::new(reach), Grid::new(reach)];
+    let [by_start, by_end] = &mut grids;
+    for (index, edge) in edges.iter().enumerate() {
+        by_start.insert(edge.start(), index);
+        by_end.insert(edge.end(), index);
+    }
+    grids
 }
 
 /// Segments in a row with the indices of their sources, and how long they are together, mm.

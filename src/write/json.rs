@@ -10,7 +10,7 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".json".into()],
-    write: |cam| Ok(vec![write(cam.report)?]),
+    write: |cam| Ok(vec![write(&**cam.report)?]),
     of_analysis: Some(OfAnalysis {
         endings: |_| vec![".json".into()],
         write: |account| Ok(vec![write(account.report)?]),

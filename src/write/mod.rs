@@ -24,8 +24,9 @@ use crate::analysis::Analysis;
 use crate::body::{Body, Drawn, Part};
 use crate::geometry::solid::SolidError;
 use crate::profile::outline::{Fit, OutlineError};
-use crate::report::Report;
+use crate::report::{Finding, Report};
 use crate::verify::WrittenOutline;
+use std::ops::Deref;
 
 /// A proven cam as the formats see it.
 #[derive(Clone, Copy)]
@@ -46,8 +47,10 @@ pub struct Rendering<'a> {
     pub fit: Fit,
     /// Version of the cut files.
     pub dxf_version: dxf::Version,
+    /// What every check found.
+    pub findings: &'a [Finding],
     /// Its report, the names of the files in it.
-    pub report: &'a Report,
+    pub report: &'a (dyn Deref<Target = Report> + Sync),
     /// Rows of the table over a turn or a stroke.
     pub samples: u32,
     /// The template of the review sheet.

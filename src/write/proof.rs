@@ -1,7 +1,7 @@
 //! The cut file in memory, as it would be on disk, and the outline read back from its bytes.
 //!
-//! Two readers that share nothing read it: `reading`, whose outline is proved, and the dxf crate, which must find the entities
-//! that were drawn and no others.
+//! Two readers that share nothing read it: `reading`, whose outline is proved, reads all of it; the dxf crate reads its section of
+//! entities, and must find those that were drawn and no others.
 
 use super::dxf::{self, Version};
 use crate::body::{Layer, Part};
@@ -100,9 +100,23 @@ enum Told<'a> {
     Run(Run),
 }
 
+/// How a section of entities begins and ends in a cut file.
+const ENTITIES: &str = "  0\nSECTION\n  2\nENTITIES\n";
+const END_OF_SECTION: &str = "  0\nENDSEC\n";
+
+/// The section of entities as it stands in the bytes of a cut file; none where there is not one alone.
+fn section_of_entities(bytes: &[u8]) -> Option<&[u8]> {
+    let text = str::from_utf8(bytes).ok()?;
+    let (_, section) = text.split_at_checked(text.find(ENTITIES)?)?;
+    let (section, rest) = section.split_at_checked(section.find(END_OF_SECTION)? + END_OF_SECTION.len())?;
+    (!rest.contains(ENTITIES)).then_some(section.as_bytes())
+}
+
 /// Whether the dxf crate finds these entities in the bytes, in their order and on their layers, and no others.
 fn holds(bytes: &[u8], drawn: &[(Layer, Entity)]) -> bool {
-    let Ok(drawing) = ::dxf::Drawing::load(&mut &*bytes) else { return false };
+    // Of the rest of a file, which cuts nothing, the crate would make as much again.
+    let Some(mut section) = section_of_entities(bytes) else { return false };
+    let Ok(drawing) = ::dxf::Drawing::load(&mut section) else { return false };
     let told = drawn.iter().flat_map(|(layer, entity)| {
         let all = match entity {
             Entity::Polyline(contour) if contour.cubics() > 0 => runs(contour).into_iter().map(Told::Run).collect(),
@@ -215,6 +229,10 @@ mod tests {
         for (name, version) in Version::ALL {
             let bytes = dxf::write(&drawn, version);
             assert!(holds(&bytes, &drawn), "{name}");
+            let all = [section_of_entities(&bytes).expect("one"), &bytes].concat();
+            assert!(!holds(&all, &drawn), "{name}: entities in two sections");
+            let whole = ::dxf::Drawing::load(&mut &*bytes).expect("a drawing");
+            assert_eq!(whole.entities().count(), drawn.len(), "{name}: none but in the section");
             assert!(!holds(&bytes, &drawn[..1]), "{name}: one more than drawn");
             let mut moved = drawn.clone();
             moved[1].1 = Entity::Circle(Vector2::new(1.0, 2.0 + 1e-10), 5.0);

@@ -429,7 +429,7 @@ fn outline(law: &Law, setting: &Setting, law_us: f64, request: Request) -> Resul
     let (dxf, _) = timed(|| parts.iter().map(write).collect::<Result<Vec<_>, _>>())?;
     let deviation = parts.iter().map(|part| part.outline.deviation).fold(0.0, f64::max);
     let (proof, proven) = timed(|| drawing.prove().map_err(Failure::new))?;
-    let report = proven.report();
+    let report = Box::new(proven.report());
     let rendering = proven.rendering(&report, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;
     let ([svg, step, csv], sizes) = formats(&rendering)?;
     let bytes: usize = proven.cut_files().iter().map(Vec::len).sum();

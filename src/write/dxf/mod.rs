@@ -14,6 +14,7 @@ use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Extents};
 use crate::geometry::cubics::{Run, runs};
 use crate::profile::outline::{Outline, OutlineError};
+use crate::report::warning;
 use nalgebra::Vector2;
 use tags::{Tags, handle};
 
@@ -25,7 +26,7 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |drawn| of_parts(drawn, ".dxf"),
     write: |cam| {
-        let warning = cam.report.warning().unwrap_or_default();
+        let warning = warning(cam.findings).unwrap_or_default();
         Ok(cam.cut_files.iter().map(|file| marked(file.clone(), &warning)).collect())
     },
     of_analysis: None,
