@@ -96,10 +96,9 @@ pub fn push_plain(text: &mut Vec<u8>, value: f64, decimals: usize) {
     if decimals == 0 || !value.is_finite() {
         return;
     }
-    // One zero stays behind the point.
-    while text.ends_with(b"0") && !text.ends_with(b".0") {
-        text.pop();
-    }
+    // One digit stays behind the point.
+    let zeros = text.iter().rev().take(decimals - 1).take_while(|digit| **digit == b'0').count();
+    text.truncate(text.len() - zeros);
     if text.get(from..) == Some(b"-0.0") {
         text.remove(from);
     }
