@@ -5,7 +5,7 @@
 
 use super::number::push_shortest;
 use super::{Format, FormatError, Rendering, When};
-use crate::geometry::solid::{Boundary, Curve, FaceSurface, Solid, SolidError, SplineCurve, SplineSurface, conical};
+use crate::geometry::solid::{Curve, FaceSurface, Place, Solid, SolidError, SplineCurve, SplineSurface, conical};
 use crate::numeric::decimal::push_whole;
 use std::fmt::{Formatter, Result, Write};
 use truck_modeling::{Point3, Vector3};
@@ -33,8 +33,13 @@ fn solid(cam: &Rendering<'_>) -> std::result::Result<Solid, FormatError> {
 
 /// Bytes of the entities that an edge brings with it.
 const ROOM: usize = 640;
-/// First entity truck writes; the frame takes the numbers below.
-const FIRST: &str = "#16 = ";
+/// Bytes of the frame with usual names.
+const FRAME_ROOM: usize = 4096;
+/// How the frame begins that truck writes; the entities behind it begin with number 16.
+const FRAME: &str = "#1 = APPLICATION_PROTOCOL_DEFINITION";
+/// What truck writes behind the number of a face, and what stands there in its place.
+const FACE: &str = " = FACE_SURFACE('', ";
+const ADVANCED_FACE: &str = " = ADVANCED_FACE('', ";
 /// The last second of the year 9999: later years have no place in a date of ISO 8601.
 pub const LATEST: u64 = 253_402_300_799;
 
@@ -250,16 +255,13 @@ fn push_surface(text: &mut Vec<u8>, index: usize, surface: &FaceSurface) {
     }
 }
 
-/// A vertex, written here so that its digits are those of the drawing.
-#[derive(Debug, Clone, Copy)]
-struct Place(Point3);
-
 impl StepLength for Place {
     fn step_length(&self) -> usize {
         1
     }
 }
 
+/// A vertex is written here so that its digits are those of the drawing.
 impl DisplayByStep for Place {
     fn fmt(&self, index: usize, f: &mut Formatter<'_>) -> Result {
         write_lines(f, |text| push_point(text, index, self.0))
@@ -317,21 +319,15 @@ pub fn write(solid: &Solid, product: &str, created: Option<u64>) -> Vec<u8> {
 /// As [`write`](write()), with a remark in the description of the file.
 #[must_use]
 pub fn write_marked(solid: &Solid, product: &str, created: Option<u64>, remark: &str) -> Vec<u8> {
-    let boundary = with_places(&solid.boundary);
+    let boundary = &solid.boundary;
     let edges: usize = boundary.boundaries.iter().map(|shell| shell.edges.len()).sum();
-    let mut written = String::with_capacity(ROOM * edges);
-    // A String takes all that is written to it.
-    _ = write!(written, "{}", StepModel::from(&boundary));
-    let start = written.find(FIRST).unwrap_or(0);
-    let data = written.get(start..).unwrap_or_default();
-    // The faces come first.
-    let (faces, edges) = data.split_at(data.find("= EDGE_CURVE(").unwrap_or(data.len()));
-    // The category comes after the last of truck's entities, which stand in the order of their numbers.
-    let category = data.trim_end().rsplit('\n').next().and_then(number).unwrap_or(16) + 1;
     let name = escaped(product);
     let remark = if remark.is_empty() { String::new() } else { format!(", '{}'", escaped(remark)) };
     let (version, time) = (env!("CARGO_PKG_VERSION"), time_stamp(created));
-    let head = format!(
+    let mut text = String::with_capacity(FRAME_ROOM + ROOM * edges);
+    // A String takes all that is written to it.
+    _ = write!(
+        text,
         "ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION(('{name}'{remark}), '2;1');
@@ -356,31 +352,39 @@ DATA;
 #15 = UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06), #12, 'distance_accuracy_value', 'confusion accuracy');
 "
     );
-    let foot = format!(
+    _ = write!(Entities { text: &mut text }, "{}", StepModel::from(boundary));
+    // The category comes after the last of truck's entities, which stand in the order of their numbers.
+    let category = text.trim_end().rsplit('\n').next().and_then(number).unwrap_or(16) + 1;
+    _ = write!(
+        text,
         "#{category} = PRODUCT_RELATED_PRODUCT_CATEGORY('part', '', (#7));
 ENDSEC;
 END-ISO-10303-21;
 "
     );
-    let faces = faces.replace("= FACE_SURFACE(", "= ADVANCED_FACE(");
-    [&*head, &*faces, edges, &*foot].concat().into_bytes()
+    text.into_bytes()
+}
+
+/// Takes the entities that truck writes, without its frame, and with faces of the kind that CAD systems read.
+struct Entities<'a> {
+    text: &'a mut String,
+}
+
+impl Write for Entities<'_> {
+    /// truck writes its frame in one part, and the kind of an entity whole.
+    fn write_str(&mut self, part: &str) -> Result {
+        if part.starts_with(FRAME) {
+            return Ok(());
+        }
+        self.text.push_str(if part == FACE { ADVANCED_FACE } else { part });
+        Ok(())
+    }
 }
 
 /// The number of an entity, from its line.
 fn number(line: &str) -> Option<u64> {
     let digits = line.strip_prefix('#')?.bytes().take_while(u8::is_ascii_digit);
     digits.map(|digit| u64::from(digit - b'0')).reduce(|number, digit| 10 * number + digit)
-}
-
-fn with_places(boundary: &Boundary) -> truck_topology::compress::CompressedSolid<Place, Curve, FaceSurface> {
-    let shell = |shell: &truck_topology::compress::CompressedShell<Point3, Curve, FaceSurface>| {
-        truck_topology::compress::CompressedShell {
-            vertices: shell.vertices.iter().map(|point| Place(*point)).collect(),
-            edges: shell.edges.clone(),
-            faces: shell.faces.clone(),
-        }
-    };
-    truck_topology::compress::CompressedSolid { boundaries: boundary.boundaries.iter().map(shell).collect() }
 }
 
 #[cfg(test)]
