@@ -10,6 +10,7 @@ use crate::profile::outline::Fit;
 use crate::report::sheet::{Extras, Group, Shape, Sheet, TextAnchor, compose, font};
 use crate::report::{plot, shown};
 use nalgebra::Vector2;
+use std::borrow::Cow;
 use svg::node::element;
 
 /// The review sheet.
@@ -176,6 +177,11 @@ fn is_printable(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
+/// A text without what XML has no place for.
+fn printable(text: &str) -> Cow<'_, str> {
+    if text.chars().all(is_printable) { text.into() } else { text.chars().filter(|c| is_printable(*c)).collect() }
+}
+
 /// Adds a text without what XML has no place for, escaped.
 fn push_escaped(out: &mut Vec<u8>, text: &str) {
     if text.bytes().all(|byte| matches!(byte, b' '..=b'~') && !matches!(byte, b'&' | b'<' | b'>')) {
@@ -216,7 +222,7 @@ fn push_group(out: &mut Vec<u8>, group: &Group, scale: f64, told: bool) {
         .set("id", group.id.as_str())
         .set("class", group.class)
         .set("inkscape:groupmode", "layer")
-        .set("inkscape:label", group.label.chars().filter(|c| is_printable(*c)).collect::<String>());
+        .set("inkscape:label", printable(&group.label).as_ref());
     if let Some(colour) = &group.colour {
         node = node.set("stroke", colour.as_str());
     }
