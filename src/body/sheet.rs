@@ -1,9 +1,9 @@
 //! What the sheets of several bodies show alike.
 
-use super::Body;
 use super::balancing::Balancing;
 use super::part::point_as_turned;
 use super::torque::{self, Cut};
+use crate::follower::Element;
 use crate::geometry::contour::Extents;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
@@ -13,7 +13,7 @@ use crate::profile::Curves;
 use crate::profile::followed::Followed;
 use crate::report::sheet::{Group, Mark, PlaceTable, Shape, rounded};
 use crate::report::trace::Trace;
-use crate::table::Row;
+use crate::table::turned;
 use nalgebra::Vector2;
 
 /// How far the roller's path and the normal reach beyond the roller, in its radii.
@@ -151,19 +151,22 @@ pub(super) fn turning(machine: &Machine, base: f64, profile: f64, zero: &str) ->
 }
 
 /// θ, radius and lift each 5°, and each 10°, of a cam that turns.
-pub(super) fn places(body: &dyn Body) -> Vec<PlaceTable> {
+pub(super) fn places(curves: Curves<'_>) -> Vec<PlaceTable> {
     const EVERY: [(u32, usize); 2] = [(5, 1), (10, 2)];
-    let rows = body.rows(72);
-    let rolls = body.roller_radius().is_some();
-    let cell =
-        |value: Option<f64>, decimals: usize| value.map_or("–".to_owned(), |value| fixed(value + 0.0, decimals));
-    let swings = rows.first().is_some_and(|row| row.swing.is_some());
-    let row = |row: &Row| {
-        let at = if rolls { row.curve } else { row.profile };
-        let lift = row.lift.map(|lift| MILLIMETRES * lift.s).or(row.swing.map(|swing| swing.s.to_degrees()));
-        vec![cell(row.cam_deg, 0), cell(at.map(|at| at.norm()), 3), cell(lift, 3)]
+    const ROWS: u32 = 72;
+    let rolls = matches!(curves.element(), Element::Roller { radius } if radius > 0.0);
+    let swings = curves.motion.quantity() == Quantity::Angle;
+    let row = |index: u32| {
+        let at = turned(index, ROWS, curves.motion.lobes());
+        let (piece, angle) = curves.motion.locate(at.angle);
+        let lift = curves.motion.jet(piece, angle);
+        let curve = curves.follower.touch(angle, &lift).curve;
+        let place = if rolls { curve } else { curve.offset_inward(curves.offset()) };
+        let lift = if swings { lift.s.to_degrees() } else { MILLIMETRES * lift.s };
+        let cell = |value: f64, decimals: usize| fixed(value + 0.0, decimals);
+        vec![cell(at.cam_deg, 0), cell((place.point * MILLIMETRES).norm(), 3), cell(lift, 3)]
     };
-    let rows: Vec<Vec<String>> = rows.iter().map(row).collect();
+    let rows: Vec<Vec<String>> = (0..ROWS).map(row).collect();
     let what = if rolls { "R of the roller's centre" } else { "R of the point of contact" };
     EVERY
         .iter()

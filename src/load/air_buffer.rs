@@ -60,9 +60,13 @@ pub(crate) fn air_law(cylinder: &Cylinder, law: &CrankLaw, (dx_max_at_x, dx_max)
 /// The force balance of a pair of cylinders under a law in a state; outside the reversal nothing is to balance.
 #[must_use]
 pub(crate) fn balance_row(cylinder: &Cylinder, law: &CrankLaw, state: &State) -> BalanceRow {
-    let (deceleration, crank) = if state.reversing { (state.deceleration, state.crank) } else { (0.0, 0.0) };
-    let inertia = cylinder.unit_force() * law.loading() * deceleration;
-    balance_of(cylinder, state.reversing, (inertia, law.air_of_fixed_bottom(crank)), state.pressure_ratio)
+    let forces = if state.reversing {
+        let inertia = cylinder.unit_force() * law.loading() * state.deceleration;
+        (inertia, law.air_of_fixed_bottom(state.crank))
+    } else {
+        (0.0, 0.0)
+    };
+    balance_of(cylinder, state.reversing, forces, state.pressure_ratio)
 }
 
 /// The same from the inertia, N, and the air of a plain buffer over 2 p0 F.

@@ -18,6 +18,7 @@ const POWERS: [u64; 13] = {
 /// A double is m/2ⁿ with m below 2⁵³, and the power below 2⁴⁰: their product is exact in 128 bits.
 fn times(size: f64, power: u64) -> Option<u64> {
     const FRACTION: u64 = (1 << 52) - 1;
+    const HALF: u128 = 1 << 127;
     let bits = size.to_bits();
     let exponent = u32::try_from(bits >> 52).ok()?;
     // A number below the normal ones is none of the decimals.
@@ -29,9 +30,36 @@ fn times(size: f64, power: u64) -> Option<u64> {
     if shift > 100 {
         return Some(0);
     }
-    let (whole, rest, half) = (product >> shift, product & ((1 << shift) - 1), 1_u128 << (shift - 1));
-    let up = rest > half || (rest == half && whole & 1 == 1);
+    // What is cut off, from the highest bit down.
+    let (whole, rest) = (product >> shift, product << (128 - shift));
+    let up = rest > HALF || (rest == HALF && whole & 1 == 1);
     u64::try_from(whole + u128::from(up)).ok()
+}
+
+/// The digits of each number below a hundred.
+const PAIRS: [[u8; 2]; 100] = {
+    let mut pairs = [[b'0'; 2]; 100];
+    let mut number: u8 = 0;
+    while number < 100 {
+        pairs[number as usize] = [b'0' + number / 10, b'0' + number % 10];
+        number += 1;
+    }
+    pairs
+};
+
+/// Fills a field with the last digits of a whole number; what is left of it before them.
+fn fill(field: &mut [u8], value: u64) -> u64 {
+    let mut left = value;
+    let mut pairs = field.rchunks_exact_mut(2);
+    for slot in pairs.by_ref() {
+        slot.copy_from_slice(PAIRS.get((left % 100) as usize).unwrap_or(&[b'0'; 2]));
+        left /= 100;
+    }
+    for slot in pairs.into_remainder() {
+        *slot = b'0' + (left % 10) as u8;
+        left /= 10;
+    }
+    left
 }
 
 /// Puts a whole number at the end of a field, from its last digit to its first; where it begins.
@@ -50,25 +78,26 @@ fn put_whole(field: &mut [u8], value: u64) -> usize {
 /// Place of the decimal point: before it there is room for the digits of any `u64` and a sign.
 const POINT: usize = 21;
 
+/// Adds a whole number to a text.
+pub(crate) fn push_whole(text: &mut Vec<u8>, value: u64) {
+    let mut digits = [b'0'; POINT];
+    let from = put_whole(&mut digits, value);
+    text.extend_from_slice(digits.get(from..).unwrap_or_default());
+}
+
 /// Adds a number with so many decimals to a text, as `{value:.decimals$}`.
 pub(crate) fn push_fixed(text: &mut Vec<u8>, value: f64, decimals: usize) {
-    let power = POWERS.get(decimals);
-    let Some((scaled, power)) = power.and_then(|power| Some((times(value.abs(), *power)?, *power))) else {
+    let Some(scaled) = POWERS.get(decimals).and_then(|power| times(value.abs(), *power)) else {
         // A text in memory takes all that is written.
         let _ = write!(text, "{value:.decimals$}");
         return;
     };
     let mut digits = [b'.'; POINT + POWERS.len()];
     let (whole, fraction) = digits.split_at_mut(POINT);
-    let mut from = put_whole(whole, scaled / power);
+    let mut from = put_whole(whole, fill(fraction.get_mut(1..=decimals).unwrap_or_default(), scaled));
     if let Some(sign) = whole.get_mut(from - 1).filter(|_| value.is_sign_negative()) {
         *sign = b'-';
         from -= 1;
-    }
-    let mut left = scaled % power;
-    for slot in fraction.get_mut(1..=decimals).unwrap_or_default().iter_mut().rev() {
-        *slot = b'0' + (left % 10) as u8;
-        left /= 10;
     }
     let to = if decimals > 0 { POINT + 1 + decimals } else { POINT };
     text.extend_from_slice(digits.get(from..to).unwrap_or_default());

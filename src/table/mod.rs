@@ -206,18 +206,35 @@ pub struct Table {
     pub words: Option<(&'static str, Vec<&'static str>)>,
 }
 
+/// The columns that a cam has.
+#[must_use]
+pub fn columns(rows: &[Row]) -> Vec<&'static Column> {
+    let has = |column: &&Column| rows.first().is_some_and(|row| (column.1)(row).is_some());
+    COLUMNS.iter().filter(has).collect()
+}
+
+/// The value of a row in a column, NaN where there is none.
+#[must_use]
+pub fn value(row: &Row, (_, of): &Column) -> f64 {
+    // A negative zero is zero.
+    of(row).unwrap_or(f64::NAN) + 0.0
+}
+
+/// Whether a row may have no value in a column.
+#[must_use]
+pub fn may_lack((name, _): &Column) -> bool {
+    name.contains(AS_CUT)
+}
+
 impl Table {
     /// The rows of a cam under the columns that it has.
     #[must_use]
     pub fn of(rows: &[Row]) -> Self {
-        let has = |column: &&Column| rows.first().is_some_and(|row| (column.1)(row).is_some());
-        let columns: Vec<&Column> = COLUMNS.iter().filter(has).collect();
-        // A negative zero is zero.
-        let values = |row: &Row| columns.iter().map(|(_, value)| value(row).unwrap_or(f64::NAN) + 0.0).collect();
+        let columns = columns(rows);
         Self {
             columns: columns.iter().map(|(name, _)| *name).collect(),
-            rows: rows.iter().map(values).collect(),
-            may_lack: columns.iter().map(|(name, _)| name.contains(AS_CUT)).collect(),
+            rows: rows.iter().map(|row| columns.iter().map(|column| value(row, column)).collect()).collect(),
+            may_lack: columns.iter().map(|column| may_lack(column)).collect(),
             words: None,
         }
     }

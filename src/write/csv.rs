@@ -7,7 +7,7 @@ use crate::body::Body;
 use crate::geometry::MILLIMETRES;
 use crate::motion::{Jet, Quantity};
 use crate::profile::followed::Followed;
-use crate::table::Table;
+use crate::table::{self, Row, Table};
 use crate::verify::WrittenOutline;
 
 /// Most rows of a point table: a cam angle of six seconds from one to the next.
@@ -21,8 +21,8 @@ pub const FORMAT: Format = Format {
     unfit: fits_all,
     endings: |_| vec![".csv".into()],
     write: |cam| {
-        let table = table(cam.body, cam.second.map(|(body, _)| body), cam.outlines, cam.samples);
-        Ok(vec![write(&whole(table)?)])
+        let rows = rows(cam.body, cam.second.map(|(body, _)| body), cam.outlines, cam.samples);
+        Ok(vec![of_cam(&rows)?])
     },
     of_analysis: Some(OfAnalysis {
         endings: |analysis| analysis.tables.iter().map(|(ending, _)| format!("{ending}.csv")).collect(),
@@ -34,6 +34,10 @@ pub const FORMAT: Format = Format {
 /// shaft.
 #[must_use]
 pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline], samples: u32) -> Table {
+    Table::of(&rows(body, second, outlines, samples))
+}
+
+fn rows(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline], samples: u32) -> Vec<Row> {
     let mut rows = body.rows(samples);
     if let Some(second) = second {
         for row in &mut rows {
@@ -61,51 +65,63 @@ pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutl
             row.cut = Some(cut.unwrap_or([f64::NAN; 2]));
         }
     }
-    Table::of(&rows)
+    rows
 }
 
 /// Bytes of most numbers with what stands between two.
 const NUMBER: usize = 16;
 
-/// A table in which every value is a number, but where there may be none.
+/// The rows of a cam as text, in which every value is a number, but where there may be none.
 ///
 /// # Errors
 /// [`FormatError::NotFinite`].
-fn whole(table: Table) -> Result<Table, FormatError> {
-    for (index, row) in table.rows.iter().enumerate() {
-        let cells = row.iter().zip(&table.may_lack).zip(&table.columns);
-        if let Some((_, column)) = cells.into_iter().find(|((value, may_lack), _)| value.is_nan() && !**may_lack) {
-            return Err(FormatError::NotFinite { column, row: index + 1 });
+fn of_cam(rows: &[Row]) -> Result<Vec<u8>, FormatError> {
+    let columns = table::columns(rows);
+    let strict: Vec<bool> = columns.iter().map(|column| !table::may_lack(column)).collect();
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let mut text = text_of(&names, rows.len());
+    for (index, row) in rows.iter().enumerate() {
+        for (place, (column, strict)) in columns.iter().zip(&strict).enumerate() {
+            let value = table::value(row, column);
+            if value.is_nan() && *strict {
+                return Err(FormatError::NotFinite { column: column.0, row: index + 1 });
+            }
+            push_cell(&mut text, place, value);
         }
+        text.push(b'\n');
     }
-    Ok(table)
+    Ok(text)
+}
+
+/// The line of names, and room for so many rows.
+fn text_of(names: &[&str], rows: usize) -> Vec<u8> {
+    let mut text = Vec::with_capacity(NUMBER * (rows + 1) * names.len());
+    text.extend_from_slice(names.join(",").as_bytes());
+    text.push(b'\n');
+    text
+}
+
+/// Adds a number at its place in a line.
+fn push_cell(text: &mut Vec<u8>, place: usize, value: f64) {
+    if place > 0 {
+        text.push(b',');
+    }
+    push_shortest(text, value);
 }
 
 /// The table as text with line feeds.
 #[must_use]
 pub fn write(table: &Table) -> Vec<u8> {
-    let mut text = Vec::with_capacity(NUMBER * (table.rows.len() + 1) * table.columns.len());
-    let named = table.words.as_ref();
-    let word = |text: &mut Vec<u8>, word: &str| {
-        text.extend_from_slice(word.as_bytes());
-        text.push(b',');
-    };
-    if let Some((name, _)) = named {
-        word(&mut text, name);
-    }
-    text.extend_from_slice(table.columns.join(",").as_bytes());
-    text.push(b'\n');
-    let mut words = named.map_or(&[][..], |(_, words)| words.as_slice()).iter();
+    let (name, words) = table.words.as_ref().map_or((None, &[][..]), |(name, words)| (Some(*name), words.as_slice()));
+    let names: Vec<&str> = name.into_iter().chain(table.columns.iter().copied()).collect();
+    let mut text = text_of(&names, table.rows.len());
+    let mut words = words.iter();
     for row in &table.rows {
-        if let Some(own) = words.next() {
-            word(&mut text, own);
+        if let Some(word) = words.next() {
+            text.extend_from_slice(word.as_bytes());
+            text.push(b',');
         }
-        for (index, value) in row.iter().enumerate() {
-            if index > 0 {
-                text.push(b',');
-            }
-            push_shortest(&mut text, *value);
-        }
+        row.iter().enumerate().for_each(|(place, value)| push_cell(&mut text, place, *value));
         text.push(b'\n');
     }
     text

@@ -1,6 +1,6 @@
 //! Numbers as text. Files are written as bytes, since each number that joins a `String` would be checked to be UTF-8 once more.
 
-use crate::numeric::decimal::push_fixed;
+use crate::numeric::decimal::{push_fixed, push_whole};
 use std::io::Write as _;
 
 /// Sizes written without an exponent: where neither form is much longer than the other.
@@ -19,16 +19,39 @@ pub fn shortest(value: f64) -> String {
 }
 
 /// Adds the same to a text.
+#[inline]
 pub fn push_shortest(text: &mut Vec<u8>, value: f64) {
-    let size = value.abs();
-    if size == 0.0 {
+    if value == 0.0 {
         text.push(b'0');
-    } else if WITHOUT_EXPONENT.contains(&size) {
+    } else {
+        push_digits(text, value);
+    }
+}
+
+/// The same of what is not zero.
+fn push_digits(text: &mut Vec<u8>, value: f64) {
+    let doubled = 2.0 * value.abs();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what does not fit is no half")]
+    let halves = doubled as u32;
+    if f64::from(halves) == doubled {
+        push_halves(text, value < 0.0, halves);
+    } else if WITHOUT_EXPONENT.contains(&value.abs()) {
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value).as_bytes();
         text.extend_from_slice(digits.strip_suffix(b".0").unwrap_or(digits));
     } else {
         push_very_large_or_small(text, value);
+    }
+}
+
+/// Adds so many halves: steps of an angle, and the units of a frame, whose digits need not be searched.
+fn push_halves(text: &mut Vec<u8>, negative: bool, halves: u32) {
+    if negative {
+        text.push(b'-');
+    }
+    push_whole(text, u64::from(halves / 2));
+    if halves % 2 == 1 {
+        text.extend_from_slice(b".5");
     }
 }
 
@@ -96,10 +119,9 @@ pub fn push_plain(text: &mut Vec<u8>, value: f64, decimals: usize) {
     if decimals == 0 || !value.is_finite() {
         return;
     }
-    // One zero stays behind the point.
-    while text.ends_with(b"0") && !text.ends_with(b".0") {
-        text.pop();
-    }
+    // One digit stays behind the point.
+    let zeros = text.iter().rev().take(decimals - 1).take_while(|digit| **digit == b'0').count();
+    text.truncate(text.len() - zeros);
     if text.get(from..) == Some(b"-0.0") {
         text.remove(from);
     }
@@ -117,6 +139,10 @@ mod tests {
             assert!(text.len() < 26, "{text}");
         }
         assert_eq!(shortest(-0.0), "0");
+        let ends = [u32::MAX - 1, u32::MAX].map(f64::from);
+        for value in (-4000..4000).map(f64::from).chain(ends).chain([4_294_967_296.0]).map(|halves| 0.5 * halves) {
+            assert_eq!(shortest(value), format!("{}", value + 0.0));
+        }
         // As the standard library has it, but where two texts are as short and as near.
         let mut bits = 0x9e37_79b9_7f4a_7c15_u64;
         for _ in 0..200_000 {

@@ -48,7 +48,7 @@ pub enum PdfError {
 /// # Errors
 /// [`FormatError::Template`] and [`FormatError::Pdf`].
 pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, FormatError> {
-    let text = svg::fill(sheet, template, false)?;
+    let text = svg::fill(sheet, template, false, "")?;
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(FONT.to_vec());
     let options = usvg::Options { fontdb: Arc::new(fonts), ..Default::default() };

@@ -120,11 +120,10 @@ impl Record {
         changed.chain(gone.map(|(key, (_, typed))| format!("{key} {typed}, no longer given"))).collect()
     }
 
-    fn add(&mut self, directory: &Directory, outputs: &[Output], run: &Run<'_>) {
+    fn add(&mut self, directory: &Directory, outputs: &[Output], run: &Run<'_>, made_from: &str) {
         self.files.retain(|name, _| !matches!(directory.standing(name), Ok(Standing::Nothing)));
         self.files.extend(outputs.iter().map(|output| (output.name.clone(), file_digest(&output.bytes))));
-        let made_from = digest(run.inputs);
-        self.made_from.extend(outputs.iter().map(|output| (output.name.clone(), made_from.clone())));
+        self.made_from.extend(outputs.iter().map(|output| (output.name.clone(), made_from.to_owned())));
         let files = &self.files;
         self.made_from.retain(|name, _| files.contains_key(name));
         self.inputs.retain(|stem, _| files.keys().any(|name| name.starts_with(stem.as_str())));
@@ -132,11 +131,10 @@ impl Record {
         self.inputs.insert(run.stem.to_owned(), inputs.collect());
     }
 
-    /// Files of this stem that other inputs than those of this run have made.
-    fn of_other_inputs(&self, run: &Run<'_>) -> Vec<String> {
-        let now = digest(run.inputs);
-        let of_stem = |name: &str| name.strip_prefix(run.stem).is_some_and(|rest| rest.starts_with(['.', '-']));
-        let other = self.made_from.iter().filter(|(name, from)| of_stem(name) && **from != now);
+    /// Files of a stem that other inputs than these have made.
+    fn of_other_inputs(&self, stem: &str, made_from: &str) -> Vec<String> {
+        let of_stem = |name: &str| name.strip_prefix(stem).is_some_and(|rest| rest.starts_with(['.', '-']));
+        let other = self.made_from.iter().filter(|(name, from)| of_stem(name) && *from != made_from);
         other.map(|(name, _)| name.clone()).collect()
     }
 }
@@ -187,8 +185,9 @@ fn staged(directory: Directory, outputs: Vec<Output>, run: &Run<'_>) -> Result<(
     }
     let mut record = read(&directory)?.unwrap_or_default();
     let mut notes: Vec<String> = told(&record.changes(run)).into_iter().collect();
-    record.add(&directory, &outputs, run);
-    let other = record.of_other_inputs(run);
+    let made_from = digest(run.inputs);
+    record.add(&directory, &outputs, run, &made_from);
+    let other = record.of_other_inputs(run.stem, &made_from);
     if !other.is_empty() {
         notes.push(format!("still here, and made from other inputs: {}", other.join(", ")));
     }

@@ -10,7 +10,8 @@ use crate::profile::outline::Fit;
 use crate::report::sheet::{Extras, Group, Shape, Sheet, TextAnchor, compose, font};
 use crate::report::{plot, shown};
 use nalgebra::Vector2;
-use svg::node::{Blob, element};
+use std::borrow::Cow;
+use svg::node::element;
 
 /// The review sheet.
 pub const FORMAT: Format = Format {
@@ -19,12 +20,12 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
-    write: |cam| Ok(vec![marked(&write(&sheet(cam)?, cam.template)?, &cam.report.mark())]),
+    write: |cam| Ok(vec![fill(&sheet(cam)?, cam.template, true, &cam.report.mark())?]),
     of_analysis: Some(OfAnalysis {
         endings: |_| vec![".svg".into()],
         write: |account| {
             let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
-            Ok(vec![marked(&write(&sheet, account.template)?, &account.report.mark())])
+            Ok(vec![fill(&sheet, account.template, true, &account.report.mark())?])
         },
     }),
 };
@@ -86,11 +87,12 @@ fn number(value: f64) -> String {
 /// # Errors
 /// [`TemplateError`] when a placeholder is missing or unknown.
 pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
-    fill(sheet, template, true)
+    fill(sheet, template, true, "")
 }
 
-/// As [`write`]; `told`: every text tells its length, so that a viewer with another font keeps it.
-pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>, TemplateError> {
+/// As [`write`], with a comment before the root, whatever the template; `told`: every text tells its length, so that a viewer with
+/// another font keeps it.
+pub(super) fn fill(sheet: &Sheet, template: &str, told: bool, comment: &str) -> Result<Vec<u8>, TemplateError> {
     let size = sheet.extents.size();
     let dashes = |parts: &[f64]| parts.iter().map(|n| number(n * sheet.stroke)).collect::<Vec<_>>().join(" ");
     let push = |text: &mut Vec<u8>, name: &str| {
@@ -109,7 +111,7 @@ pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>,
             "drawing" => {
                 for (index, shown) in sheet.groups.iter().enumerate() {
                     text.extend_from_slice(if index > 0 { b"\n" } else { b"" });
-                    text.extend_from_slice(group(shown, sheet.scale, told).as_bytes());
+                    push_group(text, shown, sheet.scale, told);
                 }
                 return Ok(());
             }
@@ -125,6 +127,9 @@ pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>,
     let mut text = Vec::with_capacity(template.len() + ROOM);
     let template = without_comments(template);
     let mut rest = template.as_str();
+    if !comment.is_empty() {
+        rest = push_comment(&mut text, rest, comment);
+    }
     while let Some((before, behind)) = rest.split_once("{{") {
         let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
         text.extend_from_slice(before.as_bytes());
@@ -135,13 +140,18 @@ pub(super) fn fill(sheet: &Sheet, template: &str, told: bool) -> Result<Vec<u8>,
     Ok(text)
 }
 
-/// The file with a comment before its root, whatever the template.
-fn marked(file: &[u8], comment: &str) -> Vec<u8> {
-    let end = b"?>";
-    let declared = file.starts_with(b"<?xml").then(|| file.windows(end.len()).position(|pair| pair == end)).flatten();
-    let (declaration, rest) = file.split_at(declared.map_or(0, |at| at + end.len()));
-    let (line, rest) = if declaration.is_empty() { (&b""[..], rest) } else { (&b"\n"[..], rest.trim_ascii_start()) };
-    [declaration, line, b"<!-- ", comment.as_bytes(), b" -->\n", rest].concat()
+/// Adds the declaration of XML that a template may begin with, and a comment behind it; what is left of the template.
+fn push_comment<'a>(text: &mut Vec<u8>, template: &'a str, comment: &str) -> &'a str {
+    let declared = template.strip_prefix("<?xml").and_then(|behind| behind.split_once("?>"));
+    if let Some((declaration, _)) = declared {
+        for part in ["<?xml", declaration, "?>\n"] {
+            text.extend_from_slice(part.as_bytes());
+        }
+    }
+    for part in ["<!-- ", comment, " -->\n"] {
+        text.extend_from_slice(part.as_bytes());
+    }
+    declared.map_or(template, |(_, rest)| rest.trim_ascii_start())
 }
 
 fn without_comments(template: &str) -> String {
@@ -165,6 +175,11 @@ fn escaped(text: &str) -> String {
 /// Whether XML has a place for a character: for no control and neither of the two noncharacters.
 fn is_printable(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
+}
+
+/// A text without what XML has no place for.
+fn printable(text: &str) -> Cow<'_, str> {
+    if text.chars().all(is_printable) { text.into() } else { text.chars().filter(|c| is_printable(*c)).collect() }
 }
 
 /// Adds a text without what XML has no place for, escaped.
@@ -200,28 +215,31 @@ fn numbers(out: &mut Vec<u8>, values: &[(&str, f64)]) {
     }
 }
 
-/// A group of shapes, each on a line of its own. The many shapes are one text: as elements of their own they took half of the time of a sheet.
-fn group(group: &Group, scale: f64, told: bool) -> String {
+/// Adds a group of shapes, each on a line of its own. Its many shapes are written into its tag: as elements of their own they took half of
+/// the time of a sheet.
+fn push_group(out: &mut Vec<u8>, group: &Group, scale: f64, told: bool) {
     let mut node = element::Group::new()
         .set("id", group.id.as_str())
         .set("class", group.class)
         .set("inkscape:groupmode", "layer")
-        .set("inkscape:label", group.label.chars().filter(|c| is_printable(*c)).collect::<String>());
+        .set("inkscape:label", printable(&group.label).as_ref());
     if let Some(colour) = &group.colour {
         node = node.set("stroke", colour.as_str());
     }
     if OUTLINES.contains(&group.class) {
         node = node.set("data-scale", number(scale));
     }
+    let tag = node.to_string();
     if group.shapes.is_empty() {
-        return node.to_string();
+        return out.extend_from_slice(tag.as_bytes());
     }
-    let mut shapes = Vec::new();
-    for (index, shape) in group.shapes.iter().enumerate() {
-        shapes.extend_from_slice(if index > 0 { b"\n" } else { b"" });
-        push_shape(&mut shapes, shape, told);
+    out.extend_from_slice(tag.trim_end_matches("/>").as_bytes());
+    out.extend_from_slice(b">\n");
+    for shape in &group.shapes {
+        push_shape(out, shape, told);
+        out.push(b'\n');
     }
-    node.add(Blob::new(String::from_utf8(shapes).unwrap_or_default())).to_string()
+    out.extend_from_slice(b"</g>");
 }
 
 fn push_shape(out: &mut Vec<u8>, shape: &Shape, told: bool) {
@@ -258,19 +276,23 @@ fn push_words(out: &mut Vec<u8>, (at, height, anchor): (Vector2<f64>, f64, TextA
         TextAnchor::Middle => "middle",
         TextAnchor::End => "end",
     };
-    out.extend_from_slice(b"<text");
-    numbers(out, &[("font-size", height)]);
+    out.extend_from_slice(br#"<text font-size=""#);
+    DATA.push_number(out, height);
+    out.extend_from_slice(if told {
+        br#"" lengthAdjust="spacingAndGlyphs" text-anchor=""#
+    } else {
+        br#"" text-anchor=""#
+    });
+    out.extend_from_slice(anchor.as_bytes());
     if told {
-        out.extend_from_slice(br#" lengthAdjust="spacingAndGlyphs""#);
+        out.extend_from_slice(br#"" textLength=""#);
+        DATA.push_number(out, font::width(text, height));
     }
-    attribute(out, "text-anchor", |out| out.extend_from_slice(anchor.as_bytes()));
-    if told {
-        numbers(out, &[("textLength", font::width(text, height))]);
-    }
-    numbers(out, &[("x", at.x)]);
-    out.extend_from_slice(br#" xml:space="preserve""#);
-    numbers(out, &[("y", -at.y)]);
-    out.extend_from_slice(b">\n");
+    out.extend_from_slice(br#"" x=""#);
+    DATA.push_number(out, at.x);
+    out.extend_from_slice(br#"" xml:space="preserve" y=""#);
+    DATA.push_number(out, -at.y);
+    out.extend_from_slice(b"\">\n");
     push_escaped(out, text);
     out.extend_from_slice(b"\n</text>");
 }

@@ -63,7 +63,7 @@ pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
     Ok(View {
         groups,
         marks: marks.into_iter().flatten().collect(),
-        tables: places(disc),
+        tables: places(disc.curves()),
         facts: Facts::of(&disc.machine, part.and_then(|part| part.weight(&disc.machine).mass_kg)),
         notes: Vec::new(),
         lost: if disc.least_radius().value <= disc.curves().offset() { disc.lost_motion() } else { Vec::new() },

@@ -76,8 +76,12 @@ pub enum FaceSurface {
     Spline(SplineSurface),
 }
 
+/// A vertex, mm: a type of its own, which a writer can say how to write.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place(pub Point3);
+
 /// The boundary of a solid: vertices, edges and faces by index, as truck exchanges them.
-pub type Boundary = CompressedSolid<Point3, Curve, FaceSurface>;
+pub type Boundary = CompressedSolid<Place, Curve, FaceSurface>;
 
 /// A solid that has been checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,13 +128,31 @@ const VOLUME_TOLERANCE: f64 = 1e-11;
 /// [`SolidError`] when a check fails; both would be faults of camgen.
 pub fn prism(contours: &[Contour], area: f64, thickness: f64) -> Result<Solid, SolidError> {
     let boundary = extruded(contours, thickness);
-    truck_topology::Solid::extract(boundary.clone()).map_err(|error| SolidError::NotClosed(error.to_string()))?;
+    check_closed(&boundary)?;
     let volume = enclosed(&boundary);
     let expected = area * thickness;
     if !((volume / expected - 1.0).abs() <= VOLUME_TOLERANCE) {
         return Err(SolidError::WrongVolume { found: volume, expected });
     }
     Ok(Solid { boundary, volume })
+}
+
+/// Asks truck whether a boundary is closed, which is a matter of its topology alone.
+fn check_closed(boundary: &Boundary) -> Result<(), SolidError> {
+    let edge = |edge: &CompressedEdge<Curve>| CompressedEdge { vertices: edge.vertices, curve: () };
+    let face = |face: &CompressedFace<FaceSurface>| CompressedFace {
+        boundaries: face.boundaries.clone(),
+        orientation: face.orientation,
+        surface: (),
+    };
+    let shell = |shell: &CompressedShell<Place, Curve, FaceSurface>| CompressedShell {
+        vertices: vec![(); shell.vertices.len()],
+        edges: shell.edges.iter().map(edge).collect(),
+        faces: shell.faces.iter().map(face).collect(),
+    };
+    let topology = CompressedSolid { boundaries: boundary.boundaries.iter().map(shell).collect() };
+    let solid = truck_topology::Solid::extract(topology);
+    solid.map(drop).map_err(|error| SolidError::NotClosed(error.to_string()))
 }
 
 fn at(point: Vector2<f64>, z: f64) -> Point3 {
@@ -148,7 +170,7 @@ fn backward(index: usize) -> CompressedEdgeIndex {
 
 /// A shell under construction between two planes.
 struct Shell {
-    shell: CompressedShell<Point3, Curve, FaceSurface>,
+    shell: CompressedShell<Place, Curve, FaceSurface>,
     /// Heights of the planes.
     ends: (f64, f64),
     under: Vec<Vec<CompressedEdgeIndex>>,
@@ -179,7 +201,7 @@ impl Shell {
         let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
         for (i, edge) in sides.iter().enumerate() {
             for (top, z) in [(0, low), (1, high)] {
-                vertices.push(at(edge.start(), z));
+                vertices.push(Place(at(edge.start(), z)));
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
                 edges.push(CompressedEdge { vertices: ends, curve: carrier(edge, z) });
             }
@@ -201,7 +223,7 @@ impl Shell {
                 patch.controls.iter().filter_map(|row| end(row).copied()).collect()
             };
             for (top, controls) in [(0, row(<[Point3]>::first)), (1, row(<[Point3]>::last))] {
-                vertices.extend(controls.first().copied());
+                vertices.extend(controls.first().copied().map(Place));
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
                 let curve = Curve::Spline(SplineCurve { knots: patch.u.clone(), controls });
                 edges.push(CompressedEdge { vertices: ends, curve });
@@ -223,7 +245,7 @@ impl Shell {
     fn close(
         &mut self,
         n: usize,
-        vertices: Vec<Point3>,
+        vertices: Vec<Place>,
         edges: Vec<CompressedEdge<Curve>>,
         faces: Vec<CompressedFace<FaceSurface>>,
     ) {
@@ -271,7 +293,7 @@ pub fn conical(
         shell.walls(hole);
     }
     let boundary = shell.capped();
-    truck_topology::Solid::extract(boundary.clone()).map_err(|error| SolidError::NotClosed(error.to_string()))?;
+    check_closed(&boundary)?;
     // Clockwise: their area is negative.
     let drilled: f64 = holes.iter().map(|hole| hole.area_and_centroid().0).sum();
     Ok(Solid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
@@ -369,9 +391,10 @@ pub fn enclosed(boundary: &Boundary) -> f64 {
     volume
 }
 
-fn swept(shell: &CompressedShell<Point3, Curve, FaceSurface>, used: CompressedEdgeIndex) -> f64 {
+fn swept(shell: &CompressedShell<Place, Curve, FaceSurface>, used: CompressedEdgeIndex) -> f64 {
     let Some(edge) = shell.edges.get(used.index) else { return f64::NAN };
-    let (Some(a), Some(b)) = (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1)) else {
+    let (Some(Place(a)), Some(Place(b))) = (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1))
+    else {
         return f64::NAN;
     };
     let area = match &edge.curve {
@@ -403,7 +426,7 @@ pub fn largest_gap(boundary: &Boundary) -> f64 {
     for shell in &boundary.boundaries {
         for edge in &shell.edges {
             for vertex in [edge.vertices.0, edge.vertices.1] {
-                let Some(point) = shell.vertices.get(vertex) else { return f64::INFINITY };
+                let Some(Place(point)) = shell.vertices.get(vertex) else { return f64::INFINITY };
                 worst = worst.max(match &edge.curve {
                     Curve::Line { origin, direction } => (point - origin).cross(*direction).magnitude(),
                     Curve::Spline(spline) => {

@@ -52,7 +52,7 @@ fn a_broken_boundary_is_not_closed_or_not_the_volume() {
     assert!((enclosed(&sense) / good.volume - 1.0).abs() > 0.1);
 
     let mut moved = good.boundary.clone();
-    moved.boundaries[0].vertices[5].x += 1e-6;
+    moved.boundaries[0].vertices[5].0.x += 1e-6;
     assert!(largest_gap(&moved) > 1e-7);
 }
 

@@ -127,7 +127,7 @@ impl<'a> Tried<'a> {
     /// Every panel with its column and its way down, the tables of places as fine as there is room for.
     fn panels(&self, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
         let choices = self.view.tables.iter().map(Some).chain(self.view.tables.is_empty().then_some(None));
-        let tried = choices.map(|table| flow(&self.list(stacks.first()?.0, table), stacks, partly));
+        let tried = choices.map(|table| flow(self.list(stacks.first()?.0, table), stacks, partly));
         tried.flatten().next()
     }
 
@@ -206,7 +206,7 @@ fn beside_each_other(field: &Extents, traces: &[Trace], k: f64) -> Vec<Group> {
 }
 
 /// Puts panels into stacks one below the other; `None` where they do not fit.
-fn flow(list: &[Panel], stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
+fn flow(list: Vec<Panel>, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
     let (mut column, mut down, mut placed) = (0, 0.0, Vec::new());
     for panel in list {
         while down + panel.height > stacks.get(column).map_or(f64::INFINITY, |(_, height)| *height) {
@@ -215,8 +215,9 @@ fn flow(list: &[Panel], stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usiz
         if column >= stacks.len() {
             return partly.then_some(placed);
         }
-        placed.push((column, down, panel.clone()));
+        let top = down;
         down += panel.height;
+        placed.push((column, top, panel));
     }
     Some(placed)
 }
@@ -232,7 +233,8 @@ impl Layout<'_> {
             for shape in &shapes {
                 taken.put(shape);
             }
-            groups.push(Group { shapes, ..group.clone() });
+            let (id, label, colour) = (group.id.clone(), group.label.clone(), group.colour.clone());
+            groups.push(Group { id, label, colour, shapes, ..*group });
         }
         let ruler = ruler(&self.view, k);
         for shape in &ruler {

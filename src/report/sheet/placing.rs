@@ -1,13 +1,15 @@
 //! Where on the paper there is nothing yet: a map of cells, so that a text finds its place in a few microseconds.
 
 use super::{Shape, TextAnchor, font, words};
-use crate::geometry::contour::Extents;
+use crate::geometry::contour::{Edge, Extents, Segment};
 use nalgebra::Vector2;
 
 /// Side of a cell, mm.
 const CELL: f64 = 0.8;
 /// Distance of two points of a line that tell in which cells it is, mm.
 const NEAR: f64 = 0.5 * CELL;
+/// Most points of a curve: one far larger than any paper is not followed closer.
+const MOST: f64 = 4000.0;
 
 /// How soon the corner of a text, not its side, looks back at its place.
 const LEAN: f64 = 1.6;
@@ -81,33 +83,48 @@ impl Taken {
         if let Some(field) = shape.text_field() {
             self.fill(&field);
         }
-        for chain in shape.chains(NEAR) {
-            let mut from: Option<(Vector2<f64>, Option<usize>)> = None;
-            for &to in &chain {
-                let here = self.cell(to);
-                match from {
-                    // All between two points of a cell is in it.
-                    Some((_, Some(cell))) if Some(cell) == here => self.line_in(cell),
-                    // So near that there is no point between them.
-                    Some((start, before)) if (to - start).norm_squared() <= NEAR * NEAR => {
-                        before.into_iter().chain(here).for_each(|cell| self.line_in(cell));
-                    }
-                    Some((start, _)) => Self::along(start, to).for_each(|point| self.line_at(point)),
-                    None => {}
-                }
-                from = Some((to, here));
+        match shape {
+            Shape::Entity(entity) => entity.contour().edges().for_each(|edge| self.put_edge(&edge)),
+            Shape::Line(a, b) => self.put_line(*a, *b),
+            Shape::Path(points) => {
+                points.iter().zip(points.iter().skip(1)).for_each(|(a, b)| self.put_line(*a, *b));
             }
+            Shape::Arc(start, end, bulge) => {
+                self.put_edge(&Edge::Segment(Segment { start: *start, end: *end, bulge: *bulge }));
+            }
+            Shape::Triangle([a, b, c]) => [(a, b), (b, c), (c, a)].iter().for_each(|(a, b)| self.put_line(**a, **b)),
+            Shape::Text { .. } => {}
         }
     }
 
-    fn line_at(&mut self, point: Vector2<f64>) {
-        if let Some(cell) = self.cell(point) {
-            self.line_in(cell);
-        }
+    fn put_line(&mut self, from: Vector2<f64>, to: Vector2<f64>) {
+        Self::along(from, to).for_each(|point| self.put_point(point));
     }
 
-    fn line_in(&mut self, cell: usize) {
-        if let Some(taken) = self.lines.get_mut(cell) {
+    /// The points of an edge, so near that there is no cell between two of them.
+    fn put_edge(&mut self, edge: &Edge) {
+        if edge.segment().is_some_and(|segment| segment.bulge == 0.0) {
+            return self.put_line(edge.start(), edge.end());
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
+        let pieces = (edge.length() / NEAR).ceil().clamp(1.0, MOST) as u32;
+        let share = 1.0 / f64::from(pieces);
+        let Edge::Segment(arc) = edge else {
+            return (0..=pieces).for_each(|index| self.put_point(edge.at(f64::from(index) * share).0));
+        };
+        // Each chord is the one before, turned by the same angle: rounding adds up to far less than the finest line.
+        let (sin, cos) = libm::sincos(arc.sweep() * share);
+        let (mut point, mut chord) = (arc.start, arc.at(share).0 - arc.start);
+        for _ in 0..pieces {
+            self.put_point(point);
+            point += chord;
+            chord = Vector2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y);
+        }
+        self.put_point(arc.end);
+    }
+
+    fn put_point(&mut self, point: Vector2<f64>) {
+        if let Some(taken) = self.cell(point).and_then(|cell| self.lines.get_mut(cell)) {
             *taken = true;
         }
     }

@@ -1,7 +1,7 @@
 //! What a body shows on its sheet, in true size.
 
 use super::{Group, Shape};
-use crate::geometry::contour::{Edge, Extents};
+use crate::geometry::contour::{Extents, Segment};
 use crate::machine::Title;
 use nalgebra::Vector2;
 
@@ -138,53 +138,11 @@ impl Shape {
             Shape::Line(a, b) => of(&[*a, *b]),
             Shape::Path(points) => of(points),
             Shape::Arc(start, end, bulge) => {
-                let segment = crate::geometry::contour::Segment { start: *start, end: *end, bulge: *bulge };
+                let segment = Segment { start: *start, end: *end, bulge: *bulge };
                 Some(segment.extents())
             }
             Shape::Triangle(corners) => of(corners),
             Shape::Text { .. } => None,
         }
     }
-
-    /// The lines of a shape as chains of points, so near that none is farther than `step` from the next on a curve.
-    #[must_use]
-    pub fn chains(&self, step: f64) -> Vec<Vec<Vector2<f64>>> {
-        match self {
-            Shape::Entity(entity) => {
-                let edges: Vec<Edge> = entity.contour().edges().collect();
-                edges.iter().map(|edge| chain(edge, step)).collect()
-            }
-            Shape::Line(a, b) => vec![vec![*a, *b]],
-            Shape::Path(points) => vec![points.clone()],
-            Shape::Arc(start, end, bulge) => {
-                let segment = crate::geometry::contour::Segment { start: *start, end: *end, bulge: *bulge };
-                vec![chain(&Edge::Segment(segment), step)]
-            }
-            Shape::Triangle([a, b, c]) => vec![vec![*a, *b, *c, *a]],
-            Shape::Text { .. } => Vec::new(),
-        }
-    }
-}
-
-/// Most points of a chain: a curve far larger than any paper is not followed closer.
-const MOST: f64 = 4000.0;
-
-fn chain(edge: &Edge, step: f64) -> Vec<Vector2<f64>> {
-    if edge.segment().is_some_and(|segment| segment.bulge == 0.0) {
-        return vec![edge.start(), edge.end()];
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
-    let pieces = (edge.length() / step).ceil().clamp(1.0, MOST) as u32;
-    let share = 1.0 / f64::from(pieces);
-    let Edge::Segment(arc) = edge else {
-        return (0..=pieces).map(|index| edge.at(f64::from(index) * share).0).collect();
-    };
-    // Each chord is the one before, turned by the same angle: rounding adds up to far less than the finest line.
-    let (sin, cos) = libm::sincos(arc.sweep() * share);
-    let first = (arc.start, arc.at(share).0 - arc.start);
-    let next = |(point, chord): &(Vector2<f64>, Vector2<f64>)| {
-        let turned = Vector2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y);
-        Some((point + chord, turned))
-    };
-    std::iter::successors(Some(first), next).take(pieces as usize).map(|(point, _)| point).chain([arc.end]).collect()
 }
