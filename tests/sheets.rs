@@ -3,9 +3,9 @@
 #![allow(clippy::expect_used, clippy::panic, clippy::indexing_slicing, missing_docs, reason = "a test fails loudly")]
 
 use camgen::analysis::linkage::{self, Goal};
-use camgen::geometry::contour::Extents;
+use camgen::geometry::contour::{Edge, Extents, Segment};
 use camgen::report::plot;
-use camgen::report::sheet::{Sheet, font, paper};
+use camgen::report::sheet::{Shape, Sheet, font, paper};
 use camgen::write::{pdf, svg};
 use camgen::{ExactOn, Machine, Solver, Spec};
 use nalgebra::Vector2;
@@ -68,10 +68,36 @@ fn fields(sheet: &Sheet) -> Vec<(Extents, String)> {
     let shapes = sheet.groups.iter().flat_map(|group| &group.shapes);
     shapes
         .filter_map(|shape| match shape {
-            camgen::report::sheet::Shape::Text { text, .. } => shape.text_field().map(|field| (field, text.clone())),
+            Shape::Text { text, .. } => shape.text_field().map(|field| (field, text.clone())),
             _ => None,
         })
         .collect()
+}
+
+/// Distance of two points of a curve, mm.
+const STEP: f64 = 0.25;
+/// Most points of a curve: one far larger than any paper is not followed closer.
+const MOST: f64 = 4000.0;
+
+/// The lines of a shape as chains of points.
+fn chains(shape: &Shape) -> Vec<Vec<Vector2<f64>>> {
+    match shape {
+        Shape::Entity(entity) => entity.contour().edges().map(|edge| along(&edge)).collect(),
+        Shape::Line(a, b) => vec![vec![*a, *b]],
+        Shape::Path(points) => vec![points.clone()],
+        Shape::Arc(start, end, bulge) => {
+            vec![along(&Edge::Segment(Segment { start: *start, end: *end, bulge: *bulge }))]
+        }
+        Shape::Triangle([a, b, c]) => vec![vec![*a, *b, *c, *a]],
+        Shape::Text { .. } => Vec::new(),
+    }
+}
+
+fn along(edge: &Edge) -> Vec<Vector2<f64>> {
+    let straight = edge.segment().is_some_and(|segment| segment.bulge == 0.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
+    let pieces = if straight { 1 } else { (edge.length() / STEP).ceil().clamp(1.0, MOST) as u32 };
+    (0..=pieces).map(|index| edge.at(f64::from(index) / f64::from(pieces)).0).collect()
 }
 
 /// Everything that is wrong with a sheet for the eye.
@@ -102,7 +128,7 @@ fn faults(sheet: &Sheet) -> Vec<String> {
         }
     }
     for group in &sheet.groups {
-        for chain in group.shapes.iter().flat_map(|shape| shape.chains(0.25)) {
+        for chain in group.shapes.iter().flat_map(chains) {
             for (from, to) in chain.iter().zip(chain.iter().skip(1)) {
                 for (field, text) in &texts {
                     if crosses(field, *from, *to) {
