@@ -11,6 +11,7 @@ use crate::write::record::{Run, stage_recorded};
 use crate::write::svg;
 use crate::write::{FORMATS, Format, Rendering, When, by_name};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 pub use files::Output;
 
@@ -139,7 +140,12 @@ fn files_alone<'p>(proven: &'p Proven<'_>, writing: &Writing, beside: &[String])
     let report = Told::new(Box::new(|| Report { files, ..proven.report() }));
     let rendering = proven.rendering(&report, writing.samples, &writing.template)?;
     let rendering = Rendering { created: writing.created, ..rendering };
-    let made = parallel::map(&formats, |format| (format.write)(&rendering));
+    let filled: Vec<_> = formats.iter().filter(|format| !(format.endings)(rendering.drawn).is_empty()).collect();
+    // Made by one of several at the same time, it could wait for itself: its sections spread over the threads that write the others.
+    if filled.len() > 1 {
+        LazyLock::force(&report);
+    }
+    let made = parallel::map(&filled, |format| (format.write)(&rendering));
     let bytes: Vec<Vec<Vec<u8>>> = made.into_iter().collect::<Result<_, _>>()?;
     Ok(set(writing, proven.inputs.clone(), report, names.into_iter().zip(bytes.into_iter().flatten()).collect()))
 }
