@@ -76,8 +76,8 @@ fn is_as_recorded(bytes: &[u8], recorded: &str) -> bool {
 
 /// Digest of the inputs of a run.
 fn digest(inputs: &[Input]) -> String {
-    let texts: Vec<String> = inputs.iter().map(|input| format!("{} = {}\n", input.key, input.value)).collect();
-    sha256(texts.concat().as_bytes())
+    let words = inputs.iter().flat_map(|input| [input.key.as_str(), " = ", &input.value, "\n"]);
+    sha256(words.collect::<String>().as_bytes())
 }
 
 impl Record {

@@ -523,6 +523,7 @@ impl Body for Disc {
         let part = found.drawn.and_then(|drawn| drawn.parts.first());
         let on_face = extremes::places_on_face(self.curves()).map(|places| places.map(|at| MILLIMETRES * at.value));
         let lift = |quantity, unit: f64| (self.motion.quantity() == quantity).then(|| unit * self.max_lift());
+        let spin = if *self.kind == GENERAL { self.spin() } else { None };
         let cam = CamMeasures {
             prime_radius_mm: Some(MILLIMETRES * self.prime_radius()),
             base_radius_mm: Some(MILLIMETRES * self.base_radius()),
@@ -531,7 +532,7 @@ impl Body for Disc {
             max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
             smallest_prime_radius_mm: self.smallest_prime_radius().map(|radius| MILLIMETRES * radius),
             face_mm: on_face,
-            roller_turns: self.spin().filter(|_| *self.kind == GENERAL).map(|spin| [spin.mean, spin.largest.value]),
+            roller_turns: spin.map(|spin| [spin.mean, spin.largest.value]),
             lobes: self.load.as_ref().map(|_| self.motion.lobes()),
             plate: None,
             weight: part.map(|part| part.weight(&self.machine)).unwrap_or_default(),
