@@ -72,7 +72,9 @@ proptest! {
             let part = &drawn.parts[0];
             let contour = &part.outline.contour;
             prop_assert!(part.outline.deviation <= 1e3 * tolerance);
-            let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > 1e-6).collect();
+            // About a corner of its path a roller turns by an arc, which is left out where readers would drop it, below 1e-5 mm.
+            let seen = (1e-5 / (1e3 * curves.offset())).max(1e-6);
+            let kinks: Vec<f64> = contour.tangent_breaks().into_iter().filter(|turn| turn.abs() > seen).collect();
             let losses = envelope::losses(curves).expect("drawn, so they were found");
             // An undercut leaves an edge for each loop, outwards; nothing else has a kink.
             prop_assert!(kinks.len() <= losses.len() && kinks.iter().all(|turn| *turn > 0.0), "{kinks:?} {losses:?}");

@@ -148,8 +148,7 @@ impl<'a> Followed<'a> {
             if near && normal.dot(&touch.drive) > 0.0 { parameter } else { f64::NAN }
         };
         let period = curves.motion.period();
-        // Every segment, and what lies between it and the one before: an edge about which the follower turns. Where the one goes on in the
-        // direction of the other there is none.
+        // Every segment, and what lies between it and the one before, an edge about which the follower turns, where it goes on otherwise.
         let mut ended: Option<(Vector2<f64>, Vector2<f64>, f64)> = None;
         let mut runs: Vec<(f64, f64, Guide)> = Vec::with_capacity(edges.len());
         let mut last: Option<f64> = None;
@@ -161,9 +160,7 @@ impl<'a> Followed<'a> {
         for edge in edges.iter().filter(|edge| edge.length() > LEAST_EDGE) {
             let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
             let (start, tangent) = (edge.start(), edge.start_tangent());
-            let goes_on = ended.filter(|(end, before, _)| {
-                *end == start && before.perp(&tangent).abs() < SMOOTH && before.dot(&tangent) > 0.0
-            });
+            let goes_on = ended.filter(|(end, before, _)| *end == start && is_smooth(*before, tangent));
             let from = goes_on.map_or_else(|| parameter(start, tangent), |(.., at)| at);
             let to = parameter(edge.end(), edge.end_tangent());
             ended = Some((edge.end(), edge.end_tangent(), to));
@@ -273,32 +270,36 @@ impl<'a> Followed<'a> {
         Some([velocity, acceleration, cut.dds * first * first + cut.ds * second])
     }
 
+    /// Errors at the ends of a stretch and between them, more of them where that of the acceleration is not nearly straight; none where
+    /// the follower does not run.
+    fn places_off(&self, stretch: &Stretch) -> Vec<Off> {
+        if !self.is_rolled(stretch) {
+            return Vec::new();
+        }
+        let in_cells = |cells: u32| {
+            let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(cells);
+            let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
+            (0..=cells).map(found).collect::<Option<Vec<Off>>>().unwrap_or_default()
+        };
+        let few = in_cells(CELLS);
+        let straight = |[(_, left), (_, middle), (_, right)]: &[Off; 3]| {
+            let size = left[1].abs().max(right[1].abs());
+            (middle[1] - 0.5 * (left[1] + right[1])).abs() <= NEARLY_STRAIGHT * size
+        };
+        if few.windows(3).all(|three| <&[Off; 3]>::try_from(three).is_ok_and(straight)) {
+            few
+        } else {
+            in_cells(MORE_CELLS)
+        }
+    }
+
     /// The largest errors where the follower runs, by the angle of the shaft that gives the time.
     ///
     /// Along a segment the error of the velocity is largest where that of the acceleration, its derivative, is 0, or at an end.
     #[must_use]
     pub fn errors(&self) -> Errors {
-        let places = |stretch: &Stretch| {
-            if !self.is_rolled(stretch) {
-                return Vec::new();
-            }
-            let in_cells = |cells: u32| {
-                let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(cells);
-                let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
-                (0..=cells).map(found).collect::<Option<Vec<Off>>>().unwrap_or_default()
-            };
-            let few = in_cells(CELLS);
-            let straight = |[(_, left), (_, middle), (_, right)]: &[Off; 3]| {
-                let size = left[1].abs().max(right[1].abs());
-                (middle[1] - 0.5 * (left[1] + right[1])).abs() <= NEARLY_STRAIGHT * size
-            };
-            if few.windows(3).all(|three| <&[Off; 3]>::try_from(three).is_ok_and(straight)) {
-                few
-            } else {
-                in_cells(MORE_CELLS)
-            }
-        };
-        let all: Vec<(&Stretch, Vec<Off>)> = self.stretches.iter().map(|stretch| (stretch, places(stretch))).collect();
+        let all: Vec<(&Stretch, Vec<Off>)> =
+            self.stretches.iter().map(|stretch| (stretch, self.places_off(stretch))).collect();
         let place = |stretch: &Stretch, parameter: f64, value: f64| Worst {
             value: value.abs(),
             at: parameter + stretch.shift,
@@ -344,6 +345,11 @@ impl<'a> Followed<'a> {
         }
         errors
     }
+}
+
+/// Whether the direction of a chain turns by no more than rounding.
+fn is_smooth(before: Vector2<f64>, after: Vector2<f64>) -> bool {
+    before.perp(&after).abs() < SMOOTH && before.dot(&after) > 0.0
 }
 
 /// Adds what lies between the end of the last run and the start of the next: a run about the edge between them, or, where they

@@ -15,8 +15,8 @@ const LEAST_NODES: f64 = 24.0;
 /// Cells of equal share where those of the first round are too wide: per best possible arc, and at the least.
 const CELLS_PER_ARC: f64 = 24.0;
 const LEAST_CELLS: f64 = 96.0;
-/// Cells in which I₃ is summed up first; the integrand has cusps where κ' changes sign, seen to 3e-3 of I₃ with 128.
-const SHARE_CELLS: u32 = 128;
+/// Cells in which I₃ is summed up first; the integrand has cusps where κ' changes sign, seen to 1e-3 of I₃ with 256.
+const SHARE_CELLS: u32 = 256;
 /// Difference of the two sums of I₃ at which the cells are narrow enough, and how often they are divided again.
 const AGREEMENT: f64 = 0.02;
 const MOST_ROUNDS: u32 = 5;
