@@ -353,13 +353,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// Radius of the largest cutter that fits into the concave parts, m; `None` where nothing is concave.
     fn hollow(&self) -> Option<Worst> {
         let curves = self.plane()?;
-        let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
-        // At a concave corner of the pitch curve the profile is an arc of the roller's own radius.
-        if let Some(corner) = corner {
-            return Some(Worst { value: curves.offset(), at: corner.at, z: 0.0 });
-        }
-        let smooth = extremes::concave_profile_curvature(curves);
-        (smooth.value > 0.0).then(|| Worst { value: 1.0 / smooth.value, at: smooth.at, z: 0.0 })
+        self.worst_places().map_or_else(|| worst_places::hollow(curves), |worst| worst.hollow(curves))
     }
 
     /// What the follower loses of its motion where the profile is undercut, a sentence each: of many places those where it is most.

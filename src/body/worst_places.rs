@@ -13,6 +13,7 @@ pub struct WorstPlaces {
     least_radius: OnceLock<Worst>,
     least_rolled_radius: OnceLock<Worst>,
     largest_rates: OnceLock<[f64; 2]>,
+    hollow: OnceLock<Option<Worst>>,
 }
 
 impl WorstPlaces {
@@ -22,6 +23,10 @@ impl WorstPlaces {
 
     pub(super) fn largest_rates(&self, motion: &dyn Motion) -> [f64; 2] {
         *self.largest_rates.get_or_init(|| followed::largest_rates(motion))
+    }
+
+    pub(super) fn hollow(&self, curves: Curves<'_>) -> Option<Worst> {
+        *self.hollow.get_or_init(|| hollow(curves))
     }
 
     pub(super) fn least_radius(&self, curves: Curves<'_>) -> Worst {
@@ -53,6 +58,16 @@ fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Wors
         Some(corner) => Worst { value: 0.0, at: corner.at, z: 0.0 },
         None => smooth.unwrap_or_else(|| radius_of(plane(extremes::convex_curvature_on(curves, &searched)))),
     }
+}
+
+/// The most hollow place of the profile, as [`Body::hollow`](super::Body::hollow).
+pub(super) fn hollow(curves: Curves<'_>) -> Option<Worst> {
+    // At a concave corner of the pitch curve the profile is an arc of the roller's own radius.
+    if let Some(corner) = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0) {
+        return Some(Worst { value: curves.offset(), at: corner.at, z: 0.0 });
+    }
+    let smooth = extremes::concave_profile_curvature(curves);
+    (smooth.value > 0.0).then(|| Worst { value: 1.0 / smooth.value, at: smooth.at, z: 0.0 })
 }
 
 /// The radius of the largest convex curvature; infinite where nothing is convex.

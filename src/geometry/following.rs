@@ -52,8 +52,9 @@ const MOST_CELLS: usize = 100_000;
 const MOST_PER_SEGMENT: usize = 500;
 /// How far a cubic overshoots its ends, over its length and the sum of its slopes there: 4/27.
 pub(super) const OVERSHOOT: f64 = 4.0 / 27.0;
-/// Rounds of the bound, which feeds on itself, and the least 1 + κ d it is made for.
+/// Rounds of the bound, which feeds on itself, the share of it from which on no further one is made, and the least 1 + κ d it is made for.
 const BOUND_ROUNDS: u32 = 4;
+const SETTLED: f64 = 0.8;
 const LEAST_SHRINK: f64 = 0.05;
 
 /// A largest distance, and where.
@@ -467,7 +468,12 @@ fn bend((straightest, sharpest): (f64, f64), a: &Node, b: &Node, length: f64) ->
                 (low, high) = (low.min(straightest - turn), high.max(sharpest - turn));
             }
         }
+        let before = sine;
         sine = sine.min(at_ends + 0.5 * length * low.abs().max(high.abs()));
+        // Not much more is to be had.
+        if sine > SETTLED * before {
+            break;
+        }
     }
     if !(sine < 1.0) {
         return None;

@@ -7,7 +7,7 @@
 
 use crate::geometry::contour::{Contour, Edge, Nearest};
 use nalgebra::Vector2;
-use parry2d_f64::bounding_volume::Aabb;
+use parry2d_f64::bounding_volume::{Aabb, BoundingVolume as _};
 use parry2d_f64::math::Vector;
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 use parry2d_f64::query::{PointQuery, PointQueryWithLocation};
@@ -28,12 +28,20 @@ pub struct About {
     middle: usize,
     point: Vector2<f64>,
     clear: f64,
+    /// No edge but `edge` is nearer to `seen` than `alone`, mm.
+    seen: Vector2<f64>,
+    alone: f64,
 }
 
 /// The outline, prepared for the search of the nearest point.
 pub struct Track {
     edges: Vec<Edge>,
     tree: Bvh,
+}
+
+/// Two edges with their nearest points, the nearer one first, the earlier of equals.
+fn nearer(earlier: (usize, Nearest), later: (usize, Nearest)) -> ((usize, Nearest), (usize, Nearest)) {
+    if later.1.left.abs() < earlier.1.left.abs() { (later, earlier) } else { (earlier, later) }
 }
 
 fn parry(point: Vector2<f64>) -> Vector {
@@ -78,20 +86,32 @@ impl Track {
     pub fn nearest_about(&self, point: Vector2<f64>, about: &mut About) -> Option<Nearest> {
         let n = self.edges.len();
         let middle = about.edge.min(n.checked_sub(1)?);
+        let own = self.edges.get(middle)?.nearest(point);
+        if about.edge == middle && (point - about.seen).norm() + own.left.abs() <= about.alone {
+            return Some(self.at_vertex(point, middle, own));
+        }
         let known = [(middle + n - 1) % n, middle, (middle + 1) % n];
-        let of_known = known.iter().filter_map(|edge| Some((*edge, self.edges.get(*edge)?.nearest(point))));
-        let (mut edge, mut nearest) = of_known.min_by(|a, b| a.1.left.abs().total_cmp(&b.1.left.abs()))?;
-        let distance = nearest.left.abs();
-        if about.middle != middle || !((point - about.point).norm() + distance <= about.clear) {
+        let before = self.edges.get(known[0])?.nearest(point);
+        let after = self.edges.get(known[2])?.nearest(point);
+        let ((mut edge, mut nearest), (_, other)) = nearer((known[0], before), (middle, own));
+        let ((nearest_edge, of_three), (_, third)) = nearer((edge, nearest), (known[2], after));
+        (edge, nearest) = (nearest_edge, of_three);
+        let (distance, mut second) = (nearest.left.abs(), other.left.abs().min(third.left.abs()));
+        let moved = (point - about.point).norm();
+        if about.middle != middle || !(moved + distance <= about.clear) {
             let clear = (1.0 + ROOM) * distance;
             let found = self.nearer_than(point, clear, &known);
             let clear = found.map_or(clear, |(_, other)| other.left.abs());
-            *about = About { edge, middle, point, clear };
+            (about.middle, about.point, about.clear) = (middle, point, clear);
+            // Of the edges beside one that was found nothing is known.
+            second = second.min(clear);
             if let Some((leaf, other)) = found.filter(|(_, other)| other.left.abs() < distance) {
                 (edge, nearest) = (leaf, other);
             }
+        } else {
+            second = second.min(about.clear - moved);
         }
-        about.edge = edge;
+        (about.edge, about.seen, about.alone) = (edge, point, second);
         nearest.left.is_finite().then(|| self.at_vertex(point, edge, nearest))
     }
 
@@ -172,15 +192,16 @@ impl Track {
     }
 }
 
-/// Chords to a box.
-const TO_A_BOX: usize = 12;
+/// Chords to a box, and boxes to a larger one.
+const TO_A_BOX: usize = 8;
 
 /// The outline as chords, for parry's own distance.
 pub struct Chords {
     /// Where they begin; each ends where the next one begins, the last where the first does.
     points: Vec<Vector>,
-    /// About every [`TO_A_BOX`] of them.
+    /// About every [`TO_A_BOX`] of them, and about as many of these.
     boxes: Vec<Aabb>,
+    larger: Vec<Aabb>,
     /// How many.
     pub count: usize,
     /// Largest distance of a chord from its arc, mm.
@@ -225,7 +246,10 @@ impl Chords {
             let ends = (from..=from + TO_A_BOX).filter_map(|index| end_of(&points, index));
             Aabb::from_points(ends)
         });
-        Self { boxes: boxes.collect(), points, count, sagitta: worst }
+        let boxes: Vec<Aabb> = boxes.collect();
+        let about = |boxes: &[Aabb]| boxes.iter().copied().reduce(|about, other| about.merged(&other));
+        let larger = boxes.chunks(TO_A_BOX).filter_map(about).collect();
+        Self { boxes, larger, points, count, sagitta: worst }
     }
 
     /// How far the chords reach in a direction (a unit vector) from the origin.
@@ -255,19 +279,28 @@ impl Chords {
     /// The nearest chord of those that are nearer than `most`.
     fn nearer_than(&self, from: Vector, most: f64) -> Option<Near> {
         let mut nearest: Option<Near> = None;
-        for (number, about) in self.boxes.iter().enumerate() {
-            let least = nearest.as_ref().map_or(most, |near| near.distance);
-            if about.distance_to_local_point(from, true) >= least {
+        for (number, larger) in self.larger.iter().enumerate() {
+            let farther = |about: &Aabb, nearest: &Option<Near>| {
+                let least = nearest.as_ref().map_or(most, |near| near.distance);
+                square_of_distance(about, from) >= least * least
+            };
+            if farther(larger, &nearest) {
                 continue;
             }
             let first = TO_A_BOX * number;
-            for index in first..self.count.min(first + TO_A_BOX) {
-                let Some(chord) = self.segment(index) else { continue };
-                let (projection, place) = chord.project_local_point_and_get_location(from, false);
-                let away = from - projection.point;
-                let distance = away.length();
-                if distance < nearest.as_ref().map_or(most, |near| near.distance) {
-                    nearest = Some(Near { distance, index, place, away });
+            for (number, about) in (first..).zip(self.boxes.iter().skip(first).take(TO_A_BOX)) {
+                if farther(about, &nearest) {
+                    continue;
+                }
+                let first = TO_A_BOX * number;
+                for index in first..self.count.min(first + TO_A_BOX) {
+                    let Some(chord) = self.segment(index) else { continue };
+                    let (projection, place) = chord.project_local_point_and_get_location(from, false);
+                    let away = from - projection.point;
+                    let distance = away.length();
+                    if distance < nearest.as_ref().map_or(most, |near| near.distance) {
+                        nearest = Some(Near { distance, index, place, away });
+                    }
                 }
             }
         }
@@ -293,6 +326,21 @@ impl Chords {
     }
 }
 
+/// The square of the distance of a point from a box; 0 within.
+fn square_of_distance(about: &Aabb, from: Vector) -> f64 {
+    let beside = |low: f64, high: f64, at: f64| {
+        if at < low {
+            low - at
+        } else if at > high {
+            at - high
+        } else {
+            0.0
+        }
+    };
+    let (x, y) = (beside(about.mins.x, about.maxs.x, from.x), beside(about.mins.y, about.maxs.y, from.y));
+    x * x + y * y
+}
+
 /// The nearest chord to a point.
 struct Near {
     distance: f64,
@@ -311,6 +359,7 @@ fn end_of(points: &[Vector], index: usize) -> Option<Vector> {
 mod tests {
     use super::*;
     use crate::geometry::contour::Vertex;
+    use std::f64::consts::TAU;
 
     #[test]
     fn exact_and_chordal_distances_agree_inside_and_outside() {
@@ -328,35 +377,45 @@ mod tests {
         assert!(surface.nearest(Vector2::new(f64::NAN, 0.0)).is_none());
     }
 
+    /// The nearest place to a point from an edge that is known, and steps of all sizes from there, in turn, with what is known of the last.
+    fn agrees(track: &Track, point: Vector2<f64>, known: usize) {
+        let wanted = track.nearest(point).expect("finite");
+        let mut about = About { edge: known, ..About::default() };
+        let found = track.nearest_about(point, &mut about).expect("finite");
+        assert!(about.edge < track.edges().len(), "{point} from {known}");
+        assert!((found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{point} from {known}");
+        assert!((point - found.foot).norm() < wanted.left.abs() + 1e-12, "{point} from {known}");
+        for step in 0..24 {
+            let (sin, cos) = libm::sincos(f64::from(7 * step));
+            let next = point + Vector2::new(cos, sin) * libm::exp2(f64::from(step - 20));
+            let wanted = track.nearest(next).expect("finite");
+            let found = track.nearest_about(next, &mut about).expect("finite");
+            assert!((found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{next} after {point} from {known}");
+        }
+    }
+
     /// From whatever edge the search begins, and from one that is none: the same point is found, also at vertices and where the nearest
-    /// edge lies across the outline.
+    /// edge lies across the outline, of few edges and of many.
     #[test]
     fn the_nearest_place_does_not_depend_on_the_edge_that_is_known() {
         let at = |x: f64, y: f64, bulge: f64| Vertex::new(Vector2::new(x, y), bulge);
-        let slot = Contour {
-            vertices: vec![at(0.0, -10.0, 0.0), at(40.0, -10.0, 1.0), at(40.0, 10.0, -0.1), at(0.0, 10.0, 1.0)],
-        };
-        let track = Track::new(&slot);
-        let grid = (0..35)
-            .flat_map(|i| (0..25).map(move |j| Vector2::new(f64::from(i) * 3.0 - 30.0, f64::from(j) * 2.0 - 25.0)));
-        for point in grid.chain([Vector2::new(40.0, -10.0), Vector2::new(0.0, 10.0), Vector2::new(45.0, 20.0)]) {
-            let wanted = track.nearest(point).expect("finite");
-            for known in 0..6 {
-                let mut about = About { edge: known, ..About::default() };
-                let found = track.nearest_about(point, &mut about).expect("finite");
-                assert!(about.edge < 4 && (found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{point} from {known}");
-                assert!((point - found.foot).norm() < wanted.left.abs() + 1e-12, "{point} from {known}");
-                // Steps of all sizes from there, in turn, with what is known of the last.
-                for step in 0..24 {
-                    let (sin, cos) = libm::sincos(f64::from(7 * step));
-                    let next = point + Vector2::new(cos, sin) * libm::exp2(f64::from(step - 20));
-                    let wanted = track.nearest(next).expect("finite");
-                    let found = track.nearest_about(next, &mut about).expect("finite");
-                    assert!((found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{next} after {point} from {known}");
+        let slot = vec![at(0.0, -10.0, 0.0), at(40.0, -10.0, 1.0), at(40.0, 10.0, -0.1), at(0.0, 10.0, 1.0)];
+        let waves = (0..60).map(|i| {
+            let (turn, bulge) = (TAU * f64::from(i) / 60.0, if i % 3 == 0 { -0.08 } else { 0.05 });
+            let radius = 30.0 + 12.0 * libm::sin(5.0 * turn);
+            at(20.0 + radius * libm::cos(turn), radius * libm::sin(turn), bulge)
+        });
+        for vertices in [slot, waves.collect()] {
+            let track = Track::new(&Contour { vertices });
+            let grid = (0..35)
+                .flat_map(|i| (0..25).map(move |j| Vector2::new(f64::from(i) * 3.0 - 30.0, f64::from(j) * 2.0 - 25.0)));
+            for point in grid.chain([Vector2::new(40.0, -10.0), Vector2::new(0.0, 10.0), Vector2::new(45.0, 20.0)]) {
+                for known in [0, 1, 2, 3, 4, 5, 31, 59, 60] {
+                    agrees(&track, point, known);
                 }
             }
+            assert!(track.nearest_about(Vector2::new(f64::NAN, 0.0), &mut About::default()).is_none());
         }
-        assert!(track.nearest_about(Vector2::new(f64::NAN, 0.0), &mut About::default()).is_none());
     }
 
     #[test]

@@ -414,10 +414,13 @@ fn law_at(law: &CrankLaw, crank: f64) -> Derivatives {
     }
 }
 
-/// x = r sin φ, y = r − x and x' = r cos φ, all to full relative accuracy, for φ in [0, π/2].
+/// x = r sin φ, y = r − x and x' = r cos φ, all to full relative accuracy, for φ in [0, π/2]. Where x is the larger part nothing is lost
+/// in the difference.
 fn overrun(stroke: f64, crank: f64) -> [f64; 3] {
     let (sine, cosine) = libm::sincos(0.5 * (FRAC_PI_2 - crank));
-    [stroke * libm::sin(crank), 2.0 * stroke * sine * sine, 2.0 * stroke * sine * cosine]
+    let left = 2.0 * stroke * sine * sine;
+    let x = if left <= 0.5 * stroke { stroke - left } else { stroke * libm::sin(crank) };
+    [x, left, 2.0 * stroke * sine * cosine]
 }
 
 /// Δx by the crank angle in [0, π/2]: x' = r cos φ, x'' = −x, x''' = −x'.

@@ -299,37 +299,43 @@ impl Points {
     }
 }
 
-/// cos(π j k/n) for every j, and of each every k, one after the other.
+/// cos(π j k/n) for every j, and of each for k to the middle, one after the other.
 fn cosines(points: &[f64]) -> Vec<f64> {
     let turn: Vec<f64> = points.iter().chain(points.iter().rev().skip(1)).copied().collect();
-    let whole = 2 * points.len().saturating_sub(1).max(1);
-    let mut cosines = Vec::with_capacity(points.len() * points.len());
+    let (count, whole) = (to_the_middle(points.len()), 2 * points.len().saturating_sub(1).max(1));
+    let mut cosines = Vec::with_capacity(points.len() * count);
     for j in 0..points.len() {
-        let mut at = 0;
-        for _ in points {
-            cosines.push(turn.get(at).copied().unwrap_or(0.0));
-            at += j;
-            at = if at < whole { at } else { at - whole };
-        }
+        cosines.extend((0..count).map(|k| turn.get(j * k % whole).copied().unwrap_or(0.0)));
     }
     cosines
 }
 
-/// Coefficients of the polynomial through values at the Chebyshev points, from the upper end to the lower:
-/// cₖ = (2/n) Σ″ fⱼ cos(π j k/n), the first and the last halved.
+/// How many of so many coefficients there are to the middle one: of an odd number.
+fn to_the_middle(count: usize) -> usize {
+    count / 2 + 1
+}
+
+/// Coefficients of the polynomial through values at the Chebyshev points, an odd number of them, from the upper end to the lower:
+/// cₖ = (2/n) Σ″ fⱼ cos(π j k/n), the first and the last halved. With n − k in place of k the terms of odd j change their sign.
 fn coefficients(values: &[f64], cosines: &[f64]) -> Vec<f64> {
-    let n = values.len().saturating_sub(1);
-    let mut sums = vec![0.0; values.len()];
-    for (j, (value, row)) in values.iter().zip(cosines.chunks(values.len().max(1))).enumerate() {
+    let (n, count) = (values.len().saturating_sub(1), to_the_middle(values.len()));
+    let mut sums = [vec![0.0; count], vec![0.0; count]];
+    for (j, (value, row)) in values.iter().zip(cosines.chunks(count)).enumerate() {
         let value = if j == 0 || j == n { 0.5 * value } else { *value };
-        sums.iter_mut().zip(row).for_each(|(sum, cosine)| *sum += value * cosine);
+        sums[j % 2].iter_mut().zip(row).for_each(|(sum, cosine)| *sum += value * cosine);
     }
     #[expect(clippy::cast_precision_loss, reason = "a few hundred")]
     let share = 2.0 / n as f64;
-    for (k, sum) in sums.iter_mut().enumerate() {
-        *sum = share * if k == 0 || k == n { 0.5 * *sum } else { *sum };
+    let [even, odd] = sums;
+    let lower = even.iter().zip(&odd).map(|(even, odd)| even + odd);
+    let upper = even.iter().zip(&odd).rev().skip(1).map(|(even, odd)| even - odd);
+    let mut coefficients: Vec<f64> = lower.chain(upper).map(|sum| share * sum).collect();
+    for end in [0, n] {
+        if let Some(coefficient) = coefficients.get_mut(end) {
+            *coefficient *= 0.5;
+        }
     }
-    sums
+    coefficients
 }
 
 /// Coefficients of the derivative: c′ₖ₋₁ = c′ₖ₊₁ + 2 k cₖ, the first halved.

@@ -4,6 +4,7 @@
 
 pub mod banded;
 pub mod bernstein;
+pub mod blocks;
 pub mod chebyshev;
 pub mod chebyshev_series;
 pub(crate) mod decimal;

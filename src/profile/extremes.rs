@@ -207,7 +207,26 @@ pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
         let contact = curves.contact(piece, angle);
         (contact.pressure_angle, contact.pressure_angle_slope, contact.curve.tangent)
     };
-    let rising = places_along(curves, |piece| curves.motion.is_rolled(piece), along);
+    let (motion, symmetric) = (curves.motion, curves.follower.is_symmetric());
+    // In the mirror it has the other sign.
+    let in_mirror_of = |piece: usize| {
+        let (first, in_mirror) = motion.repeats(piece);
+        (symmetric && in_mirror && first < piece && motion.is_rolled(first)).then_some(first)
+    };
+    let mut rising = places_along(curves, |piece| motion.is_rolled(piece) && in_mirror_of(piece).is_none(), along);
+    for (index, piece) in motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index)) {
+        let first = in_mirror_of(index).and_then(|first| rising.iter().find(|(other, _)| *other == first));
+        let Some(((_, places), own)) = first.and_then(|found| Some((found, motion.pieces().get(found.0)?))) else {
+            continue;
+        };
+        let mirrored = |place: &extremum::Place| {
+            let at = (own.end - place.at + piece.start).clamp(piece.start, piece.end);
+            extremum::Place { at, value: -place.value, slope: place.slope }
+        };
+        let places = places.iter().rev().map(mirrored).collect();
+        rising.push((index, places));
+    }
+    rising.sort_by_key(|(index, _)| *index);
     let negative = |(index, places): &(usize, Vec<extremum::Place>)| {
         (*index, places.iter().map(|place| place.negative()).collect())
     };

@@ -38,10 +38,9 @@ const TOUCHING: f64 = 2.0 * f64::EPSILON;
 pub(super) const STRAIGHT: f64 = 1e-9;
 /// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
 const CHANGE: f64 = 0.1;
-/// Parts into which a stretch is cut to find its largest error, so many more where the error of the acceleration is not straight to this
-/// share of its size, and golden sections where an error is largest within a stretch.
-const CELLS: u32 = 2;
-const MORE_CELLS: u32 = 4;
+/// Parts into which a stretch is cut to find its largest error, half as many where the error of the acceleration is straight to this share
+/// of its size, and golden sections where an error is largest within a stretch.
+const CELLS: u32 = 4;
 const NEARLY_STRAIGHT: f64 = 0.1;
 const SECTIONS: u32 = 22;
 /// How exactly the place of the largest velocity error is found, in such parts: its value is right to the square.
@@ -276,21 +275,19 @@ impl<'a> Followed<'a> {
         if !self.is_rolled(stretch) {
             return Vec::new();
         }
-        let in_cells = |cells: u32| {
-            let place = |cell: u32| stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(cells);
-            let found = |cell| Some((place(cell), self.off(stretch, place(cell))?));
-            (0..=cells).map(found).collect::<Option<Vec<Off>>>().unwrap_or_default()
+        let at = |cell: u32| {
+            let place = stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(CELLS);
+            Some((place, self.off(stretch, place)?))
         };
-        let few = in_cells(CELLS);
-        let straight = |[(_, left), (_, middle), (_, right)]: &[Off; 3]| {
-            let size = left[1].abs().max(right[1].abs());
-            (middle[1] - 0.5 * (left[1] + right[1])).abs() <= NEARLY_STRAIGHT * size
-        };
-        if few.windows(3).all(|three| <&[Off; 3]>::try_from(three).is_ok_and(straight)) {
-            few
-        } else {
-            in_cells(MORE_CELLS)
+        let [Some(left), Some(middle), Some(right)] = [0, CELLS / 2, CELLS].map(at) else { return Vec::new() };
+        let acceleration = |(_, [_, error, _]): &Off| *error;
+        let size = acceleration(&left).abs().max(acceleration(&right).abs());
+        let straight = 0.5 * (acceleration(&left) + acceleration(&right));
+        if (acceleration(&middle) - straight).abs() <= NEARLY_STRAIGHT * size {
+            return vec![left, middle, right];
         }
+        let [Some(before), Some(behind)] = [CELLS / 4, CELLS - CELLS / 4].map(at) else { return Vec::new() };
+        vec![left, before, middle, behind, right]
     }
 
     /// The largest errors where the follower runs, by the angle of the shaft that gives the time.

@@ -6,6 +6,8 @@
 //! lift the residual force it really leaves. Normals, offsets, curvatures and arc fitting, by which the outline was made, are
 //! not used; the same distances are measured a second time by parry2d on chords.
 
+mod worst;
+
 use super::{Bound, Check, Evidence, Explained, On, felt, sphere};
 use crate::body::Body;
 use crate::body::tension;
@@ -13,7 +15,6 @@ use crate::follower::{Element, Touch};
 use crate::geometry::contour::{Contour, Edge};
 use crate::geometry::track::{About, Chords, Track};
 use crate::motion::{Jet, Quantity};
-use crate::numeric::extremum;
 use crate::profile::Curves;
 use crate::report::{Finding, Place, Rolled, Verdict};
 use nalgebra::Vector2;
@@ -51,27 +52,6 @@ const SHORT: f64 = 0.1;
 const SMOOTH: f64 = 1e-10;
 /// Of more than so many segments only some have one: the others are shorter than anything that is felt, and `outline` walks them all.
 const MOST_TOUCHED: usize = 50_000;
-/// Between two places a maximum is looked for while it may exceed what was found by more than this, mm.
-const SLACK: f64 = 1e-10;
-/// By so much of what a cubic rises above its ends a maximum may be higher than the cubic.
-const DOUBT: f64 = 0.25;
-/// The foot jumps where it moves so much farther than the roller's centre.
-const JUMP: f64 = 4.0;
-/// Halvings between two places, and places in all that are looked at closer.
-const DEEPEST: u32 = 30;
-const MOST_CLOSER: usize = 4000;
-/// Worst places of a value without slope that are looked at closer, and golden sections there: the value at a maximum is right
-/// to the square of what is left of the step, 1e-8.
-const CLOSER_LOOKS: usize = 8;
-const CLOSER_SECTIONS: u32 = 19;
-/// Parabolas to the top of a peak of the residual force, and the least step, over the width of what is left.
-const PEAK_STEPS: u32 = 12;
-/// Peaks that come that close to the largest are solved whatever the parabola says, so many at the most.
-const CLOSE: f64 = 0.95;
-const MOST_PEAKS: usize = 32;
-/// Pairs of places whose larger force is nearly the largest have one more between them.
-const NEARLY: f64 = 0.1;
-const LEAST_STEP: f64 = 1e-6;
 /// Places at which parry measures as well, and two contacts at once are looked for.
 const PARRY_PLACES: usize = 120;
 /// Chords for parry lie within this share of the tolerance.
@@ -328,137 +308,6 @@ impl Roll<'_> {
         all
     }
 
-    /// The largest gap and lift error between the places: the samples that lie higher than those of the places, each where the
-    /// cubic through two neighbours and their slopes is highest.
-    fn solved(&self, samples: &[Sample]) -> Vec<Sample> {
-        let gap = |s: &Sample| (s.gap, s.gap_slope);
-        let lift = |s: &Sample| (s.lift_error.unwrap_or(f64::NAN), s.lift_slope);
-        let mut found = Vec::new();
-        for value in [&gap as &dyn Fn(&Sample) -> (f64, f64), &lift] {
-            let mut best = samples.iter().map(|s| value(s).0.abs()).fold(0.0, f64::max);
-            let pairs = samples.windows(2).filter_map(|pair| match pair {
-                [a, b] if a.piece == b.piece => Some((*a, *b, DEEPEST)),
-                _ => None,
-            });
-            let promise = |cell: &Between| {
-                [promise_of(cell, value), promise_of_jump(cell, value)]
-                    .into_iter()
-                    .flatten()
-                    .max_by(|a, b| a.0.total_cmp(&b.0))
-            };
-            let promised = pairs.filter_map(|cell| Some((promise(&cell)?.0, cell)));
-            let mut cells: Vec<(f64, Between)> = promised.filter(|(promise, _)| *promise > best + SLACK).collect();
-            // The most promising last, where they are taken from.
-            cells.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let mut left = MOST_CLOSER;
-            while let Some((promised, cell)) = cells.pop() {
-                let Some((_, at)) = promise(&cell).filter(|_| promised > best + SLACK && left > 0) else {
-                    continue;
-                };
-                left -= 1;
-                let (a, b, depth) = cell;
-                let between = self.sample(a.piece, at);
-                best = best.max(value(&between).0.abs());
-                found.push(between);
-                if depth > 0 {
-                    let halves = [(a, between, depth - 1), (between, b, depth - 1)];
-                    cells.extend(halves.into_iter().filter_map(|cell| Some((promise(&cell)?.0, cell))));
-                }
-            }
-        }
-        found
-    }
-
-    /// The samples about the worst of a value that has no slope, looked at closer.
-    fn closer(
-        &self,
-        samples: &[Sample],
-        value: impl Fn(&Sample) -> f64,
-        between: impl Fn(usize, f64) -> f64,
-    ) -> Vec<Sample> {
-        let n = samples.len();
-        let size = |index: usize| samples.get(index % n).map_or(0.0, &value);
-        let mut peaks: Vec<usize> =
-            (0..n).filter(|&i| size(i) > 0.0 && size(i) >= size(i + n - 1) && size(i) >= size(i + 1)).collect();
-        peaks.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
-        peaks.truncate(CLOSER_LOOKS);
-        let look = |&peak: &usize| {
-            let own = samples.get(peak)?;
-            // Within its own piece.
-            let at = |other: Option<&Sample>| {
-                other.filter(|other| other.piece == own.piece).map_or(own.parameter, |o| o.parameter)
-            };
-            let range = (at(peak.checked_sub(1).and_then(|before| samples.get(before))), at(samples.get(peak + 1)));
-            let worst = extremum::largest_without_slope(|p| between(own.piece, p), range, 2, CLOSER_SECTIONS);
-            Some(self.sample(own.piece, worst.at))
-        };
-        peaks.iter().filter_map(look).collect()
-    }
-
-    /// The largest residual force between the places: every local maximum of the samples that may exceed the largest found, as
-    /// far as the parabola through it and its neighbours tells, is solved by parabolas.
-    fn worst_residual(&self, samples: &[Sample]) -> Vec<Sample> {
-        let mut best = samples.iter().map(|s| s.residual).fold(0.0, f64::max);
-        if best == 0.0 {
-            // No air force that could be left.
-            return Vec::new();
-        }
-        let highest =
-            |[a, b, c]: &[Sample; 3]| a.piece == c.piece && b.residual >= a.residual && b.residual >= c.residual;
-        let inner = samples.windows(3).filter_map(|three| <[Sample; 3]>::try_from(three).ok());
-        // Beside an end of a piece, or a jump, the highest place may lie between the last two: one is put there.
-        let beside = samples.windows(2).filter_map(|pair| {
-            let [a, b] = pair else { return None };
-            let near = a.piece == b.piece && a.residual.max(b.residual) >= (1.0 - NEARLY) * best;
-            let width = b.parameter - a.parameter;
-            (near && width > 4.0 * BESIDE).then(|| [*a, self.sample(a.piece, a.parameter + 0.5 * width), *b])
-        });
-        let all = inner.filter(highest).chain(beside.filter(highest));
-        let mut peaks: Vec<(f64, [Sample; 3])> = all.map(|three| (top_of(&three).1, three)).collect();
-        peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut found = Vec::new();
-        for (top, three) in peaks {
-            let [_, middle, _] = three;
-            // Between places that are far apart a parabola says little.
-            if top + DOUBT * (top - middle.residual) <= best && (top <= CLOSE * best || found.len() > MOST_PEAKS) {
-                continue;
-            }
-            let solved = self.peak(three);
-            best = best.max(solved.residual);
-            found.push(solved);
-        }
-        found
-    }
-
-    /// The top of a local maximum of the residual force within its neighbours.
-    fn peak(&self, mut three: [Sample; 3]) -> Sample {
-        for _ in 0..PEAK_STEPS {
-            let [a, b, c] = three;
-            let (at, _) = top_of(&three);
-            let reach = c.parameter - a.parameter;
-            // Where the parabola has nothing to say the longer side is halved.
-            let halved = if b.parameter - a.parameter > c.parameter - b.parameter { a } else { c };
-            let at = if (at - b.parameter).abs() > LEAST_STEP * reach && at > a.parameter && at < c.parameter {
-                at
-            } else {
-                b.parameter + 0.1 * (halved.parameter - b.parameter)
-            };
-            let new = self.sample(b.piece, at);
-            let gain = (new.residual - b.residual).abs();
-            three = match (new.residual > b.residual, at < b.parameter) {
-                (true, true) => [a, new, b],
-                (true, false) => [b, new, c],
-                (false, true) => [new, b, c],
-                (false, false) => [a, b, new],
-            };
-            if gain <= ROUNDING * b.residual {
-                break;
-            }
-        }
-        let [_, top, _] = three;
-        top
-    }
-
     /// Every sample of this flank.
     fn samples(&self, chords: &Chords, tolerance: f64) -> Vec<Sample> {
         let mut samples: Vec<Sample> =
@@ -489,57 +338,6 @@ impl Roll<'_> {
         }
         samples
     }
-}
-
-/// Where the parabola through the residual forces of three samples is highest, and how high; the middle one where it has no top.
-fn top_of([a, b, c]: &[Sample; 3]) -> (f64, f64) {
-    let (left, right) = (a.parameter - b.parameter, c.parameter - b.parameter);
-    let (fall, rise) = ((a.residual - b.residual) / left, (c.residual - b.residual) / right);
-    // r(x) = b + s x + k x², x from the middle one.
-    let bend = (rise - fall) / (right - left);
-    let slope = fall - bend * left;
-    let x = -0.5 * slope / bend;
-    if bend < 0.0 && x > left && x < right {
-        (b.parameter + x, b.residual - 0.25 * slope * slope / bend)
-    } else {
-        (b.parameter, b.residual)
-    }
-}
-
-/// Two neighbouring samples, and how often what lies between may still be halved.
-type Between = (Sample, Sample, u32);
-
-/// How high the size of a value may rise between two samples, and where: by the cubic through its values and slopes, with room
-/// for what is no cubic; `None` where it does not rise above them.
-fn promise_of((a, b, _): &Between, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
-    let width = b.parameter - a.parameter;
-    let ((low, rise), (high, fall)) = (value(a), value(b));
-    let (rise, fall) = (rise * width, fall * width);
-    // v(x) = low + rise x + c x² + d x³, x from 0 to 1; its slope is 0 where rise + 2 c x + 3 d x² = 0.
-    let (c, d) = (3.0 * (high - low) - 2.0 * rise - fall, rise + fall - 2.0 * (high - low));
-    let root = (c * c - 3.0 * d * rise).sqrt();
-    let turn = -(c + root.copysign(c));
-    let ends = low.abs().max(high.abs());
-    let of = |x: f64| (x > 0.0 && x < 1.0).then(|| ((low + x * (rise + x * (c + x * d))).abs(), x));
-    let tops = [turn / (3.0 * d), rise / turn].into_iter().filter_map(of);
-    let (top, x) = tops.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let at = a.parameter + x * width;
-    (at > a.parameter && at < b.parameter).then_some((top + DOUBT * (top - ends).max(0.0), at))
-}
-
-/// The same where the foot jumps from one part of the outline to another, as it does where motion is lost: up to there the value
-/// follows one part, from there on the other, and it may be as high as the tangents of both where they cross.
-fn promise_of_jump((a, b, _): &Between, value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
-    if (a.foot - b.foot).norm() <= JUMP * (a.centre - b.centre).norm() {
-        return None;
-    }
-    let width = b.parameter - a.parameter;
-    let ((low, rise), (high, fall)) = (value(a), value(b));
-    let sense = if low + high < 0.0 { -1.0 } else { 1.0 };
-    let x = (high - low - fall * width) / (rise - fall);
-    let top = sense * (low + rise * x);
-    let at = a.parameter + x.clamp(0.1 * width, 0.9 * width);
-    (x > 0.0 && x < width && at > a.parameter && at < b.parameter).then_some((top, at))
 }
 
 /// Rolls the follower of a plane cam on an outline that lies as it was written, against the law; tolerance in mm.

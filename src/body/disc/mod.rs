@@ -43,7 +43,7 @@ use crate::report::sheet::View;
 use crate::report::{CamMeasures, Forces, Section, Speeds};
 use crate::table::{BedRow, Row, Turned, turned};
 use nalgebra::Vector2;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The disc cam of a press.
 pub const ROTARY: Kind = Kind { command: "rotary", noun: "rotary cam", keys: cams::ROTARY };
@@ -79,6 +79,8 @@ pub struct Disc {
     own: forces::Own,
     /// The sizes that keep every limit; `None` when none does.
     smallest: Option<Smallest>,
+    /// The prime radius of the smallest before it is rounded, m, once it is asked for.
+    exact: OnceLock<f64>,
     /// What was chosen of the follower's place, where that is asked for.
     placed: Option<Placed>,
     worst: WorstPlaces,
@@ -242,6 +244,7 @@ impl Disc {
             brake: None,
             own: forces::Own::default(),
             smallest: None,
+            exact: OnceLock::new(),
             placed: None,
             worst: WorstPlaces::default(),
         }
@@ -279,7 +282,7 @@ impl Disc {
     /// Smallest prime radius that keeps every limit, m; `None` when none does.
     #[must_use]
     pub fn smallest_prime_radius(&self) -> Option<f64> {
-        self.smallest.map(|smallest| smallest.prime_radius)
+        self.smallest.map(|smallest| *self.exact.get_or_init(|| self.before_rounding(smallest).prime_radius))
     }
 
     /// Largest lift, m or rad.

@@ -9,7 +9,7 @@ use crate::profile::placing::{self, Nearest};
 use crate::profile::size::{self, NoRadius, Required, Smallest};
 use crate::profile::{Curves, Worst, extremes};
 use std::cell::Cell;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Half millimetres, in which an offset or a pivot distance is chosen, m.
 const CHOICE_STEP: f64 = 0.5e-3;
@@ -93,11 +93,13 @@ impl Disc {
     /// The same cam with another choice of its follower's place, m, not yet sized.
     #[must_use]
     pub fn placed_at(&self, place: Place, chosen: f64) -> Self {
-        Self { follower: place.follower(chosen), worst: WorstPlaces::default(), ..self.clone() }
+        let follower = place.follower(chosen);
+        Self { follower, smallest: None, exact: OnceLock::new(), worst: WorstPlaces::default(), ..self.clone() }
     }
 
     /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each
-    /// as its check measures it, and the cam on its base radius; `None` when no size in reach does.
+    /// as its check measures it, and the cam on its base radius; `None` when no size in reach does. The prime radius is the least of
+    /// all once [`Self::before_rounding`] has seen it.
     fn keeping_all(&self, smallest: Smallest) -> Option<(Smallest, Self)> {
         let offset = self.follower.element().offset();
         let cornered = Cell::new(false);
@@ -106,15 +108,15 @@ impl Disc {
             cornered.set(cornered.get() || broken.is_some_and(|limit| disc.has_corner_that_breaks(limit)));
             broken.is_none()
         };
-        let keeps = |base: f64| self.on(base).is_some_and(|disc| kept(&disc));
         let disc = self.on(smallest.base_radius);
         if let Some(disc) = disc.as_ref().filter(|disc| kept(disc)) {
-            return Some((self.before_rounding(smallest, keeps), disc.clone()));
+            return Some((smallest, disc.clone()));
         }
         // A larger cam has the corner, too, until it is too small to be seen.
         if cornered.get() || disc.is_some_and(|disc| disc.has_corner()) {
             return None;
         }
+        let keeps = |base: f64| self.on(base).is_some_and(|disc| kept(&disc));
         let largest = (self.follower.prime_radii().1 - offset).min(LARGEST_BASE);
         let prime_radius = size::first_that_keeps(smallest.base_radius, largest, keeps)? + offset;
         let rounded = size::rounded_up(prime_radius - offset);
@@ -126,7 +128,8 @@ impl Disc {
     }
 
     /// A size that keeps every limit when it is rounded: as small as it does, where more than pressure angle and curvature matters.
-    fn before_rounding(&self, smallest: Smallest, keeps: impl Fn(f64) -> bool) -> Smallest {
+    pub(super) fn before_rounding(&self, smallest: Smallest) -> Smallest {
+        let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
         let (limits, offset) = (&self.machine.limits, self.follower.element().offset());
         let of_more = limits.cutter_radius.is_some() || limits.contact_stress.is_some();
         if !of_more || keeps(smallest.prime_radius - offset) {
@@ -162,7 +165,8 @@ impl Disc {
         let required = disc.required();
         let required = Required { least: required.least.max(least), ..required };
         let by_shape = size::smallest(&*disc.motion, &*disc.follower, &required).ok()?;
-        Some(disc.keeping_all(by_shape)?.0)
+        let (smallest, disc) = disc.keeping_all(by_shape)?;
+        Some(disc.before_rounding(smallest))
     }
 
     /// The same by the pressure angle alone, m.
@@ -268,9 +272,8 @@ impl Disc {
     /// Why a cam with its follower where it stands is not smaller than the smallest; `None` where none passes.
     #[must_use]
     pub fn binding(&self) -> Option<Binding> {
-        let smallest = self.smallest?;
         let offset = self.follower.element().offset();
-        let below = smallest.prime_radius * (1.0 - JUST_BELOW) - offset;
+        let below = self.smallest_prime_radius()? * (1.0 - JUST_BELOW) - offset;
         let Some(smaller) = self.on(below) else { return Some(Binding { limit: "reach", at: None }) };
         // The radius that is kept under a face without being asked for is no limit of a check.
         let sharp = || smaller.least_rolled_radius().value < self.required().convex_radius * (1.0 - LARGER);

@@ -1,5 +1,6 @@
 //! Where something is highest between samples, in closed form.
 
+use super::worst::{promise_of_course, promise_of_jump, top_of};
 use super::*;
 
 const GAP: fn(&Sample) -> (f64, f64) = |s| (s.gap, s.gap_slope);
@@ -28,7 +29,8 @@ fn a_parabola_has_its_own_top() {
 fn a_cubic_promises_its_top() {
     for sign in [1.0, -1.0] {
         let slope = sign * 6.75 / 0.6;
-        let promise = |rise, fall| promise_of(&(sample(2.0, (0.0, rise), 0.0), sample(2.6, (0.0, fall), 0.0), 1), &GAP);
+        let of = |at, slope| sample(at, (0.0, slope), 0.0);
+        let promise = |rise, fall| promise_of_course((&of(2.0, rise), &of(2.6, fall)), &GAP);
         assert!(promise(slope, 0.0).is_some_and(|(top, at)| near((top, at), (1.25, 2.2))));
         assert!(promise(0.0, -slope).is_some_and(|(top, at)| near((top, at), (1.25, 2.4))));
     }
@@ -38,9 +40,9 @@ fn a_cubic_promises_its_top() {
 fn where_the_foot_jumps_the_tangents_cross() {
     for sign in [1.0, -1.0] {
         let (a, b) = (sample(3.0, (sign, 2.0 * sign), 0.0), sample(4.0, (1.5 * sign, -sign), 0.0));
-        assert_eq!(promise_of_jump(&(a, b, 1), &GAP), None);
+        assert_eq!(promise_of_jump((&a, &b), &GAP), None);
         let far = Sample { foot: b.foot + Vector2::new(9.0, 0.0), ..b };
         // 1 + 2 x and 2.5 − x are 2 at x = 0.5.
-        assert!(promise_of_jump(&(a, far, 1), &GAP).is_some_and(|found| near(found, (2.0, 3.5))));
+        assert!(promise_of_jump((&a, &far), &GAP).is_some_and(|found| near(found, (2.0, 3.5))));
     }
 }

@@ -1,0 +1,106 @@
+//! Symmetric systems of linear equations in groups of four unknowns, each coupled with the next group only.
+
+/// Unknowns of a group.
+pub const GROUP: usize = 4;
+/// Unknowns of two groups.
+pub const PAIR: usize = 2 * GROUP;
+
+/// The rows of a group from its own first unknown on: the upper triangle among its own unknowns, then all of the next group's.
+pub type Rows = [[f64; PAIR]; GROUP];
+
+/// A symmetric matrix of such groups.
+#[derive(Debug, Clone)]
+pub struct Blocks {
+    groups: Vec<Rows>,
+}
+
+impl Blocks {
+    /// The zero matrix of this many groups.
+    #[must_use]
+    pub fn zero(groups: usize) -> Self {
+        Self { groups: vec![[[0.0; PAIR]; GROUP]; groups] }
+    }
+
+    /// The rows of two neighbouring groups, to add to.
+    pub fn pair_mut(&mut self, first: usize) -> Option<(&mut Rows, &mut Rows)> {
+        match self.groups.get_mut(first..)? {
+            [group, next, ..] => Some((group, next)),
+            _ => None,
+        }
+    }
+
+    /// Solves for several right-hand sides at once, each a column, in place, without pivoting: for positive definite matrices,
+    /// and for quasi-definite ones in an order in which every pivot has its sign when it is reached. Golub, Van Loan, Matrix
+    /// Computations, §4.3 and §4.5.
+    pub fn solve<const N: usize>(mut self, right: &mut [[[f64; N]; GROUP]]) {
+        let (mut rows, mut sides) = (self.groups.as_mut_slice(), &mut *right);
+        while let ([row, below @ ..], [side, others @ ..]) = (rows, sides) {
+            match (below.first_mut(), others.first_mut()) {
+                (Some(next), Some(beside)) => eliminate((row, side), (next, beside)),
+                _ => eliminate((row, side), (&mut [[0.0; PAIR]; GROUP], &mut [[0.0; N]; GROUP])),
+            }
+            (rows, sides) = (below, others);
+        }
+        let mut after = [[0.0; N]; GROUP];
+        for (group, values) in self.groups.iter().zip(right).rev() {
+            for row in (0..GROUP).rev() {
+                let mut value = values[row];
+                let (own, next) = group[row].split_at(GROUP);
+                for (factor, solved) in next.iter().zip(&after) {
+                    subtract(&mut value, *factor, solved);
+                }
+                for ahead in row + 1..GROUP {
+                    subtract(&mut value, own[ahead], &values[ahead]);
+                }
+                values[row] = value;
+            }
+            after = *values;
+        }
+    }
+}
+
+/// Takes the unknowns of a group out of the next one; its rows become the factors of the others in it.
+#[inline]
+fn eliminate<const N: usize>(
+    (group, values): (&mut Rows, &mut [[f64; N]; GROUP]),
+    (next, others): (&mut Rows, &mut [[f64; N]; GROUP]),
+) {
+    pivot::<0, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
+    pivot::<1, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
+    pivot::<2, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
+    pivot::<3, N>((group, values), (next, others));
+}
+
+/// Takes one unknown of a group out of all behind it. Its place is a constant, so that all loops are of fixed length.
+#[inline]
+fn pivot<const K: usize, const N: usize>(
+    (group, values): (&mut Rows, &mut [[f64; N]; GROUP]),
+    (next, others): (&mut Rows, &mut [[f64; N]; GROUP]),
+) {
+    let (row, value) = (group[K], values[K]);
+    let inverse = 1.0 / row[K];
+    let [.., a, b, c, d] = row;
+    let coupled = [a, b, c, d];
+    for ahead in K + 1..GROUP {
+        let factor = row[ahead] * inverse;
+        subtract(&mut group[ahead], factor, &row);
+        subtract(&mut values[ahead], factor, &value);
+    }
+    for (entry, (target, other)) in coupled.iter().zip(next.iter_mut().zip(others)) {
+        let factor = entry * inverse;
+        if let Some(target) = target.first_chunk_mut::<GROUP>() {
+            subtract(target, factor, &coupled);
+        }
+        subtract(other, factor, &value);
+    }
+    group[K] = row.map(|entry| entry * inverse);
+    values[K] = value.map(|value| value * inverse);
+}
+
+/// Subtracts a row times a factor from another.
+#[inline]
+fn subtract<const N: usize>(target: &mut [f64; N], factor: f64, row: &[f64; N]) {
+    for (entry, above) in target.iter_mut().zip(row) {
+        *entry -= factor * above;
+    }
+}
