@@ -107,7 +107,10 @@ impl Follower for TranslatingRoller {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        let (sin, cos) = libm::sincos(angle);
+        self.touch_turned(angle, libm::sincos(angle), lift)
+    }
+
+    fn touch_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> Touch {
         let along = Vector2::new(cos, sin);
         let across = Vector2::new(-sin, cos);
         let (offset, u) = (self.offset, self.height + lift.s);

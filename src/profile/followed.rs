@@ -101,6 +101,9 @@ impl Errors {
 /// A place, and what is off there: error of the velocity, error of the acceleration and the acceleration itself.
 type Off = (f64, [f64; 3]);
 
+/// A lift of the motion, and its place: a piece, and the parameter in it.
+pub type Lift = ((usize, f64), Jet);
+
 /// A follower on a chain.
 #[derive(Debug)]
 pub struct Followed<'a> {
@@ -201,9 +204,17 @@ impl<'a> Followed<'a> {
 
     /// Lift, velocity and acceleration as cut at a place of a stretch; the third derivative is that of the motion.
     fn cut(&self, stretch: &Stretch, parameter: f64) -> Option<(Jet, Jet)> {
+        self.cut_beside(stretch, parameter, None)
+    }
+
+    /// The same where the motion may be known at that very place.
+    fn cut_beside(&self, stretch: &Stretch, parameter: f64, known: Option<Lift>) -> Option<(Jet, Jet)> {
         let piece = self.curves.motion.pieces().get(stretch.piece)?;
         let inside = (parameter + stretch.shift).clamp(piece.start, piece.end);
-        let law = self.curves.motion.jet(stretch.piece, inside);
+        let law = match known {
+            Some((at, law)) if at == (stretch.piece, inside) => law,
+            _ => self.curves.motion.jet(stretch.piece, inside),
+        };
         let guide = match &stretch.guide {
             Guide::Curve(edge) => touching(self.curves, self.out, edge, inside)?,
             known => *known,
@@ -215,6 +226,12 @@ impl<'a> Followed<'a> {
     /// is not touched.
     #[must_use]
     pub fn at(&self, parameter: f64) -> Option<Jet> {
+        self.beside_law(parameter, None)
+    }
+
+    /// The same beside a lift of the motion that is known there.
+    #[must_use]
+    pub fn beside_law(&self, parameter: f64, known: Option<Lift>) -> Option<Jet> {
         let (first, _) = self.stretches.first().map(|stretch| (stretch.from, stretch.to))?;
         let wanted = match self.curves.motion.period() {
             Some(period) => parameter + period * ((first - parameter) / period).ceil(),
@@ -223,7 +240,7 @@ impl<'a> Followed<'a> {
         let index = self.stretches.partition_point(|stretch| stretch.to < wanted);
         let stretch = self.stretches.get(index).or(self.stretches.last())?;
         let reached = wanted >= stretch.from - HAIR && wanted <= stretch.to + HAIR;
-        self.cut(stretch, wanted).filter(|_| reached).map(|(cut, _)| cut)
+        self.cut_beside(stretch, wanted, known).filter(|_| reached).map(|(cut, _)| cut)
     }
 
     /// Whether the follower runs on a stretch.
@@ -477,7 +494,9 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
         Guide::Line(on, normal) => ((point - on).dot(&normal), normal),
         Guide::Curve(_) => (f64::NAN, Vector2::zeros()),
     };
-    let (mut jet, mut here) = (law, curves.follower.touch(parameter, &law));
+    let turned = libm::sincos(parameter);
+    let touch = |jet: &Jet| curves.follower.touch_turned(parameter, turned, jet);
+    let (mut jet, mut here) = (law, touch(&law));
     let size = here.curve.point.norm();
     let (mut gap, mut normal) = off(here.curve.point);
     let along_normal =
@@ -485,7 +504,7 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
     for _ in 0..LIFT_STEPS {
         let last = gap.abs() <= SETTLED * size;
         jet.s -= gap / along_normal(&jet, &here, normal);
-        here = curves.follower.touch(parameter, &jet);
+        here = touch(&jet);
         (gap, normal) = off(here.curve.point);
         if last || !(gap.abs() > TOUCHING * size) {
             break;
@@ -494,7 +513,7 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
     let rate = along_normal(&jet, &here, normal);
     jet.ds -= here.curve.speed * normal.dot(&here.curve.tangent) / rate;
     // C'' along the normal: κ ℓ² to the left of the tangent.
-    let curve = curves.follower.touch(parameter, &jet).curve;
+    let curve = touch(&jet).curve;
     let square = curve.speed * curve.speed;
     let wanted = match guide {
         Guide::Circle(_, radius) => -square / radius,
