@@ -27,20 +27,26 @@ pub fn push_shortest(text: &mut Vec<u8>, value: f64) {
     }
 }
 
+/// A number behind which there is no place for less than a half: 3·2⁵⁰.
+const TO_HALVES: f64 = 3_377_699_720_527_872.0;
+/// Halves below this fit into 32 bits.
+const LARGEST_HALVES: f64 = 1e9;
+
 /// The same of what is not zero.
 fn push_digits(text: &mut Vec<u8>, value: f64) {
-    let doubled = 2.0 * value.abs();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what does not fit is no half")]
-    let halves = doubled as u32;
-    if f64::from(halves) == doubled {
-        push_halves(text, value < 0.0, halves);
-    } else if WITHOUT_EXPONENT.contains(&value.abs()) {
-        let mut buffer = zmij::Buffer::new();
-        let digits = buffer.format_finite(value).as_bytes();
-        text.extend_from_slice(digits.strip_suffix(b".0").unwrap_or(digits));
-    } else {
-        push_very_large_or_small(text, value);
+    let size = value.abs();
+    if !WITHOUT_EXPONENT.contains(&size) {
+        return push_very_large_or_small(text, value);
     }
+    let large = size >= LARGEST_HALVES;
+    if !large && (size + TO_HALVES) - TO_HALVES == size {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number that fits")]
+        return push_halves(text, value < 0.0, (2.0 * size) as u32);
+    }
+    let mut buffer = zmij::Buffer::new();
+    let digits = buffer.format_finite(value).as_bytes();
+    // Only what is large may be whole.
+    text.extend_from_slice(digits.strip_suffix(b".0").filter(|_| large).unwrap_or(digits));
 }
 
 /// Adds so many halves: steps of an angle, and the units of a frame, whose digits need not be searched.

@@ -112,7 +112,12 @@ fn push_point(text: &mut Vec<u8>, index: usize, point: Point3) {
 }
 
 fn push_direction(text: &mut Vec<u8>, index: usize, direction: Vector3) {
-    push_triple(text, index, " = DIRECTION('', (", direction.into());
+    // Most are those of the two axes.
+    match direction {
+        Vector3 { x: 0.0, y: 0.0, z: 1.0 } => push_line(text, &[("#", index)], " = DIRECTION('', (0., 0., 1.));\n"),
+        Vector3 { x: 1.0, y: 0.0, z: 0.0 } => push_line(text, &[("#", index)], " = DIRECTION('', (1., 0., 0.));\n"),
+        other => push_triple(text, index, " = DIRECTION('', (", other.into()),
+    }
 }
 
 /// Adds AXIS2_PLACEMENT_3D with its point and directions, in the lines from `index` on.

@@ -212,10 +212,12 @@ fn attribute(out: &mut Vec<u8>, name: &str, value: impl FnOnce(&mut Vec<u8>)) {
     out.push(b'"');
 }
 
-/// Adds attributes that are numbers.
+/// Adds attributes that are numbers; of each what stands before its number.
 fn numbers(out: &mut Vec<u8>, values: &[(&str, f64)]) {
-    for (name, value) in values {
-        attribute(out, name, |out| DATA.push_number(out, *value));
+    for (begin, value) in values {
+        out.extend_from_slice(begin.as_bytes());
+        DATA.push_number(out, *value);
+        out.push(b'"');
     }
 }
 
@@ -257,9 +259,11 @@ fn push_shape(out: &mut Vec<u8>, shape: &Shape, told: bool) {
     match shape {
         Shape::Entity(Entity::Polyline(contour)) => attribute(out, "d", |out| DATA.push_contour(out, contour)),
         Shape::Entity(Entity::Circle(centre, radius)) => {
-            numbers(out, &[("cx", centre.x), ("cy", -centre.y), ("r", *radius)]);
+            numbers(out, &[(" cx=\"", centre.x), (" cy=\"", -centre.y), (" r=\"", *radius)]);
         }
-        Shape::Line(a, b) => numbers(out, &[("x1", a.x), ("x2", b.x), ("y1", -a.y), ("y2", -b.y)]),
+        Shape::Line(a, b) => {
+            numbers(out, &[(" x1=\"", a.x), (" x2=\"", b.x), (" y1=\"", -a.y), (" y2=\"", -b.y)]);
+        }
         Shape::Path(points) => attribute(out, "points", |out| DATA.push_places(out, points, b' ')),
         Shape::Arc(start, end, bulge) => {
             let segment = Segment { start: *start, end: *end, bulge: *bulge };
