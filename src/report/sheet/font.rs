@@ -61,11 +61,13 @@ pub fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
     for word in text.split_whitespace() {
-        let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
-        if width(&longer, size) <= room {
-            line = longer;
+        let before = line.len();
+        line.push_str(if before == 0 { "" } else { " " });
+        line.push_str(word);
+        if width(&line, size) <= room {
             continue;
         }
+        line.truncate(before);
         if !line.is_empty() {
             lines.push(std::mem::take(&mut line));
         }
