@@ -190,7 +190,8 @@ impl<'a> Followed<'a> {
         if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
             join(&mut runs, Some(last), start + period, &corner, point);
         }
-        let stretches = runs.into_iter().flat_map(|run| on_pieces(curves.motion, run)).collect();
+        let mut stretches = Vec::with_capacity(runs.len() + curves.motion.pieces().len());
+        runs.into_iter().for_each(|run| stretches.extend(on_pieces(curves.motion, run)));
         Self { curves, out, stretches, closed }
     }
 
@@ -437,9 +438,8 @@ fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option
 }
 
 /// The parts of a run that lie on the pieces of the motion.
-fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> Vec<Stretch> {
-    let stretch = |part: Part| Stretch { from: part.from, to: part.to, piece: part.piece, shift: part.shift, guide };
-    parts(motion, (from, to)).into_iter().map(stretch).collect()
+fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> impl Iterator<Item = Stretch> {
+    parts(motion, (from, to)).map(move |Part { from, to, piece, shift }| Stretch { from, to, piece, shift, guide })
 }
 
 /// A part of a range of the motion's parameter, on one piece.
@@ -453,22 +453,22 @@ pub(super) struct Part {
 }
 
 /// A range of the motion's parameter, which may run over any number of periods, cut at the pieces of the motion.
-pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> Vec<Part> {
+pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> impl Iterator<Item = Part> {
     let (first, last) = motion.range();
     let (from, to) = if motion.period().is_some() { (from, to) } else { (from.max(first), to.min(last)) };
-    let mut parts = Vec::new();
     let mut at = from;
-    while to - at > HAIR {
+    std::iter::from_fn(move || {
+        if !(to - at > HAIR) {
+            return None;
+        }
         let (piece, inside) = motion.locate(at + HAIR);
-        let Some(end) = motion.pieces().get(piece).map(|piece| piece.end) else { break };
+        let end = motion.pieces().get(piece)?.end;
         let shift = inside - (at + HAIR);
         let until = (end - shift).max(at + HAIR);
         // What is left of a piece, or of a run, may be a hair.
         let until = if to - until > HAIR { until } else { to };
-        parts.push(Part { from: at, to: until, piece, shift });
-        at = until;
-    }
-    parts
+        Some(Part { from: std::mem::replace(&mut at, until), to: until, piece, shift })
+    })
 }
 
 /// The jet of a follower at a parameter whose curve follows a guide, the law's as a start.
