@@ -124,6 +124,11 @@ impl Follower for TranslatingRoller {
         Touch { curve, drive: along, drive_turn: 1.0 }
     }
 
+    fn point_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+        let along = Vector2::new(cos, sin);
+        (along * (self.height + lift.s) + Vector2::new(-sin, cos) * self.offset, along)
+    }
+
     fn parameter_of(&self, centre: Vector2<f64>, _: Vector2<f64>) -> f64 {
         let height = ((centre.norm() - self.offset) * (centre.norm() + self.offset)).max(0.0).sqrt();
         libm::atan2(centre.y, centre.x) - libm::atan2(self.offset, height)

@@ -14,7 +14,7 @@
 //! frame of the follower; under a face on an arm p by secants, and q and ρ from what is linear, q β' = p' and ρ.
 
 use super::{Curves, Worst};
-use crate::follower::{Element, Touch};
+use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
 use crate::motion::program::SegmentTold;
@@ -495,25 +495,27 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
         Guide::Curve(_) => (f64::NAN, Vector2::zeros()),
     };
     let turned = libm::sincos(parameter);
-    let touch = |jet: &Jet| curves.follower.touch_turned(parameter, turned, jet);
-    let (mut jet, mut here) = (law, touch(&law));
-    let size = here.curve.point.norm();
-    let (mut gap, mut normal) = off(here.curve.point);
+    let touch = |jet: &Jet| curves.follower.touch_turned(parameter, turned, jet).curve;
+    let place = |jet: &Jet| curves.follower.point_turned(parameter, turned, jet);
     let along_normal =
-        |jet: &Jet, here: &Touch, normal: Vector2<f64>| normal.dot(&here.drive) * curves.follower.leverage(jet);
+        |jet: &Jet, drive: Vector2<f64>, normal: Vector2<f64>| normal.dot(&drive) * curves.follower.leverage(jet);
+    let (mut jet, (mut point, mut drive)) = (law, place(&law));
+    let size = point.norm();
+    let (mut gap, mut normal) = off(point);
     for _ in 0..LIFT_STEPS {
         let last = gap.abs() <= SETTLED * size;
-        jet.s -= gap / along_normal(&jet, &here, normal);
-        here = touch(&jet);
-        (gap, normal) = off(here.curve.point);
+        jet.s -= gap / along_normal(&jet, drive, normal);
+        (point, drive) = place(&jet);
+        (gap, normal) = off(point);
         if last || !(gap.abs() > TOUCHING * size) {
             break;
         }
     }
-    let rate = along_normal(&jet, &here, normal);
-    jet.ds -= here.curve.speed * normal.dot(&here.curve.tangent) / rate;
+    let rate = along_normal(&jet, drive, normal);
+    let curve = touch(&jet);
+    jet.ds -= curve.speed * normal.dot(&curve.tangent) / rate;
     // C'' along the normal: κ ℓ² to the left of the tangent.
-    let curve = touch(&jet).curve;
+    let curve = touch(&jet);
     let square = curve.speed * curve.speed;
     let wanted = match guide {
         Guide::Circle(_, radius) => -square / radius,
