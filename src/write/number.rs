@@ -73,15 +73,16 @@ fn push_very_large_or_small(text: &mut Vec<u8>, value: f64) {
     }
     let mut buffer = zmij::Buffer::new();
     let digits = buffer.format_finite(value);
-    if !digits.contains('e') {
+    if size < PLAIN.start {
+        // Very small numbers would fill a line with zeros.
+        text.extend_from_slice(digits.as_bytes());
+    } else if !digits.contains('e') {
         text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
     } else if PLAIN.contains(&size) {
         // A text in memory takes all that is written.
         let _ = write!(text, "{value}");
-    } else if size < 1.0 {
-        // Very large or small numbers would fill a line with zeros.
-        text.extend_from_slice(digits.as_bytes());
     } else {
+        // So would very large ones.
         let _ = write!(text, "{value:e}");
     }
 }
