@@ -34,7 +34,7 @@ use crate::geometry::contour::Contour;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::RunUp;
 use crate::machine::Machine;
-use crate::motion::{BrakeDisc, Quantity, State};
+use crate::motion::{BrakeDisc, Jet, Quantity, State};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
@@ -402,7 +402,14 @@ pub trait Body: std::fmt::Debug + Send + Sync {
 
     /// Force of the cam on the follower along its path, N, or its moment about the pivot of one that swings, N·m, and the torque of the
     /// shaft against it, N·m, at a cam angle; `None` where no force is known.
-    fn force_and_torque(&self, _angle: f64) -> Option<[f64; 2]> {
+    fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {
+        let motion = self.plane()?.motion;
+        let (piece, inside) = motion.locate(angle);
+        self.force_and_torque_of((piece, inside), motion.jet(piece, inside))
+    }
+
+    /// The same at a parameter of a piece whose lift is known.
+    fn force_and_torque_of(&self, _at: (usize, f64), _lift: Jet) -> Option<[f64; 2]> {
         None
     }
 

@@ -15,6 +15,7 @@ use crate::report::sheet::{Group, Mark, PlaceTable, Shape, rounded};
 use crate::report::trace::Trace;
 use crate::table::turned;
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// How far the roller's path and the normal reach beyond the roller, in its radii.
 pub(super) const PATH_OVER_RADIUS: f64 = 0.6;
@@ -166,14 +167,15 @@ pub(super) fn places(curves: Curves<'_>) -> Vec<PlaceTable> {
         let cell = |value: f64, decimals: usize| fixed(value + 0.0, decimals);
         vec![cell(at.cam_deg, 0), cell((place.point * MILLIMETRES).norm(), 3), cell(lift, 3)]
     };
-    let rows: Vec<Vec<String>> = (0..ROWS).map(row).collect();
+    let rows: Arc<[Vec<String>]> = (0..ROWS).map(row).collect();
     let what = if rolls { "R of the roller's centre" } else { "R of the point of contact" };
     EVERY
         .iter()
         .map(|(degrees, every)| PlaceTable {
             title: format!("Cam angle θ, {what}, lift, each {degrees}°"),
             heads: vec!["θ, °".into(), "R, mm".into(), if swings { "lift, °".into() } else { "lift, mm".into() }],
-            rows: rows.iter().step_by(*every).cloned().collect(),
+            rows: Arc::clone(&rows),
+            every: *every,
         })
         .collect()
 }

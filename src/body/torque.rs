@@ -37,8 +37,11 @@ impl<'a> Turning<'a> {
     /// Torque by the law, and force along the follower's path times the slope that the normal gives where it touches, N·m; `None` where
     /// the force is not known or the follower is not in touch.
     fn torques(&self, angle: f64) -> Option<[f64; 2]> {
-        let [force, law] = self.body.force_and_torque(angle)?;
-        Some([law, force * self.followed.at(angle)?.ds])
+        let motion = self.body.plane()?.motion;
+        let at = motion.locate(angle);
+        let lift = motion.jet(at.0, at.1);
+        let [force, law] = self.body.force_and_torque_of(at, lift)?;
+        Some([law, force * self.followed.beside_law(angle, Some((at, lift)))?.ds])
     }
 
     fn torque(&self, angle: f64) -> Option<f64> {

@@ -38,6 +38,14 @@ impl BellCrank {
         let third = (d3 + 3.0 * s * first * second + cos * first * first * first) / cos;
         [libm::asin(s), first, second, third]
     }
+
+    /// Place of the roller along the plate, and its distance from it, m.
+    fn roller(&self, x: f64, psi: f64) -> (f64, f64) {
+        let l = self.roller_arm;
+        // Differences of sine and cosine by products, exact for a small ψ: sin θ − sin Δ = 2 cos(Δ + ψ/2) sin(ψ/2).
+        let (half, middle) = (libm::sin(0.5 * psi), self.delta + 0.5 * psi);
+        (x + 2.0 * l * libm::cos(middle) * half, self.axis_distance + 2.0 * l * libm::sin(middle) * half)
+    }
 }
 
 impl Follower for BellCrank {
@@ -50,10 +58,7 @@ impl Follower for BellCrank {
         let theta = self.delta + psi;
         let (sin, cos) = libm::sincos(theta);
         let l = self.roller_arm;
-        // Differences of sine and cosine by products, exact for a small ψ: sin θ − sin Δ = 2 cos(Δ + ψ/2) sin(ψ/2).
-        let (half, middle) = (libm::sin(0.5 * psi), self.delta + 0.5 * psi);
-        let along = x + 2.0 * l * libm::cos(middle) * half;
-        let up = self.axis_distance + 2.0 * l * libm::sin(middle) * half;
+        let (along, up) = self.roller(x, psi);
         // d(l sin θ) = l cos θ ψ', d(−l cos θ) = l sin θ ψ'.
         let square = first * first;
         let (second_cos, second_sin) = (second, square);
@@ -65,6 +70,13 @@ impl Follower for BellCrank {
             Vector2::new(l * (cos * third_cos - sin * third_sin), -l * (sin * third_cos + cos * third_sin)),
         );
         Touch { curve, drive: Vector2::new(cos, -sin), drive_turn: -first }
+    }
+
+    fn point_turned(&self, x: f64, _: (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+        let [psi, ..] = self.lever(lift);
+        let (sin, cos) = libm::sincos(self.delta + psi);
+        let (along, up) = self.roller(x, psi);
+        (Vector2::new(along, -up), Vector2::new(cos, -sin))
     }
 
     fn leverage(&self, lift: &Jet) -> f64 {

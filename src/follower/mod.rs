@@ -272,6 +272,17 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
     /// The follower at a value of the parameter for the lift there.
     fn touch(&self, parameter: f64, lift: &Jet) -> Touch;
 
+    /// The same where sine and cosine of the parameter are known, for several lifts at one place.
+    fn touch_turned(&self, parameter: f64, _sine_and_cosine: (f64, f64), lift: &Jet) -> Touch {
+        self.touch(parameter, lift)
+    }
+
+    /// Of the same the point of the curve and the drive alone.
+    fn point_turned(&self, parameter: f64, sine_and_cosine: (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+        let Touch { curve, drive, .. } = self.touch_turned(parameter, sine_and_cosine, lift);
+        (curve.point, drive)
+    }
+
     /// The parameter at which a point of the follower's curve (m, seen from the cam) is reached, whatever the lift: the
     /// inverse of the curve. A point tells it for a roller, the outward normal of the cam there for a face. NaN for a point it
     /// never gets to.

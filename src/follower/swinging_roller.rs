@@ -90,7 +90,18 @@ impl Follower for SwingingRoller {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        let (sin, cos) = libm::sincos(angle);
+        self.touch_turned(angle, libm::sincos(angle), lift)
+    }
+
+    fn point_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+        let (l, t) = (self.arm, self.side);
+        let (sp, cp) = libm::sincos(self.start + lift.s);
+        let in_plane = |v: Vector2<f64>| Vector2::new(cos, sin) * v.x + Vector2::new(-sin, cos) * v.y;
+        let pivot = Vector2::new(self.pivot_distance, 0.0);
+        (in_plane(Vector2::new(-l * cp, -l * t * sp) + pivot), in_plane(Vector2::new(sp, -t * cp)))
+    }
+
+    fn touch_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> Touch {
         let (along, across) = (Vector2::new(cos, sin), Vector2::new(-sin, cos));
         let (a, l, t) = (self.pivot_distance, self.arm, self.side);
         let psi = self.start + lift.s;

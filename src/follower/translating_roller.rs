@@ -107,7 +107,10 @@ impl Follower for TranslatingRoller {
     }
 
     fn touch(&self, angle: f64, lift: &Jet) -> Touch {
-        let (sin, cos) = libm::sincos(angle);
+        self.touch_turned(angle, libm::sincos(angle), lift)
+    }
+
+    fn touch_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> Touch {
         let along = Vector2::new(cos, sin);
         let across = Vector2::new(-sin, cos);
         let (offset, u) = (self.offset, self.height + lift.s);
@@ -119,6 +122,11 @@ impl Follower for TranslatingRoller {
             along * (lift.ddds - 3.0 * lift.ds + offset) + across * (3.0 * lift.dds - u),
         );
         Touch { curve, drive: along, drive_turn: 1.0 }
+    }
+
+    fn point_turned(&self, _: f64, (sin, cos): (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
+        let along = Vector2::new(cos, sin);
+        (along * (self.height + lift.s) + Vector2::new(-sin, cos) * self.offset, along)
     }
 
     fn parameter_of(&self, centre: Vector2<f64>, _: Vector2<f64>) -> f64 {

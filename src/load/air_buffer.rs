@@ -6,7 +6,7 @@ use crate::buffer::Cylinder;
 use crate::buffer::crank_law::CrankLaw;
 use crate::geometry::MILLIMETRES;
 use crate::motion::counter_torque::Work;
-use crate::motion::{Motion, Reversal, State, Transition};
+use crate::motion::{Jet, Motion, Reversal, State, Transition};
 use crate::profile::Worst;
 use crate::profile::extremes::{self, Acting};
 use crate::report::{AirLaw, Section};
@@ -131,6 +131,10 @@ impl Load for AirBuffer {
 
     fn state(&self, piece: usize, at: f64) -> State {
         self.reversal.state(piece, at)
+    }
+
+    fn state_and_lift(&self, piece: usize, at: f64) -> (State, Jet) {
+        self.reversal.state_and_lift(piece, at)
     }
 
     fn place(&self, crank: f64) -> f64 {

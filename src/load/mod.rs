@@ -10,8 +10,8 @@ pub(crate) use air_buffer::{air_law, balance_of, balance_row, closed_at};
 pub use pressing::Pressing;
 pub use shaft_work::ShaftWork;
 
-use crate::motion::State;
 use crate::motion::counter_torque::Work;
+use crate::motion::{Jet, State};
 use crate::numeric::root;
 use crate::profile::Worst;
 use crate::profile::extremes::Acting;
@@ -80,6 +80,9 @@ pub trait Load: std::fmt::Debug + Send + Sync {
 
     /// The state of the machine.
     fn state(&self, piece: usize, at: f64) -> State;
+
+    /// The same, and the lift of the motion that it belongs to.
+    fn state_and_lift(&self, piece: usize, at: f64) -> (State, Jet);
 
     /// Overrun of the bed at any angle of the crank, rad, in strokes.
     fn place(&self, crank: f64) -> f64;

@@ -263,8 +263,16 @@ impl Reversal {
     /// The state of bed, bottom and air at a cam angle of a piece.
     #[must_use]
     pub fn state(&self, piece: usize, angle: f64) -> State {
-        let (crank, displacement, air) = self.part_at(piece, angle).map_or((0.0, 0.0, None), |(part, crank)| {
-            let displacement = self.bottom_of(part, crank).s - self.raised_of(part, crank);
+        self.state_and_lift(piece, angle).0
+    }
+
+    /// The same, and the lift there.
+    #[must_use]
+    pub fn state_and_lift(&self, piece: usize, angle: f64) -> (State, Jet) {
+        let at = self.part_at(piece, angle);
+        let bottom = at.map_or(Jet::default(), |(part, crank)| self.bottom_of(part, crank));
+        let (crank, displacement, air) = at.map_or((0.0, 0.0, None), |(part, crank)| {
+            let displacement = bottom.s - self.raised_of(part, crank);
             (crank, displacement, self.air_of(part, crank, 0.0, || displacement))
         });
         let law = &self.law.bottom_law;
@@ -275,7 +283,14 @@ impl Reversal {
         };
         let turn = if crank < 0.0 { crank + TAU } else { crank };
         let crank = if turn < TAU { turn } else { turn % TAU };
-        State { crank, reversing: crank <= law.angle(), overrun, deceleration, displacement, pressure_ratio }
+        let reversing = crank <= law.angle();
+        let state = State { crank, reversing, overrun, deceleration, displacement, pressure_ratio };
+        (state, self.lift_over(bottom))
+    }
+
+    /// The lift with the bottom at a place, from its lowest.
+    fn lift_over(&self, bottom: Jet) -> Jet {
+        Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.law.lever)
     }
 
     /// Deceleration of the bed over the square of the crank speed, m, and pressure ratio with the bottom off by so much (m, towards the
@@ -465,8 +480,7 @@ impl Motion for Reversal {
     }
 
     fn jet(&self, piece: usize, angle: f64) -> Jet {
-        let bottom = self.bottom(piece, angle);
-        Jet { s: bottom.s - self.lowest, ..bottom }.scaled(self.law.lever)
+        self.lift_over(self.bottom(piece, angle))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::geometry::MILLIMETRES;
 use crate::profile::outline::MotionTolerance;
 use crate::reading::step::{Flank, Loop};
 use crate::reading::{self, Chain, step};
-use crate::report::{Report, Section};
+use crate::report::{Inputs, Report, Section};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
 use serde::Serialize;
 
@@ -114,7 +114,7 @@ impl Cam {
         sections.push(Section::new("rolling", &rolled));
         let found = outlines.first().map(|outline| &outline.contour);
         sections.extend(diagnosis::of(self, section.map(|section| section.rpm), found, (&checks, tolerance)));
-        let whole = report(body, &self.inputs_for(&Request::within(tolerance)), sections, checks);
+        let whole = report(body, Inputs::of(&self.inputs_for(&Request::within(tolerance))), sections, checks);
         let noun = match section {
             Some(section) => format!("section for {} rpm of a {}", section.rpm, whole.noun).into(),
             None => whole.noun.clone(),
@@ -161,7 +161,7 @@ impl Cam {
             strict: [false; 2],
         });
         let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
-        let whole = report(body, &self.inputs_for(&Request::within(tolerance)), sections, checks);
+        let whole = report(body, Inputs::of(&self.inputs_for(&Request::within(tolerance))), sections, checks);
         let noun = format!("solid of a {}", whole.noun).into();
         Ok(Report { command: "check".into(), noun, ..whole })
     }

@@ -113,14 +113,14 @@ impl Drawing<'_> {
 }
 
 /// The report of a body, without files.
-fn report(body: &dyn Body, inputs: &[Input], sections: Vec<Section>, checks: Vec<crate::report::Finding>) -> Report {
+fn report(body: &dyn Body, inputs: Inputs, sections: Vec<Section>, checks: Vec<crate::report::Finding>) -> Report {
     let (kind, machine) = (body.kind(), body.machine());
     Report {
         command: kind.command.into(),
         noun: kind.noun.into(),
         machine: machine.name().to_owned(),
         rpm: body.speeds(),
-        inputs: Inputs::of(inputs),
+        inputs,
         sections,
         checks,
         notes: machine.idle_keys_told(kind.keys, kind.noun),

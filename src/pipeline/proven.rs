@@ -25,6 +25,8 @@ pub struct Proven<'c> {
     request: Request,
     /// Everything that determines the part.
     pub(super) inputs: Vec<Input>,
+    /// Their hash.
+    hashed: Inputs,
     pub(super) drawn: Result<Drawn, String>,
     /// The bytes of the cut files, one for each part.
     cut_files: Vec<Vec<u8>>,
@@ -45,6 +47,7 @@ struct Written {
     cut_files: Vec<Vec<u8>>,
     outlines: Vec<WrittenOutline>,
     rolled: Option<Rolled>,
+    inputs: Inputs,
 }
 
 impl<'c> Drawing<'c> {
@@ -71,7 +74,8 @@ impl<'c> Drawing<'c> {
     /// The cut files in memory as they are read back, and what rolling on the first shows.
     fn written(&self, version: Version) -> Result<Written, Error> {
         let body = self.cam.body();
-        let mark = Inputs::of(&self.inputs).to_string();
+        let inputs = Inputs::of(&self.inputs);
+        let mark = inputs.to_string();
         let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
         for part in self.drawn.iter().flat_map(|drawn| &drawn.parts) {
             // The proof is of the bytes that would be cut, not of the drawing they were made from.
@@ -82,12 +86,12 @@ impl<'c> Drawing<'c> {
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let plane = body.plane().zip(outlines.first());
         let rolled = plane.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
-        Ok(Written { cut_files, outlines, rolled })
+        Ok(Written { cut_files, outlines, rolled, inputs })
     }
 
     /// Every check, of what was written.
     fn judged(self, version: Version, written: Written, second: Option<Box<Proven<'c>>>) -> Result<Proven<'c>, Error> {
-        let Written { cut_files, outlines, rolled } = written;
+        let Written { cut_files, outlines, rolled, inputs: hashed } = written;
         let body = self.cam.body();
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let (middle, _) = self.request.fit.band();
@@ -120,6 +124,7 @@ impl<'c> Drawing<'c> {
             cam,
             request,
             inputs,
+            hashed,
             drawn,
             cut_files,
             points,
@@ -280,7 +285,7 @@ impl Proven<'_> {
         let mut sections = body.sections(&found);
         sections.extend(PointMeasures::section(&self.points_told));
         sections.extend(self.compensation().map(|told| told.section()));
-        let mut report = report(body, &self.inputs, sections, self.findings.clone());
+        let mut report = report(body, self.hashed.clone(), sections, self.findings.clone());
         report.notes.extend(self.no_outline().map(|why| format!("there is no outline: {why}")));
         report
     }

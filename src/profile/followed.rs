@@ -14,7 +14,7 @@
 //! frame of the follower; under a face on an arm p by secants, and q and ρ from what is linear, q β' = p' and ρ.
 
 use super::{Curves, Worst};
-use crate::follower::{Element, Touch};
+use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
 use crate::motion::program::SegmentTold;
@@ -99,6 +99,9 @@ impl Errors {
 
 /// A place, and what is off there: error of the velocity, error of the acceleration and the acceleration itself.
 type Off = (f64, [f64; 3]);
+
+/// A lift of the motion, and its place: a piece, and the parameter in it.
+pub type Lift = ((usize, f64), Jet);
 
 /// A follower on a chain.
 #[derive(Debug)]
@@ -186,7 +189,8 @@ impl<'a> Followed<'a> {
         if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
             join(&mut runs, Some(last), start + period, &corner, point);
         }
-        let stretches = runs.into_iter().flat_map(|run| on_pieces(curves.motion, run)).collect();
+        let mut stretches = Vec::with_capacity(runs.len() + curves.motion.pieces().len());
+        runs.into_iter().for_each(|run| stretches.extend(on_pieces(curves.motion, run)));
         Self { curves, out, stretches, closed }
     }
 
@@ -200,9 +204,17 @@ impl<'a> Followed<'a> {
 
     /// Lift, velocity and acceleration as cut at a place of a stretch; the third derivative is that of the motion.
     fn cut(&self, stretch: &Stretch, parameter: f64) -> Option<(Jet, Jet)> {
+        self.cut_beside(stretch, parameter, None)
+    }
+
+    /// The same where the motion may be known at that very place.
+    fn cut_beside(&self, stretch: &Stretch, parameter: f64, known: Option<Lift>) -> Option<(Jet, Jet)> {
         let piece = self.curves.motion.pieces().get(stretch.piece)?;
         let inside = (parameter + stretch.shift).clamp(piece.start, piece.end);
-        let law = self.curves.motion.jet(stretch.piece, inside);
+        let law = match known {
+            Some((at, law)) if at == (stretch.piece, inside) => law,
+            _ => self.curves.motion.jet(stretch.piece, inside),
+        };
         let guide = match &stretch.guide {
             Guide::Curve(edge) => touching(self.curves, self.out, edge, inside)?,
             known => *known,
@@ -214,6 +226,12 @@ impl<'a> Followed<'a> {
     /// is not touched.
     #[must_use]
     pub fn at(&self, parameter: f64) -> Option<Jet> {
+        self.beside_law(parameter, None)
+    }
+
+    /// The same beside a lift of the motion that is known there.
+    #[must_use]
+    pub fn beside_law(&self, parameter: f64, known: Option<Lift>) -> Option<Jet> {
         let (first, _) = self.stretches.first().map(|stretch| (stretch.from, stretch.to))?;
         let wanted = match self.curves.motion.period() {
             Some(period) => parameter + period * ((first - parameter) / period).ceil(),
@@ -222,7 +240,7 @@ impl<'a> Followed<'a> {
         let index = self.stretches.partition_point(|stretch| stretch.to < wanted);
         let stretch = self.stretches.get(index).or(self.stretches.last())?;
         let reached = wanted >= stretch.from - HAIR && wanted <= stretch.to + HAIR;
-        self.cut(stretch, wanted).filter(|_| reached).map(|(cut, _)| cut)
+        self.cut_beside(stretch, wanted, known).filter(|_| reached).map(|(cut, _)| cut)
     }
 
     /// Whether the follower runs on a stretch.
@@ -417,9 +435,8 @@ fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option
 }
 
 /// The parts of a run that lie on the pieces of the motion.
-fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> Vec<Stretch> {
-    let stretch = |part: Part| Stretch { from: part.from, to: part.to, piece: part.piece, shift: part.shift, guide };
-    parts(motion, (from, to)).into_iter().map(stretch).collect()
+fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> impl Iterator<Item = Stretch> {
+    parts(motion, (from, to)).map(move |Part { from, to, piece, shift }| Stretch { from, to, piece, shift, guide })
 }
 
 /// A part of a range of the motion's parameter, on one piece.
@@ -433,22 +450,22 @@ pub(super) struct Part {
 }
 
 /// A range of the motion's parameter, which may run over any number of periods, cut at the pieces of the motion.
-pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> Vec<Part> {
+pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> impl Iterator<Item = Part> {
     let (first, last) = motion.range();
     let (from, to) = if motion.period().is_some() { (from, to) } else { (from.max(first), to.min(last)) };
-    let mut parts = Vec::new();
     let mut at = from;
-    while to - at > HAIR {
+    std::iter::from_fn(move || {
+        if !(to - at > HAIR) {
+            return None;
+        }
         let (piece, inside) = motion.locate(at + HAIR);
-        let Some(end) = motion.pieces().get(piece).map(|piece| piece.end) else { break };
+        let end = motion.pieces().get(piece)?.end;
         let shift = inside - (at + HAIR);
         let until = (end - shift).max(at + HAIR);
         // What is left of a piece, or of a run, may be a hair.
         let until = if to - until > HAIR { until } else { to };
-        parts.push(Part { from: at, to: until, piece, shift });
-        at = until;
-    }
-    parts
+        Some(Part { from: std::mem::replace(&mut at, until), to: until, piece, shift })
+    })
 }
 
 /// The jet of a follower at a parameter whose curve follows a guide, the law's as a start.
@@ -474,24 +491,28 @@ fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<
         Guide::Line(on, normal) => ((point - on).dot(&normal), normal),
         Guide::Curve(_) => (f64::NAN, Vector2::zeros()),
     };
-    let (mut jet, mut here) = (law, curves.follower.touch(parameter, &law));
-    let size = here.curve.point.norm();
-    let (mut gap, mut normal) = off(here.curve.point);
+    let turned = libm::sincos(parameter);
+    let touch = |jet: &Jet| curves.follower.touch_turned(parameter, turned, jet).curve;
+    let place = |jet: &Jet| curves.follower.point_turned(parameter, turned, jet);
     let along_normal =
-        |jet: &Jet, here: &Touch, normal: Vector2<f64>| normal.dot(&here.drive) * curves.follower.leverage(jet);
+        |jet: &Jet, drive: Vector2<f64>, normal: Vector2<f64>| normal.dot(&drive) * curves.follower.leverage(jet);
+    let (mut jet, (mut point, mut drive)) = (law, place(&law));
+    let size = point.norm();
+    let (mut gap, mut normal) = off(point);
     for _ in 0..LIFT_STEPS {
         let last = gap.abs() <= SETTLED * size;
-        jet.s -= gap / along_normal(&jet, &here, normal);
-        here = curves.follower.touch(parameter, &jet);
-        (gap, normal) = off(here.curve.point);
+        jet.s -= gap / along_normal(&jet, drive, normal);
+        (point, drive) = place(&jet);
+        (gap, normal) = off(point);
         if last || !(gap.abs() > TOUCHING * size) {
             break;
         }
     }
-    let rate = along_normal(&jet, &here, normal);
-    jet.ds -= here.curve.speed * normal.dot(&here.curve.tangent) / rate;
+    let rate = along_normal(&jet, drive, normal);
+    let curve = touch(&jet);
+    jet.ds -= curve.speed * normal.dot(&curve.tangent) / rate;
     // C'' along the normal: κ ℓ² to the left of the tangent.
-    let curve = curves.follower.touch(parameter, &jet).curve;
+    let curve = touch(&jet);
     let square = curve.speed * curve.speed;
     let wanted = match guide {
         Guide::Circle(_, radius) => -square / radius,

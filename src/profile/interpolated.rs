@@ -126,7 +126,7 @@ impl<'a> Interpolated<'a> {
             return if to - from > -HAIR { [0.0; 2] } else { NOT_FOLLOWED };
         }
         let mut worst = [0.0_f64; 2];
-        let parts = own_parts(parts(self.curves.motion, (from, to)), AT_END * (to - from));
+        let parts = own_parts(parts(self.curves.motion, (from, to)).collect(), AT_END * (to - from));
         for part in parts.into_iter().filter(|part| self.curves.motion.is_rolled(part.piece)) {
             let range = (run.place(self, part.from), run.place(self, part.to));
             let errors = self.largest_of(&run, &part, range, wanted);

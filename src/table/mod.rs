@@ -16,6 +16,8 @@ pub struct Row {
     pub position: Option<f64>,
     /// Lift in metres, of a cam that turns.
     pub lift: Option<Jet>,
+    /// Piece of the motion, and the parameter in it, of which the lift of a cam that turns is.
+    pub at: Option<(usize, f64)>,
     /// Lift in radians, of a cam under a swinging follower.
     pub swing: Option<Jet>,
     /// Bed, bottom and crank of a press.
@@ -308,6 +310,7 @@ mod tests {
             cam_deg: Some(1.0),
             position: Some(1.0),
             lift: Some(Jet::default()),
+            at: None,
             swing: None,
             bed: Some(BedRow { crank_deg: Some(1.0), ..BedRow::default() }),
             state: None,

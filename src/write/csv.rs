@@ -50,7 +50,8 @@ fn rows(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline],
         let followed = Followed::on(curves, &outline.contour, body.mirrored());
         for row in &mut rows {
             let place = row.cam_deg.map(f64::to_radians).or(row.bed.map(|bed| bed.x / MILLIMETRES));
-            let followed = place.and_then(|place| Some((place, followed.at(place)?)));
+            let law = row.at.zip(row.lift.or(row.swing));
+            let followed = place.and_then(|place| Some((place, followed.beside_law(place, law)?)));
             let cut = followed.map(|(place, cut)| {
                 let (first, second) = motion.pace(place);
                 [cut.ds * first, cut.dds * first * first + cut.ds * second]

@@ -25,7 +25,7 @@ pub(super) fn all(outputs: &[Output], words: &[&str]) -> Result<(), FilesError> 
 }
 
 /// Bytes looked at together: most blocks have nothing like the beginning of such a text.
-const BLOCK: usize = 1024;
+const BLOCK: usize = 256;
 
 /// 0 where letters are the first and the third of one of the texts, in capitals or not. Whole blocks of it take no branches.
 fn off(first: u8, third: u8) -> u8 {

@@ -1,11 +1,10 @@
 //! Numbers as text. Files are written as bytes, since each number that joins a `String` would be checked to be UTF-8 once more.
 
-use crate::numeric::decimal::{push_fixed, push_whole};
+use crate::numeric::decimal::{push_decimal, push_fixed, push_whole};
 use std::io::Write as _;
 
 /// Sizes written without an exponent: where neither form is much longer than the other.
-const LEAST_PLAIN: f64 = 1e-6;
-const LARGEST_PLAIN: f64 = 1e17;
+pub(super) const PLAIN: std::ops::Range<f64> = 1e-6..1e17;
 
 /// Sizes that zmij writes without an exponent, and some more that it does.
 const WITHOUT_EXPONENT: std::ops::Range<f64> = 1e-4..1e15;
@@ -28,20 +27,26 @@ pub fn push_shortest(text: &mut Vec<u8>, value: f64) {
     }
 }
 
+/// A number behind which there is no place for less than a half: 3·2⁵⁰.
+const TO_HALVES: f64 = 3_377_699_720_527_872.0;
+/// Halves below this fit into 32 bits.
+const LARGEST_HALVES: f64 = 1e9;
+
 /// The same of what is not zero.
 fn push_digits(text: &mut Vec<u8>, value: f64) {
-    let doubled = 2.0 * value.abs();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what does not fit is no half")]
-    let halves = doubled as u32;
-    if f64::from(halves) == doubled {
-        push_halves(text, value < 0.0, halves);
-    } else if WITHOUT_EXPONENT.contains(&value.abs()) {
-        let mut buffer = zmij::Buffer::new();
-        let digits = buffer.format_finite(value).as_bytes();
-        text.extend_from_slice(digits.strip_suffix(b".0").unwrap_or(digits));
-    } else {
-        push_very_large_or_small(text, value);
+    let size = value.abs();
+    if !WITHOUT_EXPONENT.contains(&size) {
+        return push_very_large_or_small(text, value);
     }
+    let large = size >= LARGEST_HALVES;
+    if !large && (size + TO_HALVES) - TO_HALVES == size {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number that fits")]
+        return push_halves(text, value < 0.0, (2.0 * size) as u32);
+    }
+    let mut buffer = zmij::Buffer::new();
+    let digits = buffer.format_finite(value).as_bytes();
+    // Only what is large may be whole.
+    text.extend_from_slice(digits.strip_suffix(b".0").filter(|_| large).unwrap_or(digits));
 }
 
 /// Adds so many halves: steps of an angle, and the units of a frame, whose digits need not be searched.
@@ -68,15 +73,16 @@ fn push_very_large_or_small(text: &mut Vec<u8>, value: f64) {
     }
     let mut buffer = zmij::Buffer::new();
     let digits = buffer.format_finite(value);
-    if !digits.contains('e') {
+    if size < PLAIN.start {
+        // Very small numbers would fill a line with zeros.
+        text.extend_from_slice(digits.as_bytes());
+    } else if !digits.contains('e') {
         text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
-    } else if (LEAST_PLAIN..LARGEST_PLAIN).contains(&size) {
+    } else if PLAIN.contains(&size) {
         // A text in memory takes all that is written.
         let _ = write!(text, "{value}");
-    } else if size < 1.0 {
-        // Very large or small numbers would fill a line with zeros.
-        text.extend_from_slice(digits.as_bytes());
     } else {
+        // So would very large ones.
         let _ = write!(text, "{value:e}");
     }
 }
@@ -114,15 +120,30 @@ pub fn plain(value: f64, decimals: usize) -> String {
 
 /// Adds the same to a text.
 pub fn push_plain(text: &mut Vec<u8>, value: f64, decimals: usize) {
+    push_rounded(text, value, decimals, 1);
+}
+
+/// The same with no decimal where none is needed: a whole number has no point.
+pub(super) fn push_short(text: &mut Vec<u8>, value: f64, decimals: usize) {
+    push_rounded(text, value, decimals, 0);
+}
+
+fn push_rounded(text: &mut Vec<u8>, value: f64, decimals: usize, least: u32) {
+    if decimals > 0 && push_decimal(text, value, decimals, least) {
+        return;
+    }
+    // What is no number, or has too many digits.
     let from = text.len();
     push_fixed(text, value, decimals);
     if decimals == 0 || !value.is_finite() {
         return;
     }
-    // One digit stays behind the point.
-    let zeros = text.iter().rev().take(decimals - 1).take_while(|digit| **digit == b'0').count();
+    let zeros = text.iter().rev().take(decimals - least as usize).take_while(|digit| **digit == b'0').count();
     text.truncate(text.len() - zeros);
-    if text.get(from..) == Some(b"-0.0") {
+    if text.ends_with(b".") {
+        text.pop();
+    }
+    if matches!(text.get(from..), Some(b"-0.0" | b"-0")) {
         text.remove(from);
     }
 }
@@ -150,7 +171,7 @@ mod tests {
             let exponent = 1023 - 70 + (bits >> 40) % 140;
             let value = f64::from_bits(exponent << 52 | bits & 0x000f_ffff_ffff_ffff);
             let size = value.abs();
-            let plain = (LEAST_PLAIN..LARGEST_PLAIN).contains(&size);
+            let plain = PLAIN.contains(&size);
             let (text, expected) = (shortest(value), if plain { format!("{value}") } else { format!("{value:e}") });
             assert_eq!((text.parse(), text.len()), (Ok(value), expected.len()));
             assert!(text == expected || size > 1e9, "{text} {expected}");

@@ -1,6 +1,6 @@
 //! Shapes as path data of SVG: arcs are arcs, y is flipped once, in the coordinates.
 
-use super::number::push_plain;
+use super::number::push_short;
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Edge, Segment};
 use crate::report::sheet::Shape;
@@ -23,10 +23,7 @@ impl PathData {
     }
 
     pub(super) fn push_number(self, text: &mut Vec<u8>, value: f64) {
-        push_plain(text, value, self.decimals);
-        if text.ends_with(b".0") {
-            text.truncate(text.len() - 2);
-        }
+        push_short(text, value, self.decimals);
     }
 
     fn push_place(self, text: &mut Vec<u8>, point: Vector2<f64>) {
@@ -109,14 +106,17 @@ impl PathData {
             self.push_place(text, segment.end);
             return;
         }
-        let radius = self.number(segment.radius().abs());
         // A left turn upwards is a right turn (sweep flag 0) once y points down.
-        let sweep = if segment.bulge < 0.0 { " 0 0 1 " } else { " 0 0 0 " };
+        let sweep = if segment.bulge < 0.0 { b" 0 0 1 " } else { b" 0 0 0 " };
         let middle = (segment.sweep().abs() > LONGEST_SWEEP).then(|| segment.middle());
         for (index, point) in middle.into_iter().chain([segment.end]).enumerate() {
-            for part in [if index > 0 { " A" } else { "A" }, &radius, ",", &radius, sweep] {
-                text.extend_from_slice(part.as_bytes());
-            }
+            text.extend_from_slice(if index > 0 { b" A" } else { b"A" });
+            let from = text.len();
+            self.push_number(text, segment.radius().abs());
+            let radius = from..text.len();
+            text.push(b',');
+            text.extend_from_within(radius);
+            text.extend_from_slice(sweep);
             self.push_place(text, point);
         }
     }

@@ -111,6 +111,7 @@ fn sections_table(conoid: &Conoid, parts: &[Part]) -> PlaceTable {
         title: "Sections: speed, place along the axis, width, height, area".into(),
         heads: ["n, rpm", "z, mm", "width, mm", "height, mm", "area, mm²"].map(str::to_owned).to_vec(),
         rows: conoid.cuts().into_iter().zip(parts).map(row).collect(),
+        every: 1,
     }
 }
 

@@ -143,10 +143,9 @@ impl Disc {
         acting * libm::cos(contact.pressure_angle) / self.share_borne(&guide, (piece, angle), &contact).max(0.0)
     }
 
-    /// As [`Body::force_and_torque`].
-    pub(super) fn driving_force_and_torque(&self, piece: usize, angle: f64) -> Option<[f64; 2]> {
-        let lift = self.motion.jet(piece, angle);
-        let driving = self.driving_force_of((piece, angle), || lift)?;
+    /// As [`Body::force_and_torque_of`].
+    pub(super) fn driving_force_and_torque(&self, at: (usize, f64), lift: Jet) -> Option<[f64; 2]> {
+        let driving = self.driving_force_of(at, || lift)?;
         Some([driving, work(driving, lift.ds)])
     }
 

@@ -33,7 +33,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::load::{AirBuffer, Load, RunUp};
 use crate::machine::{DiscOfBrakeError, Machine, NoPress, Press, Rotation};
 use crate::motion::counter_torque::CounterTorqueError;
-use crate::motion::{BrakeDisc, Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, State, Transition};
+use crate::motion::{BrakeDisc, Jet, Motion, MotionError, Quantity, Raised, Reversal, ReversalLaw, State, Transition};
 use crate::profile::extremes;
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::size::{NoRadius, Smallest};
@@ -317,9 +317,15 @@ impl Disc {
     fn row(&self, at: Turned) -> Row {
         let curves = self.curves();
         let (piece, angle) = curves.motion.locate(at.angle);
-        let contact = curves.contact(piece, angle);
+        let (state, lift) = match &self.load {
+            Some(load) => {
+                let (state, lift) = load.state_and_lift(piece, angle);
+                (Some(state), lift)
+            }
+            None => (None, curves.motion.jet(piece, angle)),
+        };
+        let contact = Contact::of(curves.follower, angle, lift);
         let profile = contact.curve.offset_inward(curves.offset());
-        let state = self.load.as_ref().map(|load| load.state(piece, angle));
         let bed = state.map(|state| BedRow {
             crank_deg: Some(at.crank_deg),
             x: MILLIMETRES * state.overrun,
@@ -327,6 +333,7 @@ impl Disc {
         });
         Row {
             cam_deg: Some(at.cam_deg),
+            at: Some((piece, angle)),
             lift: (self.motion.quantity() == Quantity::Length).then_some(contact.lift),
             swing: (self.motion.quantity() == Quantity::Angle).then_some(contact.lift),
             position: self.motion.origin().map(|origin| origin + contact.lift.s),
@@ -401,9 +408,8 @@ impl Body for Disc {
         self.normal_force_of(at, contact)
     }
 
-    fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {
-        let (piece, inside) = self.motion.locate(angle);
-        self.driving_force_and_torque(piece, inside)
+    fn force_and_torque_of(&self, at: (usize, f64), lift: Jet) -> Option<[f64; 2]> {
+        self.driving_force_and_torque(at, lift)
     }
 
     fn compensating(&self) -> Option<Result<(Disc, Compensated), DiscError>> {

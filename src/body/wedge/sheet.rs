@@ -10,6 +10,7 @@ use crate::profile::outline::OutlineError;
 use crate::report::sheet::{Facts, Group, Mark, PlaceTable, Shape, View};
 use crate::table::Row;
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// Steps of the finer table of places over the stroke.
 const STEPS: u32 = 72;
@@ -86,7 +87,6 @@ fn rollers(plate: &Wedge) -> (Vec<Shape>, Vec<Mark>) {
 
 /// Overrun, travel of the bottom and the upper flank's profile.
 fn places(plate: &Wedge) -> Vec<PlaceTable> {
-    let rows = plate.rows(STEPS);
     let row = |row: &Row| {
         let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{:.3}", value + 0.0));
         vec![
@@ -96,12 +96,14 @@ fn places(plate: &Wedge) -> Vec<PlaceTable> {
             cell(row.profile.map(|point| point.y)),
         ]
     };
+    let rows: Arc<[Vec<String>]> = plate.rows(STEPS).iter().map(row).collect();
     let heads = ["x, mm", "Δx, mm", "profile x", "profile y"].map(str::to_owned).to_vec();
     [1, 2, 4]
         .map(|every| PlaceTable {
             title: "Overrun x, travel Δx of the bottom, place of the profile, mm".into(),
             heads: heads.clone(),
-            rows: rows.iter().step_by(every).map(row).collect(),
+            rows: Arc::clone(&rows),
+            every,
         })
         .to_vec()
 }

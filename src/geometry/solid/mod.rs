@@ -5,6 +5,8 @@
 //! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
 //! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
 
+mod closed;
+
 use super::contour::{Contour, Cubic, Edge, Segment, sweep_minus_sine};
 use nalgebra::Vector2;
 use truck_modeling::{InnerSpace, Point3, Vector3};
@@ -83,6 +85,9 @@ pub struct Place(pub Point3);
 /// The boundary of a solid: vertices, edges and faces by index, as truck exchanges them.
 pub type Boundary = CompressedSolid<Place, Curve, FaceSurface>;
 
+/// One shell of it.
+pub type Shell = CompressedShell<Place, Curve, FaceSurface>;
+
 /// A solid that has been checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
@@ -96,7 +101,7 @@ pub struct Solid {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolidError {
-    /// truck's check of the topology.
+    /// The check of the topology.
     #[error("the solid is not closed: {0}; please report this")]
     NotClosed(String),
     /// Area times thickness is not what the boundary encloses.
@@ -120,39 +125,21 @@ const STRAIGHT: f64 = 1e-6;
 /// Largest relative difference of the two volumes: rounding of a few hundred terms.
 const VOLUME_TOLERANCE: f64 = 1e-11;
 
-/// A face of the given area (mm²) as a solid of a thickness (mm), with its underside at z = 0, checked: closed by truck's
-/// rules, and with the volume that the drawing has. Every contour runs with the metal on its left: the outline, which comes
+/// A face of the given area (mm²) as a solid of a thickness (mm), with its underside at z = 0, checked: closed by the
+/// rules of truck, and with the volume that the drawing has. Every contour runs with the metal on its left: the outline, which comes
 /// first, counter-clockwise, holes clockwise.
 ///
 /// # Errors
 /// [`SolidError`] when a check fails; both would be faults of camgen.
 pub fn prism(contours: &[Contour], area: f64, thickness: f64) -> Result<Solid, SolidError> {
     let boundary = extruded(contours, thickness);
-    check_closed(&boundary)?;
+    closed::check(&boundary)?;
     let volume = enclosed(&boundary);
     let expected = area * thickness;
     if !((volume / expected - 1.0).abs() <= VOLUME_TOLERANCE) {
         return Err(SolidError::WrongVolume { found: volume, expected });
     }
     Ok(Solid { boundary, volume })
-}
-
-/// Asks truck whether a boundary is closed, which is a matter of its topology alone.
-fn check_closed(boundary: &Boundary) -> Result<(), SolidError> {
-    let edge = |edge: &CompressedEdge<Curve>| CompressedEdge { vertices: edge.vertices, curve: () };
-    let face = |face: &CompressedFace<FaceSurface>| CompressedFace {
-        boundaries: face.boundaries.clone(),
-        orientation: face.orientation,
-        surface: (),
-    };
-    let shell = |shell: &CompressedShell<Place, Curve, FaceSurface>| CompressedShell {
-        vertices: vec![(); shell.vertices.len()],
-        edges: shell.edges.iter().map(edge).collect(),
-        faces: shell.faces.iter().map(face).collect(),
-    };
-    let topology = CompressedSolid { boundaries: boundary.boundaries.iter().map(shell).collect() };
-    let solid = truck_topology::Solid::extract(topology);
-    solid.map(drop).map_err(|error| SolidError::NotClosed(error.to_string()))
 }
 
 fn at(point: Vector2<f64>, z: f64) -> Point3 {
@@ -169,17 +156,17 @@ fn backward(index: usize) -> CompressedEdgeIndex {
 }
 
 /// A shell under construction between two planes.
-struct Shell {
-    shell: CompressedShell<Place, Curve, FaceSurface>,
+struct Walls {
+    shell: Shell,
     /// Heights of the planes.
     ends: (f64, f64),
     under: Vec<Vec<CompressedEdgeIndex>>,
     above: Vec<Vec<CompressedEdgeIndex>>,
 }
 
-impl Shell {
+impl Walls {
     fn new(ends: (f64, f64)) -> Self {
-        let shell = CompressedShell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
+        let shell = Shell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
         Self { shell, ends, under: Vec::new(), above: Vec::new() }
     }
 
@@ -194,7 +181,7 @@ impl Shell {
     }
 
     /// The walls over a contour with the metal on its left.
-    fn walls(&mut self, contour: &Contour) {
+    fn over(&mut self, contour: &Contour) {
         let sides: Vec<Edge> = contour.edges().flat_map(|edge| edges(&edge)).collect();
         let n = sides.len();
         let (low, high) = self.ends;
@@ -269,11 +256,11 @@ impl Shell {
 
 /// Contours with the metal on their left, the outer one first, extruded from z = 0.
 fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
-    let mut shell = Shell::new((0.0, thickness));
+    let mut walls = Walls::new((0.0, thickness));
     for contour in contours {
-        shell.walls(contour);
+        walls.over(contour);
     }
-    shell.capped()
+    walls.capped()
 }
 
 /// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`prism`] is; `area` is
@@ -287,13 +274,13 @@ pub fn conical(
     ends: (f64, f64),
     volume: f64,
 ) -> Result<Solid, SolidError> {
-    let mut shell = Shell::new(ends);
-    shell.flank(patches);
+    let mut walls = Walls::new(ends);
+    walls.flank(patches);
     for hole in holes {
-        shell.walls(hole);
+        walls.over(hole);
     }
-    let boundary = shell.capped();
-    check_closed(&boundary)?;
+    let boundary = walls.capped();
+    closed::check(&boundary)?;
     // Clockwise: their area is negative.
     let drilled: f64 = holes.iter().map(|hole| hole.area_and_centroid().0).sum();
     Ok(Solid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
@@ -391,7 +378,7 @@ pub fn enclosed(boundary: &Boundary) -> f64 {
     volume
 }
 
-fn swept(shell: &CompressedShell<Place, Curve, FaceSurface>, used: CompressedEdgeIndex) -> f64 {
+fn swept(shell: &Shell, used: CompressedEdgeIndex) -> f64 {
     let Some(edge) = shell.edges.get(used.index) else { return f64::NAN };
     let (Some(Place(a)), Some(Place(b))) = (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1))
     else {

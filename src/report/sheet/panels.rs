@@ -190,14 +190,15 @@ pub(super) fn places(mut writer: Writer, table: &PlaceTable) -> Panel {
     let block = PLACE_COLUMN * table.heads.len() as f64 + 3.0;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few columns")]
     let blocks = (writer.width / block).floor().clamp(1.0, 4.0) as u32;
-    let rows = table.rows.len().div_ceil(blocks as usize).max(1);
+    let shown: Vec<&Vec<String>> = table.rows.iter().step_by(table.every.max(1)).collect();
+    let rows = shown.len().div_ceil(blocks as usize).max(1);
     let step = writer.width / f64::from(blocks);
     writer.down += LINE;
     let top = writer.down;
-    for (number, rows) in (0_u32..).zip(table.rows.chunks(rows)) {
+    for (number, rows) in (0_u32..).zip(shown.chunks(rows)) {
         writer.down = top;
         let left = step * f64::from(number);
-        for cells in std::iter::once(&table.heads).chain(rows) {
+        for cells in std::iter::once(&table.heads).chain(rows.iter().copied()) {
             let column = (step - 3.0) / f64::from(u32::try_from(cells.len()).unwrap_or(1).max(1));
             let mut x = left;
             for cell in cells {

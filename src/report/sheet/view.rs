@@ -4,6 +4,7 @@ use super::{Group, Shape};
 use crate::geometry::contour::{Extents, Segment};
 use crate::machine::Title;
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// Something that is drawn and named at the size of the lettering, whatever the scale. Places are millimetres of the drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,8 +77,10 @@ pub struct PlaceTable {
     pub title: String,
     /// Names of the columns.
     pub heads: Vec<String>,
-    /// The rows.
-    pub rows: Vec<Vec<String>>,
+    /// The rows, which finer and coarser tables share.
+    pub rows: Arc<[Vec<String>]>,
+    /// Every how many of them it shows.
+    pub every: usize,
 }
 
 /// What the title block tells besides `[title]` of the machine file.
