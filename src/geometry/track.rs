@@ -31,6 +31,8 @@ pub struct About {
     /// No edge but `edge` is nearer to `seen` than `alone`, mm.
     seen: Vector2<f64>,
     alone: f64,
+    /// How far `middle` is from `seen`, mm.
+    to_middle: f64,
 }
 
 /// The outline, prepared for the search of the nearest point.
@@ -111,7 +113,7 @@ impl Track {
         } else {
             second = second.min(about.clear - moved);
         }
-        (about.edge, about.seen, about.alone) = (edge, point, second);
+        (about.edge, about.seen, about.alone, about.to_middle) = (edge, point, second, own.left.abs());
         nearest.left.is_finite().then(|| self.at_vertex(point, edge, nearest))
     }
 
@@ -168,6 +170,13 @@ impl Track {
         let reach = |leaf: u32, _: f64| Some(-self.edges.get(leaf as usize)?.farthest(direction));
         let (_, least) = self.tree.find_best(f64::MAX, of_box, reach)?;
         Some(-least)
+    }
+
+    /// Whether what is known about a point shows that the outline comes within `reach` of it in one place at most.
+    #[must_use]
+    pub fn is_one_place_within(about: &About, point: Vector2<f64>, reach: f64) -> bool {
+        let three_alone = (point - about.point).norm() + reach <= about.clear;
+        point == about.seen && about.to_middle <= reach && three_alone
     }
 
     /// In how many separate places the outline comes within `reach` of a point. Neighbouring segments are one place.
@@ -391,6 +400,9 @@ mod tests {
             let wanted = track.nearest(next).expect("finite");
             let found = track.nearest_about(next, &mut about).expect("finite");
             assert!((found.left.abs() - wanted.left.abs()).abs() < 1e-12, "{next} after {point} from {known}");
+            let reach = 1.000_5 * wanted.left.abs();
+            let one = Track::is_one_place_within(&about, next, reach);
+            assert!(!one || track.places_within(next, reach) == 1, "{next} after {point} from {known}");
         }
     }
 

@@ -82,6 +82,8 @@ struct Sample {
     /// Where the roller, placed by the motion, is nearest to the outline, and its centre, mm.
     foot: Vector2<f64>,
     centre: Vector2<f64>,
+    /// Whether it is known that no second place of the outline is within the tolerance of the roller.
+    alone: bool,
     /// How far parry's distance is from the exact one, where it was measured.
     difference: f64,
     double: bool,
@@ -94,6 +96,8 @@ struct Roll<'a> {
     track: Track,
     /// How far the element reaches from the follower's curve, mm.
     radius: f64,
+    /// mm.
+    tolerance: f64,
     /// What is known about the last place: the next one is near it mostly.
     last: Cell<About>,
 }
@@ -180,8 +184,9 @@ impl Roll<'_> {
 
     fn sample(&self, piece: usize, parameter: f64) -> Sample {
         let contact = self.curves.touch(piece, parameter);
-        let clearance = self.clearance(&contact, contact.curve.point * 1e3);
-        let (gap, normal) = clearance.unwrap_or((f64::INFINITY, contact.drive));
+        let centre = contact.curve.point * 1e3;
+        let (gap, normal) = self.clearance(&contact, centre).unwrap_or((f64::INFINITY, contact.drive));
+        let alone = Track::is_one_place_within(&self.last.get(), centre, self.radius + self.tolerance);
         let rolled = self.curves.motion.is_rolled(piece);
         let swings =
             matches!(self.curves.element(), Element::Face) && self.curves.follower.quantity() == Quantity::Angle;
@@ -210,8 +215,9 @@ impl Roll<'_> {
             lift_error,
             lift_slope: if rolls { lift_slope } else { f64::NAN },
             residual,
-            foot: contact.curve.point * 1e3 - normal * (self.radius + gap),
-            centre: contact.curve.point * 1e3,
+            foot: centre - normal * (self.radius + gap),
+            centre,
+            alone,
             difference: 0.0,
             double: false,
         }
@@ -309,7 +315,7 @@ impl Roll<'_> {
     }
 
     /// Every sample of this flank.
-    fn samples(&self, chords: &Chords, tolerance: f64) -> Vec<Sample> {
+    fn samples(&self, chords: &Chords) -> Vec<Sample> {
         let mut samples: Vec<Sample> =
             self.places().into_iter().map(|(piece, parameter)| self.sample(piece, parameter)).collect();
         let rolls = matches!(self.curves.element(), Element::Roller { .. });
@@ -333,8 +339,10 @@ impl Roll<'_> {
                 centre.dot(&normal) - chords.farthest(normal)
             };
             sample.difference = (by_chords - (sample.gap + self.radius)).abs();
-            sample.double =
-                rolls && sample.gap.abs() <= tolerance && self.track.places_within(centre, self.radius + tolerance) > 1;
+            sample.double = rolls
+                && !sample.alone
+                && sample.gap.abs() <= self.tolerance
+                && self.track.places_within(centre, self.radius + self.tolerance) > 1;
         }
         samples
     }
@@ -349,10 +357,10 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
     let mut tracks = Vec::new();
     for mirrored in body.mirrored() {
         let contour = if *mirrored { contour.mirrored_about_x() } else { contour.clone() };
-        let roll =
-            Roll { body, curves, track: Track::new(&contour), radius: 1e3 * curves.offset(), last: Cell::default() };
+        let (track, radius) = (Track::new(&contour), 1e3 * curves.offset());
+        let roll = Roll { body, curves, track, radius, tolerance, last: Cell::default() };
         let chords = Chords::new(&contour, CHORD_SHARE * tolerance);
-        let found = roll.samples(&chords, tolerance);
+        let found = roll.samples(&chords);
         let lifts: Vec<f64> = found.iter().filter_map(|s| s.lift_error).map(f64::abs).collect();
         touches &= lifts.len() == found.iter().filter(|s| curves.motion.is_rolled(s.piece)).count();
         errors.extend(lifts);

@@ -259,8 +259,7 @@ fn check(
     checks: u32,
 ) -> (f64, Vec<f64>) {
     let mut beyond = Vec::new();
-    let mut at = |arc: &Arc, place: f64| {
-        let frame = curve(place);
+    let mut compared = |arc: &Arc, place: f64, frame: &CurvePoint| {
         let distance = arc.distance(frame.point).abs();
         if distance > tolerance {
             beyond.push(place);
@@ -270,23 +269,37 @@ fn check(
     let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
     let mut looks = Vec::with_capacity(joints.len());
     let mut worst = 0.0;
+    // A joint is a place of both arcs.
+    let mut first = joints.first().map(|joint| curve(joint.parameter));
     for (joint, (parameter, point)) in joints.iter().zip(ends) {
-        let segment = Segment { start: joint.point, end: point, bulge: joint.bulge };
-        let curvature = if joint.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
-        let arc = Arc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge };
+        let arc = arc_of(joint, point);
         let step = (parameter - joint.parameter) / f64::from(checks);
-        let along: Vec<Checked> =
-            (0..=checks).map(|check| at(&arc, joint.parameter + step * f64::from(check))).collect();
+        let last = curve(parameter);
+        let mut along = Vec::with_capacity(checks as usize + 1);
+        along.extend(first.map(|frame| compared(&arc, joint.parameter, &frame)));
+        for check in 1..checks {
+            let place = joint.parameter + step * f64::from(check);
+            along.push(compared(&arc, place, &curve(place)));
+        }
+        along.push(compared(&arc, parameter, &last));
+        first = Some(last);
         worst = along.iter().map(|checked| checked.distance).fold(worst, larger);
         looks.push((arc, along));
     }
     for (arc, along) in &looks {
         for (before, after) in along.iter().zip(along.iter().skip(1)) {
-            let mut on_arc = |place| at(arc, place);
+            let mut on_arc = |place| compared(arc, place, &curve(place));
             worst = larger(worst, between(&mut on_arc, *before, *after, (tolerance, worst), HALVINGS));
         }
     }
     (worst, beyond)
+}
+
+/// The arc from a joint to a point, as its bulge gives it.
+fn arc_of(joint: &Joint, end: Vector2<f64>) -> Arc {
+    let segment = Segment { start: joint.point, end, bulge: joint.bulge };
+    let curvature = if joint.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
+    Arc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge }
 }
 
 /// A point of the curve that was compared with an arc.

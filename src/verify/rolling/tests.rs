@@ -7,8 +7,20 @@ const GAP: fn(&Sample) -> (f64, f64) = |s| (s.gap, s.gap_slope);
 
 fn sample(parameter: f64, (gap, gap_slope): (f64, f64), residual: f64) -> Sample {
     let (foot, centre) = (Vector2::new(parameter, 0.0), Vector2::new(parameter, 1.0));
-    let (lift_error, lift_slope, difference, double) = (None, f64::NAN, f64::NAN, false);
-    Sample { piece: 0, parameter, gap, gap_slope, lift_error, lift_slope, residual, foot, centre, difference, double }
+    Sample {
+        piece: 0,
+        parameter,
+        gap,
+        gap_slope,
+        lift_error: None,
+        lift_slope: f64::NAN,
+        residual,
+        foot,
+        centre,
+        alone: false,
+        difference: f64::NAN,
+        double: false,
+    }
 }
 
 fn near(found: (f64, f64), expected: (f64, f64)) -> bool {

@@ -98,20 +98,25 @@ impl Roll<'_> {
             return Vec::new();
         }
         let highest =
-            |[a, b, c]: &[Sample; 3]| a.piece == c.piece && b.residual >= a.residual && b.residual >= c.residual;
-        let inner = samples.windows(3).filter_map(|three| <[Sample; 3]>::try_from(three).ok());
+            |[a, b, c]: [&Sample; 3]| a.piece == c.piece && b.residual >= a.residual && b.residual >= c.residual;
+        let inner = samples.windows(3).filter_map(|three| match three {
+            [a, b, c] if highest([a, b, c]) => Some([*a, *b, *c]),
+            _ => None,
+        });
         // Beside an end of a piece, or a jump, the highest place may lie between the last two: one is put there.
         let beside = samples.windows(2).filter_map(|pair| {
             let [a, b] = pair else { return None };
             let near = a.piece == b.piece && a.residual.max(b.residual) >= (1.0 - NEARLY) * best;
             let width = b.parameter - a.parameter;
-            (near && width > 4.0 * BESIDE).then(|| [*a, self.sample(a.piece, a.parameter + 0.5 * width), *b])
+            let middle = (near && width > 4.0 * BESIDE).then(|| self.sample(a.piece, a.parameter + 0.5 * width))?;
+            highest([a, &middle, b]).then_some([*a, middle, *b])
         });
-        let all = inner.filter(highest).chain(beside.filter(highest));
-        let mut peaks: Vec<(f64, [Sample; 3])> = all.map(|three| (top_of(&three).1, three)).collect();
+        let all: Vec<[Sample; 3]> = inner.chain(beside).collect();
+        let mut peaks: Vec<(f64, usize)> = all.iter().map(|three| top_of(three).1).zip(0..).collect();
         peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut found = Vec::new();
-        for (top, three) in peaks {
+        for (top, index) in peaks {
+            let Some(&three) = all.get(index) else { continue };
             let [_, middle, _] = three;
             // Between places that are far apart a parabola says little.
             if top + DOUBT * (top - middle.residual) <= best && (top <= CLOSE * best || found.len() > MOST_PEAKS) {
