@@ -190,7 +190,9 @@ impl<'a> Followed<'a> {
             join(&mut runs, Some(last), start + period, &corner, point);
         }
         let mut stretches = Vec::with_capacity(runs.len() + curves.motion.pieces().len());
-        runs.into_iter().for_each(|run| stretches.extend(on_pieces(curves.motion, run)));
+        for run in runs {
+            stretches.extend(on_pieces(curves.motion, run));
+        }
         Self { curves, out, stretches, closed }
     }
 
