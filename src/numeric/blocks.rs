@@ -15,18 +15,15 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// The zero matrix of this many groups.
+    /// The matrix of no groups, with room for so many.
     #[must_use]
-    pub fn zero(groups: usize) -> Self {
-        Self { groups: vec![[[0.0; PAIR]; GROUP]; groups] }
+    pub fn with_capacity(groups: usize) -> Self {
+        Self { groups: Vec::with_capacity(groups) }
     }
 
-    /// The rows of two neighbouring groups, to add to.
-    pub fn pair_mut(&mut self, first: usize) -> Option<(&mut Rows, &mut Rows)> {
-        match self.groups.get_mut(first..)? {
-            [group, next, ..] => Some((group, next)),
-            _ => None,
-        }
+    /// Adds the rows of the next group.
+    pub fn push(&mut self, rows: Rows) {
+        self.groups.push(rows);
     }
 
     /// Solves for several right-hand sides at once, each a column, in place, without pivoting: for positive definite matrices,
@@ -102,5 +99,51 @@ fn pivot<const K: usize, const N: usize>(
 fn subtract<const N: usize>(target: &mut [f64; N], factor: f64, row: &[f64; N]) {
     for (entry, above) in target.iter_mut().zip(row) {
         *entry -= factor * above;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+
+    /// Quasi-definite groups, two unknowns positive and two negative in each, against a dense factorization.
+    #[test]
+    fn a_chain_of_groups_is_solved() {
+        for groups in 1..6_usize {
+            let size = GROUP * groups;
+            let mut dense = DMatrix::<f64>::zeros(size, size);
+            let mut blocks = Blocks::with_capacity(groups);
+            for group in 0..groups {
+                let mut rows = [[0.0; PAIR]; GROUP];
+                for (row, entries) in rows.iter_mut().enumerate() {
+                    for (column, entry) in entries.iter_mut().enumerate().skip(row) {
+                        let (at, other) = (GROUP * group + row, GROUP * group + column);
+                        if other < size {
+                            let seed = f64::from(u32::try_from(17 * at + 5 * other).expect("few"));
+                            *entry = libm::sin(seed)
+                                + match (row == column, row < 2) {
+                                    (false, _) => 0.0,
+                                    (true, true) => 9.0,
+                                    (true, false) => -9.0,
+                                };
+                            (dense[(at, other)], dense[(other, at)]) = (*entry, *entry);
+                        }
+                    }
+                }
+                blocks.push(rows);
+            }
+            let wanted: Vec<[f64; 2]> =
+                (0..size).zip(0..).map(|(_, i)| [libm::cos(f64::from(i)), 1.0 - 0.3 * f64::from(i)]).collect();
+            let side = |of: usize| &dense * DVector::from_iterator(size, wanted.iter().map(|both| both[of]));
+            let (first, second) = (side(0), side(1));
+            let both: Vec<[f64; 2]> = first.iter().zip(&second).map(|(a, b)| [*a, *b]).collect();
+            let (chunks, _) = both.as_chunks::<GROUP>();
+            let mut right = chunks.to_vec();
+            blocks.solve(&mut right);
+            for (found, wanted) in right.iter().flatten().zip(&wanted) {
+                assert!((found[0] - wanted[0]).abs() < 1e-12 && (found[1] - wanted[1]).abs() < 1e-12, "{groups}");
+            }
+        }
     }
 }

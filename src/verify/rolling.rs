@@ -316,8 +316,10 @@ impl Roll<'_> {
 
     /// Every sample of this flank.
     fn samples(&self, chords: &Chords) -> Vec<Sample> {
-        let mut samples: Vec<Sample> =
-            self.places().into_iter().map(|(piece, parameter)| self.sample(piece, parameter)).collect();
+        let places = self.places();
+        // With room for what is found between them.
+        let mut samples: Vec<Sample> = Vec::with_capacity(places.len() + places.len() / 4);
+        samples.extend(places.into_iter().map(|(piece, parameter)| self.sample(piece, parameter)));
         let rolls = matches!(self.curves.element(), Element::Roller { .. });
         let mut more = self.solved(&samples);
         if !rolls {
@@ -364,7 +366,8 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
         let lifts: Vec<f64> = found.iter().filter_map(|s| s.lift_error).map(f64::abs).collect();
         touches &= lifts.len() == found.iter().filter(|s| curves.motion.is_rolled(s.piece)).count();
         errors.extend(lifts);
-        samples.extend(found);
+        // A disc has one flank.
+        samples = if samples.is_empty() { found } else { samples.into_iter().chain(found).collect() };
         (chord_count, sagitta) = (chord_count + chords.count, sagitta.max(chords.sagitta));
         tracks.push(roll.track);
     }

@@ -31,6 +31,8 @@ const LARGEST: u32 = SPANS << (DOUBLINGS - 1);
 const SHARE: f64 = 0.6;
 /// Steps to the nearest point of a patch.
 const FOOT_STEPS: usize = 12;
+/// Length of a step to a foot behind which no other one is made, mm.
+const LEAST_STEP: f64 = 1e-9;
 
 /// The flank with its proof.
 #[derive(Debug, Clone, PartialEq)]
@@ -231,21 +233,26 @@ impl SplineSurface {
     #[must_use]
     pub fn distance(&self, from: &Vector3<f64>, (mut u, mut v): (f64, f64)) -> f64 {
         let [(u0, u1), (v0, v1)] = self.range();
-        let away = |u: f64, v: f64| (from - self.at(u, v)[0]).norm();
-        let mut nearest = away(u, v);
+        let mut place = self.at(u, v);
+        let mut nearest = (from - place[0]).norm();
         for _ in 0..FOOT_STEPS {
-            let [point, by_u, by_v] = self.at(u, v);
+            let [point, by_u, by_v] = place;
             let gap = from - point;
             let (e, f, g) = (by_u.dot(&by_u), by_u.dot(&by_v), by_v.dot(&by_v));
             let (a, b) = (gap.dot(&by_u), gap.dot(&by_v));
             let determinant = e * g - f * f;
             let mut step = ((g * a - f * b) / determinant, (e * b - f * a) / determinant);
+            // A step so short comes nearer by its square over the distance: by nothing.
+            if (by_u * step.0 + by_v * step.1).norm() <= LEAST_STEP {
+                break;
+            }
             let before = nearest;
             for _ in 0..FOOT_STEPS {
                 let next = ((u + step.0).clamp(u0, u1), (v + step.1).clamp(v0, v1));
-                let found = away(next.0, next.1);
+                let there = self.at(next.0, next.1);
+                let found = (from - there[0]).norm();
                 if found < nearest {
-                    (nearest, u, v) = (found, next.0, next.1);
+                    (nearest, place, u, v) = (found, there, next.0, next.1);
                     break;
                 }
                 step = (0.5 * step.0, 0.5 * step.1);

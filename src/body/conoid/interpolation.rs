@@ -73,16 +73,17 @@ impl Weights {
         Self { knots, cubics, slope_shares, variable }
     }
 
-    /// Where a place along the axis, m, lies: the interval, how far behind its first section the variable is and its first three
-    /// derivatives by the place, and the width of the interval in the variable.
-    pub(super) fn place(&self, z: f64) -> (usize, [f64; 4], f64) {
+    /// Where a place along the axis, m, lies: the interval, and how far behind its first section the variable is, with its first three
+    /// derivatives by the place.
+    pub(super) fn place(&self, z: f64) -> (usize, [f64; 4]) {
         let [t, t1, t2, t3] = self.variable.at(z);
         let interval = interval_of(&self.knots, t);
         let knot = self.knots.get(interval).copied().unwrap_or(f64::NAN);
-        (interval, [t - knot, t1, t2, t3], self.width_of(interval))
+        (interval, [t - knot, t1, t2, t3])
     }
 
-    fn width_of(&self, interval: usize) -> f64 {
+    /// The width of an interval in the variable.
+    pub(super) fn width_of(&self, interval: usize) -> f64 {
         let knot = |index: usize| self.knots.get(index).copied().unwrap_or(f64::NAN);
         knot(interval + 1) - knot(interval)
     }

@@ -32,7 +32,7 @@ mod worst;
 pub use error::ConoidError;
 pub use missed::{BESIDE, Missed, OfSection};
 pub use search::Place;
-pub use strips::{AllStrips, Strips, StripsNear};
+pub use strips::{AllStrips, Cubics, Strips, StripsNear};
 pub use surface::SpatialContact;
 
 use super::{Body, Kind};

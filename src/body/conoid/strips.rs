@@ -24,27 +24,20 @@ const RESOLVED: f64 = 1e-15;
 /// Share of that below which the last terms are left out.
 const NEGLIGIBLE: f64 = 0.1;
 
-/// The lift at two neighbouring sections, and its slopes there by the variable of the splines; each with its derivatives by the cam
-/// angle.
-#[derive(Debug, Clone, Copy)]
-pub struct Strip {
-    values: [Jet; 2],
-    slopes: [Jet; 2],
-}
+/// The cubics of the lift and its derivatives by the cam angle between two neighbouring sections, by the variable of the splines from the
+/// first of the two on.
+pub type Cubics = [[f64; 4]; 4];
 
-impl Strip {
-    /// The cubics of the lift and its derivatives by the angle, over a strip of this width.
-    fn cubics(&self, width: f64) -> [[f64; 4]; 4] {
-        let [low, high] = self.values.map(orders);
-        let [low_slope, high_slope] = self.slopes.map(orders);
-        let mut cubics = [[0.0; 4]; 4];
-        let ends = low.into_iter().zip(high).zip(low_slope.into_iter().zip(high_slope));
-        for (cubic, ((a, b), (at_a, at_b))) in cubics.iter_mut().zip(ends) {
-            let mean = (b - a) / width;
-            *cubic = [a, at_a, (3.0 * mean - 2.0 * at_a - at_b) / width, (at_a + at_b - 2.0 * mean) / (width * width)];
-        }
-        cubics
+/// Lift and slope at one section and at the next, with their derivatives by the cam angle, to cubics over a strip of this width.
+fn cubics([(low, low_slope), (high, high_slope)]: [(Jet, Jet); 2], width: f64) -> Cubics {
+    let ends = orders(low).into_iter().zip(orders(high));
+    let slopes = orders(low_slope).into_iter().zip(orders(high_slope));
+    let mut cubics = [[0.0; 4]; 4];
+    for (cubic, ((a, b), (at_a, at_b))) in cubics.iter_mut().zip(ends.zip(slopes)) {
+        let mean = (b - a) / width;
+        *cubic = [a, at_a, (3.0 * mean - 2.0 * at_a - at_b) / width, (at_a + at_b - 2.0 * mean) / (width * width)];
     }
+    cubics
 }
 
 /// Value and derivatives of a jet.
@@ -54,22 +47,17 @@ fn orders(jet: Jet) -> [f64; 4] {
 
 /// What the sections lift at a cam angle.
 pub trait Strips: std::fmt::Debug {
-    /// The strip from a section to the next, by the number of the first.
-    fn strip(&self, interval: usize) -> Strip;
+    /// The cubics from a section to the next, by the number of the first.
+    fn cubics(&self, interval: usize) -> Cubics;
 }
 
-/// The lifts of all sections at a cam angle, for many places along the axis.
+/// The lifts between all sections at a cam angle, for many places along the axis.
 #[derive(Debug, Clone)]
-pub struct AllStrips {
-    /// Lift of each section and its slope along the axis.
-    sections: Vec<(Jet, Jet)>,
-}
+pub struct AllStrips(Vec<Cubics>);
 
 impl Strips for AllStrips {
-    fn strip(&self, interval: usize) -> Strip {
-        let at = |index: usize| self.sections.get(index).copied().unwrap_or_default();
-        let ((a, at_a), (b, at_b)) = (at(interval), at(interval + 1));
-        Strip { values: [a, b], slopes: [at_a, at_b] }
+    fn cubics(&self, interval: usize) -> Cubics {
+        self.0.get(interval).copied().unwrap_or([[f64::NAN; 4]; 4])
     }
 }
 
@@ -81,25 +69,24 @@ pub struct StripsNear<'a> {
     angle: f64,
     all: OnceCell<AllStrips>,
     /// The last one asked for: mostly the next one too.
-    last: Cell<Option<(usize, Strip)>>,
+    last: Cell<Option<(usize, Cubics)>>,
 }
 
 impl Strips for StripsNear<'_> {
-    fn strip(&self, interval: usize) -> Strip {
-        if let Some((_, strip)) = self.last.get().filter(|(known, _)| *known == interval) {
-            return strip;
+    fn cubics(&self, interval: usize) -> Cubics {
+        if let Some((_, cubics)) = self.last.get().filter(|(known, _)| *known == interval) {
+            return cubics;
         }
         let (conoid, piece, angle) = (self.conoid, self.piece, self.angle);
-        let strip = match conoid.slope_series() {
+        let cubics = match conoid.slope_series() {
             Some(series) => {
-                let both = [interval, interval + 1];
-                let values = both.map(|index| conoid.lift_of_section(index, piece, angle));
-                Strip { values, slopes: both.map(|index| series.at(piece, index, angle)) }
+                let at = |index| (conoid.lift_of_section(index, piece, angle), series.at(piece, index, angle));
+                cubics([interval, interval + 1].map(at), conoid.weights.width_of(interval))
             }
-            None => self.all.get_or_init(|| conoid.all_lifts(piece, angle)).strip(interval),
+            None => self.all.get_or_init(|| conoid.all_lifts(piece, angle)).cubics(interval),
         };
-        self.last.set(Some((interval, strip)));
-        strip
+        self.last.set(Some((interval, cubics)));
+        cubics
     }
 }
 
@@ -133,17 +120,24 @@ impl Conoid {
     /// The same for many.
     #[must_use]
     pub fn all_lifts(&self, piece: usize, angle: f64) -> AllStrips {
+        let sections = self.sections_at(piece, angle);
+        let strip = |(interval, both): (usize, &[(Jet, Jet); 2])| cubics(*both, self.weights.width_of(interval));
+        AllStrips(sections.array_windows().enumerate().map(strip).collect())
+    }
+
+    /// Lift of every section at a cam angle, and its slope along the axis.
+    fn sections_at(&self, piece: usize, angle: f64) -> Vec<(Jet, Jet)> {
         let lifts: Vec<Jet> = (0..self.sections.len()).map(|index| self.lift_of_section(index, piece, angle)).collect();
         let slopes = self.weights.slopes(&lifts);
-        AllStrips { sections: lifts.into_iter().zip(slopes).collect() }
+        lifts.into_iter().zip(slopes).collect()
     }
 
     /// Lift at a place along the axis (m), with its derivatives, at the cam angle of these lifts of the sections.
     #[must_use]
     pub fn lift_of(&self, lifts: &(impl Strips + ?Sized), z: f64) -> Partials {
-        let (interval, [t, t1, t2, t3], width) = self.weights.place(z);
+        let (interval, [t, t1, t2, t3]) = self.weights.place(z);
         let mut partials = [[0.0; 4]; 4];
-        for (row, cubic) in partials.iter_mut().zip(lifts.strip(interval).cubics(width)) {
+        for (row, cubic) in partials.iter_mut().zip(lifts.cubics(interval)) {
             let [w, w1, w2, w3] = cubic_at(&cubic, t);
             // Faà di Bruno's rule.
             *row = [w, w1 * t1, w2 * t1 * t1 + w1 * t2, w3 * t1 * t1 * t1 + 3.0 * w2 * t1 * t2 + w1 * t3];
@@ -170,15 +164,16 @@ impl Conoid {
         let terms = (0..DOUBLINGS).map(|doubling| if span.dwell { 1 } else { TERMS << doubling });
         terms.take(if span.dwell { 1 } else { usize::MAX }).find_map(|terms| {
             let places = ChebyshevSeries::points(range, terms);
-            let all = parallel::map(&places, |angle| self.all_lifts(piece, *angle));
+            let all = parallel::map(&places, |angle| self.sections_at(piece, *angle));
             // Of each derivative, the largest size over all sections.
             let mut largest = [0.0_f64; 4];
-            for (lift, _) in all.iter().flat_map(|at| &at.sections) {
+            for (lift, _) in all.iter().flatten() {
                 largest.iter_mut().zip(orders(*lift)).for_each(|(most, value)| *most = most.max(value.abs()));
             }
             let sections: Vec<usize> = (0..self.sections.len()).collect();
             let series = parallel::map(&sections, |section| {
-                let slopes: Vec<[f64; 4]> = all.iter().map(|at| orders(at.slope(*section))).collect();
+                let slope = |at: &Vec<(Jet, Jet)>| at.get(*section).map_or([0.0; 4], |(_, slope)| orders(*slope));
+                let slopes: Vec<[f64; 4]> = all.iter().map(slope).collect();
                 let allowed = largest.map(|most| RESOLVED * most / self.weights.width_at(*section));
                 let series = Together::through(range, &slopes);
                 let resolved = span.dwell || series.last(LAST).iter().zip(allowed).all(|(last, most)| *last <= most);
@@ -186,11 +181,5 @@ impl Conoid {
             });
             series.into_iter().collect()
         })
-    }
-}
-
-impl AllStrips {
-    fn slope(&self, section: usize) -> Jet {
-        self.sections.get(section).map_or_else(Jet::default, |(_, slope)| *slope)
     }
 }

@@ -7,6 +7,8 @@ use nalgebra::{Vector2, Vector3};
 
 /// Newton steps to the roller that touches a cut.
 const CUT_STEPS: usize = 20;
+/// A step of Newton's method to a roller behind which no further one is made, m.
+const LAST_STEP: f64 = 1e-10;
 
 impl Conoid {
     /// Where the sphere at a cam angle and a place along the axis touches, m: its centre, the unit normal out of the
@@ -80,12 +82,12 @@ impl Conoid {
     #[must_use]
     pub fn cut_of(&self, lifts: &(impl Strips + ?Sized), angle: f64, z: f64) -> Option<(CurvePoint, f64, Partials)> {
         let (partials, zeta) = self.roller_of_cut(lifts, z)?;
-        let axial = |first: f64, second: f64| self.along(&partials, angle, Series([zeta, first, second])).axial.0;
-        // Each coefficient of ζ enters the coefficient of its power linearly.
-        let (without, with) = (axial(0.0, 0.0)[1], axial(1.0, 0.0)[1]);
-        let first = -without / (with - without);
-        let (without, with) = (axial(first, 0.0)[2], axial(first, 1.0)[2]);
-        let second = -without / (with - without);
+        let axial = |first: f64| self.across(&partials, Series([zeta, first, 0.0])).axial.0;
+        // Each coefficient of ζ enters the coefficient of its power linearly, and all with the same factor.
+        let without = axial(0.0)[1];
+        let factor = axial(1.0)[1] - without;
+        let first = -without / factor;
+        let second = -axial(first)[2] / factor;
         let along = self.along(&partials, angle, Series([zeta, first, second]));
         let [heading, turn, turn2] = along.heading.0;
         let [speed, speed1, _] = along.speed.0;
@@ -115,15 +117,16 @@ impl Conoid {
             }
             let step = (zeta + wander - z) / (1.0 + slope);
             zeta -= step;
-            if step.abs() <= 1e-15 * (1.0 + z.abs()) {
+            // The next step would be its square, over a length of the cam.
+            if step.abs() <= LAST_STEP {
                 break;
             }
         }
         Some((self.lift_of(lifts, zeta), zeta))
     }
 
-    /// What follows from the lift along θ ↦ (θ, ζ(θ)), as series in θ.
-    fn along(&self, p: &Partials, angle: f64, zeta: Series) -> Along {
+    /// Where the contact stands along θ ↦ (θ, ζ(θ)), as series in θ.
+    fn across(&self, p: &Partials, zeta: Series) -> Across {
         let [_, z1, z2] = zeta.0;
         let compose = |m: usize, n: usize| {
             let at = |m: usize, n: usize| p.get(m).and_then(|row| row.get(n)).copied().unwrap_or(0.0);
@@ -133,21 +136,25 @@ impl Conoid {
                 0.5 * (at(m + 2, n) + 2.0 * at(m + 1, n + 1) * z1 + at(m, n + 2) * z1 * z1) + at(m, n + 1) * z2,
             ])
         };
-        let (radius, offset) = (self.roller.radius, self.roller.offset);
         let (height, _) = self.height_and_slope(p);
         let (u, a, slope) = (
             compose(0, 0) + Series::constant(height - p[0][0]),
-            compose(1, 0) - Series::constant(offset),
+            compose(1, 0) - Series::constant(self.roller.offset),
             compose(0, 1),
         );
         let length = (a * a + u * u).sqrt();
         let taper = slope * u / length;
         let stretch = (Series::constant(1.0) + taper * taper).sqrt();
-        let axial = zeta + taper * radius / stretch;
+        Across { u, a, slope, length, stretch, axial: zeta + taper * self.roller.radius / stretch }
+    }
+
+    /// What follows from the lift along the same.
+    fn along(&self, p: &Partials, angle: f64, zeta: Series) -> Along {
+        let Across { u, a, slope, length, stretch, .. } = self.across(p, zeta);
         let heading = u.atan2(a) + Series([angle, 1.0, 0.0]);
-        let reach = Series::constant(radius) / stretch;
+        let reach = Series::constant(self.roller.radius) / stretch;
         let speed = length + slope * zeta.slope() * a / length - reach * heading.slope();
-        Along { axial, heading, speed, reach: reach.0[0], height: u.0[0] }
+        Along { heading, speed, reach: reach.0[0], height: u.0[0] }
     }
 
     /// How far the contact lies from the roller's plane along the axis, r τ/√(1+τ²), m, and its derivative by z.
@@ -163,9 +170,18 @@ impl Conoid {
     }
 }
 
+/// Height and slopes of the lift along a cut, what follows from them, and the place of the contact along the axis.
+struct Across {
+    u: Series,
+    a: Series,
+    slope: Series,
+    length: Series,
+    stretch: Series,
+    axial: Series,
+}
+
 /// Series along a cut.
 struct Along {
-    axial: Series,
     heading: Series,
     speed: Series,
     reach: f64,

@@ -16,7 +16,7 @@
 use super::nodes::Node;
 use super::trial::{Link, Place, Step, Trial};
 use super::{Joint, Target};
-use crate::numeric::blocks::{Blocks, GROUP, Rows};
+use crate::numeric::blocks::{Blocks, GROUP, PAIR, Rows};
 use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
 
@@ -46,6 +46,12 @@ const GIVE: f64 = 1e-9;
 const FEW_TURNS: usize = 8;
 /// The freedoms of a joint, which stand before the multiplier of the opening of the arc that ends there.
 const FREEDOMS: usize = 3;
+/// Of a joint at an end, which is held: its rows hold nothing else.
+const HELD: Rows = {
+    let mut rows = [[0.0; PAIR]; GROUP];
+    (rows[0][0], rows[1][1], rows[2][2]) = (1.0, 1.0, 1.0);
+    rows
+};
 /// What closing may add to the deviation, as a share of the widest opening: above, it is not tried.
 const CLOSING: f64 = 0.1;
 /// The dual value is trusted once the chain is open by less: wider, it says little about chains that are closed.
@@ -422,12 +428,14 @@ impl Program {
     /// The multipliers of the samples are eliminated; the level is a border of the band.
     fn direction(&mut self, trial: &Trial, aim: f64) -> (Step, f64) {
         let arcs = trial.links.len();
-        let mut matrix = Blocks::zero(arcs + 1);
+        let mut matrix = Blocks::with_capacity(arcs + 1);
         // The right-hand side, and the border of the level.
-        let mut right = vec![[[0.0; 2]; GROUP]; arcs + 1];
+        let mut right = Vec::with_capacity(arcs + 1);
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
         let (mut corner, mut excess) = (0.0, -(arcs as f64));
         let mut ends = std::mem::take(&mut self.ends);
+        let (mut rows, mut side) = (HELD, [[0.0; 2]; GROUP]);
+        rows[FREEDOMS][FREEDOMS] = 1.0;
         for (index, (link, samples)) in self.by_arc(trial).enumerate() {
             let mut pressed = Pressed::by(samples, aim);
             pressed.spread(&link.off_by);
@@ -435,18 +443,15 @@ impl Program {
                 pressed.press(&end.off_by, &Push::of(&end.sides, aim));
             }
             (corner, excess) = (corner + pressed.corner, excess + pressed.excess);
-            if let (Some((rows, next)), Some([side, beside, ..])) = (matrix.pair_mut(index), right.get_mut(index..)) {
-                pressed.add_to((rows, side), (next, beside), link);
-                // Both ends are held; their rows hold nothing else.
-                if index == 0 {
-                    rows[FREEDOMS][FREEDOMS] = 1.0;
-                }
-                let held = [(index == 0).then_some(&mut *rows), (index + 1 == arcs).then_some(&mut *next)];
-                for rows in held.into_iter().flatten() {
-                    (0..FREEDOMS).for_each(|row| rows[row][row] += 1.0);
-                }
-            }
+            let mut next = if index + 1 == arcs { HELD } else { [[0.0; PAIR]; GROUP] };
+            let mut beside = [[0.0; 2]; GROUP];
+            pressed.add_to((&mut rows, &mut side), (&mut next, &mut beside), link);
+            matrix.push(rows);
+            right.push(side);
+            (rows, side) = (next, beside);
         }
+        matrix.push(rows);
+        right.push(side);
         std::mem::swap(&mut self.ends, &mut ends);
         let edge: Vec<[f64; GROUP]> = right.iter().map(|joint| joint.map(|[_, border]| border)).collect();
         matrix.solve(&mut right);

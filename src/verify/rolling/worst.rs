@@ -31,7 +31,7 @@ impl Roll<'_> {
     pub(super) fn solved(&self, samples: &[Sample]) -> Vec<Sample> {
         let gap = |s: &Sample| (s.gap, s.gap_slope);
         let lift = |s: &Sample| (s.lift_error.unwrap_or(f64::NAN), s.lift_slope);
-        let mut all = samples.to_vec();
+        let mut found: Vec<Sample> = Vec::new();
         for value in [&gap as &dyn Fn(&Sample) -> (f64, f64), &lift] {
             let mut best = samples.iter().map(|s| value(s).0.abs()).fold(0.0, f64::max);
             let pairs = samples.windows(2).enumerate().filter_map(|(index, pair)| match pair {
@@ -47,20 +47,22 @@ impl Roll<'_> {
                     continue;
                 }
                 left -= 1;
-                let [Some(a), Some(b)] = [from, to].map(|index| all.get(index).copied()) else { continue };
+                let of = |index: usize| samples.get(index).or_else(|| found.get(index - samples.len())).copied();
+                let [Some(a), Some(b)] = [from, to].map(of) else { continue };
                 let between = self.sample(a.piece, at);
                 best = best.max(value(&between).0.abs());
                 if depth > 0 {
-                    let halves = [((a, between), [from, all.len()]), ((between, b), [all.len(), to])];
+                    let new = samples.len() + found.len();
+                    let halves = [((a, between), [from, new]), ((between, b), [new, to])];
                     let promise = |((a, b), ends): ((Sample, Sample), [usize; 2])| {
                         Some((promise_of((&a, &b), value)?, ends, depth - 1))
                     };
                     cells.extend(halves.into_iter().filter_map(promise));
                 }
-                all.push(between);
+                found.push(between);
             }
         }
-        all.split_off(samples.len())
+        found
     }
 
     /// The samples about the worst of a value that has no slope, looked at closer.
@@ -99,24 +101,37 @@ impl Roll<'_> {
         }
         let highest =
             |[a, b, c]: [&Sample; 3]| a.piece == c.piece && b.residual >= a.residual && b.residual >= c.residual;
-        let inner = samples.windows(3).filter_map(|three| match three {
-            [a, b, c] if highest([a, b, c]) => Some([*a, *b, *c]),
-            _ => None,
-        });
+        // Of a peak how high it may be, the index of its first place, and that of its middle among those put between two.
+        let mut peaks: Vec<(f64, usize, Option<usize>)> = Vec::new();
+        for (index, three) in samples.windows(3).enumerate() {
+            let [a, b, c] = three else { continue };
+            if highest([a, b, c]) {
+                peaks.push((top_of(&[*a, *b, *c]).1, index, None));
+            }
+        }
         // Beside an end of a piece, or a jump, the highest place may lie between the last two: one is put there.
-        let beside = samples.windows(2).filter_map(|pair| {
-            let [a, b] = pair else { return None };
+        let mut middles: Vec<Sample> = Vec::new();
+        for (index, pair) in samples.windows(2).enumerate() {
+            let [a, b] = pair else { continue };
             let near = a.piece == b.piece && a.residual.max(b.residual) >= (1.0 - NEARLY) * best;
             let width = b.parameter - a.parameter;
-            let middle = (near && width > 4.0 * BESIDE).then(|| self.sample(a.piece, a.parameter + 0.5 * width))?;
-            highest([a, &middle, b]).then_some([*a, middle, *b])
-        });
-        let all: Vec<[Sample; 3]> = inner.chain(beside).collect();
-        let mut peaks: Vec<(f64, usize)> = all.iter().map(|three| top_of(three).1).zip(0..).collect();
+            if near && width > 4.0 * BESIDE {
+                let middle = self.sample(a.piece, a.parameter + 0.5 * width);
+                if highest([a, &middle, b]) {
+                    peaks.push((top_of(&[*a, middle, *b]).1, index, Some(middles.len())));
+                    middles.push(middle);
+                }
+            }
+        }
         peaks.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut found = Vec::new();
-        for (top, index) in peaks {
-            let Some(&three) = all.get(index) else { continue };
+        for (top, first, middle) in peaks {
+            let three = match middle {
+                Some(middle) => [samples.get(first), middles.get(middle), samples.get(first + 1)],
+                None => [samples.get(first), samples.get(first + 1), samples.get(first + 2)],
+            };
+            let [Some(a), Some(b), Some(c)] = three else { continue };
+            let three = [*a, *b, *c];
             let [_, middle, _] = three;
             // Between places that are far apart a parabola says little.
             if top + DOUBT * (top - middle.residual) <= best && (top <= CLOSE * best || found.len() > MOST_PEAKS) {
@@ -174,7 +189,8 @@ pub(super) fn top_of([a, b, c]: &[Sample; 3]) -> (f64, f64) {
     }
 }
 
-/// How high a value may rise between two samples and where, their indices, and how often what lies between may still be halved.
+/// How high a value may rise between two samples and where, their indices, those of later ones behind the first, and how often what
+/// lies between may still be halved.
 type Promising = ((f64, f64), [usize; 2], u32);
 
 /// How high the size of a value may rise between two samples, and where: on a smooth course, or where the foot jumps.
