@@ -219,9 +219,9 @@ fn the_default_cam_has_few_arcs_and_keeps_five_per_cent() {
     let arcs = |proven: &Proven<'_>| proven.outlines()[0].contour.arcs();
     assert!(arcs(&both) <= 70 && arcs(&alone) == 36, "{} {}", arcs(&both), arcs(&alone));
     let felt = |proven: &Proven<'_>| proven.rolled().and_then(|rolled| rolled.felt).expect("in touch");
-    // An independent program tells 0.5203 mm/rad and 78.943 mm/rad² of this chain. Another chain of 36 arcs within the tolerance feels
+    // An independent program tells 0.5165 mm/rad and 78.943 mm/rad² of this chain. Another chain of 36 arcs within the tolerance feels
     // different by parts of a per cent, so these digits are asked of the figures, not of the fit: a change of the fit restates them.
-    assert!((felt(&alone).velocity_error.0 - 0.5203).abs() < 5e-4);
+    assert!((felt(&alone).velocity_error.0 - 0.5165).abs() < 5e-4);
     assert!((felt(&alone).acceleration_error.0 - 78.943).abs() < 0.05);
     assert!(felt(&both).velocity_error.0 < felt(&alone).velocity_error.0);
     let residual = |proven: &Proven<'_>| proven.rolled().expect("plane").residual_max_n;
