@@ -182,10 +182,8 @@ impl<'a> Followed<'a> {
             }
             last = Some(last.filter(|last| *last > to).unwrap_or(to));
         }
-        let closed = match (edges.first(), edges.last()) {
-            (Some(first), Some(last)) => period.is_some() && first.start() == last.end(),
-            _ => false,
-        };
+        let ends = edges.first().zip(edges.last());
+        let closed = period.is_some() && ends.is_some_and(|(first, last)| first.start() == last.end());
         if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
             join(&mut runs, Some(last), start + period, &corner, point);
         }
