@@ -119,37 +119,28 @@ pub fn bspline_knots(knots: &[f64]) -> Vec<f64> {
 /// A2.3); `knots` are those of [`bspline_knots`].
 #[must_use]
 pub fn bspline_basis(knots: &[f64], x: f64) -> (usize, [f64; 4], [f64; 4]) {
-    let at = |index: usize| knots.get(index).copied().unwrap_or(f64::NAN);
     let last = knots.len().saturating_sub(5);
     let span = knots.partition_point(|knot| *knot <= x).saturating_sub(1).clamp(3, last);
-    let left = |j: usize| x - at(span + 1 - j);
-    let right = |j: usize| at(span + j) - x;
-    let mut basis = [1.0, 0.0, 0.0, 0.0];
-    let mut slopes = [0.0; 4];
+    // Three knots to either side of x.
+    let near = knots.get(span - 2..).and_then(|knots| knots.first_chunk::<6>()).unwrap_or(&[f64::NAN; 6]);
+    let left = |j: usize| x - near[3 - j];
+    let right = |j: usize| near[2 + j] - x;
+    let (mut basis, mut slopes) = ([1.0, 0.0, 0.0, 0.0], [0.0; 4]);
     for degree in 1..=3_usize {
-        let mut saved = 0.0;
-        let mut lower = 0.0;
+        let (mut saved, mut lower) = (0.0, 0.0);
         for r in 0..degree {
             let width = right(r + 1) + left(degree - r);
-            let value = basis.get(r).copied().unwrap_or(0.0) / width;
+            let value = basis[r] / width;
             if degree == 3 {
                 // Slope 3 (Nᵢ/(tᵢ₊₃ − tᵢ) − Nᵢ₊₁/(tᵢ₊₄ − tᵢ₊₁)).
-                if let Some(slot) = slopes.get_mut(r) {
-                    *slot = 3.0 * (lower - value);
-                }
+                slopes[r] = 3.0 * (lower - value);
                 lower = value;
             }
-            if let Some(slot) = basis.get_mut(r) {
-                *slot = saved + right(r + 1) * value;
-            }
+            basis[r] = saved + right(r + 1) * value;
             saved = left(degree - r) * value;
         }
-        if let Some(slot) = basis.get_mut(degree) {
-            *slot = saved;
-        }
-        if degree == 3 {
-            slopes[3] = 3.0 * lower;
-        }
+        basis[degree] = saved;
+        slopes[3] = 3.0 * lower;
     }
     (span - 3, basis, slopes)
 }

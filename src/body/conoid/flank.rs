@@ -31,8 +31,8 @@ const LARGEST: u32 = SPANS << (DOUBLINGS - 1);
 const SHARE: f64 = 0.6;
 /// Steps to the nearest point of a patch.
 const FOOT_STEPS: usize = 12;
-/// Length of a step to a foot behind which no other one is made, mm.
-const LEAST_STEP: f64 = 1e-9;
+/// By how much a step to a foot would have to come nearer to be made, mm.
+const SETTLED: f64 = 1e-11;
 
 /// The flank with its proof.
 #[derive(Debug, Clone, PartialEq)]
@@ -242,8 +242,8 @@ impl SplineSurface {
             let (a, b) = (gap.dot(&by_u), gap.dot(&by_v));
             let determinant = e * g - f * f;
             let mut step = ((g * a - f * b) / determinant, (e * b - f * a) / determinant);
-            // A step so short comes nearer by its square over the distance: by nothing.
-            if (by_u * step.0 + by_v * step.1).norm() <= LEAST_STEP {
+            // A step comes nearer by its square over twice the distance at the most.
+            if (by_u * step.0 + by_v * step.1).norm_squared() <= SETTLED * nearest {
                 break;
             }
             let before = nearest;

@@ -25,19 +25,16 @@ const RESOLVED: f64 = 1e-15;
 const NEGLIGIBLE: f64 = 0.1;
 
 /// The cubics of the lift and its derivatives by the cam angle between two neighbouring sections, by the variable of the splines from the
-/// first of the two on.
+/// first of the two on: of all four the constants, then the factors of the first power, and so on.
 pub type Cubics = [[f64; 4]; 4];
 
 /// Lift and slope at one section and at the next, with their derivatives by the cam angle, to cubics over a strip of this width.
 fn cubics([(low, low_slope), (high, high_slope)]: [(Jet, Jet); 2], width: f64) -> Cubics {
-    let ends = orders(low).into_iter().zip(orders(high));
-    let slopes = orders(low_slope).into_iter().zip(orders(high_slope));
-    let mut cubics = [[0.0; 4]; 4];
-    for (cubic, ((a, b), (at_a, at_b))) in cubics.iter_mut().zip(ends.zip(slopes)) {
-        let mean = (b - a) / width;
-        *cubic = [a, at_a, (3.0 * mean - 2.0 * at_a - at_b) / width, (at_a + at_b - 2.0 * mean) / (width * width)];
-    }
-    cubics
+    let [low, high, low_slope, high_slope] = [low, high, low_slope, high_slope].map(orders);
+    let mean = |order: usize| (high[order] - low[order]) / width;
+    let second = |order: usize| (3.0 * mean(order) - 2.0 * low_slope[order] - high_slope[order]) / width;
+    let third = |order: usize| (low_slope[order] + high_slope[order] - 2.0 * mean(order)) / (width * width);
+    [low, low_slope, std::array::from_fn(second), std::array::from_fn(third)]
 }
 
 /// Value and derivatives of a jet.
@@ -136,13 +133,18 @@ impl Conoid {
     #[must_use]
     pub fn lift_of(&self, lifts: &(impl Strips + ?Sized), z: f64) -> Partials {
         let (interval, [t, t1, t2, t3]) = self.weights.place(z);
-        let mut partials = [[0.0; 4]; 4];
-        for (row, cubic) in partials.iter_mut().zip(lifts.cubics(interval)) {
-            let [w, w1, w2, w3] = cubic_at(&cubic, t);
+        let [a, b, c, d] = lifts.cubics(interval);
+        // By the derivative along the axis, then by that by the angle: all four go the same way.
+        let mut along = [[0.0; 4]; 4];
+        for order in 0..4 {
+            let [w, w1, w2, w3] = cubic_at(&[a[order], b[order], c[order], d[order]], t);
             // Faà di Bruno's rule.
-            *row = [w, w1 * t1, w2 * t1 * t1 + w1 * t2, w3 * t1 * t1 * t1 + 3.0 * w2 * t1 * t2 + w1 * t3];
+            along[0][order] = w;
+            along[1][order] = w1 * t1;
+            along[2][order] = w2 * t1 * t1 + w1 * t2;
+            along[3][order] = w3 * t1 * t1 * t1 + 3.0 * w2 * t1 * t2 + w1 * t3;
         }
-        partials
+        std::array::from_fn(|order| along.map(|derivative| derivative[order]))
     }
 
     /// The series of the slopes, where they cost less than the laws of all sections and are as good.
