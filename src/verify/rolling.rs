@@ -238,7 +238,7 @@ impl Roll<'_> {
         if step.abs() < LONGEST_STEP { near - step } else { near }
     }
 
-    /// The parameters at which the roller touches the start of every edge and so many places more of it.
+    /// The parameters at which the roller touches the start of every edge and so many places more of it, and before a corner its end.
     fn touching(&self) -> Vec<f64> {
         let edges = self.track.edges();
         let over = |edge: &Edge, share: f64| {
@@ -255,6 +255,8 @@ impl Roll<'_> {
             let tangent = edge.start_tangent();
             let smooth =
                 before.filter(|(before, _)| before.perp(&tangent).abs() < SMOOTH && before.dot(&tangent) > 0.0);
+            // At a corner the roller turns about the vertex, from its place on the edge before.
+            touching.extend(before.filter(|_| smooth.is_none()).map(|(_, at)| at));
             let from = smooth.map_or_else(|| over(edge, 0.0), |(_, at)| at);
             let to = over(edge, 1.0);
             before = Some((edge.end_tangent(), to));
@@ -271,6 +273,7 @@ impl Roll<'_> {
                 }
             }));
         }
+        touching.extend(before.map(|(_, at)| at));
         touching
     }
 
