@@ -13,14 +13,18 @@
 //! it, and R the radius of curvature. Each gives one of lift, velocity and acceleration: in closed form where N stands still in the
 //! frame of the follower; under a face on an arm p by secants, and q and ρ from what is linear, q β' = p' and ρ.
 
-use super::{Curves, Worst};
+mod errors;
+
+pub use errors::Errors;
+
+use super::Curves;
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
 use crate::motion::program::SegmentTold;
 use crate::motion::{Jet, Motion, Piece, Quantity, own_pieces};
 use crate::numeric::chebyshev::{self, Known};
-use crate::numeric::{extremum, root};
+use crate::numeric::root;
 use nalgebra::Vector2;
 
 /// Stretches of the motion shorter than this, rad or m, are the rounding of a joint: the direction of an arc is known to 1e-9.
@@ -38,16 +42,6 @@ const TOUCHING: f64 = 2.0 * f64::EPSILON;
 pub(super) const STRAIGHT: f64 = 1e-9;
 /// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
 const CHANGE: f64 = 0.1;
-/// Parts into which a stretch is cut to find its largest error, half as many where the error of the acceleration is straight to this share
-/// of its size, and golden sections where an error is largest within a stretch.
-const CELLS: u32 = 4;
-const NEARLY_STRAIGHT: f64 = 0.1;
-const SECTIONS: u32 = 22;
-/// How exactly the place of the largest velocity error is found, in such parts: its value is right to the square.
-const ROOT: f64 = 1e-5;
-/// Only places that come that near to the largest error are looked at closer.
-const NEAR: f64 = 0.7;
-
 /// What the follower's curve follows while the contact runs along a segment.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Guide {
@@ -70,35 +64,6 @@ struct Stretch {
     shift: f64,
     guide: Guide,
 }
-
-/// The largest errors of what the follower does on a chain, by the angle of the shaft: m or rad per rad, and per rad².
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Errors {
-    /// Of the velocity.
-    pub velocity: Worst,
-    /// Of the acceleration.
-    pub acceleration: Worst,
-    /// The largest step of the acceleration as cut.
-    pub step: Worst,
-}
-
-impl Errors {
-    /// No error at all.
-    pub const NONE: Self = Self { velocity: Worst::NONE, acceleration: Worst::NONE, step: Worst::NONE };
-
-    /// The larger of each.
-    #[must_use]
-    pub fn or_larger(self, next: Self) -> Self {
-        Self {
-            velocity: self.velocity.or_larger(next.velocity),
-            acceleration: self.acceleration.or_larger(next.acceleration),
-            step: self.step.or_larger(next.step),
-        }
-    }
-}
-
-/// A place, and what is off there: error of the velocity, error of the acceleration and the acceleration itself.
-type Off = (f64, [f64; 3]);
 
 /// A lift of the motion, and its place: a piece, and the parameter in it.
 pub type Lift = ((usize, f64), Jet);
@@ -275,90 +240,6 @@ impl<'a> Followed<'a> {
             }
         }
         points
-    }
-
-    /// Error of the velocity, error of the acceleration and the acceleration as cut at a place of a stretch, by the angle of the
-    /// shaft.
-    fn off(&self, stretch: &Stretch, parameter: f64) -> Option<[f64; 3]> {
-        let (first, second) = self.curves.motion.pace(parameter + stretch.shift);
-        let (cut, law) = self.cut(stretch, parameter)?;
-        let velocity = (cut.ds - law.ds) * first;
-        let acceleration = (cut.dds - law.dds) * first * first + (cut.ds - law.ds) * second;
-        Some([velocity, acceleration, cut.dds * first * first + cut.ds * second])
-    }
-
-    /// Errors at the ends of a stretch and between them, more of them where that of the acceleration is not nearly straight; none where
-    /// the follower does not run.
-    fn places_off(&self, stretch: &Stretch) -> Vec<Off> {
-        if !self.is_rolled(stretch) {
-            return Vec::new();
-        }
-        let at = |cell: u32| {
-            let place = stretch.from + (stretch.to - stretch.from) * f64::from(cell) / f64::from(CELLS);
-            Some((place, self.off(stretch, place)?))
-        };
-        let [Some(left), Some(middle), Some(right)] = [0, CELLS / 2, CELLS].map(at) else { return Vec::new() };
-        let acceleration = |(_, [_, error, _]): &Off| *error;
-        let size = acceleration(&left).abs().max(acceleration(&right).abs());
-        let straight = 0.5 * (acceleration(&left) + acceleration(&right));
-        if (acceleration(&middle) - straight).abs() <= NEARLY_STRAIGHT * size {
-            return vec![left, middle, right];
-        }
-        let [Some(before), Some(behind)] = [CELLS / 4, CELLS - CELLS / 4].map(at) else { return Vec::new() };
-        vec![left, before, middle, behind, right]
-    }
-
-    /// The largest errors where the follower runs, by the angle of the shaft that gives the time.
-    ///
-    /// Along a segment the error of the velocity is largest where that of the acceleration, its derivative, is 0, or at an end.
-    #[must_use]
-    pub fn errors(&self) -> Errors {
-        let all: Vec<(&Stretch, Vec<Off>)> =
-            self.stretches.iter().map(|stretch| (stretch, self.places_off(stretch))).collect();
-        let place = |stretch: &Stretch, parameter: f64, value: f64| Worst {
-            value: value.abs(),
-            at: parameter + stretch.shift,
-            z: 0.0,
-        };
-        let mut errors = Errors::NONE;
-        for (stretch, places) in &all {
-            for (at, [velocity, acceleration, _]) in places {
-                errors.velocity = errors.velocity.or_larger(place(stretch, *at, *velocity));
-                errors.acceleration = errors.acceleration.or_larger(place(stretch, *at, *acceleration));
-            }
-        }
-        let next = all.iter().cycle().skip(1).take(all.len().saturating_sub(usize::from(!self.closed)));
-        for ((before, left), (_, right)) in all.iter().zip(next) {
-            if let (Some((at, [.., left])), Some((_, [.., right]))) = (left.last(), right.first()) {
-                errors.step = errors.step.or_larger(place(before, *at, right - left));
-            }
-        }
-        for (stretch, places) in &all {
-            let of = |parameter: f64, index: usize| {
-                self.off(stretch, parameter).and_then(|off| off.get(index).copied()).unwrap_or(0.0)
-            };
-            for pair in places.windows(2) {
-                let [(low, [error, left, _]), (high, [_, right, _])] = pair else { continue };
-                // Where the acceleration goes straight from one to the other the velocity is off by so much between them.
-                let way = left / (left - right) * (high - low) / self.curves.motion.pace(low + stretch.shift).0;
-                if left * right < 0.0
-                    && (error + 0.5 * left * way).abs() > NEAR * errors.velocity.value
-                    && let Ok(at) = root::bracketed(|at| of(at, 1), *low, *high, ROOT * (high - low))
-                {
-                    errors.velocity = errors.velocity.or_larger(place(stretch, at, of(at, 0)));
-                }
-            }
-            for three in places.windows(3) {
-                let [(low, [_, left, _]), (_, [_, middle, _]), (high, [_, right, _])] = three else { continue };
-                let top = middle.abs();
-                if top >= left.abs() && top >= right.abs() && top > NEAR * errors.acceleration.value {
-                    let size = |at: f64| of(at, 1).abs();
-                    let found = extremum::largest_without_slope(size, (*low, *high), 2, SECTIONS);
-                    errors.acceleration = errors.acceleration.or_larger(place(stretch, found.at, found.value));
-                }
-            }
-        }
-        errors
     }
 }
 

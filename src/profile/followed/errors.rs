@@ -1,0 +1,166 @@
+//! The largest errors of what a follower does on a chain.
+
+use super::{Followed, Lift, Stretch};
+use crate::numeric::{extremum, root};
+use crate::profile::Worst;
+
+/// Least parts into which a stretch is cut to find its largest error, and cells of the motion that a part may span.
+const LEAST_PARTS: f64 = 2.0;
+const CELLS_OF_PART: f64 = 2.0;
+/// The error of the acceleration is straight within this share of its size; where it bends, the parts are cut in halves.
+const NEARLY_STRAIGHT: f64 = 0.1;
+/// Golden sections where an error is largest within a stretch.
+const SECTIONS: u32 = 22;
+/// How exactly the place of the largest velocity error is found, in parts: its value is right to the square.
+const ROOT: f64 = 1e-5;
+/// Only places that come that near to the largest error are looked at closer.
+const NEAR: f64 = 0.7;
+
+/// The largest errors of what the follower does on a chain, by the angle of the shaft: m or rad per rad, and per rad².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// Of the velocity.
+    pub velocity: Worst,
+    /// Of the acceleration.
+    pub acceleration: Worst,
+    /// The largest step of the acceleration as cut.
+    pub step: Worst,
+}
+
+impl Errors {
+    /// No error at all.
+    pub const NONE: Self = Self { velocity: Worst::NONE, acceleration: Worst::NONE, step: Worst::NONE };
+
+    /// The larger of each.
+    #[must_use]
+    pub fn or_larger(self, next: Self) -> Self {
+        Self {
+            velocity: self.velocity.or_larger(next.velocity),
+            acceleration: self.acceleration.or_larger(next.acceleration),
+            step: self.step.or_larger(next.step),
+        }
+    }
+}
+
+/// What is off at a place of the motion, by the angle of the shaft.
+#[derive(Debug, Clone, Copy)]
+struct Off {
+    at: f64,
+    velocity: f64,
+    acceleration: f64,
+    /// The acceleration as cut.
+    cut: f64,
+}
+
+impl Followed<'_> {
+    /// What is off at a place of a stretch, and the lift of the motion there, which may be known.
+    fn off(&self, stretch: &Stretch, at: f64, known: Option<Lift>) -> Option<(Off, Lift)> {
+        let inside = at + stretch.shift;
+        let (first, second) = self.curves.motion.pace(inside);
+        let (cut, law) = self.cut_beside(stretch, at, known)?;
+        let off = Off {
+            at,
+            velocity: (cut.ds - law.ds) * first,
+            acceleration: (cut.dds - law.dds) * first * first + (cut.ds - law.ds) * second,
+            cut: cut.dds * first * first + cut.ds * second,
+        };
+        Some((off, ((stretch.piece, inside), law)))
+    }
+
+    /// What is off at places of a stretch that are as near to each other as the motion asks, and nearer where the error of the
+    /// acceleration bends; at none where the follower does not run. `known` is the lift at the start, and then that at the end.
+    fn places_off(&self, stretch: &Stretch, known: &mut Option<Lift>) -> Vec<Off> {
+        let places = self.evenly(stretch, known).unwrap_or_default();
+        let largest = places.iter().map(|off| off.acceleration.abs()).fold(0.0, f64::max);
+        let bends = places.windows(3).any(|three| {
+            let [left, middle, right] = three else { return false };
+            let straight = 0.5 * (left.acceleration + right.acceleration);
+            (middle.acceleration - straight).abs() > NEARLY_STRAIGHT * largest
+        });
+        if !bends {
+            return places;
+        }
+        let mut halved = Vec::with_capacity(2 * places.len());
+        for (index, place) in places.iter().enumerate() {
+            halved.push(*place);
+            let next = places.get(index + 1);
+            halved.extend(next.and_then(|next| Some(self.off(stretch, 0.5 * (place.at + next.at), None)?.0)));
+        }
+        halved
+    }
+
+    fn evenly(&self, stretch: &Stretch, known: &mut Option<Lift>) -> Option<Vec<Off>> {
+        let last = known.take();
+        if !self.is_rolled(stretch) {
+            return None;
+        }
+        let piece = self.curves.motion.pieces().get(stretch.piece)?;
+        let length = stretch.to - stretch.from;
+        let cells = f64::from(self.curves.motion.cells(stretch.piece)) * (length / (piece.end - piece.start));
+        let parts = (cells / CELLS_OF_PART).ceil().max(LEAST_PARTS);
+        let (start, mut lift) = self.off(stretch, stretch.from, last)?;
+        let mut places = vec![start];
+        let mut part = 1.0;
+        while part <= parts {
+            let (off, here) = self.off(stretch, stretch.from + length * (part / parts), None)?;
+            places.push(off);
+            lift = here;
+            part += 1.0;
+        }
+        *known = Some(lift);
+        Some(places)
+    }
+
+    /// The largest errors where the follower runs, by the angle of the shaft that gives the time.
+    ///
+    /// Along a segment the error of the velocity is largest where that of the acceleration, its derivative, is 0, or at an end.
+    #[must_use]
+    pub fn errors(&self) -> Errors {
+        let mut known = None;
+        let places = |stretch| (stretch, self.places_off(stretch, &mut known));
+        let all: Vec<(&Stretch, Vec<Off>)> = self.stretches.iter().map(places).collect();
+        let place =
+            |stretch: &Stretch, at: f64, value: f64| Worst { value: value.abs(), at: at + stretch.shift, z: 0.0 };
+        let mut errors = Errors::NONE;
+        for (stretch, places) in &all {
+            for off in places {
+                errors.velocity = errors.velocity.or_larger(place(stretch, off.at, off.velocity));
+                errors.acceleration = errors.acceleration.or_larger(place(stretch, off.at, off.acceleration));
+            }
+        }
+        let next = all.iter().cycle().skip(1).take(all.len().saturating_sub(usize::from(!self.closed)));
+        for ((before, left), (_, right)) in all.iter().zip(next) {
+            if let (Some(left), Some(right)) = (left.last(), right.first()) {
+                errors.step = errors.step.or_larger(place(before, left.at, right.cut - left.cut));
+            }
+        }
+        for (stretch, places) in &all {
+            let of = |at: f64, what: fn(&Off) -> f64| self.off(stretch, at, None).map_or(0.0, |(off, _)| what(&off));
+            for pair in places.windows(2) {
+                let [low, high] = pair else { continue };
+                let (left, right) = (low.acceleration, high.acceleration);
+                // Where the acceleration goes straight from one to the other the velocity is off by so much between them.
+                let way =
+                    left / (left - right) * (high.at - low.at) / self.curves.motion.pace(low.at + stretch.shift).0;
+                if left * right < 0.0
+                    && (low.velocity + 0.5 * left * way).abs() > NEAR * errors.velocity.value
+                    && let Ok(at) =
+                        root::bracketed(|at| of(at, |off| off.acceleration), low.at, high.at, ROOT * (high.at - low.at))
+                {
+                    errors.velocity = errors.velocity.or_larger(place(stretch, at, of(at, |off| off.velocity)));
+                }
+            }
+            for three in places.windows(3) {
+                let [left, middle, right] = three else { continue };
+                let top = middle.acceleration.abs();
+                let highest = top >= left.acceleration.abs() && top >= right.acceleration.abs();
+                if highest && top > NEAR * errors.acceleration.value {
+                    let size = |at: f64| of(at, |off| off.acceleration).abs();
+                    let found = extremum::largest_without_slope(size, (left.at, right.at), 2, SECTIONS);
+                    errors.acceleration = errors.acceleration.or_larger(place(stretch, found.at, found.value));
+                }
+            }
+        }
+        errors
+    }
+}
