@@ -35,6 +35,14 @@ pub struct About {
     to_middle: f64,
 }
 
+impl About {
+    /// The edge that is nearest at the last place.
+    #[must_use]
+    pub fn edge(&self) -> usize {
+        self.edge
+    }
+}
+
 /// The outline, prepared for the search of the nearest point.
 pub struct Track {
     edges: Vec<Edge>,

@@ -82,6 +82,8 @@ struct Sample {
     /// Where the roller, placed by the motion, is nearest to the outline, and its centre, mm.
     foot: Vector2<f64>,
     centre: Vector2<f64>,
+    /// The edge of the foot.
+    edge: usize,
     /// Whether it is known that no second place of the outline is within the tolerance of the roller.
     alone: bool,
     /// How far parry's distance is from the exact one, where it was measured.
@@ -186,7 +188,8 @@ impl Roll<'_> {
         let contact = self.curves.touch(piece, parameter);
         let centre = contact.curve.point * 1e3;
         let (gap, normal) = self.clearance(&contact, centre).unwrap_or((f64::INFINITY, contact.drive));
-        let alone = Track::is_one_place_within(&self.last.get(), centre, self.radius + self.tolerance);
+        let about = self.last.get();
+        let alone = Track::is_one_place_within(&about, centre, self.radius + self.tolerance);
         let rolled = self.curves.motion.is_rolled(piece);
         let swings =
             matches!(self.curves.element(), Element::Face) && self.curves.follower.quantity() == Quantity::Angle;
@@ -217,6 +220,7 @@ impl Roll<'_> {
             residual,
             foot: centre - normal * (self.radius + gap),
             centre,
+            edge: about.edge(),
             alone,
             difference: 0.0,
             double: false,

@@ -17,6 +17,7 @@ fn sample(parameter: f64, (gap, gap_slope): (f64, f64), residual: f64) -> Sample
         residual,
         foot,
         centre,
+        edge: 0,
         alone: false,
         difference: f64::NAN,
         double: false,

@@ -1,8 +1,10 @@
 //! The worst places between those at which the follower was rolled: by the cubics through gaps and lift errors and their slopes, by
-//! parabolas through the residual forces, and by sections of what has no slope.
+//! what a roller leaves free between its feet, by parabolas through the residual forces, and by sections of what has no slope.
 
 use super::{BESIDE, ROUNDING, Roll, Sample};
-use crate::numeric::extremum;
+use crate::follower::Element;
+use crate::numeric::{extremum, root};
+use nalgebra::Vector2;
 
 /// Between two places a maximum is looked for while it may exceed what was found by more than this, mm.
 const SLACK: f64 = 1e-10;
@@ -10,6 +12,11 @@ const SLACK: f64 = 1e-10;
 const DOUBT: f64 = 0.25;
 /// The foot jumps where it moves so much farther than the roller's centre.
 const JUMP: f64 = 4.0;
+/// Sine of the turn between two edges that is a corner, and how near to it a foot stands at it, mm.
+const CORNER: f64 = 1e-6;
+const AT_CORNER: f64 = 1e-6;
+/// How exactly the place is found that is as far from one foot as from another, over the way between the places.
+const EQUALLY_FAR: f64 = 1e-9;
 /// Halvings between two places, and places in all that are looked at closer.
 const DEEPEST: u32 = 30;
 const MOST_CLOSER: usize = 4000;
@@ -32,10 +39,15 @@ impl Roll<'_> {
         let gap = |s: &Sample| (s.gap, s.gap_slope);
         let lift = |s: &Sample| (s.lift_error.unwrap_or(f64::NAN), s.lift_slope);
         let mut found: Vec<Sample> = Vec::new();
-        for value in [&gap as &dyn Fn(&Sample) -> (f64, f64), &lift] {
+        for (value, sags) in [(&gap as &dyn Fn(&Sample) -> (f64, f64), true), (&lift, false)] {
+            let promise_of = |pair: (&Sample, &Sample), best: f64| {
+                let sag = if sags { self.sag(pair, best) } else { None };
+                let promises = [promise_of_course(pair, value), promise_of_jump(pair, value), sag];
+                promises.into_iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0))
+            };
             let mut best = samples.iter().map(|s| value(s).0.abs()).fold(0.0, f64::max);
             let pairs = samples.windows(2).enumerate().filter_map(|(index, pair)| match pair {
-                [a, b] if a.piece == b.piece => Some((promise_of((a, b), value)?, [index, index + 1], DEEPEST)),
+                [a, b] if a.piece == b.piece => Some((promise_of((a, b), best)?, [index, index + 1], DEEPEST)),
                 _ => None,
             });
             let mut cells: Vec<Promising> = pairs.filter(|((promise, _), ..)| *promise > best + SLACK).collect();
@@ -55,7 +67,7 @@ impl Roll<'_> {
                     let new = samples.len() + found.len();
                     let halves = [((a, between), [from, new]), ((between, b), [new, to])];
                     let promise = |((a, b), ends): ((Sample, Sample), [usize; 2])| {
-                        Some((promise_of((&a, &b), value)?, ends, depth - 1))
+                        Some((promise_of((&a, &b), best)?, ends, depth - 1))
                     };
                     cells.extend(halves.into_iter().filter_map(promise));
                 }
@@ -63,6 +75,60 @@ impl Roll<'_> {
             }
         }
         found
+    }
+
+    /// How far a roller may hang over what lies between the feet of two samples, mm, and where: it is no farther from the outline than
+    /// from the nearer of the two. `None` where the outline runs smoothly from one to the other, or where less than `best` is to be had.
+    fn sag(&self, (a, b): (&Sample, &Sample), best: f64) -> Option<(f64, f64)> {
+        if !self.may_hang_over(a, b) {
+            return None;
+        }
+        // Over a gap of that width two circles leave a quarter of this.
+        let (width, way) = ((b.foot - a.foot).norm(), (b.centre - a.centre).norm());
+        if width * way <= 2.0 * self.radius * best {
+            return None;
+        }
+        let centre = |at: f64| self.curves.touch(a.piece, at).curve.point * 1e3;
+        let farther = |at: f64| {
+            let centre = centre(at);
+            (centre - a.foot).norm() - (centre - b.foot).norm()
+        };
+        let precision = EQUALLY_FAR * (b.parameter - a.parameter);
+        let at = root::bracketed(farther, a.parameter, b.parameter, precision).ok()?;
+        let promise = (centre(at) - a.foot).norm() - self.radius;
+        (at > a.parameter && at < b.parameter).then_some((promise.max(0.0), at))
+    }
+
+    /// Whether there may be something between the feet of two samples of a roller that it does not reach: they are on edges that
+    /// are no neighbours, or one stands at a corner, or a corner is between them.
+    fn may_hang_over(&self, a: &Sample, b: &Sample) -> bool {
+        if matches!(self.curves.element(), Element::Face) {
+            return false;
+        }
+        let edges = self.track.edges();
+        let n = edges.len();
+        let after = |edge: usize| (edge + 1) % n.max(1);
+        let is_corner = |edge: usize| {
+            let Some((before, next)) = edges.get(edge).zip(edges.get(after(edge))) else { return false };
+            let (before, next) = (before.end_tangent(), next.start_tangent());
+            before.perp(&next).abs() > CORNER || before.dot(&next) < 0.0
+        };
+        let at_corner = |sample: &Sample| {
+            let Some(own) = edges.get(sample.edge) else { return false };
+            let stands = |end: Vector2<f64>| (sample.foot - end).abs().max() < AT_CORNER;
+            let before = (sample.edge + n).saturating_sub(1) % n.max(1);
+            stands(own.start()) && is_corner(before) || stands(own.end()) && is_corner(sample.edge)
+        };
+        let apart = if a.edge == b.edge {
+            false
+        } else if after(a.edge) == b.edge {
+            is_corner(a.edge)
+        } else if after(b.edge) == a.edge {
+            is_corner(b.edge)
+        } else {
+            true
+        };
+        apart || at_corner(a) || at_corner(b)
     }
 
     /// The samples about the worst of a value that has no slope, looked at closer.
@@ -192,12 +258,6 @@ pub(super) fn top_of([a, b, c]: &[Sample; 3]) -> (f64, f64) {
 /// How high a value may rise between two samples and where, their indices, those of later ones behind the first, and how often what
 /// lies between may still be halved.
 type Promising = ((f64, f64), [usize; 2], u32);
-
-/// How high the size of a value may rise between two samples, and where: on a smooth course, or where the foot jumps.
-fn promise_of(pair: (&Sample, &Sample), value: &dyn Fn(&Sample) -> (f64, f64)) -> Option<(f64, f64)> {
-    let promises = [promise_of_course(pair, value), promise_of_jump(pair, value)];
-    promises.into_iter().flatten().max_by(|a, b| a.0.total_cmp(&b.0))
-}
 
 /// How high the size of a value may rise between two samples, and where: by the cubic through its values and slopes, with room
 /// for what is no cubic; `None` where it does not rise above them.
