@@ -128,15 +128,16 @@ fn chords_on_a_dwell_are_felt_among_many_arcs() {
         |a: &&camgen::motion::Piece, b: &&camgen::motion::Piece| (a.end - a.start).total_cmp(&(b.end - b.start));
     let rest = curves.motion.pieces().iter().filter(|piece| piece.dwell).max_by(longest).expect("a dwell");
     let (count, apart) = (4320, 32);
-    let step = TAU / f64::from(count);
-    let arcs = chain(&cam, count, true, rest.start + step, |_| 0.0);
-    let kept = ((rest.end - rest.start) / step) as usize / apart;
+    let arcs = chain(&cam, count, true, rest.start + TAU / f64::from(count), |_| 0.0);
+    let radius = arcs[0].point.norm();
+    let on_dwell = arcs.iter().take_while(|vertex| (vertex.point.norm() - radius).abs() < 1e-9).count();
+    let kept = on_dwell / apart;
     let chords = arcs.iter().step_by(apart).take(kept).map(|vertex| Vertex::new(vertex.point, 0.0));
     let whole: Vec<Vertex> = chords.chain(arcs.iter().skip(kept * apart).copied()).collect();
     assert!(kept > 5 && whole.len() > 2000, "{kept} {}", whole.len());
     let rolling = found(&cam.check(&file(whole), 5e-6).expect("a DXF file"), "rolling");
-    let radius = arcs[0].point.norm();
-    let sagitta = radius * (1.0 - (0.5 * step * apart as f64).cos());
+    let half = 0.5 * (arcs[0].point - arcs[apart].point).norm();
+    let sagitta = radius - (radius * radius - half * half).sqrt();
     assert!((rolling.value - sagitta).abs() < 1e-6, "{sagitta} {rolling:?}");
     assert_eq!(rolling.verdict, Verdict::Fail);
 }

@@ -96,6 +96,8 @@ struct Roll<'a> {
     body: &'a dyn Body,
     curves: Curves<'a>,
     track: Track,
+    /// The edges at whose end the outline has a corner.
+    corners: Vec<usize>,
     /// How far the element reaches from the follower's curve, mm.
     radius: f64,
     /// mm.
@@ -367,7 +369,8 @@ pub fn roll(body: &dyn Body, curves: Curves<'_>, contour: &Contour, tolerance: f
     for mirrored in body.mirrored() {
         let contour = if *mirrored { contour.mirrored_about_x() } else { contour.clone() };
         let (track, radius) = (Track::new(&contour), 1e3 * curves.offset());
-        let roll = Roll { body, curves, track, radius, tolerance, last: Cell::default() };
+        let corners = worst::corners(track.edges());
+        let roll = Roll { body, curves, track, corners, radius, tolerance, last: Cell::default() };
         let chords = Chords::new(&contour, CHORD_SHARE * tolerance);
         let found = roll.samples(&chords);
         let lifts: Vec<f64> = found.iter().filter_map(|s| s.lift_error).map(f64::abs).collect();

@@ -7,6 +7,8 @@ use crate::profile::Worst;
 /// Least parts into which a stretch is cut to find its largest error, and cells of the motion that a part may span.
 const LEAST_PARTS: f64 = 2.0;
 const CELLS_OF_PART: f64 = 2.0;
+/// Places on most stretches.
+const PLACES: usize = 3;
 /// The error of the acceleration is straight within this share of its size; where it bends, the parts are cut in halves.
 const NEARLY_STRAIGHT: f64 = 0.1;
 /// Golden sections where an error is largest within a stretch.
@@ -99,7 +101,8 @@ impl Followed<'_> {
         let cells = f64::from(self.curves.motion.cells(stretch.piece)) * (length / (piece.end - piece.start));
         let parts = (cells / CELLS_OF_PART).ceil().max(LEAST_PARTS);
         let (start, mut lift) = self.off(stretch, stretch.from, last)?;
-        let mut places = vec![start];
+        let mut places = Vec::with_capacity(PLACES);
+        places.push(start);
         let mut part = 1.0;
         while part <= parts {
             let (off, here) = self.off(stretch, stretch.from + length * (part / parts), None)?;

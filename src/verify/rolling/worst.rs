@@ -3,6 +3,7 @@
 
 use super::{BESIDE, ROUNDING, Roll, Sample};
 use crate::follower::Element;
+use crate::geometry::contour::Edge;
 use crate::numeric::{extremum, root};
 use nalgebra::Vector2;
 
@@ -32,6 +33,17 @@ const MOST_PEAKS: usize = 32;
 /// Pairs of places whose larger force is nearly the largest have one more between them.
 const NEARLY: f64 = 0.1;
 const LEAST_STEP: f64 = 1e-6;
+
+/// The edges at whose end the outline has a corner, in their order.
+pub(super) fn corners(edges: &[Edge]) -> Vec<usize> {
+    let next = edges.iter().cycle().skip(1);
+    let is_corner = |(before, next): (&Edge, &Edge)| {
+        let (before, next) = (before.end_tangent(), next.start_tangent());
+        before.perp(&next).abs() > CORNER || before.dot(&next) < 0.0
+    };
+    edges.iter().zip(next).enumerate().filter(|(_, pair)| is_corner(*pair)).map(|(index, _)| index).collect()
+}
+
 impl Roll<'_> {
     /// The largest gap and lift error between the places: the samples that lie higher than those of the places, each where the
     /// cubic through two neighbours and their slopes is highest.
@@ -106,29 +118,25 @@ impl Roll<'_> {
             return false;
         }
         let edges = self.track.edges();
-        let n = edges.len();
-        let after = |edge: usize| (edge + 1) % n.max(1);
-        let is_corner = |edge: usize| {
-            let Some((before, next)) = edges.get(edge).zip(edges.get(after(edge))) else { return false };
-            let (before, next) = (before.end_tangent(), next.start_tangent());
-            before.perp(&next).abs() > CORNER || before.dot(&next) < 0.0
-        };
+        let n = edges.len().max(1);
+        let after = |edge: usize| (edge + 1) % n;
+        let ends_in_corner = |edge: usize| self.corners.binary_search(&edge).is_ok();
         let at_corner = |sample: &Sample| {
             let Some(own) = edges.get(sample.edge) else { return false };
             let stands = |end: Vector2<f64>| (sample.foot - end).abs().max() < AT_CORNER;
-            let before = (sample.edge + n).saturating_sub(1) % n.max(1);
-            stands(own.start()) && is_corner(before) || stands(own.end()) && is_corner(sample.edge)
+            stands(own.start()) && ends_in_corner((sample.edge + n - 1) % n)
+                || stands(own.end()) && ends_in_corner(sample.edge)
         };
         let apart = if a.edge == b.edge {
             false
         } else if after(a.edge) == b.edge {
-            is_corner(a.edge)
+            ends_in_corner(a.edge)
         } else if after(b.edge) == a.edge {
-            is_corner(b.edge)
+            ends_in_corner(b.edge)
         } else {
             true
         };
-        apart || at_corner(a) || at_corner(b)
+        apart || !self.corners.is_empty() && (at_corner(a) || at_corner(b))
     }
 
     /// The samples about the worst of a value that has no slope, looked at closer.
