@@ -70,3 +70,29 @@ fn sections_of_a_range_are_found_by_the_speeds_of_their_names() {
     let run = check(made, &[&[&*odd, "--cam", "conoid", "--section", &short], &range[..]].concat());
     assert_eq!(run.code, 0, "{odd} {short}: {} {}", run.out, run.err);
 }
+
+/// What the follower may feel is demanded of a file where somebody asks for it, and only warned of by default.
+#[test]
+fn a_file_is_refused_for_what_its_follower_feels_where_that_is_asked() {
+    let mut run =
+        camgen(&["rotary", "--tolerance-acceleration", "none", "--out", ".", "--name", "c", "--format", "dxf"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    for (asked, code, verdict) in [
+        (vec![], 0, "warn"),
+        (vec!["--tolerance-acceleration", "none"], 0, "warn"),
+        (vec!["--accuracy", "standard"], 0, "warn"),
+        (vec!["--tolerance-acceleration", "5%"], 1, "fail"),
+        (vec!["--tolerance-acceleration", "70mm/rad2"], 1, "fail"),
+        (vec!["--tolerance-acceleration", "90mm/rad2"], 0, "warn"),
+        (vec!["--tolerance-velocity", "0.5mm/rad"], 1, "fail"),
+        (vec!["--tolerance-velocity", "0.55mm/rad"], 0, "warn"),
+    ] {
+        run = check(run, &[&["c.dxf", "--json"], &asked[..]].concat());
+        let report = report(&run);
+        let checks = report["checks"].as_array().expect("checks");
+        let acceleration = checks.iter().find(|c| c["check"] == "acceleration").expect("felt");
+        assert_eq!((run.code, acceleration["verdict"].as_str()), (code, Some(verdict)), "{asked:?}: {acceleration}");
+    }
+    let run = check(run, &["c.dxf", "--tolerance-acceleration", "5rad/rad2"]);
+    assert!(run.code == 2 && run.err.contains("mm/rad2"), "{}", run.err);
+}

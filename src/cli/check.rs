@@ -5,6 +5,7 @@ use super::args::{CheckArgs, Checked};
 use super::cams::{of_conoid, of_program};
 use super::progress::Progress;
 use super::{Failure, Outcome, print, print_painted, text};
+use camgen::body::Request;
 use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::document::file::bytes_of;
 use camgen::machine::{BrakeMachine, Wanted};
@@ -23,10 +24,12 @@ pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
     let cam = spec.solve().map_err(Failure::new)?;
     progress.stage("rolling on the file");
     let file = args.file.display().to_string();
-    let tolerance = args.common.accuracy.tolerance();
+    let accuracy = &args.common.accuracy;
+    let (rates, strict) = accuracy.demanded();
+    let request = Request { rates, strict, ..Request::within(accuracy.tolerance()) };
     let checked = match args.section {
-        Some(rpm) => cam.check_section(&bytes, rpm, tolerance),
-        None => cam.check(&bytes, tolerance),
+        Some(rpm) => cam.check_section(&bytes, rpm, request),
+        None => cam.check(&bytes, request),
     };
     let mut report = checked.map_err(|error| match error {
         Error::Read(error) => Failure(format!("`{file}` is {error}")),

@@ -3,7 +3,6 @@
 use super::{Cam, Error, diagnosis, report};
 use crate::body::Request;
 use crate::geometry::MILLIMETRES;
-use crate::profile::outline::MotionTolerance;
 use crate::reading::step::{Flank, Loop};
 use crate::reading::{self, Chain, step};
 use crate::report::{Inputs, Report, Section};
@@ -25,31 +24,35 @@ struct OfSection {
 
 impl Cam {
     /// Whether a DXF file, also one that was edited or written by another program, holds the outline of this cam within a
-    /// tolerance (m), or a STEP file its solid. A conoid of several sections is cut from several DXF files: see
-    /// [`Cam::check_section`].
+    /// tolerance (m, or with what the follower may feel, a [`Request`]), or a STEP file its solid. A conoid of several sections is
+    /// cut from several DXF files: see [`Cam::check_section`].
     ///
     /// # Errors
     /// [`Error::Read`] when the bytes are not a DXF file, [`Error::Step`] when they begin as a STEP file and are none;
-    /// [`Error::Section`] for a DXF file and a conoid of several sections.
-    pub fn check(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
+    /// [`Error::Section`] for a DXF file and a conoid of several sections; [`Error::Rate`] when the follower does not have such a
+    /// velocity or acceleration.
+    pub fn check(&self, bytes: &[u8], request: impl Into<Request>) -> Result<Report, Error> {
+        let request = request.into();
         if step::is_step(bytes) {
-            return self.check_solid(bytes, tolerance);
+            return self.check_solid(bytes, &request);
         }
         let section = self.section(None)?;
-        self.check_outline(bytes, section, tolerance)
+        self.check_outline(bytes, section, &request)
     }
 
     /// Whether a DXF file holds the section of this conoid for a speed (rpm, one of those it was solved for, or as a file name
-    /// tells it, to six digits), within a tolerance (m).
+    /// tells it, to six digits), within a tolerance (m, or a [`Request`]).
     ///
     /// # Errors
-    /// [`Error::Read`] when the bytes are not a DXF file; [`Error::Section`] when the cam has no such section.
-    pub fn check_section(&self, bytes: &[u8], rpm: f64, tolerance: f64) -> Result<Report, Error> {
+    /// [`Error::Read`] when the bytes are not a DXF file; [`Error::Section`] when the cam has no such section; [`Error::Rate`] as
+    /// for [`Cam::check`].
+    pub fn check_section(&self, bytes: &[u8], rpm: f64, request: impl Into<Request>) -> Result<Report, Error> {
+        let request = request.into();
         let section = self.section(Some(rpm))?;
         if step::is_step(bytes) {
             return Err(Error::Section("a STEP file holds the solid of all sections".into()));
         }
-        self.check_outline(bytes, section, tolerance)
+        self.check_outline(bytes, section, &request)
     }
 
     /// The section that is asked for, where there are sections.
@@ -78,8 +81,9 @@ impl Cam {
         }
     }
 
-    fn check_outline(&self, bytes: &[u8], section: Option<OfSection>, tolerance: f64) -> Result<Report, Error> {
-        let tolerance_mm = MILLIMETRES * tolerance;
+    fn check_outline(&self, bytes: &[u8], section: Option<OfSection>, request: &Request) -> Result<Report, Error> {
+        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let motion = request.resolved(self.body())?.fit.motion;
         let reading = reading::read(bytes, join_reach(tolerance_mm))?;
         let z = section.map_or(0.0, |section| section.z);
         let outlines: Vec<WrittenOutline> = match reading.chains.as_slice() {
@@ -106,15 +110,20 @@ impl Cam {
             compensator: None,
             solid: None,
             tolerance_mm,
-            motion: MotionTolerance::ANY,
-            strict: [false; 2],
+            motion,
+            strict: request.strict,
         });
         let mut sections = vec![Section::new("cam", &body.kind().noun)];
         sections.extend(section.map(|section| Section::new("section", &section)));
         sections.push(Section::new("rolling", &rolled));
         let found = outlines.first().map(|outline| &outline.contour);
-        sections.extend(diagnosis::of(self, section.map(|section| section.rpm), found, (&checks, tolerance)));
-        let whole = report(body, Inputs::of(&self.inputs_for(&Request::within(tolerance))), sections, checks);
+        sections.extend(diagnosis::of(
+            self,
+            section.map(|section| section.rpm),
+            found,
+            (&checks, request.fit.tolerance),
+        ));
+        let whole = report(body, Inputs::of(&self.inputs_for(request)), sections, checks);
         let noun = match section {
             Some(section) => format!("section for {} rpm of a {}", section.rpm, whole.noun).into(),
             None => whole.noun.clone(),
@@ -122,8 +131,9 @@ impl Cam {
         Ok(Report { command: "check".into(), noun, ..whole })
     }
 
-    fn check_solid(&self, bytes: &[u8], tolerance: f64) -> Result<Report, Error> {
-        let tolerance_mm = MILLIMETRES * tolerance;
+    fn check_solid(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
+        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let motion = request.resolved(self.body())?.fit.motion;
         let file = step::read(bytes)?;
         let body = self.body();
         let flank = if body.spatial().is_some() { Flank::Patches } else { Flank::Upright };
@@ -157,11 +167,11 @@ impl Cam {
             points: None,
             compensator: None,
             tolerance_mm,
-            motion: MotionTolerance::ANY,
-            strict: [false; 2],
+            motion,
+            strict: request.strict,
         });
         let sections = vec![Section::new("cam", &body.kind().noun), Section::new("rolling", &rolled)];
-        let whole = report(body, Inputs::of(&self.inputs_for(&Request::within(tolerance))), sections, checks);
+        let whole = report(body, Inputs::of(&self.inputs_for(request)), sections, checks);
         let noun = format!("solid of a {}", whole.noun).into();
         Ok(Report { command: "check".into(), noun, ..whole })
     }

@@ -165,6 +165,13 @@ impl AccuracyArgs {
         let strict = [self.tolerance_velocity.is_some(), self.tolerance_acceleration.is_some()];
         ([asked(self.tolerance_velocity, None), asked(self.tolerance_acceleration, named)], strict)
     }
+
+    /// The same of a file that somebody wrote: what was not asked for is not held against it.
+    pub(in crate::cli) fn demanded(&self) -> ([Option<RateTolerance>; 2], [bool; 2]) {
+        let ([velocity, acceleration], strict) = self.rates();
+        let asked = self.accuracy.is_some() || self.tolerance_acceleration.is_some();
+        ([velocity, acceleration.filter(|_| asked)], strict)
+    }
 }
 
 impl ToldArgs {
