@@ -13,7 +13,7 @@ use camgen::profile::Curves;
 use camgen::profile::followed::Followed;
 use camgen::profile::outline::{Fit, Laid};
 use nalgebra::Vector2;
-use std::f64::consts::TAU;
+use std::f64::consts::{E, TAU};
 
 const WHOLE: [Piece; 1] = [Piece { start: 0.0, end: TAU, dwell: false }];
 
@@ -243,6 +243,39 @@ fn a_long_dwell_is_felt_as_rest() {
     let proven = proved(&cam, Fit::from(5e-6), [None, Some(RateTolerance::Share(0.05))]);
     let felt = proven.rolled().and_then(|rolled| rolled.felt).expect("in touch");
     assert!(felt.acceleration_share().expect("it moves") <= 0.05, "{felt:?}");
+}
+
+/// The motion of a roller on a circle off the shaft, with a hump A exp(−((θ − c)/w)²) that the circle lacks: off by 2A/w² at its top, and
+/// by √(2/e) A/w beside it.
+#[test]
+fn a_hump_of_a_formula_is_felt_however_narrow() {
+    for (height, width, at) in [
+        (0.02, 0.1122, 4.3642),
+        (0.02, 0.0895, 4.3102),
+        (0.04, 0.0959, 4.4952),
+        (0.02, 0.0758, 5.465),
+        (0.01, 0.0386, 5.3257),
+        (0.02, 0.0337, 5.859),
+        (0.02, 0.0143, 0.3536),
+        (0.0002, 0.0127, 2.3282),
+    ] {
+        let program = format!(
+            "name = \"x\"\n[motion]\nstart = \"0 mm\"\n\
+             formula = \"5*cos(th)+sqrt(5625-(5*sin(th))^2)+{height}*exp(-((th-{at})/{width})^2)\"\n\
+             [follower.roller]\nradius = \"15 mm\"\n[cam]\nbase_radius = \"55 mm\"\n\
+             [limits]\npressure_angle = \"40 deg\"\n"
+        );
+        let machine = Machine::from_toml("x", &program, &[]).expect("valid");
+        let (motion, rpm) = machine.motion().expect("a motion");
+        let cam = Spec::of_motion(machine.clone(), motion, rpm).solve().expect("a cam");
+        let curves = cam.body().plane().expect("plane");
+        let edges: Vec<Edge> = Contour::circle(Vector2::new(5.0, 0.0), 60.0).edges().collect();
+        let errors = Followed::new(curves, &edges).errors();
+        let (acceleration, velocity) = (2e-3 * height / (width * width), 1e-3 * height / width * (2.0 / E).sqrt());
+        let near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-3;
+        assert!(near(errors.acceleration.value, acceleration), "{height} {width}: {errors:?} {acceleration}");
+        assert!(near(errors.velocity.value, velocity), "{height} {width}: {errors:?} {velocity}");
+    }
 }
 
 /// A velocity, and quantities per second and per radian, are kept as well; splines keep all of them with fewer pieces.

@@ -119,6 +119,22 @@ fn a_slot_into_which_a_roller_sags_is_felt() {
     }
 }
 
+/// The deeper of two notches is found beside the other, whichever comes first.
+#[test]
+fn no_notch_hides_another() {
+    let cam = cam(&[]);
+    let whole = written(&cam, 5e-6);
+    for (one, other) in [(4.0, 4.1), (4.1, 4.0), (3.0, 3.2), (3.2, 3.0), (1.9, 2.0), (2.0, 1.9), (6.0, 6.5), (6.5, 6.0)]
+    {
+        let (first, radius) = sawn(whole.clone(), (one, 1.0, 0.0));
+        let (both, _) = sawn(first, (other, 1.0, 0.0));
+        let rolling = found(&cam.check(&file(both), 5e-6).expect("a DXF file"), "rolling");
+        let half = 0.5 * f64::max(one, other) / radius;
+        let to_lip = Vector2::new(radius + 30.0 - radius * half.cos(), radius * half.sin()).norm();
+        assert!((rolling.value - (to_lip - 30.0)).abs() < 1e-6, "{one} {other}: {} {rolling:?}", to_lip - 30.0);
+    }
+}
+
 /// A dwell of chords in an outline of many short arcs, each of which the roller meets in one place: a vertex, which is right.
 #[test]
 fn chords_on_a_dwell_are_felt_among_many_arcs() {

@@ -10,6 +10,8 @@ use super::tape::{Function, Operation, Tape, row_of};
 const CELLS: u32 = 2520;
 /// Value and derivatives up to the jerk.
 const ORDERS: usize = 4;
+/// A derivative of this share of its largest value is rounding.
+const ROUNDING: f64 = 1e-9;
 /// Bisections of a cell to rounding.
 const BISECTIONS: u32 = 50;
 /// Most cells that are bisected, which bounds the time.
@@ -22,7 +24,7 @@ const NOTHING: f64 = 1e-12;
 pub struct Scan {
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// Most changes of sign of a derivative up to the jerk.
+    /// As often a derivative up to the jerk would change its sign if it did so everywhere as often as where it does most.
     pub turns: u32,
 }
 
@@ -110,7 +112,8 @@ fn told(operation: Operation, argument: f64, valued: bool) -> String {
 
 pub(super) fn scan(tape: &Tape, low: f64, high: f64) -> Result<Scan, Singular> {
     let mut found = Scan { range: (f64::INFINITY, f64::NEG_INFINITY), turns: 0 };
-    let (mut turns, mut signs, mut bisected) = ([0_u32; 3], [0.0_f64; 3], 0);
+    let mut derivatives: [Vec<f64>; ORDERS - 1] = Default::default();
+    let mut bisected = 0;
     let mut before: Option<Evaluated> = None;
     for cell in 0..=CELLS {
         let place = if cell == CELLS { high } else { low + (high - low) * (f64::from(cell) / f64::from(CELLS)) };
@@ -124,14 +127,34 @@ pub(super) fn scan(tape: &Tape, low: f64, high: f64) -> Result<Scan, Singular> {
         let row = tape.result(&here.rows, ORDERS);
         let value = row.first().copied().unwrap_or(0.0);
         found.range = (found.range.0.min(value), found.range.1.max(value));
-        for ((derivative, sign), turns) in row.iter().skip(1).zip(&mut signs).zip(&mut turns) {
-            *turns += u32::from(derivative * *sign < 0.0);
-            *sign = if *derivative == 0.0 { *sign } else { derivative.signum() };
+        for (all, derivative) in derivatives.iter_mut().zip(row.iter().skip(1)) {
+            all.push(*derivative);
         }
         before = Some(here);
     }
-    found.turns = turns.into_iter().max().unwrap_or(0);
+    found.turns = derivatives.iter().map(|values| turns(values)).max().unwrap_or(0);
     Ok(found)
+}
+
+/// The cells of the grid over the shortest way between two changes of sign, but for those of rounding; 1 where there is one change.
+fn turns(values: &[f64]) -> u32 {
+    let least = ROUNDING * values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let mut last: Option<(u32, f64)> = None;
+    let (mut change, mut shortest, mut any): (Option<f64>, f64, bool) = (None, f64::INFINITY, false);
+    for (cell, value) in (0_u32..).zip(values).filter(|(_, value)| value.abs() > least) {
+        if let Some((before, other)) = last.filter(|(_, other)| other * value < 0.0) {
+            let at = f64::from(before) + f64::from(cell - before) * (other / (other - value));
+            shortest = change.map_or(shortest, |change| shortest.min(at - change));
+            (change, any) = (Some(at), true);
+        }
+        last = Some((cell, *value));
+    }
+    if shortest.is_infinite() {
+        return u32::from(any);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between its bounds")]
+    let turns = (f64::from(CELLS) / shortest).round().clamp(1.0, f64::from(CELLS)) as u32;
+    turns
 }
 
 /// Looks for a guard that vanishes between two places.

@@ -11,6 +11,8 @@ const CELLS_OF_PART: f64 = 2.0;
 const PLACES: usize = 3;
 /// The error of the acceleration is straight within this share of its size; where it bends, the parts are cut in halves.
 const NEARLY_STRAIGHT: f64 = 0.1;
+/// An error that changes by less than this share of itself at a joint is continuous there.
+const CONTINUOUS: f64 = 1e-3;
 /// Golden sections where an error is largest within a stretch.
 const SECTIONS: u32 = 22;
 /// How exactly the place of the largest velocity error is found, in parts: its value is right to the square.
@@ -52,6 +54,16 @@ struct Off {
     acceleration: f64,
     /// The acceleration as cut.
     cut: f64,
+}
+
+/// How high the size of the error of the acceleration is on the parabola through three even places, where it is highest between them.
+fn top([left, middle, right]: [&Off; 3]) -> Option<f64> {
+    let (slope, bend) = (
+        0.5 * (right.acceleration - left.acceleration),
+        left.acceleration - 2.0 * middle.acceleration + right.acceleration,
+    );
+    let top = middle.acceleration - 0.5 * slope * slope / bend;
+    (slope.abs() < bend.abs() && top * bend < 0.0).then_some(top.abs())
 }
 
 impl Followed<'_> {
@@ -122,48 +134,74 @@ impl Followed<'_> {
         let mut known = None;
         let places = |stretch| (stretch, self.places_off(stretch, &mut known));
         let all: Vec<(&Stretch, Vec<Off>)> = self.stretches.iter().map(places).collect();
-        let place =
-            |stretch: &Stretch, at: f64, value: f64| Worst { value: value.abs(), at: at + stretch.shift, z: 0.0 };
         let mut errors = Errors::NONE;
         for (stretch, places) in &all {
             for off in places {
-                errors.velocity = errors.velocity.or_larger(place(stretch, off.at, off.velocity));
-                errors.acceleration = errors.acceleration.or_larger(place(stretch, off.at, off.acceleration));
-            }
-        }
-        let next = all.iter().cycle().skip(1).take(all.len().saturating_sub(usize::from(!self.closed)));
-        for ((before, left), (_, right)) in all.iter().zip(next) {
-            if let (Some(left), Some(right)) = (left.last(), right.first()) {
-                errors.step = errors.step.or_larger(place(before, left.at, right.cut - left.cut));
+                errors.velocity = errors.velocity.or_larger(worst(stretch, off.at, off.velocity));
+                errors.acceleration = errors.acceleration.or_larger(worst(stretch, off.at, off.acceleration));
             }
         }
         for (stretch, places) in &all {
-            let of = |at: f64, what: fn(&Off) -> f64| self.off(stretch, at, None).map_or(0.0, |(off, _)| what(&off));
             for pair in places.windows(2) {
                 let [low, high] = pair else { continue };
-                let (left, right) = (low.acceleration, high.acceleration);
-                // Where the acceleration goes straight from one to the other the velocity is off by so much between them.
-                let way =
-                    left / (left - right) * (high.at - low.at) / self.curves.motion.pace(low.at + stretch.shift).0;
-                if left * right < 0.0
-                    && (low.velocity + 0.5 * left * way).abs() > NEAR * errors.velocity.value
-                    && let Ok(at) =
-                        root::bracketed(|at| of(at, |off| off.acceleration), low.at, high.at, ROOT * (high.at - low.at))
-                {
-                    errors.velocity = errors.velocity.or_larger(place(stretch, at, of(at, |off| off.velocity)));
-                }
+                errors.velocity =
+                    errors.velocity.or_larger(self.largest_velocity(stretch, (low, high), errors.velocity));
             }
             for three in places.windows(3) {
                 let [left, middle, right] = three else { continue };
-                let top = middle.acceleration.abs();
-                let highest = top >= left.acceleration.abs() && top >= right.acceleration.abs();
-                if highest && top > NEAR * errors.acceleration.value {
-                    let size = |at: f64| of(at, |off| off.acceleration).abs();
-                    let found = extremum::largest_without_slope(size, (left.at, right.at), 2, SECTIONS);
-                    errors.acceleration = errors.acceleration.or_larger(place(stretch, found.at, found.value));
+                if top([left, middle, right]).is_some_and(|top| top > NEAR * errors.acceleration.value) {
+                    let found = self.largest_acceleration(stretch, (left.at, right.at));
+                    errors.acceleration = errors.acceleration.or_larger(found);
                 }
+            }
+        }
+        let next = all.iter().cycle().skip(1).take(all.len().saturating_sub(usize::from(!self.closed)));
+        for ((before, left), (after, right)) in all.iter().zip(next) {
+            let ([.., low, last], [first, high, ..]) = (left.as_slice(), right.as_slice()) else { continue };
+            errors.step = errors.step.or_larger(worst(before, last.at, first.cut - last.cut));
+            // A smooth course over the joint may be highest on either side of it.
+            let size = last.acceleration.abs();
+            if (first.acceleration - last.acceleration).abs() < CONTINUOUS * size
+                && size > NEAR * errors.acceleration.value
+                && size > low.acceleration.abs().max(high.acceleration.abs())
+            {
+                let found = self.largest_acceleration(before, (low.at, last.at));
+                errors.acceleration = errors.acceleration.or_larger(found);
+                let found = self.largest_acceleration(after, (first.at, high.at));
+                errors.acceleration = errors.acceleration.or_larger(found);
             }
         }
         errors
     }
+
+    fn value(&self, stretch: &Stretch, at: f64, of: impl Fn(&Off) -> f64) -> f64 {
+        self.off(stretch, at, None).map_or(0.0, |(off, _)| of(&off))
+    }
+
+    /// The error of the velocity where that of the acceleration is 0 between two places, if it may come near to the largest one.
+    fn largest_velocity(&self, stretch: &Stretch, (low, high): (&Off, &Off), largest: Worst) -> Worst {
+        let (left, right) = (low.acceleration, high.acceleration);
+        if !(left * right < 0.0) {
+            return Worst::NONE;
+        }
+        // Where the acceleration goes straight from one to the other the velocity is off by so much between them.
+        let way = left / (left - right) * (high.at - low.at) / self.curves.motion.pace(low.at + stretch.shift).0;
+        if (low.velocity + 0.5 * left * way).abs() <= NEAR * largest.value {
+            return Worst::NONE;
+        }
+        let acceleration = |at: f64| self.value(stretch, at, |off| off.acceleration);
+        let found = root::bracketed(acceleration, low.at, high.at, ROOT * (high.at - low.at));
+        found.map_or(Worst::NONE, |at| worst(stretch, at, self.value(stretch, at, |off| off.velocity)))
+    }
+
+    /// The largest error of the acceleration within a range that has one top.
+    fn largest_acceleration(&self, stretch: &Stretch, range: (f64, f64)) -> Worst {
+        let size = |at: f64| self.value(stretch, at, |off| off.acceleration).abs();
+        let found = extremum::largest_without_slope(size, range, 2, SECTIONS);
+        worst(stretch, found.at, found.value)
+    }
+}
+
+fn worst(stretch: &Stretch, at: f64, value: f64) -> Worst {
+    Worst { value: value.abs(), at: at + stretch.shift, z: 0.0 }
 }

@@ -95,9 +95,9 @@ impl Roll<'_> {
         if !self.may_hang_over(a, b) {
             return None;
         }
-        // Over a gap of that width two circles leave a quarter of this.
-        let (width, way) = ((b.foot - a.foot).norm(), (b.centre - a.centre).norm());
-        if width * way <= 2.0 * self.radius * best {
+        // From a foot that stays the distance grows with its slope at first, and bends by the square of the way over it.
+        let (way, rise) = ((b.centre - a.centre).norm(), a.gap_slope * (b.parameter - a.parameter));
+        if a.foot == b.foot || a.gap + rise.max(0.0) + way * way / self.radius <= best {
             return None;
         }
         let centre = |at: f64| self.curves.touch(a.piece, at).curve.point * 1e3;
