@@ -54,6 +54,9 @@ struct Off {
     acceleration: f64,
     /// The acceleration as cut.
     cut: f64,
+    /// The jerk of the motion, in place of that of the error, from which it differs by what hardly changes along an arc; by the
+    /// parameter.
+    jerk: f64,
 }
 
 /// How high the size of the error of the acceleration is on the parabola through three even places, where it is highest between them.
@@ -77,6 +80,7 @@ impl Followed<'_> {
             velocity: (cut.ds - law.ds) * first,
             acceleration: (cut.dds - law.dds) * first * first + (cut.ds - law.ds) * second,
             cut: cut.dds * first * first + cut.ds * second,
+            jerk: law.ddds * first * first,
         };
         Some((off, ((stretch.piece, inside), law)))
     }
@@ -91,6 +95,12 @@ impl Followed<'_> {
             let straight = 0.5 * (left.acceleration + right.acceleration);
             (middle.acceleration - straight).abs() > NEARLY_STRAIGHT * largest
         });
+        // Three places of a wave may lie on a line, but then the slopes there tell it: of a cubic the chord is off by an eighth.
+        let bends = bends
+            || places.windows(2).any(|two| {
+                let [left, right] = two else { return false };
+                0.125 * ((right.jerk - left.jerk) * (right.at - left.at)).abs() > NEARLY_STRAIGHT * largest
+            });
         if !bends {
             return places;
         }
