@@ -95,4 +95,12 @@ fn a_file_is_refused_for_what_its_follower_feels_where_that_is_asked() {
     }
     let run = check(run, &["c.dxf", "--tolerance-acceleration", "5rad/rad2"]);
     assert!(run.code == 2 && run.err.contains("mm/rad2"), "{}", run.err);
+    // A solid of sections is not rolled on.
+    let conoid = ["--rpm", "20,35"];
+    let made = camgen(&[&["conoid", "--out", ".", "--name", "c", "--format", "step"], &conoid[..]].concat());
+    assert_eq!(made.code, 0, "{}", made.err);
+    let solid = [&["c.step", "--cam", "conoid"], &conoid[..]].concat();
+    let run = check(made, &[&solid[..], &["--tolerance-acceleration", "5%"]].concat());
+    assert!(run.code == 2 && run.err.contains("DXF files of the sections"), "{}", run.err);
+    assert_eq!(check(run, &[&solid[..], &["--tolerance-acceleration", "none"]].concat()).code, 0);
 }

@@ -29,7 +29,8 @@ impl Cam {
     ///
     /// # Errors
     /// [`Error::Read`] when the bytes are not a DXF file, [`Error::Step`] when they begin as a STEP file and are none;
-    /// [`Error::Section`] for a DXF file and a conoid of several sections; [`Error::Rate`] when the follower does not have such a
+    /// [`Error::Section`] for a DXF file and a conoid of several sections, and for its solid where errors of the motion are asked for;
+    /// [`Error::Rate`] when the follower does not have such a
     /// velocity or acceleration.
     pub fn check(&self, bytes: &[u8], request: impl Into<Request>) -> Result<Report, Error> {
         let request = request.into();
@@ -134,8 +135,15 @@ impl Cam {
     fn check_solid(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
         let tolerance_mm = MILLIMETRES * request.fit.tolerance;
         let motion = request.resolved(self.body())?.fit.motion;
-        let file = step::read(bytes)?;
         let body = self.body();
+        let asked = request.rates.iter().zip(request.strict).any(|(rate, strict)| rate.is_some() && strict);
+        if asked && body.spatial().is_some() {
+            let noun = body.kind().noun;
+            return Err(Error::Section(format!(
+                "what the follower feels is found on the DXF files of the sections, not on the solid of a {noun}"
+            )));
+        }
+        let file = step::read(bytes)?;
         let flank = if body.spatial().is_some() { Flank::Patches } else { Flank::Upright };
         let form = step::form(&file.boundary, flank, shell_reach(tolerance_mm));
         let outer = |run: &Loop| match run {
