@@ -102,6 +102,12 @@ fn sawn(vertices: Vec<Vertex>, (width, depth, narrows): (f64, f64, f64)) -> (Vec
     (sawn, radius)
 }
 
+/// How far the roller of 30 mm hangs over a mouth so wide in a circle, mm: its distance from either lip in the middle, less its radius.
+fn sag(width: f64, radius: f64) -> f64 {
+    let half = 0.5 * width / radius;
+    Vector2::new(radius + 30.0 - radius * half.cos(), radius * half.sin()).norm() - 30.0
+}
+
 /// Between the lips of a slot or a notch the roller hangs over, which no place along an edge shows: gap and slope are 0 at both.
 #[test]
 fn a_slot_into_which_a_roller_sags_is_felt() {
@@ -111,10 +117,9 @@ fn a_slot_into_which_a_roller_sags_is_felt() {
         let (sawn, radius) = sawn(whole.clone(), slot);
         let report = cam.check(&file(sawn), 5e-6).expect("a DXF file");
         let rolling = found(&report, "rolling");
-        let half = 0.5 * slot.0 / radius;
-        let to_lip = Vector2::new(radius + 30.0 - radius * half.cos(), radius * half.sin()).norm();
+        let sag = sag(slot.0, radius);
         // The arc lies beside the exact circle by the rounding of its fit, a nanometre.
-        assert!((rolling.value - (to_lip - 30.0)).abs() < 1e-6, "{slot:?}: {} {rolling:?}", to_lip - 30.0);
+        assert!((rolling.value - sag).abs() < 1e-6, "{slot:?}: {sag} {rolling:?}");
         assert_eq!(rolling.verdict, Verdict::Fail);
     }
 }
@@ -129,9 +134,8 @@ fn no_notch_hides_another() {
         let (first, radius) = sawn(whole.clone(), (one, 1.0, 0.0));
         let (both, _) = sawn(first, (other, 1.0, 0.0));
         let rolling = found(&cam.check(&file(both), 5e-6).expect("a DXF file"), "rolling");
-        let half = 0.5 * f64::max(one, other) / radius;
-        let to_lip = Vector2::new(radius + 30.0 - radius * half.cos(), radius * half.sin()).norm();
-        assert!((rolling.value - (to_lip - 30.0)).abs() < 1e-6, "{one} {other}: {} {rolling:?}", to_lip - 30.0);
+        let sag = sag(f64::max(one, other), radius);
+        assert!((rolling.value - sag).abs() < 1e-6, "{one} {other}: {sag} {rolling:?}");
     }
 }
 

@@ -24,7 +24,7 @@ const NOTHING: f64 = 1e-12;
 pub struct Scan {
     /// Smallest and largest value.
     pub range: (f64, f64),
-    /// As often a derivative up to the jerk would change its sign if it did so everywhere as often as where it does most.
+    /// Changes of sign of a derivative up to the jerk, if it changed everywhere as often as where it changes most.
     pub turns: u32,
 }
 
@@ -136,21 +136,21 @@ pub(super) fn scan(tape: &Tape, low: f64, high: f64) -> Result<Scan, Singular> {
     Ok(found)
 }
 
-/// The cells of the grid over the shortest way between two changes of sign, but for those of rounding; 1 where there is one change.
+/// How many of the shortest way between two changes of sign fill the grid, rounding left out; 1 where there is one change, 0 without.
 fn turns(values: &[f64]) -> u32 {
     let least = ROUNDING * values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let mut last: Option<(u32, f64)> = None;
-    let (mut change, mut shortest, mut any): (Option<f64>, f64, bool) = (None, f64::INFINITY, false);
+    let (mut change, mut shortest): (Option<f64>, f64) = (None, f64::INFINITY);
     for (cell, value) in (0_u32..).zip(values).filter(|(_, value)| value.abs() > least) {
         if let Some((before, other)) = last.filter(|(_, other)| other * value < 0.0) {
             let at = f64::from(before) + f64::from(cell - before) * (other / (other - value));
             shortest = change.map_or(shortest, |change| shortest.min(at - change));
-            (change, any) = (Some(at), true);
+            change = Some(at);
         }
         last = Some((cell, *value));
     }
     if shortest.is_infinite() {
-        return u32::from(any);
+        return u32::from(change.is_some());
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between its bounds")]
     let turns = (f64::from(CELLS) / shortest).round().clamp(1.0, f64::from(CELLS)) as u32;

@@ -90,18 +90,17 @@ impl Followed<'_> {
     fn places_off(&self, stretch: &Stretch, known: &mut Option<Lift>) -> Vec<Off> {
         let places = self.evenly(stretch, known).unwrap_or_default();
         let largest = places.iter().map(|off| off.acceleration.abs()).fold(0.0, f64::max);
-        let bends = places.windows(3).any(|three| {
+        let is_bent = places.windows(3).any(|three| {
             let [left, middle, right] = three else { return false };
             let straight = 0.5 * (left.acceleration + right.acceleration);
             (middle.acceleration - straight).abs() > NEARLY_STRAIGHT * largest
         });
         // Three places of a wave may lie on a line, but then the slopes there tell it: of a cubic the chord is off by an eighth.
-        let bends = bends
-            || places.windows(2).any(|two| {
-                let [left, right] = two else { return false };
-                0.125 * ((right.jerk - left.jerk) * (right.at - left.at)).abs() > NEARLY_STRAIGHT * largest
-            });
-        if !bends {
+        let swings = places.windows(2).any(|two| {
+            let [left, right] = two else { return false };
+            0.125 * ((right.jerk - left.jerk) * (right.at - left.at)).abs() > NEARLY_STRAIGHT * largest
+        });
+        if !(is_bent || swings) {
             return places;
         }
         let mut halved = Vec::with_capacity(2 * places.len());
