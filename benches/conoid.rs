@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
-use camgen::body::conoid::between::{self, residual};
-use camgen::body::conoid::{Conoid, Interpolation, flank};
 use camgen::body::{Body, Request};
-use camgen::geometry::solid::conical;
+use camgen::domains::press::conoid::between::{self, residual};
+use camgen::domains::press::conoid::{Conoid, Interpolation, flank};
+use camgen::geometry::solid::flank_solid;
 use camgen::machine::Machine;
 use camgen::profile::outline::MotionTolerance;
 use camgen::table::Table;
@@ -33,11 +33,11 @@ fn stages(criterion: &mut Criterion) {
             body: &conoid,
             drawn: Some(&whole),
             outlines: &[],
-            rolled: None,
-            foreign: None,
-            cutter_path: None,
+            rolled: &[],
+            foreign: &[],
+            cutter_paths: &[],
             points: None,
-            compensator: None,
+            of_others: &[],
             solid: None,
             tolerance_mm: 0.005,
             motion: MotionTolerance::ANY,
@@ -45,7 +45,7 @@ fn stages(criterion: &mut Criterion) {
         };
         criterion
             .bench_function(&name("checks, sphere on the flank"), |b| b.iter(|| verify::run(black_box(&evidence))));
-        let solid = conical(&drawn.patches, &[], (0.0, 120.0), drawn.volume).expect("a solid");
+        let solid = flank_solid(&drawn.patches, &[], (0.0, 120.0), drawn.volume).expect("a solid");
         criterion.bench_function(&name("step"), |b| b.iter(|| step::write(black_box(&solid), "conoid", None)));
         criterion.bench_function(&name("stl"), |b| b.iter(|| stl::write(black_box(&drawn), Some(25.0), "cam")));
         criterion.bench_function(&name("table"), |b| b.iter(|| Table::of(&black_box(&conoid).rows(720))));

@@ -6,7 +6,7 @@
 use camgen::body::disc::Disc;
 use camgen::geometry::CurvePoint;
 use camgen::geometry::contour::{Contour, Vertex};
-use camgen::geometry::track::Track;
+use camgen::geometry::edge_tree::EdgeTree;
 use camgen::machine::Machine;
 use camgen::profile::outline::{self, pitch_within};
 use cavalier_contours::polyline::{PlineSource, PlineSourceMut, PlineVertex, Polyline};
@@ -67,7 +67,7 @@ fn kurbo_offset(cubics: &[CubicBez], distance: f64, tolerance: f64) -> Vec<BezPa
 
 /// Largest distance of the exact profile from an outline, mm.
 fn true_error(cam: &Disc, outline: &Contour) -> f64 {
-    let track = Track::new(outline);
+    let track = EdgeTree::new(outline);
     let place = |i: u32| {
         let (piece, angle) = cam.curves().motion.locate(std::f64::consts::TAU * f64::from(i) / f64::from(PLACES));
         let exact = cam.curves().profile(piece, angle).point * 1e3;

@@ -7,7 +7,7 @@ use camgen::body::{Body, Layer, Request};
 use camgen::geometry::Entity;
 use camgen::geometry::contour::{Contour, Vertex};
 use camgen::machine::Machine;
-use camgen::motion::laws::{LAWS, Task};
+use camgen::motion::laws::{LAWS, LawTask};
 use camgen::pipeline::Spec;
 use camgen::profile::outline::MotionTolerance;
 use camgen::table::Table;
@@ -30,7 +30,7 @@ fn motion(criterion: &mut Criterion) {
     let (piece, angle) = curves.motion.locate(1.0);
     criterion.bench_function("law/jet", |b| b.iter(|| curves.motion.jet(piece, black_box(angle))));
     for law in LAWS.iter().filter(|law| law.serves_rests()) {
-        let curve = law.solve(&Task::default()).expect("it serves rests");
+        let curve = law.solve(&LawTask::default()).expect("it serves rests");
         let at = |x: f64| curve.at(curve.part_of(x), x);
         criterion.bench_function(&format!("law/{}", law.name), |b| b.iter(|| at(black_box(0.37))));
     }
@@ -51,19 +51,20 @@ fn stages(criterion: &mut Criterion) {
     criterion
         .bench_function("output/write and read back", |b| b.iter(|| proof::write(black_box(part), Version::R2000)));
     let written = proof::write(part, Version::R2000).expect("one outline");
-    let roll = |outline: &Contour| rolling::roll(&cam, cam.curves(), outline, 0.005);
-    let rolled = roll(&written.outline);
-    criterion.bench_function("checks/rolling", |b| b.iter(|| roll(black_box(&written.outline))));
-    let outlines = [verify::WrittenOutline { z: 0.0, contour: written.outline, beside: written.beside }];
+    let roll = |outline: &Contour| rolling::roll(&cam, (cam.curves(), &[false]), outline, 0.005);
+    let rolled = [roll(&written.outlines[0])];
+    criterion.bench_function("checks/rolling", |b| b.iter(|| roll(black_box(&written.outlines[0]))));
+    let outlines =
+        [verify::WrittenOutline { cut: 0, z: 0.0, contour: written.outlines[0].clone(), others: written.others }];
     let evidence = Evidence {
         body: &cam,
         drawn: Some(&drawn),
         outlines: &outlines,
-        rolled: Some(&rolled),
-        foreign: None,
-        cutter_path: None,
+        rolled: &rolled,
+        foreign: &[],
+        cutter_paths: &[],
         points: None,
-        compensator: None,
+        of_others: &[],
         solid: None,
         tolerance_mm: 0.005,
         motion: MotionTolerance::ANY,
@@ -72,7 +73,7 @@ fn stages(criterion: &mut Criterion) {
     criterion.bench_function("checks", |b| b.iter(|| verify::run(black_box(&evidence))));
     let solved = Spec::rotary(machine, 35.0).solve().expect("a cam");
     let proven = solved.draw(5e-6).expect("an outline").prove().expect("one outline");
-    let report = proven.told();
+    let report = proven.lazy_report();
     let rendering = proven.rendering(&report, 720, svg::TEMPLATE).expect("an outline");
     let sheet = svg::sheet(&rendering).expect("a sheet");
     let entities = part.entities();

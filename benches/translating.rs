@@ -2,10 +2,10 @@
 
 #![allow(clippy::expect_used, missing_docs, reason = "a benchmark fails loudly")]
 
-use camgen::body::wedge::{LAW_TOLERANCE, Wedge};
 use camgen::body::{Body, Request};
+use camgen::domains::press::motion::equation_18::{ExactOn, Mechanism, Solution, Solver, Stations};
+use camgen::domains::press::wedge::{LAW_TOLERANCE, Wedge};
 use camgen::machine::Machine;
-use camgen::motion::equation_18::{ExactOn, Mechanism, Solution, Solver, Stations};
 use camgen::table::Table;
 use camgen::verify::rolling;
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -39,7 +39,7 @@ fn stages(criterion: &mut Criterion) {
     let drawn = plate.draw(&Request::within(5e-6)).expect("an outline");
     let contour = &drawn.parts[0].outline.contour;
     criterion.bench_function("plate/rolling", |b| {
-        b.iter(|| rolling::roll(black_box(&plate), plate.curves(), contour, 0.005));
+        b.iter(|| rolling::roll(black_box(&plate), (plate.curves(), &[false, true]), contour, 0.005));
     });
     criterion.bench_function("plate/table", |b| b.iter(|| Table::of(&black_box(&plate).rows(720))));
 }

@@ -1,20 +1,39 @@
-//! camgen: cam profiles a CNC shop can cut.
+//! camgen makes profiles of cams that a CNC shop can cut. It solves a motion, finds the size of the cam, draws its outline to a tolerance,
+//! and proves the cut file on its own bytes: the file is written to memory, read back, and the follower is rolled on what was read. Only
+//! what was proved can be written.
 //!
-//! A cam passes through one pipeline; each step is a method of the result before it. Nothing can be written that was not
-//! proved: the cut file is written to memory, read back from its bytes, and the follower is rolled on what was read.
+//! # The pipeline
+//!
+//! Each step is a method of the result before it.
 //!
 //! ```text
 //! Spec ─ solve ─► Cam ─ draw(tolerance) ─► Drawing ─ prove ─► Proven ─ files ─► FileSet ─ commit ─► files, Report
 //! ```
 //!
-//! The disc cam of the embedded press for 35 rpm, in memory:
+//! | Step | What it is |
+//! |---|---|
+//! | [`Machine`] | everything that is known of the machine, every value in range: from a file, an embedded file, or [`Spec::builder`] |
+//! | [`Spec`] | the cam to be made: a machine and a motion |
+//! | [`Cam`] | the solved cam, exact curves; also checks files of others ([`Cam::check`]) |
+//! | [`Drawing`] | its outline in arcs or splines, within a [`Request`] |
+//! | [`Proven`] | what every check found ([`Proven::findings`]), the [`Report`], the [`Table`] of points |
+//! | [`FileSet`] | the files in memory, written all or none |
+//!
+//! Each of them owns what it needs: it can be kept, returned from a function and sent to another thread.
+//! Numbers are in SI units and radians. What is drawn is in millimetres, and the name of every value that is not SI ends in its unit.
+//! The library never prints, never exits, and does not panic on input.
+//!
+//! # A cam from a machine file
+//!
+//! A machine file with a motion program describes a cam completely. [`Machine::load`] takes the path of a file or the name of an embedded
+//! one, and overrides of its keys. `camgen init --follower NAME` writes a commented file to start from.
 //!
 //! ```
 //! use camgen::{Machine, Spec, Writing};
 //!
-//! let (machine, name) = Machine::load("dpi", &[])?;
-//! let cam = Spec::rotary(machine, 35.0).solve()?;
-//! let proven = cam.draw(5e-6)?.prove()?;
+//! let (machine, name) = Machine::load("feeder", &["follower.roller.radius=14 mm".to_owned()])?;
+//! let cam = Spec::of_program(machine, None).ok_or("the file has no motion")?.solve()?;
+//! let proven = cam.draw(10e-6)?.prove()?;
 //! assert!(proven.passed());
 //! let files = proven.files(&Writing::to("output", name).formats(&["dxf", "csv"]))?;
 //! assert!(files.bytes(".dxf").is_some_and(|dxf| dxf.ends_with(b"EOF\n")));
@@ -22,8 +41,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A cam without a press, from a motion of your own: implement [`Motion`], or take a program of segments, and put the rest
-//! together with [`Spec::builder`]:
+//! # A cam from code
+//!
+//! Take a [`Program`] of segments with [`law`]s, or implement [`Motion`], and put the rest together with [`Spec::builder`], which has a
+//! method for every follower: [`roller`](Builder::roller), [`swinging_roller`](Builder::swinging_roller),
+//! [`flat_face`](Builder::flat_face), [`swinging_flat_face`](Builder::swinging_flat_face), [`knife_edge`](Builder::knife_edge).
 //!
 //! ```
 //! use camgen::{Program, Quantity, Spec, law};
@@ -41,80 +63,163 @@
 //! # Ok::<(), camgen::Error>(())
 //! ```
 //!
-//! Numbers are SI and radians; what is drawn is in millimetres, and every name of a value that is not SI ends in its unit.
-//! The library never prints, never exits, and does not panic on input.
+//! # Checking a file
 //!
-//! The items on this page are the public interface. The modules behind them are described in ARCHITECTURE.md; they are
-//! reachable, for tests, but may change with any version.
+//! [`Cam::check`] reads a DXF or STEP file, also one that was edited or written by another program, and rolls the follower on it. Of a file
+//! that is another cam the report says what would explain it: mirrored, turned, in inches, the cam of another speed. To look into a DXF
+//! file without a cam, use [`reading::read`].
+//!
+//! ```
+//! use camgen::{Machine, Spec};
+//!
+//! let (machine, _) = Machine::load("valve", &[])?;
+//! let cam = Spec::of_program(machine, None).ok_or("the file has no motion")?.solve()?;
+//! // In place of `std::fs::read("valve.dxf")?`:
+//! let dxf = cam.draw(5e-6)?.prove()?.cut_files()[0].clone();
+//! assert!(cam.check(&dxf, 10e-6)?.passed());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Analyses
+//!
+//! An analysis is one function from a machine to an [`Analysis`]: figures, tables, curves. [`Judged`] applies the checks to it and writes
+//! its files.
+//!
+//! | Analysis | Function |
+//! |---|---|
+//! | the smallest disc of a motion, and what binds it | [`analysis::size::analysis`] |
+//! | every law of motion at the numbers of a design | [`analysis::laws::analysis`] |
+#![cfg_attr(
+    feature = "press",
+    doc = "| one cam of a press at other speeds | [`domains::press::analysis::regimes::analysis`] |"
+)]
+#![cfg_attr(
+    feature = "press",
+    doc = "| buffers of a press on springs instead of a cam | [`domains::press::analysis::spring::analysis`] |"
+)]
+#![cfg_attr(
+    feature = "press",
+    doc = "| the drive of a bed without a cam | [`domains::press::analysis::drive::analysis`] |"
+)]
+#![cfg_attr(feature = "linkage", doc = "| the linkage that moves a bed | [`domains::linkage::analysis::analysis`] |")]
+#![cfg_attr(feature = "shaft", doc = "| the shaft under a cam | [`domains::shaft::analysis::analysis`] |")]
+#![cfg_attr(feature = "brake", doc = "| the belt brake of a paper roll | [`domains::brake::analysis::analysis`] |")]
+//!
+//! ```
+//! use camgen::{Judged, Machine, Writing, analysis::size};
+//!
+//! let (machine, name) = Machine::load("feeder", &[])?;
+//! let judged = Judged::new(size::analysis(&machine, &[], None)?);
+//! println!("{}", judged.report().title());
+//! let files = judged.files(&Writing::to("output", name))?;
+//! assert!(!files.outputs().is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![cfg_attr(feature = "press", doc = include_str!("domains/press/first_page.md"))]
+//!
+//! # Cams that belong together
+//!
+//! An [`Assembly`] is several cams that are drawn, proved and written together or not at all. [`Spec::assemble`] makes the cams that a
+//! machine file describes to be made with the first one; [`Assembly::with`] adds any other.
+//!
+//! ```
+//! use camgen::{Assembly, Machine, Spec, Writing};
+//!
+//! let solved = |name: &str| -> Result<_, Box<dyn std::error::Error>> {
+//!     let (machine, _) = Machine::load(name, &[])?;
+//!     Ok(Spec::of_program(machine, None).ok_or("no motion")?.solve()?)
+//! };
+//! let assembly = Assembly::from(solved("feeder")?).with("lever", solved("lever")?);
+//! let files = assembly.draw(20e-6)?.prove()?.files(&Writing::to("output", "both").formats(&["dxf"]))?;
+//! let names: Vec<&str> = files.outputs().iter().map(|file| file.name.as_str()).collect();
+//! assert_eq!(names, ["both.dxf", "both-lever.dxf"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Features
+//!
+//! All are on by default. With `default-features = false` the library solves, draws, proves and writes disc cams as DXF, SVG, STEP, STL, CSV,
+//! points and JSON.
+//!
+//! | Feature | Brings |
+//! |---|---|
+//! | `press` | the flat-bed press: disc, wedge, conoid and compensating cam, and the analyses of its buffers |
+//! | `linkage` | the linkage that moves a bed; includes `press` |
+//! | `shaft` | the shaft under a cam; includes `press` |
+//! | `brake` | the belt brake of a paper roll and the disc that holds its tension |
+//! | `html` | the format `html`, a moving report |
+//! | `pdf` | the format `pdf`, the review sheet and the motion diagram |
+//! | `second-reader` | a second DXF reader that shares no code with the first also reads each cut file |
+//! | `cli` | the program `camgen` |
+//!
+//! # Modules
+//!
+//! What most programs need is on this page. The modules contain the rest, and may change with any version. Each uses only those before it:
+//!
+//! - numbers, units, files: [`units`], [`numeric`], [`document`]
+//! - curves: [`geometry`], [`motion`], [`follower`], [`profile`]
+//! - what is cut: [`machine`], [`load`], [`body`], [`analysis`]
+//! - what is found: [`report`], [`table`], [`check`], [`verify`]
+//! - files: [`reading`], [`mod@write`]
+//! - all of it together: [`pipeline`], [`mod@trade`], [`domain`], [`domains`], [`catalogue`]
+//!
+//! ARCHITECTURE.md describes them.
 #![forbid(unsafe_code)]
+// Some of what the core offers is used by domains only.
+#![cfg_attr(not(feature = "press"), allow(dead_code, unused_imports))]
 
-#[doc(hidden)]
+pub mod refusal;
+
 pub mod units;
 
-#[doc(hidden)]
 pub mod numeric;
 
-#[doc(hidden)]
 pub mod document;
 
-#[doc(hidden)]
 pub mod geometry;
 
-#[doc(hidden)]
-pub mod linkage;
-
-#[doc(hidden)]
-pub mod shaft;
-
-#[doc(hidden)]
-pub mod brake;
-
-#[doc(hidden)]
-pub mod buffer;
-
-#[doc(hidden)]
 pub mod motion;
 
-#[doc(hidden)]
 pub mod follower;
 
-#[doc(hidden)]
 pub mod machine;
 
-#[doc(hidden)]
 pub mod profile;
 
-#[doc(hidden)]
 pub mod report;
 
-#[doc(hidden)]
 pub mod table;
 
-#[doc(hidden)]
 pub mod load;
 
-#[doc(hidden)]
+pub mod check;
+
 pub mod body;
 
-#[doc(hidden)]
 pub mod analysis;
 
-#[doc(hidden)]
 pub mod reading;
 
-#[doc(hidden)]
 pub mod verify;
 
-#[doc(hidden)]
 pub mod write;
 
-#[doc(hidden)]
 pub mod pipeline;
+pub mod trade;
+
+pub mod domain;
+
+pub mod domains;
+
+pub mod catalogue;
 
 #[doc(inline)]
 pub use analysis::Analysis;
 #[doc(inline)]
 pub use body::{Drawn, Part, Request};
+#[cfg(feature = "press")]
+#[doc(inline)]
+pub use domains::press::motion::equation_18::{ExactOn, Solver};
 #[doc(inline)]
 pub use follower::{Element, Follower, Touch};
 #[doc(inline)]
@@ -122,21 +227,27 @@ pub use geometry::CurvePoint;
 #[doc(inline)]
 pub use geometry::contour::{Contour, Vertex};
 #[doc(inline)]
-pub use machine::{Machine, MachineError};
-#[doc(inline)]
-pub use motion::equation_18::{ExactOn, Solver};
+pub use machine::{GuideData, Keyway, Machine, MachineError, Material, SpringData, Title, VibrationData};
 #[doc(inline)]
 pub use motion::laws::{Law, named as law};
 #[doc(inline)]
 pub use motion::program::Program;
 #[doc(inline)]
 pub use motion::{Jet, Motion, Piece, Quantity};
+#[doc(no_inline)]
+pub use nalgebra::{Vector2, Vector3};
 #[doc(inline)]
-pub use pipeline::{Builder, Cam, Drawing, Error, FileSet, Judged, Output, Proven, Spec, Writing};
+pub use pipeline::{
+    ArmSide, Assembly, AssemblyDrawing, AssemblyReport, Builder, Cam, Drawing, Error, ExpectedFile, FileSet,
+    FlatFaceFollower, Judged, KnifeEdgeFollower, Output, PlaceChoice, Proven, ProvenAssembly, RollerFollower, Spec,
+    SwingingFaceFollower, SwingingRollerFollower, Writing,
+};
 #[doc(inline)]
 pub use profile::outline::{Fit, Outline, Side};
 #[doc(inline)]
-pub use report::{Finding, Place, Report, Rolled, Section, Speeds, Told, Verdict};
+pub use refusal::Refusal;
+#[doc(inline)]
+pub use report::{Finding, LazyReport, Place, Report, Rolled, Section, Speeds, Verdict};
 #[doc(inline)]
 pub use table::Table;
 #[doc(inline)]

@@ -44,7 +44,7 @@ pub enum Dimension {
     Frequency,
 }
 
-struct Unit {
+struct UnitSymbol {
     symbol: &'static str,
     dimension: Dimension,
     /// SI = number × `multiply` / `divide`: a division by a power of ten is correctly rounded where a
@@ -53,16 +53,18 @@ struct Unit {
     divide: f64,
 }
 
-const fn unit(symbol: &'static str, dimension: Dimension, multiply: f64, divide: f64) -> Unit {
-    Unit { symbol, dimension, multiply, divide }
+const fn unit(symbol: &'static str, dimension: Dimension, multiply: f64, divide: f64) -> UnitSymbol {
+    UnitSymbol { symbol, dimension, multiply, divide }
 }
 
 /// One kilogram-force in newtons (exact, CGPM 1901); one technical atmosphere is 1e4 of them per square metre.
 pub const KILOGRAM_FORCE: f64 = 9.80665;
 /// One technical atmosphere, 1 kgf/cm², in pascals.
 pub const TECHNICAL_ATMOSPHERE: f64 = 98_066.5;
+/// One pound-force in newtons: the pound times the standard acceleration, both exact.
+const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
-const UNITS: &[Unit] = &[
+const UNITS: &[UnitSymbol] = &[
     unit("um", Dimension::Length, 1.0, 1e6),
     unit("µm", Dimension::Length, 1.0, 1e6),
     unit("mm", Dimension::Length, 1.0, 1e3),
@@ -73,6 +75,7 @@ const UNITS: &[Unit] = &[
     unit("rad", Dimension::Angle, 1.0, 1.0),
     unit("kg", Dimension::Mass, 1.0, 1.0),
     unit("lb", Dimension::Mass, 0.453_592_37, 1.0),
+    unit("g", Dimension::Mass, 1.0, 1e3),
     unit("Pa", Dimension::Pressure, 1.0, 1.0),
     unit("kPa", Dimension::Pressure, 1e3, 1.0),
     unit("MPa", Dimension::Pressure, 1e6, 1.0),
@@ -84,6 +87,8 @@ const UNITS: &[Unit] = &[
     unit("N", Dimension::Force, 1.0, 1.0),
     unit("kN", Dimension::Force, 1e3, 1.0),
     unit("kgf", Dimension::Force, KILOGRAM_FORCE, 1.0),
+    unit("daN", Dimension::Force, 10.0, 1.0),
+    unit("lbf", Dimension::Force, POUND_FORCE, 1.0),
     unit("s", Dimension::Time, 1.0, 1.0),
     unit("ms", Dimension::Time, 1.0, 1e3),
     unit("N/mm", Dimension::Stiffness, 1e3, 1.0),
@@ -91,18 +96,26 @@ const UNITS: &[Unit] = &[
     unit("N/m", Dimension::Stiffness, 1.0, 1.0),
     unit("N/um", Dimension::Stiffness, 1e6, 1.0),
     unit("kN/mm", Dimension::Stiffness, 1e6, 1.0),
+    unit("kN/m", Dimension::Stiffness, 1e3, 1.0),
+    unit("N/cm", Dimension::Stiffness, 1e2, 1.0),
+    unit("lbf/in", Dimension::Stiffness, POUND_FORCE * 1e3, 25.4),
     unit("daN/cm", Dimension::Stiffness, 1e3, 1.0),
     unit("m/s", Dimension::Speed, 1.0, 1.0),
     unit("mm/s", Dimension::Speed, 1.0, 1e3),
     unit("kg*m2", Dimension::Inertia, 1.0, 1.0),
     unit("kg*cm2", Dimension::Inertia, 1.0, 1e4),
+    unit("kg*mm2", Dimension::Inertia, 1.0, 1e6),
     unit("kg/m3", Dimension::Density, 1.0, 1.0),
+    unit("kg/dm3", Dimension::Density, 1e3, 1.0),
+    unit("g/cm3", Dimension::Density, 1e3, 1.0),
     unit("g*mm", Dimension::Unbalance, 1.0, 1e6),
     unit("kg*mm", Dimension::Unbalance, 1.0, 1e3),
     unit("m/s2", Dimension::Acceleration, 1.0, 1.0),
     unit("N*m", Dimension::Moment, 1.0, 1.0),
     unit("N*mm", Dimension::Moment, 1.0, 1e3),
     unit("kgf*cm", Dimension::Moment, KILOGRAM_FORCE, 1e2),
+    unit("kN*m", Dimension::Moment, 1e3, 1.0),
+    unit("lbf*in", Dimension::Moment, POUND_FORCE * 25.4, 1e3),
     unit("N*m/rad", Dimension::TorsionalStiffness, 1.0, 1.0),
     unit("N*m/deg", Dimension::TorsionalStiffness, 180.0, std::f64::consts::PI),
     unit("N*s/m", Dimension::Damping, 1.0, 1.0),
@@ -112,7 +125,78 @@ const UNITS: &[Unit] = &[
     unit("kHz", Dimension::Frequency, 1e3, 1.0),
 ];
 
+/// Units as people write them, and the symbols of [`UNITS`] that they are.
+const SPELLINGS: &[(&str, &str)] = &[
+    ("°", "deg"),
+    ("degree", "deg"),
+    ("degrees", "deg"),
+    ("radian", "rad"),
+    ("radians", "rad"),
+    // The Greek letter, which is another character than the sign for micro above.
+    ("μm", "um"),
+    ("micron", "um"),
+    ("microns", "um"),
+    ("\"", "in"),
+    ("''", "in"),
+    ("inch", "in"),
+    ("inches", "in"),
+    ("sec", "s"),
+    ("lbs", "lb"),
+    ("lb/in", "lbf/in"),
+    ("lbf-in", "lbf*in"),
+    ("lb-in", "lbf*in"),
+    ("kp", "kgf"),
+    ("kp/cm2", "kgf/cm2"),
+    ("N/mm2", "MPa"),
+    ("kN/mm2", "GPa"),
+    ("N/m2", "Pa"),
+];
+
+/// The unit of a symbol as people write it: powers raised or with ^, products with a dot, a blank or nothing, other spellings, and,
+/// among the units of a kind, small letters for capitals and the reverse.
+fn unit_of(typed: &str, kind: Option<Dimension>) -> Option<&'static UnitSymbol> {
+    let exact = |symbol: &str| UNITS.iter().find(|unit| unit.symbol == symbol);
+    if let Some(unit) = exact(typed) {
+        return Some(unit);
+    }
+    let plain: String = typed
+        .chars()
+        .filter(|c| !matches!(c, '^' | ' ' | '\u{a0}' | '\u{202f}'))
+        .map(|c| match c {
+            '²' => '2',
+            '³' => '3',
+            '·' | '⋅' | '×' | '.' => '*',
+            other => other,
+        })
+        .collect();
+    let plain = SPELLINGS.iter().find(|(spelling, _)| *spelling == plain).map_or(plain.as_str(), |(_, symbol)| symbol);
+    let joined = |unit: &&UnitSymbol| unit.symbol.replace('*', "") == plain.replace('*', "");
+    if let Some(unit) = exact(plain).or_else(|| UNITS.iter().find(joined)) {
+        return Some(unit);
+    }
+    // `mPa` and `Mm` are other units, a thousandth and a million times the size.
+    let letters = || plain.chars().filter(|c| c.is_alphabetic());
+    let of_one_size = letters().all(char::is_uppercase) || letters().all(char::is_lowercase);
+    let prefix = |symbol: &str| symbol.chars().next().filter(|c| matches!(c, 'm' | 'M'));
+    let folded = |text: &str| text.to_lowercase().replace('*', "");
+    let symbol =
+        SPELLINGS.iter().find(|(spelling, _)| folded(spelling) == folded(plain)).map_or(plain, |(_, symbol)| symbol);
+    UNITS.iter().find(|unit| {
+        kind == Some(unit.dimension)
+            && folded(unit.symbol) == folded(symbol)
+            && (of_one_size || prefix(unit.symbol) == prefix(plain))
+    })
+}
+
 impl Dimension {
+    /// Spellings of the units that fit in addition to those of [`Dimension::unit_list`], for a schema.
+    pub(crate) fn spellings(self) -> impl Iterator<Item = &'static str> {
+        let own = move |symbol: &str| UNITS.iter().any(|unit| unit.symbol == symbol && unit.dimension == self);
+        let others = UNITS.iter().filter(move |unit| unit.dimension == self && !unit.symbol.is_ascii());
+        let others = others.map(|unit| unit.symbol);
+        others.chain(SPELLINGS.iter().filter(move |(_, symbol)| own(symbol)).map(|(spelling, _)| *spelling))
+    }
+
     /// The units that fit, in the order of the documentation, as one list for a message: `um, mm, cm, m, in`.
     #[must_use]
     pub fn unit_list(self) -> String {
@@ -146,7 +230,7 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// Why a text is not a quantity of the kind asked for.
+/// Why a text is not a quantity of the required kind.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum QuantityError {
@@ -162,7 +246,23 @@ pub enum QuantityError {
         /// The text.
         found: String,
     },
-    /// A number alone.
+    /// A comma in a number.
+    #[error("`{found}` has a comma: write a decimal point, `{meant}`")]
+    Comma {
+        /// The text.
+        found: String,
+        /// What was probably meant.
+        meant: String,
+    },
+    /// A fraction such as 1/2.
+    #[error("`{found}` is a fraction: write it with a decimal point, `{meant}`")]
+    Fraction {
+        /// The text.
+        found: String,
+        /// What was probably meant.
+        meant: String,
+    },
+    /// A number without a unit.
     #[error("`{found}` has no unit")]
     MissingUnit {
         /// The text.
@@ -181,7 +281,7 @@ pub enum QuantityError {
         unit: &'static str,
         /// Its kind.
         found: Dimension,
-        /// The kind asked for.
+        /// The required kind.
         expected: Dimension,
     },
     /// A unit where a bare number is expected.
@@ -194,14 +294,14 @@ pub enum QuantityError {
 
 /// A parsed quantity: its SI value and the unit it was written in, for messages in the user's own unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Quantity {
+pub struct ParsedQuantity {
     /// The value in SI units or radians.
     pub si: f64,
     symbol: &'static str,
     si_per_unit: f64,
 }
 
-impl Quantity {
+impl ParsedQuantity {
     /// The unit it was written in: its symbol, and one of it in SI units or radians.
     #[must_use]
     pub fn unit(&self) -> (&'static str, f64) {
@@ -211,7 +311,7 @@ impl Quantity {
     /// An SI value written in the unit of this quantity, `"0.9 at"`.
     #[must_use]
     pub fn in_same_unit(&self, si: f64) -> String {
-        // Ten digits drop the rounding of the conversion and keep everything a person typed.
+        // Ten digits drop the rounding of the conversion and keep everything a user typed.
         let number: f64 = format!("{:.9e}", si / self.si_per_unit).parse().unwrap_or(si);
         format!("{number} {}", self.symbol)
     }
@@ -219,7 +319,7 @@ impl Quantity {
 
 /// Longest text of a quantity, bytes: all digits of a number, and a unit.
 const LONGEST: usize = 500;
-/// Characters of a text that an error quotes.
+/// Most characters of a text that an error quotes.
 const MOST_QUOTED: usize = 60;
 
 /// A text as an error quotes it.
@@ -244,11 +344,44 @@ fn split_number(text: &str) -> Option<(f64, &str)> {
     })
 }
 
+/// A number with a comma, or a fraction: read as far as the sign, what follows would be taken for a unit.
+fn other_number(text: &str) -> Option<QuantityError> {
+    let text = text.trim();
+    let digits = |text: &str| text.chars().take_while(char::is_ascii_digit).count();
+    let (whole, rest) = text.split_at(text.find([',', '/'])?);
+    let (sign, rest) = rest.split_at(1);
+    let whole_digits = whole.strip_prefix(['-', '+']).unwrap_or(whole);
+    let count = digits(rest);
+    if count == 0 || whole_digits.is_empty() || text.len() > LONGEST {
+        return None;
+    }
+    let (decimals, unit) = rest.split_at(count);
+    let found = quoted(text);
+    if sign == "," {
+        // `1.234,5` is a number with points for the thousands.
+        let is_number = whole_digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+        let whole = whole.replace('.', "");
+        let mut meant = quoted(&format!("{whole}.{decimals}{unit}"));
+        if count == 3 {
+            // Three digits may be thousands as well.
+            meant = format!("{meant}` or `{}", quoted(&format!("{whole}{decimals}{unit}")));
+        }
+        return is_number.then_some(QuantityError::Comma { found, meant });
+    }
+    // `1/2 in` and `1 1/2 in`.
+    let (before, above) =
+        whole.rsplit_once([' ', '-']).filter(|(before, _)| !before.is_empty()).unwrap_or(("0", whole));
+    let (before, above, below) = (before.trim().parse::<f64>(), above.parse::<f64>(), decimals.parse::<f64>());
+    let (before, above, below) = (before.ok()?, above.ok()?, below.ok()?);
+    let meant = quoted(&format!("{}{unit}", before + above / below));
+    (below > 0.0).then_some(QuantityError::Fraction { found, meant })
+}
+
 /// Parses a quantity of the given kind.
 ///
 /// # Errors
 /// Every case of [`QuantityError`] but `NotBare`.
-pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, QuantityError> {
+pub fn parse(text: &str, dimension: Dimension) -> Result<ParsedQuantity, QuantityError> {
     let found = quoted(text);
     let Some((number, symbol)) = split_number(text) else {
         return Err(QuantityError::NotANumber { found });
@@ -259,8 +392,8 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, QuantityError
     if symbol.is_empty() {
         return Err(QuantityError::MissingUnit { found });
     }
-    let Some(unit) = UNITS.iter().find(|u| u.symbol == symbol) else {
-        return Err(QuantityError::UnknownUnit { unit: quoted(symbol) });
+    let Some(unit) = unit_of(symbol, Some(dimension)) else {
+        return Err(other_number(text).unwrap_or_else(|| QuantityError::UnknownUnit { unit: quoted(symbol) }));
     };
     if unit.dimension != dimension {
         return Err(QuantityError::WrongKind { unit: unit.symbol, found: unit.dimension, expected: dimension });
@@ -269,17 +402,17 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<Quantity, QuantityError
     if !si.is_finite() {
         return Err(QuantityError::NotFinite { found });
     }
-    Ok(Quantity { si, symbol: unit.symbol, si_per_unit: unit.multiply / unit.divide })
+    Ok(ParsedQuantity { si, symbol: unit.symbol, si_per_unit: unit.multiply / unit.divide })
 }
 
 /// A derivative of a position, by the cam angle or by the time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rate {
+pub struct DerivativeValue {
     /// Metres or radians per radian or second, to the power of its order.
     pub value: f64,
-    /// Of an angle; else of a length.
+    /// Whether it is the derivative of an angle; else of a length.
     pub swing: bool,
-    /// Per second; else per radian of the cam.
+    /// Whether it is per second; else per radian of the cam.
     pub by_time: bool,
 }
 
@@ -288,29 +421,28 @@ pub struct Rate {
 ///
 /// # Errors
 /// Every case of [`QuantityError`] but `WrongKind` and `NotBare`.
-pub fn parse_rate(text: &str, order: u32) -> Result<Rate, QuantityError> {
+pub fn parse_rate(text: &str, order: u32) -> Result<DerivativeValue, QuantityError> {
     let text = text.trim().replace('²', "2").replace('³', "3").replace('^', "");
     let found = quoted(&text);
     let Some((number, symbol)) = split_number(&text) else { return Err(QuantityError::NotANumber { found }) };
     if symbol.is_empty() {
         return Err(QuantityError::MissingUnit { found });
     }
-    let unknown = || QuantityError::UnknownUnit { unit: quoted(symbol) };
+    let unknown = || other_number(&text).unwrap_or_else(|| QuantityError::UnknownUnit { unit: quoted(symbol) });
     let (of, by) = symbol.split_once('/').ok_or_else(unknown)?;
-    let of = UNITS.iter().find(|unit| unit.symbol == of.trim()).ok_or_else(unknown)?;
+    let unit = |symbol: &str, kind| unit_of(symbol.trim(), Some(kind)).filter(|unit| unit.dimension == kind);
+    let of = unit(of, Dimension::Length).or_else(|| unit(of, Dimension::Angle)).ok_or_else(unknown)?;
     let power = if order == 1 { String::new() } else { order.to_string() };
     let by = by.trim().strip_suffix(power.as_str()).ok_or_else(unknown)?;
-    let by = UNITS.iter().find(|unit| unit.symbol == by).ok_or_else(unknown)?;
-    let turning = matches!(by.symbol, "deg" | "rad");
-    if !matches!(of.dimension, Dimension::Length | Dimension::Angle) || !(turning || by.symbol == "s") {
-        return Err(unknown());
-    }
+    let by = unit(by, Dimension::Angle).or_else(|| unit(by, Dimension::Time).filter(|unit| unit.symbol == "s"));
+    let by = by.ok_or_else(unknown)?;
+    let turning = by.dimension == Dimension::Angle;
     let each = by.multiply / by.divide;
     let value = number * of.multiply / of.divide / (0..order).fold(1.0, |power, _| power * each);
     if !value.is_finite() {
         return Err(QuantityError::NotFinite { found });
     }
-    Ok(Rate { value, swing: of.dimension == Dimension::Angle, by_time: !turning })
+    Ok(DerivativeValue { value, swing: of.dimension == Dimension::Angle, by_time: !turning })
 }
 
 /// Parses a bare number: a ratio, an exponent, revolutions per minute.
@@ -323,7 +455,7 @@ pub fn parse_bare(text: &str) -> Result<f64, QuantityError> {
         None => Err(QuantityError::NotANumber { found }),
         Some((number, _)) if !number.is_finite() => Err(QuantityError::NotFinite { found }),
         Some((number, "")) => Ok(number),
-        Some(_) => Err(QuantityError::NotBare { found }),
+        Some(_) => Err(other_number(text).unwrap_or(QuantityError::NotBare { found })),
     }
 }
 
@@ -352,6 +484,29 @@ mod tests {
             ("0.2 N*m*s/rad", Dimension::TorsionalDamping, 0.2),
             ("40Hz", Dimension::Frequency, 40.0),
             ("12 kg*cm2", Dimension::Inertia, 1.2e-3),
+            // As people type them.
+            ("30°", Dimension::Angle, 0.523_598_775_598_298_8),
+            ("30 degrees", Dimension::Angle, 0.523_598_775_598_298_8),
+            ("12 MM", Dimension::Length, 0.012),
+            ("1.5\"", Dimension::Length, 0.0381),
+            ("1.5 inch", Dimension::Length, 0.0381),
+            ("7 μm", Dimension::Length, 7e-6),
+            ("12 Nm", Dimension::Moment, 12.0),
+            ("12 N·m", Dimension::Moment, 12.0),
+            ("12 N m", Dimension::Moment, 12.0),
+            ("12 nm", Dimension::Moment, 12.0),
+            ("8 kN/m", Dimension::Stiffness, 8000.0),
+            ("8 n/mm", Dimension::Stiffness, 8000.0),
+            ("10 lbf/in", Dimension::Stiffness, 1_751.268_352_464_764_5),
+            ("450 g", Dimension::Mass, 0.45),
+            ("4 KG", Dimension::Mass, 4.0),
+            ("4 Kg", Dimension::Mass, 4.0),
+            ("200 Mpa", Dimension::Pressure, 200e6),
+            ("200 mpa", Dimension::Pressure, 200e6),
+            ("200 N/mm²", Dimension::Pressure, 200e6),
+            ("0.02 kg·m²", Dimension::Inertia, 0.02),
+            ("0.02 kg m^2", Dimension::Inertia, 0.02),
+            ("7.85 g/cm³", Dimension::Density, 7850.0),
         ];
         for (text, dimension, si) in cases {
             let got = parse(text, dimension).expect(text).si;
@@ -370,6 +525,9 @@ mod tests {
             ("1.5 deg/deg", 1, 1.5, true, false),
             ("90deg/s", 1, 0.5 * std::f64::consts::PI, true, true),
             ("3 mm/rad³", 3, 3e-3, false, false),
+            ("0.5 mm/°", 1, 0.5e-3 / degree, false, false),
+            ("90 °/s", 1, 0.5 * std::f64::consts::PI, true, true),
+            ("2 MM/S", 1, 2e-3, false, true),
         ] {
             let rate = parse_rate(text, order).expect(text);
             assert!((rate.value - value).abs() <= 4.0 * f64::EPSILON * value.abs(), "{text}: {rate:?}");
@@ -392,7 +550,21 @@ mod tests {
         assert_eq!(length("1e999 mm"), E::NotFinite { found: "1e999 mm".into() });
         assert_eq!(length("180"), E::MissingUnit { found: "180".into() });
         assert_eq!(length("180 ells"), E::UnknownUnit { unit: "ells".into() });
-        assert_eq!(length("2,5 mm"), E::UnknownUnit { unit: ",5 mm".into() });
+        let comma = |found: &str, meant: &str| E::Comma { found: found.into(), meant: meant.into() };
+        assert_eq!(length("2,5 mm"), comma("2,5 mm", "2.5 mm"));
+        assert_eq!(length("1.234,5 mm"), comma("1.234,5 mm", "1234.5 mm"));
+        assert_eq!(length("10,000 mm"), comma("10,000 mm", "10.000 mm` or `10000 mm"));
+        assert!(length("-2,5mm").to_string().ends_with("write a decimal point, `-2.5mm`"));
+        assert_eq!(parse_bare("0,5"), Err(comma("0,5", "0.5")));
+        assert_eq!(parse_rate("0,5 mm/deg", 1), Err(comma("0,5 mm/deg", "0.5 mm/deg")));
+        let fraction = |found: &str, meant: &str| E::Fraction { found: found.into(), meant: meant.into() };
+        assert_eq!(length("1/2 in"), fraction("1/2 in", "0.5 in"));
+        assert_eq!(length("1 1/2 in"), fraction("1 1/2 in", "1.5 in"));
+        assert_eq!(length("1-3/4\""), fraction("1-3/4\"", "1.75\""));
+        // Of these the size of the letters says how large they are.
+        for other in ["Mm", "mPa"] {
+            assert_eq!(length(&format!("2 {other}")), E::UnknownUnit { unit: other.into() });
+        }
         assert_eq!(length("180 kg"), E::WrongKind { unit: "kg", found: Dimension::Mass, expected: Dimension::Length });
         assert_eq!(parse_bare("35 rpm"), Err(E::NotBare { found: "35 rpm".into() }));
         assert_eq!(parse_bare(" 35 "), Ok(35.0));

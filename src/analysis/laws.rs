@@ -1,17 +1,18 @@
-//! Every law of motion at the numbers of a design: peaks, and with a file what each makes of its cam.
+//! Every law of motion at the numbers of a design: peaks, and with a file the figures of the cam.
 
-mod told;
+mod report;
 
-use super::Analysis;
+use super::{Analysis, Picture};
 use crate::body::disc::Disc;
-use crate::body::{Body, Kind};
+use crate::body::{Figures, Kind};
 use crate::document::{Input, LengthOrAngle, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
-use crate::motion::laws::{Curve, End, LAWS, Law, LawError, Task};
+use crate::motion::laws::{LAWS, Law, LawCurve, LawTask, SegmentEnd};
 use crate::motion::program::Program;
 use crate::motion::{Motion, Quantity};
 use crate::numeric::parallel;
+use crate::refusal::Refusal;
 use crate::report::Speeds;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -21,50 +22,24 @@ pub const KIND: Kind = Kind { command: "laws", noun: "laws of motion", keys: cam
 
 /// Travel and cam angle of the segment when neither flags nor a file give them, m and degrees.
 const USUAL: (f64, f64) = (0.03, 120.0);
-/// Harmonics that are told.
+/// Number of harmonics in the report.
 const HARMONICS: u32 = 8;
 /// About a ratio of rise time to natural period the worst residual is looked for within this share.
 const ABOUT: f64 = 0.2;
 
-/// What is asked for.
+/// What laws are compared for.
 #[derive(Debug, Clone, Default)]
-pub struct Asked {
+pub struct LawsOptions {
     /// Travel of the segment; of the largest one of the file when absent, else 30 mm.
     pub lift: Option<LengthOrAngle>,
-    /// Cam angle that it takes, rad; of the same segment when absent, else 120°.
+    /// Cam angle that it takes, rad; of that segment when absent, else 120°.
     pub over: Option<f64>,
     /// Speed of the cam, rpm; that of the file when absent.
     pub rpm: Option<f64>,
-    /// The column by which the laws are sorted.
+    /// The column by which the laws are sorted; by the peak acceleration when absent, those whose acceleration jumps last.
     pub sort: Option<String>,
-}
-
-/// Why the laws are not compared.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LawsError {
-    /// The file has no motion.
-    #[error("the machine file has no [motion]: `camgen laws` compares laws for what `camgen make` cuts")]
-    NoMotion,
-    /// No segment can take another law.
-    #[error("no segment of the program leads from rest to rest: there is none that takes another law")]
-    NoRise,
-    /// A length for an angle, or the other way round.
-    #[error("--lift is {lift}, but the motion of the file is {motion}")]
-    WrongQuantity {
-        /// What was given.
-        lift: &'static str,
-        /// What the file has.
-        motion: &'static str,
-    },
-    /// There is no such column.
-    #[error("there is no column `{found}` to sort by; one of {known}")]
-    NoColumn {
-        /// As given.
-        found: String,
-        /// Those that there are.
-        known: String,
-    },
+    /// The laws that are compared; all when it is empty.
+    pub laws: Vec<&'static Law>,
 }
 
 /// The segment that every law moves.
@@ -81,23 +56,23 @@ struct Rise {
     periods: Option<f64>,
 }
 
-/// What is told of a law; what is not known is NaN. Derivatives are by the cam angle, m or rad per rad.
+/// The figures of a law; what is not known is NaN. Derivatives are by the cam angle, m or rad per rad.
 #[derive(Debug, Clone)]
-struct Row {
+struct LawRow {
     law: &'static Law,
-    curve: Curve,
+    curve: LawCurve,
     /// Cv, Ca, Cj, C(va) and ∫a².
     coefficients: [f64; 5],
     efficiency: f64,
-    /// Of what a load swings by behind the rise, over it: at the ratio, and the worst about it.
+    /// Residual vibration of a load after the rise, over the lift: at the ratio, and the worst about it.
     residual: [f64; 2],
     rise: Rise,
-    cam: Option<OfCam>,
+    cam: Option<LawCamFigures>,
 }
 
 /// What a law makes of the cam of a file.
 #[derive(Debug, Clone, PartialEq)]
-struct OfCam {
+struct LawCamFigures {
     pressure_angle: f64,
     convex_radius: f64,
     prime_radius: f64,
@@ -109,9 +84,21 @@ struct OfCam {
     harmonics: Vec<f64>,
 }
 
+fn without_motion() -> Refusal {
+    Refusal::new("the machine file has no [motion]")
+        .remedy("give the file of a cam that `camgen make` cuts, or no file")
+}
+
+fn without_rise() -> Refusal {
+    Refusal::new("no segment of the program leads from rest to rest").remedy("only such a segment can take another law")
+}
+
 impl Rise {
-    fn of(program: Option<&Program>, asked: &Asked, machine: Option<&Machine>) -> Result<Self, LawsError> {
-        let own = program.map(|program| program.largest_rise().ok_or(LawsError::NoRise)).transpose()?;
+    fn of(program: Option<&Program>, asked: &LawsOptions, machine: Option<&Machine>) -> Result<Self, Refusal> {
+        let own = match program {
+            Some(program) => Some(program.largest_rise().ok_or_else(without_rise)?),
+            None => None,
+        };
         let (lift, over) = own.unwrap_or((USUAL.0, USUAL.1.to_radians()));
         let (asked_quantity, lift) = match asked.lift {
             Some(LengthOrAngle::Length(lift)) => (Some(Quantity::Length), lift),
@@ -122,7 +109,8 @@ impl Rise {
         if let (Some(asked), Some(own)) = (asked_quantity, of_file)
             && asked != own
         {
-            return Err(LawsError::WrongQuantity { lift: asked.words(), motion: own.words() });
+            let (lift, motion) = (asked.words(), own.words());
+            return Err(Refusal::new(format!("--lift is {lift}, but the motion of the file is {motion}")));
         }
         let rpm = asked.rpm.or(program.and_then(Program::rpm));
         let over = asked.over.unwrap_or(over);
@@ -134,21 +122,18 @@ impl Rise {
 }
 
 /// The curve of a law from rest to rest; where it has none from rest to a turn, or its straight line.
-fn curve(law: &Law) -> Result<Curve, LawError> {
-    let tasks = [Task::default(), Task::between(End::Rest, End::Turn)];
-    tasks.iter().find_map(|task| law.solve(task).ok()).map_or_else(|| Ok(Curve::line()), Ok)
+fn curve(law: &Law) -> LawCurve {
+    let tasks = [LawTask::default(), LawTask::between(SegmentEnd::Rest, SegmentEnd::Turn)];
+    tasks.iter().find_map(|task| law.solve(task).ok()).unwrap_or_else(LawCurve::line)
 }
 
-fn row(law: &'static Law, rise: Rise, cam: Option<OfCam>) -> Option<Row> {
-    let curve = curve(law).ok()?;
+fn row(law: &'static Law, rise: Rise, cam: Option<LawCamFigures>) -> LawRow {
+    let curve = curve(law);
     let peaks = curve.peaks();
     // A jump of the velocity at the ends is an impact, one of the acceleration a jerk without bound.
     let jumps = |order: usize, peak: f64| {
         let ends = [curve.at(0, 0.0), curve.at(curve.parts().saturating_sub(1), 1.0)];
-        let turns = !law.serves_rests();
-        ends.iter()
-            .take(if turns { 1 } else { 2 })
-            .any(|end| end.get(order).is_some_and(|value| value.abs() > 1e-9 * peak))
+        ends.iter().any(|end| end.get(order).is_some_and(|value| value.abs() > 1e-9 * peak))
     };
     let impact = jumps(1, peaks.velocity.value);
     let or = |jumps: bool, value: f64| if jumps { f64::INFINITY } else { value };
@@ -158,7 +143,7 @@ fn row(law: &'static Law, rise: Rise, cam: Option<OfCam>) -> Option<Row> {
         let about = (1.0 - ABOUT) * periods..(1.0 + ABOUT) * periods;
         [curve.residual(periods), curve.largest_residual(about).value]
     });
-    Some(Row {
+    LawRow {
         law,
         coefficients: [
             peaks.velocity.value,
@@ -172,18 +157,18 @@ fn row(law: &'static Law, rise: Rise, cam: Option<OfCam>) -> Option<Row> {
         curve,
         rise,
         cam,
-    })
+    }
 }
 
 /// What a law makes of the cam of a machine; `None` where the law does not serve its program, or there is no such cam.
-fn of_cam(machine: &Machine, program: &Program, law: &'static Law, rpm: Option<f64>) -> Option<OfCam> {
+fn of_cam(machine: &Machine, program: &Program, law: &'static Law, rpm: Option<f64>) -> Option<LawCamFigures> {
     let program = program.with_law(law)?;
     let waves = program.harmonics(HARMONICS).waves;
     let harmonics = waves.iter().map(|[cosine, sine]| libm::hypot(*cosine, *sine)).collect();
     let disc = Disc::of_motion(machine, Arc::new(program), rpm).ok()?;
     let jump = disc.jump().and_then(Result::ok).map_or(f64::NAN, |jump| jump.value);
     let most = |found: Option<f64>| found.unwrap_or(f64::NAN);
-    Some(OfCam {
+    Some(LawCamFigures {
         pressure_angle: disc.pressure_angle().value,
         convex_radius: disc.least_rolled_radius().value,
         prime_radius: disc.prime_radius(),
@@ -197,19 +182,31 @@ fn of_cam(machine: &Machine, program: &Program, law: &'static Law, rpm: Option<f
 
 /// Every law at the numbers of a file, or of the flags alone.
 ///
+/// ```
+/// use camgen::analysis::laws::{self, LawsOptions};
+///
+/// let all = laws::analysis(None, &LawsOptions { over: Some(1.5), rpm: Some(200.0), ..LawsOptions::default() })?;
+/// let (_, table) = &all.tables[0];
+/// assert!(table.rows.len() > 20 && table.columns.contains(&"cv"));
+/// # Ok::<(), camgen::Refusal>(())
+/// ```
+///
 /// # Errors
-/// [`LawsError`] when the file has no motion, none of its segments leads from rest to rest, or there is no column to sort by.
-pub fn analysis(machine: Option<&Machine>, asked: &Asked) -> Result<Analysis, LawsError> {
-    let program = machine.map(|machine| machine.program().ok_or(LawsError::NoMotion)).transpose()?;
+/// [`Refusal`] when the file has no motion, none of its segments leads from rest to rest, or there is no column to sort by.
+pub fn analysis(machine: Option<&Machine>, asked: &LawsOptions) -> Result<Analysis, Refusal> {
+    let program = match machine {
+        Some(machine) => Some(machine.program().ok_or_else(without_motion)?),
+        None => None,
+    };
     let rise = Rise::of(program, asked, machine)?;
     let rpm = asked.rpm.or(program.and_then(Program::rpm));
-    let laws: Vec<&'static Law> = LAWS.iter().collect();
-    let made = parallel::map(&laws, |&law| {
+    let all = || LAWS.iter().collect::<Vec<&'static Law>>();
+    let laws = if asked.laws.is_empty() { all() } else { asked.laws.clone() };
+    let mut rows = parallel::map(&laws, |&law| {
         let cam = machine.zip(program).and_then(|(machine, program)| of_cam(machine, program, law, rpm));
         row(law, rise, cam)
     });
-    let mut rows: Vec<Row> = made.into_iter().flatten().collect();
-    let sorted_by = told::sort(&mut rows, asked.sort.as_deref())?;
+    let sorted_by = report::sort(&mut rows, asked.sort.as_deref())?;
     let name = machine.map_or("laws", Machine::name);
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.iter().flat_map(|machine| machine.inputs(KIND.keys)));
@@ -218,20 +215,23 @@ pub fn analysis(machine: Option<&Machine>, asked: &Asked) -> Result<Analysis, La
     inputs.push(Input::quantity("lift", rise.lift, unit));
     inputs.push(Input::quantity("over", rise.over, ("deg", 1.0_f64.to_radians())));
     inputs.push(Input::word("sort", sorted_by));
+    let named = asked.laws.iter().map(|law| law.name).collect::<Vec<_>>().join(" ");
+    inputs.extend((!named.is_empty()).then(|| Input::word("laws", named)));
     Ok(Analysis {
         kind: &KIND,
         machine: name.to_owned(),
         speeds: rpm.map_or(Speeds::Any(()), Speeds::One),
         inputs,
-        sections: vec![told::section(&rows, rise, machine.is_some())],
+        sections: vec![report::section(&rows, rise, machine.is_some())],
         measures: Vec::new(),
-        notes: machine.map(|machine| machine.idle_keys_told(KIND.keys, KIND.noun)).unwrap_or_default(),
-        plot: told::plot(name, &rows, rise),
+        notes: machine.map(|machine| machine.idle_key_notes(KIND.keys, KIND.noun)).unwrap_or_default(),
+        picture: Picture::Curves(report::plot(name, &rows, rise)),
         mechanism: None,
         document: None,
-        tables: vec![("", told::table(&rows))],
+        tables: vec![("", report::table(&rows))],
         by: &[],
         along: "cv",
+        diagrams: &[],
         not_modelled: Vec::new(),
     })
 }

@@ -1,55 +1,26 @@
-//! Analyses: what a machine does, in figures, tables and curves, without a part that is cut.
+//! Analyses: figures, tables and curves of a machine, without a part that is cut.
 //!
 //! An analysis is plain data, made by one function from a machine. Checks judge its measures, formats write its tables and its
-//! plot. A new one is a file here, one line in [`KINDS`] and its command.
+//! plot. A new one is a file here, a line in the catalogue and its command.
 
-pub mod brake;
-pub mod drive;
 pub mod laws;
-pub mod linkage;
-pub mod regimes;
-pub mod shaft;
 pub mod size;
-pub mod spring;
 
 use crate::body::Kind;
+use crate::check::Measure;
 use crate::document::Input;
-use crate::report::mechanism::Mechanism;
-use crate::report::plot::Plot;
+use crate::report::chart::{self, Chart};
+use crate::report::diagram::Diagram;
+use crate::report::mechanism::MovingMechanism;
+use crate::report::plot::{self, Plot};
+use crate::report::sheet::Sheet;
 use crate::report::{Section, Speeds};
 use crate::table::Table;
-
-/// Every kind of analysis.
-pub const KINDS: &[&Kind] = &[
-    &regimes::KIND,
-    &spring::KIND,
-    &drive::KIND,
-    &linkage::KIND,
-    &shaft::KIND,
-    &brake::KIND,
-    &size::KIND,
-    &laws::KIND,
-];
-
-/// A figure that a check judges.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measure {
-    /// The check.
-    pub check: &'static str,
-    /// The figure.
-    pub value: f64,
-    /// What it is held against, where it has a limit.
-    pub limit: Option<f64>,
-    /// Unit of both.
-    pub unit: &'static str,
-    /// Where it is, and what would keep the limit.
-    pub note: Option<String>,
-}
 
 /// What the names of the files of a table end with, before the ending of their format.
 pub type Listing = (&'static str, Table);
 
-/// What was found.
+/// The results of an analysis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Analysis {
     /// Its kind.
@@ -60,7 +31,7 @@ pub struct Analysis {
     pub speeds: Speeds,
     /// Everything that determines it.
     pub inputs: Vec<Input>,
-    /// What the report tells.
+    /// The sections of the report.
     pub sections: Vec<Section>,
     /// What checks judge.
     pub measures: Vec<Measure>,
@@ -68,24 +39,46 @@ pub struct Analysis {
     pub notes: Vec<String>,
     /// Its tables: the figures, then the curves.
     pub tables: Vec<Listing>,
-    /// The first values of a place of a curve, by which curves are told apart, as `rpm`; none where there is one curve of each kind.
+    /// The first values of a place of a curve, which distinguish the curves, such as `rpm`; empty where there is one curve of each kind.
     pub by: &'static [&'static str],
     /// The value along which the curves run.
     pub along: &'static str,
-    /// The curves on paper.
-    pub plot: Plot,
+    /// The picture on paper.
+    pub picture: Picture,
     /// The mechanism as it moves, with a sample at each row of the last table; none where nothing moves.
-    pub mechanism: Option<Mechanism>,
+    pub mechanism: Option<MovingMechanism>,
     /// A table of a machine file that describes what was analysed; none where there is nothing to paste.
     pub document: Option<String>,
+    /// Which of its columns are drawn together, before what is drawn of every analysis.
+    pub diagrams: &'static [Diagram],
     /// What is not modelled of the machine, a sentence each.
     pub not_modelled: Vec<&'static str>,
 }
 
-/// Places along a stroke or an angle at which curves are told.
-const PLACES: u32 = 180;
+/// A picture on paper.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Picture {
+    /// Curves over a quantity that they share.
+    Curves(Plot),
+    /// Points by two quantities, in decades.
+    Chart(Chart),
+}
+
+impl Picture {
+    /// The picture on a sheet, with the mark of its report.
+    #[must_use]
+    pub fn sheet(&self, mark: &str) -> Sheet {
+        match self {
+            Self::Curves(curves) => plot::sheet(curves, mark),
+            Self::Chart(points) => chart::sheet(points),
+        }
+    }
+}
+
+/// Number of equal steps along a stroke or an angle at which curves are tabulated.
+pub(crate) const PLACES: u32 = 180;
 
 /// Equal places from 0 to an end, both ends included.
-fn places(end: f64) -> impl Iterator<Item = f64> + Clone {
+pub(crate) fn places(end: f64) -> impl Iterator<Item = f64> + Clone {
     (0..=PLACES).map(move |i| if i == PLACES { end } else { end * f64::from(i) / f64::from(PLACES) })
 }

@@ -1,16 +1,18 @@
-//! The smallest disc for a motion program, what binds it, and how its size changes with the place of its follower.
+//! The smallest disc for a motion program, the limit that decides, and how its size changes with the place of its follower.
 
-use super::Analysis;
-use crate::body::disc::{Best, Disc, DiscError, SizeTold};
-use crate::body::{Body, Kind};
-use crate::document::{Input, cams};
-use crate::follower::Place;
+use super::{Analysis, Picture};
+use crate::body::disc::{BestPlace, Disc, SizeFigures};
+use crate::body::{Body, Figures, Kind};
+use crate::document::{Input, NamedChoice, cams};
+use crate::follower::FollowerPlacement;
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::numeric::parallel;
-use crate::report::plot::{Curve, Panel, Plot};
+use crate::refusal::Refusal;
+use crate::report::diagram::{Diagram, PlottedValue, diagram};
+use crate::report::plot::{Plot, PlotCurve, PlotPanel};
 use crate::report::{Section, Speeds, shown};
-use crate::table::{Table, Told};
+use crate::table::{ListedColumn, Table};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -23,43 +25,32 @@ const STEPS: u32 = 40;
 const PLACES_REACH: f64 = 0.6;
 /// Rounding of the smallest size, as a share of it.
 const ROUNDING: f64 = 1e-9;
+/// Cam angles that are listed of those that limit the size.
+const MOST_ANGLES: usize = 8;
 /// From and to which share of the smallest base radius a table of sizes reaches.
 const SIZES: (f64, f64) = (0.6, 2.0);
 
-/// What may be left open beside the base radius.
+/// What may be chosen in addition to the base radius.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Free {
+pub enum FreeDimension {
     /// The offset of a roller or a knife edge on a straight path.
     Offset,
-    /// Where the pivot of an arm stands.
+    /// The pivot distance of an arm.
     Pivot,
 }
 
-/// Why nothing is sized.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SizeError {
-    /// There is nothing to size.
-    #[error("the machine file has no [motion]: `camgen size` is for what `camgen make` cuts")]
-    NoMotion,
-    /// The follower has no such place to choose.
-    #[error("--free {asked}: {path} has no {asked} to choose{}", has.map_or(String::new(), |has| format!("; it has --free {has}")))]
-    NotFree {
-        /// As asked for.
-        asked: &'static str,
-        /// The follower's table.
-        path: &'static str,
-        /// What may be chosen.
-        has: Option<&'static str>,
-    },
-    /// There is no such disc.
-    #[error(transparent)]
-    Disc(#[from] DiscError),
+impl NamedChoice for FreeDimension {
+    const ALL: &'static [(&'static str, Self)] = &[
+        ("offset", Self::Offset),
+        ("pivot_distance", Self::Pivot),
+        ("pivot-distance", Self::Pivot),
+        ("arm", Self::Pivot),
+    ];
 }
 
 /// A size with its figures; what is not known is NaN.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct Row {
+struct SizeRow {
     /// Offset or pivot distance, mm.
     place: f64,
     prime_radius_mm: f64,
@@ -69,7 +60,7 @@ struct Row {
     convex_radius_mm: f64,
 }
 
-const BY_OFFSET: &[Told<Row>] = &[
+const BY_OFFSET: &[ListedColumn<SizeRow>] = &[
     ("offset_mm", |row| row.place),
     ("prime_radius_mm", |row| row.prime_radius_mm),
     ("base_radius_mm", |row| row.base_radius_mm),
@@ -77,7 +68,7 @@ const BY_OFFSET: &[Told<Row>] = &[
     ("pressure_angle_deg", |row| row.pressure_angle_deg),
     ("min_convex_radius_mm", |row| row.convex_radius_mm),
 ];
-const BY_PIVOT: &[Told<Row>] = &[
+const BY_PIVOT: &[ListedColumn<SizeRow>] = &[
     ("pivot_distance_mm", |row| row.place),
     ("prime_radius_mm", |row| row.prime_radius_mm),
     ("base_radius_mm", |row| row.base_radius_mm),
@@ -85,7 +76,7 @@ const BY_PIVOT: &[Told<Row>] = &[
     ("pressure_angle_deg", |row| row.pressure_angle_deg),
     ("min_convex_radius_mm", |row| row.convex_radius_mm),
 ];
-const BY_SIZE: &[Told<Row>] = &[
+const BY_SIZE: &[ListedColumn<SizeRow>] = &[
     ("base_radius_mm", |row| row.base_radius_mm),
     ("prime_radius_mm", |row| row.prime_radius_mm),
     ("pressure_angle_deg", |row| row.pressure_angle_deg),
@@ -96,59 +87,81 @@ const BY_SIZE: &[Told<Row>] = &[
 #[derive(Debug, Serialize)]
 struct Size {
     #[serde(flatten)]
-    told: SizeTold,
+    figures: SizeFigures,
     base_radius_mm: f64,
     prime_radius_mm: f64,
     /// The smallest by the pressure angle alone, over every place of the follower.
     #[serde(skip_serializing_if = "Option::is_none")]
-    least_by_pressure_angle: Option<Best>,
+    least_by_pressure_angle: Option<BestPlace>,
     /// Where it binds there, degrees of cam angle.
     binding_there_deg: Vec<f64>,
 }
 
-/// The machine with its size left open, and what of its follower's place is.
-fn opened(machine: &Machine, free: &[Free]) -> Result<Machine, SizeError> {
+/// The machine without a base radius, and with the requested part of its follower's position to be chosen.
+fn opened(machine: &Machine, free: &[FreeDimension]) -> Result<Machine, Refusal> {
     let follower = &machine.follower;
     let has = follower.shape.place();
     let mut place = follower.place;
     for asked in free {
         let fits = matches!(
             (asked, has),
-            (Free::Offset, Some(Place::Offset { .. })) | (Free::Pivot, Some(Place::Pivot { .. }))
+            (FreeDimension::Offset, Some(FollowerPlacement::Offset { .. }))
+                | (FreeDimension::Pivot, Some(FollowerPlacement::Pivot { .. }))
         );
         if !fits {
-            let asked = if *asked == Free::Offset { "offset" } else { "pivot_distance" };
-            return Err(SizeError::NotFree { asked, path: follower.path, has: has.map(Place::key) });
+            let asked = if *asked == FreeDimension::Offset { "offset" } else { "pivot_distance" };
+            let path = follower.path;
+            let refusal = Refusal::new(format!("--free {asked}: {path} has no {asked} to choose"));
+            return Err(match has {
+                Some(has) => refusal.remedy(format!("use --free {}", has.key())),
+                None => refusal,
+            });
         }
         place = has;
     }
-    Ok(machine.left_open(place))
+    let opened = machine.left_open(place);
+    // The roller of a ring runs inside of it.
+    let inside = opened.follower.inside().filter(|_| opened.cam.track.is_ring());
+    Ok(inside.map_or_else(|| opened.clone(), |follower| opened.with_follower(follower)))
 }
 
-/// The smallest disc of the motion program of a machine, with more of it left open than its file does; `rpm` in place of the speed
+/// The smallest disc of the motion program of a machine, with more of it to be chosen than in its file; `rpm` in place of the speed
 /// of the file.
 ///
+/// ```
+/// use camgen::{Judged, Machine};
+/// use camgen::analysis::size::{self, FreeDimension};
+///
+/// let (machine, _) = Machine::load("feeder", &[])?;
+/// let smallest = Judged::new(size::analysis(&machine, &[FreeDimension::Offset], None)?);
+/// let report = smallest.report();
+/// assert!(report.section("size").is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
-/// [`SizeError`] when the file has no motion, its follower no such place, or no size keeps the limits.
-pub fn analysis(machine: &Machine, free: &[Free], rpm: Option<f64>) -> Result<Analysis, SizeError> {
-    let (motion, of_file) = machine.motion().ok_or(SizeError::NoMotion)?;
+/// [`Refusal`] when the file has no motion, its follower no such place, or no size keeps the limits.
+pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> Result<Analysis, Refusal> {
+    let (motion, of_file) = machine.motion().ok_or_else(|| {
+        Refusal::new("the machine file has no [motion]").remedy("give the file of a cam that `camgen make` cuts")
+    })?;
     let rpm = rpm.or(of_file);
     let disc = Disc::of_motion(&opened(machine, free)?, motion, rpm)?;
     let place = disc.follower().place();
     let nearest = place.and_then(|place| Some((place, disc.nearest(place).ok()?)));
-    let told = disc.size();
+    let figures = disc.size();
     let size = Size {
         base_radius_mm: MILLIMETRES * disc.base_radius(),
         prime_radius_mm: MILLIMETRES * disc.prime_radius(),
         least_by_pressure_angle: nearest
             .as_ref()
-            .map(|(place, nearest)| Best::of(*place, (place.chosen(nearest.shaft), nearest.prime_radius))),
+            .map(|(place, nearest)| BestPlace::of(*place, (place.chosen(nearest.shaft), nearest.prime_radius))),
         binding_there_deg: nearest
             .iter()
             .flat_map(|(_, nearest)| &nearest.binding)
             .map(|binding| binding.at.rem_euclid(TAU).to_degrees())
             .collect(),
-        told,
+        figures,
     };
     let least = nearest.as_ref().map_or(0.0, |(_, nearest)| nearest.prime_radius * (1.0 - ROUNDING));
     let by_place = place.map(|place| (place, places(&disc, place, least)));
@@ -156,9 +169,9 @@ pub fn analysis(machine: &Machine, free: &[Free], rpm: Option<f64>) -> Result<An
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs(KIND.keys));
     inputs.extend(rpm.map(|rpm| Input::number("rpm", rpm)));
-    inputs.push(Input::word("free", size.told.free.join(" ")));
+    inputs.push(Input::word("free", size.figures.free.join(" ")));
     let of_place = by_place.as_ref().map(|(place, rows)| {
-        let columns = if matches!(place, Place::Offset { .. }) { BY_OFFSET } else { BY_PIVOT };
+        let columns = if matches!(place, FollowerPlacement::Offset { .. }) { BY_OFFSET } else { BY_PIVOT };
         ("", Table::listed(columns, rows))
     });
     let size_suffix = if of_place.is_some() { "-sizes" } else { "" };
@@ -169,16 +182,35 @@ pub fn analysis(machine: &Machine, free: &[Free], rpm: Option<f64>) -> Result<An
         inputs,
         sections: vec![Section::new(KIND.command, &size).with_words(words(&disc, &size, place))],
         measures: Vec::new(),
-        notes: machine.idle_keys_told(KIND.keys, KIND.noun),
-        plot: plot(machine.name(), by_place.as_ref(), &by_size),
+        notes: machine.idle_key_notes(KIND.keys, KIND.noun),
+        picture: Picture::Curves(plot(&disc, by_place.as_ref(), &by_size)),
         mechanism: None,
         document: None,
         tables: of_place.into_iter().chain([(size_suffix, Table::listed(BY_SIZE, &by_size))]).collect(),
         by: &[],
         along: "base_radius_mm",
+        diagrams: DIAGRAMS,
         not_modelled: Vec::new(),
     })
 }
+
+/// What the page draws over the base radius.
+const DIAGRAMS: &[Diagram] = &[
+    diagram(
+        "pressure-angle",
+        "Largest pressure angle",
+        &[("pressure_angle", "largest")],
+        &[("pressure_angle", PlottedValue::Itself)],
+        PlottedValue::Itself,
+    ),
+    diagram(
+        "radii",
+        "Prime radius, and smallest convex radius of curvature",
+        &[("prime_radius", "prime radius"), ("min_convex_radius", "smallest convex radius")],
+        &[],
+        PlottedValue::Itself,
+    ),
+];
 
 /// Equal steps between two values, both included.
 fn between(from: f64, to: f64) -> Vec<f64> {
@@ -186,8 +218,8 @@ fn between(from: f64, to: f64) -> Vec<f64> {
 }
 
 /// A disc of some size, with its figures.
-fn row(disc: Option<&Disc>, place: f64, by_pressure_angle: f64) -> Row {
-    Row {
+fn row(disc: Option<&Disc>, place: f64, by_pressure_angle: f64) -> SizeRow {
+    SizeRow {
         place: MILLIMETRES * place,
         prime_radius_mm: disc.map_or(f64::NAN, |disc| MILLIMETRES * disc.prime_radius()),
         base_radius_mm: disc.map_or(f64::NAN, |disc| MILLIMETRES * disc.base_radius()),
@@ -197,10 +229,11 @@ fn row(disc: Option<&Disc>, place: f64, by_pressure_angle: f64) -> Row {
     }
 }
 
-/// The smallest sizes over the places of the follower about where it stands; no place has a prime radius below `least`, m.
-fn places(disc: &Disc, place: Place, least: f64) -> Vec<Row> {
+/// The smallest sizes over places of the follower about its own; no place has a prime radius below `least`, m.
+fn places(disc: &Disc, place: FollowerPlacement, least: f64) -> Vec<SizeRow> {
     let (here, reach) = (place.of(&**disc.follower()), PLACES_REACH * disc.prime_radius());
-    let nearest = if matches!(place, Place::Pivot { .. }) { STEPS_ABOVE_ZERO * here } else { f64::NEG_INFINITY };
+    let nearest =
+        if matches!(place, FollowerPlacement::Pivot { .. }) { STEPS_ABOVE_ZERO * here } else { f64::NEG_INFINITY };
     let choices = between((here - reach).max(nearest), here + reach);
     parallel::map(&choices, |choice| {
         let smallest = disc.smallest_at(place, *choice, least);
@@ -214,7 +247,7 @@ fn places(disc: &Disc, place: Place, least: f64) -> Vec<Row> {
 const STEPS_ABOVE_ZERO: f64 = 0.05;
 
 /// What other sizes have.
-fn sizes(disc: &Disc) -> Vec<Row> {
+fn sizes(disc: &Disc) -> Vec<SizeRow> {
     let (from, to) = SIZES;
     let smallest =
         disc.smallest_prime_radius().map_or_else(|| disc.base_radius(), |radius| radius - disc.curves().offset());
@@ -223,16 +256,19 @@ fn sizes(disc: &Disc) -> Vec<Row> {
     parallel::map(&bases, |base| row(disc.of_prime_radius(base + disc.curves().offset()).as_ref(), place, f64::NAN))
 }
 
-fn words(disc: &Disc, size: &Size, place: Option<Place>) -> Vec<String> {
+fn words(disc: &Disc, size: &Size, place: Option<FollowerPlacement>) -> Vec<String> {
     let mut words =
         vec![format!("base radius {} mm, prime radius {} mm", shown(size.base_radius_mm), shown(size.prime_radius_mm))];
-    words.extend(disc.size_words(&size.told));
+    words.extend(disc.size_words(&size.figures));
     if let (Some(place), Some(least)) = (place, &size.least_by_pressure_angle) {
-        let name = if matches!(place, Place::Offset { .. }) { "offset" } else { "pivot distance" };
-        let at: Vec<String> = size.binding_there_deg.iter().map(|at| format!("{at:.3}°")).collect();
+        let name = if matches!(place, FollowerPlacement::Offset { .. }) { "offset" } else { "pivot distance" };
+        let mut at: Vec<String> =
+            size.binding_there_deg.iter().take(MOST_ANGLES).map(|at| format!("{at:.3}°")).collect();
+        let more = size.binding_there_deg.len().saturating_sub(MOST_ANGLES);
+        at.extend((more > 0).then(|| format!("{more} more places")));
         let choice = least.offset_mm.or(least.pivot_distance_mm).unwrap_or(f64::NAN);
         words.push(format!(
-            "by the pressure angle alone, over every {name}: prime radius {:.4} mm at {choice:.4} mm, held at {}",
+            "by the pressure angle alone, over every {name}: prime radius {:.4} mm at {choice:.4} mm, limited at {}",
             least.prime_radius_mm,
             at.join(" and ")
         ));
@@ -240,36 +276,81 @@ fn words(disc: &Disc, size: &Size, place: Option<Place>) -> Vec<String> {
     words
 }
 
-fn plot(machine: &str, by_place: Option<&(Place, Vec<Row>)>, by_size: &[Row]) -> Plot {
-    let curve = |name: &str, colour: usize, rows: &[Row], at: fn(&Row) -> f64, value: fn(&Row) -> f64| Curve {
-        name: name.into(),
-        colour,
-        bold: true,
-        points: rows.iter().map(|row| [at(row), value(row)]).collect(),
+/// Colour of a limit among those of the curves.
+const RED: usize = 4;
+
+/// A curve of rows.
+fn curve(name: &str, colour: usize, rows: &[SizeRow], values: [fn(&SizeRow) -> f64; 2]) -> PlotCurve {
+    let points = rows.iter().map(|row| values.map(|value| value(row))).collect();
+    PlotCurve { name: name.into(), colour, bold: true, points }
+}
+
+/// The mark of the chosen cam.
+fn circle(chosen: &SizeRow, values: [fn(&SizeRow) -> f64; 2]) -> PlotCurve {
+    curve("", 0, std::slice::from_ref(chosen), values)
+}
+
+/// A figure over the base radius, with its limit where there is one, and the chosen cam.
+fn over_base_radius(
+    (name, title): (&str, &str),
+    value: fn(&SizeRow) -> f64,
+    (rows, chosen): (&[SizeRow], &SizeRow),
+    limit: f64,
+) -> PlotPanel {
+    let values: [fn(&SizeRow) -> f64; 2] = [|row| row.base_radius_mm, value];
+    let ends = rows.first().zip(rows.last()).filter(|_| limit.is_finite() && limit > 0.0);
+    let line = |(first, last): (&SizeRow, &SizeRow)| PlotCurve {
+        name: "limit".into(),
+        colour: RED,
+        bold: false,
+        points: vec![[first.base_radius_mm, limit], [last.base_radius_mm, limit]],
     };
-    let of_size = |name: &str, value: fn(&Row) -> f64, title: &str| Panel {
-        name: title.into(),
-        curves: vec![curve(name, 0, by_size, |row| row.base_radius_mm, value)],
+    let limited = if ends.is_some() { format!("limit {}, ", shown(limit)) } else { String::new() };
+    let [at, of_chosen] = values.map(|value| shown(value(chosen)));
+    PlotPanel {
+        name: format!("{title}; {limited}circle: the chosen cam, {of_chosen} at {at} mm"),
+        curves: [curve(name, 0, rows, values)]
+            .into_iter()
+            .chain(ends.map(line))
+            .chain([circle(chosen, values)])
+            .collect(),
+    }
+}
+
+/// The smallest prime radius over the places of the follower, and the chosen cam.
+fn over_places(place: FollowerPlacement, rows: &[SizeRow], chosen: &SizeRow) -> (String, PlotPanel) {
+    let places = match place {
+        FollowerPlacement::Offset { .. } => "offset of the follower, mm",
+        FollowerPlacement::Pivot { .. } => "pivot distance, mm",
     };
-    let own = by_place.map(|(place, rows)| {
-        let places = match place {
-            Place::Offset { .. } => "offset of the follower, mm",
-            Place::Pivot { .. } => "pivot distance, mm",
-        };
-        let curves = vec![
-            curve("pressure angle alone", 1, rows, |row| row.place, |row| row.by_pressure_angle_mm),
-            curve("every limit", 0, rows, |row| row.place, |row| row.prime_radius_mm),
-        ];
-        (places.to_owned(), Panel { name: "Smallest prime radius, mm".into(), curves })
-    });
+    let at: fn(&SizeRow) -> f64 = |row| row.place;
+    let curves = vec![
+        curve("pressure angle alone", 1, rows, [at, |row| row.by_pressure_angle_mm]),
+        curve("every limit", 0, rows, [at, |row| row.prime_radius_mm]),
+        circle(chosen, [at, |row| row.prime_radius_mm]),
+    ];
+    let [radius, at] = [chosen.prime_radius_mm, chosen.place].map(shown);
+    let name = format!("Smallest prime radius, mm; circle: the chosen cam, {radius} at {at} mm");
+    (places.to_owned(), PlotPanel { name, curves })
+}
+
+fn plot(disc: &Disc, by_place: Option<&(FollowerPlacement, Vec<SizeRow>)>, by_size: &[SizeRow]) -> Plot {
+    let place = disc.follower().place();
+    let chosen = row(Some(disc), place.map_or(f64::NAN, |place| place.of(&**disc.follower())), f64::NAN);
+    let limits = &disc.machine().limits;
+    let [rising, falling] = limits.pressure_angles();
+    let angle = ("pressure angle", "Largest pressure angle, degrees");
+    let convex = ("convex radius", "Least convex radius of the follower's curve, mm");
+    let least = MILLIMETRES * limits.convex_radius(disc.curves().offset());
+    let sizes = (by_size, &chosen);
     Plot {
-        title: format!("{machine}: the smallest cam"),
+        title: format!("{}: the smallest cam", disc.machine().name()),
         places: "base radius, mm".into(),
         panels: vec![
-            of_size("pressure angle", |row| row.pressure_angle_deg, "Largest pressure angle, degrees"),
-            of_size("convex radius", |row| row.convex_radius_mm, "Least convex radius of the follower's curve, mm"),
+            over_base_radius(angle, |row| row.pressure_angle_deg, sizes, rising.min(falling).to_degrees()),
+            over_base_radius(convex, |row| row.convex_radius_mm, sizes, least),
         ],
-        own: own.into_iter().collect(),
+        own: by_place.map(|(place, rows)| over_places(*place, rows, &chosen)).into_iter().collect(),
         ..Plot::default()
     }
 }

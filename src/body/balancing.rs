@@ -3,7 +3,7 @@
 //! The holes are a row: equal ones on a circle about the shaft, evenly spaced, symmetric about the heavy side. n holes of radius
 //! a at the distance ρ, Δ apart, take away π a² ρ sin(nΔ/2)/sin(Δ/2). The largest row of n is found by branch and bound over ρ
 //! and Δ: the room at a centre, the distance from the nearest contour, changes by no more than the centre moves, so a rectangle of
-//! (ρ, Δ) has an upper bound from its middle. What is told as the least unbalance possible is the least for such rows.
+//! (ρ, Δ) has an upper bound from its middle. The reported least possible unbalance is the least for such rows.
 
 use crate::geometry::contour::{Contour, Edge};
 use nalgebra::Vector2;
@@ -24,7 +24,7 @@ const MOST_RECTANGLES: usize = 20_000;
 /// A row of equal holes; mm and rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HoleRow {
-    /// How many.
+    /// Number of holes.
     pub count: u32,
     /// Radius of each.
     pub radius: f64,
@@ -36,7 +36,7 @@ pub struct HoleRow {
 
 /// Why a disc stays out of balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unbalanced {
+pub struct BalanceFailure {
     /// Area moment that no row within the band goes below, mm³.
     pub least: f64,
     /// The row that takes away the most, if any fits.
@@ -55,7 +55,7 @@ pub struct Balancing {
     /// Area moment about the shaft after, mm³.
     pub after: f64,
     /// Why it could not be done.
-    pub unbalanced: Option<Unbalanced>,
+    pub unbalanced: Option<BalanceFailure>,
 }
 
 /// First moment of a face about the shaft, mm³.
@@ -228,7 +228,7 @@ pub fn balance(outline: &Contour, bore: Option<&Contour>, band: (f64, f64), wall
             let wider = Face { band: widest, ..face };
             let band = (widest.0 < widest.1 && wider.row_for(before).is_ok()).then_some(widest);
             let best = (best.radius > 0.0).then_some(best);
-            Balancing { unbalanced: Some(Unbalanced { least: (before - limit).max(0.0), best, band }), ..none }
+            Balancing { unbalanced: Some(BalanceFailure { least: (before - limit).max(0.0), best, band }), ..none }
         }
     }
 }
@@ -266,8 +266,8 @@ mod tests {
         assert_eq!(balance(&centred, None, (20.0, 80.0), 2.0, 1e-9).holes.len(), 0);
     }
 
-    /// A thin band about a centred bore, where the largest row is known: holes as wide as the band; as many as twelve; told as
-    /// the least unbalance within a thousandth of what they take.
+    /// A thin band about a centred bore, where the largest row is known: twelve holes, each as wide as the band. The
+    /// reported least unbalance is within a thousandth of what they take.
     #[test]
     fn the_least_unbalance_is_that_of_the_largest_row() {
         let disc = Contour::circle(Vector2::new(6.0, 0.0), 100.0);

@@ -1,51 +1,64 @@
-//! Bodies: what is cut. A body is solved from a machine, finds its worst places, draws itself to a tolerance, and contributes
+//! Bodies: the parts that are cut. A body is solved from a machine, finds its worst places, draws itself to a tolerance, and contributes
 //! to table, report and sheet.
 //!
-//! A new body is a folder here with `impl Body`, one line in [`KINDS`] and its command.
+//! A new body is a folder here with `impl Body` and a line in [`BODIES`].
 
-mod balance;
 pub mod balancing;
-pub mod conoid;
+pub mod conjugate;
+mod cut;
 pub mod disc;
-mod loaded;
-mod part;
-mod picture;
+pub(crate) mod figures;
+mod flank;
+pub mod groove;
+mod load_as_cut;
+pub(crate) mod loaded;
+pub mod mesh;
+pub mod motion_diagram;
+pub(crate) mod part;
+pub(crate) mod picture;
 pub mod points;
-mod sheet;
+pub(crate) mod sheet;
 mod sizing;
-mod stress;
-pub mod tension;
+pub(crate) mod start;
+pub(crate) mod stress;
+pub mod surface;
 pub mod torque;
-pub mod wedge;
 mod worst_places;
 
-pub(crate) use balance::reversal_of_bed;
-pub use balance::{AsCut, Balance, USEFUL};
-pub use loaded::{Lowered, Yielding};
-pub use part::{Layer, NEGLIGIBLE_MM, Part};
+pub use cut::Cut;
+pub use figures::Figures;
+pub use flank::Flank;
+pub use load_as_cut::LoadAsCut;
+pub use loaded::{LoadedFollower, ShaftCompliance};
+pub use part::{Inertia, Layer, NEGLIGIBLE_MM, Part, PartFlank, Rim, Track};
+pub use picture::{Cover, DrivenMechanism, FollowerTrack};
 pub use sheet::traces;
-use sizing::{broken_limit, no_radius, passing};
+pub(crate) use sizing::{broken_limit, no_radius, passing};
+pub use surface::Surface;
 pub use worst_places::WorstPlaces;
-use worst_places::radius_of;
+pub(crate) use worst_places::{STRAIGHT, radius_of};
 
-use crate::follower::Element;
-use crate::geometry::boundary::{Boundary, Stretch};
+use crate::check::Measures;
+use crate::document::cams;
+use crate::geometry::boundary::{Boundary, BoundaryStretch};
 use crate::geometry::contour::Contour;
+use crate::geometry::lead_in::LeadIn;
 use crate::geometry::{Entity, MILLIMETRES};
-use crate::load::RunUp;
 use crate::machine::Machine;
-use crate::motion::{BrakeDisc, Jet, Quantity, State};
+use crate::motion::{Jet, Motion, Quantity};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
-use crate::profile::{Contact, Curves, Worst, boundary, envelope, extremes};
-use crate::report::mechanism::Mechanism;
-use crate::report::sheet::View;
-use crate::report::{Place, Rolled, Section, Speeds};
+use crate::profile::{Curves, Worst, boundary, extremes, lifts};
+use crate::refusal::Refusal;
+use crate::report::mechanism::MovingMechanism;
+use crate::report::sheet::SheetView;
+use crate::report::{Place, Rolled, Section, Shaft, Speeds, shown};
 use crate::table::Row;
-use conoid::Conoid;
-use conoid::flank::{Flank, FlankError};
+use disc::Disc;
+use groove::Groove;
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// Corners that are intended are looked for that many tolerances about their exact places: a drawing within the tolerance cuts
 /// an acute one off by up to a few.
@@ -62,16 +75,68 @@ pub struct Kind {
     pub keys: &'static str,
 }
 
-/// Every kind of body.
-pub const KINDS: &[&Kind] =
-    &[&disc::ROTARY, &disc::GENERAL, &disc::COMPENSATOR, &disc::BRAKE, &wedge::KIND, &conoid::KIND];
+/// Solves a body for a motion, at a speed of the cam (rpm) where it is known.
+pub type SolveProgram = fn(&Machine, &Arc<dyn Motion>, Option<f64>) -> Result<ProgramCams, Refusal>;
+
+/// A body of a motion program, chosen by `cam.body`.
+#[derive(Debug)]
+pub struct ProgramBody {
+    /// Its kind, whose keys are those of the body's name.
+    pub kind: &'static Kind,
+    /// How it is solved.
+    pub solve: SolveProgram,
+}
+
+/// The body of a motion, with those that are made for it.
+#[derive(Debug)]
+pub struct ProgramCams {
+    /// The body, and what the names of its files have after the stem; empty of one that is made alone.
+    pub first: (&'static str, Arc<dyn Body>),
+    /// The others, each with what the names of its files have.
+    pub others: Vec<(&'static str, Arc<dyn Body>)>,
+}
+
+impl ProgramCams {
+    /// A body that is made alone.
+    fn alone(body: impl Body + 'static) -> Self {
+        Self { first: ("", Arc::new(body)), others: Vec::new() }
+    }
+}
+
+/// Every body of a motion program: a new one is a folder, and a line here and in [`cams`].
+pub const BODIES: &[ProgramBody] = &[
+    ProgramBody {
+        kind: &disc::GENERAL,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Disc::of_motion(machine, Arc::clone(motion), rpm)?)),
+    },
+    ProgramBody {
+        kind: &groove::RING,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::ring(machine, motion, rpm)?)),
+    },
+    ProgramBody {
+        kind: &groove::GROOVE,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::between_flanks(machine, motion, rpm)?)),
+    },
+    ProgramBody { kind: &conjugate::MAIN, solve: conjugate::pair },
+];
+
+/// Kinds that are made with one of these.
+pub const MADE_WITH: &[&Kind] = &[&conjugate::COUNTER];
+
+/// Solves the body of a motion that a machine names.
+///
+/// # Errors
+/// [`Refusal`] when there is no such cam.
+pub fn of_motion(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
+    let named = BODIES.iter().find(|body| body.kind.keys == machine.body());
+    let body = named.ok_or_else(|| Refusal::new(format!("no body is called {}", machine.body())))?;
+    (body.solve)(machine, motion, rpm)
+}
 
 /// Least tolerance of velocity or acceleration, over the largest of the motion.
 const FINEST_RATE: f64 = 1e-6;
-/// Places that are told of those where motion is lost.
-const MOST_LOSSES: usize = 8;
 
-/// A largest error of velocity or acceleration, as it is asked for.
+/// A requested tolerance of velocity or acceleration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RateTolerance {
     /// Over the largest of the motion.
@@ -87,52 +152,36 @@ pub enum RateTolerance {
     },
 }
 
-/// Why a tolerance of the motion cannot be applied.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RateError {
-    /// Per second, and there is no speed.
-    #[error("a tolerance per second needs the speed of the cam: give --rpm, or a tolerance per rad or as a share")]
-    NoSpeed,
-    /// So many arcs would be needed that no control reads them.
-    #[error(
-        "a tolerance of the {rate} below {FINEST_RATE} of the largest needs arcs without number; give a larger one"
-    )]
-    TooFine {
-        /// "velocity" or "acceleration".
-        rate: &'static str,
-    },
-    /// Metres for a follower that swings, or the other way round.
-    #[error("the follower {follower}: the tolerance of its {rate} must be a share or in {unit}")]
-    WrongUnit {
-        /// What it does.
-        follower: &'static str,
-        /// "velocity" or "acceleration".
-        rate: &'static str,
-        /// The unit by the angle.
-        unit: &'static str,
-    },
+/// The rate of the motion of an order.
+fn rate_word(order: usize) -> &'static str {
+    if order == 1 { "velocity" } else { "acceleration" }
 }
 
 impl RateTolerance {
-    /// By the angle of the shaft, m or rad, of the velocity (order 1) or the acceleration (order 2) of a body.
-    fn by_angle(self, body: &dyn Body, order: usize) -> Result<f64, RateError> {
-        let swings = body.plane().is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
+    /// The tolerance by the angle of the shaft, m or rad, of the velocity (order 1) or the acceleration (order 2) of a body.
+    fn by_angle(self, body: &dyn Body, order: usize) -> Result<f64, Refusal> {
+        let swings = curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
         match self {
             Self::Share(share) => Ok(share * body.largest_rates().get(order - 1).copied().unwrap_or(0.0)),
-            Self::Rate { swing, .. } if swing != swings => Err(RateError::WrongUnit {
-                follower: if swings { "swings" } else { "does not swing" },
-                rate: if order == 1 { "velocity" } else { "acceleration" },
-                unit: match (swings, order) {
+            Self::Rate { swing, .. } if swing != swings => {
+                let follower = if swings { "swings" } else { "does not swing" };
+                let unit = match (swings, order) {
                     (true, 1) => "rad/rad",
                     (true, _) => "rad/rad2",
                     (false, 1) => "mm/rad",
                     (false, _) => "mm/rad2",
-                },
-            }),
+                };
+                let rate = rate_word(order);
+                Err(Refusal::new(format!(
+                    "the follower {follower}: the tolerance of its {rate} must be a share or in {unit}"
+                )))
+            }
             Self::Rate { value, by_time: false, .. } => Ok(value),
             Self::Rate { value, by_time: true, .. } => {
-                let speed = body.shaft_speed().ok_or(RateError::NoSpeed)?;
+                let speed = body.shaft_speed().ok_or_else(|| {
+                    Refusal::new("a tolerance per second needs the speed of the cam")
+                        .remedy("give --rpm, or a tolerance per rad or as a share")
+                })?;
                 Ok(if order == 1 { value / speed } else { value / (speed * speed) })
             }
         }
@@ -147,27 +196,40 @@ pub struct Request {
     /// The flank of a body whose sections differ is needed as a surface.
     pub flank: bool,
     /// Radius of a cutter whose path is needed, m.
-    pub cutter: Option<f64>,
+    pub cutter_radius: Option<f64>,
     /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
     pub rates: [Option<RateTolerance>; 2],
-    /// Refuse a cam whose follower feels more, by velocity or by acceleration; else it is told.
+    /// Refuse a cam whose follower has larger errors, of velocity and of acceleration; else they are only reported.
     pub strict: [bool; 2],
     /// The table of points that is needed.
     pub points: Option<points::Points>,
+    /// The cam angle at which the cut starts, rad; `None` for the middle of the longest dwell at the lowest lift, or the flattest joint.
+    pub start: Option<f64>,
+    /// The way of the tool to that start, where one is drawn.
+    pub lead_in: Option<LeadIn>,
 }
 
 impl Request {
     /// Outlines within a tolerance (m), nothing else.
     #[must_use]
     pub fn within(fit: impl Into<Fit>) -> Self {
-        Self { fit: fit.into(), flank: false, cutter: None, points: None, rates: [None; 2], strict: [true; 2] }
+        Self {
+            fit: fit.into(),
+            flank: false,
+            cutter_radius: None,
+            points: None,
+            rates: [None; 2],
+            strict: [true; 2],
+            start: None,
+            lead_in: None,
+        }
     }
 
     /// With the tolerances of the motion as numbers for a body.
     ///
     /// # Errors
-    /// [`RateError`] when they do not fit its follower, or need a speed.
-    pub fn resolved(self, body: &dyn Body) -> Result<Self, RateError> {
+    /// [`Refusal`] when they do not fit its follower, or need a speed.
+    pub fn resolved(self, body: &dyn Body) -> Result<Self, Refusal> {
         let [velocity, acceleration] = self.rates;
         let number = |rate: Option<RateTolerance>, order: usize, own: f64| match rate {
             Some(rate) => {
@@ -175,7 +237,12 @@ impl Request {
                 let largest = body.largest_rates().get(order - 1).copied().unwrap_or(0.0);
                 match rate {
                     rate if rate > 0.0 && rate < FINEST_RATE * largest => {
-                        Err(RateError::TooFine { rate: if order == 1 { "velocity" } else { "acceleration" } })
+                        let rate = rate_word(order);
+                        let what = "needs more arcs than any control reads";
+                        Err(Refusal::new(format!(
+                            "a tolerance of the {rate} below {FINEST_RATE} of the largest {what}"
+                        ))
+                        .remedy("give a larger one"))
                     }
                     rate if rate > 0.0 => Ok(rate),
                     _ => Ok(f64::INFINITY),
@@ -202,6 +269,25 @@ pub struct Drawn {
     /// The path of a cutter, when it was requested, or why the cutter has none: then the check of the cutter's radius fails
     /// too.
     pub cutter_path: Option<Result<Outline, OutlineError>>,
+    /// Its paths along the other flanks of a part with several.
+    pub other_cutter_paths: Vec<Result<Outline, OutlineError>>,
+}
+
+impl Drawn {
+    /// Parts alone.
+    pub(crate) fn of(parts: Vec<Part>) -> Self {
+        Self { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new() }
+    }
+
+    /// The outlines of all parts, each with its part, in the order of the cuts of the body.
+    pub fn outlines(&self) -> impl Iterator<Item = (&Part, Layer, &Outline)> {
+        self.parts.iter().flat_map(|part| part.outlines().map(move |(layer, outline)| (part, layer, outline)))
+    }
+
+    /// The paths of the cutter along every flank.
+    pub fn cutter_paths(&self) -> impl Iterator<Item = &Result<Outline, OutlineError>> {
+        self.cutter_path.iter().chain(&self.other_cutter_paths)
+    }
 }
 
 /// Why there is no drawing.
@@ -211,45 +297,30 @@ pub enum DrawError {
     /// The cam has no outline that could be cut; the checks show which limit it breaks.
     #[error("{0}")]
     NoOutline(String),
-    /// The outline cannot be drawn.
+    /// The outline, the flank or a table of points cannot be drawn.
     #[error(transparent)]
-    Outline(#[from] OutlineError),
-    /// The flank cannot be drawn.
-    #[error(transparent)]
-    Flank(#[from] FlankError),
-    /// There is no such table of points.
-    #[error("no table of points: {0}")]
-    Points(#[from] points::TableError),
+    Refused(#[from] Refusal),
 }
 
-/// Why there is no cam.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SolveError {
-    /// Of a disc.
-    #[error(transparent)]
-    Disc(#[from] disc::DiscError),
-    /// Of a plate on the bed.
-    #[error(transparent)]
-    Wedge(#[from] wedge::WedgeError),
-    /// Of a conoid.
-    #[error(transparent)]
-    Conoid(#[from] conoid::ConoidError),
+impl From<OutlineError> for DrawError {
+    fn from(error: OutlineError) -> Self {
+        Self::Refused(error.into())
+    }
 }
 
-/// What was found of a drawing, for the report.
+/// A drawing and what rolling on it has shown, for the report.
 #[derive(Debug, Clone, Copy)]
-pub struct Found<'a> {
-    /// The drawing; `None` when there is none.
+pub struct DrawingEvidence<'a> {
+    /// The drawing, where it has one.
     pub drawn: Option<&'a Drawn>,
-    /// What rolling on the written outline has shown.
-    pub rolled: Option<&'a Rolled>,
+    /// What rolling on the written outlines has shown, of each that a follower rolls on in its plane.
+    pub rolled: &'a [Rolled],
     /// Tolerance of the outline, mm.
     pub tolerance_mm: f64,
 }
 
 /// The flank that was drawn, if one was.
-fn flank_of<'a>(found: &Found<'a>) -> Option<&'a Flank> {
+pub(crate) fn flank_of<'a>(found: &DrawingEvidence<'a>) -> Option<&'a Flank> {
     found.drawn?.flank.as_ref()
 }
 
@@ -264,11 +335,11 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// For which speeds it is made.
     fn speeds(&self) -> Speeds;
 
-    /// Motion and follower of a body whose sections are all alike.
-    fn plane(&self) -> Option<Curves<'_>>;
+    /// What is cut: its outlines, in the order of the parts of a drawing.
+    fn cuts(&self) -> Vec<Cut<'_>>;
 
-    /// The body whose sections differ along its axis, if it is one.
-    fn spatial(&self) -> Option<&Conoid> {
+    /// The surface of a body whose sections differ along its axis.
+    fn surface(&self) -> Option<&dyn Surface> {
         None
     }
 
@@ -282,7 +353,7 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// What is cut beside an outline (mm): bore and balance holes, counter-clockwise.
+    /// What is cut in addition to an outline (mm): bore and balance holes, counter-clockwise.
     fn holes_within(&self, _outline: &Contour) -> Vec<Entity> {
         Vec::new()
     }
@@ -292,10 +363,16 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// That shaft, where it does not turn as fast as the main shaft.
+    fn shaft(&self) -> Option<Shaft> {
+        None
+    }
+
     /// Largest velocity and acceleration of the motion by the angle of that shaft, m or rad per rad and rad².
     fn largest_rates(&self) -> [f64; 2] {
-        let found = self.plane().zip(self.worst_places());
-        found.map_or([0.0; 2], |(curves, worst)| worst.largest_rates(curves.motion))
+        let of = |cut: &Cut<'_>| Some(cut.worst?.largest_rates(cut.curves?.motion));
+        let larger = |[v, a]: [f64; 2], [w, b]: [f64; 2]| [v.max(w), a.max(b)];
+        self.cuts().iter().filter_map(of).fold([0.0; 2], larger)
     }
 
     /// The parameter at which a point of the drawing (m) lies.
@@ -306,231 +383,26 @@ pub trait Body: std::fmt::Debug + Send + Sync {
         false
     }
 
-    /// Ways in which the follower meets the drawing: as it is, or with the drawing mirrored about X.
-    fn mirrored(&self) -> &'static [bool];
-
     /// Straight edges of the drawing (m) that no follower touches.
     fn edges(&self) -> Vec<[Vector2<f64>; 2]> {
         Vec::new()
     }
 
-    /// The worst places of a plane cam, kept once they are found.
-    fn worst_places(&self) -> Option<&WorstPlaces> {
-        None
-    }
-
-    /// Largest |pressure angle| where a follower runs, rad.
-    fn pressure_angle(&self) -> Worst {
-        let [rising, falling] = self.pressure_angles();
-        rising.or_larger(falling)
-    }
-
-    /// The largest pressure angle, and the largest of the other sign as a positive number, where a follower runs, rad. A body that does
-    /// not tell them apart has the largest of both first.
-    fn pressure_angles(&self) -> [Worst; 2] {
-        let found = self.plane().zip(self.worst_places());
-        found.map_or([Worst::NONE; 2], |(curves, worst)| worst.pressure_angles(curves))
-    }
-
-    /// Whether the forces of a motion program are told without the inertia of a mass that is given, since no speed is.
-    fn lacks_inertia(&self) -> bool {
-        let of_program = self.plane().is_some_and(|curves| curves.motion.program().is_some());
-        of_program && self.machine().follower.mass.is_some() && self.shaft_speed().is_none()
-    }
-
-    /// Smallest convex radius of what the follower draws, m: 0 at a corner, infinite where nothing is convex; negative where a
-    /// profile under a face turns back on itself.
-    fn least_radius(&self) -> Worst {
-        let nowhere = Worst { value: f64::INFINITY, ..Worst::NONE };
-        self.plane().zip(self.worst_places()).map_or(nowhere, |(curves, worst)| worst.least_radius(curves))
-    }
-
-    /// The same where a follower runs.
-    fn least_rolled_radius(&self) -> Worst {
-        self.least_radius()
-    }
-
-    /// Radius of the largest cutter that fits into the concave parts, m; `None` where nothing is concave.
-    fn hollow(&self) -> Option<Worst> {
-        let curves = self.plane()?;
-        self.worst_places().map_or_else(|| worst_places::hollow(curves), |worst| worst.hollow(curves))
-    }
-
-    /// What the follower loses of its motion where the profile is undercut, a sentence each: of many places those where it is most.
-    fn lost_motion(&self) -> Vec<String> {
-        let Some(curves) = self.plane() else { return Vec::new() };
-        let mut losses = match envelope::losses(curves) {
-            Err(error) => return vec![format!("{error}, at {}", self.place(error.parameter))],
-            Ok(losses) => losses,
-        };
-        let more = losses.len().saturating_sub(MOST_LOSSES);
-        if more > 0 {
-            losses.sort_by(|a, b| b.lost.total_cmp(&a.lost));
-            losses.truncate(MOST_LOSSES);
-            losses.sort_by(|a, b| a.from.total_cmp(&b.from));
-        }
-        let told = losses.iter().map(|loss| {
-            let [from, to, at] = [loss.from, loss.to, loss.lost_at].map(|place| self.place(place));
-            let lost = MILLIMETRES * loss.lost;
-            // Seven digits, as exactly as it is known.
-            let lost = if lost < 1e-4 { format!("{lost:.6e}") } else { format!("{lost:.6}") };
-            format!("motion is lost from {from} to {to}, {lost} mm at {at}")
-        });
-        let others = (more > 0).then(|| format!("and at {more} more places, nowhere more of it"));
-        told.chain(others).collect()
-    }
-
-    /// Radius of the roller, m; `None` under a flat face or a knife edge.
-    fn roller_radius(&self) -> Option<f64> {
-        match self.plane()?.element() {
-            Element::Roller { radius } => Some(radius).filter(|radius| *radius > 0.0),
-            Element::Face => None,
-        }
-    }
-
-    /// Least metal between the profile and what bounds it inside, m, if anything does; with its place where that is known.
-    fn wall(&self) -> Option<(f64, Option<Worst>)>;
-
-    /// Room between two rollers that face each other, m, and where it is least; `None` where there is only one.
-    fn roller_clearance(&self) -> Option<Worst> {
-        None
-    }
-
-    /// Force between follower and cam along the normal, N, at a parameter of a piece where it stands like this; `None` where no force
-    /// is known.
-    fn contact_force(&self, at: (usize, f64), contact: &Contact) -> Option<f64>;
-
-    /// Force of the cam on the follower along its path, N, or its moment about the pivot of one that swings, N·m, and the torque of the
-    /// shaft against it, N·m, at a cam angle; `None` where no force is known.
-    fn force_and_torque(&self, angle: f64) -> Option<[f64; 2]> {
-        let motion = self.plane()?.motion;
-        let (piece, inside) = motion.locate(angle);
-        self.force_and_torque_of((piece, inside), motion.jet(piece, inside))
-    }
-
-    /// The same at a parameter of a piece whose lift is known.
-    fn force_and_torque_of(&self, _at: (usize, f64), _lift: Jet) -> Option<[f64; 2]> {
-        None
-    }
-
-    /// The second disc that takes its torque, with what it does by its law; `None` where none is described.
-    fn compensating(&self) -> Option<Result<(disc::Disc, disc::Compensated), disc::DiscError>> {
-        None
-    }
-
-    /// The motion of a disc that holds the tension of a belt brake; `None` of any other cam.
-    fn brake_disc(&self) -> Option<&BrakeDisc> {
-        None
-    }
-
-    /// Largest pressure between roller and cam after Hertz, Pa; `None` where thickness, material or forces are not given.
-    fn contact_stress(&self) -> Option<Worst>;
-
-    /// Least force that presses the follower onto the cam along its path, N; `None` when the machine file gives
-    /// neither mass nor preload of the follower.
-    fn least_closing_force(&self) -> Option<Worst> {
-        let follower = &self.machine().follower;
-        let least = (follower.mass.is_some() || follower.preload.is_some()).then(|| self.largest_lifting_force());
-        least.map(|least| Worst { value: -least.value, ..least })
-    }
-
-    /// Radius of a crowned roller's rim along its axis, m; `None` of a straight one, and under a face.
-    fn crown_radius(&self) -> Option<f64> {
-        None
-    }
-
-    /// A preload, as a key of the machine file, that keeps the follower on the cam at so many times the speed of the cam.
-    fn preload_that_holds(&self, _speed: f64) -> Option<String> {
-        None
-    }
-
-    /// Speed of the cam at which the follower first leaves it, rad/s, and where, infinite where it never does; or why that is not
-    /// known. `None` where nothing tells of it.
-    fn jump_speed(&self) -> Option<Result<Worst, String>> {
-        None
-    }
-
-    /// Least share of the force along the normal that is left along the path beside the friction of the follower's guide, and where; `None`
-    /// without a guide.
-    fn guide_share(&self) -> Option<Worst> {
-        None
-    }
-
-    /// The vibration of an elastic train behind the follower; `None` where none is described, or the speed is not known.
-    fn vibration(&self) -> Option<&disc::Vibration> {
-        None
-    }
-
-    /// Largest force that lifts the follower from the cam along its path, N; negative where it is pressed on everywhere.
-    fn largest_lifting_force(&self) -> Worst;
-
-    /// Size of the residual force that the force balance leaves, N, with the follower `moved` (m) along its path from where the
-    /// motion puts it, touching the cam where its normal is this unit vector out of the metal; 0 without a load.
-    fn unbalanced(&self, piece: usize, parameter: f64, moved: f64, normal: Vector2<f64>) -> f64;
-
-    /// The same of a cam that turns, with its press in a state.
-    fn unbalanced_in(&self, _state: &State, _moved: f64) -> f64 {
-        0.0
-    }
-
-    /// The exact outline as it lies in the drawing, mm, of a cut at a place along the axis, m; `None` where there is no cut.
+    /// The exact outline of one of its cuts as it lies in the drawing, mm; `None` where it has no exact outline.
     ///
     /// # Errors
     /// [`NoEnvelope`] when the profile folds over itself.
-    fn boundary(&self, _z: f64) -> Result<Option<Boundary<'_>>, NoEnvelope> {
-        let Some(curves) = self.plane() else { return Ok(None) };
-        let stretches = boundary::stretches(curves, self.least_radius().value <= curves.offset())?;
-        Ok(Some(exact(curves, &if self.mirrored() == [true] { mirrored(&stretches) } else { stretches })))
+    fn boundary<'a>(&'a self, cut: &Cut<'a>) -> Result<Option<Boundary<'a>>, NoEnvelope> {
+        let Some(curves) = cut.curves else { return Ok(None) };
+        let stretches = boundary::stretches(curves, cut.is_undercut())?;
+        Ok(Some(exact(curves, &if cut.mirrored == [true] { mirrored(&stretches) } else { stretches })))
     }
 
-    /// The force balance that the cam is made for; `None` without a load.
-    fn balance(&self) -> Option<Balance> {
-        None
-    }
+    /// Takes the figures that checks judge: of each check that applies to it one measure, or one for each of its flanks.
+    fn measures(&self, of: &mut Measures<'_>);
 
-    /// Largest residual force of the motion itself, N, as if it were cut without error, in the directions in which the forces
-    /// are to balance.
-    fn residual_of_motion(&self) -> Worst {
-        Worst { value: 0.0, ..Worst::NONE }
-    }
-
-    /// The same in the direction of the bed in which the forces are not to balance; `None` where they are in all.
-    fn residual_unbalanced_way(&self) -> Option<Worst> {
-        None
-    }
-
-    /// Changes, each of which alone brings the residual force of that direction below what is left without a cam.
-    fn remedies_unbalanced_way(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// What would keep the bottom off the piston where an outline within a tolerance (m) may miss the motion.
-    fn as_cut(&self, _tolerance: f64) -> Option<AsCut> {
-        None
-    }
-
-    /// Least air between piston and bottom while the bottom moves, m; `None` without air.
-    fn least_air(&self) -> Option<Worst> {
-        None
-    }
-
-    /// How much lift the run-up adds; `None` without one.
-    fn run_up(&self) -> Option<RunUp> {
-        None
-    }
-
-    /// Changes, each of which alone keeps the pressure between roller and cam below a limit (Pa) that it exceeds by `largest`.
-    fn stress_remedies(&self, _largest: f64, _limit: f64) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// Parameters at which the residual force may jump: where the air closes and opens.
-    fn force_jumps(&self) -> Vec<f64> {
-        Vec::new()
-    }
-
-    /// A change with which every limit that depends on the size is kept, tried before it is told; or why there is none.
-    fn remedy(&self) -> Option<String> {
+    /// What presses the follower on, as far as a written outline shows it; `None` where no force is known.
+    fn load(&self) -> Option<&dyn LoadAsCut> {
         None
     }
 
@@ -548,11 +420,22 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// The rows of its point table.
     fn rows(&self, samples: u32) -> Vec<Row>;
 
+    /// The row of its table at a parameter of a piece of its motion, as that piece has it; `None` of a body whose sections differ.
+    fn row_on(&self, _piece: usize, _parameter: f64) -> Option<Row> {
+        None
+    }
+
+    /// The stretches of its motion on which the values of a row are smooth, each with its piece.
+    fn smooth_stretches(&self) -> Vec<(usize, (f64, f64))> {
+        let pieces = curves_of(self).map_or(&[][..], |curves| curves.motion.pieces());
+        pieces.iter().enumerate().map(|(index, piece)| (index, (piece.start, piece.end))).collect()
+    }
+
     /// What it and its parts contribute to the report.
-    fn sections(&self, found: &Found<'_>) -> Vec<Section>;
+    fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section>;
 
     /// How its mechanism moves, at so many steps of a turn or of a stroke, with the outlines of a drawing.
-    fn mechanism(&self, drawn: &Drawn, samples: u32) -> Mechanism;
+    fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism;
 
     /// What is not modelled of it, and why, a sentence each.
     fn not_modelled(&self) -> Vec<&'static str>;
@@ -561,29 +444,62 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// [`OutlineError`] when a curve for viewing cannot be drawn.
-    fn view(&self, drawn: &Drawn) -> Result<View, OutlineError>;
+    fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError>;
+}
+
+/// Motion and follower that roll on the first cut of a body; `None` where it is cut of a surface.
+#[must_use]
+pub fn curves(body: &dyn Body) -> Option<Curves<'_>> {
+    curves_of(body)
+}
+
+/// A lift below this is rounding, m.
+const NO_LIFT: f64 = 1e-12;
+
+/// Refuses a tolerance of the outline of a motion (m) within which the follower need not move at all; a machine has checks of what it asks for.
+pub(crate) fn finer_than_the_lift(body: &dyn Body, tolerance: f64) -> Result<(), Refusal> {
+    let Some(curves) = curves(body).filter(|_| body.kind().command == cams::MAKE) else { return Ok(()) };
+    let (_, most) = lifts(curves.motion);
+    let travel = match curves.motion.quantity() {
+        Quantity::Length => most,
+        Quantity::Angle => most * curves.follower.leverage(&Jet::default()),
+    };
+    // A cam of dwells alone is a circle on purpose.
+    if tolerance < travel || travel <= NO_LIFT {
+        return Ok(());
+    }
+    let (tolerance, travel) = (1e6 * tolerance, shown(1e6 * travel));
+    let what = format!(
+        "the tolerance of {tolerance} um is not below the lift of {travel} um: within it the follower need not move"
+    );
+    Err(Refusal::new(what).remedy("give a finer --tolerance"))
+}
+
+/// [`curves`] of a body whose type is known.
+pub(crate) fn curves_of<B: Body + ?Sized>(body: &B) -> Option<Curves<'_>> {
+    body.cuts().first()?.curves
 }
 
 /// The loop of these stretches of a plane cam, mm.
-fn exact<'a>(curves: Curves<'a>, stretches: &[Stretch]) -> Boundary<'a> {
+pub(crate) fn exact<'a>(curves: Curves<'a>, stretches: &[BoundaryStretch]) -> Boundary<'a> {
     let frame = move |piece: usize, parameter: f64| curves.profile(piece, parameter).scaled(MILLIMETRES);
     Boundary::new(Box::new(frame), stretches)
 }
 
-/// Mirrored about X and run the other way, so that the metal stays on the left.
-fn mirrored(stretches: &[Stretch]) -> Vec<Stretch> {
-    stretches.iter().rev().map(Stretch::mirrored).collect()
+/// Mirrored about X and reversed, so that the metal stays on the left.
+pub(crate) fn mirrored(stretches: &[BoundaryStretch]) -> Vec<BoundaryStretch> {
+    stretches.iter().rev().map(BoundaryStretch::mirrored).collect()
 }
 
 /// A worst place of a plane cam.
-fn plane(found: extremum::Extremum) -> Worst {
+pub(crate) fn plane(found: extremum::Extremum) -> Worst {
     Worst { value: found.value, at: found.at, z: 0.0 }
 }
 
-/// Of the largest inertia, the residual force that is rounding: it need not be told to its last digit.
-const ROUNDING_OF_BALANCE: f64 = 1e-12;
+/// Share of the largest inertia below which a residual force is rounding.
+pub(crate) const ROUNDING_OF_BALANCE: f64 = 1e-12;
 
 /// The largest value over a motion of something that is smooth on its pieces.
-fn largest(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Worst {
+pub(crate) fn largest(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Worst {
     plane(extremes::largest_smooth(curves, (&[], 0.0), value))
 }

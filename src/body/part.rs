@@ -1,12 +1,13 @@
 //! The cut drawing of one section: outline, bore, holes.
 
 use super::balancing::{self, Balancing};
-use crate::geometry::contour::{Contour, Vertex};
-use crate::geometry::cubics::{Run, runs};
-use crate::geometry::solid::{Solid, SolidError, prism};
+use crate::geometry::contour::{Contour, Extents, Vertex};
+use crate::geometry::cubics::{CurveRun, runs};
+use crate::geometry::solid::{CheckedSolid, pocketed, prism};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::profile::outline::Outline;
+use crate::refusal::Refusal;
 use crate::report::{OutlineMeasures, Weight};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
@@ -23,10 +24,18 @@ pub const NEGLIGIBLE_MM: f64 = 1e-6;
 pub enum Layer {
     /// The outline of the cam.
     CamProfile,
+    /// The flank of a groove nearer to the shaft.
+    GrooveInner,
+    /// The flank of a groove around the roller.
+    GrooveOuter,
+    /// The edge of a part whose roller runs within it.
+    Blank,
     /// Bore and holes.
     Bore,
     /// The path of a cutter's centre, in a file of its own.
     CutterPath,
+    /// The way on which the tool comes to the start of the outline, or of the path of the cutter.
+    LeadIn,
 }
 
 impl Layer {
@@ -35,15 +44,73 @@ impl Layer {
     pub fn name(self) -> &'static str {
         match self {
             Layer::CamProfile => "CAM_PROFILE",
+            Layer::GrooveInner => "GROOVE_INNER",
+            Layer::GrooveOuter => "GROOVE_OUTER",
+            Layer::Blank => "BLANK",
             Layer::Bore => "BORE",
             Layer::CutterPath => "CUTTER_PATH",
+            Layer::LeadIn => "LEAD_IN",
         }
+    }
+
+    /// What names of files call the flank on it: "inner".
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Layer::GrooveInner => "inner",
+            Layer::GrooveOuter => "outer",
+            _ => "",
+        }
+    }
+}
+
+/// A flank of a part, as it lies in the drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartFlank {
+    /// Its layer in the cut file.
+    pub layer: Layer,
+    /// Whether the metal lies around it.
+    pub hollow: bool,
+    /// Its outline, counter-clockwise, with its proof.
+    pub outline: Outline,
+}
+
+/// What a part has in addition to one outline with the metal inside of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// Layer of the first outline, and whether the metal lies around it.
+    pub first: (Layer, bool),
+    /// The other flanks.
+    pub others: Vec<PartFlank>,
+    /// Radius of the blank, mm.
+    pub blank: f64,
+    /// How deep the flanks reach below the upper face, mm; `None` of flanks that go through.
+    pub depth: Option<f64>,
+}
+
+/// A closed curve that bounds the metal of a part, which lies on its left.
+#[derive(Debug, Clone)]
+pub struct Rim {
+    /// Its layer.
+    pub layer: Layer,
+    /// The curve.
+    pub curve: Entity,
+    /// How deep it reaches below the upper face, mm; `None` of one that goes through.
+    pub depth: Option<f64>,
+}
+
+impl Rim {
+    fn of(layer: Layer, outline: &Outline, hollow: bool, depth: Option<f64>) -> Self {
+        let contour = if hollow { outline.contour.reversed() } else { outline.contour.clone() };
+        Self { layer, curve: Entity::Polyline(contour), depth }
     }
 }
 
 /// The cut drawing of a section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
+    /// Which of several outlines at one place it is, as [`Cut::name`](super::Cut::name).
+    pub name: &'static str,
     /// Speed it is cut for, rpm, where there are several sections.
     pub rpm: Option<f64>,
     /// Place along the axis, m.
@@ -54,6 +121,8 @@ pub struct Part {
     pub bore: Option<Entity>,
     /// Holes that balance the disc, when they were requested.
     pub balancing: Option<Balancing>,
+    /// Of a part whose roller runs within it.
+    pub track: Option<Track>,
 }
 
 /// Mass and moments of a part, SI.
@@ -71,19 +140,19 @@ pub struct Inertia {
 
 impl Part {
     /// An outline and nothing else.
-    pub(super) fn solid_plate(outline: Outline) -> Self {
-        Self { rpm: None, z: 0.0, outline, bore: None, balancing: None }
+    pub(crate) fn solid_plate(outline: Outline) -> Self {
+        Self { name: "", rpm: None, z: 0.0, outline, bore: None, balancing: None, track: None }
     }
 
     /// A section of a machine's turning cam: the outline of a clockwise one turned as the machine's, with its bore.
-    pub(super) fn turning(machine: &Machine, outline: Outline) -> Self {
+    pub(crate) fn turning(machine: &Machine, outline: Outline) -> Self {
         let outline = Outline { contour: as_turned(machine, outline.contour), ..outline };
         Self { bore: bore(machine), ..Self::solid_plate(outline) }
     }
 
     /// With the holes that balance it, when the machine file has `cam.balance`.
-    pub(super) fn balanced(self, machine: &Machine) -> Self {
-        let wall = MILLIMETRES * machine.limits.wall;
+    pub(crate) fn balanced(self, machine: &Machine) -> Self {
+        let wall = MILLIMETRES * machine.limits.wall.unwrap_or(0.0);
         let round = self.bore.as_ref().map(Entity::contour);
         let balancing = machine.cam.balance.map(|(inner, outer)| {
             let band = (MILLIMETRES * inner, MILLIMETRES * outer);
@@ -92,21 +161,63 @@ impl Part {
         Self { balancing, ..self }
     }
 
-    /// What is cut beside an outline (mm) of a machine's turning cam: bore and balance holes, counter-clockwise.
-    pub(super) fn holes_within(machine: &Machine, contour: &Contour) -> Vec<Entity> {
-        let outline = Outline { contour: contour.clone(), deviation: 0.0, best_possible: 0.0, best_for: [0.0; 2] };
+    /// What is cut in addition to an outline (mm) of a machine's turning cam: bore and balance holes, counter-clockwise.
+    pub(crate) fn holes_within(machine: &Machine, contour: &Contour) -> Vec<Entity> {
+        let outline = Outline { contour: contour.clone(), ..Outline::empty() };
         Self { bore: bore(machine), ..Self::solid_plate(outline) }.balanced(machine).holes()
     }
 
     /// What is cut, layer by layer; holes clockwise.
     #[must_use]
     pub fn entities(&self) -> Vec<(Layer, Entity)> {
-        let profile = (Layer::CamProfile, Entity::Polyline(self.outline.contour.clone()));
+        let lead_in = self.outline.lead_in.map(|segment| (Layer::LeadIn, Entity::Segment(segment)));
+        self.rims().into_iter().map(|rim| (rim.layer, rim.curve)).chain(lead_in).collect()
+    }
+
+    /// Everything that bounds its metal: flanks, blank, bore and holes.
+    #[must_use]
+    pub fn rims(&self) -> Vec<Rim> {
+        let track = self.track.as_ref();
+        let (layer, hollow) = track.map_or((Layer::CamProfile, false), |track| track.first);
+        let depth = track.and_then(|track| track.depth);
+        let others = track.map_or(&[][..], |track| track.others.as_slice());
+        let others = others.iter().map(|flank| Rim::of(flank.layer, &flank.outline, flank.hollow, depth));
+        let blank = track.map(|track| Entity::Circle(Vector2::zeros(), track.blank));
+        let blank = blank.map(|curve| Rim { layer: Layer::Blank, curve, depth: None });
         let holes = self.holes().into_iter().map(|hole| match hole {
-            Entity::Polyline(contour) => (Layer::Bore, Entity::Polyline(contour.reversed())),
-            circle @ Entity::Circle(..) => (Layer::Bore, circle),
+            Entity::Polyline(contour) => Entity::Polyline(contour.reversed()),
+            other => other,
         });
-        std::iter::once(profile).chain(holes).collect()
+        let holes = holes.map(|curve| Rim { layer: Layer::Bore, curve, depth: None });
+        let first = Rim::of(layer, &self.outline, hollow, depth);
+        std::iter::once(first).chain(others).chain(blank).chain(holes).collect()
+    }
+
+    /// Its outlines, each with its layer, in the order of the cuts of its body.
+    pub fn outlines(&self) -> impl Iterator<Item = (Layer, &Outline)> {
+        let first = self.track.as_ref().map_or(Layer::CamProfile, |track| track.first.0);
+        let others = self.track.iter().flat_map(|track| &track.others);
+        std::iter::once((first, &self.outline)).chain(others.map(|flank| (flank.layer, &flank.outline)))
+    }
+
+    /// Those outlines, to be changed.
+    pub(crate) fn outlines_mut(&mut self) -> impl Iterator<Item = &mut Outline> {
+        let others = self.track.iter_mut().flat_map(|track| &mut track.others);
+        std::iter::once(&mut self.outline).chain(others.map(|flank| &mut flank.outline))
+    }
+
+    /// Extents of the part, mm.
+    #[must_use]
+    pub fn extents(&self) -> Extents {
+        let blank = self.track.as_ref().map(|track| Entity::Circle(Vector2::zeros(), track.blank).extents());
+        blank.unwrap_or_else(|| self.outline.contour.extents())
+    }
+
+    /// What is cut in addition to its outlines, counter-clockwise: bore, balance holes, and the edge of its blank.
+    #[must_use]
+    pub fn beside_outlines(&self) -> Vec<Entity> {
+        let blank = self.track.iter().map(|track| Entity::Circle(Vector2::zeros(), track.blank));
+        self.holes().into_iter().chain(blank).collect()
     }
 
     /// Bore and balance holes, counter-clockwise.
@@ -125,34 +236,78 @@ impl Part {
     /// The part of a thickness (mm) as a solid.
     ///
     /// # Errors
-    /// [`SolidError`] when its own checks fail: a fault of camgen.
-    pub fn solid(&self, thickness: f64) -> Result<Solid, SolidError> {
-        let contours: Vec<Contour> =
-            std::iter::once(self.outline.contour.clone()).chain(self.hole_contours()).collect();
-        prism(&contours, self.area_and_moment().0, thickness)
+    /// [`Refusal`] when its own checks fail: a fault of camgen.
+    pub fn solid(&self, thickness: f64) -> Result<CheckedSolid, Refusal> {
+        let walls = self.walls();
+        let (through, pocket): (Vec<_>, Vec<_>) = walls.into_iter().partition(|(_, depth)| depth.is_none());
+        let contours = |walls: Vec<(Contour, _)>| walls.into_iter().map(|(contour, _)| contour).collect::<Vec<_>>();
+        let (through, pocket) = (contours(through), contours(pocket));
+        match self.track.as_ref().and_then(|track| track.depth) {
+            Some(depth) => pocketed(&through, &pocket, (thickness, depth)),
+            None => prism(&through, self.area_and_moment().0, thickness),
+        }
     }
 
-    /// Area of the metal, mm², and its first moment about the shaft, mm³.
+    /// The contours that bound its metal, the outermost first, each on the left of the metal's edge, with how deep it reaches below the
+    /// upper face, mm.
+    fn walls(&self) -> Vec<(Contour, Option<f64>)> {
+        let wall = |rim: Rim| match rim.curve {
+            Entity::Polyline(contour) => (contour, rim.depth),
+            round if rim.layer == Layer::Bore => (round.contour().reversed(), rim.depth),
+            round => (round.contour(), rim.depth),
+        };
+        let (blank, rest): (Vec<Rim>, Vec<Rim>) = self.rims().into_iter().partition(|rim| rim.layer == Layer::Blank);
+        blank.into_iter().chain(rest).map(wall).collect()
+    }
+
+    /// Area of the metal, mm², and its first moment about the shaft, mm³; of a part with a groove those of its upper face.
     #[must_use]
     pub fn area_and_moment(&self) -> (f64, Vector2<f64>) {
-        let (outline, centroid) = self.outline.contour.area_and_centroid();
-        self.holes().iter().fold((outline, centroid * outline), |(area, moment), hole| {
-            let (hole, centroid) = hole.contour().area_and_centroid();
-            (area - hole, moment - centroid * hole)
+        self.swept(|_| 1.0)
+    }
+
+    /// The sum over all walls of area and first moment, each times a weight that belongs to its depth.
+    fn swept(&self, weight: impl Fn(Option<f64>) -> f64) -> (f64, Vector2<f64>) {
+        self.areas().iter().fold((0.0, Vector2::zeros()), |(area, moment), (contour, sign, depth)| {
+            let (own, centroid) = contour.area_and_centroid();
+            let own = sign * own * weight(*depth);
+            (area + own, moment + centroid * own)
         })
+    }
+
+    /// What bounds its metal as areas: counter-clockwise, 1 where the metal lies inside and −1 where it lies around, and the depth.
+    fn areas(&self) -> Vec<(Contour, f64, Option<f64>)> {
+        let sign = |hollow: bool| if hollow { -1.0 } else { 1.0 };
+        let of_track = |track: &Track| {
+            let flanks = track.others.iter();
+            let flanks = flanks.map(|flank| (flank.outline.contour.clone(), sign(flank.hollow), track.depth));
+            let blank = (Contour::circle(Vector2::zeros(), track.blank), 1.0, None);
+            flanks.chain([blank]).collect::<Vec<_>>()
+        };
+        let (hollow, depth) = self.track.as_ref().map_or((false, None), |track| (track.first.1, track.depth));
+        let first = (self.outline.contour.clone(), sign(hollow), depth);
+        let holes = self.holes().into_iter().map(|hole| (hole.contour(), -1.0, None));
+        std::iter::once(first).chain(self.track.iter().flat_map(of_track)).chain(holes).collect()
+    }
+
+    /// Which share of the thickness a wall of some depth (mm) takes; all of it where no thickness is known.
+    fn share_of_thickness(machine: &Machine) -> impl Fn(Option<f64>) -> f64 + use<> {
+        let thickness = machine.cam.thickness.map(|thickness| MILLIMETRES * thickness);
+        move |depth| depth.zip(thickness).map_or(1.0, |(depth, thickness)| depth / thickness)
     }
 
     /// Area, mass and centre of mass, with the machine's thickness and material.
     #[must_use]
     pub fn weight(&self, machine: &Machine) -> Weight {
-        let (area, moment) = self.area_and_moment();
+        let (area, _) = self.area_and_moment();
         // kg per mm², where there is a thickness.
         let weight =
             machine.cam.thickness.map(|thickness| thickness * machine.cam.density() / (MILLIMETRES * MILLIMETRES));
+        let (even, moment) = self.swept(Self::share_of_thickness(machine));
         Weight {
             area_mm2: Some(area),
-            mass_kg: weight.map(|weight| area * weight),
-            centre_of_mass_mm: Some((moment / area).into()),
+            mass_kg: weight.map(|weight| even * weight),
+            centre_of_mass_mm: Some((moment / even).into()),
             unbalance_g_mm: weight.map(|weight| GRAMS * weight * moment.norm()),
         }
     }
@@ -163,10 +318,14 @@ impl Part {
         let thickness = machine.cam.thickness?;
         // kg per mm² of the drawing.
         let weight = thickness * machine.cam.density() / (MILLIMETRES * MILLIMETRES);
-        let (area, moment) = self.area_and_moment();
-        let holes: f64 = self.holes().iter().map(|hole| hole.contour().polar_moment()).sum();
-        let square = MILLIMETRES * MILLIMETRES;
-        let about_shaft = weight * (self.outline.contour.polar_moment() - holes) / square;
+        let share = Self::share_of_thickness(machine);
+        let (area, moment) = self.swept(&share);
+        let polar =
+            |(contour, sign, depth): &(Contour, f64, Option<f64>)| sign * share(*depth) * contour.polar_moment();
+        let areas = self.areas();
+        let (flanks, holes) = areas.split_at(areas.len() - self.holes().len());
+        let polar = flanks.iter().map(polar).sum::<f64>() + holes.iter().map(polar).sum::<f64>();
+        let about_shaft = weight * polar / (MILLIMETRES * MILLIMETRES);
         let (mass, unbalance) = (weight * area, moment * (weight / MILLIMETRES));
         let polar = about_shaft - unbalance.norm_squared() / mass;
         // The mean of the two diameters.
@@ -174,14 +333,20 @@ impl Part {
         Some(Inertia { mass, polar, diametral, unbalance: unbalance.into() })
     }
 
-    /// What is reported of the outline; `is_corner` is true at places (mm) where a corner is intended.
+    /// Measures of one of its outlines without corners, for the report.
+    #[must_use]
+    pub fn measures_of(&self, outline: &Outline, tolerance_mm: f64) -> OutlineMeasures {
+        Self::solid_plate(outline.clone()).measures(tolerance_mm, |_| false)
+    }
+
+    /// Measures of the outline for the report; `is_corner` is true at places (mm) where a corner is intended.
     #[must_use]
     pub fn measures(&self, tolerance_mm: f64, is_corner: impl Fn(Vector2<f64>) -> bool) -> OutlineMeasures {
         let outline = &self.outline;
         let (arcs, lines, spans) = (outline.contour.arcs(), outline.contour.lines(), outline.contour.cubics());
         let splined = spans > 0;
         let splines =
-            splined.then(|| runs(&outline.contour).iter().filter(|run| matches!(run, Run::Spline(_))).count());
+            splined.then(|| runs(&outline.contour).iter().filter(|run| matches!(run, CurveRun::Spline(_))).count());
         let best_possible = if splined { 0.0 } else { outline.best_possible };
         let breaks = outline.contour.tangent_breaks().into_iter().zip(&outline.contour.vertices);
         let smooth = breaks.filter(|(_, vertex)| !is_corner(vertex.point));
@@ -208,7 +373,7 @@ impl Part {
 }
 
 /// The bore of a clockwise cam, with its keyway merged into one contour.
-pub(super) fn bore(machine: &Machine) -> Option<Entity> {
+pub(crate) fn bore(machine: &Machine) -> Option<Entity> {
     let radius = MILLIMETRES * machine.cam.bore_radius?;
     let Some(keyway) = machine.cam.keyway else {
         return Some(Entity::Circle(Vector2::zeros(), radius));
@@ -230,7 +395,7 @@ pub(super) fn bore(machine: &Machine) -> Option<Entity> {
 }
 
 /// A contour of a clockwise cam as it lies in the drawing of this one.
-pub(super) fn as_turned(machine: &Machine, contour: Contour) -> Contour {
+pub(crate) fn as_turned(machine: &Machine, contour: Contour) -> Contour {
     match machine.cam.rotation {
         Rotation::Clockwise => contour,
         Rotation::CounterClockwise => contour.mirrored_about_x(),
@@ -238,7 +403,7 @@ pub(super) fn as_turned(machine: &Machine, contour: Contour) -> Contour {
 }
 
 /// A point or direction of a clockwise cam as it lies in the drawing of this one.
-pub(super) fn point_as_turned(machine: &Machine, point: Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn point_as_turned(machine: &Machine, point: Vector2<f64>) -> Vector2<f64> {
     match machine.cam.rotation {
         Rotation::Clockwise => point,
         Rotation::CounterClockwise => Vector2::new(point.x, -point.y),

@@ -2,23 +2,22 @@
 
 use super::balancing::Balancing;
 use super::part::point_as_turned;
-use super::torque::{self, Cut};
-use crate::follower::Element;
-use crate::geometry::contour::Extents;
-use crate::geometry::{Entity, MILLIMETRES};
-use crate::machine::{Machine, Rotation};
+use super::{curves_of, torque};
+use crate::geometry::contour::{Contour, Extents};
+use crate::geometry::{Entity, MILLIMETRES, polar};
+use crate::machine::fit::{self, HoleFit};
+use crate::machine::{Machine, Rotation, parallel_key};
 use crate::motion::Quantity;
-use crate::numeric::decimal::fixed;
 use crate::profile::Curves;
-use crate::profile::followed::Followed;
-use crate::report::sheet::{Group, Mark, PlaceTable, Shape, rounded};
+use crate::profile::followed::FollowerOnChain;
+use crate::profile::outline::Outline;
+use crate::report::sheet::{Mark, PlaceTable, ProfileTolerance, ShapeGroup, SheetShape, rounded};
 use crate::report::trace::Trace;
-use crate::table::turned;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// How far the roller's path and the normal reach beyond the roller, in its radii.
-pub(super) const PATH_OVER_RADIUS: f64 = 0.6;
+pub(crate) const PATH_OVER_RADIUS: f64 = 0.6;
 /// How far axes reach beyond what is drawn, as a share of it.
 const AXIS_BEYOND: f64 = 0.04;
 /// Places of the diagram of the acceleration lie no farther apart than this share of the motion.
@@ -27,17 +26,17 @@ const TRACE_SHARE: f64 = 1.0 / 180.0;
 const SENSE_DEG: f64 = 24.0;
 
 /// A roller with its path and the normal of the cam, mm.
-pub(super) fn roller(centre: Vector2<f64>, drive: Vector2<f64>, outward: Vector2<f64>, radius: f64) -> Vec<Shape> {
+pub(crate) fn roller(centre: Vector2<f64>, drive: Vector2<f64>, outward: Vector2<f64>, radius: f64) -> Vec<SheetShape> {
     let path = radius * (1.0 + PATH_OVER_RADIUS);
     vec![
-        Shape::Entity(Entity::Circle(centre, radius)),
-        Shape::Line(centre - drive * path, centre + drive * path),
-        Shape::Line(centre - outward * radius, centre + outward * path),
+        SheetShape::Entity(Entity::Circle(centre, radius)),
+        SheetShape::Line(centre - drive * path, centre + drive * path),
+        SheetShape::Line(centre - outward * radius, centre + outward * path),
     ]
 }
 
 /// The pressure angle between path and normal, with the names of both.
-pub(super) fn pressure_angle(
+pub(crate) fn pressure_angle(
     centre: Vector2<f64>,
     drive: Vector2<f64>,
     outward: Vector2<f64>,
@@ -62,16 +61,16 @@ pub(super) fn pressure_angle(
 }
 
 /// Horizontal and vertical axis through the origin, somewhat longer than what they cross.
-pub(super) fn axes(crossed: &Extents) -> Vec<Shape> {
+pub(crate) fn axes(crossed: &Extents) -> Vec<SheetShape> {
     let beyond = AXIS_BEYOND * crossed.size().max();
     vec![
-        Shape::Line(Vector2::new(crossed.least.x - beyond, 0.0), Vector2::new(crossed.largest.x + beyond, 0.0)),
-        Shape::Line(Vector2::new(0.0, crossed.least.y - beyond), Vector2::new(0.0, crossed.largest.y + beyond)),
+        SheetShape::Line(Vector2::new(crossed.least.x - beyond, 0.0), Vector2::new(crossed.largest.x + beyond, 0.0)),
+        SheetShape::Line(Vector2::new(0.0, crossed.least.y - beyond), Vector2::new(0.0, crossed.largest.y + beyond)),
     ]
 }
 
 /// Length and height of an outline, as dimensions to its left and below.
-pub(super) fn overall(outline: &Extents) -> Vec<Mark> {
+pub(crate) fn overall(outline: &Extents) -> Vec<Mark> {
     let (least, largest) = (outline.least, outline.largest);
     let text = |length: f64| rounded((length * 1e3).round() / 1e3);
     vec![
@@ -90,27 +89,115 @@ pub(super) fn overall(outline: &Extents) -> Vec<Mark> {
     ]
 }
 
-/// Bore with its keyway, which is the datum, and balance holes, by their names.
-pub(super) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark> {
+/// " H7 +0.021/0": a tolerance class with its deviations at a size (m), mm.
+fn fit_words(fit: HoleFit, size: f64) -> String {
+    let signed = |value: f64| {
+        let text = rounded((MILLIMETRES * value * 1e4).round() / 1e4);
+        if value > 0.0 { format!("+{text}") } else { text.replace('-', "−") }
+    };
+    match fit.deviations(size) {
+        Some([low, high]) if low == -high => format!(" {fit} ±{}", rounded(MILLIMETRES * high)),
+        Some([low, high]) => format!(" {fit} {}/{}", signed(high), signed(low)),
+        None => format!(" {fit}"),
+    }
+}
+
+/// Grade of the widest zone that is proposed: a machining centre holds it in usual work. The machine may permit far more.
+const CUSTOMARY_GRADE: u8 = 8;
+
+/// The zone for the manufacture of a profile: as given, else proposed from a permitted error along the follower's path (m), at a
+/// pressure angle (rad), less what the file itself deviates; no wider than the customary grade.
+pub(crate) fn profile_tolerance(
+    machine: &Machine,
+    permitted: Option<(f64, &'static str)>,
+    pressure_angle: f64,
+    outline: &Outline,
+) -> Option<ProfileTolerance> {
+    if let Some(width) = machine.title.profile_tolerance {
+        return Some(ProfileTolerance { width_mm: MILLIMETRES * width, proposed_from: None });
+    }
+    let of_lift = machine.title.lift_tolerance.map(|lift| (lift, "tolerance of the lift"));
+    let (along_path, from) = of_lift.or(permitted)?;
+    let half = MILLIMETRES * along_path * libm::cos(pressure_angle) - outline.deviation;
+    let size = outline.contour.extents().size().max() / MILLIMETRES;
+    // Two digits, rounded down.
+    let customary = fit::standard_tolerance(CUSTOMARY_GRADE, size).map(|width| MILLIMETRES * width);
+    let (width, from) = match customary {
+        Some(customary) if customary < 2.0 * half => (customary, "IT8 of its size"),
+        _ => (2.0 * half, from),
+    };
+    let step = libm::pow(10.0, libm::floor(libm::log10(width)) - 1.0);
+    // A width of round digits must not lose its last one to rounding.
+    let width_mm = step * (width / step + 1e-9).floor();
+    (half > 0.0 && width_mm > 0.0).then_some(ProfileTolerance { width_mm, proposed_from: Some(from) })
+}
+
+/// A given zone of the profile as a note, for a body whose drawing has no place for the frame.
+pub(crate) fn tolerance_note(machine: &Machine) -> Vec<String> {
+    let width = machine.title.profile_tolerance.map(|width| rounded(MILLIMETRES * width));
+    width
+        .map(|width| format!("all profiles within a zone of {width} mm about the drawn ones (ISO 1101)"))
+        .into_iter()
+        .collect()
+}
+
+/// The frame of that zone at one of some places of the profile, each with the direction outwards, with the datums that the machine's part has.
+pub(crate) fn tolerance_frame(
+    machine: &Machine,
+    tolerance: ProfileTolerance,
+    places: Vec<(Vector2<f64>, Vector2<f64>)>,
+) -> Mark {
+    let cam = &machine.cam;
+    let datums = [cam.bore_radius.map(|_| "A"), cam.bore_radius.and(cam.keyway).map(|_| "B")];
+    let width = rounded(tolerance.width_mm);
+    let cells = std::iter::once(width).chain(datums.into_iter().flatten().map(str::to_owned)).collect();
+    let behind = tolerance.proposed_from.map_or_else(String::new, |from| format!("proposal: {from}"));
+    Mark::Tolerance { places, cells, behind }
+}
+
+/// Bore with its keyway, which are the datums, and balance holes, by their names.
+pub(crate) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark> {
     let mut marks = Vec::new();
     let Some(bore) = machine.cam.bore_radius else { return marks };
     let radius = MILLIMETRES * bore;
     let down_right = Vector2::new(0.6, -0.8);
+    let fit = machine.cam.bore_fit.map(|fit| fit_words(fit, 2.0 * bore)).unwrap_or_default();
     marks.push(Mark::Label {
         class: "dimension",
         at: down_right * radius,
         towards: down_right,
-        text: format!("Ø{}, datum A", rounded(2.0 * radius)),
+        text: format!("Ø{}{fit}", rounded(2.0 * radius)),
     });
+    let down_left = Vector2::new(-0.6, -0.8);
+    marks.push(Mark::Datum { at: down_left * radius, towards: down_left, letter: "A" });
     if let Some(keyway) = machine.cam.keyway {
         let along = Vector2::new(libm::cos(keyway.angle), libm::sin(keyway.angle));
         let along = point_as_turned(machine, along);
         let (width, depth) = (MILLIMETRES * keyway.width, MILLIMETRES * keyway.depth);
+        let fit = machine.cam.keyway_fit.map(|fit| fit_words(fit, keyway.width)).unwrap_or_default();
+        let standard = parallel_key::standard(2.0 * bore, keyway.width, keyway.depth);
+        let deeper = standard.map(|standard| format!(" +{}", rounded(MILLIMETRES * standard.deeper)));
+        let place = rounded(keyway.angle.to_degrees());
+        // Off the axis, which its leader would lie on.
+        let (sin, cos) = libm::sincos(0.4);
+        let towards = Vector2::new(along.x * cos - along.y * sin, along.x * sin + along.y * cos);
         marks.push(Mark::Label {
             class: "dimension",
             at: along * (radius + depth),
-            towards: along,
-            text: format!("keyway {} wide, {} deep", rounded(width), rounded(depth)),
+            towards,
+            text: format!(
+                "keyway {}{fit}, {}{} over the bore, at θ = {place}°{}",
+                rounded(width),
+                rounded(2.0 * radius + depth),
+                deeper.unwrap_or_default(),
+                standard.map_or("", |_| ", DIN 6885-1"),
+            ),
+        });
+        let side = Vector2::new(-along.y, along.x);
+        marks.push(Mark::Datum {
+            at: along * (radius + 0.5 * depth) + side * (0.5 * width),
+            towards: side,
+            letter: "B",
         });
     }
     let holes = balancing.map_or(&[][..], |balancing| balancing.holes.as_slice());
@@ -124,7 +211,7 @@ pub(super) fn bore(machine: &Machine, balancing: Option<&Balancing>) -> Vec<Mark
 }
 
 /// How a cam turns, about its bore, and where its angle begins and how it grows, on a profile radius.
-pub(super) fn turning(machine: &Machine, base: f64, profile: f64, zero: &str) -> Vec<Mark> {
+pub(crate) fn turning(machine: &Machine, base: f64, profile: f64, zero: &str) -> Vec<Mark> {
     let bore = MILLIMETRES * machine.cam.bore_radius.unwrap_or(0.0);
     let (sense, way) = match machine.cam.rotation {
         Rotation::Clockwise => (-1.0, "clockwise"),
@@ -151,44 +238,140 @@ pub(super) fn turning(machine: &Machine, base: f64, profile: f64, zero: &str) ->
     ]
 }
 
-/// θ, radius and lift each 5°, and each 10°, of a cam that turns.
-pub(super) fn places(curves: Curves<'_>) -> Vec<PlaceTable> {
-    const EVERY: [(u32, usize); 2] = [(5, 1), (10, 2)];
-    const ROWS: u32 = 72;
-    let rolls = matches!(curves.element(), Element::Roller { radius } if radius > 0.0);
-    let swings = curves.motion.quantity() == Quantity::Angle;
-    let row = |index: u32| {
-        let at = turned(index, ROWS, curves.motion.lobes());
-        let (piece, angle) = curves.motion.locate(at.angle);
-        let lift = curves.motion.jet(piece, angle);
-        let curve = curves.follower.touch(angle, &lift).curve;
-        let place = if rolls { curve } else { curve.offset_inward(curves.offset()) };
-        let lift = if swings { lift.s.to_degrees() } else { MILLIMETRES * lift.s };
-        let cell = |value: f64, decimals: usize| fixed(value + 0.0, decimals);
-        vec![cell(at.cam_deg, 0), cell((place.point * MILLIMETRES).norm(), 3), cell(lift, 3)]
+/// Rows of the finer table of the profile, and places of the motion between which a ray is looked for.
+const ROWS: u32 = 72;
+const CELLS: u32 = 720;
+
+/// Degrees between the rows of a table of profiles, and every how many of its rows they are: the finest first.
+const EVERY: [(u32, usize); 4] = [(5, 1), (10, 2), (15, 3), (30, 6)];
+
+/// The polar angles of a table of profiles, degrees, and the directions there.
+fn rays() -> (Vec<f64>, Vec<Vector2<f64>>) {
+    let angles: Vec<f64> = (0..ROWS).map(|index| 360.0 * f64::from(index) / f64::from(ROWS)).collect();
+    let ray = |degrees: &f64| {
+        let (sin, cos) = libm::sincos(degrees.to_radians());
+        Vector2::new(cos, sin)
     };
-    let rows: Arc<[Vec<String>]> = (0..ROWS).map(row).collect();
-    let what = if rolls { "R of the roller's centre" } else { "R of the point of contact" };
+    let rays = angles.iter().map(ray).collect();
+    (angles, rays)
+}
+
+/// A cell of a table; a dash where there is no value.
+fn cell(value: Option<f64>, decimals: usize) -> String {
+    value.map_or("–".to_owned(), |value| format!("{:.decimals$}", value + 0.0))
+}
+
+/// The profiles of several sections as a shop plots them: R of each at the polar angles ψ, with the head of its column.
+pub(crate) fn section_profiles(sections: &[(String, &Contour)]) -> Vec<PlaceTable> {
+    let (angles, rays) = rays();
+    let radii: Vec<Vec<Option<f64>>> = sections.iter().map(|(_, contour)| polar::outermost(contour, &rays)).collect();
+    let row = |(index, degrees): (usize, &f64)| {
+        let of = |radii: &Vec<Option<f64>>| cell(radii.get(index).copied().flatten(), 3);
+        std::iter::once(cell(Some(*degrees), 0)).chain(radii.iter().map(of)).collect()
+    };
+    let rows: Arc<[Vec<String>]> = angles.iter().enumerate().map(row).collect();
+    let heads: Vec<String> =
+        std::iter::once("ψ, °".to_owned()).chain(sections.iter().map(|(head, _)| head.clone())).collect();
+    let table = |(degrees, every): &(u32, usize)| PlaceTable {
+        title: format!("Profiles of the sections: radius R, mm, at polar angle ψ, each {degrees}°"),
+        heads: heads.clone(),
+        rows: Arc::clone(&rows),
+        every: *every,
+    };
+    EVERY.iter().map(table).collect()
+}
+
+/// A cam seen from the side: its thickness from a place on the sheet (x, mm), with the bore of a radius hidden.
+pub(crate) fn side_view(
+    left: f64,
+    outline: &Extents,
+    thickness: f64,
+    bore: Option<f64>,
+) -> (Vec<ShapeGroup>, Vec<Mark>) {
+    let (low, high) = (Vector2::new(left, outline.least.y), Vector2::new(left + thickness, outline.largest.y));
+    let across =
+        |y: f64, beyond: f64| SheetShape::Line(Vector2::new(low.x - beyond, y), Vector2::new(high.x + beyond, y));
+    let along = |x: f64| SheetShape::Line(Vector2::new(x, low.y), Vector2::new(x, high.y));
+    let edges = vec![across(low.y, 0.0), across(high.y, 0.0), along(low.x), along(high.x)];
+    let hidden: Vec<SheetShape> = bore.iter().flat_map(|radius| [across(*radius, 0.0), across(-radius, 0.0)]).collect();
+    let groups = vec![
+        ShapeGroup::new("side", "side view", edges),
+        ShapeGroup::new("hidden", "hidden edges", hidden),
+        ShapeGroup { id: "side-axis".into(), ..ShapeGroup::new("axis", "axis", vec![across(0.0, 0.25 * thickness)]) },
+    ];
+    let size = Mark::Distance {
+        from: low,
+        to: Vector2::new(high.x, low.y),
+        away: Vector2::new(0.0, -1.0),
+        text: rounded(thickness),
+    };
+    (groups, vec![size])
+}
+
+/// The profile on the part as a shop plots it: polar angle ψ and radius R of the drawn outline each 5° or, where there is less room, coarser, with the cam angle at
+/// which the follower touches that place and its lift there.
+pub(crate) fn profile_table(machine: &Machine, curves: Curves<'_>, outline: &Contour) -> Vec<PlaceTable> {
+    let swings = curves.motion.quantity() == Quantity::Angle;
+    let (angles, rays) = rays();
+    let radii = polar::outermost(outline, &rays);
+    let touched = touched(machine, curves, &rays, &radii);
+    let row = |((degrees, radius), at): ((f64, &Option<f64>), &Option<f64>)| {
+        let lift = at.map(|at| {
+            let (piece, angle) = curves.motion.locate(at);
+            let lift = curves.motion.jet(piece, angle).s;
+            if swings { lift.to_degrees() } else { MILLIMETRES * lift }
+        });
+        vec![cell(Some(degrees), 0), cell(*radius, 3), cell(at.map(|at| turn(at.to_degrees())), 2), cell(lift, 3)]
+    };
+    let rows: Arc<[Vec<String>]> = angles.into_iter().zip(&radii).zip(&touched).map(row).collect();
     EVERY
         .iter()
         .map(|(degrees, every)| PlaceTable {
-            title: format!("Cam angle θ, {what}, lift, each {degrees}°"),
-            heads: vec!["θ, °".into(), "R, mm".into(), if swings { "lift, °".into() } else { "lift, mm".into() }],
+            title: format!(
+                "Profile on the part: radius R at polar angle ψ, each {degrees}°; cam angle θ of contact, lift there"
+            ),
+            heads: ["ψ, °", "R, mm", "θ, °", if swings { "lift, °" } else { "lift, mm" }].map(str::to_owned).to_vec(),
             rows: Arc::clone(&rows),
             every: *every,
         })
         .collect()
 }
 
-/// What the follower of a plane cam does on its outline: its acceleration beside that of the motion, and the torque of the shaft, with a
+/// An angle of a whole turn, degrees, to two decimals: 359.996 is 0.
+fn turn(degrees: f64) -> f64 {
+    ((100.0 * degrees).round() / 100.0) % 360.0
+}
+
+/// The cam angle, rad, at which the follower touches the profile on each ray; of several the one whose radius is nearest to that of the
+/// outline.
+fn touched(machine: &Machine, curves: Curves<'_>, rays: &[Vector2<f64>], radii: &[Option<f64>]) -> Vec<Option<f64>> {
+    let point = |at: f64| {
+        let (piece, angle) = curves.motion.locate(at);
+        point_as_turned(machine, curves.profile(piece, angle).point * MILLIMETRES)
+    };
+    let angle = |index: u32| std::f64::consts::TAU * f64::from(index) / f64::from(CELLS);
+    let points: Vec<Vector2<f64>> = (0..=CELLS).map(|index| point(angle(index))).collect();
+    let on_ray = |(ray, radius): (&Vector2<f64>, &Option<f64>)| {
+        let radius = (*radius)?;
+        let cells = (0..CELLS).zip(points.windows(2)).filter_map(|(index, ends)| {
+            let [a, b] = <[Vector2<f64>; 2]>::try_from(ends).ok()?;
+            polar::crossing(point, [angle(index), angle(index + 1)], [a, b], *ray)
+        });
+        let apart = |at: f64| (point(at).norm() - radius).abs();
+        cells.map(|at| (at, apart(at))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
+    };
+    rays.iter().zip(radii).map(on_ray).collect()
+}
+
+/// What the follower of a plane cam does on its outline: its acceleration with that of the motion, and the torque of the shaft, with a
 /// second disc on it that of both.
 #[must_use]
-pub fn traces(first: Cut<'_>, second: Option<Cut<'_>>) -> Vec<Trace> {
-    let (Some(curves), Some(followed)) = (first.0.plane(), torque::followed(first)) else { return Vec::new() };
+pub fn traces(first: torque::DiscOutline<'_>, second: Option<torque::DiscOutline<'_>>) -> Vec<Trace> {
+    let (Some(curves), Some(followed)) = (curves_of(first.0), torque::followed(first)) else { return Vec::new() };
     std::iter::once(acceleration(curves, &followed)).chain(torque::trace(first.0, &followed, second)).collect()
 }
 
-fn acceleration(curves: Curves<'_>, followed: &Followed<'_>) -> Trace {
+fn acceleration(curves: Curves<'_>, followed: &FollowerOnChain<'_>) -> Trace {
     let turns = curves.motion.period().is_some();
     let swings = curves.motion.quantity() == Quantity::Angle;
     let (place, value) = (if turns { 1.0_f64.to_degrees() } else { 1e3 }, if swings { 1.0 } else { 1e3 });
@@ -206,7 +389,7 @@ fn acceleration(curves: Curves<'_>, followed: &Followed<'_>) -> Trace {
 }
 
 /// A stretch of a curve that nobody may overlook.
-pub(super) fn lost_motion(stretches: Vec<Vec<Vector2<f64>>>) -> Option<Group> {
-    let shapes: Vec<Shape> = stretches.into_iter().map(Shape::Path).collect();
-    (!shapes.is_empty()).then(|| Group::new("lost-motion", "motion that is lost", shapes).told())
+pub(crate) fn lost_motion(stretches: Vec<Vec<Vector2<f64>>>) -> Option<ShapeGroup> {
+    let shapes: Vec<SheetShape> = stretches.into_iter().map(SheetShape::Path).collect();
+    (!shapes.is_empty()).then(|| ShapeGroup::new("lost-motion", "motion that is lost", shapes).with_legend())
 }

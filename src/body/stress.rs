@@ -1,13 +1,12 @@
 //! Pressure between roller and cam, after Hertz.
 
-use super::Body;
 use crate::document::range::LONGEST;
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Machine, Material};
 use crate::numeric::root;
-use crate::profile::extremes::{self, Acting};
-use crate::profile::{Curves, Worst};
+use crate::profile::extremes::{self, JumpRange};
+use crate::profile::{Contact, Curves, Worst};
 use std::f64::consts::PI;
 
 /// E* of a steel roller on a material, Pa: 1/E* = Σ (1 − ν²)/E.
@@ -15,35 +14,92 @@ fn contact_modulus(material: Material) -> f64 {
     1.0 / (1.0 / Material::Steel.contact_modulus() + 1.0 / material.contact_modulus())
 }
 
+/// Force between follower and cam along the normal, N, at a parameter of a piece with this contact; `None` where no force is
+/// known.
+pub(crate) type Force<'a> = &'a dyn Fn((usize, f64), &Contact) -> Option<f64>;
+
 /// The force where the motion begins, N; `None` where none is known anywhere.
-fn force_at_start(body: &dyn Body, curves: Curves<'_>) -> Option<f64> {
+fn force_at_start(force: Force<'_>, curves: Curves<'_>) -> Option<f64> {
     let (piece, start) = curves.motion.locate(curves.motion.range().0);
-    body.contact_force((piece, start), &curves.contact(piece, start))
+    force((piece, start), &curves.contact(piece, start))
 }
 
-/// The largest pressure in the line of contact: p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative.
-/// The roller is of steel and as wide as the cam is thick (K. L. Johnson, Contact Mechanics, 1985, §4.2).
-pub(super) fn of_lines(body: &dyn Body, (curves, acting): (Curves<'_>, &[Acting]), machine: &Machine) -> Option<Worst> {
+/// Places of a piece at which a pressure is looked at first.
+const LOOKS: u32 = 4;
+
+/// A power of the pressure that is smooth where the force vanishes, with its exponent.
+type PowerOfPressure<'a> = (Box<dyn Fn(usize, f64) -> f64 + 'a>, i32);
+
+/// The pressure in the line of contact, p = √(F E*/(π b R)), 1/R = the sum of the curvatures, concave negative; or in the ellipse under a
+/// roller whose rim has the radius `crown` along the axis, m, on a disc that is straight along it. The roller is of steel and as wide as the
+/// cam is thick (K. L. Johnson, Contact Mechanics, 1985, §4.2).
+fn power_of_pressure<'a>(
+    force: Force<'a>,
+    curves: Curves<'a>,
+    machine: &Machine,
+    crown: Option<f64>,
+) -> Option<PowerOfPressure<'a>> {
     // A knife edge touches with no radius, and any force would press without limit.
     if curves.element() == (Element::Roller { radius: 0.0 }) {
         return None;
     }
-    let (width, modulus) = (machine.cam.thickness?, contact_modulus(machine.cam.material?));
-    let bend = body.roller_radius().map_or(0.0, |radius| 1.0 / radius);
-    let square = |piece: usize, at: f64| {
+    let modulus = contact_modulus(machine.cam.material?.class);
+    force_at_start(force, curves)?;
+    let (bend, side) = (curves.roller_radius().map_or(0.0, |radius| 1.0 / radius), curves.metal_side());
+    // On an edge (undercut) the curvature means nothing; there the check `undercut` fails.
+    let both = move |piece: usize, at: f64| {
         let contact = curves.contact(piece, at);
-        // On an edge (undercut) the curvature means nothing; there the check `undercut` fails.
-        let curvature = (bend + contact.curve.offset_inward(curves.offset()).curvature).max(0.0);
-        body.contact_force((piece, at), &contact).unwrap_or(f64::NAN) * modulus * curvature / (PI * width)
+        let curvature = (bend + side * contact.curve.offset_inward(curves.offset()).curvature).max(0.0);
+        (force((piece, at), &contact).unwrap_or(f64::NAN), curvature)
     };
-    force_at_start(body, curves)?;
-    let worst = super::plane(extremes::largest_smooth(curves, (acting, 0.0), square));
-    Some(Worst { value: worst.value.max(0.0).sqrt(), ..worst })
+    if let Some(crown) = crown {
+        curves.roller_radius()?;
+        let cube = move |piece: usize, at: f64| {
+            let (force, curvature) = both(piece, at);
+            let pressure = in_ellipse(force, (curvature, 1.0 / crown), modulus);
+            pressure * pressure * pressure
+        };
+        return Some((Box::new(cube), 3));
+    }
+    let width = machine.cam.thickness?;
+    let square = move |piece: usize, at: f64| {
+        let (force, curvature) = both(piece, at);
+        force * modulus * curvature / (PI * width)
+    };
+    Some((Box::new(square), 2))
+}
+
+/// The largest pressure along a line, or under a crowned roller.
+pub(crate) fn largest(
+    force: Force<'_>,
+    (curves, acting): (Curves<'_>, &[JumpRange]),
+    machine: &Machine,
+    crown: Option<f64>,
+) -> Option<Worst> {
+    let (power, exponent) = power_of_pressure(force, curves, machine, crown)?;
+    let worst = super::plane(extremes::largest_smooth(curves, (acting, 0.0), power));
+    let power = worst.value.max(0.0);
+    Some(Worst { value: if exponent == 2 { power.sqrt() } else { libm::cbrt(power) }, ..worst })
+}
+
+/// Whether the pressure exceeds a limit at one of a few places: nearly every cam that is much too small shows it there.
+pub(crate) fn exceeds_somewhere(
+    force: Force<'_>,
+    curves: Curves<'_>,
+    machine: &Machine,
+    (crown, limit): (Option<f64>, f64),
+) -> bool {
+    let Some((power, exponent)) = power_of_pressure(force, curves, machine, crown) else { return false };
+    let mut rolled = curves.motion.distinct().iter().enumerate().filter(|(index, _)| curves.motion.is_rolled(*index));
+    rolled.any(|(index, piece)| {
+        let at = |look: u32| piece.start + (piece.end - piece.start) * ((f64::from(look) + 0.5) / f64::from(LOOKS));
+        (0..LOOKS).any(|look| power(index, at(look)) > limit.powi(exponent))
+    })
 }
 
 /// The thickness at which a line of contact keeps a limit that it exceeds, as a key of the machine file: the pressure goes with
 /// 1/√b. `None` where no thickness that is accepted would.
-pub(super) fn thickness_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
+pub(crate) fn thickness_for(machine: &Machine, largest: f64, limit: f64) -> Option<String> {
     let over = largest / limit;
     let thickness = (MILLIMETRES * machine.cam.thickness? * over * over).ceil();
     (thickness < MILLIMETRES * LONGEST).then(|| format!("cam.thickness = \"{thickness} mm\""))
@@ -60,12 +116,12 @@ pub(super) fn thickness_for(machine: &Machine, largest: f64, limit: f64) -> Opti
 /// ```
 ///
 /// The first gives b/a, the other two b³ = 3 F (b/a) E/(2 π E* (A + B)).
-pub(super) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), material: Material) -> f64 {
+pub(crate) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), material: Material) -> f64 {
     let relative = |curvature: f64| 1.0 / radius + curvature;
     in_ellipse(force, (relative(curvatures.0), relative(curvatures.1)), contact_modulus(material))
 }
 
-/// The same of any two bodies by the sums of their curvatures in the two principal directions, 2A and 2B in either order, 1/m, and E*, Pa.
+/// Largest pressure between any two bodies, Pa, by the sums of their curvatures in the two principal directions, 2A and 2B in either order, 1/m, and E*, Pa.
 fn in_ellipse(force: f64, sums: (f64, f64), modulus: f64) -> f64 {
     let (first, second) = ((0.5 * sums.0).max(0.0), (0.5 * sums.1).max(0.0));
     let (small, large) = (first.min(second), first.max(second));
@@ -79,27 +135,6 @@ fn in_ellipse(force: f64, sums: (f64, f64), modulus: f64) -> f64 {
     let sum = large * (1.0 + share);
     let short = libm::cbrt(3.0 * force * ratio * second_kind / (2.0 * PI * modulus * sum));
     3.0 * force * ratio / (2.0 * PI * short * short)
-}
-
-/// The largest pressure under a crowned roller, whose rim has this radius along the axis, m, on a disc that is straight along it.
-pub(super) fn of_crown(
-    body: &dyn Body,
-    (curves, acting): (Curves<'_>, &[Acting]),
-    machine: &Machine,
-    crown: f64,
-) -> Option<Worst> {
-    let (modulus, roller) = (contact_modulus(machine.cam.material?), body.roller_radius()?);
-    force_at_start(body, curves)?;
-    // The cube is smooth where the force is 0.
-    let cube = |piece: usize, at: f64| {
-        let contact = curves.contact(piece, at);
-        let bend = (1.0 / roller + contact.curve.offset_inward(curves.offset()).curvature).max(0.0);
-        let force = body.contact_force((piece, at), &contact).unwrap_or(f64::NAN);
-        let pressure = in_ellipse(force, (bend, 1.0 / crown), modulus);
-        pressure * pressure * pressure
-    };
-    let worst = super::plane(extremes::largest_smooth(curves, (acting, 0.0), cube));
-    Some(Worst { value: libm::cbrt(worst.value.max(0.0)), ..worst })
 }
 
 /// Least ratio of the two relative curvatures; below, the contact counts as a line.

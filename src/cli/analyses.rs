@@ -1,84 +1,83 @@
 //! The commands that analyse a machine and cut nothing.
 
-use super::args::{
-    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, EndOf, FrameOf, FreeOf, GoalOf, LawsArgs, LinkageArgs, Order,
-    RegimesArgs, ResetOf, ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
-};
+use super::args::{AnalysisArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs, at_end, machine_with_free};
+#[cfg(feature = "linkage")]
+use super::args::{LinkageArgs, LinkageGoal};
+#[cfg(feature = "shaft")]
+use super::args::{Order, ShaftArgs, ShaftSolver};
 use super::cams::{show, source_date};
-use super::progress::Progress;
 use super::put::put_set;
-use super::{Failure, Outcome, print, tell};
-use camgen::analysis::linkage::Goal;
-use camgen::analysis::shaft::{Asked, Solver};
-use camgen::analysis::{Analysis, brake, drive, laws, linkage, regimes, shaft, size, spring};
-use camgen::buffer::regime::Reset;
-use camgen::machine::{BrakeMachine, DriveMachine, Machine, ShaftMachine, Wanted};
-use camgen::motion::BrakeDisc;
-use camgen::pipeline::{Judged, Spec, Writing};
-use camgen::report::{Speeds, Told};
-use camgen::shaft::Whirl;
+use super::{Failure, Outcome, print, print_message};
+use camgen::analysis::{Analysis, laws, size};
+#[cfg(feature = "linkage")]
+use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
+use camgen::domains::press::analysis::{drive, regimes, spring};
+use camgen::domains::press::buffer::regime::Reset;
+use camgen::domains::press::machine::{DriveMachine, PressCams};
+#[cfg(feature = "shaft")]
+use camgen::domains::shaft::analysis::{self as shaft, CriticalSpeedSolver, ShaftOptions};
+#[cfg(feature = "shaft")]
+use camgen::domains::shaft::machine::ShaftMachine;
+use camgen::machine::Machine;
+use camgen::pipeline::{Judged, Writing};
+use camgen::report::Speeds;
 use camgen::write::number::names;
-use std::sync::Arc;
 
 /// Stations of the paper's shaft, and steps of a sweep, by default.
+#[cfg(feature = "shaft")]
 const STATIONS: usize = 18;
+#[cfg(feature = "shaft")]
 const STEPS: u32 = 10;
 
-/// The speeds of a press that are looked at by default, in sevenths of its design speed: 20, 25, 30 and 35 rpm of the paper's.
+/// The default speeds for a press, in sevenths of its design speed: 20, 25, 30 and 35 rpm for that of the paper.
 const SEVENTHS: [f64; 4] = [4.0, 5.0, 6.0, 7.0];
 
 pub(super) fn regimes(args: &RegimesArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = EndOf::of(args.end, args.analysis.machine(&args.machine)?)?;
+    let (machine, name) = at_end(args.end, args.analysis.machine(&args.machine)?)?;
     let design = machine.press().map_err(Failure::new)?.design_rpm;
-    let of_file = machine.regimes();
+    let of_file = &PressCams::of(&machine).regimes;
     let given = if args.rpm.is_empty() { &of_file.speeds } else { &args.rpm };
     let speeds = match given.as_slice() {
         [] => SEVENTHS.map(|sevenths| design * sevenths / 7.0).to_vec(),
         given => given.to_vec(),
     };
-    let reset = match args.reset {
-        None => of_file.reset.unwrap_or(Reset::End),
-        Some(ResetOf::End) => Reset::End,
-        Some(ResetOf::Half) => Reset::Half,
-        Some(ResetOf::Level) => Reset::Level,
-    };
+    let reset = args.reset.or(of_file.reset).unwrap_or(Reset::End);
     let analysis = regimes::analysis(&machine, args.cut_for.unwrap_or(design), &speeds, reset).map_err(Failure::new)?;
-    written(analysis, &args.analysis, &name)
+    judge_and_write(analysis, &args.analysis, &name)
 }
 
 pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
-    let of_file: Vec<f64> = machine.spring_stiffness().filter(|_| args.residual.is_none()).into_iter().collect();
+    let of_file: Vec<f64> =
+        PressCams::of(&machine).spring_stiffness.filter(|_| args.residual.is_none()).into_iter().collect();
     let stiffnesses = if args.stiffness.is_empty() { &of_file } else { &args.stiffness };
     let analysis = spring::analysis(&machine, &args.rpm, stiffnesses, args.residual).map_err(Failure::new)?;
-    written(analysis, &args.analysis, &name)
+    judge_and_write(analysis, &args.analysis, &name)
 }
 
 pub(super) fn drive(args: &DriveArgs) -> Result<Outcome, Failure> {
     let (machine, name) = DriveMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
-    let solver = match args.solver {
-        DriveSolver::Energy => drive::Solver::Energy,
-        DriveSolver::Paper => drive::Solver::Paper,
-    };
-    written(drive::analysis(&machine, solver, args.step).map_err(Failure::new)?, &args.analysis, &name)
+    judge_and_write(drive::analysis(&machine, args.solver, args.step).map_err(Failure::new)?, &args.analysis, &name)
 }
 
+#[cfg(feature = "linkage")]
 pub(super) fn linkage(args: &LinkageArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
     let rpm = args.rpm.or(machine.design_rpm()).unwrap_or(f64::NAN);
     let (keep, power) = (args.keep.is_some(), args.power_limit);
     let goal = match args.synthesize {
-        Some(GoalOf::Least) => Some(Goal::Least { symmetric: keep, power }),
+        Some(LinkageGoal::Least) => Some(DragLinkGoal::Least { symmetric: keep, power }),
         _ if keep || power.is_some() => {
             return Err(Failure("--keep and --power-limit belong to --synthesize least".into()));
         }
-        Some(GoalOf::Equal) => Some(Goal::Equal),
-        Some(GoalOf::Symmetric) => Some(Goal::Symmetric),
+        Some(LinkageGoal::Equal) => Some(DragLinkGoal::Equal),
+        Some(LinkageGoal::Symmetric) => Some(DragLinkGoal::Symmetric),
         None => None,
     };
-    written(linkage::analysis(&machine, rpm, goal).map_err(Failure::new)?, &args.analysis, &name)
+    judge_and_write(linkage::analysis(&machine, rpm, goal).map_err(Failure::new)?, &args.analysis, &name)
 }
 
+#[cfg(feature = "shaft")]
 pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
     let (machine, name) = ShaftMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
     let order = match args.order {
@@ -92,59 +91,53 @@ pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
         (ShaftSolver::Paper, _) if order.is_some() => {
             return Err(Failure("--order belongs to --solver exact; the paper's solver has --stations".into()));
         }
-        (ShaftSolver::Exact, None) => Solver::Exact { order },
+        (ShaftSolver::Exact, None) => CriticalSpeedSolver::Exact { order },
         (ShaftSolver::Paper, stations) => {
             let stations = stations.map_or(STATIONS, |stations| usize::try_from(stations).unwrap_or(usize::MAX));
-            Solver::Paper { stations }
+            CriticalSpeedSolver::Paper { stations }
         }
     };
-    let asked = Asked {
+    let asked = ShaftOptions {
         rpm: args.rpm.clone(),
         modes: args.modes.map(usize::from),
-        whirl: match args.whirl {
-            WhirlOf::Forward => Whirl::Forward,
-            WhirlOf::Planar => Whirl::Planar,
-            WhirlOf::Backward => Whirl::Backward,
-        },
+        whirl: args.whirl,
         solver,
         sweep: args.sweep,
         steps: args.steps.unwrap_or(STEPS),
         samples: args.samples,
     };
-    written(shaft::analysis(&machine, &asked).map_err(Failure::new)?, &args.analysis, &name)
+    judge_and_write(shaft::analysis(&machine, &asked).map_err(Failure::new)?, &args.analysis, &name)
 }
 
 pub(super) fn size(args: &SizeArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
-    let free: Vec<size::Free> = args
-        .free
-        .iter()
-        .map(|free| match free {
-            FreeOf::Offset => size::Free::Offset,
-            FreeOf::PivotDistance => size::Free::Pivot,
-        })
-        .collect();
-    written(size::analysis(&machine, &free, args.rpm).map_err(Failure::new)?, &args.analysis, &name)
+    judge_and_write(size::analysis(&machine, &args.free, args.rpm).map_err(Failure::new)?, &args.analysis, &name)
 }
 
 pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
     let (machine, name) = match &args.machine {
-        Some(machine) => args.analysis.machine(machine).map(|(machine, name)| (Some(machine), name))?,
+        Some(file) => {
+            machine_with_free(file, &args.analysis.set, &args.free).map(|(machine, name)| (Some(machine), name))?
+        }
+        None if !args.free.is_empty() => {
+            return Err(Failure("--free chooses a dimension of a cam: give its file".into()));
+        }
         None if args.analysis.set.is_empty() => (None, "laws".to_owned()),
         None => return Err(Failure("--set overrides keys of a file: give one".into())),
     };
-    let asked = laws::Asked { lift: args.lift, over: args.over, rpm: args.rpm, sort: args.sort.clone() };
+    let (lift, over, rpm) = (args.lift, args.over, args.rpm);
+    let asked = laws::LawsOptions { lift, over, rpm, sort: args.sort.clone(), laws: args.laws.clone() };
     let analysis = laws::analysis(machine.as_ref(), &asked).map_err(Failure::new)?;
     if args.csv == args.svg {
-        return written(analysis, &args.analysis, &name);
+        return judge_and_write(analysis, &args.analysis, &name);
     }
-    // Files as ever, but one of them in place of the report.
+    // Files are written as usual, but one of them is printed instead of the report.
     let (format, ending) = if args.csv { ("csv", ".csv") } else { ("svg", ".svg") };
     let judged = Judged::new(analysis);
-    let writing = writing(&judged, &args.analysis, &name)?;
+    let writing = writing(&args.analysis, stem(judged.analysis(), &name))?;
     let shown = judged.files(&Writing { formats: Some(vec![format.to_owned()]), ..writing.clone() });
     let shown = shown.map_err(Failure::new)?;
-    let files = (!args.analysis.told.dry_run).then(|| judged.files(&writing)).transpose().map_err(Failure::new)?;
+    let files = (!args.analysis.report.dry_run).then(|| judged.files(&writing)).transpose().map_err(Failure::new)?;
     let bytes =
         shown.outputs().iter().find(|output| output.name.ends_with(ending)).map(|output| output.bytes.as_slice());
     let text = String::from_utf8_lossy(bytes.unwrap_or_default());
@@ -155,45 +148,6 @@ pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Fine)
 }
 
-/// The disc of a brake that was read with it, and its motion.
-pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>), Failure> {
-    let disc = Arc::new(machine.brake_disc().map_err(Failure::new)?);
-    let spec = Spec::of_brake(machine, Arc::clone(&disc));
-    spec.map(|spec| (spec, disc)).ok_or_else(|| Failure("the file describes no disc on the shaft of the frame".into()))
-}
-
-pub(super) fn brake(args: &BrakeArgs) -> Result<Outcome, Failure> {
-    let wanted = match (args.cam, args.synthesize) {
-        (true, _) => Wanted::Disc,
-        (false, Some(_)) => Wanted::Frame,
-        (false, None) => Wanted::Figures,
-    };
-    let (machine, name) = BrakeMachine::load(&args.machine, &args.analysis.set, wanted).map_err(Failure::new)?;
-    let asked = brake::Asked {
-        steps: args.samples,
-        goal: args.synthesize.map(|goal| match goal {
-            FrameOf::Level => brake::Goal::Level,
-            FrameOf::Robust => brake::Goal::Robust,
-        }),
-        seed: args.seed,
-    };
-    if !args.cam {
-        return written(brake::analysis(&machine, &asked, None).map_err(Failure::new)?, &args.analysis, &name);
-    }
-    let progress = Progress::of_stages(args.analysis.told.shows_progress());
-    progress.stage("solving");
-    let (spec, disc) = of_brake(&machine)?;
-    let cam = spec.solve().map_err(Failure::new)?;
-    progress.stage("drawing");
-    let drawing = cam.draw(args.laid.request(&args.accuracy)).map_err(Failure::new)?;
-    progress.stage("proving");
-    let proven = drawing.prove_as(args.laid.dxf_version).map_err(Failure::new)?;
-    drop(progress);
-    let held = brake::Held { disc: &disc, as_cut: proven.rolled().and_then(|rolled| rolled.tension.as_ref()) };
-    let analysis = brake::analysis(&machine, &asked, Some(&held)).map_err(Failure::new)?;
-    judged(&Judged::new(analysis).with_cam(proven), &args.analysis, &name)
-}
-
 impl AnalysisArgs {
     fn machine(&self, name: &str) -> Result<(Machine, String), Failure> {
         Machine::load(name, &self.set).map_err(Failure::new)
@@ -201,44 +155,63 @@ impl AnalysisArgs {
 }
 
 /// Judges, writes and reports.
-fn written(analysis: Analysis, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
-    judged(&Judged::new(analysis), args, machine)
+pub(super) fn judge_and_write(analysis: Analysis, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
+    write_judged(&Judged::new(analysis), args, machine)
 }
 
-/// What is written of a judged analysis, and where.
-fn writing(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Writing, Failure> {
-    let analysis = judged.analysis();
-    let command = analysis.kind.command;
-    let speeds = match &analysis.speeds {
-        Speeds::Any(()) => String::new(),
-        Speeds::One(rpm) => format!("-{}rpm", names(&[*rpm]).concat()),
-        Speeds::Several(speeds) => format!("-{}rpm", names(speeds).join("-")),
-    };
+/// Judges, writes under a stem of its own and reports.
+pub(super) fn judge_and_write_as(analysis: Analysis, args: &AnalysisArgs, stem: String) -> Result<Outcome, Failure> {
+    write_as(&Judged::new(analysis), args, &writing(args, stem)?)
+}
+
+/// The longest stem that names every speed, bytes: what is added to it still fits a file system.
+const LONGEST_STEM: usize = 200;
+
+/// The usual stem of the files of an analysis.
+fn stem(analysis: &Analysis, machine: &str) -> String {
+    let of = |speeds: &[String]| format!("{machine}-{}-{}rpm", analysis.kind.command, speeds.join("-"));
+    match &analysis.speeds {
+        Speeds::Any(()) => format!("{machine}-{}", analysis.kind.command),
+        Speeds::One(rpm) => of(&names(&[*rpm])),
+        Speeds::Several(speeds) => match (of(&names(speeds)), speeds.as_slice()) {
+            (long, [first, .., last]) if long.len() > LONGEST_STEM => of(&names(&[*first, *last])),
+            (stem, _) => stem,
+        },
+    }
+}
+
+/// Which files of a judged analysis are written, and where.
+fn writing(args: &AnalysisArgs, stem: String) -> Result<Writing, Failure> {
     Ok(Writing {
         formats: args.format.clone(),
         template: args.to.template()?,
         force: args.to.force,
         overwrite: args.to.overwrite,
         created: source_date()?,
-        ..Writing::to(&args.to.out, args.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}{speeds}")))
+        ..Writing::to(&args.to.out, args.to.name.clone().unwrap_or(stem))
     })
 }
 
 /// Writes and reports what was judged.
-fn judged(judged: &Judged<'_>, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
-    let writing = writing(judged, args, machine)?;
+pub(super) fn write_judged(judged: &Judged, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
+    write_as(judged, args, &writing(args, stem(judged.analysis(), machine))?)
+}
+
+fn write_as(judged: &Judged, args: &AnalysisArgs, writing: &Writing) -> Result<Outcome, Failure> {
     let files = if let Some(why) = judged.no_outline() {
-        tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
+        print_message(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
         None
     } else if judged.passed() || writing.force {
-        Some(judged.files(&writing).map_err(Failure::new)?).filter(|_| !args.told.dry_run)
+        Some(judged.files(writing).map_err(Failure::new)?).filter(|_| !args.report.dry_run)
     } else {
-        tell("refused: a check failed, nothing was written (--force writes nevertheless; camgen explain CHECK)");
+        print_message(
+            "refused: a check failed, nothing was written (--force writes anyway; `camgen explain CHECK` explains a check)",
+        );
         None
     };
     match files {
-        Some(files) => put_set(files, |report| show(report, &args.told))?,
-        None => show(&Told::new(Box::new(|| judged.report())), &args.told)?,
+        Some(files) => put_set(files, |report| show(report, &args.report))?,
+        None => show(&judged.lazy_report(), &args.report)?,
     }
     Ok(if judged.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }

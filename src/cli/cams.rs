@@ -1,22 +1,26 @@
-//! The commands that make a cam: what was typed becomes a specification, which walks the pipeline of the library.
+//! The commands that make a cam: the arguments become a specification, which passes through the pipeline of the library.
 
 use super::args::{
-    AccuracyArgs, CommonArgs, ConoidArgs, CutterArgs, DiscArgs, EndOf, FileArgs, LaidArgs, LaidOf, OutArgs, PointsArgs,
-    PointsAs, PointsBetween, PointsOf, PointsStep, RotaryArgs, SideOf, SolverKind, Speed, ToldArgs, TranslatingArgs,
+    AccuracyArgs, CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs,
+    ReportArgs, RotaryArgs, SolverKind, Speed, TranslatingArgs,
 };
 use super::progress::Progress;
 use super::put::put_set;
-use super::{Failure, Outcome, print, print_painted, tell, text};
+use super::{Failure, Outcome, print, print_message, print_painted, text};
 use camgen::body::Request;
-use camgen::body::points::{Given, Points};
-use camgen::body::wedge::LAW_TOLERANCE;
+use camgen::body::points::{PointCurve, Points};
+use camgen::catalogue::catalogue;
+use camgen::document::NamedChoice;
 use camgen::document::file::text_of;
-use camgen::geometry::points::{Between, Form, Step};
+use camgen::domains::press::motion::equation_18::Solver;
+use camgen::domains::press::wedge::LAW_TOLERANCE;
+use camgen::geometry::lead_in::{LeadIn, LeadInForm};
+use camgen::geometry::points::PointInterpolation;
 use camgen::machine::Machine;
-use camgen::motion::equation_18::Solver;
-use camgen::pipeline::{Cam, FileSet, Proven, Spec, Writing};
-use camgen::profile::outline::{Fit, Laid, Side};
-use camgen::report::{Speeds, Told};
+use camgen::pipeline::{Cam, FileSet, ProvenAssembly, Spec, Writing};
+use camgen::profile::outline::Fit;
+use camgen::report::{LazyReport, Speeds};
+use camgen::units::{self, Dimension};
 use camgen::write::json;
 use camgen::write::number::names;
 use camgen::write::points;
@@ -25,15 +29,14 @@ use camgen::write::svg;
 
 /// Stations of the paper's solver by default: its error is then a hundredth of a millimetre.
 const STATIONS: u32 = 1800;
-/// More speeds than these are named by the first and the last.
+/// More speeds than this are named by the first and the last.
 const MOST_NAMED: usize = 6;
 
 pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let keys = args.compensator.iter().map(|key| format!("compensator.{}", key.trim()));
     let args = &args.disc;
     let overrides: Vec<String> = args.common.set.iter().cloned().chain(keys).collect();
-    let loaded = Machine::load(&args.common.machine, &overrides).map_err(Failure::new)?;
-    let (mut machine, name) = EndOf::of(args.common.end, loaded)?;
+    let (mut machine, name) = args.common.machine_with(args.common.machine_name(), &overrides)?;
     let rpm = args.common.one_speed(&machine)?;
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
     cut(Spec::rotary(machine, rpm), request, &args.common, &args.files, &name)
@@ -49,7 +52,7 @@ pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
             return Err(Failure("--stations belongs to --solver paper; the solver ode chooses its own steps".into()));
         }
     };
-    let spec = Spec::translating(machine, rpm, solver, args.balance.exact_on());
+    let spec = Spec::translating(machine, rpm, solver, args.balance);
     cut(spec, args.files.request(&args.common)?, &args.common, &args.files, &name)
 }
 
@@ -61,13 +64,27 @@ pub(super) fn conoid(args: &ConoidArgs) -> Result<Outcome, Failure> {
 
 /// The cam of a motion program.
 pub(super) fn make(args: &DiscArgs) -> Result<Outcome, Failure> {
+    let Some(file) = &args.common.machine else { return Err(without_design()) };
     let (mut machine, name) = args.common.machine()?;
     if args.common.end.is_some() {
         return Err(Failure("--end belongs to the cams of a press: a motion program has no ends of a stroke".into()));
     }
     let request = args.cutter.request(&mut machine, args.files.request(&args.common)?);
-    let spec = of_program(&args.common, (machine, &args.common.machine))?;
+    let spec = of_program(&args.common, (machine, file))?;
     cut(spec, request, &args.common, &args.files, &name)
+}
+
+/// What `make` can start from.
+fn without_design() -> Failure {
+    let designs = catalogue().embedded.iter().filter(|embedded| embedded.toml.contains("\n[motion]"));
+    let listed: Vec<String> =
+        designs.map(|embedded| format!("  {:<16} {}\n", embedded.name, embedded.title())).collect();
+    let listed = listed.concat();
+    Failure(format!(
+        "`make` needs a file with a motion: camgen make FILE. Designs to start from:\n{listed}\
+         `camgen make feeder` makes one of them, `camgen machines show feeder > my.toml` copies it, and `camgen init --follower roller my.toml` \
+         writes a commented file"
+    ))
 }
 
 /// The disc cam of the motion program of a file of this name.
@@ -103,77 +120,80 @@ pub(super) fn of_conoid(common: &CommonArgs, machine: Machine, residual: Option<
 }
 
 impl CutterArgs {
-    /// The request with the path of the cutter, which then has to fit.
+    /// The request with the path of the cutter, which must then fit.
     fn request(&self, machine: &mut Machine, request: Request) -> Request {
-        if let Some(radius) = self.cutter {
+        let cutter_radius = self.cutter_diameter.or(self.cutter_radius);
+        if let Some(radius) = cutter_radius {
             machine.ask_for_cutter(radius);
         }
-        Request { cutter: self.cutter, ..request }
+        Request { cutter_radius, ..request }
     }
 }
 
 impl PointsArgs {
-    /// The table that was asked for, if one was.
-    fn asked(&self, formats: Option<&[String]>) -> Result<Option<Points>, Failure> {
+    /// The requested table, if there is one.
+    fn requested(&self, formats: Option<&[String]>) -> Result<Option<Points>, Failure> {
         if !formats.is_some_and(|formats| formats.iter().any(|format| format == points::FORMAT.name)) {
-            let told = [
+            let given = [
                 self.points_of.is_some(),
                 self.points_as.is_some(),
                 self.points_step.is_some(),
                 self.points_between.is_some(),
             ];
-            if told.contains(&true) {
+            if given.contains(&true) {
                 return Err(Failure("the flags --points-… belong to --format points".into()));
             }
             return Ok(None);
         }
         Ok(Some(Points {
-            given: match self.points_of {
-                None | Some(PointsOf::Profile) => Given::Profile,
-                Some(PointsOf::Centre) => Given::Centre,
-                Some(PointsOf::Cutter) => Given::Cutter,
-            },
-            form: self.points_as.map(|form| match form {
-                PointsAs::Polar => Form::Polar,
-                PointsAs::Xy => Form::Plane,
-            }),
-            step: self.points_step.map(|step| match step {
-                PointsStep::Angle => Step::Angle,
-                PointsStep::Chord => Step::Chord,
-            }),
-            between: match self.points_between {
-                None | Some(PointsBetween::Linear) => Between::Linear,
-                Some(PointsBetween::Cubic) => Between::Cubic,
-            },
+            curve: self.points_of.unwrap_or(PointCurve::Profile),
+            form: self.points_as,
+            step: self.points_step,
+            between: self.points_between.unwrap_or(PointInterpolation::Linear),
         }))
     }
 }
 
 impl FileArgs {
     fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
-        let points = self.points.asked(self.format.as_deref())?;
-        Ok(Request { points, ..self.laid.request(&common.accuracy) })
+        let points = self.points.requested(self.format.as_deref())?;
+        Ok(Request { points, ..self.outline.request(&common.accuracy)? })
     }
 }
 
-impl LaidArgs {
-    /// What an outline must keep.
-    pub(super) fn request(&self, accuracy: &AccuracyArgs) -> Request {
-        let side = match self.side {
-            SideOf::Both => Side::Both,
-            SideOf::Inside => Side::Inside,
-            SideOf::Outside => Side::Outside,
-        };
-        let laid = match self.outline {
-            LaidOf::Arcs => Laid::Arcs,
-            LaidOf::Spline => Laid::Splines,
-        };
+impl OutlineArgs {
+    /// The tolerances of an outline, its start and the way there.
+    pub(super) fn request(&self, accuracy: &AccuracyArgs) -> Result<Request, Failure> {
         let (rates, strict) = accuracy.rates();
-        Request { rates, strict, ..Request::within(Fit { side, laid, ..Fit::from(accuracy.tolerance()) }) }
+        Ok(Request {
+            rates,
+            strict,
+            start: self.start,
+            lead_in: self.lead_in.as_deref().map(lead_in).transpose()?,
+            ..Request::within(Fit { side: self.side, laid: self.outline, ..Fit::from(accuracy.tolerance()) })
+        })
     }
 }
 
-impl OutArgs {
+/// Largest size of a lead-in, m.
+const LARGEST_LEAD_IN: f64 = 1.0;
+
+/// The lead-in of the two words of its flag.
+fn lead_in(words: &[String]) -> Result<LeadIn, Failure> {
+    let (form, size) = (words.first().map_or("", String::as_str), words.get(1).map_or("5mm", String::as_str));
+    let fault = |why: String| {
+        Failure(format!("--lead-in {form} {size}: {why}; write --lead-in tangent 5mm or --lead-in arc 5mm"))
+    };
+    let known = LeadInForm::ALL.iter().find(|(name, _)| name.eq_ignore_ascii_case(form));
+    let (_, form) = known.ok_or_else(|| fault("the form is tangent or arc".into()))?;
+    let quantity = units::parse(size, Dimension::Length).map_err(|error| fault(error.to_string()))?;
+    if !(quantity.si > 0.0 && quantity.si <= LARGEST_LEAD_IN) {
+        return Err(fault(format!("the size must be above 0 and at most {}", quantity.in_same_unit(LARGEST_LEAD_IN))));
+    }
+    Ok(LeadIn { form: *form, size: quantity.si })
+}
+
+impl OutputArgs {
     /// The template of the sheet.
     pub(super) fn template(&self) -> Result<String, Failure> {
         match &self.template {
@@ -187,7 +207,7 @@ impl OutArgs {
 /// Largest template, bytes.
 const LARGEST_TEMPLATE: u64 = 1 << 20;
 
-/// What the names of the files begin with.
+/// The start of the names of the files.
 fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String {
     let command = cam.body().kind().command;
     let speeds = match cam.body().speeds() {
@@ -205,8 +225,8 @@ fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String
     files.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}-{speeds}rpm"))
 }
 
-/// The time that files are to bear, of the environment variable `SOURCE_DATE_EPOCH`: seconds since 1970, UTC. Without it they bear
-/// none, so that the same input gives the same bytes.
+/// The time to write into files, from the environment variable `SOURCE_DATE_EPOCH`: seconds since 1970, UTC. Without it no time is
+/// written, so that the same input gives the same bytes.
 pub(super) fn source_date() -> Result<Option<u64>, Failure> {
     let Some(text) = std::env::var_os("SOURCE_DATE_EPOCH").filter(|text| !text.is_empty()) else { return Ok(None) };
     match text.to_str().and_then(|text| text.parse().ok()).filter(|seconds| *seconds <= LATEST) {
@@ -221,12 +241,13 @@ pub(super) fn source_date() -> Result<Option<u64>, Failure> {
 /// Solves, draws, proves, writes and reports.
 fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, machine: &str) -> Result<Outcome, Failure> {
     let template = files.to.template()?;
-    let progress = Progress::of_stages(common.told.shows_progress());
+    let progress = Progress::of_stages(common.report.shows_progress());
     progress.stage("solving");
-    let cam = spec.solve().map_err(Failure::new)?;
+    let cams = spec.assemble().map_err(Failure::new)?;
+    let cam = cams.first();
     let writing = Writing {
         directory: files.to.out.clone(),
-        stem: stem(common, files, &cam, machine),
+        stem: stem(common, files, cam, machine),
         formats: files.format.clone(),
         samples: files.samples,
         template,
@@ -238,49 +259,51 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
     // The flank of a three-dimensional cam is drawn, and proved, only for a format that shows it.
     let request = Request { flank: formats.iter().any(|format| format.flank), ..request };
     progress.stage("drawing");
-    let drawing = cam.draw(request).map_err(Failure::new)?;
+    let drawing = cams.draw(request).map_err(Failure::new)?;
     progress.stage("proving");
-    let proven = drawing.prove_as(files.laid.dxf_version).map_err(Failure::new)?;
+    let proven = drawing.prove_as(files.outline.dxf_version).map_err(Failure::new)?;
     progress.stage("writing");
     let files = files_of(&proven, &writing, common, &left_out);
     drop(progress);
     match files? {
-        Some(files) => put_set(files, |report| show(report, &common.told))?,
-        None => show(&proven.told(), &common.told)?,
+        Some(files) => put_set(files, |report| show(report, &common.report))?,
+        None => show(&proven.lazy_report(), &common.report)?,
     }
     Ok(if proven.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
-/// The files of a cam that passed, or is forced, and are to be written.
-fn files_of<'p>(
-    proven: &'p Proven<'_>,
+/// The files of a cam that passed or is forced, unless it is a dry run.
+fn files_of(
+    proven: &ProvenAssembly,
     writing: &Writing,
     common: &CommonArgs,
     left_out: &[(&str, &str)],
-) -> Result<Option<FileSet<'p>>, Failure> {
+) -> Result<Option<FileSet>, Failure> {
     if let Some(why) = proven.no_outline() {
-        tell(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
+        print_message(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
         return Ok(None);
     }
     if !proven.passed() && !writing.force {
-        tell("refused: a check failed, nothing was written (--force writes nevertheless; camgen explain CHECK)");
+        print_message(
+            "refused: a check failed, nothing was written (--force writes anyway; `camgen explain CHECK` explains a check)",
+        );
         return Ok(None);
     }
     for (format, why) in left_out {
-        tell(&format!("no {} file: {why}", format.to_uppercase()));
+        print_message(&format!("no {} file: {why}", format.to_uppercase()));
     }
     let made = proven.files(writing).map_err(Failure::new)?;
-    Ok((!common.told.dry_run).then_some(made))
+    Ok((!common.report.dry_run).then_some(made))
 }
 
-/// Prints a report as it was asked for.
-pub(super) fn show(report: &Told<'_>, told: &ToldArgs) -> Result<(), Failure> {
-    if told.json {
+/// Prints a report as the arguments say.
+pub(super) fn show(report: &LazyReport, args: &ReportArgs) -> Result<(), Failure> {
+    if args.json {
         let bytes = json::write(&**report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&bytes))
-    } else if told.quiet {
+    } else if args.quiet {
         Ok(())
     } else {
-        print_painted(&text::report(report, told.page()))
+        print_painted(&text::report(report, args.page()))
     }
 }

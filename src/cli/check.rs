@@ -1,64 +1,124 @@
-//! `camgen check`: the proof for a DXF file that may have been edited or written by another program.
+//! `camgen check`: proves a DXF or STEP file that may have been edited or written by another program.
 
-use super::analyses::of_brake;
-use super::args::{CheckArgs, Checked};
+use super::args::{CheckArgs, CheckTarget, CommonArgs, ReportFormat};
 use super::cams::{of_conoid, of_program};
+use super::design::{self, Design};
 use super::progress::Progress;
 use super::{Failure, Outcome, print, print_painted, text};
 use camgen::body::Request;
-use camgen::body::wedge::LAW_TOLERANCE;
 use camgen::document::file::bytes_of;
-use camgen::machine::{BrakeMachine, Wanted};
-use camgen::motion::equation_18::Solver;
-use camgen::pipeline::{Error, Spec};
-use camgen::reading::LARGEST_FILE;
+use camgen::domains::press::motion::equation_18::Solver;
+use camgen::domains::press::wedge::LAW_TOLERANCE;
+use camgen::pipeline::{Error, ExpectedFile, Spec};
+use camgen::profile::outline::Fit;
+use camgen::reading::{self, LARGEST_FILE, step};
+use camgen::refusal::Refusal;
 use camgen::report::Section;
 use camgen::write::json;
+use camgen::write::points;
+use camgen::write::record::RecordedRun;
 use std::path::Path;
 
+/// Ends that are joined where it only matters whether a file can be read, mm.
+const JOINED: f64 = 1e-3;
+
 pub(super) fn run(args: &CheckArgs) -> Result<Outcome, Failure> {
-    let spec = spec(args)?;
     let bytes = read(&args.file)?;
-    let progress = Progress::of_stages(args.common.told.shows_progress());
-    progress.stage("solving");
-    let cam = spec.solve().map_err(Failure::new)?;
-    progress.stage("rolling on the file");
+    let design = design(args, &bytes)?;
     let file = args.file.display().to_string();
     let accuracy = &args.common.accuracy;
     let (rates, strict) = accuracy.demanded();
-    let request = Request { rates, strict, ..Request::within(accuracy.tolerance()) };
-    let checked = match args.section {
-        Some(rpm) => cam.check_section(&bytes, rpm, request),
-        None => cam.check(&bytes, request),
+    let as_recorded = accuracy.tolerance.is_none() && accuracy.accuracy.is_none();
+    let tolerance = design.length("tolerance").filter(|_| as_recorded).unwrap_or(accuracy.tolerance());
+    let fit = Fit { side: design.side().unwrap_or_default(), ..Fit::from(tolerance) };
+    let request = Request { rates, strict, ..Request::within(fit) };
+    let recorded_cutter = design.length("cutter-diameter").map(|diameter| 0.5 * diameter).or(design.length("cutter"));
+    let expected = ExpectedFile {
+        layer: args.layer.as_deref(),
+        section: args.section.or_else(|| design.recorded.as_ref().and_then(|run| section_of(&args.file, run))),
+        cut: None,
+        cutter: args.cutter_radius.or(args.cutter_diameter).or(recorded_cutter),
     };
+    let Design { spec, told, recorded, exact } = design;
+    let progress = Progress::of_stages(args.common.report.shows_progress());
+    progress.stage("solving");
+    let cam = spec.solve().map_err(Failure::new)?;
+    if let Some(run) = recorded.filter(|run| exact && !cam.is_made_from(&run.inputs)) {
+        return Err(Failure(format!(
+            "the record next to `{file}` does not contain the whole design of {}; give it: `camgen check {file} --design FILE`",
+            run.stem
+        )));
+    }
+    progress.stage("rolling on the file");
+    let checked = cam.check_file(&bytes, &expected, request);
     let mut report = checked.map_err(|error| match error {
         Error::Read(error) => Failure(format!("`{file}` is {error}")),
-        Error::Step(error) => Failure(format!("`{file}` is {error}")),
         Error::Section(why) => Failure(format!("{why} (--section RPM)")),
+        Error::Cutter(why) => Failure(format!("{why} (--cutter-radius RADIUS or --cutter-diameter DIAMETER)")),
         other => Failure::new(other),
     })?;
     drop(progress);
     report.sections.insert(0, Section::new("file", &file));
-    if args.common.told.json {
+    if let Some(told) = told {
+        report.sections.insert(1, Section::new("design", &told).with_words(vec![told]));
+    }
+    if args.common.report.json || args.format == ReportFormat::Json {
         let json = json::write(&report).map_err(Failure::new)?;
         print(&String::from_utf8_lossy(&json))?;
-    } else if !args.common.told.quiet {
-        print_painted(&text::check_report(&file, &report, args.common.told.page()))?;
+    } else if !args.common.report.quiet {
+        print_painted(&text::check_report(&file, &report, args.common.report.page()))?;
     }
     Ok(if report.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }
 
-/// The cam that the file should hold.
+/// The speed that the name of a section's file ends with, in a run of several speeds.
+fn section_of(file: &Path, run: &RecordedRun) -> Option<f64> {
+    let several = run.inputs.iter().any(|input| input.key == "rpm" && input.value.contains(", "));
+    let stem = file.file_stem()?.to_str()?;
+    let rest = stem.strip_prefix(run.stem.as_str()).filter(|_| several)?;
+    rest.strip_prefix('-')?.split_once("rpm")?.0.parse().ok()
+}
+
+/// Refuses what is no file of a cam, whatever the design.
+fn readable(bytes: &[u8]) -> Result<(), Refusal> {
+    if step::is_step(bytes) {
+        return step::read(bytes).map(drop);
+    }
+    if points::is_points(bytes) { Ok(()) } else { reading::read(bytes, JOINED).map(drop) }
+}
+
+/// The design that is given, that of the file, or, where a flag belongs to a press, the embedded one.
+fn design(args: &CheckArgs, bytes: &[u8]) -> Result<Design, Failure> {
+    if args.common.machine.is_some() || args.design.is_some() || args.cam.is_some() {
+        return spec(args).map(Design::given);
+    }
+    if let Some(found) = design::of_file(args, bytes)? {
+        return Ok(found);
+    }
+    let CommonArgs { rpm, end, set, .. } = &args.common;
+    let machine = args.common.machine_name();
+    let of_press = !rpm.is_empty() || end.is_some() || !set.is_empty() || args.section.is_some();
+    if !of_press {
+        readable(bytes).map_err(|error| Failure(format!("`{}` is {error}", args.file.display())))?;
+        return Err(design::asked(&args.file, bytes));
+    }
+    let told = format!(
+        "none was given or found: it is compared with the embedded machine {machine}, to which the flags belong"
+    );
+    Ok(Design { told: Some(told), ..Design::given(spec(args)?) })
+}
+
+/// The cam that the file should contain.
 fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
-    if args.cam == Some(Checked::Brake) {
-        let (machine, _) =
-            BrakeMachine::load(&args.common.machine, &args.common.set, Wanted::Disc).map_err(Failure::new)?;
+    #[cfg(feature = "brake")]
+    if args.cam == Some(CheckTarget::Brake) {
+        let machine = super::brake::with_disc(args.common.machine_name(), &args.common.set)?;
         if !args.common.rpm.is_empty() || args.common.end.is_some() {
             return Err(Failure(
                 "--rpm and --end belong to the cams of a press: the disc of a brake has no speed".into(),
             ));
         }
-        return of_brake(&machine).map(|(spec, _)| spec);
+        return super::brake::of_brake(&machine).map(|(spec, _)| spec);
     }
     if let Some(design) = &args.design {
         let (machine, _) = args.common.machine_of(design)?;
@@ -66,22 +126,23 @@ fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
     }
     let (machine, _) = args.common.machine()?;
     let of_a_program = machine.press().is_err() && machine.motion().is_some();
-    match args.cam.unwrap_or(if of_a_program { Checked::Make } else { Checked::Rotary }) {
-        Checked::Make => of_program(&args.common, (machine, &args.common.machine)),
-        Checked::Rotary => {
+    match args.cam.unwrap_or(if of_a_program { CheckTarget::Make } else { CheckTarget::Rotary }) {
+        CheckTarget::Make => of_program(&args.common, (machine, args.common.machine_name())),
+        CheckTarget::Rotary => {
             let rpm = args.common.one_speed(&machine)?;
-            Ok(Spec::rotary(machine, rpm).alone())
+            Ok(Spec::rotary(machine, rpm))
         }
-        Checked::Compensator => {
+        CheckTarget::Compensator => {
             let rpm = args.common.one_speed(&machine)?;
             Ok(Spec::compensator(machine, rpm))
         }
-        Checked::Translating => {
+        CheckTarget::Translating => {
             let (rpm, solver) = (args.common.one_speed(&machine)?, Solver::Ode { tolerance: LAW_TOLERANCE });
-            Ok(Spec::translating(machine, rpm, solver, args.balance.exact_on()))
+            Ok(Spec::translating(machine, rpm, solver, args.balance))
         }
-        Checked::Conoid => of_conoid(&args.common, machine, args.residual),
-        Checked::Brake => Err(Failure("the disc of a brake is read from a file with [brake]".into())),
+        CheckTarget::Conoid => of_conoid(&args.common, machine, args.residual),
+        #[cfg(feature = "brake")]
+        CheckTarget::Brake => Err(Failure("the disc of a brake is read from a file with [brake]".into())),
     }
 }
 

@@ -1,42 +1,43 @@
-//! `camgen explain`: what a check means, how it is made, its usual limits, and what to change.
+//! `camgen explain`: what a check means, how it is calculated, its usual limits, and what to change.
 
 use super::args::ExplainArgs;
 use super::text::{Page, wrapped};
 use super::{Failure, Outcome, print};
+use camgen::catalogue::checks;
+use camgen::check::Check;
 use camgen::document::similar;
-use camgen::verify::{CHECKS, Check};
 
 pub(super) fn run(args: &ExplainArgs) -> Result<Outcome, Failure> {
     let page = Page::here();
     let Some(name) = &args.check else {
-        let lines: Vec<String> = CHECKS.iter().map(|check| short(check, page)).collect();
-        print(&format!("{}\n`camgen explain CHECK` tells one in full.\n", lines.concat()))?;
+        let lines: Vec<String> = checks().map(|check| short(check, page)).collect();
+        print(&format!("{}\n`camgen explain CHECK` explains one check in full.\n", lines.concat()))?;
         return Ok(Outcome::Fine);
     };
     let plain = |text: &str| text.to_lowercase().replace('-', "_");
-    let Some(check) = CHECKS.iter().find(|check| check.name == plain(name)) else {
-        let near = similar(name, CHECKS.iter().map(|check| check.name));
+    let Some(check) = checks().find(|check| check.name == plain(name)) else {
+        let near = similar(name, checks().map(|check| check.name));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? It is "));
-        let known: Vec<&str> = CHECKS.iter().map(|check| check.name).collect();
+        let known: Vec<&str> = checks().map(|check| check.name).collect();
         return Err(Failure(format!("no such check `{name}`; {near}one of {}", known.join(", "))));
     };
     print(&full(check, page))?;
     Ok(Outcome::Fine)
 }
 
-/// The first sentence of what it means, behind its name.
+/// The name of a check and the first sentence of its meaning.
 fn short(check: &Check, page: Page) -> String {
     let first = check.about.split_inclusive(". ").next().unwrap_or_default().trim_end();
     wrapped(&format!("{:<18} {first}", check.name), 19, page) + "\n"
 }
 
 fn full(check: &Check, page: Page) -> String {
-    let told = &check.explained;
+    let explained = &check.explained;
     let lines = [
         wrapped(&format!("    {}", check.about), 4, page),
-        wrapped(&format!("    how     {}", told.formula), 12, page),
-        wrapped(&format!("    limit   {}: {}", told.bound.words(), told.usual), 12, page),
-        wrapped(&format!("    change  {}", told.change), 12, page),
+        wrapped(&format!("    how     {}", explained.formula), 12, page),
+        wrapped(&format!("    limit   {}: {}", explained.bound.words(), explained.usual), 12, page),
+        wrapped(&format!("    change  {}", explained.change), 12, page),
     ];
     format!("{}\n{}\n", check.name, lines.join("\n"))
 }

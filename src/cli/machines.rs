@@ -2,22 +2,24 @@
 
 use super::args::{MachinesArgs, MachinesCommand};
 use super::{Failure, Outcome, print};
+use camgen::catalogue::catalogue;
 use camgen::document::similar;
-use camgen::machine::{self, EMBEDDED};
+use camgen::machine;
 use camgen::write::json;
 
 pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
     match &args.what {
         None | Some(MachinesCommand::List) => {
             let mut text = String::new();
-            for embedded in EMBEDDED {
-                text.push_str(&format!("{:<12} {}\n", embedded.name, embedded.title()));
+            for embedded in &catalogue().embedded {
+                text.push_str(&format!("{:<16} {}\n", embedded.name, embedded.title()));
             }
             print(&text)?;
         }
         Some(MachinesCommand::Show { name }) => {
-            let Some(embedded) = EMBEDDED.iter().find(|embedded| embedded.name.eq_ignore_ascii_case(name)) else {
-                let names: Vec<&str> = EMBEDDED.iter().map(|embedded| embedded.name).collect();
+            let Some(embedded) = catalogue().embedded.iter().find(|embedded| embedded.name.eq_ignore_ascii_case(name))
+            else {
+                let names = catalogue().names();
                 let near = similar(name, names.iter().copied());
                 let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? It is "));
                 return Err(Failure(format!("no embedded machine `{name}`; {near}one of {}", names.join(", "))));
@@ -29,7 +31,7 @@ pub(super) fn run(args: &MachinesArgs) -> Result<Outcome, Failure> {
 }
 
 pub(super) fn schema() -> Result<Outcome, Failure> {
-    let bytes = json::write(&machine::schema()).map_err(Failure::new)?;
+    let bytes = json::write(&machine::schema(catalogue())).map_err(Failure::new)?;
     print(&String::from_utf8_lossy(&bytes))?;
     Ok(Outcome::Fine)
 }

@@ -2,8 +2,11 @@
 
 mod analyses;
 mod args;
+#[cfg(feature = "brake")]
+mod brake;
 mod cams;
 mod check;
+mod design;
 mod explain;
 mod machines;
 mod pages;
@@ -15,8 +18,8 @@ mod text;
 mod trade;
 mod watch;
 
-use args::{Cli, Command, Later};
-use camgen::document::plain;
+use args::{Cli, Command, DeferredArgs};
+use camgen::document::{named, plain};
 use clap::Parser;
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
@@ -42,18 +45,20 @@ impl Failure {
 }
 
 pub(crate) fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let Cli { allow_path, command } = Cli::parse();
+    let allowed = named::allow(&allow_path).map_err(|why| Failure(format!("--allow-path: {why}")));
+    let outcome = allowed.and_then(|()| match command {
         None => pages::overview(),
         Some(command) => match command.watched() {
             Some(files) => watch::run(&files, || run(&command)),
             None => run(&command),
         },
-    };
+    });
     match outcome {
         Ok(Outcome::Fine) => ExitCode::SUCCESS,
         Ok(Outcome::CheckFailed) => ExitCode::from(1),
         Err(failure) => {
-            tell(&format!("error: {failure}"));
+            print_message(&format!("error: {failure}"));
             ExitCode::from(2)
         }
     }
@@ -61,21 +66,24 @@ pub(crate) fn main() -> ExitCode {
 
 fn run(command: &Command) -> Result<Outcome, Failure> {
     match command {
-        Command::Rotary(Later(args)) => cams::rotary(args),
-        Command::Translating(Later(args)) => cams::translating(args),
-        Command::Conoid(Later(args)) => cams::conoid(args),
-        Command::Make(Later(args)) => cams::make(args),
-        Command::Regimes(Later(args)) => analyses::regimes(args),
-        Command::Spring(Later(args)) => analyses::spring(args),
-        Command::Drive(Later(args)) => analyses::drive(args),
-        Command::Linkage(Later(args)) => analyses::linkage(args),
-        Command::Shaft(Later(args)) => analyses::shaft(args),
-        Command::Brake(Later(args)) => analyses::brake(args),
-        Command::Size(Later(args)) => analyses::size(args),
-        Command::Laws(Later(args)) => analyses::laws(args),
-        Command::SideBySide(Later(args)) => side_by_side::run(args),
-        Command::Check(Later(args)) => check::run(args),
-        Command::Trade(Later(args)) => trade::run(args),
+        Command::Rotary(DeferredArgs(args)) => cams::rotary(args),
+        Command::Translating(DeferredArgs(args)) => cams::translating(args),
+        Command::Conoid(DeferredArgs(args)) => cams::conoid(args),
+        Command::Make(DeferredArgs(args)) => cams::make(args),
+        Command::Regimes(DeferredArgs(args)) => analyses::regimes(args),
+        Command::Spring(DeferredArgs(args)) => analyses::spring(args),
+        Command::Drive(DeferredArgs(args)) => analyses::drive(args),
+        #[cfg(feature = "linkage")]
+        Command::Linkage(DeferredArgs(args)) => analyses::linkage(args),
+        #[cfg(feature = "shaft")]
+        Command::Shaft(DeferredArgs(args)) => analyses::shaft(args),
+        #[cfg(feature = "brake")]
+        Command::Brake(DeferredArgs(args)) => brake::run(args),
+        Command::Size(DeferredArgs(args)) => analyses::size(args),
+        Command::Laws(DeferredArgs(args)) => analyses::laws(args),
+        Command::SideBySide(DeferredArgs(args)) => side_by_side::run(args),
+        Command::Check(DeferredArgs(args)) => check::run(args),
+        Command::Trade(DeferredArgs(args)) => trade::run(args),
         Command::Machines(args) => machines::run(args),
         Command::Init(args) => pages::init(args),
         Command::Explain(args) => explain::run(args),
@@ -85,12 +93,12 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
     }
 }
 
-/// Prints data on stdout, without what a terminal would obey. A reader that closes the pipe early is not an error.
+/// Prints data on stdout, without control sequences. A reader that closes the pipe early is not an error.
 fn print(text: &str) -> Result<(), Failure> {
     print_painted(&plain(text))
 }
 
-/// Prints a text that is plain but for colours of our own.
+/// Prints a text that is plain except for the colours of camgen.
 fn print_painted(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -101,7 +109,7 @@ fn print_painted(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Prints a message on stderr; when even that fails there is nothing left to do.
-fn tell(message: &str) {
+/// Prints a message on stderr; a failure of that is ignored.
+fn print_message(message: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", plain(message));
 }

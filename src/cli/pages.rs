@@ -1,16 +1,21 @@
-//! What camgen tells of itself: `camgen` alone, completions, manual pages, a file to start from.
+//! Pages about camgen: `camgen` alone, completions, manual pages, a file to start from.
 
 use super::args::{Cli, CompletionsArgs, InitArgs, ManArgs};
-use super::{Failure, Outcome, print, tell};
+use super::put::put;
+use super::{Failure, Outcome, print, print_message};
+use camgen::catalogue::catalogue;
 use camgen::document::similar;
 use camgen::machine;
+use camgen::write::files::{Output, stage_new};
 use clap::CommandFactory;
-use std::fs::File;
-use std::io::{ErrorKind, Write};
+use std::ffi::OsStr;
+use std::path::Path;
 
-/// What camgen is, in a screen.
+/// The overview of camgen, on one screen.
 pub(super) fn overview() -> Result<Outcome, Failure> {
-    print(&Cli::command().render_help().to_string())?;
+    // A page that fits a screen: the flag of commands is in their help.
+    let mut page = Cli::command().mut_arg("allow_path", |flag| flag.hide(true));
+    print(&page.render_help().to_string())?;
     Ok(Outcome::Fine)
 }
 
@@ -34,7 +39,7 @@ pub(super) fn man(args: &ManArgs) -> Result<Outcome, Failure> {
                 let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? It is "));
                 return Err(Failure(format!("no such command `{name}`; {near}one of {}", known.join(", "))));
             };
-            // The pages of commands are named as those of git are.
+            // The pages of commands are named like those of git.
             found.clone().display_name(format!("camgen-{}", found.get_name()))
         }
     };
@@ -44,28 +49,28 @@ pub(super) fn man(args: &ManArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Fine)
 }
 
-/// Prints a machine file to start from, or writes it where no file is.
+/// Prints a machine file to start from, or writes it where no file exists.
 pub(super) fn init(args: &InitArgs) -> Result<Outcome, Failure> {
     let (text, command) = match &args.follower {
-        None => (machine::template(), "rotary"),
+        None => (camgen::domains::press::template(catalogue()), "rotary"),
         Some(name) => (program(name)?, "make"),
     };
     let Some(path) = &args.file else {
         print(&text)?;
         return Ok(Outcome::Fine);
     };
-    let written = File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
-    written.map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Failure(format!("`{}` is there already, and is not replaced", path.display())),
-        _ => Failure(format!("cannot write `{}`: {error}", path.display())),
-    })?;
-    tell(&format!("wrote {0}; `camgen {command} {0}` makes its cam", path.display()));
+    let name = path.file_name().and_then(OsStr::to_str);
+    let name = name.ok_or_else(|| Failure(format!("`{}` is not the name of a file", path.display())))?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let output = Output { name: name.to_owned(), bytes: text.into_bytes() };
+    put(folder, |place| Ok(((), stage_new(place, &[output]).map_err(Failure::new)?)), |()| Ok(()))?;
+    print_message(&format!("wrote {0}; `camgen {command} {0}` makes its cam", path.display()));
     Ok(Outcome::Fine)
 }
 
 /// A motion program under a follower.
 fn program(follower: &str) -> Result<String, Failure> {
-    machine::template_of_program(follower).ok_or_else(|| {
+    machine::template_of_program(catalogue(), follower).ok_or_else(|| {
         let known = machine::followers();
         let near = similar(follower, known.iter().copied());
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? It is "));

@@ -1,56 +1,64 @@
-//! Files of a command: written beside their places, told, then put there. What cannot be told is not written, and exit code 0 means that
-//! both were done.
+//! Files of a command: staged next to their targets, reported, then moved into place. Files whose report cannot be printed are not
+//! written, and exit code 0 means that both were done.
 
-use super::Failure;
 use super::signals::Signals;
+use super::{Failure, print_message};
 use camgen::FileSet;
-use camgen::report::Told;
-use camgen::write::files::{Place, Staged};
+use camgen::report::LazyReport;
+use camgen::write::files::{OutputDirectory, StagedFiles};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-/// While the report is told, signals are looked for so often.
+/// Period of the checks for signals while the report is printed.
 const PERIOD: Duration = Duration::from_millis(20);
 
-/// The same for the files of a cam or an analysis.
-pub(super) fn put_set(files: FileSet<'_>, show: impl FnOnce(&Told<'_>) -> Result<(), Failure>) -> Result<(), Failure> {
+/// Stages the files of a cam or an analysis, shows their report, and moves them into place.
+pub(super) fn put_set(files: FileSet, show: impl FnOnce(&LazyReport) -> Result<(), Failure>) -> Result<(), Failure> {
     let place = files.open().map_err(Failure::new)?;
-    placed(place, |place| files.stage(place).map_err(Failure::new), show)
+    stage_and_commit(place, |place| files.stage(place).map_err(Failure::new), show)
 }
 
-/// Opens a directory, stages files there, shows what came with them, and puts them in their places.
+/// Opens a directory, stages files there, shows what came with them, and moves them into place.
 pub(super) fn put<T>(
     directory: &Path,
-    stage: impl FnOnce(Place) -> Result<(T, Staged), Failure>,
+    stage: impl FnOnce(OutputDirectory) -> Result<(T, StagedFiles), Failure>,
     show: impl FnOnce(&T) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    placed(Place::open(directory).map_err(Failure::new)?, stage, show)
+    stage_and_commit(OutputDirectory::open(directory).map_err(Failure::new)?, stage, show)
 }
 
-/// A signal to end that comes before the last step takes everything back; during it it waits until all is in place.
-fn placed<T>(
-    place: Place,
-    stage: impl FnOnce(Place) -> Result<(T, Staged), Failure>,
+/// A signal to end before the last step undoes everything; during that step it waits until all files are in place.
+fn stage_and_commit<T>(
+    place: OutputDirectory,
+    stage: impl FnOnce(OutputDirectory) -> Result<(T, StagedFiles), Failure>,
     show: impl FnOnce(&T) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let signals = Signals::held();
+    // Also where the report is not printed: another user may have made them.
+    for sentence in place.left() {
+        print_message(&format!("warning: {sentence}"));
+    }
+    let signals = Signals::hold();
     let done = || {
-        let (told, staged) = stage(place)?;
-        shown(&staged, &signals, || show(&told))?;
+        let (report, staged) = stage(place)?;
+        show_until_signal(&staged, &signals, || show(&report))?;
         if signals.raised() {
             return Err(Failure("interrupted; nothing was changed".into()));
         }
         staged.commit().map_err(Failure::new)
     };
     let done = done();
-    signals.released();
+    signals.release();
     done
 }
 
-/// Shows something, which may take as long as its reader wants: meanwhile a signal removes what is staged and ends the program.
-fn shown(staged: &Staged, signals: &Signals, show: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+/// Shows something, for as long as its reader takes: meanwhile a signal removes what is staged and ends the program.
+fn show_until_signal(
+    staged: &StagedFiles,
+    signals: &Signals,
+    show: impl FnOnce() -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let done = AtomicBool::new(false);
     let watch = || {
         while !done.load(Ordering::SeqCst) {
@@ -62,7 +70,7 @@ fn shown(staged: &Staged, signals: &Signals, show: impl FnOnce() -> Result<(), F
         }
     };
     thread::scope(|scope| {
-        // Where no thread is to be had the signal waits.
+        // Without a thread the signal waits.
         let watching = thread::Builder::new().spawn_scoped(scope, watch);
         let shown = show();
         done.store(true, Ordering::SeqCst);

@@ -1,22 +1,28 @@
 //! Signals that end a program, while it writes files.
 
 #[cfg(unix)]
-mod held {
+mod platform {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
-    use signal_hook::low_level::{emulate_default_handler, unregister};
-    use signal_hook::{SigId, flag};
-    use std::sync::Arc;
+    use signal_hook::flag;
+    use signal_hook::low_level::emulate_default_handler;
     use std::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::{Arc, OnceLock};
 
-    /// Signals that wait from [`Signals::held`] to [`Signals::released`], but for those that are ignored. A second one of the same kind
-    /// ends the program at once.
-    pub(in crate::cli) struct Signals {
-        ending: Vec<(i32, Arc<AtomicBool>)>,
-        registered: Vec<SigId>,
+    /// A signal that waits while it is held, and ends the program otherwise.
+    struct EndingSignal {
+        signal: i32,
+        /// It came while it was held.
+        raised: Arc<AtomicBool>,
+        /// It is not held.
+        free: Arc<AtomicBool>,
     }
 
-    /// The signals that were to be ignored from the start, as `nohup` and a shell's `&` ask, one bit each; none where the system does not
-    /// tell in this way.
+    /// Signals that wait from [`Signals::hold`] to [`Signals::release`], except ignored ones. A second signal of the same kind
+    /// ends the program at once.
+    pub(in crate::cli) struct Signals(&'static [EndingSignal]);
+
+    /// The signals that are ignored from the start, as set by `nohup` and by `&` in a shell, one bit each; 0 where the system has no
+    /// such file.
     fn ignored() -> u64 {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -28,42 +34,52 @@ mod held {
         u32::try_from(signal - 1).ok().and_then(|bit| signals.checked_shr(bit)).is_some_and(|rest| rest & 1 == 1)
     }
 
+    /// A handler that is taken off leaves its signal ignored for good, so handlers are set once and stay: a flag tells them
+    /// whether the signal waits.
+    fn handled() -> Vec<EndingSignal> {
+        let ignored = ignored();
+        // A file that outgrows its limit is an error of its write. Where a handler cannot be set, the signal ends the program as usual.
+        let _ = flag::register(SIGXFSZ, Arc::default());
+        let all = [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_of(*signal, ignored));
+        all.filter_map(|signal| {
+            let (raised, free) = (Arc::<AtomicBool>::default(), Arc::new(AtomicBool::new(true)));
+            // In this order the first signal only raises the flag, and the second one ends the program.
+            flag::register_conditional_default(signal, Arc::clone(&free)).ok()?;
+            flag::register_conditional_default(signal, Arc::clone(&raised)).ok()?;
+            flag::register(signal, Arc::clone(&raised)).ok()?;
+            Some(EndingSignal { signal, raised, free })
+        })
+        .collect()
+    }
+
     impl Signals {
-        pub(in crate::cli) fn held() -> Self {
-            let mut registered = Vec::new();
-            let ignored = ignored();
-            let ending =
-                [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| !is_of(*signal, ignored)).map(|signal| {
-                    let raised = Arc::new(AtomicBool::new(false));
-                    // In this order the first signal only raises the flag. One that cannot be held ends the program as ever.
-                    registered.extend(flag::register_conditional_default(signal, Arc::clone(&raised)));
-                    registered.extend(flag::register(signal, Arc::clone(&raised)));
-                    (signal, raised)
-                });
-            let ending = ending.collect();
-            // A file that outgrows its limit is an error of its write.
-            registered.extend(flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))));
-            Self { ending, registered }
+        pub(in crate::cli) fn hold() -> Self {
+            static HANDLED: OnceLock<Vec<EndingSignal>> = OnceLock::new();
+            let all = HANDLED.get_or_init(handled);
+            for each in all {
+                each.free.store(false, Ordering::SeqCst);
+            }
+            Self(all)
         }
 
         /// Whether one has come.
         pub(in crate::cli) fn raised(&self) -> bool {
-            self.ending.iter().any(|(_, raised)| raised.load(Ordering::SeqCst))
+            self.0.iter().any(|each| each.raised.load(Ordering::SeqCst))
         }
 
-        /// Ends the program by the signal that came, if one did.
+        /// Ends the program with the signal that came, if one did.
         pub(in crate::cli) fn end(&self) {
-            for (signal, raised) in &self.ending {
+            for EndingSignal { signal, raised, .. } in self.0 {
                 if raised.load(Ordering::SeqCst) {
                     let _ = emulate_default_handler(*signal);
                 }
             }
         }
 
-        /// Signals end the program again, also by one that has come.
-        pub(in crate::cli) fn released(self) {
-            for id in &self.registered {
-                unregister(*id);
+        /// Lets signals end the program again, including one that has already come.
+        pub(in crate::cli) fn release(self) {
+            for each in self.0 {
+                each.free.store(true, Ordering::SeqCst);
             }
             self.end();
         }
@@ -71,12 +87,12 @@ mod held {
 }
 
 #[cfg(not(unix))]
-mod held {
-    /// Signals are not held here.
-    pub(in crate::cli) struct Signals;
+mod platform {
+    /// Signals are not delayed on this system.
+    pub(in crate::cli) struct NoSignals;
 
-    impl Signals {
-        pub(in crate::cli) fn held() -> Self {
+    impl NoSignals {
+        pub(in crate::cli) fn hold() -> Self {
             Self
         }
 
@@ -86,8 +102,11 @@ mod held {
 
         pub(in crate::cli) fn end(&self) {}
 
-        pub(in crate::cli) fn released(self) {}
+        pub(in crate::cli) fn release(self) {}
     }
 }
 
-pub(super) use held::Signals;
+#[cfg(not(unix))]
+pub(super) use platform::NoSignals as Signals;
+#[cfg(unix)]
+pub(super) use platform::Signals;

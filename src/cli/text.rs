@@ -1,4 +1,4 @@
-//! The report for a person: it walks the sections that the parts of the cam contribute. The text is the same in every run, plain
+//! The report for a person, from the sections that the parts of the cam contribute. The text is the same in every run, plain
 //! and as wide as its lines; colour and wrapped lines are for a terminal.
 
 mod glossary;
@@ -12,13 +12,13 @@ const RED: &str = "\u{1b}[1;31m";
 const YELLOW: &str = "\u{1b}[1;33m";
 const PLAIN: &str = "\u{1b}[0m";
 
-/// Narrower terminals are written to as if they were so wide.
+/// Narrower terminals are treated as having this width.
 const NARROWEST: usize = 40;
 
 /// Width of the names of sections.
 const LABEL: usize = 8;
 
-/// What the text is laid out for.
+/// The layout of the text.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Page {
     /// Verdicts are coloured.
@@ -37,14 +37,14 @@ impl Page {
 }
 
 pub(super) fn report(report: &Report, page: Page) -> String {
-    let first = format!("{} · {}{}", report.machine, report.noun, report.rpm);
+    let first = format!("{} · {}{}", report.machine, report.noun, report.speeds());
     written(&first, report, page)
 }
 
 /// The report of a checked file: one plain sentence, then the checks.
 pub(super) fn check_report(file: &str, report: &Report, page: Page) -> String {
     let verdict = if report.passed() { "is this cam" } else { "is NOT this cam" };
-    let first = format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.rpm);
+    let first = format!("{file} {verdict}: {} · {}{}", report.machine, report.noun, report.speeds());
     written(&first, report, page)
 }
 
@@ -59,10 +59,12 @@ fn written(first: &str, report: &Report, page: Page) -> String {
         entries.iter().map(|entry| wrapped(&format!("    {}", plain(entry)), 6, page)).collect()
     };
     let terms = glossary::of(&lines.join("\n"));
-    for (name, told) in [("notes", &report.notes), ("files", &report.files), ("terms", &terms)] {
-        if !told.is_empty() {
+    let lists =
+        [("notes", &report.notes), ("files", &report.files), ("terms", &terms), ("not modelled", &report.not_modelled)];
+    for (name, list) in lists {
+        if !list.is_empty() {
             lines.push(format!("  {name}"));
-            lines.extend(entries(told));
+            lines.extend(entries(list));
         }
     }
     lines.push(format!("  inputs   {}, camgen {}", report.inputs.hash, report.inputs.camgen));
@@ -72,7 +74,7 @@ fn written(first: &str, report: &Report, page: Page) -> String {
 
 /// The lines of a section, the first with its name.
 fn section(section: &Section, page: Page) -> Vec<String> {
-    // A long name has a line of its own.
+    // A long name gets a line of its own.
     let alone = section.key.chars().count() > LABEL;
     let label = |index: usize| if index == 0 && !alone { &*section.key } else { "" };
     let line = |(index, words)| wrapped(&format!("  {:<LABEL$} {words}", label(index)), LABEL + 3, page);
@@ -117,7 +119,7 @@ fn painted(verdict: Verdict, page: Page) -> String {
     format!("{paint}{word}{PLAIN}")
 }
 
-/// A line broken at blanks where it is wider than the page; the lines behind the first are indented.
+/// A line broken at blanks where it is wider than the page; the lines after the first are indented.
 pub(super) fn wrapped(line: &str, indent: usize, page: Page) -> String {
     let Some(width) = page.width.map(|width| width.max(NARROWEST)) else { return line.to_owned() };
     let mut text = String::new();

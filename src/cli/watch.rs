@@ -1,49 +1,62 @@
-//! `--watch`: the command again whenever a file changes, until Ctrl-C.
+//! `--watch`: runs the command again whenever a file changes, until Ctrl-C.
 
-use super::{Failure, Outcome, tell};
+use super::{Failure, Outcome, print_message};
+use camgen::document::named;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// Files are looked at so often.
+/// Period between looks at the files.
 const PERIOD: Duration = Duration::from_millis(300);
 
-/// When a file was changed, and its size; `None` while it is not there, as between the two steps of an editor that replaces it.
-type Stamp = Option<(SystemTime, u64)>;
+/// Time of the last change of a file, and its size; `None` while it is absent, for example while an editor replaces it.
+type FileStamp = Option<(SystemTime, u64)>;
 
-fn stamp(path: &Path) -> Stamp {
+fn stamp(path: &Path) -> FileStamp {
     let data = fs::metadata(path).ok()?;
     Some((data.modified().ok()?, data.len()))
 }
 
-/// Runs a command now and after each change; its errors are told and do not end it.
+/// Runs a command now and after each change; its errors are printed and do not end it.
 pub(super) fn run(files: &[PathBuf], command: impl Fn() -> Result<Outcome, Failure>) -> Result<Outcome, Failure> {
     if let Some(missing) = files.iter().find(|file| !file.is_file()) {
-        let why = "--watch needs a file to look at";
+        let why = "--watch needs a file to watch";
         return Err(Failure(format!(
             "{why}, and there is no file `{}`; `camgen init FILE` writes one",
             missing.display()
         )));
     }
-    let stamps = || files.iter().map(|file| stamp(file)).collect::<Vec<Stamp>>();
+    let mut named: Vec<PathBuf> = Vec::new();
     loop {
-        let seen = stamps();
+        let before = stamps(files, &named);
         if let Err(failure) = command() {
-            tell(&format!("error: {failure}"));
+            print_message(&format!("error: {failure}"));
         }
-        let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
-        tell(&format!("── waiting for changes of {}; Ctrl-C ends", names.join(", ")));
-        wait(&seen, stamps);
+        // The tables that the machine file names are known once it has been read. One that is new is looked at from now on.
+        let found: Vec<PathBuf> = named::read().into_iter().filter(|file| !files.contains(file)).collect();
+        let seen = if found == named {
+            before
+        } else {
+            before.into_iter().take(files.len()).chain(stamps(&[], &found)).collect()
+        };
+        named = found;
+        let names: Vec<String> = files.iter().chain(&named).map(|file| file.display().to_string()).collect();
+        print_message(&format!("── waiting for changes of {}; Ctrl-C stops", names.join(", ")));
+        wait(&seen, files.len(), || stamps(files, &named));
     }
 }
 
-/// Waits for a change that has come to rest.
-fn wait(seen: &[Stamp], stamps: impl Fn() -> Vec<Stamp>) {
+fn stamps(files: &[PathBuf], named: &[PathBuf]) -> Vec<FileStamp> {
+    files.iter().chain(named).map(|file| stamp(file)).collect()
+}
+
+/// Waits for a change that is complete: the first of the files are there then. Others may be missing, and the command says so.
+fn wait(seen: &[FileStamp], needed: usize, stamps: impl Fn() -> Vec<FileStamp>) {
     let mut last = seen.to_vec();
     loop {
         std::thread::sleep(PERIOD);
         let now = stamps();
-        let at_rest = now == last && now.iter().all(Option::is_some);
+        let at_rest = now == last && now.iter().take(needed).all(Option::is_some);
         if at_rest && now != seen {
             return;
         }

@@ -20,8 +20,8 @@ pub const fn within(low: f64, high: f64) -> Bounds {
     Bounds { low, low_included: true, high }
 }
 
-/// What must be above 0 is at least this share of the largest value: far below anything that is made, and so far above the smallest number
-/// that quotients and powers of such values stay finite.
+/// A value that must be above 0 must be at least this share of the largest value: far below anything real, and far enough above the
+/// smallest number that quotients and powers of such values stay finite.
 const LEAST_SHARE: f64 = 1e-18;
 
 impl Bounds {
@@ -30,7 +30,7 @@ impl Bounds {
         (self.low == 0.0 && !self.low_included && self.high.is_finite()).then_some(LEAST_SHARE * self.high)
     }
 
-    /// Whether a value is in the range; a NaN is in none.
+    /// Whether a value is in the range; a NaN never is.
     #[must_use]
     pub fn holds(self, value: f64) -> bool {
         let above = if self.low_included { value >= self.low } else { value > self.low };

@@ -1,49 +1,81 @@
 //! Kinds of cam, and analyses, as keys name the ones on which they have an effect.
 
-/// The disc cam of a press.
-pub const ROTARY: &str = "rotary";
-/// The wedge cam: the plate that rides on the bed.
-pub const TRANSLATING: &str = "translating";
-/// The three-dimensional cam for many speeds.
-pub const CONOID: &str = "conoid";
 /// The disc cam of any motion.
 pub const MAKE: &str = "make";
-/// One cam of a press at other speeds.
-pub const REGIMES: &str = "regimes";
-/// Buffers of a press on springs.
-pub const SPRING: &str = "spring";
-/// The drive of a bed without a cam.
-pub const DRIVE: &str = "drive";
-/// The linkage that moves a bed.
-pub const LINKAGE: &str = "linkage";
 
-/// The shaft under a cam.
-pub const SHAFT: &str = "shaft";
+/// A kind of cam, or an analysis, as keys name it.
+#[derive(Debug, Clone, Copy)]
+pub struct CamKind {
+    /// Its name.
+    pub name: &'static str,
+    /// The classes it belongs to: a key that names one of them has an effect on it.
+    pub classes: &'static [&'static str],
+    /// Whether it is an analysis: nothing is cut, and keys for every cam have no effect on it.
+    pub analysis: bool,
+}
 
-/// The belt brake of a paper roll.
-pub const BRAKE: &str = "brake";
-/// The disc that holds its tension.
-pub const BRAKE_CAM: &str = "brake-cam";
+impl CamKind {
+    /// A kind of cam.
+    #[must_use]
+    pub const fn cam(name: &'static str, classes: &'static [&'static str]) -> Self {
+        Self { name, classes, analysis: false }
+    }
 
+    /// An analysis, of which nothing is cut.
+    #[must_use]
+    pub const fn analysis(name: &'static str) -> Self {
+        Self::classed_analysis(name, &[])
+    }
+
+    /// What is analysed and not cut, of these classes.
+    #[must_use]
+    pub const fn classed_analysis(name: &'static str, classes: &'static [&'static str]) -> Self {
+        Self { name, classes, analysis: true }
+    }
+}
+
+const TURNS: &str = "cams that turn";
+const DISC: &str = "disc cams";
+const ONE_THICKNESS: &str = "cams of one thickness";
+const SURFACE: &str = "cams whose sections differ";
+
+/// The classes of a disc cam.
+pub const OF_A_DISC: &[&str] = &[TURNS, DISC];
+/// The classes of a disc cam whose thickness is a key.
+pub const OF_A_DISC_WITH_THICKNESS: &[&str] = &[TURNS, DISC, ONE_THICKNESS];
+/// The classes of a cam that turns and whose sections differ.
+pub const OF_A_SURFACE: &[&str] = &[TURNS, SURFACE];
 /// The kinds that turn about a shaft.
-pub const TURNING: &[&str] = &[ROTARY, CONOID, MAKE, BRAKE_CAM];
+pub const TURNING: &[&str] = &[TURNS];
 /// Disc cams.
-pub const DISCS: &[&str] = &[ROTARY, MAKE, BRAKE_CAM];
-/// What is analysed and not cut: a key that is of every cam has no effect there.
-pub const ANALYSES: &[&str] = &[REGIMES, SPRING, DRIVE, LINKAGE, SHAFT, BRAKE];
-/// The cams of a press.
-pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
-/// Whatever the bed and its air act on.
-pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, LINKAGE];
-/// Whatever a linkage moves.
-pub const OF_A_LINKAGE: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, LINKAGE];
-/// Whatever has air.
-pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, LINKAGE];
-/// Whatever runs at a speed of the main shaft.
-pub const OF_A_SPEED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, LINKAGE];
-/// Whatever has a column of air.
-pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, DRIVE, LINKAGE];
-/// Whatever the law of a bottom acts on.
-pub const OF_A_LAW: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, LINKAGE];
-/// Whatever depends on the design of a press.
-pub const OF_A_DESIGN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, LINKAGE];
+pub const DISCS: &[&str] = &[DISC];
+/// Cams that are as thick everywhere.
+pub const EVEN: &[&str] = &[ONE_THICKNESS];
+/// Cams whose sections differ along their axis.
+pub const SURFACES: &[&str] = &[SURFACE];
+
+/// A ring around the roller of any motion.
+pub const RING: &str = "ring";
+/// A groove for the roller of any motion.
+pub const GROOVE: &str = "groove";
+
+/// A pair of discs for two rollers of one follower, of any motion.
+pub const CONJUGATE: &str = "conjugate";
+
+/// The bodies of a motion program as a file names them, and as keys do: all of them belong to the class [`MAKE`].
+pub const BODIES: &[&str] = &["disc", RING, GROOVE, CONJUGATE];
+/// The same bodies, as keys name them.
+pub const BODY_KINDS: &[&str] = &[MAKE, RING, GROOVE, CONJUGATE];
+
+/// The classes of a disc of a motion program.
+const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS];
+/// The classes of a body within which a roller runs.
+const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS];
+
+/// The kinds of cam of the core.
+pub const KINDS: &[CamKind] = &[
+    CamKind::cam(MAKE, OF_A_PROGRAM),
+    CamKind::cam(RING, OF_A_TRACK),
+    CamKind::cam(GROOVE, OF_A_TRACK),
+    CamKind::cam(CONJUGATE, OF_A_PROGRAM),
+];

@@ -3,9 +3,16 @@
 use super::plain::is_plain;
 use std::fmt;
 
+/// Why a value does not fit its key, and what would.
+#[derive(Debug)]
+pub(super) struct Misfit {
+    pub(super) message: String,
+    pub(super) help: Option<String>,
+}
+
 /// One fault: what was wrong, where, and what would be right.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
+pub struct FileFault {
     /// What was wrong.
     pub message: String,
     /// What would be right.
@@ -14,7 +21,7 @@ pub struct Fault {
     pub place: Option<Excerpt>,
 }
 
-/// A place in a text, with the line it stands on.
+/// A place in a text, with its line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Excerpt {
     /// Name of the file, or of the flag.
@@ -31,20 +38,20 @@ pub struct Excerpt {
     pub width: usize,
 }
 
-/// Longest excerpt of a line, in characters, and how many of them stand before the place.
+/// Longest excerpt of a line, in characters, and how many of them come before the place.
 pub(super) const LONGEST_LINE: usize = 160;
 const BEFORE: usize = 60;
-/// What stands where a line is cut, and in place of a character that a terminal would obey.
+/// Replaces the part of a line that is cut, and a character that a terminal would obey.
 const CUT: &str = "…";
 const NOT_PLAIN: char = '\u{fffd}';
 
 impl Excerpt {
-    /// From a whole line, of which so many characters from a column on are marked.
+    /// From a whole line with a number of marked characters from a column on.
     pub(super) fn of(source: &str, line: usize, whole: &str, (column, marked): (usize, usize)) -> Self {
         let place = column.saturating_sub(1);
         let from = if whole.chars().nth(LONGEST_LINE).is_some() { place.saturating_sub(BEFORE) } else { 0 };
         let mut rest = whole.chars().skip(from);
-        // One for one, so that the mark stands below its characters.
+        // One for one, so that the mark is below its characters.
         let part = rest.by_ref().take(LONGEST_LINE).map(|c| match c {
             '\t' => ' ',
             c if is_plain(c) => c,
@@ -58,7 +65,7 @@ impl Excerpt {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for FileFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.message)?;
         if let Some(place) = &self.place {
@@ -77,25 +84,82 @@ impl fmt::Display for Fault {
 /// Longest path for which a known key is looked for: longer ones are not misspelt keys, and comparing them takes time.
 const LONGEST_PATH: usize = 200;
 
-/// The known key that a path may be a misspelling of; `None` when nothing is near.
-///
-/// The smallest edit distance wins; a key whose last part fits exactly is nearer than any other, and of two equally near
-/// the one whose table fits. A key is near when at most half of its last part, or a third of its path, is wrong.
-pub(super) fn nearest<'k>(path: &str, known: &'k [String]) -> Option<&'k str> {
-    if path.len() > LONGEST_PATH {
-        return None;
-    }
-    let name = last(path);
-    let distances = known.iter().map(|candidate| {
-        let (whole, name) = (edit_distance(path, candidate), edit_distance(name, last(candidate)));
-        (candidate.as_str(), whole, name)
-    });
-    let (nearest, whole, wrong) = distances.min_by_key(|(_, whole, name)| ((name * 2).min(whole * 2 + 1), *whole))?;
-    let near = wrong * 2 <= name.chars().count() || whole * 3 <= path.chars().count();
-    near.then_some(nearest)
+/// A key that a misspelt one may have meant.
+#[derive(Debug)]
+pub(super) struct KnownKey {
+    /// Its path, indices left open.
+    pub(super) path: String,
+    /// The path under which people look for it: its own, or one with another of its names.
+    pub(super) named: String,
+    /// Its table is in the file.
+    pub(super) in_file: bool,
 }
 
-/// The known word that another may be a misspelling or the beginning of, whatever its case; `None` when nothing is near.
+/// How many letters a key of another table must be nearer than one of the same table: of one that is in the file, and of one that is not.
+const OF_OTHER_TABLE: usize = 2;
+const NOT_IN_FILE: usize = 3;
+
+/// The known keys that a path may be a misspelling of; empty when nothing is near, several where a word of all of them is given.
+///
+/// The smallest edit distance wins, of the last part or of the path; a name that contains the other as a word is one letter away. A key of the
+/// same table is preferred, then one whose table is in the file. A key is near when at most half of its last part, or a third of its path, is
+/// wrong.
+pub(super) fn nearest<'k>(path: &str, known: &'k [KnownKey]) -> Vec<&'k str> {
+    if path.len() > LONGEST_PATH {
+        return Vec::new();
+    }
+    let (table, name) = (table_of(path), last(path));
+    let distance = |key: &'k KnownKey| {
+        let (whole, other) = (edit_distance(path, &key.named), last(&key.named));
+        let by_letters = mistakes(name, other);
+        let by_word = by_letters > 1 && (is_word_of(name, other) || is_word_of(other, name));
+        let wrong = if by_word { 1 } else { by_letters };
+        let elsewhere = match (table_of(&key.named) == table, key.in_file) {
+            (true, _) => 0,
+            // The table is there under a part of its name.
+            (false, _) if last(table_of(&key.named)) == last(table) => 1,
+            (false, true) => OF_OTHER_TABLE,
+            (false, false) => NOT_IN_FILE,
+        };
+        (key.path.as_str(), whole, wrong, elsewhere, by_word)
+    };
+    let distances: Vec<_> = known.iter().map(distance).collect();
+    let cost = |(_, whole, wrong, elsewhere, _): &(&str, usize, usize, usize, bool)| {
+        (((wrong + elsewhere) * 2).min(whole * 2 + 1), *whole)
+    };
+    let Some(best) = distances.iter().min_by_key(|key| cost(key)) else { return Vec::new() };
+    let (nearest, whole, wrong, elsewhere, by_word) = *best;
+    if wrong * 2 > name.chars().count() && whole * 3 > path.chars().count() {
+        return Vec::new();
+    }
+    if !by_word || elsewhere > 0 {
+        return vec![nearest];
+    }
+    // A word of several names says which of them is meant no better than the others.
+    let equal = distances.iter().filter(|(.., other, by_word)| *other == 0 && *by_word).map(|(path, ..)| *path);
+    let mut all = vec![nearest];
+    for path in equal {
+        if !all.contains(&path) && all.len() < MOST_SUGGESTED {
+            all.push(path);
+        }
+    }
+    all
+}
+
+/// Most keys that are suggested for one.
+const MOST_SUGGESTED: usize = 4;
+
+/// Whether a name of letters is one of the words of another, `diameter` of `bore_diameter`.
+fn is_word_of(word: &str, name: &str) -> bool {
+    word.len() >= SHORTEST_BEGINNING && name.split(['_', '-']).any(|part| part == word)
+}
+
+/// The path of the table of a key.
+fn table_of(path: &str) -> &str {
+    path.rsplit_once('.').map_or("", |(table, _)| table)
+}
+
+/// The known word that another may be a misspelling or the beginning of, in any case; `None` when nothing is near.
 #[must_use]
 pub fn similar<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     if word.is_empty() || word.len() > LONGEST_PATH {
@@ -125,7 +189,7 @@ fn mistakes(a: &str, b: &str) -> usize {
     if distance == 2 && letters(a) == letters(b) { 1 } else { distance }
 }
 
-/// The shortest beginning that stands for a whole word.
+/// The shortest beginning that is accepted for a whole word.
 const SHORTEST_BEGINNING: usize = 4;
 
 /// The name at the end of a path.
@@ -200,11 +264,39 @@ mod tests {
 
     #[test]
     fn a_key_in_the_wrong_table_is_named() {
-        let known = ["bed.mass", "cam.thickness", "follower.roller.radius"].map(str::to_owned);
-        assert_eq!(nearest("cam.thicknes", &known), Some("cam.thickness"));
-        assert_eq!(nearest("bed.thickness", &known), Some("cam.thickness"));
-        assert_eq!(nearest("roller.radius", &known), Some("follower.roller.radius"));
-        assert_eq!(nearest("bearing.kind", &known), None, "nothing is near");
-        assert_eq!(nearest(&"bed.mass".repeat(1000), &known), None);
+        let key = |path: &str, in_file| KnownKey { path: path.to_owned(), named: path.to_owned(), in_file };
+        let known = ["bed.mass", "cam.thickness", "follower.roller.radius"].map(|path| key(path, false));
+        assert_eq!(nearest("cam.thicknes", &known), ["cam.thickness"]);
+        assert_eq!(nearest("bed.thickness", &known), ["cam.thickness"]);
+        assert_eq!(nearest("roller.radius", &known), ["follower.roller.radius"]);
+        assert!(nearest("bearing.kind", &known).is_empty(), "nothing is near");
+        assert!(nearest(&"bed.mass".repeat(1000), &known).is_empty());
+    }
+
+    #[test]
+    fn a_key_of_the_same_table_is_preferred() {
+        let key = |path: &str, in_file| KnownKey { path: path.to_owned(), named: path.to_owned(), in_file };
+        let mut known = vec![
+            key("cam.base_diameter", true),
+            key("cam.bore_diameter", true),
+            key("cam.thickness", true),
+            key("cam.rotation", true),
+            key("shaft.disc[].diameter", false),
+            key("follower.roller.mass", true),
+            key("follower.knife.mass", false),
+            key("motion.segment[].over", true),
+        ];
+        known.push(KnownKey { named: "motion.segment[].angle".into(), ..key("motion.segment[].over", true) });
+        known.push(key("cam.keyway.angle", false));
+        for (path, near) in [
+            ("cam.diameter", &["cam.base_diameter", "cam.bore_diameter"][..]),
+            ("cam.bore", &["cam.bore_diameter"]),
+            ("cam.mass", &["follower.roller.mass"]),
+            ("cam.thikness", &["cam.thickness"]),
+            ("motion.segment[].angle", &["motion.segment[].over"]),
+            ("follower.flat.mass", &["follower.roller.mass"]),
+        ] {
+            assert_eq!(nearest(path, &known), near, "{path}");
+        }
     }
 }

@@ -5,7 +5,7 @@
 pub struct Input {
     /// The dotted path of a key of the file, or the name of a flag.
     pub key: String,
-    /// The one text of the value: numbers in SI units with all their digits.
+    /// The value as one canonical text: numbers in SI units with all their digits.
     pub value: String,
     /// The value as a person typed it, or would.
     pub typed: String,
@@ -43,12 +43,12 @@ impl Input {
         Self::word(key, numbers.iter().copied().map(exact).collect::<Vec<_>>().join(", "))
     }
 
-    /// A number in SI units, told in a unit of that size.
+    /// A number in SI units, shown in a unit of that size.
     #[must_use]
     pub fn quantity(key: &str, si: f64, (unit, size): (&str, f64)) -> Self {
-        // Twelve digits: without the rounding of the division.
-        let told = format!("{:.11e}", si / size).parse().unwrap_or(f64::NAN);
-        Self::new(key, exact(si), format!("{} {unit}", exact(told)))
+        // Twelve digits hide the rounding of the division.
+        let shown = format!("{:.11e}", si / size).parse().unwrap_or(f64::NAN);
+        Self::new(key, exact(si), format!("{} {unit}", exact(shown)))
     }
 }
 

@@ -1,30 +1,36 @@
 //! What a file may contain: its tables, their keys, and what a value of each key may be.
 //!
-//! A [`Section`] and its [`Key`]s are constants, written where the part they describe is written. The reader, the
-//! template, the schema and "did you mean" all walk the same list of sections. A [`Field`] is a key together with the
-//! type its value becomes, so that no read can ask for the wrong type.
+//! A [`KeySection`] and its [`Key`]s are constants, written where the part they describe is written. The reader, the
+//! template, the schema and "did you mean" all use the same list of sections. A [`Field`] is a key together with the
+//! type of its value, so that no caller can read it as another type.
 
 use super::bounds::Bounds;
-use super::columns::{Columns, Row};
+use super::columns::Columns;
 use super::input::exact;
 use crate::units::Dimension;
 use std::sync::Arc;
 
 /// What a value of a key may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Form {
+pub enum KeyForm {
     /// A text that is not empty.
     Text,
+    /// A text that is not empty, or a number, as typed.
+    TextOrNumber,
     /// True or false.
     Boolean,
     /// A bare number.
     Number(Bounds),
     /// A list of bare numbers.
     Numbers(Bounds),
+    /// A list of texts or numbers, `["angle", 3]`.
+    Texts,
     /// A number with a unit, `"180 mm"`.
     Quantity(Dimension, Bounds),
     /// A length or an angle, each in its range; which one it is decides what it means.
     LengthOrAngle(Bounds, Bounds),
+    /// A length, an angle, or a share such as `1 %` with its bounds as a number.
+    LengthAngleOrShare(Bounds, Bounds, Bounds),
     /// A quantity of one of two kinds, each in its range; which one it is decides what it means.
     Either((Dimension, Bounds), (Dimension, Bounds)),
     /// One of several words.
@@ -37,7 +43,7 @@ pub enum Form {
     Pair(Dimension, Bounds),
     /// A list of points: a quantity, and a length or an angle in its range, `[["0 deg", "0 mm"], ["90 deg", "12 mm"]]`.
     Points(Dimension, Bounds, (Bounds, Bounds)),
-    /// The path of a file with two columns of numbers, from the folder of the file that names it.
+    /// The path of a file with columns of numbers, from the folder of the file that names it.
     Columns,
 }
 
@@ -46,9 +52,9 @@ pub enum Form {
 pub enum Presence {
     /// It must be given; here is an example.
     Required(&'static str),
-    /// It must be given, with this example, but where another table stands that takes its place.
+    /// It must be given, as in the example, unless the file has the table that replaces it.
     RequiredUnless(&'static str, &'static str),
-    /// What holds when it is absent.
+    /// The value when it is absent.
     Default(&'static str),
     /// It may be absent; here is an example.
     Optional(&'static str),
@@ -72,14 +78,22 @@ impl Presence {
 pub struct Key {
     /// The name within its table.
     pub name: &'static str,
-    /// What it means, its range where that is not obvious.
+    /// Its meaning, and its range where that is not obvious.
     pub about: &'static str,
     /// Whether it must be given.
     pub presence: Presence,
     /// What a value may be.
-    pub form: Form,
-    /// The kinds of cam on which it has an effect; empty: as its table says.
+    pub form: KeyForm,
+    /// The kinds of cam on which it has an effect; empty: those of its table.
     pub cams: &'static [&'static str],
+    /// What is right where a value is out of its range, when that is not obvious.
+    pub hint: Option<&'static str>,
+    /// Other names under which people look for it in its table.
+    pub also: &'static [&'static str],
+    /// The key of its table that it gives by half of its value, in the place of that key: a diameter gives a radius.
+    pub halved: Option<&'static str>,
+    /// A word of its form that may stand in the place of its whole table: `keyway = "auto"`.
+    pub for_table: Option<&'static str>,
 }
 
 impl Key {
@@ -87,7 +101,12 @@ impl Key {
     #[must_use]
     pub fn in_toml(&self, typed: &str) -> String {
         match self.form {
-            Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) | Form::Points(..) => typed.to_owned(),
+            KeyForm::Number(_)
+            | KeyForm::Numbers(_)
+            | KeyForm::Texts
+            | KeyForm::Boolean
+            | KeyForm::Pair(..)
+            | KeyForm::Points(..) => typed.to_owned(),
             _ => format!("\"{}\"", typed.replace('\\', "\\\\").replace('"', "\\\"")),
         }
     }
@@ -95,10 +114,10 @@ impl Key {
 
 /// How often a table occurs in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Occurs {
+pub enum Occurrence {
     /// Always: its required keys must be given even when its header is missing.
     Once,
-    /// As a whole or not at all.
+    /// Optional, as a whole.
     Optional,
     /// When it or one of these tables is present: parts of something that is described as a whole or not at all.
     With(&'static [&'static str]),
@@ -106,29 +125,29 @@ pub enum Occurs {
     Repeated,
 }
 
-/// One table of a file.
+/// One table of a file, or keys that are added to the table of the section before it, which has the same path.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Section {
+pub struct KeySection {
     /// Dotted path; empty for the keys before the first table.
     pub path: &'static str,
     /// What the table describes.
     pub about: &'static str,
     /// How often it occurs.
-    pub occurs: Occurs,
+    pub occurs: Occurrence,
     /// The kinds of cam the whole table belongs to; empty: every one.
     pub cams: &'static [&'static str],
     /// Its keys, in the order of the template.
     pub keys: &'static [Key],
 }
 
-impl Section {
+impl KeySection {
     /// Dotted path of a key in this table; in a repeated one the index is left open, `motion.segment[].law`.
     #[must_use]
     pub fn path_of(&self, key: &Key) -> String {
         if self.path.is_empty() {
             return key.name.to_owned();
         }
-        [self.path, if self.occurs == Occurs::Repeated { "[]." } else { "." }, key.name].concat()
+        [self.path, if self.occurs == Occurrence::Repeated { "[]." } else { "." }, key.name].concat()
     }
 
     /// The kinds of cam on which a key of this table has an effect; empty: every one.
@@ -138,15 +157,22 @@ impl Section {
     }
 }
 
+/// Whether a section adds keys to the table of the one before it.
+pub(super) fn continues(sections: &[&KeySection], index: usize) -> bool {
+    let path = |index: usize| sections.get(index).map(|section| section.path);
+    index.checked_sub(1).is_some_and(|before| path(before) == path(index))
+}
+
 /// The key at a path, indices left open, with its table.
-pub(super) fn key_at<'s>(sections: &[&'s Section], path: &str) -> Option<(&'s Section, &'s Key)> {
+pub(super) fn key_at<'s>(sections: &[&'s KeySection], path: &str) -> Option<(&'s KeySection, &'s Key)> {
     let (table, name) = match path.rsplit_once('.') {
         None => ("", path),
         Some(("", _)) => return None,
         Some(parts) => parts,
     };
     let (table, repeated) = table.strip_suffix("[]").map_or((table, false), |table| (table, true));
-    let is_table = |section: &&&Section| section.path == table && (section.occurs == Occurs::Repeated) == repeated;
+    let is_table =
+        |section: &&&KeySection| section.path == table && (section.occurs == Occurrence::Repeated) == repeated;
     let mut keys = sections.iter().filter(is_table).flat_map(|section| section.keys.iter().map(|key| (*section, key)));
     keys.find(|(_, key)| key.name == name)
 }
@@ -165,15 +191,26 @@ pub enum LengthOrAngle {
     Angle(f64),
 }
 
+/// A length or an angle, in SI units, or a share of something.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LengthAngleOrShare {
+    /// Of a length or an angle.
+    Size(LengthOrAngle),
+    /// A share: 0.01 of `1 %`.
+    Share(f64),
+}
+
 /// A value that fits the form of its key.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Value {
+pub(super) enum KeyValue {
     Text(String),
     Boolean(bool),
     /// A bare number, or a quantity in SI units.
     Number(f64),
     Numbers(Vec<f64>),
+    Texts(Vec<String>),
     LengthOrAngle(LengthOrAngle),
+    Share(f64),
     Either(Dimension, f64),
     /// Which of the words.
     Word(usize),
@@ -193,31 +230,35 @@ impl LengthOrAngle {
     }
 }
 
-impl Value {
+impl KeyValue {
+    /// Half of a number; of a number in SI units exactly.
+    pub(super) fn halved(self) -> Self {
+        if let KeyValue::Number(number) = self { KeyValue::Number(0.5 * number) } else { self }
+    }
+
     /// The one text of this value, numbers in SI units with all their digits.
-    pub(super) fn canonical(&self, form: Form) -> String {
+    pub(super) fn canonical(&self, form: KeyForm) -> String {
         match (self, form) {
-            (Value::Text(text), _) => text.clone(),
-            (Value::Boolean(truth), _) => truth.to_string(),
-            (Value::Number(number), _) => exact(*number),
-            (Value::Numbers(numbers), _) => numbers.iter().copied().map(exact).collect::<Vec<_>>().join(" "),
-            (Value::LengthOrAngle(either), _) => either.canonical(),
-            (Value::Either(dimension, number), _) => format!("{} of {dimension}", exact(*number)),
-            (Value::Word(index), Form::Words(words) | Form::WordsOrQuantity(words, ..)) => {
+            (KeyValue::Text(text), _) => text.clone(),
+            (KeyValue::Boolean(truth), _) => truth.to_string(),
+            (KeyValue::Number(number), _) => exact(*number),
+            (KeyValue::Numbers(numbers), _) => numbers.iter().copied().map(exact).collect::<Vec<_>>().join(" "),
+            (KeyValue::Texts(texts), _) => texts.join(", "),
+            (KeyValue::LengthOrAngle(either), _) => either.canonical(),
+            (KeyValue::Share(share), _) => format!("{} of 1", exact(*share)),
+            (KeyValue::Either(dimension, number), _) => format!("{} of {dimension}", exact(*number)),
+            (KeyValue::Word(index), KeyForm::Words(words) | KeyForm::WordsOrQuantity(words, ..)) => {
                 words.get(*index).copied().unwrap_or_default().to_owned()
             }
-            (Value::Word(index), _) => index.to_string(),
-            (Value::Band(low, high), _) => format!("{} .. {}", exact(*low), exact(*high)),
-            (Value::Pair(pair), _) => pair.map(exact).join(" "),
-            (Value::Points(points), _) => points
+            (KeyValue::Word(index), _) => index.to_string(),
+            (KeyValue::Band(low, high), _) => format!("{} .. {}", exact(*low), exact(*high)),
+            (KeyValue::Pair(pair), _) => pair.map(exact).join(" "),
+            (KeyValue::Points(points), _) => points
                 .iter()
                 .map(|(at, to)| format!("{} {}", exact(*at), to.canonical()))
                 .collect::<Vec<_>>()
                 .join(", "),
-            (Value::Columns(columns), _) => {
-                let row = |row: &Row| row.values.map(exact).join(" ");
-                columns.rows.iter().map(row).collect::<Vec<_>>().join(", ")
-            }
+            (KeyValue::Columns(columns), _) => columns.canonical(),
         }
     }
 }
@@ -225,7 +266,7 @@ impl Value {
 /// How a value is converted for the caller.
 #[derive(Debug)]
 enum Convert<T: 'static> {
-    Plain(fn(&Value) -> Option<T>),
+    Plain(fn(&KeyValue) -> Option<T>),
     Words(&'static [T]),
     WordsOrNumber(&'static [T], fn(f64) -> T),
 }
@@ -243,16 +284,59 @@ impl<T> Field<T> {
         name: &'static str,
         about: &'static str,
         presence: Presence,
-        form: Form,
+        form: KeyForm,
         convert: Convert<T>,
     ) -> Field<T> {
-        Field { key: Key { name, about, presence, form, cams: &[] }, convert }
+        Field {
+            key: Key { name, about, presence, form, cams: &[], hint: None, also: &[], halved: None, for_table: None },
+            convert,
+        }
     }
 
-    /// The same key with an effect on these kinds of cam only.
+    /// The key that may be given in the place of this radius: its diameter. The radius is read by its own key, however it was given.
+    ///
+    /// # Panics
+    /// When this is not a key for a quantity, which stops the build of the constant.
+    #[must_use]
+    pub const fn diameter(&self, name: &'static str, about: &'static str, example: &'static str) -> Key {
+        let form = match self.key.form {
+            KeyForm::Quantity(dimension, bounds) | KeyForm::WordsOrQuantity(_, dimension, bounds) => {
+                let Bounds { low, low_included, high } = bounds;
+                KeyForm::Quantity(dimension, Bounds { low: 2.0 * low, low_included, high: 2.0 * high })
+            }
+            other => other,
+        };
+        assert!(matches!(form, KeyForm::Quantity(..)), "a radius is a quantity");
+        let presence = Presence::Optional(example);
+        let (cams, halved) = (self.key.cams, Some(self.key.name));
+        Key { name, about, presence, form, hint: None, also: &[], cams, halved, for_table: None }
+    }
+
+    /// The key, with a word of it that may stand in the place of its whole table.
+    #[must_use]
+    pub const fn for_table(mut self, word: &'static str) -> Self {
+        self.key.for_table = Some(word);
+        self
+    }
+
+    /// The key, with an effect on these kinds of cam only.
     #[must_use]
     pub const fn only(mut self, cams: &'static [&'static str]) -> Self {
         self.key.cams = cams;
+        self
+    }
+
+    /// The key with what is right where a value is out of its range.
+    #[must_use]
+    pub const fn hint(mut self, hint: &'static str) -> Self {
+        self.key.hint = Some(hint);
+        self
+    }
+
+    /// The key with other names under which people look for it in its table; they are suggested for it, and not accepted.
+    #[must_use]
+    pub const fn also(mut self, names: &'static [&'static str]) -> Self {
+        self.key.also = names;
         self
     }
 
@@ -269,7 +353,7 @@ impl<T> Field<T> {
         values: &'static [T],
     ) -> Self {
         assert!(words.len() == values.len(), "a value for each word");
-        Self::new(name, about, presence, Form::Words(words), Convert::Words(values))
+        Self::new(name, about, presence, KeyForm::Words(words), Convert::Words(values))
     }
 
     /// A key for one of several words, or a quantity; `values` are what the words mean.
@@ -285,19 +369,19 @@ impl<T> Field<T> {
         (dimension, bounds, from): (Dimension, Bounds, fn(f64) -> T),
     ) -> Self {
         assert!(words.len() == values.len(), "a value for each word");
-        let form = Form::WordsOrQuantity(words, dimension, bounds);
+        let form = KeyForm::WordsOrQuantity(words, dimension, bounds);
         Self::new(name, about, presence, form, Convert::WordsOrNumber(values, from))
     }
 }
 
 impl<T: Clone> Field<T> {
-    pub(super) fn of(&self, value: &Value) -> Option<T> {
+    pub(super) fn of(&self, value: &KeyValue) -> Option<T> {
         match (&self.convert, value) {
             (Convert::Plain(convert), value) => convert(value),
-            (Convert::Words(values) | Convert::WordsOrNumber(values, _), Value::Word(index)) => {
+            (Convert::Words(values) | Convert::WordsOrNumber(values, _), KeyValue::Word(index)) => {
                 values.get(*index).cloned()
             }
-            (Convert::WordsOrNumber(_, from), Value::Number(number)) => Some(from(*number)),
+            (Convert::WordsOrNumber(_, from), KeyValue::Number(number)) => Some(from(*number)),
             _ => None,
         }
     }
@@ -307,8 +391,15 @@ impl Field<String> {
     /// A key for a text.
     #[must_use]
     pub const fn text(name: &'static str, about: &'static str, presence: Presence) -> Self {
-        let convert = |value: &Value| if let Value::Text(text) = value { Some(text.clone()) } else { None };
-        Self::new(name, about, presence, Form::Text, Convert::Plain(convert))
+        let convert = |value: &KeyValue| if let KeyValue::Text(text) = value { Some(text.clone()) } else { None };
+        Self::new(name, about, presence, KeyForm::Text, Convert::Plain(convert))
+    }
+
+    /// A key for a text that may be a number, which needs no quotes then.
+    #[must_use]
+    pub const fn text_or_number(name: &'static str, about: &'static str, presence: Presence) -> Self {
+        let Field { key, convert } = Self::text(name, about, presence);
+        Field { key: Key { form: KeyForm::TextOrNumber, ..key }, convert }
     }
 }
 
@@ -316,8 +407,8 @@ impl Field<bool> {
     /// A key that is true or false.
     #[must_use]
     pub const fn boolean(name: &'static str, about: &'static str, presence: Presence) -> Self {
-        let convert = |value: &Value| if let Value::Boolean(truth) = value { Some(*truth) } else { None };
-        Self::new(name, about, presence, Form::Boolean, Convert::Plain(convert))
+        let convert = |value: &KeyValue| if let KeyValue::Boolean(truth) = value { Some(*truth) } else { None };
+        Self::new(name, about, presence, KeyForm::Boolean, Convert::Plain(convert))
     }
 }
 
@@ -325,7 +416,7 @@ impl Field<f64> {
     /// A key for a bare number.
     #[must_use]
     pub const fn number(name: &'static str, about: &'static str, presence: Presence, bounds: Bounds) -> Self {
-        Self::new(name, about, presence, Form::Number(bounds), Convert::Plain(number))
+        Self::new(name, about, presence, KeyForm::Number(bounds), Convert::Plain(number))
     }
 
     /// A key for a quantity; its value is in SI units, as its bounds are.
@@ -337,20 +428,30 @@ impl Field<f64> {
         dimension: Dimension,
         bounds: Bounds,
     ) -> Self {
-        Self::new(name, about, presence, Form::Quantity(dimension, bounds), Convert::Plain(number))
+        Self::new(name, about, presence, KeyForm::Quantity(dimension, bounds), Convert::Plain(number))
     }
 }
 
-fn number(value: &Value) -> Option<f64> {
-    if let Value::Number(number) = value { Some(*number) } else { None }
+fn number(value: &KeyValue) -> Option<f64> {
+    if let KeyValue::Number(number) = value { Some(*number) } else { None }
 }
 
 impl Field<Vec<f64>> {
     /// A key for a list of bare numbers, each within the bounds.
     #[must_use]
     pub const fn numbers(name: &'static str, about: &'static str, presence: Presence, bounds: Bounds) -> Self {
-        let convert = |value: &Value| if let Value::Numbers(numbers) = value { Some(numbers.clone()) } else { None };
-        Self::new(name, about, presence, Form::Numbers(bounds), Convert::Plain(convert))
+        let convert =
+            |value: &KeyValue| if let KeyValue::Numbers(numbers) = value { Some(numbers.clone()) } else { None };
+        Self::new(name, about, presence, KeyForm::Numbers(bounds), Convert::Plain(convert))
+    }
+}
+
+impl Field<Vec<String>> {
+    /// A key for a list of texts or numbers. The example is as in TOML.
+    #[must_use]
+    pub const fn texts(name: &'static str, about: &'static str, presence: Presence) -> Self {
+        let convert = |value: &KeyValue| if let KeyValue::Texts(texts) = value { Some(texts.clone()) } else { None };
+        Self::new(name, about, presence, KeyForm::Texts, Convert::Plain(convert))
     }
 }
 
@@ -364,8 +465,28 @@ impl Field<LengthOrAngle> {
         length: Bounds,
         angle: Bounds,
     ) -> Self {
-        let convert = |value: &Value| if let Value::LengthOrAngle(either) = value { Some(*either) } else { None };
-        Self::new(name, about, presence, Form::LengthOrAngle(length, angle), Convert::Plain(convert))
+        let convert = |value: &KeyValue| if let KeyValue::LengthOrAngle(either) = value { Some(*either) } else { None };
+        Self::new(name, about, presence, KeyForm::LengthOrAngle(length, angle), Convert::Plain(convert))
+    }
+}
+
+impl Field<LengthAngleOrShare> {
+    /// A key for a length, an angle or a share, with the bounds of each; those of the share as a number.
+    #[must_use]
+    pub const fn length_angle_or_share(
+        name: &'static str,
+        about: &'static str,
+        presence: Presence,
+        (length, angle): (Bounds, Bounds),
+        share: Bounds,
+    ) -> Self {
+        let convert = |value: &KeyValue| match value {
+            KeyValue::LengthOrAngle(either) => Some(LengthAngleOrShare::Size(*either)),
+            KeyValue::Share(share) => Some(LengthAngleOrShare::Share(*share)),
+            _ => None,
+        };
+        let form = KeyForm::LengthAngleOrShare(length, angle, share);
+        Self::new(name, about, presence, form, Convert::Plain(convert))
     }
 }
 
@@ -380,8 +501,8 @@ impl Field<(Dimension, f64)> {
         second: (Dimension, Bounds),
     ) -> Self {
         let convert =
-            |value: &Value| if let Value::Either(kind, number) = value { Some((*kind, *number)) } else { None };
-        Self::new(name, about, presence, Form::Either(first, second), Convert::Plain(convert))
+            |value: &KeyValue| if let KeyValue::Either(kind, number) = value { Some((*kind, *number)) } else { None };
+        Self::new(name, about, presence, KeyForm::Either(first, second), Convert::Plain(convert))
     }
 }
 
@@ -395,8 +516,8 @@ impl Field<(f64, f64)> {
         dimension: Dimension,
         bounds: Bounds,
     ) -> Self {
-        let convert = |value: &Value| if let Value::Band(low, high) = value { Some((*low, *high)) } else { None };
-        Self::new(name, about, presence, Form::Band(dimension, bounds), Convert::Plain(convert))
+        let convert = |value: &KeyValue| if let KeyValue::Band(low, high) = value { Some((*low, *high)) } else { None };
+        Self::new(name, about, presence, KeyForm::Band(dimension, bounds), Convert::Plain(convert))
     }
 }
 
@@ -410,15 +531,15 @@ impl Field<[f64; 2]> {
         dimension: Dimension,
         bounds: Bounds,
     ) -> Self {
-        let convert = |value: &Value| if let Value::Pair(pair) = value { Some(*pair) } else { None };
-        Self::new(name, about, presence, Form::Pair(dimension, bounds), Convert::Plain(convert))
+        let convert = |value: &KeyValue| if let KeyValue::Pair(pair) = value { Some(*pair) } else { None };
+        Self::new(name, about, presence, KeyForm::Pair(dimension, bounds), Convert::Plain(convert))
     }
 }
 
 /// Points as they are read: a number in SI units and a length or angle each.
-pub type Points = Vec<(f64, LengthOrAngle)>;
+pub type PointList = Vec<(f64, LengthOrAngle)>;
 
-impl Field<Points> {
+impl Field<PointList> {
     /// A key for a list of points. Example and default are as in TOML.
     #[must_use]
     pub const fn points(
@@ -428,17 +549,17 @@ impl Field<Points> {
         (dimension, bounds): (Dimension, Bounds),
         either: (Bounds, Bounds),
     ) -> Self {
-        let convert = |value: &Value| if let Value::Points(points) = value { Some(points.clone()) } else { None };
-        Self::new(name, about, presence, Form::Points(dimension, bounds, either), Convert::Plain(convert))
+        let convert = |value: &KeyValue| if let KeyValue::Points(points) = value { Some(points.clone()) } else { None };
+        Self::new(name, about, presence, KeyForm::Points(dimension, bounds, either), Convert::Plain(convert))
     }
 }
 
 impl Field<Arc<Columns>> {
-    /// A key for the path of a file with two columns of numbers.
+    /// A key for the path of a file with columns of numbers.
     #[must_use]
     pub const fn columns(name: &'static str, about: &'static str, presence: Presence) -> Self {
         let convert =
-            |value: &Value| if let Value::Columns(columns) = value { Some(Arc::clone(columns)) } else { None };
-        Self::new(name, about, presence, Form::Columns, Convert::Plain(convert))
+            |value: &KeyValue| if let KeyValue::Columns(columns) = value { Some(Arc::clone(columns)) } else { None };
+        Self::new(name, about, presence, KeyForm::Columns, Convert::Plain(convert))
     }
 }

@@ -1,7 +1,7 @@
 //! Files a person writes: TOML against a table of keys.
 //!
-//! What a file may contain is stated once, by constant [`Section`]s of [`Key`]s, each written beside the part it describes.
-//! From the same list come the [`Reader`], which reports every fault of a file at once and at its place, the [`template()`]
+//! What a file may contain is stated once, by constant [`KeySection`]s of [`Key`]s, each written with the part it describes.
+//! From the same list come the [`Reader`], which reports all faults of a file at once, each at its place, the [`template()`]
 //! to start a file from, the JSON [`schema()`] for editors, and the keys that have no effect on a kind of cam.
 
 mod bounds;
@@ -9,47 +9,33 @@ pub mod cams;
 mod columns;
 mod fault;
 pub mod file;
+mod heading;
 mod input;
 mod key;
+pub mod named;
 mod plain;
 pub mod range;
 mod reader;
 mod schema;
+mod syntax;
+mod tables;
 mod template;
 mod text;
 mod value;
+mod words;
 
 pub use bounds::{Bounds, above, within};
-pub use columns::{Columns, Row};
-pub use fault::{Excerpt, Fault, similar};
+pub use columns::{Columns, FileRow};
+pub use fault::{Excerpt, FileFault, similar};
+pub use heading::{HeadingUnit, is_of_crank};
 pub use input::Input;
-pub use key::{Field, Form, Key, LengthOrAngle, Occurs, Points, Presence, Section};
+pub use key::{Field, Key, KeyForm, KeySection, LengthAngleOrShare, LengthOrAngle, Occurrence, PointList, Presence};
 pub use plain::{is_plain, plain, shown};
-pub use reader::{Reader, Table};
+pub use reader::{Reader, TableReader};
 pub use schema::schema;
-pub use template::{Start, template};
-
-/// Of the keys given, those that have no effect on a kind of cam, in the order given.
-#[must_use]
-pub fn without_effect(sections: &[&Section], given: &[String], cam: &str) -> Vec<String> {
-    given.iter().filter(|path| is_idle(sections, path, cam)).cloned().collect()
-}
-
-/// Of the values of a file, those that have an effect on a kind of cam, in the order given.
-#[must_use]
-pub fn with_effect(sections: &[&Section], inputs: &[Input], cam: &str) -> Vec<Input> {
-    inputs.iter().filter(|input| !is_idle(sections, &input.key, cam)).cloned().collect()
-}
-
-/// Whether a path is that of a key that has no effect on a kind of cam.
-fn is_idle(sections: &[&Section], path: &str, cam: &str) -> bool {
-    let (pattern, _) = reader::pattern(path);
-    key::key_at(sections, &pattern).is_some_and(|(section, key)| {
-        let cams = section.cams_of(key);
-        let of_all = cams.is_empty() && !cams::ANALYSES.contains(&cam);
-        !of_all && !cams.contains(&cam)
-    })
-}
+pub use tables::Tables;
+pub use template::{TemplateOptions, template};
+pub use words::NamedChoice;
 
 #[cfg(test)]
 mod tests;

@@ -1,17 +1,17 @@
-//! Text from outside as it may be shown and stored: a terminal obeys control characters, some characters turn a line round, and
-//! others are no characters at all.
+//! Text from outside made safe to show and store: a terminal obeys control characters, some characters reverse the direction of a line,
+//! and some code points are not characters.
 
 use std::borrow::Cow;
 
-/// Whether a character is a letter, sign or blank that stands where it is written and does nothing else.
+/// Whether a character is a letter, sign or blank without any effect on the text around it.
 #[must_use]
 pub fn is_plain(c: char) -> bool {
     let marks = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}' | '\u{2029}' | '\u{feff}');
     is_text(c) && !marks
 }
 
-/// Whether a character may stand in a name: marks of languages that are written from the right, and of the ends of lines and paragraphs, may;
-/// what turns the text after it round may not.
+/// Whether a character may occur in a name: marks of right-to-left languages and of the ends of lines and paragraphs may,
+/// marks that reverse the direction of the text after them may not.
 pub(super) fn is_text(c: char) -> bool {
     let turns = matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let is_no_character = u32::from(c) & 0xfffe == 0xfffe || matches!(c, '\u{fdd0}'..='\u{fdef}');

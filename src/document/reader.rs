@@ -1,15 +1,15 @@
 //! Reads a file against its sections and reports every fault at its place.
 //!
 //! All keys of all sections are read when the reader is made, in one loop over the table. A fault stops nothing; a
-//! value with a fault, or one that is absent, is `None` from there on, so that what compares two values is asked only
-//! when both are right. Which keys exist is known from the sections alone, never from what was read.
+//! value with a fault, or one that is absent, is `None` from there on, so that two values are compared only when
+//! both are right. Which keys exist is known from the sections alone, never from what was read.
 
 use super::columns::Columns;
-use super::fault::{Fault, nearest};
+use super::fault::{FileFault, KnownKey, Misfit, nearest, similar};
 use super::input::Input;
-use super::key::{Field, Form, Key, Occurs, Presence, Section, Value, join, key_at};
-use super::text::{Document, Entry, Found, MOST_FAULTS, Place};
-use super::value::{self, Misfit, Scalar};
+use super::key::{Field, Key, KeyForm, KeySection, KeyValue, Occurrence, Presence, join, key_at};
+use super::text::{Document, MOST_FAULTS, PendingFault, TextPlace, TomlEntry};
+use super::value::{self, Scalar};
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,43 +20,50 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Reader<'a> {
     document: Document<'a>,
-    /// Where the files are that the file names.
+    /// The folder of the files that the file names.
     folder: Option<&'a Path>,
-    sections: &'a [&'a Section],
+    sections: &'a [&'a KeySection],
     /// Every value without a fault, defaults too, by its path.
-    values: BTreeMap<String, Value>,
-    /// The same as inputs.
+    values: BTreeMap<String, KeyValue>,
+    /// These values as inputs.
     inputs: BTreeMap<String, Input>,
     /// Required keys that are absent, by their paths, until it is known whether a misspelling explains them.
-    missing: BTreeMap<String, Found>,
+    missing: BTreeMap<String, PendingFault>,
     /// Paths that have the wrong shape: faults inside them are not reported.
     misshapen: BTreeSet<String>,
+    /// Keys that are given by twice their value, as a radius by its diameter: their paths, and those of the keys that give them.
+    doubled: BTreeMap<String, String>,
     /// Tables that a misspelt key or table may have meant.
     meant: BTreeSet<&'static str>,
-    faults: RefCell<Vec<Found>>,
+    /// Keys that misspelt ones may have meant: that they are absent is explained.
+    meant_keys: BTreeSet<String>,
+    faults: RefCell<Vec<PendingFault>>,
 }
 
 impl<'a> Reader<'a> {
     /// Reads a TOML text named `source`, then the overrides, each `key=value`, against the sections.
     #[must_use]
-    pub fn new(source: &'a str, text: &'a str, overrides: &[String], sections: &'a [&'a Section]) -> Self {
+    pub fn new(source: &'a str, text: &'a str, overrides: &[String], sections: &'a [&'a KeySection]) -> Self {
         Self::in_folder(None, source, text, overrides, sections)
     }
 
-    /// The same for a text that stands in a folder, in which other files may stand that it names.
+    /// Reads a text of a folder; other files that it names are read from that folder.
     #[must_use]
     pub fn in_folder(
         folder: Option<&'a Path>,
         source: &'a str,
         text: &'a str,
         overrides: &[String],
-        sections: &'a [&'a Section],
+        sections: &'a [&'a KeySection],
     ) -> Self {
-        let mut document = Document::new(source, text, overrides);
+        let mut document = Document::new(source, text, overrides, |path| {
+            sections.iter().any(|section| section.path == path && section.occurs == Occurrence::Repeated)
+        });
         let faults = RefCell::new(std::mem::take(&mut document.faults));
         let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
-        let (inputs, meant) = (BTreeMap::new(), BTreeSet::new());
-        let mut reader = Self { document, folder, sections, values, inputs, missing, misshapen, meant, faults };
+        let (inputs, doubled, meant, meant_keys) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
+        let mut reader =
+            Self { document, folder, sections, values, inputs, missing, misshapen, doubled, meant, meant_keys, faults };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -66,15 +73,32 @@ impl<'a> Reader<'a> {
         reader
     }
 
-    fn section(&mut self, section: &Section, source: &str) {
+    /// A word in the place of a table is that of each of its keys that may have it.
+    fn spread_word(&mut self, section: &KeySection) {
+        let Some(Scalar::Text(word)) = self.document.entries.get(section.path).map(|entry| &entry.value) else {
+            return;
+        };
+        let keys: Vec<&Key> = section.keys.iter().filter(|key| key.for_table == Some(word.as_str())).collect();
+        if keys.is_empty() {
+            return;
+        }
+        if let Some(entry) = self.document.entries.remove(section.path) {
+            for key in keys {
+                self.document.entries.entry(join(section.path, key.name)).or_insert_with(|| entry.clone());
+            }
+        }
+    }
+
+    fn section(&mut self, section: &KeySection, source: &str) {
+        self.spread_word(section);
         if self.has_wrong_shape(section) {
             return;
         }
         match section.occurs {
-            Occurs::Optional if !self.document.has(section.path) => {}
-            Occurs::With(others) if !others.iter().any(|other| self.document.has(other)) => {}
-            Occurs::Once | Occurs::Optional | Occurs::With(_) => self.keys(section, section.path, source),
-            Occurs::Repeated => {
+            Occurrence::Optional if !self.document.has(section.path) => {}
+            Occurrence::With(others) if !others.iter().any(|other| self.document.has(other)) => {}
+            Occurrence::Once | Occurrence::Optional | Occurrence::With(_) => self.keys(section, section.path, source),
+            Occurrence::Repeated => {
                 for index in 0..self.count(section) {
                     self.keys(section, &format!("{}[{index}]", section.path), source);
                 }
@@ -83,12 +107,12 @@ impl<'a> Reader<'a> {
     }
 
     /// Reports a value where the section, or a table around it, should be, or one table instead of several.
-    fn has_wrong_shape(&mut self, section: &Section) -> bool {
+    fn has_wrong_shape(&mut self, section: &KeySection) -> bool {
         let path = section.path;
         let ends = path.match_indices('.').map(|(at, _)| at).chain((!path.is_empty()).then_some(path.len()));
         for end in ends {
             let around = path.get(..end).unwrap_or_default();
-            let repeated = around.len() == path.len() && section.occurs == Occurs::Repeated;
+            let repeated = around.len() == path.len() && section.occurs == Occurrence::Repeated;
             let place = if let Some(entry) = self.document.entries.get(around) {
                 if repeated && matches!(&entry.value, Scalar::List(items) if items.is_empty()) {
                     continue;
@@ -98,27 +122,32 @@ impl<'a> Reader<'a> {
                 let arrays = || self.document.arrays.get(around).map(|(span, _)| span);
                 let other = if repeated { self.document.tables.get(around) } else { arrays() };
                 let Some(span) = other else { continue };
-                Place::File(span.clone())
+                TextPlace::File(span.clone())
             };
             let (shape, brackets) =
                 if repeated { ("an array of tables", ["[[", "]]"]) } else { ("a table", ["[", "]"]) };
-            let help = Some(format!("write {}{around}{} above its keys", brackets[0], brackets[1]));
+            let word = section.keys.iter().find_map(|key| key.for_table).filter(|_| around == path);
+            let word = word.map_or_else(String::new, |word| format!(", or {around} = \"{word}\""));
+            let help = Some(format!("write {}{around}{} above its keys{word}", brackets[0], brackets[1]));
             self.wrong_shape(around, format!("`{around}` must be {shape}"), help, place);
             return true;
         }
         false
     }
 
-    fn wrong_shape(&mut self, path: &str, message: String, help: Option<String>, place: Place) {
+    fn wrong_shape(&mut self, path: &str, message: String, help: Option<String>, place: TextPlace) {
         if self.misshapen.insert(path.to_owned()) {
-            self.told(message, help, Some(place));
+            self.report(message, help, Some(place));
         }
     }
 
     /// Reads every key of one table.
-    fn keys(&mut self, section: &Section, table: &str, source: &str) {
+    fn keys(&mut self, section: &KeySection, table: &str, source: &str) {
         for key in section.keys {
             let path = join(table, key.name);
+            if !self.is_chosen(section, key, table) {
+                continue;
+            }
             let read = if let Some(entry) = self.document.entries.get(&path) {
                 value::read(key, &path, &entry.value).map_err(|misfit| (misfit, Some(entry.at.clone())))
             } else if let Some(place) = self.table_at(&path) {
@@ -136,8 +165,8 @@ impl<'a> Reader<'a> {
                         value::read(key, &path, &Scalar::Text(text.into())).map_err(|misfit| (misfit, None))
                     }
                     Presence::Required(_) | Presence::RequiredUnless(..) => {
-                        let place = self.document.header(table).filter(|_| section.occurs == Occurs::Repeated);
-                        self.missing.insert(path.clone(), missing(key, &path, source, place));
+                        let place = self.document.header(table).filter(|_| section.occurs == Occurrence::Repeated);
+                        self.missing.insert(path.clone(), missing((section, key), &path, source, place));
                         continue;
                     }
                 }
@@ -146,34 +175,75 @@ impl<'a> Reader<'a> {
                 Ok(value) => {
                     let entry = self.document.entries.get(&path);
                     let typed = entry.map_or_else(|| key.presence.text().to_owned(), |entry| entry.value.shown());
+                    let (path, value, typed) = match key.halved {
+                        None => (path, value, typed),
+                        Some(radius) => (join(table, radius), value.halved(), format!("Ø{typed}")),
+                    };
                     self.inputs.insert(path.clone(), Input::new(&path, value.canonical(key.form), typed));
                     self.values.insert(path, value);
                 }
-                Err((Misfit { message, help }, place)) => self.told(message, help, place),
+                Err((Misfit { message, help }, place)) => self.report(message, help, place),
             }
         }
     }
 
-    /// The file that a value names, where its form is one; any other value as it is.
-    fn opened(&self, key: &Key, path: &str, value: Value) -> Result<Value, (Misfit, Option<Place>)> {
-        let (Form::Columns, Value::Text(name)) = (key.form, &value) else { return Ok(value) };
-        let at = || self.document.entries.get(path).map(|entry| entry.at.clone());
-        let columns = Columns::read(self.folder, name, path)
-            .map_err(|(misfit, place)| (misfit, place.map_or_else(at, |place| Some(Place::Beside(place)))))?;
-        Ok(Value::Columns(Arc::new(columns)))
+    /// Whether a key of a table is the one to read: of a radius and its diameter the given one, of both the one that an override sets.
+    /// Both together are a fault.
+    fn is_chosen(&mut self, section: &KeySection, key: &Key, table: &str) -> bool {
+        let doubled = |other: &&Key| other.halved == Some(key.name);
+        let Some(other) = key.halved.or_else(|| section.keys.iter().find(doubled).map(|other| other.name)) else {
+            return true;
+        };
+        let (own, other) = (join(table, key.name), join(table, other));
+        let entries = &self.document.entries;
+        match (entries.get(&own), entries.get(&other), key.halved) {
+            (None, Some(_), _) => false,
+            (Some(_), None, Some(_)) => {
+                self.doubled.insert(other, own);
+                true
+            }
+            (Some(entry), Some(against), halved) if entry.by_override() != against.by_override() => {
+                if entry.by_override() && halved.is_some() {
+                    self.doubled.insert(other, own.clone());
+                }
+                entry.by_override()
+            }
+            (None, None, _) | (Some(_), _, None) => true,
+            (Some(entry), Some(_), Some(radius)) => {
+                let message = format!("give `{radius}` or `{}`, not both", key.name);
+                let help = format!("they are the same dimension: remove one, `{other}` or `{own}`");
+                self.report(message, Some(help), Some(entry.key.clone()));
+                false
+            }
+        }
     }
 
-    /// Where a table or array of tables stands under a path.
-    fn table_at(&self, path: &str) -> Option<Place> {
+    /// The value at a path as it is in the file or set by an override, where the key may be given by twice its value.
+    fn entry(&self, path: &str) -> Option<&TomlEntry> {
+        self.document.entries.get(self.doubled.get(path).map_or(path, String::as_str))
+    }
+
+    /// The file that a value names, where its form is one; any other value as it is.
+    fn opened(&self, key: &Key, path: &str, value: KeyValue) -> Result<KeyValue, (Misfit, Option<TextPlace>)> {
+        let (KeyForm::Columns, KeyValue::Text(name)) = (key.form, &value) else { return Ok(value) };
+        let at = || self.document.entries.get(path).map(|entry| entry.at.clone());
+        let by_user = self.document.entries.get(path).is_some_and(TomlEntry::by_override);
+        let columns = Columns::read(self.folder, name, path, by_user)
+            .map_err(|(misfit, place)| (misfit, place.map_or_else(at, |place| Some(TextPlace::OtherFile(place)))))?;
+        Ok(KeyValue::Columns(Arc::new(columns)))
+    }
+
+    /// The place of a table or array of tables with a path.
+    fn table_at(&self, path: &str) -> Option<TextPlace> {
         let array = || self.document.arrays.get(path).map(|(span, _)| span);
-        self.document.tables.get(path).or_else(array).map(|span| Place::File(span.clone()))
+        self.document.tables.get(path).or_else(array).map(|span| TextPlace::File(span.clone()))
     }
 
     /// Reports every key and table that is in no section.
     fn unknown(&mut self) {
-        let keys = || self.sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
-        let known: OnceCell<Vec<String>> = OnceCell::new();
-        let known = || known.get_or_init(|| keys().map(|(section, key)| section.path_of(key)).collect());
+        let (sections, document) = (self.sections, &self.document);
+        let known: OnceCell<Vec<KnownKey>> = OnceCell::new();
+        let known = || known.get_or_init(|| known_keys(sections, document));
         let mut faults = Vec::new();
         for (path, entry) in &self.document.entries {
             if self.is_inside_misshapen(path) || self.is_empty_list_of_tables(path, entry) {
@@ -182,30 +252,37 @@ impl<'a> Reader<'a> {
             let (pattern, indices) = pattern(path);
             let (message, help) = if key_at(self.sections, &pattern).is_none() {
                 // Faults beyond those reported need no suggestion.
-                let near = if faults.len() < MOST_FAULTS { nearest(&pattern, known()) } else { None };
-                let near = near.map(|near| filled(near, &indices));
-                if let Some(near) = &near {
-                    // The key is there under a wrong name: do not report it, or its table, as missing too.
+                let near = if faults.len() < MOST_FAULTS { nearest(&pattern, known()) } else { Vec::new() };
+                let near: Vec<String> = near.into_iter().map(|near| filled(near, &indices)).collect();
+                for near in &near {
+                    // The key is there under a wrong name: neither it nor its table is also reported as missing.
                     self.missing.remove(near);
+                    self.meant_keys.insert(near.clone());
+                    if let Some((table, radius)) = halved_at(sections, near) {
+                        self.missing.remove(&join(table, radius));
+                    }
                     self.meant.extend(self.sections.iter().map(|section| section.path).filter(|path| {
                         near.rsplit_once('.').is_some_and(|(table, _)| table.split('[').next() == Some(path))
                     }));
                 }
-                (format!("unknown key `{path}`"), near.map(|near| format!("did you mean `{near}`?")))
+                (format!("unknown key `{path}`"), suggestion(sections, path, &near))
             } else if let Some((array, count)) = self.beyond_the_end(path) {
-                let help = format!("a file adds elements, one [[{array}]] each; overrides change those it has");
-                (format!("`{path}`: the file has {count} of [[{array}]], counted from 0"), Some(help))
+                let help =
+                    format!("--set changes only elements that the file has; add one to the file with [[{array}]]");
+                (format!("`{path}`: no such element, the file has {count} of [[{array}]], counted from 0"), Some(help))
             } else {
                 continue;
             };
-            faults.push(Found { message, help, place: Some(entry.key.clone()) });
+            faults.push(PendingFault { message, help, place: Some(entry.key.clone()) });
         }
         for (path, span) in &self.document.tables {
             let (pattern, _) = pattern(path);
             let expected = self.sections.iter().any(|section| is_around(&pattern, section));
             if !expected && !self.document.has_inside(path) && !self.is_inside_misshapen(path) {
-                let place = Some(Place::File(span.clone()));
-                faults.push(Found { message: format!("unknown table `{path}`"), help: None, place });
+                let place = Some(TextPlace::File(span.clone()));
+                let near = similar(path, sections.iter().map(|section| section.path));
+                let help = near.map(|near| format!("did you mean [{near}]?"));
+                faults.push(PendingFault { message: format!("unknown table `{path}`"), help, place });
             }
         }
         faults.extend(std::mem::take(&mut self.missing).into_values());
@@ -217,10 +294,10 @@ impl<'a> Reader<'a> {
         ends.into_iter().any(|end| path.get(..end).is_some_and(|around| self.misshapen.contains(around)))
     }
 
-    /// `segment = []` is no segments, not a key.
-    fn is_empty_list_of_tables(&self, path: &str, entry: &Entry) -> bool {
+    /// `segment = []` means a list without segments, not a key.
+    fn is_empty_list_of_tables(&self, path: &str, entry: &TomlEntry) -> bool {
         matches!(&entry.value, Scalar::List(items) if items.is_empty())
-            && self.sections.iter().any(|section| section.occurs == Occurs::Repeated && section.path == path)
+            && self.sections.iter().any(|section| section.occurs == Occurrence::Repeated && section.path == path)
     }
 
     /// The array of tables in which the index of a path is out of range, with its length.
@@ -232,13 +309,13 @@ impl<'a> Reader<'a> {
         (!index.parse::<usize>().is_ok_and(|index| index < count)).then(|| (array.to_owned(), count))
     }
 
-    fn told(&self, message: String, help: Option<String>, place: Option<Place>) {
-        self.faults.borrow_mut().push(Found { message, help, place });
+    fn report(&self, message: String, help: Option<String>, place: Option<TextPlace>) {
+        self.faults.borrow_mut().push(PendingFault { message, help, place });
     }
 
     /// Whether a fault that was reported explains why a table is absent: it has the wrong shape, or another name.
     #[must_use]
-    pub fn is_explained(&self, section: &Section) -> bool {
+    pub fn is_explained(&self, section: &KeySection) -> bool {
         self.misshapen.contains(section.path) || self.meant.contains(section.path)
     }
 
@@ -251,30 +328,30 @@ impl<'a> Reader<'a> {
     /// Reports a fault of the whole file. What follows from a text that is not TOML is not reported.
     pub fn fail(&self, message: String, help: Option<String>) {
         if !self.document.broken {
-            self.told(message, help, None);
+            self.report(message, help, None);
         }
     }
 
-    /// A table that stands once, or one whose values are all `None` because it is absent.
+    /// A table that occurs once; all its values are `None` when it is absent.
     #[must_use]
-    pub fn table(&self, section: &Section) -> Table<'_> {
-        Table { reader: self, path: section.path.to_owned() }
+    pub fn table(&self, section: &KeySection) -> TableReader<'_> {
+        TableReader { reader: self, path: section.path.to_owned() }
     }
 
     /// An optional table, when it is in the file or an override sets a key of it.
     #[must_use]
-    pub fn find(&self, section: &Section) -> Option<Table<'_>> {
+    pub fn find(&self, section: &KeySection) -> Option<TableReader<'_>> {
         self.document.has(section.path).then(|| self.table(section))
     }
 
     /// The elements of a repeated table, in the order of the file.
-    pub fn elements(&self, section: &Section) -> impl Iterator<Item = Table<'_>> {
+    pub fn elements(&self, section: &KeySection) -> impl Iterator<Item = TableReader<'_>> {
         let path = section.path;
-        (0..self.count(section)).map(move |index| Table { reader: self, path: format!("{path}[{index}]") })
+        (0..self.count(section)).map(move |index| TableReader { reader: self, path: format!("{path}[{index}]") })
     }
 
     /// How many elements a repeated table has.
-    fn count(&self, section: &Section) -> usize {
+    fn count(&self, section: &KeySection) -> usize {
         self.document.arrays.get(section.path).map_or(0, |(_, count)| *count)
     }
 
@@ -300,21 +377,21 @@ impl<'a> Reader<'a> {
     /// Ends the reading.
     ///
     /// # Errors
-    /// All faults, in the order of their places, none twice.
-    pub fn finish(self) -> Result<(), Vec<Fault>> {
-        let faults = self.document.told(self.faults.into_inner());
+    /// All faults, in the order of their places, without duplicates.
+    pub fn finish(self) -> Result<(), Vec<FileFault>> {
+        let faults = self.document.sorted_faults(self.faults.into_inner());
         if faults.is_empty() { Ok(()) } else { Err(faults) }
     }
 }
 
 /// One table of a file that is being read.
 #[derive(Debug, Clone)]
-pub struct Table<'r> {
+pub struct TableReader<'r> {
     reader: &'r Reader<'r>,
     path: String,
 }
 
-impl Table<'_> {
+impl TableReader<'_> {
     fn path_of(&self, key: &Key) -> String {
         join(&self.path, key.name)
     }
@@ -329,23 +406,25 @@ impl Table<'_> {
     #[must_use]
     pub fn has<T>(&self, field: &Field<T>) -> bool {
         let path = self.path_of(&field.key);
-        self.reader.document.entries.contains_key(&path) || self.reader.table_at(&path).is_some()
+        self.reader.entry(&path).is_some() || self.reader.table_at(&path).is_some()
     }
 
-    /// The value of a key as it was typed, for messages that compare two keys.
+    /// The value of a key as it was typed, for messages that compare two keys: of a radius that is given by its diameter `Ø24 mm`.
     #[must_use]
     pub fn typed<T>(&self, field: &Field<T>) -> String {
-        let entry = self.reader.document.entries.get(&self.path_of(&field.key));
-        entry.and_then(|entry| entry.value.typed()).unwrap_or("its default").to_owned()
+        let path = self.path_of(&field.key);
+        let typed = self.reader.entry(&path).and_then(|entry| entry.value.typed()).unwrap_or("its default");
+        if self.reader.doubled.contains_key(&path) { format!("Ø{typed}") } else { typed.to_owned() }
     }
 
     /// Reports a fault at the value of a key, or at the header of its table when it is absent. What follows from a text that is not
-    /// TOML is not reported.
+    /// TOML, or from a misspelling of the key, is not reported.
     pub fn fail<T>(&self, field: &Field<T>, message: String, help: Option<String>) {
-        if !self.reader.document.broken {
-            let entry = self.reader.document.entries.get(&self.path_of(&field.key));
+        let path = self.path_of(&field.key);
+        let entry = self.reader.entry(&path);
+        if !self.reader.document.broken && (entry.is_some() || !self.reader.meant_keys.contains(&path)) {
             let place = entry.map(|entry| entry.at.clone()).or_else(|| self.reader.document.header(&self.path));
-            self.reader.told(message, help, place);
+            self.reader.report(message, help, place);
         }
     }
 
@@ -356,32 +435,77 @@ impl Table<'_> {
             return self.fail(field, message, help);
         };
         let place = self.reader.document.character(entry.at.clone(), character);
-        self.reader.told(message, help, Some(place));
+        self.reader.report(message, help, Some(place));
     }
 
     /// Reports a fault at a row, from 0, of the file that a key names.
     pub fn fail_in(&self, field: &Field<Arc<Columns>>, row: usize, message: String, help: Option<String>) {
         match self.get(field).and_then(|columns| columns.excerpt(row)) {
-            Some(place) => self.reader.told(message, help, Some(Place::Beside(Box::new(place)))),
+            Some(place) => self.reader.report(message, help, Some(TextPlace::OtherFile(Box::new(place)))),
             None => self.fail(field, message, help),
         }
     }
 }
 
-fn missing(key: &Key, path: &str, source: &str, place: Option<Place>) -> Found {
-    Found {
+/// Every key, under each of its names.
+fn known_keys(sections: &[&KeySection], document: &Document<'_>) -> Vec<KnownKey> {
+    let keys = sections.iter().flat_map(|section| section.keys.iter().map(move |key| (section, key)));
+    let under = |(section, key): (&&KeySection, &Key)| {
+        let (path, in_file) = (section.path_of(key), document.has(section.path));
+        let table = path.strip_suffix(key.name).unwrap_or_default().to_owned();
+        let names = std::iter::once(key.name).chain(key.also.iter().copied());
+        let named = names.map(|name| KnownKey { path: path.clone(), named: format!("{table}{name}"), in_file });
+        named.collect::<Vec<_>>()
+    };
+    keys.flat_map(under).collect()
+}
+
+/// The keys that were probably meant; a radius and its diameter where the name says neither.
+fn suggestion(sections: &[&KeySection], path: &str, near: &[String]) -> Option<String> {
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let name = last(path);
+    let mut all: Vec<String> = near.to_vec();
+    if let [near] = near {
+        let (pattern, _) = pattern(near);
+        let twin = key_at(sections, &pattern).and_then(|(section, key)| {
+            let of_radius = |other: &&Key| other.halved == Some(key.name);
+            key.halved.or_else(|| section.keys.iter().find(of_radius).map(|other| other.name))
+        });
+        let meant = last(near);
+        let says =
+            |word: &str| 2 * name.len() > word.len() && (name.contains(word) || similar(&name, [word]).is_some());
+        if let Some(twin) = twin.filter(|_| !["radius", "diameter", &meant].iter().any(|word| says(word))) {
+            all.push(format!("{}{twin}", near.strip_suffix(meant.as_str()).unwrap_or_default()));
+        }
+    }
+    let all: Vec<String> = all.iter().map(|near| format!("`{near}`")).collect();
+    (!all.is_empty()).then(|| format!("did you mean {}?", all.join(" or ")))
+}
+
+fn missing((section, key): (&KeySection, &Key), path: &str, source: &str, place: Option<TextPlace>) -> PendingFault {
+    let example = |key: &Key| format!("{} = {}", key.name, key.in_toml(key.presence.text()));
+    let doubled = section.keys.iter().find(|other| other.halved == Some(key.name));
+    let or = doubled.map_or(String::new(), |other| format!(", or {}", example(other)));
+    PendingFault {
         message: format!("missing key `{path}` in {source}"),
-        help: Some(format!("add it, e.g. {} = {}", key.name, key.in_toml(key.presence.text()))),
+        help: Some(format!("add it, e.g. {}{or}", example(key))),
         place,
     }
 }
 
+/// The table of a path and the key of it that the key at the path gives by half of its value, where it does.
+fn halved_at<'p>(sections: &[&KeySection], path: &'p str) -> Option<(&'p str, &'static str)> {
+    let (pattern, _) = pattern(path);
+    let (_, key) = key_at(sections, &pattern)?;
+    Some((path.rsplit_once('.').map_or("", |(table, _)| table), key.halved?))
+}
+
 /// Whether a table with this pattern is the section's, or around it.
-fn is_around(pattern: &str, section: &Section) -> bool {
-    if section.occurs == Occurs::Repeated && pattern.strip_suffix("[]") == Some(section.path) {
+fn is_around(pattern: &str, section: &KeySection) -> bool {
+    if section.occurs == Occurrence::Repeated && pattern.strip_suffix("[]") == Some(section.path) {
         return true;
     }
-    let own = |rest: &str| rest.is_empty() && section.occurs != Occurs::Repeated;
+    let own = |rest: &str| rest.is_empty() && section.occurs != Occurrence::Repeated;
     section.path.strip_prefix(pattern).is_some_and(|rest| own(rest) || rest.starts_with('.'))
 }
 
@@ -408,7 +532,7 @@ pub(super) fn pattern(path: &str) -> (Cow<'_, str>, Vec<&str>) {
     (parts.join(".").into(), indices)
 }
 
-/// A pattern with indices put into it; 0 where none is left.
+/// A pattern with indices inserted; 0 where no index is left.
 fn filled(pattern: &str, indices: &[&str]) -> String {
     let mut indices = indices.iter();
     let mut parts = pattern.split("[]");

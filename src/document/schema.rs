@@ -1,20 +1,20 @@
 //! The JSON schema (draft 2020-12) of a file, for editors, written from the sections.
 
 use super::bounds::Bounds;
-use super::key::{Form, Key, Occurs, Presence, Section};
+use super::key::{Key, KeyForm, KeySection, Occurrence, Presence, continues};
 use crate::units::Dimension;
 use serde_json::{Value, json};
 
-/// A decimal number, as [`crate::units`] takes it before a unit.
+/// A decimal number, as [`crate::units`] accepts it before a unit.
 const NUMBER: &str = r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?";
 
 /// The schema of files with these sections.
 #[must_use]
-pub fn schema(title: &str, sections: &[&Section]) -> Value {
+pub fn schema(title: &str, sections: &[&KeySection]) -> Value {
     let mut root = table("");
-    for section in sections {
+    for (index, section) in sections.iter().enumerate() {
         let mut node = &mut root;
-        let required = section.occurs == Occurs::Once
+        let required = section.occurs == Occurrence::Once
             && section.keys.iter().any(|key| matches!(key.presence, Presence::Required(_)));
         for name in section.path.split('.').filter(|name| !name.is_empty()) {
             if required {
@@ -22,7 +22,11 @@ pub fn schema(title: &str, sections: &[&Section]) -> Value {
             }
             node = within(node, name);
         }
-        describe(node, section);
+        if continues(sections, index) {
+            add_keys(node, section);
+        } else {
+            describe(node, section);
+        }
     }
     if let Some(root) = root.as_object_mut() {
         root.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
@@ -58,16 +62,34 @@ fn require(table: &mut Value, name: &str) {
     }
 }
 
-/// Puts what a section says into its table.
-fn describe(node: &mut Value, section: &Section) {
-    let mut keys = table(section.about);
+/// A condition in addition to those of the table.
+fn require_that(table: &mut Value, condition: Value) {
+    match &mut table["allOf"] {
+        Value::Array(conditions) => conditions.push(condition),
+        none => *none = json!([condition]),
+    }
+}
+
+fn add_keys(table: &mut Value, section: &KeySection) {
     for key in section.keys {
-        keys["properties"][key.name] = property(key);
-        if matches!(key.presence, Presence::Required(_)) {
-            require(&mut keys, key.name);
+        table["properties"][key.name] = property(key);
+        let doubled = section.keys.iter().find(|other| other.halved == Some(key.name));
+        match (doubled, matches!(key.presence, Presence::Required(_))) {
+            (None, true) => require(table, key.name),
+            (None, false) => {}
+            (Some(other), true) => {
+                require_that(table, json!({ "oneOf": [{ "required": [key.name] }, { "required": [other.name] }] }));
+            }
+            (Some(other), false) => require_that(table, json!({ "not": { "required": [key.name, other.name] } })),
         }
     }
-    if section.occurs == Occurs::Repeated {
+}
+
+/// Adds the description of a section to its table.
+fn describe(node: &mut Value, section: &KeySection) {
+    let mut keys = table(section.about);
+    add_keys(&mut keys, section);
+    if section.occurs == Occurrence::Repeated {
         *node = json!({ "type": "array", "items": keys });
         return;
     }
@@ -82,6 +104,10 @@ fn describe(node: &mut Value, section: &Section) {
             require(&mut keys, name);
         }
     }
+    if let (Some(word), Some(table)) = (section.keys.iter().find_map(|key| key.for_table), keys.as_object_mut()) {
+        table.remove("type");
+        table.insert("anyOf".into(), json!([{ "type": "object" }, { "const": word }]));
+    }
     *node = keys;
 }
 
@@ -91,9 +117,12 @@ fn property(key: &Key) -> Value {
     property["description"] = key.about.into();
     let text = key.presence.text();
     let value = match key.form {
-        Form::Number(_) | Form::Numbers(_) | Form::Boolean | Form::Pair(..) | Form::Points(..) => {
-            serde_json::from_str(text).unwrap_or(text.into())
-        }
+        KeyForm::Number(_)
+        | KeyForm::Numbers(_)
+        | KeyForm::Texts
+        | KeyForm::Boolean
+        | KeyForm::Pair(..)
+        | KeyForm::Points(..) => serde_json::from_str(text).unwrap_or(text.into()),
         _ => Value::from(text),
     };
     match key.presence {
@@ -105,27 +134,33 @@ fn property(key: &Key) -> Value {
     property
 }
 
-fn form(form: Form) -> Value {
+fn form(form: KeyForm) -> Value {
     match form {
-        Form::Text | Form::Columns => json!({ "type": "string", "minLength": 1 }),
-        Form::Boolean => json!({ "type": "boolean" }),
-        Form::Number(bounds) => number(bounds),
-        Form::Numbers(bounds) => json!({ "type": "array", "items": number(bounds) }),
-        Form::Quantity(dimension, _) => pattern(&quantity(&[dimension])),
-        Form::LengthOrAngle(_, _) => pattern(&quantity(&[Dimension::Length, Dimension::Angle])),
-        Form::Either((first, _), (second, _)) => pattern(&quantity(&[first, second])),
-        Form::Words(words) => json!({ "enum": words }),
-        Form::WordsOrQuantity(words, dimension, _) => {
+        KeyForm::Text | KeyForm::Columns => json!({ "type": "string", "minLength": 1 }),
+        KeyForm::TextOrNumber => json!({ "type": ["string", "number"], "minLength": 1 }),
+        KeyForm::Boolean => json!({ "type": "boolean" }),
+        KeyForm::Number(bounds) => number(bounds),
+        KeyForm::Numbers(bounds) => json!({ "type": "array", "items": number(bounds) }),
+        KeyForm::Texts => json!({ "type": "array", "items": { "type": ["string", "integer"] } }),
+        KeyForm::Quantity(dimension, _) => pattern(&quantity(&[dimension])),
+        KeyForm::LengthOrAngle(_, _) => pattern(&quantity(&[Dimension::Length, Dimension::Angle])),
+        KeyForm::LengthAngleOrShare(..) => {
+            let size = pattern(&quantity(&[Dimension::Length, Dimension::Angle]));
+            json!({ "anyOf": [size, pattern(&format!(r"{NUMBER}\s*%"))] })
+        }
+        KeyForm::Either((first, _), (second, _)) => pattern(&quantity(&[first, second])),
+        KeyForm::Words(words) => json!({ "enum": words }),
+        KeyForm::WordsOrQuantity(words, dimension, _) => {
             json!({ "anyOf": [{ "enum": words }, pattern(&quantity(&[dimension]))] })
         }
-        Form::Band(dimension, _) => {
+        KeyForm::Band(dimension, _) => {
             let one = quantity(&[dimension]);
             pattern(&format!(r"{one}\s*\.\.\s*{one}"))
         }
-        Form::Pair(dimension, _) => {
+        KeyForm::Pair(dimension, _) => {
             json!({ "type": "array", "items": pattern(&quantity(&[dimension])), "minItems": 2, "maxItems": 2 })
         }
-        Form::Points(dimension, ..) => {
+        KeyForm::Points(dimension, ..) => {
             let (at, to) =
                 (pattern(&quantity(&[dimension])), pattern(&quantity(&[Dimension::Length, Dimension::Angle])));
             let point = json!({ "type": "array", "prefixItems": [at, to], "minItems": 2, "maxItems": 2 });
@@ -149,8 +184,8 @@ fn quantity(dimensions: &[Dimension]) -> String {
     let mut units: Vec<String> = Vec::new();
     for dimension in dimensions {
         units.extend(dimension.unit_list().split(", ").map(str::to_owned));
-        // The list for messages has the spelling in ASCII alone.
-        units.extend((*dimension == Dimension::Length).then(|| "µm".to_owned()));
+        // The list for messages has one spelling of each alone.
+        units.extend(dimension.spellings().map(str::to_owned));
     }
     // A product has a sign that means something else in a pattern.
     format!(r"{NUMBER}\s*({})", units.join("|").replace('*', r"\*"))

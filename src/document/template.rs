@@ -1,15 +1,16 @@
 //! A commented file to start from, written from the sections.
 
-use super::key::{Key, Occurs, Presence, Section};
+use super::key::{Key, KeySection, Occurrence, Presence, continues};
+use super::tables::Tables;
 
 /// Column at which the comments after the keys begin.
 const COMMENT_COLUMN: usize = 38;
 /// Longest line.
 const WIDTH: usize = 120;
 
-/// What a file to start from holds.
+/// What a file to start from contains.
 #[derive(Debug, Clone, Copy)]
-pub struct Start<'a> {
+pub struct TemplateOptions<'a> {
     /// Optional tables that are not commented out.
     pub tables: &'a [&'a str],
     /// Keys that may be absent and are not commented out, with their tables.
@@ -23,19 +24,21 @@ pub struct Start<'a> {
 /// A file with every key of the sections: required ones with an example, others with their default, and what may be
 /// absent commented out, as are optional tables and keys without effect on the kind of cam. `title` becomes the comment at its head.
 #[must_use]
-pub fn template(title: &str, sections: &[&Section], start: &Start<'_>) -> String {
+pub fn template(title: &str, tables: &Tables, sections: &[&KeySection], start: &TemplateOptions<'_>) -> String {
     let mut text = comment(title);
-    for section in sections {
-        // What may be absent as a whole is commented out as a whole.
-        let mark = if section.occurs == Occurs::Once || start.tables.contains(&section.path) { "" } else { "# " };
-        text.push('\n');
-        match (section.path, section.occurs) {
-            ("", _) => {}
-            (path, Occurs::Repeated) => text.push_str(&line(&format!("{mark}[[{path}]]"), section.about)),
-            (path, _) => text.push_str(&line(&format!("{mark}[{path}]"), section.about)),
+    for (index, section) in sections.iter().enumerate() {
+        // An optional table is commented out as a whole.
+        let mark = if section.occurs == Occurrence::Once || start.tables.contains(&section.path) { "" } else { "# " };
+        if !continues(sections, index) {
+            text.push('\n');
+            match (section.path, section.occurs) {
+                ("", _) => {}
+                (path, Occurrence::Repeated) => text.push_str(&line(&format!("{mark}[[{path}]]"), section.about)),
+                (path, _) => text.push_str(&line(&format!("{mark}[{path}]"), section.about)),
+            }
         }
         for key in section.keys {
-            let idle = !key.cams.is_empty() && !key.cams.contains(&start.cam);
+            let idle = !key.cams.is_empty() && !tables.names(key.cams, start.cam);
             if idle && start.only {
                 continue;
             }
@@ -43,7 +46,7 @@ pub fn template(title: &str, sections: &[&Section], start: &Start<'_>) -> String
                 matches!(key.presence, Presence::Optional(_)) && !start.keys.contains(&section.path_of(key).as_str());
             let mark = if idle || absent { "# " } else { mark };
             let value = key.in_toml(key.presence.text());
-            let about = if start.only { key.about.to_owned() } else { about(key) };
+            let about = if start.only { key.about.to_owned() } else { about(key, tables) };
             text.push_str(&line(&format!("{mark}{} = {value}", key.name), &about));
         }
     }
@@ -51,17 +54,21 @@ pub fn template(title: &str, sections: &[&Section], start: &Start<'_>) -> String
 }
 
 /// What a key means and which kinds of cam it is for.
-fn about(key: &Key) -> String {
-    if key.cams.is_empty() { key.about.to_owned() } else { format!("{} ({} only)", key.about, key.cams.join(", ")) }
+fn about(key: &Key, tables: &Tables) -> String {
+    if key.cams.is_empty() {
+        key.about.to_owned()
+    } else {
+        format!("{} ({} only)", key.about, tables.listed(key.cams).join(", "))
+    }
 }
 
 /// A line with its comment after it, or above it where both do not fit.
 fn line(code: &str, about: &str) -> String {
-    let beside = format!("{code:COMMENT_COLUMN$}# {about}");
+    let on_one_line = format!("{code:COMMENT_COLUMN$}# {about}");
     if about.is_empty() {
         format!("{code}\n")
-    } else if code.chars().count() < COMMENT_COLUMN && beside.chars().count() <= WIDTH {
-        format!("{beside}\n")
+    } else if code.chars().count() < COMMENT_COLUMN && on_one_line.chars().count() <= WIDTH {
+        format!("{on_one_line}\n")
     } else {
         format!("{}{code}\n", comment(about))
     }

@@ -14,18 +14,24 @@ const TO: Field<f64> =
 const RATE: Field<f64> =
     Field::number("rate", "of the spring", Presence::Required("2"), above(0.0, 9.0)).only(&["disc"]);
 
-const ROOT: Section = Section { path: "", about: "", occurs: Occurs::Once, cams: &[], keys: &[NAME.key] };
-const MOTION: Section =
-    Section { path: "motion", about: "", occurs: Occurs::Once, cams: &[], keys: &[START.key, SMOOTH.key, TERMS.key] };
-const SEGMENT: Section = Section {
+const ROOT: KeySection = KeySection { path: "", about: "", occurs: Occurrence::Once, cams: &[], keys: &[NAME.key] };
+const MOTION: KeySection = KeySection {
+    path: "motion",
+    about: "",
+    occurs: Occurrence::Once,
+    cams: &[],
+    keys: &[START.key, SMOOTH.key, TERMS.key],
+};
+const SEGMENT: KeySection = KeySection {
     path: "motion.segment",
     about: "one after the other",
-    occurs: Occurs::Repeated,
+    occurs: Occurrence::Repeated,
     cams: &[],
     keys: &[LAW.key, TO.key],
 };
-const SPRING: Section = Section { path: "spring", about: "", occurs: Occurs::Optional, cams: &[], keys: &[RATE.key] };
-const SECTIONS: &[&Section] = &[&ROOT, &MOTION, &SEGMENT, &SPRING];
+const SPRING: KeySection =
+    KeySection { path: "spring", about: "", occurs: Occurrence::Optional, cams: &[], keys: &[RATE.key] };
+const SECTIONS: &[&KeySection] = &[&ROOT, &MOTION, &SEGMENT, &SPRING];
 
 const FILE: &str =
     "name = \"lever\"\n\n[[motion.segment]]\nto = \"10 mm\"\n\n[[motion.segment]]\nlaw = \"rise\"\nto = \"20 mm\"\n";
@@ -34,7 +40,7 @@ fn texts(sets: &[&str]) -> Vec<String> {
     sets.iter().map(|&set| set.to_owned()).collect()
 }
 
-fn faults(text: &str, sets: &[&str]) -> Vec<Fault> {
+fn faults(text: &str, sets: &[&str]) -> Vec<FileFault> {
     let overrides = texts(sets);
     Reader::new("cam.toml", text, &overrides, SECTIONS).finish().err().unwrap_or_default()
 }
@@ -62,29 +68,29 @@ fn arrays_of_tables_read_and_can_be_overridden() {
 fn faults_in_an_element_name_its_index_and_its_line() {
     let file = FILE.replace("to = \"10 mm\"", "too = \"10 mm\"").replace("\"20 mm\"", "\"20 kg\"");
     let faults = faults(&file, &[]);
-    let told: Vec<(String, usize)> =
+    let found: Vec<(String, usize)> =
         faults.iter().map(|fault| (fault.message.clone(), fault.place.as_ref().map_or(0, |p| p.line))).collect();
     let expected = [
         ("unknown key `motion.segment[0].too`", 4),
         ("`motion.segment[1].to`: `kg` is a unit of mass, not of length", 8),
     ];
-    assert_eq!(told, expected.map(|(message, line)| (message.to_owned(), line)));
+    assert_eq!(found, expected.map(|(message, line)| (message.to_owned(), line)));
     assert_eq!(faults[0].help.as_deref(), Some("did you mean `motion.segment[0].to`?"));
 }
 
 #[test]
 fn a_missing_key_of_an_element_is_told_at_its_header() {
-    let told = faults(&FILE.replace("to = \"20 mm\"\n", ""), &[]);
-    assert_eq!(told.len(), 1, "{told:?}");
-    assert!(told[0].message.contains("missing key `motion.segment[1].to`"), "{}", told[0]);
-    assert_eq!(told[0].place.as_ref().map(|place| (place.line, place.width)), Some((6, 18)), "{}", told[0]);
+    let found = faults(&FILE.replace("to = \"20 mm\"\n", ""), &[]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].message.contains("missing key `motion.segment[1].to`"), "{}", found[0]);
+    assert_eq!(found[0].place.as_ref().map(|place| (place.line, place.width)), Some((6, 18)), "{}", found[0]);
 }
 
 #[test]
 fn an_override_beyond_the_last_element_is_told() {
-    let told = faults(FILE, &["motion.segment[2].to=3mm"]);
-    assert_eq!(told.len(), 1, "{told:?}");
-    assert!(told[0].message.contains("the file has 2 of [[motion.segment]]"), "{}", told[0]);
+    let found = faults(FILE, &["motion.segment[2].to=3mm"]);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].message.contains("the file has 2 of [[motion.segment]]"), "{}", found[0]);
 }
 
 #[test]
@@ -95,7 +101,7 @@ fn a_wrong_shape_is_one_fault() {
         ("name = \"x\"\n[motion.segment]\nto = 5\n".to_owned(), "`motion.segment` must be an array of tables"),
         ("name = \"x\"\n[[spring]]\nrate = 1\n[[spring]]\n".to_owned(), "`spring` must be a table"),
         (format!("{FILE}[name.x]\ny = 1\n"), "not TOML"),
-        (format!("{tail}[name]\ny = 1\n"), "`name` must be a text"),
+        (format!("{tail}[name]\ny = 1\n"), "`name` must be text"),
         ("name = \"x\"\n[motion]\nsmooth = 1\n".to_owned(), "`motion.smooth` must be true or false"),
         ("name = \"x\"\n[motion]\nterms = [1, 99]\n".to_owned(), "`motion.terms` must be at most 9: 99"),
         ("name = \"x\"\n[motion]\nstart = 1\n".to_owned(), "`motion.start`: `1` has no unit"),
@@ -104,16 +110,16 @@ fn a_wrong_shape_is_one_fault() {
         ("name = \"x\"\n\"spring[0]\" = 1\n".to_owned(), "unknown key `\"spring[0]\"`"),
         ("name = \"x\"\n[[extra]]\n".to_owned(), "unknown table `extra[0]`"),
     ] {
-        let told = messages(&text, &[]);
-        assert!(told.len() == 1 && told[0].contains(message), "{text}\n{told:?}");
+        let found = messages(&text, &[]);
+        assert!(found.len() == 1 && found[0].contains(message), "{text}\n{found:?}");
     }
     assert_eq!(messages("name = \"x\"\n[motion]\nsegment = []\n", &[]), Vec::<String>::new());
 }
 
 #[test]
 fn the_same_fault_is_told_once() {
-    let told = messages(FILE, &["nothing", "nothing"]);
-    assert_eq!(told, ["--set nothing: no `=`"]);
+    let found = messages(FILE, &["nothing", "nothing"]);
+    assert_eq!(found, ["--set nothing: `=` is missing"]);
 }
 
 #[test]
@@ -130,16 +136,33 @@ fn a_key_is_found_at_its_path_alone() {
     }
 }
 
+fn tables() -> Tables {
+    Tables {
+        sections: SECTIONS.to_vec(),
+        kinds: vec![cams::CamKind::cam("round", &["disc"]), cams::CamKind::analysis("sum")],
+    }
+}
+
+/// A key that names a class has an effect on its members; one of every cam has none on an analysis.
+#[test]
+fn kinds_are_named_by_their_classes() {
+    assert_eq!(tables().listed(&["disc", "wedge"]), ["round", "wedge"]);
+    let given = texts(&["name", "spring.rate"]);
+    assert_eq!(tables().without_effect(&given, "round"), Vec::<String>::new());
+    assert_eq!(tables().without_effect(&given, "sum"), given);
+}
+
 #[test]
 fn keys_without_effect_come_from_the_table() {
     let given = texts(&["name", "spring.rate", "motion.segment[1].to"]);
-    assert_eq!(without_effect(SECTIONS, &given, "disc"), Vec::<String>::new());
-    assert_eq!(without_effect(SECTIONS, &given, "wedge"), ["spring.rate"]);
+    assert_eq!(tables().without_effect(&given, "round"), Vec::<String>::new());
+    assert_eq!(tables().without_effect(&given, "wedge"), ["spring.rate"]);
 }
 
 #[test]
 fn the_template_reads_as_it_stands_and_with_everything_in_it() {
-    let text = template("A cam.", SECTIONS, &Start { tables: &[], keys: &[], cam: "", only: false });
+    let text =
+        template("A cam.", &tables(), SECTIONS, &TemplateOptions { tables: &[], keys: &[], cam: "", only: false });
     assert_eq!(messages(&text, &[]), Vec::<String>::new(), "{text}");
     let is_code = |line: &str| line.starts_with("# [") || line.split('#').nth(1).is_some_and(|c| c.contains(" = "));
     let all: Vec<&str> =
@@ -194,9 +217,14 @@ fn hostile_inputs_end_in_faults() {
             "}".repeat(79)
         ),
     ] {
-        let told = faults(&text, &[]);
-        assert!(!told.is_empty() && told.len() <= 101, "{}: {}", text.chars().take(40).collect::<String>(), told.len());
-        assert!(told.iter().all(|fault| !fault.to_string().is_empty()));
+        let found = faults(&text, &[]);
+        assert!(
+            !found.is_empty() && found.len() <= 101,
+            "{}: {}",
+            text.chars().take(40).collect::<String>(),
+            found.len()
+        );
+        assert!(found.iter().all(|fault| !fault.to_string().is_empty()));
     }
     for set in [
         "=",
@@ -231,7 +259,7 @@ fn hostile_inputs_end_in_faults() {
         "motion=1",
         "name.x=1",
     ] {
-        let told = faults(FILE, &[set]);
-        assert_eq!(told.len(), 1, "--set {set}: {told:?}");
+        let found = faults(FILE, &[set]);
+        assert_eq!(found.len(), 1, "--set {set}: {found:?}");
     }
 }

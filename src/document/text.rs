@@ -1,12 +1,13 @@
 //! A TOML text and its overrides, flattened to dotted paths that know their places.
 //!
 //! `[bed] mass` becomes `bed.mass`, and the second `[[motion.segment]]`'s `law` becomes `motion.segment[1].law`. The
-//! paths are whatever the file contains; the reader decides which of them mean something. What is told of a text is plain and
-//! short, whatever it holds.
+//! paths are whatever the file contains; the reader decides which of them mean something. Messages about a text are plain and
+//! short, whatever it contains.
 
-use super::fault::{Excerpt, Fault};
+use super::fault::{Excerpt, FileFault};
 use super::key::join;
 use super::plain::shown;
+use super::syntax::{SyntaxFault, fault_of};
 use super::value::Scalar;
 use std::collections::BTreeMap;
 use std::ops::{Bound, Range};
@@ -24,47 +25,47 @@ const LONGEST_MESSAGE: usize = 2000;
 
 /// Where something was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum TextPlace {
     /// In the file, by bytes.
     File(Range<usize>),
     /// In an override: which one, from which character on, how many.
     Flag { index: usize, start: usize, width: usize },
     /// In another file.
-    Beside(Box<Excerpt>),
+    OtherFile(Box<Excerpt>),
 }
 
 /// A fault whose line has not been cut out of the text yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Found {
+pub(super) struct PendingFault {
     pub(super) message: String,
     pub(super) help: Option<String>,
-    pub(super) place: Option<Place>,
+    pub(super) place: Option<TextPlace>,
 }
 
-impl Found {
+impl PendingFault {
     /// Faults without a place come first, then those of the file, then those of the overrides.
     fn order(&self) -> (u8, usize, usize) {
         match &self.place {
             None => (0, 0, 0),
-            Some(Place::File(span)) => (1, span.start, 0),
-            Some(Place::Flag { index, start, .. }) => (2, *index, *start),
-            Some(Place::Beside(excerpt)) => (3, excerpt.line, excerpt.column),
+            Some(TextPlace::File(span)) => (1, span.start, 0),
+            Some(TextPlace::Flag { index, start, .. }) => (2, *index, *start),
+            Some(TextPlace::OtherFile(excerpt)) => (3, excerpt.line, excerpt.column),
         }
     }
 }
 
 /// A value under its path.
 #[derive(Debug, Clone)]
-pub(super) struct Entry {
+pub(super) struct TomlEntry {
     pub(super) value: Scalar,
-    pub(super) key: Place,
-    pub(super) at: Place,
+    pub(super) key: TextPlace,
+    pub(super) at: TextPlace,
 }
 
-impl Entry {
+impl TomlEntry {
     /// Whether an override has set it.
     pub(super) fn by_override(&self) -> bool {
-        matches!(self.key, Place::Flag { .. })
+        matches!(self.key, TextPlace::Flag { .. })
     }
 }
 
@@ -76,20 +77,21 @@ pub(super) struct Document<'a> {
     /// The overrides as shown in messages, `key=value`.
     flags: Vec<String>,
     /// Every value.
-    pub(super) entries: BTreeMap<String, Entry>,
+    pub(super) entries: BTreeMap<String, TomlEntry>,
     /// Every table, elements of arrays of tables too, by where its name was written.
     pub(super) tables: BTreeMap<String, Range<usize>>,
     /// Every array of tables: where its name comes first, and its length.
     pub(super) arrays: BTreeMap<String, (Range<usize>, usize)>,
     /// The text is not TOML; faults that follow from that are not reported.
     pub(super) broken: bool,
-    /// What is wrong with the text whatever the keys mean.
-    pub(super) faults: Vec<Found>,
+    /// Faults of the text itself, independent of what its keys mean.
+    pub(super) faults: Vec<PendingFault>,
 }
 
 impl<'a> Document<'a> {
     /// Reads a TOML text named `source`, then the overrides, each `key=value`.
-    pub(super) fn new(source: &'a str, text: &'a str, overrides: &[String]) -> Self {
+    /// `repeated` says which tables occur several times.
+    pub(super) fn new(source: &'a str, text: &'a str, overrides: &[String], repeated: impl Fn(&str) -> bool) -> Self {
         let mut document = Self {
             source,
             text,
@@ -100,33 +102,46 @@ impl<'a> Document<'a> {
             broken: false,
             faults: Vec::new(),
         };
-        document.parse();
+        document.parse(repeated);
         for text in overrides {
             document.override_with(text);
         }
         document
     }
 
-    fn parse(&mut self) {
+    fn parse(&mut self, repeated: impl Fn(&str) -> bool) {
         let (table, errors) = DeTable::parse_recoverable(self.text);
-        // What the parser finds after the first fault of the text mostly follows from it.
+        // Later faults of the parser are mostly consequences of the first.
         let first = errors.iter().min_by_key(|error| error.span().map(|span| span.start));
         if let Some(error) = first {
-            self.not_toml(error.message(), error.span());
+            self.not_toml(error.message(), error.span(), repeated);
         }
         self.table("", table.get_ref(), 0);
     }
 
-    fn not_toml(&mut self, why: &str, span: Option<Range<usize>>) {
+    fn not_toml(&mut self, why: &str, span: Option<Range<usize>>, repeated: impl Fn(&str) -> bool) {
         self.broken = true;
-        let place = span.map(Place::File);
-        self.faults.push(Found { message: format!("not TOML: {why}"), help: None, place });
+        let meant = span.as_ref().and_then(|span| fault_of(why, self.line_at(span.start), repeated));
+        let place = span.map(TextPlace::File);
+        let (message, help) = match meant {
+            Some(SyntaxFault { message, help }) => (format!("not TOML: {message}"), Some(help)),
+            None => (format!("not TOML: {why}"), None),
+        };
+        self.faults.push(PendingFault { message, help, place });
+    }
+
+    /// The line of a place in the text.
+    fn line_at(&self, at: usize) -> &'a str {
+        let (before, after) = self.text.split_at_checked(at).unwrap_or((self.text, ""));
+        let start = before.rfind('\n').map_or(0, |last| last + 1);
+        let end = after.find('\n').map_or(self.text.len(), |next| before.len() + next);
+        self.text.get(start..end).unwrap_or_default()
     }
 
     fn table(&mut self, prefix: &str, table: &DeTable<'_>, depth: usize) {
         for (key, value) in table {
             if let Some((message, help)) = not_a_name(key.get_ref(), depth) {
-                self.faults.push(Found { message, help, place: Some(Place::File(key.span())) });
+                self.faults.push(PendingFault { message, help, place: Some(TextPlace::File(key.span())) });
                 continue;
             }
             let path = join(prefix, key.get_ref());
@@ -147,8 +162,8 @@ impl<'a> Document<'a> {
                 }
                 other => {
                     let scalar = self.scalar(other, &value.span());
-                    let (key, at) = (Place::File(key.span()), Place::File(value.span()));
-                    self.entries.insert(path, Entry { value: scalar, key, at });
+                    let (key, at) = (TextPlace::File(key.span()), TextPlace::File(value.span()));
+                    self.entries.insert(path, TomlEntry { value: scalar, key, at });
                 }
             }
         }
@@ -161,10 +176,11 @@ impl<'a> Document<'a> {
                 Scalar::Number(self.text.get(span.clone()).unwrap_or_default().replace('_', ""))
             }
             DeValue::Boolean(truth) => Scalar::Boolean(*truth),
+            DeValue::Datetime(_) => Scalar::Date(self.text.get(span.clone()).unwrap_or_default().to_owned()),
             DeValue::Array(items) => {
                 Scalar::List(items.iter().map(|item| self.scalar(item.get_ref(), &item.span())).collect())
             }
-            other => Scalar::Other(other.type_str()),
+            other @ DeValue::Table(_) => Scalar::Other(other.type_str()),
         }
     }
 
@@ -185,8 +201,8 @@ impl<'a> Document<'a> {
 
     fn override_with(&mut self, text: &str) {
         let Some((key, value)) = text.split_once('=') else {
-            self.faults.push(Found {
-                message: format!("--set {}: no `=`", shown(text, LONGEST_NAME)),
+            self.faults.push(PendingFault {
+                message: format!("--set {}: `=` is missing", shown(text, LONGEST_NAME)),
                 help: Some("write --set KEY=VALUE, e.g. --set follower.roller.radius=25mm".into()),
                 place: None,
             });
@@ -195,10 +211,10 @@ impl<'a> Document<'a> {
         let (key, value) = (&self.indexed(key.trim()), value.trim());
         let value = value.strip_prefix('"').and_then(|v| v.strip_suffix('"')).unwrap_or(value).to_owned();
         let (index, length) = (self.flags.len(), key.chars().count());
-        let at = Place::Flag { index, start: length + 1, width: value.chars().count() };
+        let at = TextPlace::Flag { index, start: length + 1, width: value.chars().count() };
         self.flags.push(format!("{key}={value}"));
-        let key_place = Place::Flag { index, start: 0, width: length };
-        self.entries.insert(key.to_owned(), Entry { value: Scalar::Text(value), key: key_place, at });
+        let key_place = TextPlace::Flag { index, start: 0, width: length };
+        self.entries.insert(key.to_owned(), TomlEntry { value: Scalar::Text(value), key: key_place, at });
     }
 
     /// Whether a table, an array of tables or anything within is in the file or is set by an override.
@@ -212,14 +228,14 @@ impl<'a> Document<'a> {
     }
 
     /// Where the table at a path begins, when its header is in the file.
-    pub(super) fn header(&self, path: &str) -> Option<Place> {
-        self.tables.get(path).map(|span| Place::File(span.clone()))
+    pub(super) fn header(&self, path: &str) -> Option<TextPlace> {
+        self.tables.get(path).map(|span| TextPlace::File(span.clone()))
     }
 
-    /// The faults as reported: in the order of their places, none twice.
-    pub(super) fn told(&self, mut found: Vec<Found>) -> Vec<Fault> {
-        found.sort_by_key(Found::order);
-        let mut once: Vec<Found> = Vec::new();
+    /// The faults as reported: in the order of their places, without duplicates.
+    pub(super) fn sorted_faults(&self, mut found: Vec<PendingFault>) -> Vec<FileFault> {
+        found.sort_by_key(PendingFault::order);
+        let mut once: Vec<PendingFault> = Vec::new();
         for fault in found {
             let same_place = once.iter().rev().take_while(|other| other.order() == fault.order());
             if !same_place.into_iter().any(|other| *other == fault) {
@@ -228,17 +244,17 @@ impl<'a> Document<'a> {
         }
         let more = once.len().saturating_sub(MOST_FAULTS);
         once.truncate(MOST_FAULTS);
-        let mut faults: Vec<Fault> = once
+        let mut faults: Vec<FileFault> = once
             .into_iter()
-            .map(|fault| Fault {
+            .map(|fault| FileFault {
                 place: fault.place.map(|place| self.excerpt(&place)),
                 message: brief(&fault.message),
                 help: fault.help.map(|help| brief(&help)),
             })
             .collect();
         if more > 0 {
-            faults.push(Fault {
-                message: format!("{more} more faults, told when these are mended"),
+            faults.push(FileFault {
+                message: format!("{more} more faults are reported once these are corrected"),
                 help: None,
                 place: None,
             });
@@ -247,12 +263,12 @@ impl<'a> Document<'a> {
     }
 
     /// The place of one character, from 1, of a text at a place, where it is written without escapes.
-    pub(super) fn character(&self, place: Place, character: usize) -> Place {
+    pub(super) fn character(&self, place: TextPlace, character: usize) -> TextPlace {
         match &place {
-            Place::Flag { index, start, width } if character <= width + 1 => {
-                Place::Flag { index: *index, start: start + character - 1, width: 1 }
+            TextPlace::Flag { index, start, width } if character <= width + 1 => {
+                TextPlace::Flag { index: *index, start: start + character - 1, width: 1 }
             }
-            Place::File(span) => {
+            TextPlace::File(span) => {
                 let written = self.text.get(span.clone()).unwrap_or_default();
                 let quote = |text: &str| ['"', '\''].into_iter().any(|quote| text.starts_with(quote));
                 let inner = written.get(1..).unwrap_or_default();
@@ -261,17 +277,17 @@ impl<'a> Document<'a> {
                 }
                 let found = inner.char_indices().nth(character - 1).map(|(at, c)| (at, c.len_utf8()));
                 let Some((at, length)) = found else { return place };
-                Place::File(span.start + 1 + at..span.start + 1 + at + length)
+                TextPlace::File(span.start + 1 + at..span.start + 1 + at + length)
             }
             _ => place,
         }
     }
 
-    fn excerpt(&self, place: &Place) -> Excerpt {
+    fn excerpt(&self, place: &TextPlace) -> Excerpt {
         match place {
-            Place::File(span) => self.excerpt_of_file(span),
-            Place::Beside(excerpt) => (**excerpt).clone(),
-            Place::Flag { index, start, width } => {
+            TextPlace::File(span) => self.excerpt_of_file(span),
+            TextPlace::OtherFile(excerpt) => (**excerpt).clone(),
+            TextPlace::Flag { index, start, width } => {
                 Excerpt::of("--set", 1, self.flags.get(*index).map_or("", String::as_str), (start + 1, *width))
             }
         }
@@ -310,7 +326,7 @@ fn not_a_name(name: &str, depth: usize) -> Option<(String, Option<String>)> {
     if name.len() > LONGEST_NAME {
         return Some((format!("unknown key `{}`", shown(name, LONGEST_NAME / 4)), None));
     }
-    // A quoted key with a dot or bracket in it is another key than the path it looks like.
+    // A quoted key with a dot or bracket is not the path that it looks like.
     let help = || Some("write the dotted path without quotes".into());
     name.contains(['.', '[', ']']).then(|| (format!("unknown key `\"{name}\"`"), help()))
 }

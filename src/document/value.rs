@@ -1,8 +1,8 @@
 //! A value as written in a file, read by the form of its key.
 
 use super::bounds::Bounds;
-use super::fault::similar;
-use super::key::{Form, Key, LengthOrAngle, Value};
+use super::fault::{Misfit, similar};
+use super::key::{Key, KeyForm, KeyValue, LengthOrAngle};
 use super::plain::{is_text, shown};
 use crate::units::{self, Dimension, QuantityError};
 use std::borrow::Cow;
@@ -14,8 +14,10 @@ pub(super) enum Scalar {
     /// A number as written, without underscores.
     Number(String),
     Boolean(bool),
+    /// A date or a time as written.
+    Date(String),
     List(Vec<Scalar>),
-    /// What no key accepts, by its TOML name.
+    /// A value that no key accepts, by its TOML name.
     Other(&'static str),
 }
 
@@ -25,6 +27,7 @@ impl Scalar {
             Scalar::Text(_) => "text",
             Scalar::Number(_) => "number",
             Scalar::Boolean(_) => "boolean",
+            Scalar::Date(_) => "date",
             Scalar::List(_) => "array",
             Scalar::Other(kind) => kind,
         }
@@ -33,7 +36,7 @@ impl Scalar {
     /// The value as it was typed.
     pub(super) fn shown(&self) -> String {
         match self {
-            Scalar::Text(text) | Scalar::Number(text) => text.clone(),
+            Scalar::Text(text) | Scalar::Number(text) | Scalar::Date(text) => text.clone(),
             Scalar::Boolean(truth) => truth.to_string(),
             Scalar::List(items) => {
                 format!("[{}]", items.iter().map(Scalar::shown).collect::<Vec<_>>().join(", "))
@@ -51,39 +54,38 @@ impl Scalar {
     }
 }
 
-/// Longest text, in characters: that of a formula is shorter.
+/// Longest text, in characters: the longest formula is shorter.
 const LONGEST_TEXT: usize = 5000;
 /// Characters of a value that a message quotes.
 const MOST_QUOTED: usize = 60;
-
-/// Why a value does not fit its key, and what would.
-#[derive(Debug)]
-pub(super) struct Misfit {
-    pub(super) message: String,
-    pub(super) help: Option<String>,
-}
 
 fn misfit<T>(message: String, help: Option<String>) -> Result<T, Misfit> {
     Err(Misfit { message, help })
 }
 
 /// Reads a value by the form of its key; `path` names the key in messages.
-pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<Value, Misfit> {
-    let name = Named { key, path };
+pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<KeyValue, Misfit> {
+    let name = KeyAtPath { key, path };
     match key.form {
         // A file is read by the reader, which knows the folder.
-        Form::Text | Form::Columns => name.text(scalar),
-        Form::Boolean => name.boolean(scalar),
-        Form::Number(bounds) => name.number(scalar, bounds).map(Value::Number),
-        Form::Numbers(bounds) => name.numbers(scalar, bounds),
-        Form::Quantity(dimension, bounds) => name.quantity(scalar, &[], dimension, bounds),
-        Form::LengthOrAngle(length, angle) => name.length_or_angle(scalar, length, angle),
-        Form::Either(first, second) => name.either(scalar, first, second),
-        Form::Words(words) => name.word(scalar, words),
-        Form::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
-        Form::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
-        Form::Pair(dimension, bounds) => name.pair(scalar, dimension, bounds),
-        Form::Points(dimension, bounds, either) => name.points(scalar, (dimension, bounds), either),
+        KeyForm::Text | KeyForm::Columns => name.text(scalar),
+        KeyForm::TextOrNumber => match scalar {
+            Scalar::Number(typed) | Scalar::Date(typed) => Ok(KeyValue::Text(typed.clone())),
+            other => name.text(other),
+        },
+        KeyForm::Boolean => name.boolean(scalar),
+        KeyForm::Number(bounds) => name.number(scalar, bounds).map(KeyValue::Number),
+        KeyForm::Numbers(bounds) => name.numbers(scalar, bounds),
+        KeyForm::Texts => name.texts(scalar),
+        KeyForm::Quantity(dimension, bounds) => name.quantity(scalar, &[], dimension, bounds),
+        KeyForm::LengthOrAngle(length, angle) => name.length_or_angle(scalar, length, angle),
+        KeyForm::LengthAngleOrShare(length, angle, share) => name.length_angle_or_share(scalar, (length, angle), share),
+        KeyForm::Either(first, second) => name.either(scalar, first, second),
+        KeyForm::Words(words) => name.word(scalar, words),
+        KeyForm::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
+        KeyForm::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
+        KeyForm::Pair(dimension, bounds) => name.pair(scalar, dimension, bounds),
+        KeyForm::Points(dimension, bounds, either) => name.points(scalar, (dimension, bounds), either),
     }
 }
 
@@ -105,40 +107,44 @@ fn items(scalar: &Scalar, item: impl Fn(String) -> Scalar) -> Option<Cow<'_, [Sc
 }
 
 /// A kind of quantity, and its range.
-type Kind = (Dimension, Bounds);
+type BoundedDimension = (Dimension, Bounds);
 
 /// A key under the path it has in messages.
-struct Named<'a> {
+struct KeyAtPath<'a> {
     key: &'a Key,
     path: &'a str,
 }
 
-impl Named<'_> {
+impl KeyAtPath<'_> {
+    /// What is right where a value is out of range.
+    fn hint(&self) -> Option<String> {
+        self.key.hint.map(str::to_owned)
+    }
+
     /// The example of the key, as written in TOML.
     fn example(&self) -> String {
         format!("e.g. {}", self.key.in_toml(self.key.presence.text()))
     }
 
-    fn text(&self, scalar: &Scalar) -> Result<Value, Misfit> {
+    fn text(&self, scalar: &Scalar) -> Result<KeyValue, Misfit> {
         match scalar {
             Scalar::Text(text) if text.chars().nth(LONGEST_TEXT).is_some() => {
                 misfit(format!("`{}` has more than {LONGEST_TEXT} characters", self.path), Some(self.example()))
             }
             Scalar::Text(text) if !text.chars().all(is_text) => {
-                let help =
-                    "write it without control characters, and without marks that change the direction of writing";
-                misfit(format!("`{}` holds characters that cannot be shown", self.path), Some(help.into()))
+                let help = "remove control characters and marks that change the text direction";
+                misfit(format!("`{}` contains characters that cannot be displayed", self.path), Some(help.into()))
             }
-            Scalar::Text(text) if !text.trim().is_empty() => Ok(Value::Text(text.clone())),
-            _ => misfit(format!("`{}` must be a text", self.path), Some(self.example())),
+            Scalar::Text(text) if !text.trim().is_empty() => Ok(KeyValue::Text(text.clone())),
+            _ => misfit(format!("`{}` must be text", self.path), Some(self.example())),
         }
     }
 
-    fn boolean(&self, scalar: &Scalar) -> Result<Value, Misfit> {
+    fn boolean(&self, scalar: &Scalar) -> Result<KeyValue, Misfit> {
         match (scalar, scalar.typed()) {
-            (Scalar::Boolean(truth), _) => Ok(Value::Boolean(*truth)),
-            (_, Some(text)) if text.eq_ignore_ascii_case("true") => Ok(Value::Boolean(true)),
-            (_, Some(text)) if text.eq_ignore_ascii_case("false") => Ok(Value::Boolean(false)),
+            (Scalar::Boolean(truth), _) => Ok(KeyValue::Boolean(*truth)),
+            (_, Some(text)) if text.eq_ignore_ascii_case("true") => Ok(KeyValue::Boolean(true)),
+            (_, Some(text)) if text.eq_ignore_ascii_case("false") => Ok(KeyValue::Boolean(false)),
             _ => misfit(format!("`{}` must be true or false", self.path), None),
         }
     }
@@ -152,7 +158,7 @@ impl Named<'_> {
             Ok(value) if bounds.holds(value) => Ok(value),
             Ok(value) => {
                 let limit = bounds.broken(value, |v| v.to_string());
-                misfit(format!("`{path}` must be {limit}: {value}"), None)
+                misfit(format!("`{path}` must be {limit}: {value}"), self.hint())
             }
             Err(error) => {
                 misfit(format!("`{path}`: {error}"), Some(format!("`{path}` is a bare number, without a unit")))
@@ -161,23 +167,37 @@ impl Named<'_> {
     }
 
     /// A list in the file, or `[1, 2, 3]` after a flag.
-    fn numbers(&self, scalar: &Scalar, bounds: Bounds) -> Result<Value, Misfit> {
+    fn numbers(&self, scalar: &Scalar, bounds: Bounds) -> Result<KeyValue, Misfit> {
         let Some(items) = items(scalar, Scalar::Number) else { return self.no_list() };
-        items.iter().map(|item| self.number(item, bounds)).collect::<Result<_, _>>().map(Value::Numbers)
+        items.iter().map(|item| self.number(item, bounds)).collect::<Result<_, _>>().map(KeyValue::Numbers)
+    }
+
+    /// A list in the file, or `[angle, 3]` after a flag.
+    fn texts(&self, scalar: &Scalar) -> Result<KeyValue, Misfit> {
+        let wrong = || misfit(format!("`{}` must be a list of texts or numbers", self.path), Some(self.example()));
+        let bare = |text: String| Scalar::Text(text.trim().trim_matches('"').to_owned());
+        let Some(items) = items(scalar, bare) else { return wrong() };
+        let texts: Option<Vec<String>> = items.iter().map(|item| item.typed().map(str::to_owned)).collect();
+        match texts {
+            Some(texts) if texts.iter().all(|text| !text.trim().is_empty() && text.chars().all(is_text)) => {
+                Ok(KeyValue::Texts(texts))
+            }
+            _ => wrong(),
+        }
     }
 
     /// A list of two in the file, or `[1 mm, 2 mm]` after a flag.
-    fn pair(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
+    fn pair(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<KeyValue, Misfit> {
         let typed = items(scalar, |text| Scalar::Text(text.trim_matches('"').into()));
         let Some([first, second]) = typed.as_deref() else {
             let message = format!("`{}` must be a list of two quantities of {dimension}", self.path);
             return misfit(message, Some(self.example()));
         };
         let one = |item: &Scalar| match self.quantity(item, &[], dimension, bounds)? {
-            Value::Number(number) => Ok(number),
+            KeyValue::Number(number) => Ok(number),
             _ => misfit(format!("`{}` must be a quantity of {dimension}", self.path), Some(self.example())),
         };
-        Ok(Value::Pair([one(first)?, one(second)?]))
+        Ok(KeyValue::Pair([one(first)?, one(second)?]))
     }
 
     /// A list of points in the file, or `[[0 deg, 0 mm], [90 deg, 12 mm]]` after a flag.
@@ -186,7 +206,7 @@ impl Named<'_> {
         scalar: &Scalar,
         (dimension, bounds): (Dimension, Bounds),
         (length, angle): (Bounds, Bounds),
-    ) -> Result<Value, Misfit> {
+    ) -> Result<KeyValue, Misfit> {
         let wrong = |what: String| misfit(format!("`{}` {what}", self.path), Some(self.example()));
         let typed: Cow<'_, [Scalar]> = match scalar {
             Scalar::List(points) => Cow::Borrowed(points),
@@ -195,28 +215,30 @@ impl Named<'_> {
         };
         let mut points = Vec::with_capacity(typed.len());
         for (number, point) in (1..).zip(typed.iter()) {
-            let Scalar::List(pair) = point else { return wrong(format!("must be a list of points: point {number}")) };
+            let Scalar::List(pair) = point else {
+                return wrong(format!("must be a list of points, but point {number} is not a pair"));
+            };
             let [at, to] = pair.as_slice() else {
-                return wrong(format!("has a point {number} of {} values, not 2", pair.len()));
+                return wrong(format!("must have 2 values in each point: point {number} has {}", pair.len()));
             };
             let numbered = |fault: Misfit| Misfit { message: format!("{}, in point {number}", fault.message), ..fault };
             let at = self.quantity(at, &[], dimension, bounds).map_err(numbered)?;
             let to = self.length_or_angle(to, length, angle).map_err(numbered)?;
-            if let (Value::Number(at), Value::LengthOrAngle(to)) = (at, to) {
+            if let (KeyValue::Number(at), KeyValue::LengthOrAngle(to)) = (at, to) {
                 points.push((at, to));
             }
         }
-        Ok(Value::Points(points))
+        Ok(KeyValue::Points(points))
     }
 
-    fn no_list(&self) -> Result<Value, Misfit> {
+    fn no_list(&self) -> Result<KeyValue, Misfit> {
         misfit(format!("`{}` must be a list of numbers", self.path), Some(self.example()))
     }
 
-    fn word(&self, scalar: &Scalar, words: &[&str]) -> Result<Value, Misfit> {
+    fn word(&self, scalar: &Scalar, words: &[&str]) -> Result<KeyValue, Misfit> {
         let list = words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
         match scalar {
-            Scalar::Text(text) => position(words, text).map(Value::Word).ok_or_else(|| {
+            Scalar::Text(text) => position(words, text).map(KeyValue::Word).ok_or_else(|| {
                 let near = similar(text, words.iter().copied());
                 let near = near.map_or(String::new(), |word| format!("did you mean \"{word}\"? It is "));
                 let message = format!("`{}` cannot be \"{}\"", self.path, shown(text, MOST_QUOTED));
@@ -227,7 +249,13 @@ impl Named<'_> {
     }
 
     /// A quantity, or one of a few words instead.
-    fn quantity(&self, scalar: &Scalar, words: &[&str], dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
+    fn quantity(
+        &self,
+        scalar: &Scalar,
+        words: &[&str],
+        dimension: Dimension,
+        bounds: Bounds,
+    ) -> Result<KeyValue, Misfit> {
         let or_words = words.iter().map(|word| format!(" or \"{word}\"")).collect::<Vec<_>>().concat();
         let text = match scalar {
             Scalar::Text(text) => text,
@@ -244,17 +272,26 @@ impl Named<'_> {
             }
         };
         match position(words, text) {
-            Some(index) => Ok(Value::Word(index)),
-            None => self.quantity_text(text, dimension, bounds, &or_words).map(Value::Number),
+            Some(index) => Ok(KeyValue::Word(index)),
+            None => self.quantity_text(text, dimension, bounds, &or_words).map(KeyValue::Number),
         }
     }
 
     fn quantity_text(&self, text: &str, dimension: Dimension, bounds: Bounds, or_words: &str) -> Result<f64, Misfit> {
+        // The sign of a diameter belongs to a key for one.
+        let text = match text.trim().strip_prefix(['Ø', 'ø', '⌀']) {
+            Some(diameter) if self.key.halved.is_some() || self.key.name.contains("diameter") => diameter,
+            Some(_) if dimension == Dimension::Length => {
+                let message = format!("`{}`: `{}` is a diameter", self.path, shown(text.trim(), MOST_QUOTED));
+                return misfit(message, Some("give it without Ø, or give the key of the diameter".into()));
+            }
+            _ => text,
+        };
         match units::parse(text, dimension) {
             Ok(quantity) if bounds.holds(quantity.si) => Ok(quantity.si),
             Ok(quantity) => {
                 let limit = bounds.broken(quantity.si, |v| quantity.in_same_unit(v));
-                misfit(format!("`{}` must be {limit}: {}", self.path, shown(text.trim(), MOST_QUOTED)), None)
+                misfit(format!("`{}` must be {limit}: {}", self.path, shown(text.trim(), MOST_QUOTED)), self.hint())
             }
             Err(error) => self.not_a_quantity(&[dimension], &error, or_words),
         }
@@ -269,21 +306,45 @@ impl Named<'_> {
         misfit(format!("`{path}`: {error}"), Some(help))
     }
 
-    fn length_or_angle(&self, scalar: &Scalar, length: Bounds, angle: Bounds) -> Result<Value, Misfit> {
+    fn length_or_angle(&self, scalar: &Scalar, length: Bounds, angle: Bounds) -> Result<KeyValue, Misfit> {
         let found = self.of_two(scalar, [(Dimension::Length, length), (Dimension::Angle, angle)])?;
-        Ok(Value::LengthOrAngle(match found {
+        Ok(KeyValue::LengthOrAngle(match found {
             (Dimension::Angle, angle) => LengthOrAngle::Angle(angle),
             (_, length) => LengthOrAngle::Length(length),
         }))
     }
 
-    fn either(&self, scalar: &Scalar, first: Kind, second: Kind) -> Result<Value, Misfit> {
+    /// A length or an angle, or a share with its sign, `1 %`.
+    fn length_angle_or_share(
+        &self,
+        scalar: &Scalar,
+        (length, angle): (Bounds, Bounds),
+        bounds: Bounds,
+    ) -> Result<KeyValue, Misfit> {
+        let typed = if let Scalar::Text(text) = scalar { text.trim().strip_suffix('%') } else { None };
+        let Some(typed) = typed else {
+            return self.length_or_angle(scalar, length, angle).map_err(|fault| Misfit {
+                help: fault.help.map(|help| format!("{help}; or a share of it, such as \"1 %\"")),
+                ..fault
+            });
+        };
+        match units::parse_bare(typed) {
+            Ok(percent) if bounds.holds(0.01 * percent) => Ok(KeyValue::Share(0.01 * percent)),
+            Ok(percent) => {
+                let limit = bounds.broken(0.01 * percent, |share| format!("{} %", 100.0 * share));
+                misfit(format!("`{}` must be {limit}: {percent} %", self.path), self.hint())
+            }
+            Err(error) => misfit(format!("`{}`: {error}", self.path), Some(self.example())),
+        }
+    }
+
+    fn either(&self, scalar: &Scalar, first: BoundedDimension, second: BoundedDimension) -> Result<KeyValue, Misfit> {
         let (dimension, number) = self.of_two(scalar, [first, second])?;
-        Ok(Value::Either(dimension, number))
+        Ok(KeyValue::Either(dimension, number))
     }
 
     /// A quantity of one of two kinds: which one, and its number.
-    fn of_two(&self, scalar: &Scalar, [first, second]: [Kind; 2]) -> Result<(Dimension, f64), Misfit> {
+    fn of_two(&self, scalar: &Scalar, [first, second]: [BoundedDimension; 2]) -> Result<(Dimension, f64), Misfit> {
         let both = [first.0, second.0];
         let text = match scalar {
             Scalar::Text(text) => text,
@@ -296,6 +357,7 @@ impl Named<'_> {
             }
         };
         let (dimension, bounds) = match units::parse(text, first.0) {
+            Err(_) if units::parse(text, second.0).is_ok() => second,
             Err(QuantityError::WrongKind { found, .. }) if found == second.0 => second,
             Err(error) => return self.not_a_quantity(&both, &error, ""),
             Ok(_) => first,
@@ -303,20 +365,20 @@ impl Named<'_> {
         Ok((dimension, self.quantity_text(text, dimension, bounds, "")?))
     }
 
-    fn band(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<Value, Misfit> {
+    fn band(&self, scalar: &Scalar, dimension: Dimension, bounds: Bounds) -> Result<KeyValue, Misfit> {
         let text = if let Scalar::Text(text) = scalar { text.as_str() } else { "" };
         let Some((low, high)) = text.split_once("..") else {
             let help = format!("two quantities of {dimension}, {}", self.example());
-            return misfit(format!("`{}` must be a band", self.path), Some(help));
+            return misfit(format!("`{}` must be a range", self.path), Some(help));
         };
         let low = self.quantity_text(low, dimension, bounds, "")?;
         let high = self.quantity_text(high, dimension, bounds, "")?;
         if low >= high {
             let text = shown(text, MOST_QUOTED);
-            let message = format!("`{}` must go from the smaller to the larger: {text}", self.path);
+            let message = format!("`{}` must go from the smaller to the larger value: {text}", self.path);
             return misfit(message, None);
         }
-        Ok(Value::Band(low, high))
+        Ok(KeyValue::Band(low, high))
     }
 }
 

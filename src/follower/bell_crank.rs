@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 /// A roller on the arm l1 of a lever whose other arm l2 moves the bottom by Δx, sin ψ = Δx/l2.
 ///
 /// In the frame of the bed the roller of the upper flank is at X = x + l1 (sin(Δ+ψ) − sin Δ), a + l1 (cos Δ − cos(Δ+ψ)),
-/// a above the bed's axis at x = ψ = 0. This is the roller of the lower flank, its mirror image, so that the outline
+/// a above the bed's axis at x = ψ = 0. This is the roller of the lower flank, mirrored, so that the outline
 /// runs counter-clockwise with growing x and the metal lies to the left as in a disc cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BellCrank {
@@ -39,7 +39,7 @@ impl BellCrank {
         [libm::asin(s), first, second, third]
     }
 
-    /// Place of the roller along the plate, and its distance from it, m.
+    /// Place of the roller along the plate, and its distance from the axis, m.
     fn roller(&self, x: f64, psi: f64) -> (f64, f64) {
         let l = self.roller_arm;
         // Differences of sine and cosine by products, exact for a small ψ: sin θ − sin Δ = 2 cos(Δ + ψ/2) sin(ψ/2).

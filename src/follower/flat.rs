@@ -1,12 +1,13 @@
 //! The flat face on a straight path, square to it or tilted.
 
 use super::{
-    Carrier, Element, FaceData, FaceTouch, Follower, FollowerData, FollowerKind, MASS, Middle, PRELOAD, Touch, WIDTH,
+    Carrier, Element, FaceData, FaceMiddle, FaceTouch, Follower, FollowerData, FollowerKind, MASS, PRELOAD, Touch,
+    WIDTH,
 };
 use crate::document::Presence::Default;
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
-use crate::document::{Field, Occurs, Section, Table, within};
+use crate::document::{Field, KeySection, Occurrence, TableReader, within};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::{Angle, Length};
@@ -14,7 +15,7 @@ use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_3;
 use std::sync::Arc;
 
-/// Largest tilt, rad: the pressure angle is as large, and beyond it nothing slides in its guide.
+/// Largest tilt, rad: the pressure angle is equal to it, and beyond it a stem jams in its guide.
 const STEEPEST: f64 = FRAC_PI_3;
 
 const TILT: Field<f64> = Field::quantity(
@@ -26,7 +27,7 @@ const TILT: Field<f64> = Field::quantity(
 );
 const OFFSET: Field<f64> = Field::quantity(
     "offset",
-    "distance of its stem from the shaft, positive against the rotation of the cam; the profile is the same",
+    "distance of its stem from the shaft, positive against the rotation of the cam; the profile does not depend on it",
     Default("0 mm"),
     Length,
     within(-LONGEST, LONGEST),
@@ -35,23 +36,23 @@ const OFFSET: Field<f64> = Field::quantity(
 /// `[follower.flat]`.
 pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Length, read };
 
-const SECTION: Section = Section {
+const SECTION: KeySection = KeySection {
     path: "follower.flat",
     about: "the follower: a flat face on a straight path, square to it or tilted",
-    occurs: Occurs::Optional,
+    occurs: Occurrence::Optional,
     cams: &[MAKE],
     keys: &[TILT.key, OFFSET.key, WIDTH.key, MASS.key, PRELOAD.key],
 };
 
-fn read(table: &Table<'_>) -> Option<FollowerData> {
-    // Made for a size when the cam is sized.
+fn read(table: &TableReader<'_>) -> Option<FollowerData> {
+    // Replaced when the cam is sized.
     let shape = FlatFace::tilted(1.0, table.get(&TILT)?, table.get(&OFFSET)?);
-    let face = FaceData { width: table.get(&WIDTH), middle: Middle::Stem };
+    let face = FaceData { width: table.get(&WIDTH), middle: FaceMiddle::Stem };
     let (mass, preload) = (table.get(&MASS), table.get(&PRELOAD));
     Some(FollowerData { mass, preload, face: Some(face), ..FollowerData::of(SECTION.path, Arc::new(shape)) })
 }
 
-/// A face whose normal N stands at the angle β = θ + δ, and whose distance from the shaft is p = R_b + s cos δ. The profile is the
+/// A face whose normal N has the angle β = θ + δ, and whose distance from the shaft is p = R_b + s cos δ. The profile is the
 /// envelope of its lines: with T = N turned by +90°,
 ///
 /// ```text
@@ -65,7 +66,7 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
 /// (P − F)·T = s' cos δ + s sin δ + (R_b sin δ − e)/cos δ
 /// ```
 ///
-/// away from it along the face. What drives is û, at −δ from N: the pressure angle is −δ everywhere.
+/// away from it along the face. The direction of motion is û, at −δ from N: the pressure angle is −δ everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatFace {
     base_radius: f64,

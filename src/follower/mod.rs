@@ -1,22 +1,23 @@
-//! Followers: parameter and lift to the curve the follower draws on the cam.
+//! Followers: from parameter and lift to the curve that the follower describes on the cam.
 //!
-//! A follower hands out a point of a curve with tangent, curvature and slope of the curvature, how far inwards of that curve the
+//! A follower returns a point of a curve with tangent, curvature and slope of the curvature, how far inwards of that curve the
 //! profile lies, and the direction in which it is driven. For a roller the curve is the path of its centre (the pitch curve)
 //! and the distance its radius; a flat face has no pitch curve: its curve is the profile itself and the distance 0. What
-//! follows from these (profile, pressure angle, undercut, size, rolling) is the same for every follower and is derived once, in
+//! follows from these (profile, pressure angle, undercut, size, rolling) is common to all followers and is derived once, in
 //! `profile` and `verify`.
 
 mod bell_crank;
 mod flat;
 mod knife;
 pub mod place;
+mod placed;
 mod swinging_flat;
 mod swinging_roller;
 mod translating_roller;
 
 pub use bell_crank::BellCrank;
 pub use flat::FlatFace;
-pub use place::Place;
+pub use place::FollowerPlacement;
 pub use swinging_flat::SwingingFlat;
 pub use swinging_roller::SwingingRoller;
 pub use translating_roller::{Crown, RollerData, TranslatingRoller};
@@ -24,7 +25,7 @@ pub use translating_roller::{Crown, RollerData, TranslatingRoller};
 use crate::document::Presence::{Default, Optional};
 use crate::document::cams::MAKE;
 use crate::document::range::{HEAVIEST, LARGEST_FORCE, LONGEST};
-use crate::document::{Field, Reader, Section, Table, above, within};
+use crate::document::{Field, Key, KeySection, Reader, TableReader, above, within};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::{Force, Inertia, Length, Mass};
@@ -35,11 +36,11 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct FollowerKind {
     /// Its table, `[follower.roller]`.
-    pub section: &'static Section,
-    /// What its lift is.
+    pub section: &'static KeySection,
+    /// The quantity of its lift.
     pub quantity: Quantity,
-    /// Reads it.
-    read: fn(&Table<'_>) -> Option<FollowerData>,
+    /// Reads it from its table.
+    read: fn(&TableReader<'_>) -> Option<FollowerData>,
 }
 
 impl FollowerKind {
@@ -61,37 +62,39 @@ pub struct FollowerData {
     pub path: &'static str,
     /// The follower itself, not yet sized.
     pub shape: Arc<dyn Follower>,
-    /// Mass that moves with it along its path, kg; of one that swings the moment of inertia about its pivot, kg·m².
+    /// Mass that moves with it along its path, kg; for a swinging follower the moment of inertia about its pivot, kg·m².
     pub mass: Option<f64>,
-    /// Force that presses it onto the cam beside the load, N.
+    /// Force that presses it onto the cam in addition to the load, N.
     pub preload: Option<f64>,
-    /// By how much that force grows with the lift, N/m.
+    /// Increase of that force with the lift, N/m.
     pub spring_rate: f64,
     /// Radius of its roller's rim along the axis, m, where the rim is crowned.
     pub crown_radius: Option<f64>,
-    /// What only a translating roller has.
+    /// The arm of a roller that swings, m.
+    pub arm: Option<f64>,
+    /// Data that only a translating roller has.
     pub roller: Option<RollerData>,
-    /// What only a flat face has.
+    /// Data that only a flat face has.
     pub face: Option<FaceData>,
-    /// What of its place is chosen with the size of the cam.
-    pub place: Option<Place>,
+    /// Which dimension of its place is chosen with the size of the cam.
+    pub place: Option<FollowerPlacement>,
 }
 
 /// A flat face as a file describes it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FaceData {
-    /// Its width along the line of contact's way, m.
+    /// Its width along the path of the contact, m.
     pub width: Option<f64>,
-    /// What stands in its middle.
-    pub middle: Middle,
+    /// What is in its middle.
+    pub middle: FaceMiddle,
 }
 
-/// What stands in the middle of a flat face.
+/// What is in the middle of a flat face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Middle {
+pub enum FaceMiddle {
     /// Its stem.
     Stem,
-    /// Nothing: the face lies where the cam touches it.
+    /// The middle of the contact: the face is placed where the cam touches it.
     Anywhere,
 }
 
@@ -105,13 +108,21 @@ impl FollowerData {
             preload: None,
             spring_rate: 0.0,
             crown_radius: None,
+            arm: None,
             roller: None,
             face: None,
             place: None,
         }
     }
 
-    /// A translating roller with its path on the other side of the shaft; `None` for others, and where the path goes through the
+    /// The follower inside of a cam whose metal lies around its roller; `None` where it is no roller.
+    #[must_use]
+    pub fn inside(&self) -> Option<Self> {
+        let shape = self.shape.of_radius(-self.shape.element().offset())?;
+        Some(Self { shape, place: self.place.map(FollowerPlacement::inside), ..self.clone() })
+    }
+
+    /// A translating roller with its path on the other side of the shaft; `None` for other followers, and where the path goes through the
     /// shaft.
     #[must_use]
     pub fn with_opposite_offset(&self) -> Option<Self> {
@@ -125,15 +136,16 @@ impl FollowerData {
 /// Mass of a follower on a straight path, a key of its table.
 const MASS: Field<f64> = Field::quantity(
     "mass",
-    "of all that moves with the follower along its path; asks for the check force_closure",
+    "of everything that moves with the follower along its path; enables the check force_closure",
     Optional("40 kg"),
     Mass,
     above(0.0, HEAVIEST),
-);
+)
+.also(&["weight"]);
 /// Preload of a follower on a straight path, a key of its table.
 const PRELOAD: Field<f64> = Field::quantity(
     "preload",
-    "spring or weight that presses the follower onto the cam beside the air",
+    "spring or weight that presses the follower onto the cam in addition to the air",
     Optional("1600 N"),
     Force,
     within(0.0, LARGEST_FORCE),
@@ -141,7 +153,7 @@ const PRELOAD: Field<f64> = Field::quantity(
 /// Moment of inertia of a follower that swings, a key of its table.
 const INERTIA: Field<f64> = Field::quantity(
     "inertia",
-    "moment of inertia about the pivot of all that swings with the follower; asks for the check force_closure",
+    "moment of inertia about the pivot of everything that swings with the follower; enables the check force_closure",
     Optional("0.02 kg*m2"),
     Inertia,
     above(0.0, HEAVIEST),
@@ -149,17 +161,19 @@ const INERTIA: Field<f64> = Field::quantity(
 /// Crown of a roller, a key of its table.
 const CROWN_RADIUS: Field<f64> = Field::quantity(
     "crown_radius",
-    "radius of a crowned rim along the roller's axis: contact stress in an ellipse; a straight rim when absent",
+    "radius of a crowned rim along the roller's axis, for the contact stress; a straight rim when absent",
     Optional("500 mm"),
     Length,
     above(0.0, LONGEST),
 )
 .only(&[MAKE]);
+const CROWN_DIAMETER: Key =
+    CROWN_RADIUS.diameter("crown_diameter", "diameter of the crown, in the place of its radius", "1000 mm");
 
 /// Offset of a roller or a knife edge on a straight path, a key of its table; `None` is `auto`.
 const OFFSET: Field<Option<f64>> = Field::words_or_quantity(
     "offset",
-    "distance of its path from the shaft, positive against the rotation of the cam; \"auto\" (of a motion program): of the smallest cam",
+    "distance of its path from the shaft, positive against the rotation of the cam; \"auto\" (with a motion program): that of the smallest cam",
     Default("0 mm"),
     (&["auto"], &[None]),
     (Length, within(-LONGEST, LONGEST), Some),
@@ -168,7 +182,7 @@ const OFFSET: Field<Option<f64>> = Field::words_or_quantity(
 /// Width of a flat face, a key of its table.
 const WIDTH: Field<f64> = Field::quantity(
     "width",
-    "width of the face; asks for the check face_width",
+    "width of the face; enables the check face_width",
     Optional("60 mm"),
     Length,
     above(0.0, LONGEST),
@@ -176,28 +190,28 @@ const WIDTH: Field<f64> = Field::quantity(
 
 /// The one follower of a file.
 pub(crate) fn read(reader: &Reader<'_>) -> Option<FollowerData> {
-    let mut told = FOLLOWERS.iter().filter_map(|kind| Some((kind, reader.find(kind.section)?)));
+    let mut given = FOLLOWERS.iter().filter_map(|kind| Some((kind, reader.find(kind.section)?)));
     let known = || FOLLOWERS.iter().map(|kind| format!("[{}]", kind.section.path)).collect::<Vec<_>>().join(", ");
-    let Some((kind, table)) = told.next() else {
+    let Some((kind, table)) = given.next() else {
         if !FOLLOWERS.iter().any(|kind| reader.is_explained(kind.section)) {
             reader.fail("no follower is given".into(), Some(format!("add one of the tables {}", known())));
         }
         return None;
     };
-    if let Some((other, _)) = told.next() {
+    if let Some((other, _)) = given.next() {
         let message = format!("two followers: [{}] and [{}]", kind.section.path, other.section.path);
         reader.fail(message, Some(format!("a cam has one; give one of {}", known())));
     }
     (kind.read)(&table)
 }
 
-/// What of the follower touches the cam.
+/// The part of the follower that touches the cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Element {
     /// A roller of this radius, m.
     Roller {
-        /// Radius, m.
+        /// Radius, m; negative of a flank that lies around its roller, as the outer one of a groove.
         radius: f64,
     },
     /// A flat face.
@@ -221,13 +235,13 @@ impl Element {
 pub struct Touch {
     /// Point of the follower's curve: the path of a roller's centre, the profile under a flat face.
     pub curve: CurvePoint,
-    /// Unit vector in which what touches the cam moves when the lift grows.
+    /// Unit vector in which the element moves when the lift grows.
     pub drive: Vector2<f64>,
     /// Derivative of the angle of `drive` by the parameter.
     pub drive_turn: f64,
 }
 
-/// What carries the element, seen from the shaft: x along the direction in which the cam angle is counted, y that turned by +90°
+/// What carries the element, seen from the shaft: x along the direction in which the cam angle is counted, y at +90° to it
 /// in the frame of a cam that turns clockwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -253,7 +267,7 @@ pub enum Carrier {
 pub struct FaceTouch {
     /// Where on the face, m: from its stem, positive against the rotation of the cam, or from its pivot.
     pub place: f64,
-    /// Rate at which the face's normal turns on the cam, by the parameter: there is an envelope where it is above 0.
+    /// Rate at which the face's normal turns on the cam, by the parameter: an envelope exists where it is above 0.
     pub turn: f64,
     /// Travel of the face along its normal there for a unit of lift, m/m or m/rad.
     pub along_normal: f64,
@@ -261,7 +275,7 @@ pub struct FaceTouch {
 
 /// A follower outside the cam.
 pub trait Follower: std::fmt::Debug + Send + Sync {
-    /// What touches the cam.
+    /// The element that touches the cam.
     fn element(&self) -> Element;
 
     /// Whether it takes a lift in metres or in radians.
@@ -272,20 +286,20 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
     /// The follower at a value of the parameter for the lift there.
     fn touch(&self, parameter: f64, lift: &Jet) -> Touch;
 
-    /// The same where sine and cosine of the parameter are known, for several lifts at one place.
+    /// The follower where sine and cosine of the parameter are known, for several lifts at one place.
     fn touch_turned(&self, parameter: f64, _sine_and_cosine: (f64, f64), lift: &Jet) -> Touch {
         self.touch(parameter, lift)
     }
 
-    /// Of the same the point of the curve and the drive alone.
+    /// Only the point of the curve and the drive, where sine and cosine of the parameter are known.
     fn point_turned(&self, parameter: f64, sine_and_cosine: (f64, f64), lift: &Jet) -> (Vector2<f64>, Vector2<f64>) {
         let Touch { curve, drive, .. } = self.touch_turned(parameter, sine_and_cosine, lift);
         (curve.point, drive)
     }
 
     /// The parameter at which a point of the follower's curve (m, seen from the cam) is reached, whatever the lift: the
-    /// inverse of the curve. A point tells it for a roller, the outward normal of the cam there for a face. NaN for a point it
-    /// never gets to.
+    /// inverse of the curve. For a roller it follows from the point, for a face from the outward normal of the cam there. NaN for a
+    /// point that is never reached.
     fn parameter_of(&self, point: Vector2<f64>, outward: Vector2<f64>) -> f64;
 
     /// Smallest radius of its curve, at lift 0, about the shaft, m: the prime radius of a roller, the base radius of a face.
@@ -299,12 +313,12 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
         1.0
     }
 
-    /// Whether nothing of it lies to one side, so that a motion in the mirror gives the mirrored curve.
+    /// Whether it is symmetric, so that the mirrored motion gives the mirrored curve.
     fn is_symmetric(&self) -> bool {
         false
     }
 
-    /// How a flat face touches with a lift; `None` of a roller.
+    /// How a flat face touches at a lift; `None` for a roller.
     fn on_face(&self, _lift: &Jet) -> Option<FaceTouch> {
         None
     }
@@ -314,17 +328,22 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
         Carrier::Straight
     }
 
-    /// What of its place may be chosen with the size of the cam; `None` where nothing is.
-    fn place(&self) -> Option<Place> {
+    /// Which dimension of its place may be chosen with the size of the cam; `None` where there is none.
+    fn place(&self) -> Option<FollowerPlacement> {
         None
     }
 
-    /// The same follower on a cam with another prime radius, m; `None` where it cannot reach.
+    /// The follower on a cam with another prime radius, m; `None` where it cannot reach.
     fn sized(&self, _prime_radius: f64) -> Option<Box<dyn Follower>> {
         None
     }
 
-    /// The prime radii it can be made for, m: above 0, or the offset of a roller; up to infinity, or what an arm reaches.
+    /// A roller of another radius on the same path, m; negative where the metal lies around it. `None` where it is no roller.
+    fn of_radius(&self, _radius: f64) -> Option<Arc<dyn Follower>> {
+        None
+    }
+
+    /// The prime radii it can have, m: above 0, or the offset of a roller; up to infinity, or the reach of an arm.
     fn prime_radii(&self) -> (f64, f64) {
         (0.0, f64::INFINITY)
     }

@@ -1,30 +1,29 @@
-//! What of a roller's place may be chosen together with the size of the cam, and the places at which a pressure angle is kept.
+//! Which dimension of a roller's place may be chosen together with the size of the cam, and the places at which a pressure angle is kept.
 //!
 //! Seen from the follower, the shaft is a point q of the plane, and each limit of the pressure angle at each cam angle a straight
 //! line that q must not cross: where the shaft may be is a convex region, and the smallest cam is that of its point nearest to the
 //! roller at rest.
 
-use super::{Carrier, Follower, SwingingRoller, TranslatingRoller};
+use super::{Carrier, Follower};
 use crate::motion::Jet;
 use nalgebra::Vector2;
-use std::sync::Arc;
 
-/// What may be chosen.
+/// The dimension that may be chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum Place {
+pub enum FollowerPlacement {
     /// The offset of a roller on a straight path; q = (u0, ε), seen from the centre of the roller at rest.
     Offset {
-        /// Radius of the roller, m; 0 of a knife edge.
+        /// Radius of the roller, m; 0 for a knife edge.
         radius: f64,
     },
     /// The distance of the pivot from the shaft; q = a (cos ψ0, sin ψ0), seen from the pivot with the arm at rest along the first axis.
     Pivot {
-        /// From the pivot to the centre of the roller, m.
+        /// Length of the arm from the pivot to the centre of the roller, m.
         arm: f64,
         /// Radius of the roller, m.
         radius: f64,
-        /// 1 trails, −1 leads.
+        /// 1 trailing, −1 leading.
         side: f64,
     },
 }
@@ -34,7 +33,7 @@ pub enum Place {
 pub struct HalfPlane {
     /// Of the order of 1.
     pub normal: Vector2<f64>,
-    /// m.
+    /// The bound, m.
     pub least: f64,
     /// Derivative of the normal.
     pub normal_slope: Vector2<f64>,
@@ -42,13 +41,13 @@ pub struct HalfPlane {
     pub least_slope: f64,
 }
 
-impl Place {
-    /// Where the roller stands at rest, m: the prime radius is the distance of q from it.
+impl FollowerPlacement {
+    /// The roller's centre at rest, m: the prime radius is the distance of q from it.
     #[must_use]
     pub fn of_roller(self) -> Vector2<f64> {
         match self {
-            Place::Offset { .. } => Vector2::zeros(),
-            Place::Pivot { arm, .. } => Vector2::new(arm, 0.0),
+            FollowerPlacement::Offset { .. } => Vector2::zeros(),
+            FollowerPlacement::Pivot { arm, .. } => Vector2::new(arm, 0.0),
         }
     }
 
@@ -62,13 +61,13 @@ impl Place {
         let way = if falling { -1.0 } else { 1.0 };
         let (sine, cosine) = (libm::sin(limit), libm::cos(limit));
         match self {
-            Place::Offset { .. } => HalfPlane {
+            FollowerPlacement::Offset { .. } => HalfPlane {
                 normal: Vector2::new(sine, way * cosine),
                 least: way * cosine * lift.ds - sine * lift.s,
                 normal_slope: Vector2::zeros(),
                 least_slope: way * cosine * lift.dds - sine * lift.ds,
             },
-            Place::Pivot { arm, side, .. } => {
+            FollowerPlacement::Pivot { arm, side, .. } => {
                 let (t, c) = (sine, way * side * cosine);
                 let (sin, cos) = (libm::sin(lift.s), libm::cos(lift.s));
                 let normal = Vector2::new(c * cos + t * sin, t * cos - c * sin);
@@ -86,8 +85,8 @@ impl Place {
     #[must_use]
     pub fn pressure_angle(self, lift: &Jet, shaft: Vector2<f64>) -> f64 {
         match self {
-            Place::Offset { .. } => libm::atan2(lift.ds - shaft.y, shaft.x + lift.s),
-            Place::Pivot { arm, side, .. } => {
+            FollowerPlacement::Offset { .. } => libm::atan2(lift.ds - shaft.y, shaft.x + lift.s),
+            FollowerPlacement::Pivot { arm, side, .. } => {
                 let (sin, cos) = libm::sincos(lift.s);
                 let (along, across) = (shaft.x * cos - shaft.y * sin, shaft.x * sin + shaft.y * cos);
                 libm::atan2(arm * lift.ds + side * (arm - along), across)
@@ -95,15 +94,15 @@ impl Place {
         }
     }
 
-    /// The place of the shaft with a choice and a prime radius, m; `None` where there is none.
+    /// The place of the shaft for a choice and a prime radius, m; `None` where there is no such place.
     #[must_use]
     pub fn shaft(self, choice: f64, prime_radius: f64) -> Option<Vector2<f64>> {
         match self {
-            Place::Offset { .. } => {
+            FollowerPlacement::Offset { .. } => {
                 let square = (prime_radius - choice) * (prime_radius + choice);
                 (square > 0.0).then(|| Vector2::new(square.sqrt(), choice))
             }
-            Place::Pivot { arm, .. } => {
+            FollowerPlacement::Pivot { arm, .. } => {
                 let cosine = (choice * choice + arm * arm - prime_radius * prime_radius) / (2.0 * choice * arm);
                 let square = (1.0 - cosine) * (1.0 + cosine);
                 (square > 0.0).then(|| Vector2::new(cosine, square.sqrt()) * choice)
@@ -111,31 +110,22 @@ impl Place {
         }
     }
 
-    /// What is chosen by a place of the shaft: offset or pivot distance, m.
+    /// The dimension chosen by a place of the shaft: offset or pivot distance, m.
     #[must_use]
     pub fn chosen(self, shaft: Vector2<f64>) -> f64 {
         match self {
-            Place::Offset { .. } => shaft.y,
-            Place::Pivot { .. } => shaft.norm(),
+            FollowerPlacement::Offset { .. } => shaft.y,
+            FollowerPlacement::Pivot { .. } => shaft.norm(),
         }
     }
 
-    /// The choice that a follower of this kind has made, seen from a place of its carrier, m.
+    /// The choice that a follower of this kind has made, as a place relative to its carrier, m.
     #[must_use]
     pub fn of(self, follower: &dyn Follower) -> f64 {
         match (self, follower.carrier()) {
-            (Place::Pivot { .. }, Carrier::Arm { pivot }) => pivot.norm(),
-            // The centre of a translating roller stands beside the path through the shaft.
+            (FollowerPlacement::Pivot { .. }, Carrier::Arm { pivot }) => pivot.norm(),
+            // The centre of a translating roller is at the offset from the path through the shaft.
             _ => follower.touch(0.0, &Jet::default()).curve.point.y,
-        }
-    }
-
-    /// The follower with a choice, m, not yet sized.
-    #[must_use]
-    pub fn follower(self, chosen: f64) -> Arc<dyn Follower> {
-        match self {
-            Place::Offset { radius } => Arc::new(TranslatingRoller::new(1.0 + chosen.abs(), chosen, radius)),
-            Place::Pivot { arm, radius, side } => Arc::new(SwingingRoller::new(arm, chosen, radius, side)),
         }
     }
 
@@ -143,17 +133,17 @@ impl Place {
     #[must_use]
     pub fn choices(self, prime_radius: f64) -> (f64, f64) {
         match self {
-            Place::Offset { .. } => (-prime_radius, prime_radius),
-            Place::Pivot { arm, .. } => ((arm - prime_radius).max(0.0), arm + prime_radius),
+            FollowerPlacement::Offset { .. } => (-prime_radius, prime_radius),
+            FollowerPlacement::Pivot { arm, .. } => ((arm - prime_radius).max(0.0), arm + prime_radius),
         }
     }
 
-    /// The key of the follower's table that says it, and what it is called.
+    /// The key of the follower's table for it, and its name.
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
-            Place::Offset { .. } => "offset",
-            Place::Pivot { .. } => "pivot_distance",
+            FollowerPlacement::Offset { .. } => "offset",
+            FollowerPlacement::Pivot { .. } => "pivot_distance",
         }
     }
 }

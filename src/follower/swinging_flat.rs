@@ -1,12 +1,12 @@
 //! The swinging flat face: a straight face on an arm about a pivot.
 
 use super::{
-    Carrier, Element, FaceData, FaceTouch, Follower, FollowerData, FollowerKind, INERTIA, Middle, Touch, WIDTH,
+    Carrier, Element, FaceData, FaceMiddle, FaceTouch, Follower, FollowerData, FollowerKind, INERTIA, Touch, WIDTH,
 };
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
-use crate::document::{Field, Occurs, Section, Table, above, within};
+use crate::document::{Field, KeySection, Occurrence, TableReader, above, within};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::Length;
@@ -35,15 +35,15 @@ const SIDE: Field<f64> = Field::words(
 /// `[follower.swinging-flat]`.
 pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Angle, read };
 
-const SECTION: Section = Section {
+const SECTION: KeySection = KeySection {
     path: "follower.swinging-flat",
     about: "the follower: a flat face on a swinging arm",
-    occurs: Occurs::Optional,
+    occurs: Occurrence::Optional,
     cams: &[MAKE],
     keys: &[PIVOT_DISTANCE.key, FACE_OFFSET.key, SIDE.key, WIDTH.key, INERTIA.key],
 };
 
-fn read(table: &Table<'_>) -> Option<FollowerData> {
+fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     let (pivot_distance, face_offset) = (table.get(&PIVOT_DISTANCE), table.get(&FACE_OFFSET));
     if let (Some(distance), Some(offset)) = (pivot_distance, face_offset)
         && offset >= distance
@@ -54,7 +54,7 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
         return None;
     }
     let shape = SwingingFlat::new(pivot_distance?, face_offset?, table.get(&SIDE)?);
-    let face = FaceData { width: table.get(&WIDTH), middle: Middle::Anywhere };
+    let face = FaceData { width: table.get(&WIDTH), middle: FaceMiddle::Anywhere };
     Some(FollowerData {
         mass: table.get(&INERTIA),
         face: Some(face),
@@ -62,13 +62,13 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
     })
 }
 
-/// By how much the base radius must stay within what the face reaches, as a share of it, and the arm short of where the contact
+/// By which share the base radius must stay below the reach of the face, and the arm short of where the contact
 /// would come to the pivot.
 const REACH_MARGIN: f64 = 1e-6;
 
 /// A face at the distance f from a pivot at a·û(θ), towards the cam.
 ///
-/// ψ = ψ0 + lift is the angle at the pivot between the face and the line of centres. The normal N of the face stands at
+/// ψ = ψ0 + lift is the angle at the pivot between the face and the line of centres. The normal N of the face has the direction
 /// β = θ + τ (ψ − π/2), τ = 1 for a face behind its pivot (trailing), −1 for one before it. The pivot lies a û·N = a sin ψ from the
 /// shaft along N, so that the face has the distance p = a sin ψ − f, and sin ψ0 = (R_b + f)/a. The profile is the envelope of its
 /// lines: with T = N turned by +90°, β' = 1 + τ ψ' and q = p'/β' = a cos ψ ψ'/β',
@@ -78,8 +78,8 @@ const REACH_MARGIN: f64 = 1e-6;
 /// ```
 ///
 /// The pivot is at τ a cos ψ along T, so that the contact is ℓ = a cos ψ − τ q = a cos ψ/β' away from it along −τ T. The face
-/// turns about its pivot with τ: the contact is driven along ℓ N − τ f T, and tan α = −τ f/ℓ. All this needs β' > 0: else the face
-/// turns backwards on the cam, and touches it with no envelope.
+/// turns about its pivot with τ: the contact moves along ℓ N − τ f T, and tan α = −τ f/ℓ. All this needs β' > 0: else the face
+/// turns backwards on the cam, and its positions have no envelope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SwingingFlat {
     pivot_distance: f64,
@@ -91,8 +91,8 @@ pub struct SwingingFlat {
 }
 
 impl SwingingFlat {
-    /// Pivot distance and face offset in m, the offset the smaller; side 1 trails, −1 leads. Made for a size when the cam is sized,
-    /// its face stands at 45° to the line of shaft and pivot until then.
+    /// Pivot distance and face offset in m, the offset the smaller; side 1 trailing, −1 leading. Until the cam is sized, its face is at 45°
+    /// to the line of shaft and pivot.
     #[must_use]
     pub fn new(pivot_distance: f64, face_offset: f64, side: f64) -> Self {
         let base_radius = pivot_distance * libm::sin(FRAC_PI_4) - face_offset;
@@ -143,7 +143,7 @@ impl Follower for SwingingFlat {
         };
         let (lever, lever_slope) = self.lever(lift);
         let reach = (lever * lever + f * f).sqrt();
-        // The drive stands at atan2(−τ f, ℓ) from the normal.
+        // The direction of motion is at atan2(−τ f, ℓ) from the normal.
         Touch {
             curve,
             drive: normal * (lever / reach) - along * (t * f / reach),
@@ -155,7 +155,7 @@ impl Follower for SwingingFlat {
         libm::hypot(self.lever(lift).0, self.face_offset)
     }
 
-    /// The normal tells β, the distance of its line p, and that ψ.
+    /// The normal gives β, the distance of its line p, and that ψ.
     fn parameter_of(&self, point: Vector2<f64>, outward: Vector2<f64>) -> f64 {
         let psi = libm::asin((point.dot(&outward) + self.face_offset) / self.pivot_distance);
         libm::atan2(outward.y, outward.x) - self.side * (psi - FRAC_PI_2)
@@ -188,7 +188,7 @@ impl Follower for SwingingFlat {
         ((-f).max(0.0) * (1.0 + REACH_MARGIN), (a - f) * (1.0 - REACH_MARGIN))
     }
 
-    /// ψ stays between 0 and π/2, where the contact comes to the pivot.
+    /// ψ stays between 0 and π/2, where the contact reaches the pivot.
     fn reach(&self) -> (f64, f64) {
         (-self.start, FRAC_PI_2 * (1.0 - REACH_MARGIN) - self.start)
     }

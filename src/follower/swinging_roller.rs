@@ -1,10 +1,13 @@
 //! The swinging roller: a roller on an arm about a pivot.
 
-use super::{CROWN_RADIUS, Carrier, Element, Follower, FollowerData, FollowerKind, INERTIA, Place, Touch};
+use super::{
+    CROWN_DIAMETER, CROWN_RADIUS, Carrier, Element, Follower, FollowerData, FollowerKind, FollowerPlacement, INERTIA,
+    Touch,
+};
 use crate::document::Presence::{Default, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::LONGEST;
-use crate::document::{Bounds, Field, Occurs, Section, Table, above};
+use crate::document::{Bounds, Field, Key, KeySection, Occurrence, TableReader, above};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::Length;
@@ -14,15 +17,19 @@ use std::sync::Arc;
 
 const LENGTH: Bounds = above(0.0, LONGEST);
 
-const RADIUS: Field<f64> = Field::quantity("radius", "radius of the roller", Required("16 mm"), Length, LENGTH);
-const ARM: Field<f64> = Field::quantity("arm", "arm from the pivot to the roller", Required("110 mm"), Length, LENGTH);
+const RADIUS: Field<f64> =
+    Field::quantity("radius", "radius of the roller", Required("16 mm"), Length, LENGTH).also(&["size", "r"]);
+const DIAMETER: Key = RADIUS.diameter("diameter", "diameter of the roller, in the place of its radius", "32 mm");
+const ARM: Field<f64> = Field::quantity("arm", "arm from the pivot to the roller", Required("110 mm"), Length, LENGTH)
+    .also(&["length", "arm_length", "lever"]);
 const PIVOT_DISTANCE: Field<Option<f64>> = Field::words_or_quantity(
     "pivot_distance",
-    "from the shaft to the pivot; \"auto\": of the smallest cam",
+    "from the shaft to the pivot; \"auto\": that of the smallest cam",
     Required("140 mm"),
     (&["auto"], &[None]),
     (Length, LENGTH, Some),
-);
+)
+.also(&["centre_distance", "center_distance", "distance"]);
 const SIDE: Field<f64> = Field::words(
     "side",
     "\"trailing\" (the roller behind its pivot, seen in the rotation of the cam) or \"leading\"",
@@ -34,25 +41,25 @@ const SIDE: Field<f64> = Field::words(
 /// `[follower.swinging-roller]`.
 pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Angle, read };
 
-const SECTION: Section = Section {
+const SECTION: KeySection = KeySection {
     path: "follower.swinging-roller",
     about: "the follower: a roller on a swinging arm",
-    occurs: Occurs::Optional,
+    occurs: Occurrence::Optional,
     cams: &[MAKE],
-    keys: &[RADIUS.key, ARM.key, PIVOT_DISTANCE.key, SIDE.key, INERTIA.key, CROWN_RADIUS.key],
+    keys: &[RADIUS.key, DIAMETER, ARM.key, PIVOT_DISTANCE.key, SIDE.key, INERTIA.key, CROWN_RADIUS.key, CROWN_DIAMETER],
 };
 
-fn read(table: &Table<'_>) -> Option<FollowerData> {
+fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     let (arm, radius, side) = (table.get(&ARM)?, table.get(&RADIUS)?, table.get(&SIDE)?);
     let given = table.get(&PIVOT_DISTANCE)?;
-    let place = given.is_none().then_some(Place::Pivot { arm, radius, side });
+    let place = given.is_none().then_some(FollowerPlacement::Pivot { arm, radius, side });
     let shape = SwingingRoller::new(arm, given.unwrap_or(arm), radius, side);
     let (mass, crown_radius) = (table.get(&INERTIA), table.get(&CROWN_RADIUS));
-    Some(FollowerData { mass, crown_radius, place, ..FollowerData::of(SECTION.path, Arc::new(shape)) })
+    Some(FollowerData { mass, crown_radius, place, arm: Some(arm), ..FollowerData::of(SECTION.path, Arc::new(shape)) })
 }
 
-/// By how much the prime radius must stay within the triangle of arm and pivot distance, as a share of it: at its ends arm and
-/// line of centres are one line, and the roller could swing either way.
+/// By which share the prime radius must stay within the triangle of arm and pivot distance: at its ends arm and
+/// line of centres are one line, and the roller could swing to either side.
 const REACH_MARGIN: f64 = 1e-6;
 
 /// A roller on an arm l about a pivot at the distance a from the shaft.
@@ -71,8 +78,8 @@ pub struct SwingingRoller {
 }
 
 impl SwingingRoller {
-    /// Arm, pivot distance and roller radius in m; side 1 trails, −1 leads. Made for a size when the cam is sized, it has its
-    /// arm square to the line of shaft and pivot until then.
+    /// Arm, pivot distance and roller radius in m; side 1 trailing, −1 leading. Until the cam is sized, its arm is square to the line of
+    /// shaft and pivot.
     #[must_use]
     pub fn new(arm: f64, pivot_distance: f64, radius: f64, side: f64) -> Self {
         let square = libm::hypot(arm, pivot_distance);
@@ -148,8 +155,8 @@ impl Follower for SwingingRoller {
         Some(self.prime_radius)
     }
 
-    fn place(&self) -> Option<Place> {
-        Some(Place::Pivot { arm: self.arm, radius: self.radius, side: self.side })
+    fn place(&self) -> Option<FollowerPlacement> {
+        Some(FollowerPlacement::Pivot { arm: self.arm, radius: self.radius, side: self.side })
     }
 
     fn sized(&self, prime_radius: f64) -> Option<Box<dyn Follower>> {
@@ -160,6 +167,10 @@ impl Follower for SwingingRoller {
         let (a, l) = (self.pivot_distance, self.arm);
         let cosine = (a * a + l * l - prime_radius * prime_radius) / (2.0 * a * l);
         Some(Box::new(Self { prime_radius, start: libm::acos(cosine), ..*self }))
+    }
+
+    fn of_radius(&self, radius: f64) -> Option<Arc<dyn Follower>> {
+        Some(Arc::new(Self { radius, ..*self }))
     }
 
     fn prime_radii(&self) -> (f64, f64) {

@@ -8,7 +8,7 @@ use crate::motion::program::Program;
 use crate::profile::Curves;
 use std::f64::consts::TAU;
 
-/// Every follower of the house: the contract below walks this list.
+/// Every follower that camgen has: the contract below walks this list.
 fn followers() -> Vec<Box<dyn Follower>> {
     let crank = BellCrank {
         roller_arm: 0.3,
@@ -32,7 +32,7 @@ fn followers() -> Vec<Box<dyn Follower>> {
     ]
 }
 
-/// One that says that it is symmetric gives the mirrored curve of a motion in the mirror; of the others some does not.
+/// A follower that claims to be symmetric gives the mirrored curve for the mirrored motion; of the others some do not.
 #[test]
 fn a_symmetric_follower_has_a_mirror() {
     let lift = Jet { s: 0.013, ds: 0.021, dds: -0.034, ddds: 0.055 };
@@ -86,7 +86,7 @@ fn a_curve_point_belongs_to_its_curve() {
     }
 }
 
-/// Made for another size a follower has that size and the same element.
+/// A follower made for another size has that size and the same element.
 #[test]
 fn a_follower_is_made_for_a_size() {
     for follower in followers() {
@@ -96,7 +96,7 @@ fn a_follower_is_made_for_a_size() {
         assert_eq!(larger.element(), follower.element());
         assert!((larger.touch(0.3, &Jet::default()).curve.point.norm() - 2.0 * prime).abs() < 1e-15);
     }
-    assert!(TranslatingRoller::new(0.1, 0.05, 0.02).sized(0.04).is_none(), "the roller passes beside the cam");
+    assert!(TranslatingRoller::new(0.1, 0.05, 0.02).sized(0.04).is_none(), "the roller misses the cam");
 }
 
 /// Up by the modified sine in 120°, at rest for 30°, down by 3-4-5 in 150°, at rest for 60°.
@@ -245,7 +245,7 @@ fn a_harmonic_lift_under_a_face_is_an_exact_circle() {
     }
 }
 
-/// Where a face is touched, from its definition: the stem is a line beside the shaft along the path, a pivot a point.
+/// Where a face is touched, from its definition: the stem is a line parallel to the path at its distance from the shaft, a pivot a point.
 #[test]
 fn a_face_is_touched_where_its_stem_or_pivot_says() {
     let lift = Jet { s: 0.01, ds: 0.02, dds: -0.01, ddds: 0.0 };
@@ -266,19 +266,19 @@ fn a_face_is_touched_where_its_stem_or_pivot_says() {
     for (face_offset, side) in [(0.0, 1.0), (0.02, -1.0), (-0.01, 1.0)] {
         let face = SwingingFlat::new(0.2, face_offset, side).sized(0.05).expect("in reach");
         let touch = face.touch(0.0, &lift);
-        let told = face.on_face(&lift).expect("a face");
+        let touched = face.on_face(&lift).expect("a face");
         let away = touch.curve.point - Vector2::new(0.2, 0.0);
-        assert!((away.dot(&touch.curve.tangent) + side * told.place).abs() < 1e-16, "{told:?}");
-        assert!((away.dot(&touch.curve.outward()) + face_offset).abs() < 1e-16, "{told:?}");
+        assert!((away.dot(&touch.curve.tangent) + side * touched.place).abs() < 1e-16, "{touched:?}");
+        assert!((away.dot(&touch.curve.outward()) + face_offset).abs() < 1e-16, "{touched:?}");
         // The contact as a point of the arm moves as far as the leverage says, and along the drive.
         let turned = Vector2::new(-away.y, away.x) * side;
         assert!((turned - touch.drive * face.leverage(&lift)).norm() < 1e-16, "{turned:?}");
-        assert!((turned.dot(&touch.curve.outward()) - told.along_normal).abs() < 1e-16, "{told:?}");
+        assert!((turned.dot(&touch.curve.outward()) - touched.along_normal).abs() < 1e-16, "{touched:?}");
     }
     assert!(TranslatingRoller::new(0.1, 0.0, 0.02).on_face(&lift).is_none());
 }
 
-/// What a face cannot reach, it says.
+/// A face reports what it cannot reach.
 #[test]
 fn a_face_on_an_arm_has_a_reach() {
     let face = SwingingFlat::new(0.15, 0.01, 1.0);

@@ -1,10 +1,13 @@
 //! The translating roller, centred or offset.
 
-use super::{CROWN_RADIUS, Element, Follower, FollowerData, FollowerKind, MASS, PRELOAD, Place, Touch};
+use super::{
+    CROWN_DIAMETER, CROWN_RADIUS, Element, Follower, FollowerData, FollowerKind, FollowerPlacement, MASS, PRELOAD,
+    Touch,
+};
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::{CONOID, TURNING};
+use crate::document::cams::{SURFACES, TURNING};
 use crate::document::range::LONGEST;
-use crate::document::{Field, Occurs, Section, Table, above};
+use crate::document::{Field, Key, KeySection, Occurrence, TableReader, above};
 use crate::geometry::CurvePoint;
 use crate::motion::{Jet, Quantity};
 use crate::units::Dimension::Length;
@@ -34,7 +37,9 @@ pub struct RollerData {
 }
 
 const RADIUS: Field<f64> =
-    Field::quantity("radius", "radius of the roller", Required("30 mm"), Length, above(0.0, LONGEST));
+    Field::quantity("radius", "radius of the roller", Required("30 mm"), Length, above(0.0, LONGEST))
+        .also(&["size", "r"]);
+const DIAMETER: Key = RADIUS.diameter("diameter", "diameter of the roller, in the place of its radius", "60 mm");
 const OFFSET: Field<Option<f64>> = super::OFFSET.only(TURNING);
 const CROWN: Field<Crown> = Field::words(
     "crown",
@@ -43,31 +48,41 @@ const CROWN: Field<Crown> = Field::words(
     &["sphere", "cylinder"],
     &[Crown::Sphere, Crown::Cylinder],
 )
-.only(&[CONOID]);
+.only(SURFACES);
 const WIDTH: Field<f64> =
     Field::quantity("width", "width of a cylindrical rim", Optional("20 mm"), Length, above(0.0, LONGEST))
-        .only(&[CONOID]);
+        .only(SURFACES);
 
 /// `[follower.roller]`.
 pub(super) const KIND: FollowerKind = FollowerKind { section: &SECTION, quantity: Quantity::Length, read };
 
-const SECTION: Section = Section {
+const SECTION: KeySection = KeySection {
     path: "follower.roller",
     about: "the follower: a translating roller",
-    occurs: Occurs::Optional,
+    occurs: Occurrence::Optional,
     cams: &[],
-    keys: &[RADIUS.key, OFFSET.key, MASS.key, PRELOAD.key, CROWN.key, WIDTH.key, CROWN_RADIUS.key],
+    keys: &[
+        RADIUS.key,
+        DIAMETER,
+        OFFSET.key,
+        MASS.key,
+        PRELOAD.key,
+        CROWN.key,
+        WIDTH.key,
+        CROWN_RADIUS.key,
+        CROWN_DIAMETER,
+    ],
 };
 
-fn read(table: &Table<'_>) -> Option<FollowerData> {
+fn read(table: &TableReader<'_>) -> Option<FollowerData> {
     let crown = table.get(&CROWN);
     if crown == Some(Crown::Cylinder) && !table.has(&WIDTH) {
         let help = Some("add follower.roller.width".into());
         table.fail(&CROWN, "a cylindrical roller needs a width".into(), help);
     }
     let (radius, given) = (table.get(&RADIUS)?, table.get(&OFFSET)?);
-    let (offset, place) = (given.unwrap_or(0.0), given.is_none().then_some(Place::Offset { radius }));
-    // Made for a size when the cam is sized; until then large enough to reach.
+    let (offset, place) = (given.unwrap_or(0.0), given.is_none().then_some(FollowerPlacement::Offset { radius }));
+    // Replaced when the cam is sized; until then large enough to reach.
     let shape = Arc::new(TranslatingRoller::new(1.0 + offset.abs(), offset, radius));
     let roller = RollerData { radius, offset, crown: crown?, width: table.get(&WIDTH) };
     let (mass, preload, crown_radius) = (table.get(&MASS), table.get(&PRELOAD), table.get(&CROWN_RADIUS));
@@ -75,7 +90,7 @@ fn read(table: &Table<'_>) -> Option<FollowerData> {
     Some(FollowerData { mass, preload, crown_radius, roller, place, ..FollowerData::of(SECTION.path, shape) })
 }
 
-/// By how much the prime radius must exceed the offset, as a share of it: at the offset itself the roller would stand beside
+/// By which share the prime radius must exceed the offset: at the offset itself the roller would be at the side of
 /// the cam, with a pressure angle of 90°.
 const OFFSET_MARGIN: f64 = 1e-6;
 
@@ -142,13 +157,17 @@ impl Follower for TranslatingRoller {
         Some(self.prime_radius)
     }
 
-    fn place(&self) -> Option<Place> {
-        Some(Place::Offset { radius: self.roller_radius })
+    fn place(&self) -> Option<FollowerPlacement> {
+        Some(FollowerPlacement::Offset { radius: self.roller_radius })
     }
 
     fn sized(&self, prime_radius: f64) -> Option<Box<dyn Follower>> {
         (self.offset.abs() < prime_radius)
             .then(|| Box::new(Self::new(prime_radius, self.offset, self.roller_radius)) as Box<dyn Follower>)
+    }
+
+    fn of_radius(&self, radius: f64) -> Option<Arc<dyn Follower>> {
+        Some(Arc::new(Self { roller_radius: radius, ..*self }))
     }
 
     fn prime_radii(&self) -> (f64, f64) {

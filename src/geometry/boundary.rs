@@ -1,38 +1,38 @@
 //! The exact outline of a cam: a closed loop of smooth stretches, millimetres, the metal on the left.
 //!
-//! A stretch is a range of a curve that is a function of a parameter, or an arc or a line that is exact itself. Between two
+//! A stretch is a range of a curve that is a function of a parameter, or an exact arc or line. Between two
 //! stretches the heading is continuous, or the loop has a corner there.
 
 use super::CurvePoint;
 use super::contour::Segment;
 use nalgebra::Vector2;
 
-/// A turn between two stretches beyond this is a corner, rad: far above rounding, far below what a shop sees.
+/// A turn between two stretches beyond this is a corner, rad: far above rounding, far below what is visible.
 const LEAST_CORNER: f64 = 1e-6;
 
 /// Ends of two stretches farther apart than this are joined by a straight line, mm: the profile under a face whose velocity
 /// jumps. Crossings of a profile with itself are solved to rounding.
 const LEAST_GAP: f64 = 1e-7;
 
-/// A stretch that begins at most so far behind the end of the one before it is not joined to it, mm: a corner of the motion too small to
-/// be one, 1e-7 rad, sets the profile under a roller of 100 mm back by as much. A line would run against the profile.
+/// A stretch that begins at most this far behind the end of the one before it is not joined to it, mm: a corner of the motion too small to
+/// count, 1e-7 rad, sets the profile under a roller of 100 mm back by as much. A line would run against the profile.
 const LEAST_STEP_BACK: f64 = 1e-5;
 
-/// A stretch of a curve turns by no more than a third of a half turn, so that the normals at its ends tell what lies before and behind
-/// them: the least cosine between its ends and its middle. Where that would not be seen its curvature is high.
+/// A stretch of a curve turns by no more than a third of a half turn, so that the normals at its ends show what lies before and behind
+/// them: the least cosine between its ends and its middle. Where this would miss a turn, its curvature is high.
 const LEAST_COSINE: f64 = 0.5;
 const MOST_TURN: f64 = 4.0;
 /// Halvings of a stretch that turns more.
 const HALVINGS: u32 = 16;
 
 /// The point of a curve at a parameter of one of its pieces, mm.
-pub type Frame<'a> = dyn Fn(usize, f64) -> CurvePoint + 'a;
+pub type PieceCurve<'a> = dyn Fn(usize, f64) -> CurvePoint + 'a;
 
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+enum StretchKind {
     /// A piece of the curve.
     Curve { piece: usize },
-    /// The mirror image of a piece about X, run the other way: its parameter is that of the piece, negated.
+    /// The mirror image of a piece about X, in the opposite sense: its parameter is that of the piece, negated.
     Mirrored { piece: usize },
     /// An arc or a line, by its own length.
     Segment(Segment),
@@ -40,53 +40,59 @@ enum Kind {
 
 /// A smooth part of the loop.
 #[derive(Debug, Clone, Copy)]
-pub struct Stretch {
-    kind: Kind,
+pub struct BoundaryStretch {
+    kind: StretchKind,
     /// First value of its parameter.
     pub from: f64,
     /// Last value.
     pub to: f64,
 }
 
-impl Stretch {
+impl BoundaryStretch {
     /// A range of a piece of the curve.
     #[must_use]
     pub fn of_curve(piece: usize, (from, to): (f64, f64)) -> Self {
-        Self { kind: Kind::Curve { piece }, from, to }
+        Self { kind: StretchKind::Curve { piece }, from, to }
     }
 
     /// An arc or a line.
     #[must_use]
     pub fn of_segment(segment: Segment) -> Self {
-        Self { kind: Kind::Segment(segment), from: 0.0, to: segment.length() }
+        Self { kind: StretchKind::Segment(segment), from: 0.0, to: segment.length() }
     }
 
     /// Whether the next one is the same piece of the curve, from where this one ends.
     fn goes_on(&self, next: &Self) -> bool {
         let same = match (&self.kind, &next.kind) {
-            (Kind::Curve { piece: a }, Kind::Curve { piece: b })
-            | (Kind::Mirrored { piece: a }, Kind::Mirrored { piece: b }) => a == b,
+            (StretchKind::Curve { piece: a }, StretchKind::Curve { piece: b })
+            | (StretchKind::Mirrored { piece: a }, StretchKind::Mirrored { piece: b }) => a == b,
             _ => false,
         };
         same && self.to == next.from
     }
 
-    /// Its mirror image about X, run the other way.
+    /// Its mirror image about X, in the opposite sense.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);
         match self.kind {
-            Kind::Curve { piece } => Self { kind: Kind::Mirrored { piece }, from: -self.to, to: -self.from },
-            Kind::Mirrored { piece } => Self { kind: Kind::Curve { piece }, from: -self.to, to: -self.from },
-            Kind::Segment(s) => Self::of_segment(Segment { start: flip(s.end), end: flip(s.start), bulge: s.bulge }),
+            StretchKind::Curve { piece } => {
+                Self { kind: StretchKind::Mirrored { piece }, from: -self.to, to: -self.from }
+            }
+            StretchKind::Mirrored { piece } => {
+                Self { kind: StretchKind::Curve { piece }, from: -self.to, to: -self.from }
+            }
+            StretchKind::Segment(s) => {
+                Self::of_segment(Segment { start: flip(s.end), end: flip(s.start), bulge: s.bulge })
+            }
         }
     }
 }
 
 /// The loop.
 pub struct Boundary<'a> {
-    frame: Box<Frame<'a>>,
-    stretches: Vec<Stretch>,
+    frame: Box<PieceCurve<'a>>,
+    stretches: Vec<BoundaryStretch>,
     /// Both ends of each stretch.
     ends: Vec<[CurvePoint; 2]>,
 }
@@ -94,22 +100,22 @@ pub struct Boundary<'a> {
 impl<'a> Boundary<'a> {
     /// The loop of these stretches, in order; gaps between them are closed by straight lines.
     #[must_use]
-    pub fn new(frame: Box<Frame<'a>>, stretches: &[Stretch]) -> Self {
+    pub fn new(frame: Box<PieceCurve<'a>>, stretches: &[BoundaryStretch]) -> Self {
         Self::joined(frame, stretches, true)
     }
 
-    /// The same as a path that does not close: from the first stretch to the last.
+    /// These stretches as a path that does not close: from the first stretch to the last.
     #[must_use]
-    pub fn open(frame: Box<Frame<'a>>, stretches: &[Stretch]) -> Self {
+    pub fn open(frame: Box<PieceCurve<'a>>, stretches: &[BoundaryStretch]) -> Self {
         Self::joined(frame, stretches, false)
     }
 
-    fn joined(frame: Box<Frame<'a>>, stretches: &[Stretch], closed: bool) -> Self {
+    fn joined(frame: Box<PieceCurve<'a>>, stretches: &[BoundaryStretch], closed: bool) -> Self {
         let mut boundary = Self { frame, stretches: Vec::new(), ends: Vec::new() };
         let mut ends: Vec<[CurvePoint; 2]> = Vec::new();
-        let mut parts: Vec<Stretch> = Vec::with_capacity(stretches.len());
+        let mut parts: Vec<BoundaryStretch> = Vec::with_capacity(stretches.len());
         for stretch in stretches {
-            // A range that goes on where the one before ended starts with the same point.
+            // A range that continues the one before starts with the same point.
             let start = match (parts.last().filter(|before| before.goes_on(stretch)), ends.last()) {
                 (Some(_), Some(last)) => last[1],
                 _ => boundary.on(stretch, stretch.from),
@@ -128,7 +134,7 @@ impl<'a> Boundary<'a> {
             let gap = end - start;
             let back = gap.dot(&own[1].tangent) < 0.0 && gap.norm() <= LEAST_STEP_BACK;
             if (closed || !last) && gap.norm() > LEAST_GAP && !back {
-                let line = Stretch::of_segment(Segment { start, end, bulge: 0.0 });
+                let line = BoundaryStretch::of_segment(Segment { start, end, bulge: 0.0 });
                 boundary.ends.push([boundary.on(&line, line.from), boundary.on(&line, line.to)]);
                 boundary.stretches.push(line);
             }
@@ -139,12 +145,12 @@ impl<'a> Boundary<'a> {
     /// Adds a stretch with its ends, halved until it turns little.
     fn turning_little(
         &self,
-        stretch: Stretch,
+        stretch: BoundaryStretch,
         ends: [CurvePoint; 2],
         halvings: u32,
-        add: &mut impl FnMut(Stretch, [CurvePoint; 2]),
+        add: &mut impl FnMut(BoundaryStretch, [CurvePoint; 2]),
     ) {
-        if matches!(stretch.kind, Kind::Segment(_)) {
+        if matches!(stretch.kind, StretchKind::Segment(_)) {
             return add(stretch, ends);
         }
         let halfway = 0.5 * (stretch.from + stretch.to);
@@ -159,17 +165,17 @@ impl<'a> Boundary<'a> {
             return add(stretch, ends);
         }
         let [start, end] = ends;
-        self.turning_little(Stretch { to: halfway, ..stretch }, [start, middle], halvings - 1, add);
-        self.turning_little(Stretch { from: halfway, ..stretch }, [middle, end], halvings - 1, add);
+        self.turning_little(BoundaryStretch { to: halfway, ..stretch }, [start, middle], halvings - 1, add);
+        self.turning_little(BoundaryStretch { from: halfway, ..stretch }, [middle, end], halvings - 1, add);
     }
 
     /// Its stretches in order.
     #[must_use]
-    pub fn stretches(&self) -> &[Stretch] {
+    pub fn stretches(&self) -> &[BoundaryStretch] {
         &self.stretches
     }
 
-    /// The two ends of a stretch; stretches are counted round and round.
+    /// The two ends of a stretch; the index counts on round the loop.
     #[must_use]
     pub fn ends(&self, index: usize) -> Option<&[CurvePoint; 2]> {
         self.ends.get(index % self.ends.len().max(1))
@@ -180,20 +186,20 @@ impl<'a> Boundary<'a> {
     pub fn starts_at_corner(&self, index: usize) -> bool {
         let before = self.ends(index + self.ends.len() - 1).map(|ends| ends[1].tangent);
         let after = self.ends(index).map(|ends| ends[0].tangent);
-        // Of a direction that is no number nothing is known: a corner.
+        // Where a direction is not a number, a corner is assumed.
         !before.zip(after).is_some_and(|(a, b)| a.dot(&b) > 0.0 && a.perp(&b).abs() <= LEAST_CORNER)
     }
 
-    /// The point of the loop at a parameter of a stretch; stretches are counted round and round.
+    /// The point of the loop at a parameter of a stretch; the index counts on round the loop.
     #[must_use]
     pub fn at(&self, index: usize, parameter: f64) -> Option<CurvePoint> {
         Some(self.on(self.stretches.get(index % self.stretches.len().max(1))?, parameter))
     }
 
-    fn on(&self, stretch: &Stretch, parameter: f64) -> CurvePoint {
+    fn on(&self, stretch: &BoundaryStretch, parameter: f64) -> CurvePoint {
         match &stretch.kind {
-            Kind::Curve { piece } => (self.frame)(*piece, parameter),
-            Kind::Mirrored { piece } => {
+            StretchKind::Curve { piece } => (self.frame)(*piece, parameter),
+            StretchKind::Mirrored { piece } => {
                 let there = (self.frame)(*piece, -parameter);
                 CurvePoint {
                     point: Vector2::new(there.point.x, -there.point.y),
@@ -202,7 +208,7 @@ impl<'a> Boundary<'a> {
                     ..there
                 }
             }
-            Kind::Segment(segment) => {
+            StretchKind::Segment(segment) => {
                 let (point, tangent) = segment.at(parameter / stretch.to);
                 let curvature = if segment.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
                 CurvePoint { point, tangent, speed: 1.0, curvature, curvature_slope: 0.0 }

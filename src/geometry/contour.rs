@@ -6,7 +6,7 @@
 pub use super::cubic::Cubic;
 pub use super::edge::{Bend, Edge};
 pub(crate) use super::segment::sweep_minus_sine;
-pub use super::segment::{Extents, Nearest, Segment};
+pub use super::segment::{Extents, NearestOnSegment, Segment};
 
 use crate::numeric::quadrature;
 use nalgebra::Vector2;
@@ -19,12 +19,12 @@ const PANELS: u32 = 4;
 pub struct Vertex {
     /// Place, mm.
     pub point: Vector2<f64>,
-    /// The way to the next one.
+    /// The edge to the next one.
     pub bend: Bend,
 }
 
 impl Vertex {
-    /// A vertex that an arc of this bulge leaves; 0 is a straight line.
+    /// A vertex from which an arc of this bulge starts; 0 is a straight line.
     #[must_use]
     pub fn new(point: Vector2<f64>, bulge: f64) -> Self {
         Self { point, bend: Bend::Arc(bulge) }
@@ -39,7 +39,7 @@ impl Vertex {
         }
     }
 
-    /// The bulge of what leaves it, where that is an arc or a line.
+    /// The bulge of the edge that starts here, where that is an arc or a line.
     #[must_use]
     pub fn bulge(&self) -> Option<f64> {
         match self.bend {
@@ -50,9 +50,20 @@ impl Vertex {
 }
 
 /// A closed chain.
+///
+/// ```
+/// use camgen::{Contour, Vector2, Vertex};
+///
+/// // A slot of 30 mm by 10 mm with round ends: two lines and two half circles.
+/// let vertex = |x: f64, y: f64, bulge: f64| Vertex::new(Vector2::new(x, y), bulge);
+/// let slot = Contour { vertices: vec![vertex(0.0, 0.0, 0.0), vertex(20.0, 0.0, 1.0), vertex(20.0, 10.0, 0.0), vertex(0.0, 10.0, 1.0)] };
+/// assert_eq!((slot.lines(), slot.arcs()), (2, 2));
+/// let (area, centroid) = slot.area_and_centroid();
+/// assert!((area - (200.0 + 25.0 * std::f64::consts::PI)).abs() < 1e-9 && (centroid.x - 10.0).abs() < 1e-9);
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contour {
-    /// Its vertices, two at the least.
+    /// Its vertices, at least two.
     pub vertices: Vec<Vertex>,
 }
 
@@ -65,7 +76,7 @@ impl Contour {
         Self { vertices: vec![half(centre + right), half(centre - right)] }
     }
 
-    /// The chain of these edges, each from where the one before ends.
+    /// The chain of these edges, each starting where the one before ends.
     #[must_use]
     pub fn of(edges: impl IntoIterator<Item = Edge>) -> Self {
         Self { vertices: edges.into_iter().map(|edge| Vertex { point: edge.start(), bend: edge.bend() }).collect() }
@@ -77,7 +88,7 @@ impl Contour {
         self.vertices.iter().zip(ends).map(|(a, b)| a.to(b.point))
     }
 
-    /// The edges in order, where all of them are arcs or lines.
+    /// The edges in order, provided that all of them are arcs or lines.
     #[must_use]
     pub fn segments(&self) -> Option<Vec<Segment>> {
         self.edges().map(|edge| edge.segment()).collect()
@@ -135,7 +146,7 @@ impl Contour {
         self.edges().map(|edge| edge.length()).sum()
     }
 
-    /// How often the chain runs round: 1 for a simple one run counter-clockwise, −1 clockwise.
+    /// How often the chain turns round: 1 for a simple one run counter-clockwise, −1 clockwise.
     #[must_use]
     pub fn turns(&self) -> f64 {
         let swept: f64 = self.edges().map(|edge| edge.turning()).sum();
@@ -157,7 +168,7 @@ impl Contour {
             .collect()
     }
 
-    /// Exact extents, the bulging of arcs included.
+    /// Exact extents, including the bulging of arcs.
     #[must_use]
     pub fn extents(&self) -> Extents {
         let first = self.vertices.first().map_or_else(Vector2::zeros, |v| v.point);
@@ -165,19 +176,19 @@ impl Contour {
         self.edges().fold(start, |extents, edge| extents.with(&edge.extents()))
     }
 
-    /// The same chain run the other way.
+    /// The chain in the opposite sense.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let edges: Vec<Edge> = self.edges().collect();
         Self::of(edges.iter().rev().map(Edge::reversed))
     }
 
-    /// Mirrored about the X axis and turned round, so that it still runs the same way; starts with the mirror of the
+    /// Mirrored about the X axis and reversed, so that it keeps its sense; starts with the mirror image of the
     /// same edge.
     #[must_use]
     pub fn mirrored_about_x(&self) -> Self {
         let edges: Vec<Edge> = self.edges().collect();
-        // Mirrored, edge i runs from vertex i + 1 to i; the first stays the first and the others come in turn.
+        // Mirrored, edge i runs from vertex i + 1 to i; the first stays the first and the others follow in turn.
         let order = edges.first().into_iter().chain(edges.iter().skip(1).rev());
         Self::of(order.map(Edge::mirrored_about_x))
     }
@@ -205,7 +216,7 @@ mod tests {
         assert!((extents.largest - Vector2::new(8.0, 3.0)).norm() < 1e-14);
     }
 
-    /// From places about the centre of an arc it is as far as the radius, less what they are off to its side.
+    /// The distance from places near the centre of an arc is the radius, less their distance from the centre to its side.
     #[test]
     fn an_arc_is_its_radius_from_its_centre() {
         let arc = Segment {

@@ -1,16 +1,16 @@
-//! A cubic Bézier curve, millimetres: everything about it from its polynomials, nothing from samples.
+//! A cubic Bézier curve, millimetres: everything about it is computed from its polynomials, without sampling.
 
-use super::segment::{Extents, Nearest};
+use super::segment::{Extents, NearestOnSegment};
 use crate::numeric::{bernstein, quadrature};
 use nalgebra::Vector2;
 
-/// Legs that turn by less than this from one to the next, as the cosine of all, are walked as one: rad about 0.5.
+/// Legs that turn by less than this from one to the next, as the cosine of all, count as one smooth part: about 0.5 rad.
 const TAME: f64 = 0.88;
-/// And whose lengths differ by no more than this factor.
+/// Largest ratio of their lengths.
 const EVEN: f64 = 1.6;
-/// Halvings to get there: a cusp has none.
+/// Most halvings to get there: at a cusp there is no end.
 const HALVINGS: u32 = 24;
-/// Panels of eight points for the length of a tame piece, right to 1e-13 of it.
+/// Panels of eight points for the length of a tame piece, accurate to 1e-13 of it.
 const PANELS: u32 = 2;
 
 /// A cubic curve.
@@ -87,7 +87,7 @@ impl Cubic {
         (Self { points: [p, a, d, middle] }, Self { points: [middle, e, c, s] })
     }
 
-    /// The part from one parameter to another, run the other way where that is the lower one: its control points are blossoms
+    /// The part from one parameter to another, reversed where the second is the lower: its control points are blossoms
     /// (L. Ramshaw, 1987).
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
@@ -100,7 +100,7 @@ impl Cubic {
         Self { points: [[from; 3], [from, from, to], [from, to, to], [to; 3]].map(blossom) }
     }
 
-    /// The same curve run the other way.
+    /// The curve in the opposite sense.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let [p, q, r, s] = self.points;
@@ -113,7 +113,7 @@ impl Cubic {
         Self { points: self.points.map(map) }
     }
 
-    /// Whether it turns little and runs evenly, so that simple rules see all of it.
+    /// Whether it turns little and runs evenly, so that simple rules are accurate.
     fn tame(&self) -> bool {
         let legs = self.legs();
         let [a, b, c] = legs.map(|leg| leg.norm());
@@ -126,10 +126,10 @@ impl Cubic {
             && p.dot(&r) > TAME * a * c
     }
 
-    /// Its parts that turn little and run evenly, in order, each with the parameters at which it begins and ends. About a cusp
+    /// Its parts that turn little and run evenly, in order, each with the parameters at which it begins and ends. Near a cusp
     /// they are short.
     #[must_use]
-    pub fn tamed(&self) -> Vec<(Self, (f64, f64))> {
+    pub fn smooth_parts(&self) -> Vec<(Self, (f64, f64))> {
         let mut parts = Vec::new();
         let mut open = vec![(*self, (0.0, 1.0), HALVINGS)];
         while let Some((part, (from, to), left)) = open.pop() {
@@ -145,7 +145,7 @@ impl Cubic {
         parts
     }
 
-    /// Length up to a parameter of one that turns little, mm.
+    /// Length up to a parameter of a curve that turns little, mm.
     #[must_use]
     pub fn length_to(&self, t: f64) -> f64 {
         quadrature::integrate(|t| self.derivatives(t)[1].norm(), (0.0, t), PANELS)
@@ -154,7 +154,7 @@ impl Cubic {
     /// Length, mm.
     #[must_use]
     pub fn length(&self) -> f64 {
-        self.tamed().iter().map(|(part, _)| part.length_to(1.0)).sum()
+        self.smooth_parts().iter().map(|(part, _)| part.length_to(1.0)).sum()
     }
 
     /// By how much it turns left from its start to its end, rad.
@@ -164,10 +164,10 @@ impl Cubic {
             let (a, b) = (part.start_tangent(), part.end_tangent());
             libm::atan2(a.perp(&b), a.dot(&b))
         };
-        self.tamed().iter().map(turn).sum()
+        self.smooth_parts().iter().map(turn).sum()
     }
 
-    /// Parameters at which it runs square to a direction.
+    /// Parameters at which it is perpendicular to a direction.
     fn square_to(&self, direction: Vector2<f64>) -> Vec<f64> {
         bernstein::roots(&self.legs().map(|leg| leg.dot(&direction)))
     }
@@ -187,7 +187,7 @@ impl Cubic {
     pub fn farthest(&self, direction: Vector2<f64>) -> f64 {
         let [start, .., end] = self.points;
         let ends = start.dot(&direction).max(end.dot(&direction));
-        // No farther than its control points: no root is looked for where none lies beyond the ends.
+        // No farther than its control points: roots are looked for only where one may lie beyond the ends.
         if self.points.iter().all(|point| point.dot(&direction) <= ends) {
             return ends;
         }
@@ -219,9 +219,9 @@ impl Cubic {
         places.map(|t| (away(t), t)).min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, t)| t)
     }
 
-    /// The nearest point, seen from a point.
+    /// The point nearest to a given one.
     #[must_use]
-    pub fn nearest(&self, point: Vector2<f64>) -> Nearest {
+    pub fn nearest(&self, point: Vector2<f64>) -> NearestOnSegment {
         let t = self.nearest_parameter(point);
         let (mut foot, tangent) = self.at(t);
         let [start, .., end] = self.points;
@@ -231,7 +231,7 @@ impl Cubic {
             foot = end;
         }
         let away = point - foot;
-        Nearest { left: away.norm().copysign(tangent.perp(&away)), foot, tangent }
+        NearestOnSegment { left: away.norm().copysign(tangent.perp(&away)), foot, tangent }
     }
 
     /// The largest distance from a point between two parameters, mm.
@@ -264,14 +264,14 @@ impl Cubic {
         (0.5 * integral(&|_| 1.0), moment)
     }
 
-    /// The interval in which its curvature lies between two parameters, 1/mm; infinite where it may stand still.
+    /// The interval of its curvature between two parameters, 1/mm; infinite where its speed may be 0.
     ///
     /// κ = B'×B''/|B'|³: numerator and |B'|² lie between their Bernstein coefficients.
     #[must_use]
     pub fn curvature_between(&self, from: f64, to: f64) -> (f64, f64) {
         let [a, b, c] = self.legs();
         let on = |p: Vector2<f64>, q: Vector2<f64>, t: f64| p + (q - p) * t;
-        // B'/3 and B''/6 on the range, by their blossoms: no difference of near points.
+        // B'/3 and B''/6 on the range, by their blossoms: without differences of near points.
         let slope = |s: f64, t: f64| on(on(a, b, s), on(b, c, s), t);
         let [p, q, r] = [slope(from, from), slope(from, to), slope(to, to)];
         let [e, f] = [on(b - a, c - b, from), on(b - a, c - b, to)];
@@ -337,7 +337,7 @@ mod tests {
         }
     }
 
-    /// From every place of it a curve is no distance away, also beside a cusp, where two roots are one.
+    /// Each of its own points is at distance 0, also near a cusp, where two roots coincide.
     #[test]
     fn a_place_on_the_curve_is_found() {
         let at = |x: f64, y: f64| Vector2::new(x, y);

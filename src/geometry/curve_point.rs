@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-/// A point of a plane curve with what belongs to it.
+/// A point of a plane curve with its tangent and curvature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
     /// The point.
@@ -41,7 +41,7 @@ impl CurvePoint {
         Vector2::new(self.tangent.y, -self.tangent.x)
     }
 
-    /// The same curve in a unit `factor` times smaller, 1000 for millimetres.
+    /// The curve in a unit `factor` times smaller, 1000 for millimetres.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
@@ -53,7 +53,7 @@ impl CurvePoint {
         }
     }
 
-    /// The parallel curve at `distance` to the left (inward), same parameter.
+    /// The parallel curve at `distance` to the left (inward), with the same parameter.
     ///
     /// With m = 1 − κ·distance: speed × m, curvature / m, curvature slope / m³.
     #[must_use]

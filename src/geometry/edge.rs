@@ -1,10 +1,10 @@
 //! One edge of a chain: an arc, a line or a cubic curve.
 
 use super::cubic::Cubic;
-use super::segment::{Extents, Nearest, Segment};
+use super::segment::{Extents, NearestOnSegment, Segment};
 use nalgebra::Vector2;
 
-/// How a chain runs from a vertex to the next.
+/// The kind of an edge from a vertex to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bend {
     /// As an arc: tan(sweep/4), positive where it turns left; 0 is a straight line.
@@ -41,7 +41,7 @@ impl Edge {
         }
     }
 
-    /// How it runs from the one to the other.
+    /// The shape of the edge between them.
     #[must_use]
     pub fn bend(&self) -> Bend {
         match self {
@@ -50,7 +50,7 @@ impl Edge {
         }
     }
 
-    /// The arc or line, where it is one.
+    /// The arc or line, if it is one.
     #[must_use]
     pub fn segment(&self) -> Option<Segment> {
         match self {
@@ -59,7 +59,7 @@ impl Edge {
         }
     }
 
-    /// Point and unit tangent at a share of the parameter, 0 the start, 1 the end: of an arc the share of its sweep.
+    /// Point and unit tangent at a share of the parameter, 0 the start, 1 the end: for an arc the share of its sweep.
     #[must_use]
     pub fn at(&self, share: f64) -> (Vector2<f64>, Vector2<f64>) {
         match self {
@@ -159,9 +159,9 @@ impl Edge {
         }
     }
 
-    /// Its nearest point, seen from a point.
+    /// Its point nearest to a given one.
     #[must_use]
-    pub fn nearest(&self, point: Vector2<f64>) -> Nearest {
+    pub fn nearest(&self, point: Vector2<f64>) -> NearestOnSegment {
         match self {
             Edge::Segment(segment) => segment.nearest(point),
             Edge::Cubic(cubic) => cubic.nearest(point),
@@ -177,7 +177,7 @@ impl Edge {
         }
     }
 
-    /// The same edge run the other way.
+    /// The edge in the opposite sense.
     #[must_use]
     pub fn reversed(&self) -> Self {
         match self {
@@ -186,7 +186,7 @@ impl Edge {
         }
     }
 
-    /// Mirrored about the X axis and run the other way: with the same side on its left.
+    /// Mirrored about the X axis and reversed: the same side stays on its left.
     #[must_use]
     pub fn mirrored_about_x(&self) -> Self {
         let flip = |point: Vector2<f64>| Vector2::new(point.x, -point.y);

@@ -1,24 +1,29 @@
 //! What a drawing is made of, in millimetres.
 
-use super::contour::{Contour, Extents};
+use super::contour::{Contour, Extents, Segment, Vertex};
 use nalgebra::Vector2;
 
-/// Something closed that is cut.
+/// Something that is cut.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Entity {
     /// A closed chain of arcs and lines.
     Polyline(Contour),
     /// A full circle: centre and radius, mm.
     Circle(Vector2<f64>, f64),
+    /// An arc or a line alone.
+    Segment(Segment),
 }
 
 impl Entity {
-    /// The entity as a contour, a circle counter-clockwise.
+    /// The entity as a contour, a circle counter-clockwise, a segment there and back.
     #[must_use]
     pub fn contour(&self) -> Contour {
         match self {
             Entity::Polyline(contour) => contour.clone(),
             Entity::Circle(centre, radius) => Contour::circle(*centre, *radius),
+            Entity::Segment(Segment { start, end, bulge }) => {
+                Contour { vertices: vec![Vertex::new(*start, *bulge), Vertex::new(*end, -bulge)] }
+            }
         }
     }
 
@@ -31,6 +36,7 @@ impl Entity {
                 let reach = Vector2::new(*radius, *radius);
                 Extents { least: centre - reach, largest: centre + reach }
             }
+            Entity::Segment(segment) => segment.extents(),
         }
     }
 }

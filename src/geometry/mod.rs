@@ -1,30 +1,34 @@
 //! Plane and solid geometry: points of curves with their curvature, chains of arcs and lines, the fit of arcs, solids.
 //!
-//! Knows nothing of motions, followers or machines. Curves are functions in any unit of length; contours and solids are in
+//! It does not know motions, followers or machines. Curves are functions in any unit of length; contours and solids are in
 //! millimetres.
 
 mod allowed;
-pub mod apart;
 pub mod arcs;
 pub mod boundary;
+pub mod chain_distance;
+mod chain_start;
+pub mod clearance;
 pub mod contour;
-mod course;
 mod cubic;
-mod cubic_course;
+mod cubic_path;
 pub mod cubics;
 mod curve_point;
 mod edge;
+mod edge_path;
+pub mod edge_tree;
 mod entity;
 pub mod following;
-pub mod likeness;
-pub mod mismatch;
+pub mod lead_in;
 pub mod nurbs;
 pub mod points;
+pub mod polar;
+pub mod registration;
 mod segment;
 pub mod solid;
-pub mod track;
+pub mod two_sided_distance;
 
-pub use allowed::Allowed;
+pub use allowed::ChainTolerance;
 pub use curve_point::CurvePoint;
 pub use entity::Entity;
 

@@ -11,15 +11,15 @@ pub const HIGHEST_DEGREE: usize = 25;
 pub struct Knots {
     /// Degree of the pieces.
     pub degree: usize,
-    /// The knots, each as often as its multiplicity says.
+    /// The knots, each repeated by its multiplicity.
     pub values: Vec<f64>,
 }
 
 impl Knots {
-    /// Whether they carry so many control points without a gap: enough of them, finite, never falling, with a span at all, and
-    /// none so often that what they carry jumps there.
+    /// Whether they fit this many control points without a gap: enough knots, finite, never falling, with at least one span, and
+    /// no multiplicity at which the curve would jump.
     #[must_use]
-    pub fn carry(&self, controls: usize) -> bool {
+    pub fn fit_controls(&self, controls: usize) -> bool {
         let rising =
             self.values.windows(2).all(|pair| matches!(pair, [a, b] if a <= b && b.is_finite() && a.is_finite()));
         let (first, last) = self.range();
@@ -39,7 +39,7 @@ impl Knots {
         (at(self.degree), at(self.values.len().saturating_sub(self.degree + 1)))
     }
 
-    /// The stretches on which it is one polynomial.
+    /// The spans, on each of which it is one polynomial.
     #[must_use]
     pub fn spans(&self) -> Vec<(f64, f64)> {
         let (first, last) = self.range();
@@ -52,7 +52,7 @@ impl Knots {
         let at = |index: usize| self.values.get(index).copied().unwrap_or(f64::NAN);
         let last = self.values.len().saturating_sub(self.degree + 2).max(self.degree);
         let mut span = self.values.partition_point(|knot| *knot <= x).saturating_sub(1).clamp(self.degree, last);
-        // The end of the range belongs to the last span that has a width.
+        // The end of the range belongs to the last span with a width above 0.
         while span > self.degree && at(span) == at(span + 1) {
             span -= 1;
         }
@@ -82,7 +82,7 @@ impl Knots {
 }
 
 /// Control points times their weights, and the weights.
-type Weighted = Vector4<f64>;
+type HomogeneousPoint = Vector4<f64>;
 
 /// A point with a weight.
 #[must_use]
@@ -90,27 +90,27 @@ pub fn weighted(point: Vector3<f64>, weight: f64) -> Vector4<f64> {
     Vector4::new(point.x * weight, point.y * weight, point.z * weight, weight)
 }
 
-/// Point and derivative of what has these homogeneous ones.
-fn projected(sum: Weighted, slope: Weighted) -> (Vector3<f64>, Vector3<f64>) {
+/// Point and derivative from homogeneous ones.
+fn projected(sum: HomogeneousPoint, slope: HomogeneousPoint) -> (Vector3<f64>, Vector3<f64>) {
     let point = sum.xyz() / sum.w;
     (point, (slope.xyz() - point * slope.w) / sum.w)
 }
 
 /// A B-spline curve.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub struct NurbsCurve {
     /// Its knots.
     pub knots: Knots,
     /// Its weighted control points.
     pub controls: Vec<Vector4<f64>>,
 }
 
-impl Curve {
+impl NurbsCurve {
     /// Point and derivative.
     #[must_use]
     pub fn at(&self, t: f64) -> (Vector3<f64>, Vector3<f64>) {
         let (first, basis, slopes) = self.knots.basis(t);
-        let mut sums = [Weighted::zeros(); 2];
+        let mut sums = [HomogeneousPoint::zeros(); 2];
         for (control, (b, d)) in
             self.controls.iter().skip(first).zip(basis.iter().zip(slopes)).take(self.knots.degree + 1)
         {
@@ -145,7 +145,7 @@ impl Curve {
         Some(found)
     }
 
-    /// The same curve run the other way.
+    /// The curve in the opposite sense.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let values = self.knots.values.iter().rev().map(|knot| -knot).collect();
@@ -153,14 +153,14 @@ impl Curve {
         Self { knots: Knots { degree: self.knots.degree, values }, controls }
     }
 
-    /// How far it can be from another curve at most (mm), share of its range for share of the other's: where both have one
-    /// degree, knots and weights, no farther than their control points.
+    /// The largest distance from another curve (mm), at equal shares of both ranges: where both have the same
+    /// degree, knots and weights, at most that of their control points.
     #[must_use]
     pub fn farthest(&self, other: &Self) -> f64 {
         let (mine, others) = (self.knots.range(), other.knots.range());
         let share = |knot: f64, range: (f64, f64)| (knot - range.0) / (range.1 - range.0);
         let pairs = self.knots.values.iter().zip(&other.knots.values);
-        // Rounding of a knot moves a point by as little.
+        // Rounding of a knot moves a point by a comparable amount.
         let alike = self.knots.degree == other.knots.degree
             && self.knots.values.len() == other.knots.values.len()
             && pairs.clone().all(|(a, b)| (share(*a, mine) - share(*b, others)).abs() <= SAME_KNOT);
@@ -181,16 +181,16 @@ impl Curve {
     }
 }
 
-/// Knots that differ by less, as shares of the range, are one.
+/// Knots that differ by less, as shares of the range, count as equal.
 const SAME_KNOT: f64 = 1e-9;
 /// Samples for each control point where two curves are compared point by point.
 const SAMPLES: u32 = 8;
 
-/// Parts of curves of a higher degree than 3: for a curve, and for each of its control points.
+/// Most parts of a curve of a degree above 3: for a curve, and for each of its control points.
 const PARTS: usize = 256;
 const PARTS_EACH: usize = 4;
 
-/// A Bézier curve of any degree as ones of degree 3, added to others, of which there may be so many.
+/// Appends a Bézier curve of any degree as curves of degree 3, of which there may be only so many.
 fn parted(points: Vec<Vector3<f64>>, within: f64, most: usize, found: &mut Vec<[Vector3<f64>; 4]>) -> Option<()> {
     let mut open = vec![points];
     while let Some(part) = open.pop() {
@@ -199,7 +199,7 @@ fn parted(points: Vec<Vector3<f64>>, within: f64, most: usize, found: &mut Vec<[
         while raised.len() < part.len() {
             raised = elevated(&raised);
         }
-        // Lower ones are that cubic.
+        // Lower degrees are that cubic.
         let off = raised.iter().zip(&part).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
         if part.len() <= 4 || off <= within {
             found.push(cubic);
@@ -212,7 +212,7 @@ fn parted(points: Vec<Vector3<f64>>, within: f64, most: usize, found: &mut Vec<[
     Some(())
 }
 
-/// The cubic Bézier curve with the ends and the derivatives there of one of any degree: up to degree 3 the same curve.
+/// The cubic Bézier curve with the same ends and derivatives there as one of any degree: up to degree 3 the same curve.
 fn near(points: &[Vector3<f64>]) -> Option<[Vector3<f64>; 4]> {
     let (a, b) = (points.first()?, points.last()?);
     let (p, q) = (points.get(1)?, points.iter().rev().nth(1)?);
@@ -221,7 +221,7 @@ fn near(points: &[Vector3<f64>]) -> Option<[Vector3<f64>; 4]> {
     Some(if points.len() == 4 { [*a, *p, *q, *b] } else { [*a, a + (p - a) * third, b + (q - b) * third, *b] })
 }
 
-/// The same Bézier curve by the control points of one degree more.
+/// The Bézier curve by the control points of one degree more.
 #[expect(clippy::cast_precision_loss, reason = "at most 25")]
 fn elevated(points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let count = points.len() as f64;
@@ -242,8 +242,8 @@ fn halves(mut row: Vec<Vector3<f64>>) -> (Vec<Vector3<f64>>, Vec<Vector3<f64>>) 
     (first, last)
 }
 
-/// The blossom of a span at its high knot so many times and at its low one else: a pole of its Bézier curve (L. Ramshaw, 1987),
-/// by de Boor's algorithm, of poles in any coordinates; `None` where the span has not its poles and knots.
+/// The blossom of a span with its high knot a given number of times and its low one otherwise: a pole of its Bézier curve (L. Ramshaw, 1987),
+/// by de Boor's algorithm, for poles in any coordinates; `None` where the poles and knots of the span are missing.
 #[must_use]
 pub fn blossom<const N: usize>(
     degree: usize,
@@ -273,7 +273,7 @@ pub fn blossom<const N: usize>(
 
 /// A B-spline surface.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
+pub struct NurbsSurface {
     /// Knots of its first parameter.
     pub u: Knots,
     /// Knots of its second parameter.
@@ -282,13 +282,13 @@ pub struct Surface {
     pub controls: Vec<Vec<Vector4<f64>>>,
 }
 
-impl Surface {
+impl NurbsSurface {
     /// Point and derivatives by both parameters.
     #[must_use]
     pub fn at(&self, u: f64, v: f64) -> [Vector3<f64>; 3] {
         let (first_u, basis_u, slopes_u) = self.u.basis(u);
         let (first_v, basis_v, slopes_v) = self.v.basis(v);
-        let mut sums = [Weighted::zeros(); 3];
+        let mut sums = [HomogeneousPoint::zeros(); 3];
         let rows = self.controls.iter().skip(first_u).zip(basis_u.iter().zip(slopes_u)).take(self.u.degree + 1);
         for (row, (bu, du)) in rows {
             let columns = row.iter().skip(first_v).zip(basis_v.iter().zip(slopes_v)).take(self.v.degree + 1);
@@ -303,18 +303,18 @@ impl Surface {
         [point, by_u, projected(sums[0], sums[2]).1]
     }
 
-    /// Its four edges, each run with the surface on its left as its normal sees it: along u at the first v, along v at the
+    /// Its four edges, each with the surface on its left as seen from its normal: along u at the first v, along v at the
     /// last u, against u at the last v, against v at the first u.
     #[must_use]
-    pub fn boundary(&self) -> Option<[Curve; 4]> {
+    pub fn boundary(&self) -> Option<[NurbsCurve; 4]> {
         if !clamped(&self.u) || !clamped(&self.v) {
             return None;
         }
-        let column = |end: fn(&[Vector4<f64>]) -> Option<&Vector4<f64>>| Curve {
+        let column = |end: fn(&[Vector4<f64>]) -> Option<&Vector4<f64>>| NurbsCurve {
             knots: self.u.clone(),
             controls: self.controls.iter().filter_map(|row| end(row).copied()).collect(),
         };
-        let row = |controls: Option<&Vec<Vector4<f64>>>| Curve {
+        let row = |controls: Option<&Vec<Vector4<f64>>>| NurbsCurve {
             knots: self.v.clone(),
             controls: controls.cloned().unwrap_or_default(),
         };
@@ -336,7 +336,7 @@ mod tests {
     use crate::geometry::solid::SplineSurface;
     use truck_modeling::Point3;
 
-    /// Of degree 1 to 3 the same curve, above that as near as is asked.
+    /// The same curve for degree 1 to 3, above that within the given distance.
     #[test]
     fn a_curve_of_any_degree_is_cubics() {
         for degree in 1..=9_u32 {
@@ -344,8 +344,8 @@ mod tests {
             let place = |i: u32| Vector3::new(f64::from(i), f64::from(i * i % 5), f64::from(i * i * i % 7));
             let controls = (0..=degree).map(|i| weighted(place(i), 2.0)).collect();
             let values = [vec![0.0; count + 1], vec![1.0; count + 1]].concat();
-            let curve = Curve { knots: Knots { degree: count, values }, controls };
-            assert!(curve.knots.carry(count + 1));
+            let curve = NurbsCurve { knots: Knots { degree: count, values }, controls };
+            assert!(curve.knots.fit_controls(count + 1));
             for within in [1e-2, 1e-4, 1e-6] {
                 let cubics = curve.cubics(within).expect("polynomials");
                 assert!(degree > 3 || cubics.len() == 1);
@@ -377,8 +377,8 @@ mod tests {
         let plain = |row: &Vec<Vector3<f64>>| row.iter().map(|p| Point3::new(p.x, p.y, p.z)).collect();
         let ours = SplineSurface { u: u.to_vec(), v: v.to_vec(), controls: rows.iter().map(plain).collect() };
         let controls = rows.iter().map(|row| row.iter().map(|p| weighted(*p, 1.0)).collect()).collect();
-        let surface = Surface { u: knots(&u), v: knots(&v), controls };
-        assert!(surface.u.carry(5) && surface.v.carry(4) && !surface.v.carry(5));
+        let surface = NurbsSurface { u: knots(&u), v: knots(&v), controls };
+        assert!(surface.u.fit_controls(5) && surface.v.fit_controls(4) && !surface.v.fit_controls(5));
         assert_eq!(surface.u.spans(), [(0.0, 0.4), (0.4, 1.0)]);
         for i in 0..=10 {
             for j in 0..=10 {
@@ -408,11 +408,11 @@ mod tests {
             }
         }
         // Three knots within are a corner, four a gap.
-        assert!(knots(&[0.0, 0.0, 0.0, 0.0, 0.4, 0.4, 0.4, 1.0, 1.0, 1.0, 1.0]).carry(7));
-        assert!(!knots(&[0.0, 0.0, 0.0, 0.0, 0.4, 0.4, 0.4, 0.4, 1.0, 1.0, 1.0, 1.0]).carry(8));
+        assert!(knots(&[0.0, 0.0, 0.0, 0.0, 0.4, 0.4, 0.4, 1.0, 1.0, 1.0, 1.0]).fit_controls(7));
+        assert!(!knots(&[0.0, 0.0, 0.0, 0.0, 0.4, 0.4, 0.4, 0.4, 1.0, 1.0, 1.0, 1.0]).fit_controls(8));
 
         let half = std::f64::consts::FRAC_1_SQRT_2;
-        let quarter = Curve {
+        let quarter = NurbsCurve {
             knots: Knots { degree: 2, values: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0] },
             controls: [(1.0, 0.0, 1.0), (1.0, 1.0, half), (0.0, 1.0, 1.0)]
                 .map(|(x, y, w)| weighted(Vector3::new(x, y, 0.0), w))
@@ -429,7 +429,7 @@ mod tests {
     fn knots_without_a_span_carry_nothing() {
         for degree in 1..=4 {
             let values = vec![1.0; 2 * (degree + 1)];
-            assert!(!Knots { degree, values }.carry(degree + 1), "{degree}");
+            assert!(!Knots { degree, values }.fit_controls(degree + 1), "{degree}");
         }
     }
 
@@ -440,7 +440,7 @@ mod tests {
             let count = degree as usize;
             let values = [vec![0.0; count + 1], vec![1.0; count + 1]].concat();
             let place = |i: u32| weighted(end * (f64::from(i) / f64::from(degree)), 1.0);
-            Curve { knots: Knots { degree: count, values }, controls: (0..=degree).map(place).collect() }
+            NurbsCurve { knots: Knots { degree: count, values }, controls: (0..=degree).map(place).collect() }
         };
         let (one, other) = (line(1, Vector3::new(9.0, 0.0, 0.0)), line(3, Vector3::new(9.0, 4.0, 3.0)));
         assert!((one.farthest(&other) - 5.0).abs() < 1e-12 && (other.farthest(&one) - 5.0).abs() < 1e-12);

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-/// A point is near the centre of an arc when the square of its distance from there, over the radius, is less.
+/// A point counts as near the centre of an arc when the square of its distance from there, over the radius, is less.
 const NEAR_CENTRE: f64 = 1e-4;
 
 /// An arc or a line.
@@ -64,11 +64,11 @@ impl Segment {
         self.places()(share)
     }
 
-    /// The same for many shares: what they have in common is found once.
+    /// Points and unit tangents at many shares: their common terms are computed once.
     pub fn places(&self) -> impl Fn(f64) -> (Vector2<f64>, Vector2<f64>) {
         let (start, chord, tangent) = (self.start, self.end - self.start, self.start_tangent());
         let arc = (self.bulge != 0.0).then(|| (self.radius(), self.sweep()));
-        // The part of an arc up to a place is an arc whose chord leaves the start turned by half its own sweep.
+        // The part of an arc up to a place is an arc; the angle between its chord and the heading at the start is half its own sweep.
         move |share: f64| {
             let Some((radius, sweep)) = arc else { return (start + chord * share, tangent) };
             let (sin, cos) = libm::sincos(0.5 * sweep * share);
@@ -103,7 +103,7 @@ impl Segment {
         Vector2::new(cos * chord.x - sin * chord.y, sin * chord.x + cos * chord.y)
     }
 
-    /// Exact extents, the bulging of an arc included.
+    /// Exact extents, including the bulging of an arc.
     #[must_use]
     pub fn extents(&self) -> Extents {
         let mut extents = Extents { least: self.start.inf(&self.end), largest: self.start.sup(&self.end) };
@@ -113,7 +113,7 @@ impl Segment {
         let (centre, radius) = (self.centre(), self.radius().abs());
         for direction in [Vector2::x(), Vector2::y(), -Vector2::x(), -Vector2::y()] {
             let point = centre + direction * radius;
-            // The arc lies to the right of its chord when it turns left, and the other way round.
+            // The arc lies to the right of its chord when it turns left, and vice versa.
             if (self.end - self.start).perp(&(point - self.start)) * self.bulge < 0.0 {
                 extents = extents.with(&Extents { least: point, largest: point });
             }
@@ -129,14 +129,14 @@ impl Segment {
             return ends;
         }
         let top = self.centre() + direction * self.radius().abs();
-        // The arc lies to the right of its chord when it turns left, and the other way round.
+        // The arc lies to the right of its chord when it turns left, and vice versa.
         let on_arc = (self.end - self.start).perp(&(top - self.start)) * self.bulge < 0.0;
         if on_arc { top.dot(&direction) } else { ends }
     }
 
-    /// The nearest point of the segment, seen from a point.
+    /// The point of the segment nearest to a given point.
     #[must_use]
-    pub fn nearest(&self, point: Vector2<f64>) -> Nearest {
+    pub fn nearest(&self, point: Vector2<f64>) -> NearestOnSegment {
         let chord = self.end - self.start;
         let heading = self.start_tangent();
         let d = point - self.start;
@@ -144,7 +144,7 @@ impl Segment {
             let along = d.dot(&heading);
             if (0.0..=chord.norm()).contains(&along) {
                 let left = heading.perp(&d);
-                return Nearest { left, foot: self.start + heading * along, tangent: heading };
+                return NearestOnSegment { left, foot: self.start + heading * along, tangent: heading };
             }
         } else {
             let curvature = 1.0 / self.radius();
@@ -153,15 +153,15 @@ impl Segment {
             // From the centre to the point, over the radius: the normal at the foot, to the left; its square is 1 − κ g.
             let normal = Vector2::new(-heading.y, heading.x) - d * curvature;
             let square = 1.0 - curvature * g;
-            // Near the centre the difference is rounding only, and its root a million times more.
+            // Near the centre the difference is only rounding, and its root a million times more.
             let from_centre = if square > NEAR_CENTRE { square.sqrt() } else { normal.norm() };
             let left = g / (1.0 + from_centre);
             if normal.norm_squared() > 0.0 {
                 let normal = normal.normalize();
                 let foot = point - normal * left;
-                // The arc lies to the right of its chord when it turns left, and the other way round.
+                // The arc lies to the right of its chord when it turns left, and vice versa.
                 if chord.perp(&(foot - self.start)) * self.bulge <= 0.0 {
-                    return Nearest { left, foot, tangent: Vector2::new(normal.y, -normal.x) };
+                    return NearestOnSegment { left, foot, tangent: Vector2::new(normal.y, -normal.x) };
                 }
             }
         }
@@ -171,7 +171,7 @@ impl Segment {
             (self.end, self.end_tangent())
         };
         let away = point - foot;
-        Nearest { left: away.norm().copysign(tangent.perp(&away)), foot, tangent }
+        NearestOnSegment { left: away.norm().copysign(tangent.perp(&away)), foot, tangent }
     }
 
     /// Area between the segment and the origin, mm², and its first moments ∫x dA, ∫y dA, mm³, signed.
@@ -197,7 +197,7 @@ impl Segment {
 
 /// The point of a segment nearest to a given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Nearest {
+pub struct NearestOnSegment {
     /// Distance, mm, positive when the given point lies to the left of the segment: inside a counter-clockwise chain.
     pub left: f64,
     /// The nearest point.
@@ -226,7 +226,7 @@ pub struct Extents {
 }
 
 impl Extents {
-    /// The smallest that holds both.
+    /// The smallest extents that contain both.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self { least: self.least.inf(&other.least), largest: self.largest.sup(&other.largest) }

@@ -1,4 +1,4 @@
-//! What presses a follower on beside a load of its own: spring, weight, damping and inertia.
+//! The forces that press a follower on in addition to a load of its own: spring, weight, damping and inertia.
 
 use crate::motion::Jet;
 
@@ -25,13 +25,20 @@ impl Pressing {
         self.still(lift) + self.moving(lift)
     }
 
-    /// Whether it is the same at any lift.
+    /// Its derivative by the cam angle at a lift, N/rad or N·m/rad.
+    #[must_use]
+    pub fn rate_at(&self, lift: &Jet) -> f64 {
+        let moving = self.damping * self.speed * lift.dds + self.mass * self.speed * self.speed * lift.ddds;
+        self.rate * lift.ds + moving
+    }
+
+    /// Whether it is constant at every lift.
     #[must_use]
     pub fn is_constant(&self) -> bool {
         self.rate == 0.0 && (self.speed == 0.0 || (self.mass == 0.0 && self.damping == 0.0))
     }
 
-    /// What presses on a follower that stands there.
+    /// The force on a follower at rest at a lift.
     #[must_use]
     pub fn still(&self, lift: &Jet) -> f64 {
         self.constant + self.rate * lift.s
@@ -44,7 +51,7 @@ impl Pressing {
         self.damping * self.speed * lift.ds + self.mass * self.speed * self.speed * lift.dds
     }
 
-    /// The same at another speed of the cam, rad/s.
+    /// These forces at another speed of the cam, rad/s.
     #[must_use]
     pub fn at_speed(self, speed: f64) -> Self {
         Self { speed, ..self }

@@ -1,11 +1,15 @@
 //! The disc of a disc cam, its bore and its keyway; other cams use the keys that apply to them.
 
+use super::fit::{self, HoleFit};
+use super::material::{CamMaterial, Material};
+use super::parallel_key;
+use super::track::{self, TrackData};
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::{CONOID, DISCS, MAKE, REGIMES, ROTARY, TRANSLATING, TURNING};
-use crate::document::range::{LARGEST_NUMBER, LONGEST, THINNEST};
-use crate::document::{Bounds, Field, Occurs, Reader, Section, Table, above, within};
+use crate::document::cams::{DISCS, EVEN, TURNING};
+use crate::document::range::{HIGHEST_STRESS, LONGEST, THINNEST};
+use crate::document::{Bounds, Field, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::FollowerData;
-use crate::units::Dimension::{Angle, Length};
+use crate::units::Dimension::{Angle, Length, Pressure};
 use std::f64::consts::PI;
 
 /// How the cam turns, seen in the drawing.
@@ -17,96 +21,29 @@ pub enum Rotation {
     CounterClockwise,
 }
 
-/// Material of a cam, for its mass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Material {
-    /// Carbon and low-alloy steel.
-    Steel,
-    /// Grey cast iron.
-    CastIron,
-    /// Tin bronze.
-    Bronze,
-    /// Wrought aluminium alloy.
-    Aluminium,
-}
-
-/// The materials by their names, in the order of [`Material`].
-const MATERIALS: &[&str] = &["steel", "cast-iron", "bronze", "aluminium"];
-
-impl Material {
-    /// As the machine file names it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        let index = match self {
-            Material::Steel => 0,
-            Material::CastIron => 1,
-            Material::Bronze => 2,
-            Material::Aluminium => 3,
-        };
-        MATERIALS.get(index).copied().unwrap_or_default()
-    }
-
-    /// E, Pa, customary values.
-    #[must_use]
-    pub fn modulus(self) -> f64 {
-        match self {
-            Material::Steel => 210e9,
-            Material::CastIron | Material::Bronze => 110e9,
-            Material::Aluminium => 70e9,
-        }
-    }
-
-    /// Poisson's ratio, customary values.
-    #[must_use]
-    pub fn poisson(self) -> f64 {
-        match self {
-            Material::Steel => 0.30,
-            Material::CastIron => 0.26,
-            Material::Bronze => 0.34,
-            Material::Aluminium => 0.33,
-        }
-    }
-
-    /// E/(1 − ν²), Pa, customary values.
-    #[must_use]
-    pub fn contact_modulus(self) -> f64 {
-        let poisson = self.poisson();
-        self.modulus() / (1.0 - poisson * poisson)
-    }
-
-    /// Density, kg/m³, customary values.
-    #[must_use]
-    pub fn density(self) -> f64 {
-        match self {
-            Material::Steel => 7850.0,
-            Material::CastIron => 7200.0,
-            Material::Bronze => 8800.0,
-            Material::Aluminium => 2700.0,
-        }
-    }
-}
-
 /// The disc of a disc cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CamData {
-    /// Equal lobes, which is also the crank's turns for one turn of the cam: so it stands right at every reversal.
-    pub lobes: u32,
-    /// Roller travel per bottom travel.
-    pub lever: f64,
     /// Base radius, m; `None` is `auto`.
     pub base_radius: Option<f64>,
     /// Thickness, m.
     pub thickness: Option<f64>,
     /// Radius of the bore, m.
     pub bore_radius: Option<f64>,
+    /// Tolerance class of the bore.
+    pub bore_fit: Option<HoleFit>,
     /// Keyway in the bore.
     pub keyway: Option<Keyway>,
+    /// Tolerance class of the width of the keyway.
+    pub keyway_fit: Option<HoleFit>,
     /// Material; where it is absent the mass is that of steel.
-    pub material: Option<Material>,
+    pub material: Option<CamMaterial>,
     /// Band of radii in which holes may balance the disc, m.
     pub balance: Option<(f64, f64)>,
     /// How it turns.
     pub rotation: Rotation,
+    /// The body of a motion program.
+    pub track: TrackData,
 }
 
 /// A keyway in the bore.
@@ -134,26 +71,12 @@ impl CamData {
     /// Density of the disc, kg/m³.
     #[must_use]
     pub fn density(&self) -> f64 {
-        self.material.unwrap_or(Material::Steel).density()
+        self.material.map_or(Material::Steel, |material| material.class).density()
     }
 }
 
 const LENGTH: Bounds = above(0.0, LONGEST);
 
-const TURNS: Field<f64> = Field::number(
-    "cam_turns_per_crank_turn",
-    "turns of the cam per turn of the crank: 1, or 1/n for n lobes",
-    Default("1"),
-    above(0.0, LARGEST_NUMBER),
-)
-.only(&[ROTARY, CONOID, REGIMES]);
-const LEVER: Field<f64> = Field::number(
-    "lever",
-    "roller travel per travel of the cylinder's bottom",
-    Default("1"),
-    above(0.0, LARGEST_NUMBER),
-)
-.only(&[ROTARY, CONOID]);
 const BASE_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
     "base_radius",
     "\"auto\", the smallest that keeps the limits, in whole millimetres, or a length",
@@ -161,15 +84,19 @@ const BASE_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
     (&["auto"], &[None]),
     (Length, LENGTH, Some),
 )
-.only(TURNING);
+.only(TURNING)
+.also(&["radius", "base_circle"]);
+const BASE_DIAMETER: Key =
+    BASE_RADIUS.diameter("base_diameter", "diameter of the base circle, in the place of its radius", "90 mm");
 const THICKNESS: Field<f64> = Field::quantity(
     "thickness",
-    "thickness of disc or plate, at least 1 um: for solid, mass and contact stress",
+    "thickness of the disc or plate, at least 1 um: for the solid, the mass and the contact stress",
     Optional("30 mm"),
     Length,
     within(THINNEST, LONGEST),
 )
-.only(&[ROTARY, TRANSLATING, MAKE]);
+.only(EVEN)
+.also(&["width", "height"]);
 const BORE_RADIUS: Field<f64> = Field::quantity(
     "bore_radius",
     "radius of the bore for the shaft, below base_radius",
@@ -177,13 +104,24 @@ const BORE_RADIUS: Field<f64> = Field::quantity(
     Length,
     LENGTH,
 )
-.only(TURNING);
-const MATERIAL: Field<Material> = Field::words(
+.only(TURNING)
+.also(&["hole", "shaft", "hub"]);
+const BORE_DIAMETER: Key =
+    BORE_RADIUS.diameter("bore_diameter", "diameter of the bore, in the place of its radius", "50 mm");
+const BORE_FIT: Field<String> = Field::text("bore_fit", "tolerance class of the bore, for the sheet", Optional("H7"))
+    .only(TURNING)
+    .also(&["fit", "tolerance"]);
+const MATERIAL: Field<String> = Field::text_or_number(
     "material",
-    "\"steel\", \"cast-iron\", \"bronze\" or \"aluminium\": for mass (steel when absent) and contact stress",
+    "\"steel\", \"cast-iron\", \"bronze\", \"aluminium\", a name such as C45, 42CrMo4, 16MnCr5, 100Cr6, GG25, or any other: for mass (steel when absent) and contact stress",
     Optional("steel"),
-    MATERIALS,
-    &[Material::Steel, Material::CastIron, Material::Bronze, Material::Aluminium],
+);
+const CONTACT_LIMIT: Field<f64> = Field::quantity(
+    "contact_limit",
+    "largest pressure of the material in a line of contact; that which is customary for it when absent",
+    Optional("1200 MPa"),
+    Pressure,
+    above(0.0, HIGHEST_STRESS),
 );
 const BALANCE: Field<(f64, f64)> = Field::band(
     "balance",
@@ -200,37 +138,53 @@ const ROTATION: Field<Rotation> = Field::words(
     &["cw", "ccw"],
     &[Rotation::Clockwise, Rotation::CounterClockwise],
 )
-.only(TURNING);
-
-/// Most lobes: more would be teeth.
-const MOST_LOBES: f64 = 100.0;
-/// How far a ratio may be from 1/n to be taken for it, as a share: 0.3333 stands for a third, since gears are exact. With a
-/// hair for the rounding of that very number.
-const RATIO_ROUNDING: f64 = 1e-4 * (1.0 + 1e-9);
+.only(TURNING)
+.also(&["direction", "sense", "turns"]);
 
 /// `[cam]`.
-pub(super) const SECTION: Section = Section {
+pub(super) const SECTION: KeySection = KeySection {
     path: "cam",
     about: "the disc",
-    occurs: Occurs::Once,
+    occurs: Occurrence::Once,
     cams: &[],
     keys: &[
-        TURNS.key,
-        LEVER.key,
         BASE_RADIUS.key,
+        BASE_DIAMETER,
         THICKNESS.key,
         BORE_RADIUS.key,
+        BORE_DIAMETER,
+        BORE_FIT.key,
         MATERIAL.key,
+        CONTACT_LIMIT.key,
         BALANCE.key,
         ROTATION.key,
     ],
 };
 
-const KEYWAY_WIDTH: Field<f64> =
-    Field::quantity("width", "width of the slot, below the bore's diameter", Required("8 mm"), Length, LENGTH)
-        .only(TURNING);
-const KEYWAY_DEPTH: Field<f64> =
-    Field::quantity("depth", "depth beyond the bore", Required("3.3 mm"), Length, LENGTH).only(TURNING);
+const KEYWAY_WIDTH: Field<Option<f64>> = Field::words_or_quantity(
+    "width",
+    "width of the slot, below the bore's diameter; \"auto\": that of DIN 6885-1 for the bore",
+    Required("8 mm"),
+    (&["auto"], &[None]),
+    (Length, LENGTH, Some),
+)
+.for_table("auto")
+.only(TURNING);
+const KEYWAY_DEPTH: Field<Option<f64>> = Field::words_or_quantity(
+    "depth",
+    "depth beyond the bore; \"auto\": t2 of DIN 6885-1 for the bore",
+    Required("3.3 mm"),
+    (&["auto"], &[None]),
+    (Length, LENGTH, Some),
+)
+.for_table("auto")
+.only(TURNING);
+const KEYWAY_FIT: Field<String> = Field::text(
+    "fit",
+    "tolerance class of its width, for the sheet: JS9, or P9 for loads that reverse",
+    Optional("JS9"),
+)
+.only(TURNING);
 const KEYWAY_ANGLE: Field<f64> = Field::quantity(
     "angle",
     "cam angle of its middle, -360 deg to 360 deg",
@@ -241,52 +195,63 @@ const KEYWAY_ANGLE: Field<f64> = Field::quantity(
 .only(TURNING);
 
 /// `[cam.keyway]`.
-pub(super) const KEYWAY: Section = Section {
+pub(super) const KEYWAY: KeySection = KeySection {
     path: "cam.keyway",
-    about: "a keyway in the bore",
-    occurs: Occurs::Optional,
+    about: "a keyway in the bore; `keyway = \"auto\"` in [cam] is the one of DIN 6885-1 for it",
+    occurs: Occurrence::Optional,
     cams: &[],
-    keys: &[KEYWAY_WIDTH.key, KEYWAY_DEPTH.key, KEYWAY_ANGLE.key],
+    keys: &[KEYWAY_WIDTH.key, KEYWAY_DEPTH.key, KEYWAY_ANGLE.key, KEYWAY_FIT.key],
 };
 
 pub(super) fn read(reader: &Reader<'_>) -> Option<CamData> {
     let table = reader.table(&SECTION);
     balance_and_bore(&table);
     base_radius_and_bore(&table);
-    let lobes = read_lobes(&table);
-    let keyway = reader.find(&KEYWAY).map(|keyway| read_keyway(&keyway, &table));
+    let keyway = reader.find(&KEYWAY);
+    let keyway_fit = keyway.as_ref().and_then(|keyway| read_fit(keyway, &KEYWAY_FIT));
+    let keyway = keyway.map(|keyway| read_keyway(&keyway, &table));
+    let bore_fit = read_fit(&table, &BORE_FIT);
+    if table.has(&BORE_FIT) && !table.has(&BORE_RADIUS) {
+        table.fail(&BORE_FIT, "a fit of the bore needs a bore".into(), Some("add cam.bore_diameter".into()));
+    }
     Some(CamData {
-        lobes: lobes?,
-        lever: table.get(&LEVER)?,
         base_radius: table.get(&BASE_RADIUS)?,
         thickness: table.get(&THICKNESS),
         bore_radius: table.get(&BORE_RADIUS),
+        bore_fit,
         keyway: keyway.flatten(),
-        material: table.get(&MATERIAL),
+        keyway_fit,
+        material: read_material(&table),
         balance: table.get(&BALANCE),
         rotation: table.get(&ROTATION)?,
+        track: track::read(&table, table.get(&THICKNESS), table.has(&BORE_RADIUS))?,
     })
 }
 
-/// The lobes of a cam of 1/n turns for one of the crank.
-fn read_lobes(table: &Table<'_>) -> Option<u32> {
-    let turns = table.get(&TURNS)?;
-    let lobes = (1.0 / turns).round().clamp(1.0, MOST_LOBES);
-    if (turns * lobes - 1.0).abs() > RATIO_ROUNDING {
-        let typed = table.typed(&TURNS);
-        let message = format!(
-            "with {typed} turns of the cam for one turn of the crank the cam would stand wrong at the next reversal; \
-             1, or 1/n with n equal lobes (0.5, 0.3333, 0.25, … 0.01), stands right at each"
-        );
-        let nearest = (1e6 / lobes).round() / 1e6;
-        table.fail(&TURNS, message, Some(format!("the nearest of these is {nearest}")));
-        return None;
-    }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 1 to 100")]
-    Some(lobes as u32)
+/// The material as typed.
+pub(super) fn material_name(reader: &Reader<'_>) -> Option<String> {
+    reader.table(&SECTION).get(&MATERIAL)
 }
 
-fn balance_and_bore(table: &Table<'_>) {
+fn read_material(table: &TableReader<'_>) -> Option<CamMaterial> {
+    let limit = table.get(&CONTACT_LIMIT);
+    if !table.has(&MATERIAL) {
+        if table.has(&CONTACT_LIMIT) {
+            let help = Some("add cam.material, or give limits.contact_stress".into());
+            table.fail(&CONTACT_LIMIT, "`contact_limit` is that of a material".into(), help);
+        }
+        return None;
+    }
+    let name = table.get(&MATERIAL)?;
+    CamMaterial::named(&name, limit)
+        .map_err(|near| {
+            let help = format!("did you mean \"{near}\"? A material of that name needs cam.contact_limit");
+            table.fail(&MATERIAL, format!("`cam.material` cannot be \"{name}\""), Some(help));
+        })
+        .ok()
+}
+
+fn balance_and_bore(table: &TableReader<'_>) {
     if let (Some((inner, _)), Some(bore)) = (table.get(&BALANCE), table.get(&BORE_RADIUS))
         && inner <= bore
     {
@@ -298,9 +263,9 @@ fn balance_and_bore(table: &Table<'_>) {
 /// A given base radius must be in reach of the follower.
 pub(super) fn reached_by(reader: &Reader<'_>, cam: &CamData, follower: &FollowerData) {
     let Some(base) = cam.base_radius.filter(|_| follower.place.is_none()) else { return };
-    if follower.shape.sized(base + follower.shape.element().offset()).is_none() {
+    let offset = if cam.track.is_ring() { -1.0 } else { 1.0 } * follower.shape.element().offset();
+    if follower.shape.sized(base + offset).is_none() {
         let table = reader.table(&SECTION);
-        let offset = follower.shape.element().offset();
         let millimetres = |prime: f64| format!("{:.3} mm", 1e3 * (prime - offset));
         let help = match follower.shape.prime_radii() {
             (least, f64::INFINITY) => format!("it must be above {}", millimetres(least)),
@@ -311,10 +276,10 @@ pub(super) fn reached_by(reader: &Reader<'_>, cam: &CamData, follower: &Follower
     }
 }
 
-/// Share of a radius by which one in other units may differ and be the same: 10.4 cm and 104 mm differ in the last digit.
+/// Share of a radius within which two values in different units are equal: 10.4 cm and 104 mm differ in the last digit.
 const SAME_RADIUS: f64 = 1e-12;
 
-fn base_radius_and_bore(table: &Table<'_>) {
+fn base_radius_and_bore(table: &TableReader<'_>) {
     if let (Some(Some(base)), Some(bore)) = (table.get(&BASE_RADIUS), table.get(&BORE_RADIUS))
         && bore >= base * (1.0 - SAME_RADIUS)
     {
@@ -323,15 +288,33 @@ fn base_radius_and_bore(table: &Table<'_>) {
     }
 }
 
-fn read_keyway(keyway: &Table<'_>, cam: &Table<'_>) -> Option<Keyway> {
-    let width = keyway.get(&KEYWAY_WIDTH);
+fn read_fit(table: &TableReader<'_>, field: &Field<String>) -> Option<HoleFit> {
+    let text = table.get(field)?;
+    text.parse().map_err(|why| table.fail(field, why, Some(format!("give {}", fit::KNOWN)))).ok()
+}
+
+fn read_keyway(keyway: &TableReader<'_>, cam: &TableReader<'_>) -> Option<Keyway> {
+    let (width, depth) = (keyway.get(&KEYWAY_WIDTH), keyway.get(&KEYWAY_DEPTH));
     if !cam.has(&BORE_RADIUS) {
         keyway.fail(&KEYWAY_WIDTH, "a keyway needs a bore".into(), Some("add cam.bore_radius".into()));
-    } else if let (Some(width), Some(bore)) = (width, cam.get(&BORE_RADIUS))
-        && width >= 2.0 * bore
-    {
-        let typed = cam.typed(&BORE_RADIUS);
-        keyway.fail(&KEYWAY_WIDTH, format!("the keyway is wider than the bore of radius {typed}"), None);
+        return None;
     }
-    Some(Keyway { width: width?, depth: keyway.get(&KEYWAY_DEPTH)?, angle: keyway.get(&KEYWAY_ANGLE)? })
+    let bore = 2.0 * cam.get(&BORE_RADIUS)?;
+    let standard = parallel_key::of_bore(bore);
+    if standard.is_none() && (width == Some(None) || depth == Some(None)) {
+        let range = format!("{} mm to {} mm", parallel_key::SMALLEST_BORE, parallel_key::LARGEST_BORE);
+        let message = format!("DIN 6885-1 has no keyway for a bore of Ø{:.3} mm", 1e3 * bore);
+        keyway.fail(&KEYWAY_WIDTH, message, Some(format!("it has them for bores of {range}; give width and depth")));
+        return None;
+    }
+    let width = width?.or(standard.map(|standard| standard.width))?;
+    if width >= bore {
+        let typed = cam.typed(&BORE_RADIUS);
+        keyway.fail(&KEYWAY_WIDTH, format!("the keyway is not narrower than the bore: its radius is {typed}"), None);
+    }
+    Some(Keyway {
+        width,
+        depth: depth?.or(standard.map(|standard| standard.depth))?,
+        angle: keyway.get(&KEYWAY_ANGLE)?,
+    })
 }

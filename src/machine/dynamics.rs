@@ -1,10 +1,9 @@
-//! What the forces, the vibration and the drive of a motion program need: spring, guide, elastic train, speed fluctuation.
+//! The keys for forces, vibration and drive of a motion program: spring, guide, elastic train, speed fluctuation.
 
-use super::settings::STIFFEST;
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::MAKE;
-use crate::document::range::{LARGEST_FORCE, LONGEST};
-use crate::document::{Field, Occurs, Reader, Section, Table, above, within};
+use crate::document::range::{LARGEST_FORCE, LONGEST, STIFFEST};
+use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::FollowerData;
 use crate::motion;
 use crate::units::Dimension::{
@@ -14,11 +13,11 @@ use crate::units::Dimension::{
 /// `[spring]`: N and m of a follower on a straight path, N·m and rad about the pivot of one that swings.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SpringData {
-    /// By how much its force grows with the lift.
+    /// Rate.
     pub rate: f64,
-    /// What presses the follower on at lift 0, beside the preload of the follower's own table.
+    /// Force at lift 0, in addition to the preload of the follower's own table.
     pub preload: f64,
-    /// Force by the velocity.
+    /// Damping: force per velocity.
     pub damping: f64,
     /// A constant load; positive where it presses the follower on.
     pub load: f64,
@@ -29,9 +28,9 @@ pub struct SpringData {
 pub struct GuideData {
     /// Coefficient of friction.
     pub friction: f64,
-    /// Between its two bearings, m.
+    /// Distance between its two bearings, m.
     pub span: f64,
-    /// From the nearer bearing to the roller, the edge or the face, m.
+    /// Distance from the nearer bearing to the roller, the edge or the face, m.
     pub overhang: f64,
 }
 
@@ -40,89 +39,119 @@ pub struct GuideData {
 pub struct VibrationData {
     /// Natural frequency, Hz.
     pub natural_frequency: f64,
-    /// Ratio of damping.
+    /// Damping ratio.
     pub damping: f64,
 }
 
-/// What presses on one way, or about a pivot.
-type Kind = (Dimension, crate::document::Bounds);
+/// What moves with the follower of a motion program.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Dynamics {
+    /// The spring on it.
+    pub spring: Option<SpringData>,
+    /// Its guide.
+    pub guide: Option<GuideData>,
+    /// The elastic train behind it.
+    pub vibration: Option<VibrationData>,
+    /// Coefficient of speed fluctuation that a flywheel on the shaft is to keep.
+    pub fluctuation: Option<f64>,
+}
+
+impl Dynamics {
+    pub(super) fn read(reader: &Reader<'_>, follower: &FollowerData) -> Self {
+        Self {
+            spring: spring(reader, follower),
+            guide: guide(reader, follower),
+            vibration: vibration(reader),
+            fluctuation: fluctuation(reader),
+        }
+    }
+}
+
+/// The dimension of a quantity and its range, for one kind of follower: along a straight path or about a pivot.
+type DimensionRange = (Dimension, crate::document::Bounds);
 
 const DAMPING_RANGE: crate::document::Bounds = within(0.0, STIFFEST);
-const FORCES: [Kind; 2] = [(Force, within(0.0, LARGEST_FORCE)), (Moment, within(0.0, LARGEST_FORCE))];
-const LOADS: [Kind; 2] =
+const FORCES: [DimensionRange; 2] = [(Force, within(0.0, LARGEST_FORCE)), (Moment, within(0.0, LARGEST_FORCE))];
+const LOADS: [DimensionRange; 2] =
     [(Force, within(-LARGEST_FORCE, LARGEST_FORCE)), (Moment, within(-LARGEST_FORCE, LARGEST_FORCE))];
 
 const RATE: Field<(Dimension, f64)> = Field::either(
     "rate",
-    "by how much its force grows with the lift; of a follower that swings a moment by the angle, N*m/rad",
+    "rate: force per lift; for a swinging follower moment per angle, N*m/rad",
     Optional("8 N/mm"),
     (Stiffness, within(0.0, STIFFEST)),
     (TorsionalStiffness, within(0.0, STIFFEST)),
-);
+)
+.also(&["stiffness", "constant"]);
 const PRELOAD: Field<(Dimension, f64)> = Field::either(
     "preload",
-    "its force, or moment, at the lowest position; comes on top of that of the follower's table",
+    "its force, or moment, at the lowest position, in addition to the preload in the follower's table",
     Optional("120 N"),
     FORCES[0],
     FORCES[1],
 );
 const DAMPING: Field<(Dimension, f64)> = Field::either(
     "damping",
-    "force by the velocity, or moment by the angular velocity, against the frame",
+    "damping against the frame: force per velocity, or moment per angular velocity",
     Optional("20 N*s/m"),
     (Damping, DAMPING_RANGE),
     (TorsionalDamping, DAMPING_RANGE),
 );
 const LOAD: Field<(Dimension, f64)> = Field::either(
     "load",
-    "constant force, or moment, of what the follower works against; positive presses it onto the cam",
+    "constant load on the follower, a force or a moment; positive presses it onto the cam",
     Optional("50 N"),
     LOADS[0],
     LOADS[1],
 );
 
 /// `[spring]`.
-pub(super) const SPRING: Section = Section {
+pub(super) const SPRING: KeySection = KeySection {
     path: "spring",
-    about: "what presses the follower of a motion program onto the cam",
-    occurs: Occurs::Optional,
+    about: "the spring and the load on the follower of a motion program",
+    occurs: Occurrence::Optional,
     cams: &[MAKE],
     keys: &[RATE.key, PRELOAD.key, DAMPING.key, LOAD.key],
 };
 
 const FRICTION: Field<f64> =
     Field::number("friction", "coefficient of friction in the guide", Required("0.1"), within(0.0, 2.0));
-const SPAN: Field<f64> =
-    Field::quantity("span", "between the two bearings of the guide", Required("60 mm"), Length, above(0.0, LONGEST));
+const SPAN: Field<f64> = Field::quantity(
+    "span",
+    "distance between the two bearings of the guide",
+    Required("60 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
 const OVERHANG: Field<f64> = Field::quantity(
     "overhang",
-    "from the nearer bearing to the roller, the edge or the face, where it is longest",
+    "distance from the nearer bearing to the roller, the edge or the face, where it is largest",
     Default("0 mm"),
     Length,
     within(0.0, LONGEST),
 );
 
 /// `[guide]`.
-pub(super) const GUIDE: Section = Section {
+pub(super) const GUIDE: KeySection = KeySection {
     path: "guide",
     about: "the guide of a follower on a straight path: its friction, and whether it jams",
-    occurs: Occurs::Optional,
+    occurs: Occurrence::Optional,
     cams: &[MAKE],
     keys: &[FRICTION.key, SPAN.key, OVERHANG.key],
 };
 
 const FLUCTUATION: Field<f64> = Field::number(
     "fluctuation",
-    "largest less least speed of the camshaft over the mean; tells the moment of inertia that keeps it",
+    "largest minus smallest speed of the camshaft over the mean; the report gives the moment of inertia that keeps it",
     Required("0.02"),
     above(0.0, 1.0),
 );
 
 /// `[flywheel]`.
-pub(super) const FLYWHEEL: Section = Section {
+pub(super) const FLYWHEEL: KeySection = KeySection {
     path: "flywheel",
     about: "a flywheel on the camshaft",
-    occurs: Occurs::Optional,
+    occurs: Occurrence::Optional,
     cams: &[MAKE],
     keys: &[FLUCTUATION.key],
 };
@@ -132,31 +161,31 @@ const HIGHEST_FREQUENCY: f64 = 1e6;
 
 const NATURAL_FREQUENCY: Field<f64> = Field::quantity(
     "natural_frequency",
-    "of the load on its elastic train, the cam held",
+    "natural frequency of the load on its elastic train, with the cam held",
     Required("40 Hz"),
     Frequency,
     above(0.0, HIGHEST_FREQUENCY),
 );
-const RATIO: Field<f64> = Field::number("damping", "ratio of damping, below 1", Default("0"), within(0.0, 1.0 - 1e-9));
+const RATIO: Field<f64> = Field::number("damping", "damping ratio, below 1", Default("0"), within(0.0, 1.0 - 1e-9));
 
 /// `[vibration]`.
-pub(super) const VIBRATION: Section = Section {
+pub(super) const VIBRATION: KeySection = KeySection {
     path: "vibration",
     about: "an elastic train from the follower to its load, as one mass on one spring",
-    occurs: Occurs::Optional,
+    occurs: Occurrence::Optional,
     cams: &[MAKE],
     keys: &[NATURAL_FREQUENCY.key, RATIO.key],
 };
 
 /// A key of `[spring]` in the kind of the follower, or a fault that names both.
-fn of_kind(table: &Table<'_>, field: &Field<(Dimension, f64)>, follower: &FollowerData) -> Option<f64> {
+fn of_kind(table: &TableReader<'_>, field: &Field<(Dimension, f64)>, follower: &FollowerData) -> Option<f64> {
     let swings = follower.shape.quantity() == motion::Quantity::Angle;
     let Some((dimension, value)) = table.get(field) else { return (!table.has(field)).then_some(0.0) };
     let about_pivot = matches!(dimension, Moment | TorsionalStiffness | TorsionalDamping);
     if about_pivot == swings {
         return Some(value);
     }
-    let crate::document::Form::Either((straight, _), (swinging, _)) = field.key.form else { return None };
+    let crate::document::KeyForm::Either((straight, _), (swinging, _)) = field.key.form else { return None };
     let (moves, wanted) = if swings { ("swings", swinging) } else { ("moves on a straight path", straight) };
     let message = format!(
         "{}.{} is a {dimension}, but the follower of [{}] {moves}: it takes a {wanted}",
@@ -167,7 +196,7 @@ fn of_kind(table: &Table<'_>, field: &Field<(Dimension, f64)>, follower: &Follow
 }
 
 /// The spring of a file, for its follower.
-pub(super) fn spring(reader: &Reader<'_>, follower: &FollowerData) -> Option<SpringData> {
+fn spring(reader: &Reader<'_>, follower: &FollowerData) -> Option<SpringData> {
     let table = reader.find(&SPRING)?;
     let [rate, preload, damping, load] =
         [&RATE, &PRELOAD, &DAMPING, &LOAD].map(|field| of_kind(&table, field, follower));
@@ -175,7 +204,7 @@ pub(super) fn spring(reader: &Reader<'_>, follower: &FollowerData) -> Option<Spr
 }
 
 /// The guide of a file, for its follower.
-pub(super) fn guide(reader: &Reader<'_>, follower: &FollowerData) -> Option<GuideData> {
+fn guide(reader: &Reader<'_>, follower: &FollowerData) -> Option<GuideData> {
     let table = reader.find(&GUIDE)?;
     if follower.shape.quantity() == motion::Quantity::Angle {
         let message = format!("a guide belongs to a straight path, but the follower of [{}] swings", follower.path);
@@ -186,12 +215,12 @@ pub(super) fn guide(reader: &Reader<'_>, follower: &FollowerData) -> Option<Guid
 }
 
 /// The coefficient of speed fluctuation that a flywheel is to keep.
-pub(super) fn fluctuation(reader: &Reader<'_>) -> Option<f64> {
+fn fluctuation(reader: &Reader<'_>) -> Option<f64> {
     reader.find(&FLYWHEEL)?.get(&FLUCTUATION)
 }
 
 /// The elastic train of a file.
-pub(super) fn vibration(reader: &Reader<'_>) -> Option<VibrationData> {
+fn vibration(reader: &Reader<'_>) -> Option<VibrationData> {
     let table = reader.find(&VIBRATION)?;
     Some(VibrationData { natural_frequency: table.get(&NATURAL_FREQUENCY)?, damping: table.get(&RATIO)? })
 }

@@ -1,19 +1,17 @@
 //! The limits of a cam.
 
-use super::brake::BrakeLimits;
-use super::disc::Material;
-use super::shaft::ShaftLimits;
+use super::material::{CamMaterial, Material};
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BRAKE, BRAKE_CAM, LINKAGE, MAKE, OF_A_PRESS, SHAFT};
-use crate::document::range::{LARGEST_NUMBER, LONGEST};
-use crate::document::{Field, Input, Occurs, Reader, Section, Table, above, within};
+use crate::document::cams::MAKE;
+use crate::document::range::{HIGHEST_STRESS, LARGEST_NUMBER, LONGEST};
+use crate::document::{
+    Field, Input, Key, KeySection, LengthAngleOrShare, LengthOrAngle, Occurrence, Reader, TableReader, above, within,
+};
 use crate::follower::{Element, Follower};
 use crate::motion::Quantity;
+use crate::motion::program::keys::SECTION as MOTION;
 use crate::units::Dimension::{Angle, Length, Pressure};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
-
-/// Highest limit of contact pressure that is accepted, Pa: a hundred times what steel withstands.
-const HIGHEST_STRESS: f64 = 1e12;
 
 /// Customary largest pressures in a line of contact with a steel roller, Pa: hardened steel, grey cast iron, tin bronze, a
 /// wrought aluminium alloy.
@@ -21,130 +19,50 @@ const LINE_STEEL: f64 = 1500e6;
 const LINE_CAST_IRON: f64 = 700e6;
 const LINE_BRONZE: f64 = 500e6;
 const LINE_ALUMINIUM: f64 = 250e6;
-/// How much more is customary in a point of contact, whose material is held from all sides: 4200 MPa for steel.
-const POINT_OVER_LINE: (f64, f64) = (14.0, 5.0);
+/// The largest pressure of a point of contact at rest over that of running contact: 4200 MPa for hardened steel (ISO 76).
+const AT_REST_OVER_RUNNING: (f64, f64) = (14.0, 5.0);
 
-/// How roller and cam touch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Touching {
-    /// A cylinder along a line.
-    Line,
-    /// A sphere in an ellipse about a point.
-    Point,
-}
-
-/// The customary largest pressure between a steel roller and a cam of a material, Pa.
+/// The customary largest pressure of running contact between a steel roller and a cam of a material, Pa. Of hardened steel it is the fatigue
+/// limit of rolling bearings, along a line and in a point (ISO 281:2007).
 #[must_use]
-pub fn customary_stress(material: Material, touching: Touching) -> f64 {
-    let line = match material {
+pub fn customary_stress(material: Material) -> f64 {
+    match material {
         Material::Steel => LINE_STEEL,
         Material::CastIron => LINE_CAST_IRON,
         Material::Bronze => LINE_BRONZE,
         Material::Aluminium => LINE_ALUMINIUM,
-    };
-    match touching {
-        Touching::Line => line,
-        Touching::Point => line * POINT_OVER_LINE.0 / POINT_OVER_LINE.1,
     }
 }
 
-/// The limits of a linkage.
+/// The customary largest pressure of running contact between a steel roller and a cam of a material as a file gives it, Pa; `None` where nothing
+/// is known of it.
+#[must_use]
+pub fn customary_stress_of(material: &CamMaterial) -> Option<f64> {
+    material.line_limit().or_else(|| material.is_known().then(|| customary_stress(material.class)))
+}
+
+/// The customary largest pressure in a point of contact at rest, whose material is held from all sides, Pa: beyond it a dent stays. `None` where
+/// nothing is known of the material.
+#[must_use]
+pub fn stress_at_rest(material: &CamMaterial) -> Option<f64> {
+    customary_stress_of(material).map(|running| running * AT_REST_OVER_RUNNING.0 / AT_REST_OVER_RUNNING.1)
+}
+
+/// Least customary wall, m, and over the radius of the bore: about half of the hub that ANSI/ASME B29.1 gives a wheel (3.2 mm and a sixth of the
+/// bore's diameter).
+const CUSTOMARY_WALL: (f64, f64) = (3e-3, 0.15);
+/// A curve that leaves its rows by ten times the lift has nothing to do with them.
+const LARGEST_SHARE: f64 = 10.0;
+/// Customary largest size of a cam, m: what a machining centre or a plate cutter of a shop takes.
+const CUSTOMARY_SIZE: f64 = 2.0;
+
+/// How far a curve through rows may leave them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LinkageLimits {
-    /// Least transmission angle of the drag link, rad.
-    pub transmission_angle: f64,
-    /// Largest angle of the connecting rod from the line of the slider, rad.
-    pub rod_angle: f64,
-    /// Least coupler and follower over the driving crank.
-    pub link_ratio: f64,
-}
-
-const TRANSMISSION_ANGLE: Field<f64> = Field::quantity(
-    "transmission_angle",
-    "least angle between coupler and driven crank of the drag link",
-    Default("45 deg"),
-    Angle,
-    within(0.0, FRAC_PI_2),
-)
-.only(&[LINKAGE]);
-const ROD_ANGLE: Field<f64> = Field::quantity(
-    "rod_angle",
-    "largest angle of the connecting rod from the line of the slider",
-    Default("30 deg"),
-    Angle,
-    above(0.0, FRAC_PI_2),
-)
-.only(&[LINKAGE]);
-const LINK_RATIO: Field<f64> = Field::number(
-    "link_ratio",
-    "least coupler and driven crank over the driving crank",
-    Default("0.5"),
-    within(0.0, LARGEST_NUMBER),
-)
-.only(&[LINKAGE]);
-
-const CRITICAL_SPEED_RATIO: Field<f64> = Field::number(
-    "critical_speed_ratio",
-    "largest speed of the shaft over its first critical speed",
-    Default("0.7"),
-    above(0.0, LARGEST_NUMBER),
-)
-.only(&[SHAFT]);
-const LIFT_ERROR: Field<f64> = Field::quantity(
-    "lift_error",
-    "by how much the follower may stand lower while shaft and supports give way; told only, when absent",
-    Optional("0.1 mm"),
-    Length,
-    above(0.0, LONGEST),
-)
-.only(&[SHAFT]);
-const SUPPORT_SLOPE: Field<f64> = Field::quantity(
-    "support_slope",
-    "largest slope of the shaft at a support; told only, when absent",
-    Optional("0.001 rad"),
-    Angle,
-    above(0.0, FRAC_PI_2),
-)
-.only(&[SHAFT]);
-const BALANCE_GRADE: Field<f64> = Field::number(
-    "balance_grade",
-    "grade of balance G of ISO 21940-11, mm/s: 0.4, 1, 2.5, 6.3, 16, 40, 100, 250, 630, 1600 or 4000; told only, when absent",
-    Optional("16"),
-    above(0.0, LARGEST_NUMBER),
-)
-.only(&[SHAFT]);
-
-const TENSION_SPREAD: Field<f64> = Field::number(
-    "tension_spread",
-    "by how much the web tension may change over the roll, over the largest",
-    Default("0.05"),
-    within(0.0, 1.0),
-)
-.only(&[BRAKE, BRAKE_CAM]);
-const WEB_STRESS: Field<f64> = Field::quantity(
-    "web_stress",
-    "largest stress in the web; told only, when absent",
-    Optional("10 MPa"),
-    Pressure,
-    above(0.0, HIGHEST_STRESS),
-)
-.only(&[BRAKE]);
-
-/// What a brake must keep.
-pub(super) fn of_brake(reader: &Reader<'_>) -> Option<BrakeLimits> {
-    let table = reader.table(&SECTION);
-    Some(BrakeLimits { tension_spread: table.get(&TENSION_SPREAD)?, web_stress: table.get(&WEB_STRESS) })
-}
-
-/// What a shaft must keep.
-pub(super) fn of_shaft(reader: &Reader<'_>) -> Option<ShaftLimits> {
-    let table = reader.table(&SECTION);
-    Some(ShaftLimits {
-        critical_speed_ratio: table.get(&CRITICAL_SPEED_RATIO)?,
-        lift_error: table.get(&LIFT_ERROR),
-        support_slope: table.get(&SUPPORT_SLOPE),
-        balance_grade: table.get(&BALANCE_GRADE),
-    })
+pub enum OvershootLimit {
+    /// So far, m or rad.
+    By(f64),
+    /// By a share of the lift.
+    OfLift(f64),
 }
 
 /// The limits of a cam.
@@ -152,35 +70,33 @@ pub(super) fn of_shaft(reader: &Reader<'_>) -> Option<ShaftLimits> {
 pub struct Limits {
     /// Largest |pressure angle|, rad; `None` under a flat face where the file gives no limit.
     pub pressure_angle: Option<f64>,
-    /// The same where it is negative, of a follower that falls; as the other where it is absent.
+    /// Largest |pressure angle| where it is negative, under a falling follower, rad; where it is absent `pressure_angle` is the limit.
     pub pressure_angle_return: Option<f64>,
     /// Smallest convex radius of the pitch curve over the roller radius.
     pub min_convex_pitch_radius_over_roller: f64,
-    /// Smallest convex radius of the profile, m, where one is asked for.
+    /// Smallest convex radius of the profile, m, where the file gives one.
     pub min_convex_radius: Option<f64>,
     /// Radius of the tool that must get into the concave parts, m.
     pub cutter_radius: Option<f64>,
-    /// Least metal between bore and profile, m.
-    pub wall: f64,
+    /// Least metal between bore and profile, m; where it is absent the customary one holds.
+    pub wall: Option<f64>,
+    /// Largest size of the cam, m; where it is absent the customary one holds.
+    pub size: Option<f64>,
+    /// Least distance of the pivot of a swinging follower from the circle of the cam, m, where the file gives one.
+    pub pivot_clearance: Option<f64>,
     /// Largest pressure in the contact of roller and cam, Pa; where it is absent the customary one of the material holds.
     pub contact_stress: Option<f64>,
-    /// Largest residual force over the largest inertia force; where it is absent it must stay below a fixed bottom's.
-    pub residual_share: Option<f64>,
-    /// Largest error of the follower's acceleration as cut over the largest acceleration of the motion; where it is absent a
-    /// tenth is told.
+    /// Largest error of the follower's acceleration as cut over the largest acceleration of the motion; where it is absent
+    /// more than a tenth is a warning.
     pub acceleration_share: Option<f64>,
-    /// Order of the last continuous derivative of a motion program.
+    /// Order of the last continuous derivative of the motion.
     pub continuity: f64,
     /// Least jump speed over the speed of the cam of a motion program.
     pub jump_margin: f64,
-    /// Largest residual vibration over the travel; where it is absent it is told only.
+    /// How far a curve through rows may leave them; where it is absent a hundredth of the lift, at least the tolerance.
+    pub overshoot: Option<OvershootLimit>,
+    /// Largest residual vibration over the travel; where it is absent the vibration is only reported.
     pub residual: Option<f64>,
-    /// Of the linkage that moves a bed.
-    pub linkage: LinkageLimits,
-    /// Of the shaft.
-    pub shaft: ShaftLimits,
-    /// Of a brake.
-    pub brake: BrakeLimits,
 }
 
 impl Limits {
@@ -189,6 +105,19 @@ impl Limits {
     pub fn pressure_angles(&self) -> [f64; 2] {
         let rising = self.pressure_angle.unwrap_or(f64::INFINITY);
         [rising, self.pressure_angle_return.unwrap_or(rising)]
+    }
+
+    /// Least metal that stays about a bore of a radius, or between the flanks of a plate, m.
+    #[must_use]
+    pub fn least_wall(&self, bore_radius: Option<f64>) -> f64 {
+        let (least, share) = CUSTOMARY_WALL;
+        self.wall.unwrap_or_else(|| least.max(share * bore_radius.unwrap_or(0.0)))
+    }
+
+    /// Largest size of the cam, m.
+    #[must_use]
+    pub fn largest_size(&self) -> f64 {
+        self.size.unwrap_or(CUSTOMARY_SIZE)
     }
 
     /// Smallest convex radius of the curve of a follower that lies this far (m) outside of the profile, m.
@@ -201,14 +130,14 @@ impl Limits {
 
 const PRESSURE_ANGLE: Field<f64> = Field::quantity(
     "pressure_angle",
-    "largest angle between the follower's path and the normal, at most 90 deg; when absent 45 deg for a swinging roller, none for a flat face",
+    "largest angle between the follower's path and the normal, at most 90 deg; when absent, 45 deg for a swinging roller and no limit for a flat face",
     Default("30 deg"),
     Angle,
     above(0.0, FRAC_PI_2),
 );
 const PRESSURE_ANGLE_RETURN: Field<f64> = Field::quantity(
     "pressure_angle_return",
-    "limit of negative pressure angles, where a spring brings the follower back; as pressure_angle when absent",
+    "limit of negative pressure angles, where a spring returns the follower; pressure_angle when absent",
     Optional("45 deg"),
     Angle,
     above(0.0, FRAC_PI_2),
@@ -230,67 +159,85 @@ const MIN_CONVEX_RADIUS: Field<f64> = Field::quantity(
 .only(&[MAKE]);
 const CUTTER_RADIUS: Field<f64> = Field::quantity(
     "cutter_radius",
-    "radius of the tool the shop cuts with; concave parts must let it in",
+    "radius of the cutter, which must fit into the concave parts",
     Optional("10 mm"),
     Length,
     above(0.0, LONGEST),
 );
+const CUTTER_DIAMETER: Key =
+    CUTTER_RADIUS.diameter("cutter_diameter", "diameter of the cutter, in the place of its radius", "20 mm");
 const WALL: Field<f64> = Field::quantity(
     "wall",
-    "least metal between bore and profile, or between the flanks of a plate",
-    Default("0 mm"),
+    "smallest wall between what is cut: profile, bore with keyway and holes, or the flanks of a plate; when absent, the larger of 3 mm and 0.15 of the bore's radius (about half of the hub of ANSI/ASME B29.1), 1 mm about balance holes",
+    Optional("4 mm"),
     Length,
     within(0.0, LONGEST),
 );
+const SIZE: Field<f64> = Field::quantity(
+    "size",
+    "largest length or width of the cam; 2 m when absent, what the machine tools of a shop take",
+    Optional("1 m"),
+    Length,
+    above(0.0, LONGEST),
+);
+const PIVOT_CLEARANCE: Field<f64> = Field::quantity(
+    "pivot_clearance",
+    "least distance from the pivot of a swinging follower to the circle that the cam sweeps over; only a warning where it is below 0 when absent",
+    Optional("20 mm"),
+    Length,
+    within(0.0, LONGEST),
+)
+.only(&[MAKE]);
 const CONTACT_STRESS: Field<f64> = Field::quantity(
     "contact_stress",
-    "largest pressure between roller and cam (Hertz); the customary one of the material when absent",
+    "largest pressure between roller and cam (Hertz); when absent, the customary limit of running contact: 1500 MPa for hardened steel, the fatigue limit of ISO 281; of a point of contact a warning up to the limit at rest, 4200 MPa (ISO 76)",
     Optional("1200 MPa"),
     Pressure,
     above(0.0, HIGHEST_STRESS),
 );
-const RESIDUAL_SHARE: Field<f64> = Field::number(
-    "residual_share",
-    "largest residual force over the largest inertia; when absent, less than a fixed bottom leaves",
-    Optional("0.01"),
-    above(0.0, LARGEST_NUMBER),
-)
-.only(OF_A_PRESS);
 const ACCELERATION_SHARE: Field<f64> = Field::number(
     "acceleration_share",
-    "largest error of the acceleration as cut over the largest of the motion; when absent, 0.1 only warns",
+    "largest error of the acceleration as cut over the largest acceleration of the motion; when absent, more than 0.1 is a warning",
     Optional("0.05"),
     above(0.0, LARGEST_NUMBER),
 );
 
 const CONTINUITY: Field<f64> = Field::number(
     "continuity",
-    "order of the last derivative of a motion program that must be continuous all round, 0 to 3",
+    "order of the highest derivative of the motion that must be continuous, 0 to 3; 0 allows impacts",
     Default("1"),
     within(0.0, 3.0),
-)
-.only(&[MAKE]);
+);
 
 const JUMP_MARGIN: Field<f64> = Field::number(
     "jump_margin",
-    "least speed at which the follower leaves the cam of a motion program, over the speed of the cam",
+    "smallest speed at which the follower leaves the cam of a motion program, over the speed of the cam",
     Default("1"),
     above(0.0, LARGEST_NUMBER),
 )
 .only(&[MAKE]);
 const RESIDUAL: Field<f64> = Field::number(
     "residual",
-    "largest residual vibration behind a movement of a motion program, over its travel; told only, when absent",
+    "largest residual vibration after a movement of a motion program, over its travel; only reported when absent",
     Optional("0.01"),
     above(0.0, LARGEST_NUMBER),
 )
 .only(&[MAKE]);
 
+const OVERSHOOT: Field<LengthAngleOrShare> = Field::length_angle_or_share(
+    "overshoot",
+    "how far the curve through rows, points or a spline may leave the range of two neighbouring rows: a length, an angle of a swing, or a share of the lift (\"1 %\"); 1 % of the lift, at least the tolerance, when absent",
+    Optional("0.1 mm"),
+    (within(0.0, LONGEST), within(0.0, FRAC_PI_2)),
+    within(0.0, LARGEST_SHARE),
+)
+.only(&[MAKE]);
+
 /// `[limits]`.
-pub(super) const SECTION: Section = Section {
+pub(super) const SECTION: KeySection = KeySection {
     path: "limits",
-    about: "what a cam must keep",
-    occurs: Occurs::Once,
+    about: "limits of the cam",
+    occurs: Occurrence::Once,
     cams: &[],
     keys: &[
         PRESSURE_ANGLE.key,
@@ -298,31 +245,26 @@ pub(super) const SECTION: Section = Section {
         MIN_CONVEX.key,
         MIN_CONVEX_RADIUS.key,
         CUTTER_RADIUS.key,
+        CUTTER_DIAMETER,
         WALL.key,
+        SIZE.key,
+        PIVOT_CLEARANCE.key,
         CONTACT_STRESS.key,
-        RESIDUAL_SHARE.key,
         ACCELERATION_SHARE.key,
         CONTINUITY.key,
         JUMP_MARGIN.key,
         RESIDUAL.key,
-        TRANSMISSION_ANGLE.key,
-        ROD_ANGLE.key,
-        LINK_RATIO.key,
-        CRITICAL_SPEED_RATIO.key,
-        LIFT_ERROR.key,
-        SUPPORT_SLOPE.key,
-        BALANCE_GRADE.key,
-        TENSION_SPREAD.key,
-        WEB_STRESS.key,
+        OVERSHOOT.key,
     ],
 };
 
 /// Customary limit of the pressure angle of a roller on an arm, rad: its side thrust goes into a bearing, not into a guide.
 const SWINGING_PRESSURE_ANGLE: f64 = FRAC_PI_4;
 
-/// The limit of the pressure angle under a follower whose table says this, rad: that of the file, or what is customary. Under a flat
-/// face none is: the angle follows from how the face stands, not from the cam.
-fn pressure_angle(table: &Table<'_>, in_table: f64, follower: &dyn Follower) -> Option<f64> {
+/// The limit of the pressure angle under a follower whose table says this, rad: that of the file, or the customary one. Under a flat
+/// face there is none: on a straight path the angle is the tilt of the face; on an arm tan α = f/ℓ, with the offset f of the face from its
+/// pivot and the distance ℓ of the contact along the face.
+fn pressure_angle(table: &TableReader<'_>, in_table: f64, follower: &dyn Follower) -> Option<f64> {
     match (table.has(&PRESSURE_ANGLE), follower.element(), follower.quantity()) {
         (false, Element::Face, _) => None,
         (false, Element::Roller { .. }, Quantity::Angle) => Some(SWINGING_PRESSURE_ANGLE),
@@ -344,6 +286,24 @@ pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower) -> Vec<Input>
     reader.inputs().into_iter().filter_map(of).collect()
 }
 
+/// The limit of the overshoot, which must be of the kind of the follower's motion.
+fn overshoot(reader: &Reader<'_>, follower: &dyn Follower) -> Option<OvershootLimit> {
+    let table = reader.table(&SECTION);
+    let (found, value) = match table.get(&OVERSHOOT).filter(|_| table.has(&OVERSHOOT))? {
+        LengthAngleOrShare::Share(share) => return Some(OvershootLimit::OfLift(share)),
+        LengthAngleOrShare::Size(LengthOrAngle::Length(value)) => (Quantity::Length, value),
+        LengthAngleOrShare::Size(LengthOrAngle::Angle(value)) => (Quantity::Angle, value),
+    };
+    let wanted = follower.quantity();
+    if found != wanted && reader.find(&MOTION).is_some() {
+        let message = format!("`limits.overshoot` is {}, but the follower moves by {}", found.words(), wanted.words());
+        let example = if wanted == Quantity::Angle { "0.1 deg" } else { "0.1 mm" };
+        table.fail(&OVERSHOOT, message, Some(format!("e.g. overshoot = \"{example}\", or \"1 %\" of the lift")));
+        return None;
+    }
+    Some(OvershootLimit::By(value))
+}
+
 pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limits> {
     let table = reader.table(&SECTION);
     Some(Limits {
@@ -352,19 +312,14 @@ pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limit
         min_convex_pitch_radius_over_roller: table.get(&MIN_CONVEX)?,
         min_convex_radius: table.get(&MIN_CONVEX_RADIUS),
         cutter_radius: table.get(&CUTTER_RADIUS),
-        wall: table.get(&WALL)?,
+        wall: table.get(&WALL),
+        size: table.get(&SIZE),
+        pivot_clearance: table.get(&PIVOT_CLEARANCE),
         contact_stress: table.get(&CONTACT_STRESS),
-        residual_share: table.get(&RESIDUAL_SHARE),
         acceleration_share: table.get(&ACCELERATION_SHARE),
         continuity: table.get(&CONTINUITY)?,
         jump_margin: table.get(&JUMP_MARGIN)?,
         residual: table.get(&RESIDUAL),
-        linkage: LinkageLimits {
-            transmission_angle: table.get(&TRANSMISSION_ANGLE)?,
-            rod_angle: table.get(&ROD_ANGLE)?,
-            link_ratio: table.get(&LINK_RATIO)?,
-        },
-        shaft: of_shaft(reader)?,
-        brake: of_brake(reader)?,
+        overshoot: overshoot(reader, follower),
     })
 }

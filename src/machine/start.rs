@@ -1,7 +1,7 @@
 //! Commented files to start from.
 
-use super::{BODY_TABLES, ROOT, sections};
-use crate::document::{self, Section, Start, cams};
+use super::{Catalogue, ROOT};
+use crate::document::{self, KeySection, TemplateOptions, cams};
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
 
@@ -31,15 +31,29 @@ law = \"dwell\"                         # without over: the rest of the turn
 /// A follower whose pressure angle does not depend on the cam.
 const FLAT: &str = "follower.flat";
 
-/// Keys of a motion program that may be absent, and without which there is no solid.
+/// Keys of a motion program that may be absent, but that a solid needs.
 const GIVEN: [&str; 3] = ["motion.rpm", "cam.thickness", "cam.bore_radius"];
 
-/// A commented machine file of a press with every key, to start from.
+/// A commented machine file with every key, to start from: of a kind of cam, with these tables as far as files may do without them.
 #[must_use]
-pub fn template() -> String {
-    let tables = ["bed", "buffer", "design", "follower.roller"];
-    let start = Start { tables: &tables, keys: &[], cam: cams::ROTARY, only: false };
-    document::template("A machine file of camgen. A quantity is \"number unit\".", &sections(), &start)
+pub fn template(catalogue: &Catalogue, cam: &str, tables: &[&str]) -> String {
+    let start = TemplateOptions { tables, keys: &[], cam, only: false };
+    let keys = &catalogue.keys;
+    document::template("A machine file of camgen. A quantity is \"number unit\".", keys, &keys.sections, &start)
+}
+
+/// The JSON schema of machine files.
+#[must_use]
+pub fn schema(catalogue: &Catalogue) -> serde_json::Value {
+    let mut schema = document::schema("machine file of camgen", &catalogue.keys.sections);
+    // A cam has one follower, of any kind.
+    for bound in ["minProperties", "maxProperties"] {
+        schema["properties"]["follower"][bound] = 1.into();
+    }
+    if let Some(names) = schema["required"].as_array_mut() {
+        names.push("follower".into());
+    }
+    schema
 }
 
 /// The followers as [`template_of_program`] calls them.
@@ -48,18 +62,23 @@ pub fn followers() -> Vec<&'static str> {
     FOLLOWERS.iter().map(|kind| name_of(kind.section)).collect()
 }
 
-fn name_of(section: &Section) -> &'static str {
+fn name_of(section: &KeySection) -> &'static str {
     section.path.strip_prefix("follower.").unwrap_or(section.path)
 }
 
 /// A commented file of a motion program with every key that has an effect on it, under a follower of this name; `None` of another name.
 #[must_use]
-pub fn template_of_program(follower: &str) -> Option<String> {
+pub fn template_of_program(catalogue: &Catalogue, follower: &str) -> Option<String> {
     let kind = FOLLOWERS.iter().find(|kind| name_of(kind.section).eq_ignore_ascii_case(follower))?;
     let swings = kind.swings();
     let (start, to) = if swings { ("0 deg", "20 deg") } else { ("0 mm", "20 mm") };
-    let written = |title: &str, sections: &[&Section], tables: &[&str]| {
-        document::template(title, sections, &Start { tables, keys: &GIVEN, cam: cams::MAKE, only: true })
+    let written = |title: &str, sections: &[&KeySection], tables: &[&str]| {
+        document::template(
+            title,
+            &catalogue.keys,
+            sections,
+            &TemplateOptions { tables, keys: &GIVEN, cam: cams::MAKE, only: true },
+        )
     };
     let head = written(
         "A motion program of camgen, for camgen make. A quantity is \"number unit\".",
@@ -73,9 +92,12 @@ pub fn template_of_program(follower: &str) -> Option<String> {
         .replace("\ndegree = ", "\n# degree = ");
     let program = PROGRAM.replace("{start}", start).replace("{to}", to);
     let segment = written("", &[&program::keys::SEGMENT], &[]);
-    let of_make = |section: &&Section| section.cams.is_empty() || section.cams.contains(&cams::MAKE);
-    let body: Vec<&Section> =
-        std::iter::once(kind.section).chain(BODY_TABLES.iter().copied().filter(of_make)).collect();
+    let of_make = |section: &&KeySection| section.cams.is_empty() || section.cams.contains(&cams::MAKE);
+    // The tables after those of the followers.
+    let is_follower = |section: &&KeySection| FOLLOWERS.iter().any(|kind| kind.section.path == section.path);
+    let after = catalogue.keys.sections.iter().rev().copied().take_while(|section| !is_follower(section));
+    let mut body: Vec<&KeySection> = after.filter(of_make).chain([kind.section]).collect();
+    body.reverse();
     let mut body = written("", &body, &[kind.section.path]);
     if swings || kind.section.path == FLAT {
         // The limit that the key shows is that of a roller on a straight path.
@@ -92,17 +114,18 @@ fn without_head(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::catalogue::catalogue;
     use crate::machine::Machine;
 
     #[test]
     fn a_program_to_start_from_reads_under_every_follower() {
         for name in followers() {
-            let text = template_of_program(name).expect("a template");
+            let text = template_of_program(catalogue(), name).expect("a template");
             let machine =
                 Machine::from_toml("start.toml", &text, &[]).unwrap_or_else(|error| panic!("{name}: {error}\n{text}"));
             assert!(machine.motion().is_some(), "{name}");
-            assert!(!text.contains("[bed]") && !text.contains("crank"), "{name}: {text}");
+            assert!(!text.contains("[bed]") && !text.contains("crank_radius"), "{name}: {text}");
         }
-        assert_eq!(template_of_program("roler"), None);
+        assert_eq!(template_of_program(catalogue(), "roler"), None);
     }
 }

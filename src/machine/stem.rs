@@ -5,7 +5,7 @@ use crate::document::is_plain;
 /// Longest stem, in characters and in bytes: what is added to it still fits a file system.
 const LONGEST: usize = 100;
 const MOST_BYTES: usize = 180;
-/// What stands where nothing fits.
+/// The stem of a name without any character that fits.
 const UNNAMED: &str = "machine";
 /// Names of devices under Windows, whatever follows a point.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];

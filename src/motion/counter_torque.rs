@@ -13,6 +13,7 @@
 
 use super::{Jet, Motion, Piece};
 use crate::numeric::extremum;
+use crate::refusal::Refusal;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -73,30 +74,6 @@ pub trait Work: std::fmt::Debug + Send + Sync {
     fn at(&self, piece: usize, angle: f64) -> WorkJet;
 }
 
-/// Why there is no such law.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CounterTorqueError {
-    /// Without preload the lift has a corner where the work is largest.
-    #[error("the preload of the counter-torque spring is {preload} N; it must be above 0")]
-    Preload {
-        /// Preload, N.
-        preload: f64,
-    },
-    /// A spring needs a rate.
-    #[error("the rate of the counter-torque spring is {rate} N/m; it must be above 0")]
-    Rate {
-        /// Rate, N/m.
-        rate: f64,
-    },
-    /// The largest work is not a number.
-    #[error("the largest work is {energy} J, which is no finite number")]
-    Energy {
-        /// Largest work, J.
-        energy: f64,
-    },
-}
-
 /// The law for one spring and one largest work.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CounterTorque {
@@ -111,16 +88,18 @@ impl CounterTorque {
     /// lift is 0.
     ///
     /// # Errors
-    /// [`CounterTorqueError`] unless rate and preload are finite and above 0, and the work is finite.
-    pub fn new(rate: f64, preload: f64, energy_max: f64) -> Result<Self, CounterTorqueError> {
+    /// [`Refusal`] unless rate and preload are finite and above 0, and the work is finite.
+    pub fn new(rate: f64, preload: f64, energy_max: f64) -> Result<Self, Refusal> {
         if !(rate > 0.0 && rate.is_finite()) {
-            return Err(CounterTorqueError::Rate { rate });
+            return Err(Refusal::new(format!("the rate of the counter-torque spring is {rate} N/m"))
+                .remedy("it must be above 0"));
         }
         if !(preload > 0.0 && preload.is_finite()) {
-            return Err(CounterTorqueError::Preload { preload });
+            return Err(Refusal::new(format!("the preload of the counter-torque spring is {preload} N"))
+                .remedy("it must be above 0"));
         }
         if !energy_max.is_finite() {
-            return Err(CounterTorqueError::Energy { energy: energy_max });
+            return Err(Refusal::new(format!("the largest work is {energy_max} J, which is not a finite number")));
         }
         Ok(Self { rate, preloaded: preload / rate, energy_max })
     }
@@ -177,7 +156,7 @@ impl CounterMotion {
     ///
     /// # Errors
     /// As [`CounterTorque::new`].
-    pub fn new(work: Arc<dyn Work>, rate: f64, preload: f64) -> Result<Self, CounterTorqueError> {
+    pub fn new(work: Arc<dyn Work>, rate: f64, preload: f64) -> Result<Self, Refusal> {
         let pieces = work.pieces().to_vec();
         let distinct = pieces.len() / usize::try_from(work.lobes().max(1)).unwrap_or(1);
         let extreme = |sign: f64| {
@@ -249,63 +228,6 @@ pub fn merged(pieces: &[Piece], rests: &[bool]) -> Vec<(Piece, usize, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::buffer::bottom_law::{BottomLaw, Column};
-    use crate::buffer::{Bed, Cylinder, camshaft};
-
-    /// 100 N/mm and 10 kN for one of the two machines of the press.
-    fn machine(q: f64, column: Column) -> (BottomLaw, Cylinder, CounterTorque) {
-        let bed = Bed { mass: 978.2, crank_radius: 0.18, crank_turns_per_main_shaft_turn: 3.0 };
-        let cylinder = Cylinder::sized(&bed, 35.0, 1.35, 98_066.5, q * 98_066.5);
-        let law = BottomLaw::new(cylinder.loading(35.0), 1.35, 0.18, column, 0.0);
-        let energy_max = camshaft::largest_work(&law, &cylinder).value;
-        (law, cylinder, CounterTorque::new(1e5, 1e4, energy_max).expect("preload and rate are positive"))
-    }
-
-    fn jet_at(degrees: f64, (law, cylinder, disc): &(BottomLaw, Cylinder, CounterTorque)) -> Jet {
-        let work = camshaft::work(law, cylinder, degrees.to_radians());
-        let work = WorkJet {
-            energy: work.value,
-            torque: work.torque,
-            torque_slope: work.torque_slope,
-            torque_second: work.torque_second,
-        };
-        let jet = disc.jet(work);
-        assert!((disc.spring_torque(jet) + work.torque).abs() < 1e-12);
-        jet
-    }
-
-    /// Relative; a handful of roundings.
-    fn close(got: f64, want: f64) {
-        assert!((got / want - 1.0).abs() < 2e-14, "{got} is not {want}");
-    }
-
-    #[test]
-    fn golden_numbers() {
-        let matched = machine(2.0, Column::Matched);
-        for (degrees, lift) in [
-            (10.0, 0.982_327_851_304_808_177),
-            (30.0, 16.856_008_771_649_496_5),
-            (60.0, 58.531_113_360_097_157_9),
-            (90.0, 77.965_519_078_930_342_7),
-        ] {
-            close(1e3 * jet_at(degrees, &matched).s, lift);
-        }
-        let jet = jet_at(30.0, &matched);
-        close(1e3 * jet.ds, 71.888_357_896_597_821_8);
-        close(1e3 * jet.dds, 109.238_165_370_897_997);
-        close(1e3 * jet.ddds, -478.613_585_087_834_990);
-        let start = jet_at(0.0, &matched);
-        assert_eq!((start.s, start.ds, start.dds), (0.0, 0.0, 0.0));
-        close(1e3 * start.ddds, 1_334.051_489_934_620_47);
-        let returning = machine(5.0, Column::Return);
-        for (degrees, lift) in
-            [(0.0, 10.594_681_872_600_720_5), (30.0, 5.961_641_229_831_062_82), (90.0, 70.321_730_781_434_801_2)]
-        {
-            close(1e3 * jet_at(degrees, &returning).s, lift);
-        }
-        close(1e3 * jet_at(0.0, &returning).dds, -1_127.588_445_571_74);
-    }
-
     /// A spring pressed by a source of any kind: E = −sin² θ. Each derivative is the difference quotient of the one before, to
     /// h²/6 of the derivative two orders beyond, which stays below a hundred, and 1e-16/h.
     #[test]
@@ -335,9 +257,10 @@ mod tests {
     fn refuses_a_spring_without_preload_or_rate() {
         for preload in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let error = CounterTorque::new(1e5, preload, 0.0).expect_err("no preload");
-            assert!(matches!(error, CounterTorqueError::Preload { .. }), "{error}");
+            assert!(error.what.starts_with("the preload of the counter-torque spring is"), "{error}");
         }
-        assert!(matches!(CounterTorque::new(0.0, 1.0, 0.0), Err(CounterTorqueError::Rate { .. })));
-        assert!(matches!(CounterTorque::new(1.0, 1.0, f64::NAN), Err(CounterTorqueError::Energy { .. })));
+        let what = |made: Result<CounterTorque, Refusal>| made.expect_err("refused").what;
+        assert_eq!(what(CounterTorque::new(0.0, 1.0, 0.0)), "the rate of the counter-torque spring is 0 N/m");
+        assert!(what(CounterTorque::new(1.0, 1.0, f64::NAN)).starts_with("the largest work is NaN J"));
     }
 }

@@ -1,19 +1,19 @@
-//! Symmetric banded systems of linear equations.
+//! Symmetric banded systems of linear equations, for which nalgebra has no matrix.
 
 /// A symmetric matrix of half-bandwidth W − 1: row k holds the entries (k, k), (k, k + 1) … (k, k + W − 1).
 #[derive(Debug, Clone)]
-pub struct Banded<const W: usize> {
+pub struct BandedMatrix<const W: usize> {
     rows: Vec<[f64; W]>,
 }
 
-impl<const W: usize> Banded<W> {
-    /// The zero matrix of this many rows.
+impl<const W: usize> BandedMatrix<W> {
+    /// The zero matrix with this many rows.
     #[must_use]
     pub fn zero(size: usize) -> Self {
         Self { rows: vec![[0.0; W]; size] }
     }
 
-    /// Adds to the entries (row, column) and (column, row). What lies outside of the band or the matrix is not kept.
+    /// Adds to the entries (row, column) and (column, row). Entries outside of the band or the matrix are ignored.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let (first, last) = (row.min(column), row.max(column));
         if let Some(entry) = self.rows.get_mut(first).and_then(|entries| entries.get_mut(last - first)) {
@@ -26,10 +26,28 @@ impl<const W: usize> Banded<W> {
         self.rows.get_mut(row)
     }
 
+    /// The product with a vector.
+    #[must_use]
+    pub fn times(&self, vector: &[f64]) -> Vec<f64> {
+        let mut product = vec![0.0; self.rows.len()];
+        for (index, row) in self.rows.iter().enumerate() {
+            let own = vector.get(index).copied().unwrap_or(0.0);
+            let ahead = vector.iter().skip(index);
+            let sum: f64 = row.iter().zip(ahead).map(|(entry, value)| entry * value).sum();
+            for (place, entry) in product.iter_mut().skip(index).zip(row).skip(1) {
+                *place += entry * own;
+            }
+            if let Some(place) = product.get_mut(index) {
+                *place += sum;
+            }
+        }
+        product
+    }
+
     /// The factors L D Lᵀ, without pivoting: for positive definite matrices, and for quasi-definite ones in an order in
     /// which every pivot has its sign when it is reached. Golub, Van Loan, Matrix Computations, §4.3.
     #[must_use]
-    pub fn factored(mut self) -> Factored<W> {
+    pub fn factored(mut self) -> BandedFactors<W> {
         let mut rest = self.rows.as_mut_slice();
         while let Some((row, below)) = rest.split_first_mut() {
             let pivot = row.first().copied().unwrap_or(1.0);
@@ -44,18 +62,18 @@ impl<const W: usize> Banded<W> {
             }
             rest = below;
         }
-        Factored { rows: self.rows }
+        BandedFactors { rows: self.rows }
     }
 }
 
-/// The factors of a [`Banded`] matrix.
+/// The factors of a [`BandedMatrix`] matrix.
 #[derive(Debug, Clone)]
-pub struct Factored<const W: usize> {
+pub struct BandedFactors<const W: usize> {
     /// D, then the column of L below it.
     rows: Vec<[f64; W]>,
 }
 
-impl<const W: usize> Factored<W> {
+impl<const W: usize> BandedFactors<W> {
     /// Solves for one right-hand side, in place.
     pub fn solve(&self, right: &mut [f64]) {
         let (alone, _) = right.as_chunks_mut::<1>();
@@ -98,7 +116,7 @@ mod tests {
     /// A quasi-definite saddle: two unknowns with one constraint between them, twice, coupled.
     #[test]
     fn a_banded_system_is_solved() {
-        let mut matrix = Banded::<3>::zero(5);
+        let mut matrix = BandedMatrix::<3>::zero(5);
         let entries = [(0, 0, 4.0), (0, 1, 1.0), (1, 1, -2.0), (1, 2, 0.5), (2, 2, 3.0), (1, 3, 1.5), (3, 3, 5.0)];
         let more = [(2, 4, -1.0), (3, 4, 0.25), (4, 4, -1.0), (2, 3, 0.75)];
         let all: Vec<_> = entries.into_iter().chain(more).collect();

@@ -1,12 +1,12 @@
 //! Roots of a polynomial on [0, 1], by its Bernstein coefficients.
 //!
-//! By the rule of Descartes in Bernstein form it has no more roots within than its coefficients change their signs, and as many
-//! but for an even number; halved by de Casteljau's algorithm they part (Lane & Riesenfeld, BIT 21, 1981). One change is one
+//! By the rule of Descartes in Bernstein form it has at most as many roots within as its coefficients have changes of sign, and fewer
+//! only by an even number; halving by de Casteljau's algorithm separates them (Lane & Riesenfeld, BIT 21, 1981). One change is one
 //! root, which lies between ends of different signs.
 
 use super::root;
 
-/// Halvings: beyond them two roots are one to rounding.
+/// Halvings: beyond them two roots are equal to rounding.
 const DEEPEST: u32 = 50;
 
 /// The value at `t`, by de Casteljau's algorithm.
@@ -26,7 +26,7 @@ pub fn value<const N: usize>(coefficients: &[f64; N], t: f64) -> f64 {
     row.first().copied().unwrap_or(f64::NAN)
 }
 
-/// The roots within [0, 1], in order; a double root may be there once or twice, and of a polynomial that is 0 there is none.
+/// The roots within [0, 1], in order; a double root may occur once or twice; the polynomial 0 has none.
 #[must_use]
 pub fn roots<const N: usize>(coefficients: &[f64; N]) -> Vec<f64> {
     let mut found = Vec::new();
@@ -44,7 +44,7 @@ pub fn roots<const N: usize>(coefficients: &[f64; N]) -> Vec<f64> {
     found
 }
 
-/// The roots between two places, the ends left out.
+/// The roots between two places, without the ends.
 fn search<const N: usize>(part: &[f64; N], (low, high): (f64, f64), depth: u32, found: &mut Vec<f64>) {
     let signs = part.iter().filter(|value| **value != 0.0).map(|value| value.is_sign_positive());
     let changes = signs.clone().zip(signs.skip(1)).filter(|(a, b)| a != b).count();
@@ -70,7 +70,7 @@ fn search<const N: usize>(part: &[f64; N], (low, high): (f64, f64), depth: u32, 
     search(&after, (middle, high), depth - 1, found);
 }
 
-/// The coefficients on either half.
+/// The coefficients on both halves.
 fn halves<const N: usize>(coefficients: &[f64; N]) -> ([f64; N], [f64; N]) {
     let (mut row, mut before, mut after) = (*coefficients, *coefficients, *coefficients);
     for level in 0..N {

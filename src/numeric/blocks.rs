@@ -1,4 +1,5 @@
-//! Symmetric systems of linear equations in groups of four unknowns, each coupled with the next group only.
+//! Symmetric systems of linear equations in groups of four unknowns, each coupled with the next group only; nalgebra has
+//! dense matrices only.
 
 /// Unknowns of a group.
 pub const GROUP: usize = 4;
@@ -6,23 +7,23 @@ pub const GROUP: usize = 4;
 pub const PAIR: usize = 2 * GROUP;
 
 /// The rows of a group from its own first unknown on: the upper triangle among its own unknowns, then all of the next group's.
-pub type Rows = [[f64; PAIR]; GROUP];
+pub type BlockRows = [[f64; PAIR]; GROUP];
 
 /// A symmetric matrix of such groups.
 #[derive(Debug, Clone)]
-pub struct Blocks {
-    groups: Vec<Rows>,
+pub struct BlockMatrix {
+    groups: Vec<BlockRows>,
 }
 
-impl Blocks {
-    /// The matrix of no groups, with room for so many.
+impl BlockMatrix {
+    /// The matrix without groups, with capacity for this many.
     #[must_use]
     pub fn with_capacity(groups: usize) -> Self {
         Self { groups: Vec::with_capacity(groups) }
     }
 
     /// Adds the rows of the next group.
-    pub fn push(&mut self, rows: Rows) {
+    pub fn push(&mut self, rows: BlockRows) {
         self.groups.push(rows);
     }
 
@@ -33,7 +34,7 @@ impl Blocks {
         let (mut rows, mut sides) = (self.groups.as_mut_slice(), &mut *right);
         while let ([row, below @ ..], [side, others @ ..]) = (rows, sides) {
             match (below.first_mut(), others.first_mut()) {
-                (Some(next), Some(beside)) => eliminate((row, side), (next, beside)),
+                (Some(next), Some(next_side)) => eliminate((row, side), (next, next_side)),
                 _ => eliminate((row, side), (&mut [[0.0; PAIR]; GROUP], &mut [[0.0; N]; GROUP])),
             }
             (rows, sides) = (below, others);
@@ -56,11 +57,11 @@ impl Blocks {
     }
 }
 
-/// Takes the unknowns of a group out of the next one; its rows become the factors of the others in it.
+/// Eliminates the unknowns of a group from the next one; its rows become the factors.
 #[inline]
 fn eliminate<const N: usize>(
-    (group, values): (&mut Rows, &mut [[f64; N]; GROUP]),
-    (next, others): (&mut Rows, &mut [[f64; N]; GROUP]),
+    (group, values): (&mut BlockRows, &mut [[f64; N]; GROUP]),
+    (next, others): (&mut BlockRows, &mut [[f64; N]; GROUP]),
 ) {
     pivot::<0, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
     pivot::<1, N>((&mut *group, &mut *values), (&mut *next, &mut *others));
@@ -68,11 +69,11 @@ fn eliminate<const N: usize>(
     pivot::<3, N>((group, values), (next, others));
 }
 
-/// Takes one unknown of a group out of all behind it. Its place is a constant, so that all loops are of fixed length.
+/// Eliminates one unknown of a group from all that follow. Its position is a constant, so that all loops have a fixed length.
 #[inline]
 fn pivot<const K: usize, const N: usize>(
-    (group, values): (&mut Rows, &mut [[f64; N]; GROUP]),
-    (next, others): (&mut Rows, &mut [[f64; N]; GROUP]),
+    (group, values): (&mut BlockRows, &mut [[f64; N]; GROUP]),
+    (next, others): (&mut BlockRows, &mut [[f64; N]; GROUP]),
 ) {
     let (row, value) = (group[K], values[K]);
     let inverse = 1.0 / row[K];
@@ -113,7 +114,7 @@ mod tests {
         for groups in 1..6_usize {
             let size = GROUP * groups;
             let mut dense = DMatrix::<f64>::zeros(size, size);
-            let mut blocks = Blocks::with_capacity(groups);
+            let mut blocks = BlockMatrix::with_capacity(groups);
             for group in 0..groups {
                 let mut rows = [[0.0; PAIR]; GROUP];
                 for (row, entries) in rows.iter_mut().enumerate() {

@@ -6,24 +6,24 @@
 //! `RESOLVED` with the highest degree, the cell is halved, unless nothing in it can exceed the largest value known. So a narrow
 //! hump cannot hide between two samples: it is what keeps the coefficients from falling.
 //!
-//! What is returned is a value of the function itself, so it never exceeds the largest; it falls short of it by twice the
-//! distance of polynomial and function, since at the top of the one the other is that near.
+//! The result is a value of the function itself, so it never exceeds the largest; it falls short of it by at most twice the
+//! distance between polynomial and function.
 
 use super::extremum::Extremum;
 use super::root;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Lowest degree of a polynomial, and how many degrees are tried: each is twice the one before, and the samples are used again.
+/// Lowest degree of a polynomial, and how many degrees are tried: each is twice the one before, and the samples are reused.
 const LEAST_DEGREE: usize = 16;
 const DEGREES: usize = 3;
-/// Of the largest value known, how large the last coefficients of a resolved cell may be.
+/// How large the last coefficients of a resolved cell may be, as a share of the largest known value.
 const RESOLVED: f64 = 1e-11;
-/// The same of the largest size sampled: below it is rounding.
+/// How large they may be as a share of the largest sampled size: below it is rounding.
 const ROUNDING: f64 = 1e-13;
-/// So many of the last coefficients must be small: an odd or even function has zeros among them.
+/// This many of the last coefficients must be small: an odd or even function has zeros among them.
 const LAST: usize = 4;
-/// Cells that are looked at, at the most: a function that is not smooth where its caller says so costs no more than this.
+/// Most cells that are examined: a function that is not as smooth as its caller states costs no more than this.
 const MOST_CELLS: usize = 256;
 /// A cell is not halved below this share of the interval.
 const LEAST_CELL: f64 = 1e-9;
@@ -31,14 +31,14 @@ const LEAST_CELL: f64 = 1e-9;
 /// middle (Ehlich & Zeller 1964).
 const BETWEEN_SAMPLES: f64 = 0.21;
 
-/// How far beside a place where the slope is rounding its sign is looked at, as a share of the way to the next.
-const BESIDE: f64 = 1.0 / 64.0;
+/// How far from a place where the slope is rounding its sign is examined, as a share of the distance to the next place.
+const ASIDE: f64 = 1.0 / 64.0;
 
 /// The fourth quarter of the coefficients over the third where the rest is known to be smaller than both.
 const FALLING: f64 = 0.25;
 
 /// A function on a cell: its values at the Chebyshev points from the upper end to the lower, and its coefficients.
-struct Cell {
+struct ChebyshevCell {
     low: f64,
     high: f64,
     values: Vec<f64>,
@@ -46,24 +46,24 @@ struct Cell {
 }
 
 /// The derivatives of the polynomial of a cell, by t in [−1, 1].
-struct Slopes {
+struct CellDerivatives {
     first: Vec<f64>,
     second: Vec<f64>,
     /// A slope below this is rounding.
     rounding: f64,
-    /// What the second derivative does not exceed.
+    /// Bound of the second derivative.
     most_bend: f64,
 }
 
-/// A place with the two.
+/// A place with slope and second derivative.
 #[derive(Clone, Copy)]
-struct Place {
+struct SlopeAndBend {
     at: f64,
     slope: f64,
     bend: f64,
 }
 
-impl Slopes {
+impl CellDerivatives {
     fn of(coefficients: &[f64]) -> Self {
         let first = derivative(coefficients);
         let second = derivative(&first);
@@ -71,51 +71,51 @@ impl Slopes {
         Self { rounding: ROUNDING * most(&first), most_bend: most(&second), first, second }
     }
 
-    fn at(&self, at: f64) -> Place {
-        Place { at, slope: series(&self.first, at), bend: series(&self.second, at) }
+    fn at(&self, at: f64) -> SlopeAndBend {
+        SlopeAndBend { at, slope: series(&self.first, at), bend: series(&self.second, at) }
     }
 }
 
-/// How far a function whose second derivative does not exceed this leaves its chord of a width.
+/// How far a function whose second derivative has this bound can depart from its chord over a width.
 fn leaves_chord(bend: f64, width: f64) -> f64 {
     0.125 * bend * width * width
 }
 
-/// The search: the goal is what is to be largest, the value or its size.
-struct Search<V, G> {
+/// The search: the goal is the quantity that is to be largest, the value or its size.
+struct ChebyshevSearch<V, G> {
     value: V,
     goal: G,
     best: Extremum,
     /// Largest size sampled.
     scale: f64,
-    /// What is smaller than this need not be resolved.
+    /// Values smaller than this need not be resolved.
     negligible: f64,
 }
 
-/// What is known when a search begins, and what it need not tell apart.
+/// What is known when a search begins, and which differences do not matter.
 #[derive(Debug, Clone, Copy)]
-pub struct Known {
-    /// A value that was found elsewhere: what does not exceed it is not looked for, and it comes back where nothing does.
+pub struct SearchStart {
+    /// A value that was found elsewhere: smaller ones are not looked for, and it is returned where there is no larger one.
     pub best: Extremum,
     /// Differences below this do not matter.
     pub negligible: f64,
 }
 
-impl Known {
-    /// Of the first search.
+impl SearchStart {
+    /// For a search without prior knowledge.
     #[must_use]
     pub fn nothing(negligible: f64) -> Self {
         Self { best: Extremum { at: 0.0, value: f64::NEG_INFINITY }, negligible }
     }
 }
 
-/// The largest value of `value` on `[low, high]`, where it is smooth, or what was known. Infinite where the function is somewhere.
-pub fn largest(value: impl FnMut(f64) -> f64, range: (f64, f64), known: Known) -> Extremum {
+/// The largest value of `value` on `[low, high]`, where it is smooth, or what was known. Infinite where the function is infinite.
+pub fn largest(value: impl FnMut(f64) -> f64, range: (f64, f64), known: SearchStart) -> Extremum {
     search(value, |value| value, range, known)
 }
 
 /// The largest size |value| on `[low, high]`, where `value`, with its sign, is smooth; as [`largest`].
-pub fn largest_size(value: impl FnMut(f64) -> f64, range: (f64, f64), known: Known) -> Extremum {
+pub fn largest_size(value: impl FnMut(f64) -> f64, range: (f64, f64), known: SearchStart) -> Extremum {
     search(value, f64::abs, range, known)
 }
 
@@ -123,9 +123,9 @@ fn search(
     value: impl FnMut(f64) -> f64,
     goal: impl Fn(f64) -> f64,
     (low, high): (f64, f64),
-    Known { best, negligible }: Known,
+    SearchStart { best, negligible }: SearchStart,
 ) -> Extremum {
-    let mut search = Search { value, goal, best, scale: 0.0, negligible };
+    let mut search = ChebyshevSearch { value, goal, best, scale: 0.0, negligible };
     let mut cells = vec![(low, high)];
     let mut looked_at = 0;
     search.sample(high);
@@ -143,7 +143,7 @@ fn search(
     search.best
 }
 
-impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
+impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> ChebyshevSearch<V, G> {
     fn sample(&mut self, at: f64) -> f64 {
         let value = (self.value)(at);
         let goal = (self.goal)(value);
@@ -154,10 +154,10 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
         value
     }
 
-    /// Looks at a cell; whether it has to be halved.
+    /// Examines a cell; whether it has to be halved.
     fn look_at(&mut self, low: f64, high: f64) -> bool {
-        let mut cell = Cell { low, high, values: Vec::new(), coefficients: Vec::new() };
-        for Points { points, cosines, grid } in Points::of_degrees() {
+        let mut cell = ChebyshevCell { low, high, values: Vec::new(), coefficients: Vec::new() };
+        for ChebyshevPoints { points, cosines, grid } in ChebyshevPoints::of_degrees() {
             let before = std::mem::replace(&mut cell.values, Vec::with_capacity(points.len()));
             for (index, point) in points.iter().enumerate() {
                 let known = if index % 2 == 0 { before.get(index / 2).copied() } else { None };
@@ -186,7 +186,7 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
 
     /// Whether nothing in the cell can exceed the largest value known: by its samples, and by the upper half of its coefficients,
     /// where these fall so that what follows them is smaller still.
-    fn cannot_exceed(&self, cell: &Cell) -> bool {
+    fn cannot_exceed(&self, cell: &ChebyshevCell) -> bool {
         let count = cell.coefficients.len();
         let sum = |from: usize, to: usize| -> f64 {
             cell.coefficients.iter().skip(from).take(to - from).map(|c| c.abs()).sum()
@@ -198,11 +198,11 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
         falling && most + BETWEEN_SAMPLES * (most - least) + 4.0 * (third + fourth) < self.best.value
     }
 
-    /// Tries the function where the derivative of the cell's polynomial vanishes, but for where the polynomial stays below the largest
+    /// Tries the function where the derivative of the cell's polynomial vanishes, except where the polynomial stays below the largest
     /// value known.
-    fn try_stationary_points(&mut self, cell: &Cell, grid: &[f64]) {
-        let slopes = Slopes::of(&cell.coefficients);
-        let mut before: Option<Place> = None;
+    fn try_stationary_points(&mut self, cell: &ChebyshevCell, grid: &[f64]) {
+        let slopes = CellDerivatives::of(&cell.coefficients);
+        let mut before: Option<SlopeAndBend> = None;
         // The grid has a place between two samples, both from the upper end to the lower.
         for (values, places) in cell.values.windows(2).zip(grid.windows(3).step_by(2)).rev() {
             let (&[high, low], &[right, middle, left]) = (values, places) else { continue };
@@ -220,9 +220,9 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
     }
 
     /// Tries the function where the slope changes its sign between two places.
-    fn try_between(&mut self, cell: &Cell, slopes: &Slopes, left: Place, right: Place) {
-        let from = self.beside(cell, slopes, left, right.at);
-        let to = self.beside(cell, slopes, right, left.at);
+    fn try_between(&mut self, cell: &ChebyshevCell, slopes: &CellDerivatives, left: SlopeAndBend, right: SlopeAndBend) {
+        let from = self.with_certain_sign(cell, slopes, left, right.at);
+        let to = self.with_certain_sign(cell, slopes, right, left.at);
         let slope = |t: f64| series(&slopes.first, t);
         // Two stationary points within a cell of the grid: the slope has an extremum between them.
         let turns = from.slope * to.slope > 0.0 && from.bend * from.slope < 0.0 && to.bend * to.slope > 0.0;
@@ -239,23 +239,29 @@ impl<V: FnMut(f64) -> f64, G: Fn(f64) -> f64> Search<V, G> {
         }
     }
 
-    /// A place; where its slope is rounding, and with it the sign, the function is tried there and the place moved a little to another.
-    fn beside(&mut self, cell: &Cell, slopes: &Slopes, place: Place, other: f64) -> Place {
+    /// A place; where its slope is rounding, and so its sign uncertain, the function is tried there and the place moved by a little.
+    fn with_certain_sign(
+        &mut self,
+        cell: &ChebyshevCell,
+        slopes: &CellDerivatives,
+        place: SlopeAndBend,
+        other: f64,
+    ) -> SlopeAndBend {
         if place.slope.abs() > slopes.rounding {
             return place;
         }
         self.sample(cell.place(place.at));
-        slopes.at(place.at + BESIDE * (other - place.at))
+        slopes.at(place.at + ASIDE * (other - place.at))
     }
 
-    fn try_root(&mut self, cell: &Cell, slope: impl Fn(f64) -> f64, (low, high): (f64, f64)) {
+    fn try_root(&mut self, cell: &ChebyshevCell, slope: impl Fn(f64) -> f64, (low, high): (f64, f64)) {
         if let Ok(t) = root::bracketed(slope, low, high, 0.0) {
             self.sample(cell.place(t));
         }
     }
 }
 
-impl Cell {
+impl ChebyshevCell {
     /// The argument at t in [−1, 1].
     fn place(&self, t: f64) -> f64 {
         if t >= 1.0 {
@@ -278,17 +284,17 @@ fn points(degree: usize) -> Vec<f64> {
     (0..=degree).map(point).collect()
 }
 
-/// The points of a degree that is used with their cosines, and the grid on which slopes are looked at, made once.
-struct Points {
+/// The points of each degree with their cosines, and the grid on which slopes are examined, made once.
+struct ChebyshevPoints {
     points: Vec<f64>,
     cosines: Vec<f64>,
     grid: Vec<f64>,
 }
 
-impl Points {
-    /// Of every degree, the lowest first.
+impl ChebyshevPoints {
+    /// For every degree, the lowest first.
     fn of_degrees() -> impl Iterator<Item = &'static Self> {
-        static ALL: [OnceLock<Points>; DEGREES] = [const { OnceLock::new() }; DEGREES];
+        static ALL: [OnceLock<ChebyshevPoints>; DEGREES] = [const { OnceLock::new() }; DEGREES];
         let degrees = std::iter::successors(Some(LEAST_DEGREE), |degree| Some(2 * degree));
         ALL.iter().zip(degrees).map(|(made, degree)| {
             made.get_or_init(|| {
@@ -299,7 +305,7 @@ impl Points {
     }
 }
 
-/// cos(π j k/n) for every j, and of each for k to the middle, one after the other.
+/// cos(π j k/n) for every j, and for each of these for k up to the middle, in sequence.
 fn cosines(points: &[f64]) -> Vec<f64> {
     let turn: Vec<f64> = points.iter().chain(points.iter().rev().skip(1)).copied().collect();
     let (count, whole) = (to_the_middle(points.len()), 2 * points.len().saturating_sub(1).max(1));
@@ -310,7 +316,7 @@ fn cosines(points: &[f64]) -> Vec<f64> {
     cosines
 }
 
-/// How many of so many coefficients there are to the middle one: of an odd number.
+/// The number of coefficients up to the middle one, for an odd number.
 fn to_the_middle(count: usize) -> usize {
     count / 2 + 1
 }
@@ -372,14 +378,14 @@ mod tests {
     /// Places and values in closed form: several humps, a narrow one, one at an end, poles just outside, a corner at zero.
     #[test]
     fn the_largest_is_found_to_rounding() {
-        type Case = (&'static str, fn(f64) -> f64, (f64, f64), f64);
-        let cases: &[Case] = &[
+        type ExtremumCase = (&'static str, fn(f64) -> f64, (f64, f64), f64);
+        let cases: &[ExtremumCase] = &[
             ("humps", |x| libm::sin(40.0 * x) + 1e-3 * libm::sin(0.5 * PI * x), (0.0, 1.0), f64::NAN),
             // A Lorentz line of width 1e-4 whose top is 1.
             ("narrow", |x| 1.0 / (1.0 + ((x - 0.371_828) / 1e-4).powi(2)), (0.0, 1.0), 1.0),
             ("at an end", |x| x * x, (-1.0, 2.0), 4.0),
-            // x/(x² + a²) has 1/(2 a) at x = a: the pole lies 1e-3 beside the end.
-            ("pole beside", |x| x / (x * x + 1e-6), (0.0, 3.0), 500.0),
+            // x/(x² + a²) has 1/(2 a) at x = a: the pole is 1e-3 from the end.
+            ("pole near the end", |x| x / (x * x + 1e-6), (0.0, 3.0), 500.0),
             ("flat", |_| 7.0, (0.0, 1.0), 7.0),
             // √x is not smooth at 0, where it is small.
             ("root", |x| x.sqrt() * libm::exp(-x), (0.0, 9.0), 0.5_f64.sqrt() * 0.606_530_659_712_633_4),
@@ -390,7 +396,7 @@ mod tests {
                 calls += 1;
                 value(x)
             };
-            let found = largest(counted, *range, Known::nothing(0.0));
+            let found = largest(counted, *range, SearchStart::nothing(0.0));
             let scan = (0..=2_000_000).map(|i| value(range.0 + (range.1 - range.0) * f64::from(i) / 2e6));
             let scan = scan.fold(f64::NEG_INFINITY, f64::max);
             assert!(found.value >= scan * (1.0 - 1e-12), "{name}: {found:?} but {scan}");
@@ -401,13 +407,13 @@ mod tests {
 
     #[test]
     fn sizes_and_what_is_infinite_or_undefined() {
-        let fall = largest_size(|x| 0.5 - x * x, (0.0, 2.0), Known::nothing(0.0));
+        let fall = largest_size(|x| 0.5 - x * x, (0.0, 2.0), SearchStart::nothing(0.0));
         assert_eq!(fall, Extremum { at: 2.0, value: 3.5 });
-        let inner = largest_size(|x| x * x * x - 3.0 * x, (-0.5, 1.5), Known::nothing(0.0));
+        let inner = largest_size(|x| x * x * x - 3.0 * x, (-0.5, 1.5), SearchStart::nothing(0.0));
         assert!((inner.at - 1.0).abs() < 1e-7 && (inner.value - 2.0).abs() < 1e-15, "{inner:?}");
-        assert_eq!(largest(|x| 1.0 / (x - 0.5).max(0.0), (0.0, 1.0), Known::nothing(0.0)).value, f64::INFINITY);
+        assert_eq!(largest(|x| 1.0 / (x - 0.5).max(0.0), (0.0, 1.0), SearchStart::nothing(0.0)).value, f64::INFINITY);
         // Undefined on one side: the other side still has its largest value.
-        let half = largest(|x| if x < 0.3 { f64::NAN } else { 1.0 - x }, (0.0, 1.0), Known::nothing(0.0));
+        let half = largest(|x| if x < 0.3 { f64::NAN } else { 1.0 - x }, (0.0, 1.0), SearchStart::nothing(0.0));
         assert!((half.value - 0.7).abs() < 1e-9, "{half:?}");
     }
 
@@ -419,32 +425,32 @@ mod tests {
             calls += 1;
             1e-15 * libm::sin(1e9 * x)
         };
-        assert!(largest_size(noise, (0.0, 1.0), Known::nothing(1e-12)).value <= 1e-15);
+        assert!(largest_size(noise, (0.0, 1.0), SearchStart::nothing(1e-12)).value <= 1e-15);
         assert_eq!(calls, LEAST_DEGREE + 2);
     }
 
-    /// A top beside a saddle on a sample, where slope and bend are rounding.
+    /// A top next to a saddle on a sample, where slope and second derivative are rounding.
     #[test]
-    fn a_top_beside_a_saddle_on_a_sample_is_found() {
+    fn a_top_next_to_a_saddle_on_a_sample_is_found() {
         for a in [1e-3, 1e-2, 0.04] {
             // x⁴/4 − a x³/3, downwards: slope x² (a − x).
             let top = |x: f64| 3.0 + a * x * x * x / 3.0 - x * x * x * x / 4.0 + 1e-17 * libm::sin(1e9 * x);
-            let found = largest(top, (-1.0, 1.0), Known::nothing(0.0));
+            let found = largest(top, (-1.0, 1.0), SearchStart::nothing(0.0));
             assert!(found.value >= top(a) * (1.0 - 2e-11), "{a}: {found:?} {}", top(a));
         }
     }
 
     /// A top nearer to an end than any sample.
     #[test]
-    fn a_top_beside_an_end_is_found() {
+    fn a_top_next_to_an_end_is_found() {
         for (from_end, low) in [1e-4, 1e-3, 1e-2].into_iter().flat_map(|a| [(a, true), (a, false)]) {
             let top = if low { from_end } else { 1.0 - from_end };
-            let found = largest(|x| 1.0 - (x - top) * (x - top), (0.0, 1.0), Known::nothing(0.0));
+            let found = largest(|x| 1.0 - (x - top) * (x - top), (0.0, 1.0), SearchStart::nothing(0.0));
             assert!((found.at - top).abs() < 1e-7 && (found.value - 1.0).abs() < 1e-14, "{top}: {found:?}");
         }
         // Lowest at a and highest at b, both nearer to the end than any sample: b² (b − 3a)/6 from 0.
         let (a, b) = (2e-4, 2e-3);
-        let found = largest(|x| -x * (x * (x / 3.0 - 0.5 * (a + b)) + a * b), (0.0, 1.0), Known::nothing(0.0));
+        let found = largest(|x| -x * (x * (x / 3.0 - 0.5 * (a + b)) + a * b), (0.0, 1.0), SearchStart::nothing(0.0));
         assert!((found.value / (b * b * (b - 3.0 * a) / 6.0) - 1.0).abs() < 1e-9, "{found:?}");
     }
 }

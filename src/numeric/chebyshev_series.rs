@@ -1,6 +1,6 @@
 //! A smooth function on an interval as a sum of Chebyshev polynomials, with its derivatives.
 //!
-//! The function is met at the points of Gauss; the derivative of a sum is a sum, by c'_{n−1} = c'_{n+1} + 2 n c_n (J. C. Mason,
+//! The function is sampled at the points of Gauss; the derivative of a sum is a sum, by c'_{n−1} = c'_{n+1} + 2 n c_n (J. C. Mason,
 //! D. C. Handscomb, Chebyshev Polynomials, 2003, ch. 2.4), and a sum is evaluated by Clenshaw's recurrence.
 
 use std::f64::consts::PI;
@@ -13,14 +13,14 @@ pub struct ChebyshevSeries {
 }
 
 impl ChebyshevSeries {
-    /// The points at which a function is met by a sum of so many terms.
+    /// The points at which a sum with this many terms agrees with a function.
     #[must_use]
     pub fn points((low, high): (f64, f64), terms: u32) -> Vec<f64> {
         let middle = 0.5 * (low + high);
         (0..terms).map(|i| middle + 0.5 * (high - low) * libm::cos(angle(i, terms))).collect()
     }
 
-    /// The sum that has these values at its [`ChebyshevSeries::points`]; terms below a share of the largest are roundings and left out.
+    /// The sum that has these values at its [`ChebyshevSeries::points`]; terms below a share of the largest are rounding and left out.
     #[must_use]
     pub fn through(range: (f64, f64), values: &[f64], rounding: f64) -> Self {
         let count = u32::try_from(values.len()).unwrap_or(u32::MAX);
@@ -98,13 +98,13 @@ impl ChebyshevSeries {
 
 /// Several series on one interval, evaluated together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Together<const N: usize> {
+pub struct SeriesGroup<const N: usize> {
     range: (f64, f64),
     coefficients: Vec<[f64; N]>,
 }
 
-impl<const N: usize> Together<N> {
-    /// Of series on the interval of the first.
+impl<const N: usize> SeriesGroup<N> {
+    /// From series on the interval of the first.
     #[must_use]
     pub fn new(all: [&ChebyshevSeries; N]) -> Self {
         let terms = all.iter().map(|series| series.terms()).max().unwrap_or(0);
@@ -113,7 +113,7 @@ impl<const N: usize> Together<N> {
         Self { range, coefficients: (0..terms).map(term).collect() }
     }
 
-    /// Those that have these values at [`ChebyshevSeries::points`].
+    /// The series that have these values at [`ChebyshevSeries::points`].
     #[must_use]
     pub fn through(range: (f64, f64), values: &[[f64; N]]) -> Self {
         let count = values.len();
@@ -132,7 +132,7 @@ impl<const N: usize> Together<N> {
         Self { range, coefficients: (0..count).map(term).collect() }
     }
 
-    /// The largest size of so many last coefficients of each.
+    /// The largest size of this many last coefficients of each.
     #[must_use]
     pub fn last(&self, count: usize) -> [f64; N] {
         let last = self.coefficients.iter().rev().take(count);
@@ -163,7 +163,7 @@ impl<const N: usize> Together<N> {
     }
 }
 
-/// Of the point of Gauss with this number, rad.
+/// The angle of the point of Gauss with this number, rad.
 fn angle(index: u32, count: u32) -> f64 {
     PI * (f64::from(index) + 0.5) / f64::from(count)
 }
@@ -182,7 +182,7 @@ mod tests {
             let values: Vec<f64> = both.iter().map(|values| values[which]).collect();
             ChebyshevSeries::through(range, &values, 0.0)
         });
-        let together = Together::through(range, &both);
+        let together = SeriesGroup::through(range, &both);
         assert!(together.last(3).iter().all(|last| *last < 1e-14), "{:?}", together.last(3));
         let shorter = together.clone().without_terms_below([1e-9; 2]);
         assert!(shorter.coefficients.len() < 25 && shorter.coefficients.len() > 10);
@@ -206,7 +206,7 @@ mod tests {
             ChebyshevSeries::points(range, 40).iter().map(|x| libm::exp(*x) * libm::sin(3.0 * x)).collect();
         let sum = ChebyshevSeries::through(range, &values, 1e-16);
         let (first, second) = (sum.derivative(), sum.derivative().derivative());
-        let together = Together::new([&sum, &first, &second]);
+        let together = SeriesGroup::new([&sum, &first, &second]);
         for i in 0..=50 {
             let x = range.0 + 2.5 * f64::from(i) / 50.0;
             let (e, sin, cos) = (libm::exp(x), libm::sin(3.0 * x), libm::cos(3.0 * x));

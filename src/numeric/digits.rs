@@ -1,13 +1,13 @@
-//! Numbers as people write them.
+//! Numbers rounded to the digits that people write.
 
-/// The next number of three digits that is not larger; of a positive number.
+/// The next number of three digits that is not larger; for a positive number.
 #[must_use]
 pub fn three_digits_down(value: f64) -> f64 {
     let digit = libm::pow(10.0, 2.0 - libm::log10(value).floor());
     (value * digit).floor() / digit
 }
 
-/// The next number of three digits that is not smaller; of a positive number.
+/// The next number of three digits that is not smaller; for a positive number.
 #[must_use]
 pub fn three_digits_up(value: f64) -> f64 {
     let digit = libm::pow(10.0, 2.0 - libm::log10(value).floor());

@@ -1,5 +1,5 @@
-//! Numbers of twice the length of an `f64`, as the unevaluated sum of two: 106 bits, for the few places where a result of
-//! full accuracy is what two large terms leave.
+//! Numbers of twice the precision of an `f64`, as the unevaluated sum of two: 106 bits, for the few places where a result of
+//! full accuracy is the small difference of two large terms.
 //!
 //! T. J. Dekker, A floating-point technique for extending the available precision, Numer. Math. 18 (1971) 224–242; the
 //! sum without a condition is D. E. Knuth's, The Art of Computer Programming 2, §4.2.2.
@@ -11,14 +11,14 @@ const HALVES: f64 = 134_217_729.0;
 
 /// high + low, |low| at most half an ulp of high.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Double {
+pub struct DoubleDouble {
     /// The number to the nearest `f64`.
     pub high: f64,
-    /// What is left of it.
+    /// The rest.
     pub low: f64,
 }
 
-impl Double {
+impl DoubleDouble {
     /// The sum of two numbers, exact.
     #[must_use]
     pub fn sum(a: f64, b: f64) -> Self {
@@ -35,7 +35,7 @@ impl Double {
         Self { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
     }
 
-    /// Square root of a positive number: Newton's step from the one of the high part.
+    /// Square root of a positive number: one Newton step from the root of the high part.
     #[must_use]
     pub fn sqrt(self) -> Self {
         let root = self.high.sqrt();
@@ -50,13 +50,13 @@ fn split(a: f64) -> (f64, f64) {
     (high, a - high)
 }
 
-impl From<f64> for Double {
+impl From<f64> for DoubleDouble {
     fn from(high: f64) -> Self {
         Self { high, low: 0.0 }
     }
 }
 
-impl Neg for Double {
+impl Neg for DoubleDouble {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -64,7 +64,7 @@ impl Neg for Double {
     }
 }
 
-impl Add for Double {
+impl Add for DoubleDouble {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -74,7 +74,7 @@ impl Add for Double {
     }
 }
 
-impl Sub for Double {
+impl Sub for DoubleDouble {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -82,7 +82,7 @@ impl Sub for Double {
     }
 }
 
-impl Mul for Double {
+impl Mul for DoubleDouble {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
@@ -91,7 +91,7 @@ impl Mul for Double {
     }
 }
 
-impl Div for Double {
+impl Div for DoubleDouble {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
@@ -109,14 +109,14 @@ mod tests {
 
     #[test]
     fn a_third_and_a_root_come_back() {
-        let three = Double::from(3.0);
-        let third = Double::from(1.0) / three;
-        let off = third * three - Double::from(1.0);
+        let three = DoubleDouble::from(3.0);
+        let third = DoubleDouble::from(1.0) / three;
+        let off = third * three - DoubleDouble::from(1.0);
         assert!((off.high + off.low).abs() < 1e-31, "{off:?}");
-        let root = Double::from(2.0).sqrt();
-        let off = root * root - Double::from(2.0);
+        let root = DoubleDouble::from(2.0).sqrt();
+        let off = root * root - DoubleDouble::from(2.0);
         assert!((off.high + off.low).abs() < 1e-31, "{off:?}");
-        let lost = Double::sum(1.0, 1e-25) - Double::from(1.0);
+        let lost = DoubleDouble::sum(1.0, 1e-25) - DoubleDouble::from(1.0);
         assert!((lost.high - 1e-25).abs() < 1e-40);
     }
 
@@ -124,8 +124,8 @@ mod tests {
     #[test]
     fn quotients_of_any_size_are_right_to_the_same_share() {
         for (a, b) in [(1.0, 7e15), (3.0, 1.1e-20), (-5e18, 0.7), (1e-30, 9e30)] {
-            let quotient = Double::from(a) / Double::from(b);
-            let off = quotient * Double::from(b) - Double::from(a);
+            let quotient = DoubleDouble::from(a) / DoubleDouble::from(b);
+            let off = quotient * DoubleDouble::from(b) - DoubleDouble::from(a);
             assert!((off.high + off.low).abs() < 1e-30 * f64::abs(a), "{a} / {b}: {off:?}");
         }
     }

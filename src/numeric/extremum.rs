@@ -11,17 +11,17 @@ pub struct Extremum {
     pub value: f64,
 }
 
-/// Halvings of a cell in which an extremum may hide.
+/// Halvings of a cell that may contain an undetected extremum.
 const HALVINGS: u32 = 6;
-/// A cell hides one when its values differ from what the slopes at its ends make them by more than this share of its width times the
-/// larger slope: a parabola makes 0 of it, a cube of the distance from an end a sixth.
+/// A cell may contain one when its values differ from those that follow from the slopes at its ends by more than this share of its width
+/// times the larger slope: for a parabola the difference is 0, for a cube of the distance from an end a sixth.
 const HIDES: f64 = 0.2;
 /// Differences below this share of the values are rounding.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A place with value and slope.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct ValueAndSlope {
     /// Argument.
     pub at: f64,
     /// Value.
@@ -30,8 +30,8 @@ pub struct Place {
     pub slope: f64,
 }
 
-impl Place {
-    /// The same of the negative.
+impl ValueAndSlope {
+    /// The negative of the function at this place.
     #[must_use]
     pub fn negative(self) -> Self {
         Self { value: -self.value, slope: -self.slope, ..self }
@@ -39,17 +39,17 @@ impl Place {
 }
 
 /// What may lie between two places.
-enum Between {
+enum GapContent {
     /// At most one stationary place: the values follow from the slopes.
     Plain,
-    /// Another beside one of them, which is stationary itself.
+    /// Another one next to one of them that is itself stationary.
     BesideAnEnd,
     /// Any number: the values do not follow from the slopes.
     Anything,
 }
 
-impl Between {
-    fn of(left: Place, right: Place) -> Self {
+impl GapContent {
+    fn of(left: ValueAndSlope, right: ValueAndSlope) -> Self {
         let width = right.at - left.at;
         let by_slopes = 0.5 * width * (left.slope + right.slope);
         let size = left.slope.abs().max(right.slope.abs());
@@ -64,36 +64,36 @@ impl Between {
     }
 }
 
-/// As high as a function rises between two places whose values follow from the slopes, with room for slopes of twice the size.
-fn rises_to(left: Place, right: Place) -> f64 {
+/// The largest value between two places whose values follow from the slopes, with a margin for slopes of twice the size.
+fn rises_to(left: ValueAndSlope, right: ValueAndSlope) -> f64 {
     let size = left.slope.abs().max(right.slope.abs());
     left.value.max(right.value) + 2.0 * size * (right.at - left.at)
 }
 
 /// A search of the largest of values given with their slopes.
-struct Search<F> {
+struct ExtremumSearch<F> {
     both: F,
     best: Extremum,
 }
 
-impl<F: FnMut(f64) -> (f64, f64)> Search<F> {
-    fn at(&mut self, at: f64) -> Place {
+impl<F: FnMut(f64) -> (f64, f64)> ExtremumSearch<F> {
+    fn at(&mut self, at: f64) -> ValueAndSlope {
         let (value, slope) = (self.both)(at);
-        let place = Place { at, value, slope };
+        let place = ValueAndSlope { at, value, slope };
         self.best = highest(self.best, &[place]);
         place
     }
 
-    fn between(&mut self, left: Place, right: Place, halvings: u32) {
-        let between = Between::of(left, right);
-        if !matches!(between, Between::Anything) && rises_to(left, right) < self.best.value {
+    fn between(&mut self, left: ValueAndSlope, right: ValueAndSlope, halvings: u32) {
+        let between = GapContent::of(left, right);
+        if !matches!(between, GapContent::Anything) && rises_to(left, right) < self.best.value {
             return;
         }
         if left.slope > 0.0 && right.slope < 0.0 {
             if let Ok(at) = root::bracketed(|at| (self.both)(at).1, left.at, right.at, 0.0) {
                 self.at(at);
             }
-        } else if halvings > 0 && !matches!(between, Between::Plain) {
+        } else if halvings > 0 && !matches!(between, GapContent::Plain) {
             let middle = self.at(0.5 * (left.at + right.at));
             self.between(left, middle, halvings - 1);
             self.between(middle, right, halvings - 1);
@@ -103,10 +103,10 @@ impl<F: FnMut(f64) -> (f64, f64)> Search<F> {
 
 /// The largest value of `value` on `[low, high]`.
 ///
-/// `slope` is the derivative of `value`. The interval is cut into `cells`; every cell in which the slope falls through zero gives a
-/// candidate, solved to rounding by [`root::bracketed`], beside the ends of the cells. A cell in which two stationary places may hide each
-/// other, or one beside a stationary end, is halved up to six times. Choose `cells` so that a cell is shorter than most
-/// distances between extrema (a cam law has a handful a piece).
+/// `slope` is the derivative of `value`. The interval is divided into `cells`; every cell in which the slope falls through zero gives a
+/// candidate, solved to rounding by [`root::bracketed`], in addition to the ends of the cells. A cell in which two stationary places may
+/// cancel each other, or one may lie next to a stationary end, is halved up to six times. Choose `cells` so that a cell is shorter than most
+/// distances between extrema (a cam law has a handful on a piece).
 pub fn largest(
     mut value: impl FnMut(f64) -> f64,
     mut slope: impl FnMut(f64) -> f64,
@@ -116,7 +116,7 @@ pub fn largest(
     largest_with_slope(|at| (value(at), slope(at)), range, cells)
 }
 
-/// The same of value and slope at once.
+/// The largest value where value and slope are computed together.
 pub fn largest_with_slope(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> Extremum {
     let places = places(&mut both, range, cells);
     let first = Extremum { at: range.0, value: f64::NAN };
@@ -124,27 +124,27 @@ pub fn largest_with_slope(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, 
 }
 
 /// The places between the cells with value and slope.
-pub fn places(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> Vec<Place> {
+pub fn places(mut both: impl FnMut(f64) -> (f64, f64), range: (f64, f64), cells: u32) -> Vec<ValueAndSlope> {
     let place = |at: f64| {
         let (value, slope) = both(at);
-        Place { at, value, slope }
+        ValueAndSlope { at, value, slope }
     };
     between_cells(range, cells).map(place).collect()
 }
 
 /// The highest of places and of what is known; the first of equals.
 #[must_use]
-pub fn highest(known: Extremum, places: &[Place]) -> Extremum {
+pub fn highest(known: Extremum, places: &[ValueAndSlope]) -> Extremum {
     places.iter().fold(known, |best, place| {
         let higher = place.value > best.value || best.value.is_nan();
         if higher { Extremum { at: place.at, value: place.value } } else { best }
     })
 }
 
-/// The largest value between places, or what is known, these and others among it, where nothing exceeds it: a cell that cannot is not
-/// looked into. As [`largest`] otherwise.
-pub fn beyond(known: Extremum, places: &[Place], both: impl FnMut(f64) -> (f64, f64)) -> Extremum {
-    let mut search = Search { both, best: known };
+/// The largest value between places, or what is known, including these and others, where nothing exceeds it: a cell that cannot exceed it
+/// is not examined. Otherwise as [`largest`].
+pub fn beyond(known: Extremum, places: &[ValueAndSlope], both: impl FnMut(f64) -> (f64, f64)) -> Extremum {
+    let mut search = ExtremumSearch { both, best: known };
     for pair in places.windows(2) {
         if let [left, right] = pair {
             search.between(*left, *right, HALVINGS);
@@ -153,7 +153,7 @@ pub fn beyond(known: Extremum, places: &[Place], both: impl FnMut(f64) -> (f64, 
     search.best
 }
 
-/// Places between the cells, the ends of the interval with them.
+/// The places between the cells, including the ends of the interval.
 pub fn between_cells((low, high): (f64, f64), cells: u32) -> impl Iterator<Item = f64> {
     (0..=cells).map(move |cell| match cell {
         0 => low,
@@ -162,10 +162,11 @@ pub fn between_cells((low, high): (f64, f64), cells: u32) -> impl Iterator<Item 
     })
 }
 
-/// The largest value of a function and of its negative, given with its slope and the slope's own slope: where the slope turns towards zero and back between two cells it is looked at
-/// where it is nearest to it, so that no pair of stationary places beside each other stays unseen.
-pub fn both_ways_with_bend(mut all: impl FnMut(f64) -> [f64; 3], range: (f64, f64), cells: u32) -> [Extremum; 2] {
-    let mut places: Vec<Place> = Vec::new();
+/// The largest value of a function and of its negative, given with its slope and the slope's own slope: where the slope turns towards zero and
+/// back between two cells, it is examined
+/// where it is nearest to zero, so that no pair of close stationary places is missed.
+pub fn largest_of_both_signs(mut all: impl FnMut(f64) -> [f64; 3], range: (f64, f64), cells: u32) -> [Extremum; 2] {
+    let mut places: Vec<ValueAndSlope> = Vec::new();
     let mut before: Option<(f64, [f64; 3])> = None;
     for at in between_cells(range, cells) {
         let here = (at, all(at));
@@ -173,15 +174,15 @@ pub fn both_ways_with_bend(mut all: impl FnMut(f64) -> [f64; 3], range: (f64, f6
             && let Ok(turn) = root::bracketed(|at| all(at)[2], before.0, at, 0.0)
         {
             let [value, slope, _] = all(turn);
-            places.push(Place { at: turn, value, slope });
+            places.push(ValueAndSlope { at: turn, value, slope });
         }
         let [value, slope, _] = here.1;
-        places.push(Place { at, value, slope });
+        places.push(ValueAndSlope { at, value, slope });
         before = Some(here);
     }
     let first = Extremum { at: range.0, value: f64::NAN };
     [1.0, -1.0].map(|sign| {
-        let places: Vec<Place> =
+        let places: Vec<ValueAndSlope> =
             places.iter().map(|place| if sign < 0.0 { place.negative() } else { *place }).collect();
         beyond(highest(first, &places), &places, |at| {
             let [value, slope, _] = all(at);
@@ -190,23 +191,23 @@ pub fn both_ways_with_bend(mut all: impl FnMut(f64) -> [f64; 3], range: (f64, f6
     })
 }
 
-/// Whether a slope that has one sign at both ends of a cell, or is 0 at one, may have the other between them.
+/// Whether a slope that has one sign at both ends of a cell, or is 0 at one, may have the other sign between them.
 fn turns_back([_, slope, bend]: [f64; 3], [_, end_slope, end_bend]: [f64; 3]) -> bool {
     let sign = if slope == 0.0 { end_slope } else { slope };
     let inwards = |slope: f64, falls: f64| slope == 0.0 || slope * sign > 0.0 && falls < 0.0;
     bend * sign < 0.0 && end_bend * sign > 0.0 && inwards(slope, bend * sign) && inwards(end_slope, -end_bend * sign)
 }
 
-/// Golden sections that shrink a bracket to √ε of its width, where a flat top ends: 0.618 each.
+/// Golden sections that shrink a bracket to √ε of its width, the width of a flat top: 0.618 each.
 pub const TO_ROUNDING: u32 = 38;
 
-/// The largest value of `value` on `[low, high]` when no derivative is at hand: the best of `cells` + 1 points, then
+/// The largest value of `value` on `[low, high]` when its derivative is not known: the best of `cells` + 1 points, then
 /// `sections` golden sections between its neighbours (Kiefer 1953).
 pub fn largest_without_slope(value: impl FnMut(f64) -> f64, range: (f64, f64), cells: u32, sections: u32) -> Extremum {
     largest_of_hills(value, range, (cells, 1), sections)
 }
 
-/// The same about each of the `hills` best of these points that are no lower than their neighbours.
+/// The largest value, refined near each of the `hills` best of these points that are not lower than their neighbours.
 pub fn largest_of_hills(
     mut value: impl FnMut(f64) -> f64,
     (low, high): (f64, f64),
@@ -237,7 +238,7 @@ pub fn largest_of_hills(
     found
 }
 
-/// The two inner points of the last of so many golden sections.
+/// The two inner points of the last golden section.
 fn golden_sections(
     value: &mut impl FnMut(f64) -> f64,
     (mut left, mut right): (f64, f64),
@@ -285,13 +286,13 @@ mod tests {
         assert_eq!(end, Extremum { at: 2.0, value: 4.0 });
     }
 
-    /// Two stationary places much nearer to each other than a cell is wide, and one beside a stationary end.
+    /// Two stationary places much nearer to each other than the width of a cell, and one next to a stationary end.
     #[test]
     fn finds_what_the_bend_shows() {
         // x³/3 − (a + b) x²/2 + a b x has its top at a and its valley at b.
         for (a, b) in [(0.4, 0.4001), (1e-7, 2e-5), (0.0, 1e-6), (0.999_99, 1.0)] {
             let cubic = |x: f64| [x * (x * (x / 3.0 - 0.5 * (a + b)) + a * b), (x - a) * (x - b), 2.0 * x - a - b];
-            let [top, low] = both_ways_with_bend(|x| cubic(x).map(|y| y), (0.0, 1.0), 7);
+            let [top, low] = largest_of_both_signs(|x| cubic(x).map(|y| y), (0.0, 1.0), 7);
             let (valley, hill) = (cubic(b)[0], cubic(a)[0]);
             let ends = [cubic(0.0)[0], cubic(1.0)[0]];
             assert_eq!(-low.value, ends[0].min(ends[1]).min(valley), "{a} {b}: {low:?}");
@@ -299,7 +300,7 @@ mod tests {
         }
     }
 
-    /// A rise from rest that dips first, and a hill beside a valley within a cell.
+    /// A rise from rest that dips first, and a hill next to a valley within a cell.
     #[test]
     fn finds_what_hides_in_a_cell() {
         // 0.01 x³ − x⁵ has its top at x² = 0.006.

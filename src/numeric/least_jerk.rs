@@ -1,27 +1,27 @@
-//! The quintic spline of least ∫(s''')²: through given values, with continuous derivatives up to the fourth where nothing else is given
+//! The quintic spline of least ∫(s''')²: through given values, with continuous derivatives up to the fourth where no other condition is given
 //! (I. J. Schoenberg, "Spline functions and the problem of graduation", 1964; C. H. Reinsch, 1967, for the principle).
 //!
 //! The unknowns are velocity and acceleration at every node. With Hermite's quintics between the nodes the integral is a positive
-//! definite quadratic form of them, and that it is least makes third and fourth derivative continuous, or 0 at a free end. Nodes stand
-//! in a ring; in the order 0, n−1, 1, n−2, … its matrix is a band, so that a ring costs what a chain does.
+//! definite quadratic form of them, and its minimum makes third and fourth derivative continuous, or 0 at a free end. The nodes form
+//! a ring; in the order 0, n−1, 1, n−2, … its matrix is a band, so that a ring costs no more than a chain.
 
-use super::banded::Banded;
+use super::banded::BandedMatrix;
 
 /// Velocity and acceleration at a node, where they are given.
-pub type Given = [Option<f64>; 2];
+pub type NodeConstraint = [Option<f64>; 2];
 
-/// From a node to the next: its width and by how much the value grows; `None` where nothing joins them.
-pub type Interval = Option<(f64, f64)>;
+/// From a node to the next: its width and by how much the value grows; `None` where they are not joined.
+pub type NodeInterval = Option<(f64, f64)>;
 
 /// Half the bandwidth of two unknowns at nodes that are two places apart, and the diagonal.
 const BAND: usize = 6;
 
 /// Velocity and acceleration at every node of a ring; interval k leads from node k to the next, the last to node 0.
 #[must_use]
-pub fn least_jerk(intervals: &[Interval], given: &[Given]) -> Vec<[f64; 2]> {
+pub fn least_jerk(intervals: &[NodeInterval], given: &[NodeConstraint]) -> Vec<[f64; 2]> {
     let count = given.len().min(intervals.len());
     let place = |node: usize| if 2 * node < count { 2 * node } else { 2 * (count - 1 - node) + 1 };
-    let mut matrix = Banded::<BAND>::zero(2 * count);
+    let mut matrix = BandedMatrix::<BAND>::zero(2 * count);
     let mut right = vec![0.0; 2 * count];
     let mut joined = vec![false; count];
     for (node, interval) in intervals.iter().enumerate().take(count) {
@@ -41,7 +41,7 @@ pub fn least_jerk(intervals: &[Interval], given: &[Given]) -> Vec<[f64; 2]> {
                 add(&mut right, *row, -weight * l * known);
                 for (second, (column, m)) in rows.iter().zip(form).enumerate().skip(first) {
                     if free(&fixed, second) {
-                        // Two ends of one interval at one node meet in one entry.
+                        // Two ends of one interval at one node share one entry.
                         let both = if first != second && row == column { 2.0 } else { 1.0 };
                         matrix.add(*row, *column, both * weight * l * m);
                     }
@@ -76,7 +76,7 @@ fn add(list: &mut [f64], index: usize, value: f64) {
 ///
 /// With V = v h, A = a h² and the rise D, s''' h³ is α P₀ + β P₁ + γ P₂ in Legendre's polynomials over the interval, α = A₁ − A₀,
 /// β = 6 (V₀ − V₁) + 3 (A₀ + A₁), γ = 60 D − 30 (V₀ + V₁) − 5 (A₀ − A₁), and the integral (α² + β²/3 + γ²/5)/h⁵.
-fn forms(width: f64, rise: f64) -> [(f64, [f64; 4], f64); 3] {
+pub(super) fn forms(width: f64, rise: f64) -> [(f64, [f64; 4], f64); 3] {
     let (h, square) = (width, width * width);
     let weight = 1.0 / (square * square * width);
     let scaled = |[v0, a0, v1, a1]: [f64; 4]| [v0 * h, a0 * square, v1 * h, a1 * square];
@@ -102,11 +102,11 @@ pub fn not_a_knot(knots: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
         return of_polynomial(knots, values);
     }
     let pairs = knots.iter().zip(knots.iter().skip(1)).zip(values.iter().zip(values.iter().skip(1)));
-    let intervals: Vec<Interval> =
+    let intervals: Vec<NodeInterval> =
         pairs.map(|((x0, x1), (y0, y1))| Some((x1 - x0, y1 - y0))).take(count - 1).chain([None]).collect();
-    let flat: Vec<Interval> = intervals.iter().map(|interval| interval.map(|(width, _)| (width, 0.0))).collect();
-    // The spline is linear in what is given at its ends.
-    let solved = |intervals: &[Interval], [v0, a0, v1, a1]: [f64; 4]| {
+    let flat: Vec<NodeInterval> = intervals.iter().map(|interval| interval.map(|(width, _)| (width, 0.0))).collect();
+    // The spline is linear in the values given at its ends.
+    let solved = |intervals: &[NodeInterval], [v0, a0, v1, a1]: [f64; 4]| {
         let mut given = vec![[None; 2]; count];
         for (end, values) in [(0, [v0, a0]), (count - 1, [v1, a1])] {
             if let Some(given) = given.get_mut(end) {
@@ -122,7 +122,7 @@ pub fn not_a_knot(knots: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
     };
     let columns = [0, 1, 2, 3].map(|index| jumps(&flat, &solved(&flat, unit(index)), count));
     let mut ends = [0.0; 4];
-    // The second pass takes the rounding of the first away.
+    // The second pass removes the rounding of the first.
     for _ in 0..2 {
         let left = jumps(&intervals, &solved(&intervals, ends), count);
         let steps = solve_four(&columns, left);
@@ -141,7 +141,7 @@ fn mean(count: usize) -> f64 {
 }
 
 /// By how much the fifth derivative jumps at the two knots next to either end, times the widths to the fifth.
-fn jumps(intervals: &[Interval], states: &[[f64; 2]], count: usize) -> [f64; 4] {
+fn jumps(intervals: &[NodeInterval], states: &[[f64; 2]], count: usize) -> [f64; 4] {
     let of = |index: usize| {
         let (interval, from, to) =
             (intervals.get(index).copied().flatten()?, states.get(index)?, states.get(index + 1)?);
@@ -156,7 +156,7 @@ fn jumps(intervals: &[Interval], states: &[[f64; 2]], count: usize) -> [f64; 4] 
     })
 }
 
-/// x with Σ columnsₖ xₖ = right, by Gauss with pivots.
+/// x with Σ columnsₖ xₖ = right, by Gauss elimination with pivots.
 fn solve_four(columns: &[[f64; 4]; 4], right: [f64; 4]) -> [f64; 4] {
     let entry = |row: usize, column: usize| columns.get(column).and_then(|list| list.get(row)).copied().unwrap_or(0.0);
     let mut rows: Vec<[f64; 5]> = [0, 1, 2, 3]
@@ -248,7 +248,7 @@ mod tests {
     fn free_ends_bend_as_little_as_possible() {
         let given = [[None; 2]; 4];
         let (knots, f) = ([0.0, 0.3, 0.9, 1.0], |x: f64| 1.0 + x - 2.0 * x * x);
-        let mut intervals: Vec<Interval> =
+        let mut intervals: Vec<NodeInterval> =
             knots.windows(2).map(|pair| Some((pair[1] - pair[0], f(pair[1]) - f(pair[0])))).collect();
         intervals.push(None);
         for (x, [v, a]) in knots.iter().zip(least_jerk(&intervals, &given)) {
@@ -257,13 +257,13 @@ mod tests {
         }
     }
 
-    /// Of 2000 equal steps of a sine the derivatives are those of the sine, and a ring closes.
+    /// With 2000 equal steps of a sine the derivatives are those of the sine, and a ring closes.
     #[test]
     fn a_long_ring_is_solved() {
         let count = 2000;
         let step = std::f64::consts::TAU / f64::from(count);
         let values: Vec<f64> = (0..=count).map(|index| (f64::from(index) * step).sin()).collect();
-        let intervals: Vec<Interval> = values.windows(2).map(|pair| Some((step, pair[1] - pair[0]))).collect();
+        let intervals: Vec<NodeInterval> = values.windows(2).map(|pair| Some((step, pair[1] - pair[0]))).collect();
         let states = least_jerk(&intervals, &vec![[None; 2]; 2000]);
         for (index, [v, a]) in states.iter().enumerate() {
             let angle = f64::from(u32::try_from(index).expect("small")) * step;

@@ -2,17 +2,17 @@
 //!
 //! A linear program on a set of places bounds the peak from below, the function that it gives bounds it from above; the extremes of that
 //! function join the set until both agree (the exchange of E. W. Cheney and A. A. Goldstein, Numerische Mathematik 1 (1959) 253–268). The
-//! value is found so, but where it is flat the weights are not: they have half its digits. Newton's method on the conditions of an
+//! value is found this way, but where it is flat the weights are not: they have half its digits. Newton's method on the conditions of an
 //! optimum, with the places of the extremes among its unknowns, gives the other half (R. Hettich and K. O. Kortanek, "Semi-infinite
 //! programming", SIAM Review 35 (1993) 380–429, §7.3). The prices of the extremes then prove that no other weights have a smaller peak.
 
 use super::linear::solutions;
 use super::root;
-use super::simplex::{self, Row};
+use super::simplex::{self, Inequality};
 
 /// Bounds of the peak that differ by less than this share agree.
 const AGREED: f64 = 1e-13;
-/// Newton's method is tried from so near on.
+/// Newton's method is tried from this difference on.
 const NEAR: f64 = 1e-3;
 /// Rounds of the exchange: it takes five to ten.
 const ROUNDS: u32 = 50;
@@ -24,27 +24,27 @@ const PRICED: f64 = 1e-7;
 /// The weights of least peak.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeastPeak {
-    /// Of every function but the first.
+    /// Weight of every function but the first.
     pub weights: Vec<f64>,
     /// The largest size of the sum.
     pub peak: f64,
 }
 
 /// The sum of a function and weighted others.
-pub struct Problem<F> {
+pub struct LeastPeakProblem<F> {
     /// The derivative of an order at a place: of the function without weight, then of the others.
     pub functions: F,
-    /// How many others there are.
+    /// Number of the weighted functions.
     pub others: usize,
     /// The interval.
     pub range: (f64, f64),
-    /// In how many cells its extremes are told apart.
+    /// Number of cells in which its extremes are searched.
     pub cells: u32,
 }
 
 /// A place at an end of the interval, or where the slope is 0, with the value there.
 #[derive(Debug, Clone, Copy)]
-struct Top {
+struct LocalExtreme {
     at: f64,
     value: f64,
     inner: bool,
@@ -52,7 +52,7 @@ struct Top {
 
 /// An extreme that binds.
 #[derive(Debug, Clone, Copy)]
-struct Binding {
+struct BindingExtreme {
     at: f64,
     inner: bool,
     sign: f64,
@@ -60,14 +60,14 @@ struct Binding {
 }
 
 /// Unknowns of Newton's method.
-struct Point {
+struct NewtonPoint {
     weights: Vec<f64>,
     peak: f64,
-    bindings: Vec<Binding>,
+    bindings: Vec<BindingExtreme>,
 }
 
-impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
-    /// The weights of least peak; `None` where there is no answer to rounding.
+impl<F: Fn(f64, u32) -> Vec<f64>> LeastPeakProblem<F> {
+    /// The weights of least peak; `None` where there is no solution to rounding.
     pub fn solve(&self) -> Option<LeastPeak> {
         if self.others == 0 {
             return Some(LeastPeak { weights: Vec::new(), peak: largest(&self.tops(&[])) });
@@ -79,7 +79,7 @@ impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
             let peak = largest(&tops);
             if peak <= bound * (1.0 + NEAR) {
                 let bindings = binding(&tops, &places, &prices);
-                let polished = self.polished(Point { weights: weights.clone(), peak, bindings });
+                let polished = self.polished(NewtonPoint { weights: weights.clone(), peak, bindings });
                 if polished.is_some() || peak <= bound * (1.0 + AGREED) {
                     return Some(polished.unwrap_or(LeastPeak { weights, peak }));
                 }
@@ -101,16 +101,16 @@ impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
     }
 
     /// Where the sum can have its peak.
-    fn tops(&self, weights: &[f64]) -> Vec<Top> {
+    fn tops(&self, weights: &[f64]) -> Vec<LocalExtreme> {
         let slope = |place: f64| self.at(weights, place, 1);
         let nodes: Vec<(f64, f64)> = (0..=self.cells).map(|cell| self.place(cell)).map(|at| (at, slope(at))).collect();
         let cells = nodes.iter().zip(nodes.iter().skip(1)).filter(|(low, high)| low.1 * high.1 <= 0.0);
         let inner = cells.filter_map(|(low, high)| root::bracketed(slope, low.0, high.0, 0.0).ok());
         let all = inner.map(|at| (at, true)).chain([(self.range.0, false), (self.range.1, false)]);
-        all.map(|(at, inner)| Top { at, value: self.at(weights, at, 0), inner }).collect()
+        all.map(|(at, inner)| LocalExtreme { at, value: self.at(weights, at, 0), inner }).collect()
     }
 
-    /// The weights of least peak on a set of places, that peak, and the prices of the places: above 0 of one where the sum is positive,
+    /// The weights of least peak on a set of places, that peak, and the prices of the places: above 0 for a place where the sum is positive,
     /// below where it is negative.
     fn program(&self, places: &[f64]) -> Option<(Vec<f64>, f64, Vec<f64>)> {
         let row = |place: f64, sign: f64| {
@@ -118,9 +118,9 @@ impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
             let (own, others) = all.split_first()?;
             // A weight of any sign is the difference of two that are not negative.
             let coefficients = others.iter().copied().chain(others.iter().map(|value| -value)).chain([-1.0]).collect();
-            Some(Row { coefficients, right: -own })
+            Some(Inequality { coefficients, right: -own })
         };
-        let rows: Vec<Row> =
+        let rows: Vec<Inequality> =
             places.iter().flat_map(|place| [row(*place, 1.0), row(*place, -1.0)]).collect::<Option<_>>()?;
         let bound = 2 * self.others;
         let costs: Vec<f64> = (0..=bound).map(|index| if index == bound { 1.0 } else { 0.0 }).collect();
@@ -131,8 +131,8 @@ impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
         Some((weights, *found.unknowns.get(bound)?, prices.map(|price| -price).collect()))
     }
 
-    /// The optimum near a point, where it is one.
-    fn polished(&self, mut point: Point) -> Option<LeastPeak> {
+    /// The optimum near a point, where there is one.
+    fn polished(&self, mut point: NewtonPoint) -> Option<LeastPeak> {
         let mut before = f64::INFINITY;
         for _ in 0..STEPS {
             let step = self.step(&mut point)?;
@@ -147,7 +147,7 @@ impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
     }
 
     /// A step of Newton's method, and how long it was as a share of the largest weight.
-    fn step(&self, point: &mut Point) -> Option<f64> {
+    fn step(&self, point: &mut NewtonPoint) -> Option<f64> {
         let (others, count) = (self.others, point.bindings.len());
         let unknowns = others + 1 + 2 * count;
         let (place, price) = (|index: usize| others + 1 + index, |index: usize| others + 1 + count + index);
@@ -159,12 +159,12 @@ impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
             let [value, slope, bend] = [0, 1, 2].map(|order| self.at(&point.weights, binding.at, order));
             // The peak is reached there …
             let mut reached = vec![0.0; unknowns];
-            // … with the slope 0, but at an end.
+            // … with the slope 0, except at an end.
             let mut flat = vec![0.0; unknowns];
             for (own, (value, slope)) in values.iter().zip(&slopes).skip(1).enumerate() {
                 *reached.get_mut(own)? = sign * value;
                 *flat.get_mut(own)? = if binding.inner { *slope } else { 0.0 };
-                // The prices leave no way down.
+                // The prices admit no direction of descent.
                 let (row, right) = equations.get_mut(own)?;
                 *row.get_mut(place(index))? = if binding.inner { binding.price * sign * slope } else { 0.0 };
                 *row.get_mut(price(index))? = sign * value;
@@ -194,14 +194,16 @@ impl<F: Fn(f64, u32) -> Vec<f64>> Problem<F> {
     }
 }
 
-fn largest(tops: &[Top]) -> f64 {
+fn largest(tops: &[LocalExtreme]) -> f64 {
     tops.iter().fold(0.0_f64, |largest, top| largest.max(top.value.abs()))
 }
 
-/// The extremes to which the priced places belong: each to the nearest of its sign.
-fn binding(tops: &[Top], places: &[f64], prices: &[f64]) -> Vec<Binding> {
-    let mut all: Vec<Binding> =
-        tops.iter().map(|top| Binding { at: top.at, inner: top.inner, sign: top.value.signum(), price: 0.0 }).collect();
+/// The extremes to which the places with a price belong: each to the nearest of its sign.
+fn binding(tops: &[LocalExtreme], places: &[f64], prices: &[f64]) -> Vec<BindingExtreme> {
+    let mut all: Vec<BindingExtreme> = tops
+        .iter()
+        .map(|top| BindingExtreme { at: top.at, inner: top.inner, sign: top.value.signum(), price: 0.0 })
+        .collect();
     for (place, price) in places.iter().zip(prices) {
         let own = all.iter_mut().filter(|binding| binding.sign * price > 0.0);
         let nearest = own.min_by(|a, b| (a.at - place).abs().total_cmp(&(b.at - place).abs()));
@@ -226,8 +228,12 @@ mod tests {
                 if order > n { 0.0 } else { factor * x.powi(n.cast_signed() - order.cast_signed()) }
             };
             let functions = |x: f64, order: u32| (0..=degree).rev().map(|n| power(n, x, order)).collect();
-            let problem =
-                Problem { functions, others: usize::try_from(degree).expect("few"), range: (-1.0, 1.0), cells: 64 };
+            let problem = LeastPeakProblem {
+                functions,
+                others: usize::try_from(degree).expect("few"),
+                range: (-1.0, 1.0),
+                cells: 64,
+            };
             let found = problem.solve().expect("an optimum");
             let known = 2.0 / f64::from(1 << degree);
             assert!((found.peak / known - 1.0).abs() < 1e-12, "{degree}: {found:?}");
@@ -243,13 +249,14 @@ mod tests {
     /// Where all functions of a family cross, one extreme binds alone: 1 + w x on [−1, 1] is least at w = 0, and flat there.
     #[test]
     fn weights_are_found_where_the_peak_is_flat() {
-        // 1 − x² + w x: the peak at w = 0 is 1, and 1 + w²/4 beside it.
+        // 1 − x² + w x: the peak at w = 0 is 1, and 1 + w²/4 near it.
         let functions = |x: f64, order: u32| match order {
             0 => vec![1.0 - (x - 0.3) * (x - 0.3), x - 0.3],
             1 => vec![-2.0 * (x - 0.3), 1.0],
             _ => vec![-2.0, 0.0],
         };
-        let found = Problem { functions, others: 1, range: (-1.0, 1.0), cells: 16 }.solve().expect("an optimum");
+        let found =
+            LeastPeakProblem { functions, others: 1, range: (-1.0, 1.0), cells: 16 }.solve().expect("an optimum");
         assert!(found.weights[0].abs() < 1e-15 && (found.peak - 1.0).abs() < 1e-15, "{found:?}");
     }
 }

@@ -13,7 +13,7 @@ pub const TERMS: usize = 16;
 
 /// A series is resolved where its last two coefficients are below this share of the largest.
 const RESOLVED: f64 = 1e-13;
-/// As often an interval is halved, at the most: a function that is not smooth costs no more.
+/// Most halvings of an interval: a function that is not smooth costs no more.
 const MOST_HALVINGS: u32 = 8;
 /// Newton steps to a node: each doubles the digits of the first guess, which has three.
 const NEWTON_STEPS: usize = 6;
@@ -21,7 +21,7 @@ const NEWTON_STEPS: usize = 6;
 const ABOVE: u32 = 24;
 
 /// Nodes with weights times P_n there, n = 0 …
-struct Rule {
+struct GaussRule {
     nodes: Vec<(f64, [f64; TERMS])>,
 }
 
@@ -36,8 +36,8 @@ fn polynomials(x: f64) -> [f64; TERMS] {
     all
 }
 
-fn rule() -> &'static Rule {
-    static RULE: OnceLock<Rule> = OnceLock::new();
+fn rule() -> &'static GaussRule {
+    static RULE: OnceLock<GaussRule> = OnceLock::new();
     RULE.get_or_init(|| {
         #[expect(clippy::cast_precision_loss, reason = "sixteen")]
         let count = TERMS as f64;
@@ -55,20 +55,20 @@ fn rule() -> &'static Rule {
             let weight = 2.0 / ((1.0 - x * x) * slope * slope);
             (x, polynomials(x).map(|p| weight * p))
         };
-        Rule { nodes: (0..).map(f64::from).take(TERMS).map(node).collect() }
+        GaussRule { nodes: (0..).map(f64::from).take(TERMS).map(node).collect() }
     })
 }
 
 /// A polynomial on an interval.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub struct LegendreSeries {
     middle: f64,
     half: f64,
-    /// Of P_0, P_1, …
+    /// Coefficients of P_0, P_1, …
     coefficients: Vec<f64>,
 }
 
-impl Series {
+impl LegendreSeries {
     /// A straight line by its value in the middle of an interval and its slope.
     #[must_use]
     pub fn line((low, high): (f64, f64), value: f64, slope: f64) -> Self {
@@ -76,8 +76,8 @@ impl Series {
         Self { middle: 0.5 * (low + high), half, coefficients: vec![value, slope * half] }
     }
 
-    /// Series of a smooth function on an interval, halved until each is the function to rounding; of a polynomial up to degree 13 it is
-    /// one.
+    /// Series of a smooth function on an interval, halved until each equals the function to rounding; a polynomial up to degree 13 gives
+    /// one series.
     #[must_use]
     pub fn of(function: &dyn Fn(f64) -> f64, range: (f64, f64)) -> Vec<Self> {
         let mut found = Vec::new();
@@ -120,11 +120,11 @@ impl Series {
 /// sin x / x.
 #[must_use]
 pub fn sinc(x: f64) -> f64 {
-    // Below, the first two terms are 1 to rounding.
+    // Below this, the first two terms are 1 to rounding.
     if x.abs() < 1e-8 { 1.0 } else { libm::sin(x) / x }
 }
 
-/// The spherical Bessel functions j_0(z), j_1(z), …, so many: upwards by their recursion where z exceeds every order, else downwards from
+/// This many spherical Bessel functions j_0(z), j_1(z), …: upwards by their recursion where z exceeds every order, otherwise downwards from
 /// far above (W. Gautschi, SIAM Review 9, 1967).
 #[must_use]
 pub fn spherical_bessel(z: f64, count: usize) -> Vec<f64> {
@@ -153,7 +153,7 @@ pub fn spherical_bessel(z: f64, count: usize) -> Vec<f64> {
             ratios.push(ratio);
         }
     }
-    // sin z/z is near 0 where j_1 is not: both are then taken from cos z.
+    // sin z/z is near 0 where j_1 is not: both are then computed from cos z.
     let (sin, cos) = libm::sincos(size);
     let zeroth = if sin.abs() > 0.1 * size.min(1.0) { sin / size } else { -cos / (size * ratio - 1.0) };
     let mut value = zeroth;
@@ -169,7 +169,7 @@ pub fn spherical_bessel(z: f64, count: usize) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// ∫ x^k e^{iwx} by so many panels of Gauss that nothing is left.
+    /// ∫ x^k e^{iwx} with so many Gauss panels that the error vanishes.
     fn brute(function: &dyn Fn(f64) -> f64, range: (f64, f64), w: f64) -> Complex<f64> {
         let part = |f: fn(f64) -> f64| crate::numeric::quadrature::integrate(|x| function(x) * f(w * x), range, 1300);
         Complex::new(part(libm::cos), part(libm::sin))
@@ -207,7 +207,8 @@ mod tests {
         for (name, function) in cases {
             for w in [0.0, 1e-6, 0.3, 2.0, 17.0, 130.0, -30.0] {
                 let range = (0.1, 1.2);
-                let found: Complex<f64> = Series::of(function, range).iter().map(|series| series.transform(w)).sum();
+                let found: Complex<f64> =
+                    LegendreSeries::of(function, range).iter().map(|series| series.transform(w)).sum();
                 let known = brute(function, range, w);
                 let size = brute(&|x| function(x).abs(), range, 0.0).re;
                 assert!((found - known).norm() < 1e-13 * size, "{name} at {w}: {found} {known}");

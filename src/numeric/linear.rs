@@ -1,26 +1,28 @@
 //! Systems of a few linear equations, with as many unknowns or more: Gauss and Jordan's elimination with complete pivoting (Golub, Van
 //! Loan, Matrix Computations, §3.4.8).
+//!
+//! nalgebra's elimination with complete pivoting gives no directions of a wide system, and other last digits, which would change laws.
 
-/// A pivot below this share of its equation's largest coefficient is 0 and its rounding.
+/// A pivot below this share of its equation's largest coefficient counts as 0 with rounding.
 const SMALL: f64 = 1e-12;
 
 /// Every solution of a system.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solutions {
+pub struct LinearSolutions {
     /// One of them.
     pub particular: Vec<f64>,
-    /// What may be added to it in any amount; of a square system nothing.
+    /// Vectors that may be added to it in any multiple; none for a square system.
     pub directions: Vec<Vec<f64>>,
 }
 
-/// The solutions of coefficients · x = right, given as pairs, of so many unknowns; `None` where the equations depend on each other.
+/// The solutions of coefficients · x = right, given as pairs, for this many unknowns; `None` where the equations depend on each other.
 #[must_use]
-pub fn solutions(equations: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Solutions> {
+pub fn solutions(equations: &[(Vec<f64>, f64)], unknowns: usize) -> Option<LinearSolutions> {
     let mut rows: Vec<(Vec<f64>, f64)> = equations.iter().filter_map(scaled).collect();
     if rows.len() != equations.len() {
         return None;
     }
-    // Which unknown each row gives, once it has been a pivot.
+    // The unknown that each row gives, once it has been a pivot.
     let mut given: Vec<Option<usize>> = vec![None; rows.len()];
     for _ in 0..rows.len() {
         let open = rows.iter().zip(&given).enumerate().filter(|(_, (_, given))| given.is_none());
@@ -28,7 +30,7 @@ pub fn solutions(equations: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Solut
             coefficients.iter().take(unknowns).enumerate().map(move |(column, value)| (row, column, *value))
         });
         let (row, column, pivot) = entries.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()))?;
-        // Not a number is no pivot either.
+        // NaN is not a pivot.
         if !(pivot.abs() > SMALL && pivot.is_finite()) {
             return None;
         }
@@ -49,17 +51,17 @@ pub fn solutions(equations: &[(Vec<f64>, f64)], unknowns: usize) -> Option<Solut
         Some(direction)
     };
     let directions = free.map(direction).collect::<Option<_>>()?;
-    Some(Solutions { particular, directions })
+    Some(LinearSolutions { particular, directions })
 }
 
-/// An equation over its largest coefficient.
+/// An equation divided by its largest coefficient.
 fn scaled((coefficients, right): &(Vec<f64>, f64)) -> Option<(Vec<f64>, f64)> {
     let largest = coefficients.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let scaled = || (coefficients.iter().map(|value| value / largest).collect(), right / largest);
     (largest > 0.0 && largest.is_finite()).then(scaled)
 }
 
-/// Makes a pivot 1, and everything else in its column 0.
+/// Makes a pivot 1, and all other entries of its column 0.
 fn eliminate(rows: &mut [(Vec<f64>, f64)], row: usize, column: usize, pivot: f64) {
     let Some((coefficients, right)) = rows.get_mut(row) else { return };
     for value in coefficients.iter_mut() {

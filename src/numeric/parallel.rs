@@ -1,4 +1,4 @@
-//! The same function of many values, on all processors where there is more than one value and a thread can be started.
+//! One function of many values, on all processors where there is more than one value and a thread can be started.
 
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -39,7 +39,7 @@ pub fn both<A: Send, B: Send>(
 }
 
 /// The threads, started at the first use: as many as there are processors, or as `RAYON_NUM_THREADS` says. `None` where the
-/// system starts none; rayon's own pool would end the program there.
+/// system cannot start threads; rayon's own pool would end the program there.
 fn threads() -> Option<&'static ThreadPool> {
     static POOL: OnceLock<Option<ThreadPool>> = OnceLock::new();
     POOL.get_or_init(|| ThreadPoolBuilder::new().build().ok()).as_ref()

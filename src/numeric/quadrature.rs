@@ -8,7 +8,7 @@ const GAUSS_8: [(f64, f64); 4] = [
     (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
 ];
 
-/// The integral of `f` over `[low, high]`, cut into `panels` equal panels of eight points.
+/// The integral of `f` over `[low, high]`, divided into `panels` equal panels of eight points.
 ///
 /// Exact for polynomials of degree 15 in each panel; an integrand with a cusp inside loses accuracy in its panel only.
 pub fn integrate(mut f: impl FnMut(f64) -> f64, (low, high): (f64, f64), panels: u32) -> f64 {

@@ -3,14 +3,14 @@
 //! T. R. Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function
 //! without using derivatives", Advances in Engineering Software 28 (1997) 145–149. Inverse quadratic interpolation
 //! where his criterion on the three last points shows it to be monotone, bisection otherwise. The bracket always
-//! holds a change of sign, so the root returned is certain.
+//! contains a change of sign, so the root returned is certain.
 
-/// Bisection halves the bracket; from the widest bracket of `f64` to neighbouring numbers takes 2098 halvings at the
-/// worst, a bracket within a few powers of two 60. Interpolation ends sooner. Running out means the function is not a
+/// Bisection halves the bracket; from the widest bracket of `f64` to neighbouring numbers takes at most 2098 halvings, a bracket
+/// within a few powers of two 60. Interpolation ends sooner. Reaching the limit means that the function is not a
 /// number somewhere in the bracket.
 const MAX_STEPS: usize = 200;
 
-/// Why there is no root to return.
+/// Why no root is returned.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RootError {
@@ -23,7 +23,7 @@ pub enum RootError {
         high: f64,
     },
     /// The function was not a number inside the bracket.
-    #[error("not a number near {at}")]
+    #[error("the function is not a number near {at}")]
     NotANumber {
         /// The place.
         at: f64,
@@ -56,7 +56,7 @@ pub fn bracketed(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: 
         if fx.is_nan() {
             return Err(RootError::NotANumber { at: x });
         }
-        // (c, fc) is the point that leaves; the new bracket is a, b with a the newest.
+        // (c, fc) is the discarded point; the new bracket is a, b with a the newest.
         let (c, fc);
         if fx.is_sign_positive() == fa.is_sign_positive() {
             (c, fc) = (a, fa);
@@ -84,6 +84,29 @@ pub fn bracketed(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: 
     Ok(if fa.abs() < fb.abs() { a } else { b })
 }
 
+/// The places of a range where a function changes its sign, at most one in each of a number of cells: where it is 0 at an end of a cell, or over
+/// several cells, that place, or the first of them.
+pub fn sign_changes(f: impl Fn(f64) -> f64, (low, high): (f64, f64), cells: u32) -> Vec<f64> {
+    let mut found = Vec::new();
+    let mut last: Option<(f64, f64)> = None;
+    let mut zero: Option<f64> = None;
+    for cell in 0..=cells {
+        let at = if cell == cells { high } else { low + (high - low) * (f64::from(cell) / f64::from(cells)) };
+        let value = f(at);
+        if value == 0.0 {
+            zero = zero.or(Some(at));
+        } else if value.is_nan() {
+            (last, zero) = (None, None);
+        } else {
+            if let Some((before, _)) = last.filter(|(_, other)| (*other < 0.0) != (value < 0.0)) {
+                found.extend(zero.or_else(|| bracketed(&f, before, at, 0.0).ok()));
+            }
+            (last, zero) = (Some((at, value)), None);
+        }
+    }
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,8 +114,8 @@ mod tests {
     /// Roots in closed form, with what makes each hard.
     #[test]
     fn finds_known_roots_to_rounding_in_few_steps() {
-        type Case = (&'static str, fn(f64) -> f64, f64, f64, f64);
-        let cases: &[Case] = &[
+        type RootCase = (&'static str, fn(f64) -> f64, f64, f64, f64);
+        let cases: &[RootCase] = &[
             ("smooth", |x| x * x - 2.0, 0.0, 2.0, std::f64::consts::SQRT_2),
             ("flat triple root", |x| (x - 1.0).powi(3), 0.0, 3.0, 1.0),
             ("steep", |x| libm::exp(x) - 1e8, 0.0, 100.0, 18.420_680_743_952_367),
@@ -125,5 +148,17 @@ mod tests {
             bracketed(|x| if x.abs() < 0.9 { f64::NAN } else { x }, -1.0, 1.0, 0.0),
             Err(RootError::NotANumber { .. })
         ));
+    }
+
+    /// A zero on an end of a cell, one between two of them, a stretch of zeros, and a zero without a change.
+    #[test]
+    fn sign_changes_are_found_wherever_they_lie() {
+        let odd = |x: f64| x * (x - 0.3);
+        let found = sign_changes(odd, (-1.0, 1.0), 16);
+        assert!(found.len() == 2 && found[0] == 0.0 && (found[1] - 0.3).abs() < 1e-15, "{found:?}");
+        let flat = |x: f64| if x.abs() < 0.4 { 0.0 } else { x };
+        assert_eq!(sign_changes(flat, (-1.0, 1.0), 8), [-0.25]);
+        assert_eq!(sign_changes(|x| x * x, (-1.0, 1.0), 8), [0.0; 0]);
+        assert_eq!(sign_changes(f64::sin, (0.0, 7.0), 8).len(), 2, "the zero at the beginning is no change");
     }
 }

@@ -1,4 +1,4 @@
-//! Linear programs of a few unknowns: the simplex method on a dense tableau (G. B. Dantzig 1951; against circling, R. G.
+//! Linear programs of a few unknowns: the simplex method on a dense tableau (G. B. Dantzig 1951; against cycling, R. G.
 //! Bland's rule, Mathematics of Operations Research 2 (1977) 103–107).
 
 /// Pivots by the steepest cost; then as many again by Bland's rule.
@@ -9,8 +9,8 @@ const SMALL: f64 = 1e-11;
 
 /// coefficients · x ≤ right.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// Of each unknown.
+pub struct Inequality {
+    /// Coefficient of each unknown.
     pub coefficients: Vec<f64>,
     /// The right side.
     pub right: f64,
@@ -24,9 +24,9 @@ struct Tableau {
 }
 
 impl Tableau {
-    fn new(costs: &[f64], rows: &[Row]) -> Self {
+    fn new(costs: &[f64], rows: &[Inequality]) -> Self {
         let slack = |row: usize| (0..rows.len()).map(move |other| if other == row { 1.0 } else { 0.0 });
-        let full = |(index, row): (usize, &Row)| {
+        let full = |(index, row): (usize, &Inequality)| {
             row.coefficients.iter().copied().chain(slack(index)).chain([row.right]).collect()
         };
         Self {
@@ -57,7 +57,7 @@ impl Tableau {
         }
     }
 
-    /// Makes every right side of the rows that hold −1 in a column positive.
+    /// Makes every right side positive in the rows that contain −1 in a column.
     fn relieve(&mut self, column: usize) {
         let right = |row: &Vec<f64>| row.last().copied().unwrap_or(0.0);
         let holds = |row: &Vec<f64>| row.get(column).is_some_and(|value| *value == -1.0);
@@ -94,20 +94,20 @@ impl Tableau {
     }
 }
 
-/// Where a linear program is least.
+/// The optimum of a linear program.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Least {
+pub struct LinearOptimum {
     /// The unknowns.
     pub unknowns: Vec<f64>,
-    /// What the least costs fall by for each unit that the right side of a row grows by; 0 of a row that does not bind.
+    /// By how much the least costs fall for each unit by which the right side of a row grows; 0 for a row that does not bind.
     pub prices: Vec<f64>,
 }
 
-/// x ≥ 0 with the least costs · x under the rows; `None` where it is without bound or does not end.
+/// x ≥ 0 with the least costs · x under the rows; `None` where it is unbounded or does not converge.
 ///
-/// A row with a negative right side must hold −1 in exactly one of the `elastic` columns, and no row may hold two of them.
+/// A row with a negative right side must contain −1 in exactly one of the `elastic` columns, and no row may contain two of them.
 #[must_use]
-pub fn least(costs: &[f64], rows: &[Row], elastic: &[usize]) -> Option<Least> {
+pub fn least(costs: &[f64], rows: &[Inequality], elastic: &[usize]) -> Option<LinearOptimum> {
     let mut tableau = Tableau::new(costs, rows);
     for column in elastic {
         tableau.relieve(*column);
@@ -121,7 +121,7 @@ pub fn least(costs: &[f64], rows: &[Row], elastic: &[usize]) -> Option<Least> {
                 }
             }
             let prices = tableau.costs.iter().copied().skip(costs.len()).take(rows.len()).collect();
-            return Some(Least { unknowns, prices });
+            return Some(LinearOptimum { unknowns, prices });
         };
         let row = tableau.leaving(column)?;
         tableau.pivot(row, column);
@@ -133,8 +133,8 @@ pub fn least(costs: &[f64], rows: &[Row], elastic: &[usize]) -> Option<Least> {
 mod tests {
     use super::*;
 
-    fn row(coefficients: &[f64], right: f64) -> Row {
-        Row { coefficients: coefficients.to_vec(), right }
+    fn row(coefficients: &[f64], right: f64) -> Inequality {
+        Inequality { coefficients: coefficients.to_vec(), right }
     }
 
     #[test]

@@ -11,7 +11,7 @@ pub struct Spline {
 }
 
 impl Spline {
-    /// Through `values` at `knots`, both of one length, knots increasing.
+    /// Through `values` at `knots`, both of equal length, knots increasing.
     #[must_use]
     pub fn not_a_knot(knots: &[f64], values: &[f64]) -> Self {
         Self::with_second(knots, values, &second_derivatives(knots, values))
@@ -68,7 +68,7 @@ impl Spline {
         let count = self.cubics.len() + 3;
         (0..count)
             .map(|control| {
-                // Any interval within the support will do; this one holds the middle of the three knots or touches it.
+                // Any interval within the support is suitable; this one contains the middle of the three knots or touches it.
                 let interval = control.saturating_sub(1).min(self.cubics.len() - 1);
                 let (Some(start), Some([c0, c1, c2, c3])) = (self.knots.get(interval), self.cubics.get(interval))
                 else {
@@ -92,15 +92,17 @@ impl Spline {
     }
 }
 
-/// The interval between knots in which a place lies: the first or the last one beyond the ends, the later one at a knot.
+/// The interval between knots that contains a place: the first or the last one beyond the ends, the later one at a knot.
 #[must_use]
+#[inline]
 pub fn interval_of(knots: &[f64], x: f64) -> usize {
     let last = knots.len().saturating_sub(2);
     knots.partition_point(|knot| *knot <= x).saturating_sub(1).min(last)
 }
 
-/// Value and first three derivatives of a cubic so far behind the left knot of its interval.
+/// Value and first three derivatives of a cubic at a distance from the left knot of its interval.
 #[must_use]
+#[inline]
 pub fn cubic_at([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
     [((d * t + c) * t + b) * t + a, (3.0 * d * t + 2.0 * c) * t + b, 6.0 * d * t + 2.0 * c, 6.0 * d]
 }
@@ -182,8 +184,8 @@ fn tridiagonal(rows: impl Iterator<Item = [f64; 4]>) -> Vec<f64> {
     solution
 }
 
-/// The second derivatives at the knots of a periodic spline, but for the last, which is the first again; intervals of widths
-/// `h` whose chords have the slopes `d`. The two corners of the cyclic matrix are taken out as a product of two vectors
+/// The second derivatives at the knots of a periodic spline, except the last, which equals the first; intervals of widths
+/// `h` whose chords have the slopes `d`. The two corners of the cyclic matrix are removed as a product of two vectors
 /// (Sherman and Morrison, 1950).
 fn cyclic(h: &[f64], d: &[f64]) -> Vec<f64> {
     let (Some(last), Some(first)) = (h.last().copied(), h.first().copied()) else { return Vec::new() };

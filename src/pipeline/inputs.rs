@@ -1,40 +1,25 @@
-//! What determines a part: the values of its machine, how it is solved, and how it is drawn.
+//! The inputs that determine a part: the values of its machine, how it is solved, and how it is drawn.
 
-use crate::body::points::{Given, Points};
+use crate::body::points::{PointCurve, Points};
 use crate::body::{Body, RateTolerance, Request};
-use crate::document::Input;
-use crate::geometry::points::{Between, Form, Step};
-use crate::motion::equation_18::{ExactOn, Solver};
+use crate::document::{Input, NamedChoice};
+use crate::geometry::lead_in::LeadInForm;
+use crate::geometry::points::PointInterpolation;
 use crate::profile::Curves;
-use crate::profile::outline::{Laid, Side};
 use crate::report::sha256;
 
 /// Places at which a motion is sampled in each of its pieces. A motion of one's own is known by these alone.
 const SAMPLES: u32 = 64;
 
-pub(super) fn of_wedge(solver: Solver, exact_on: ExactOn) -> Vec<Input> {
-    let balance = match exact_on {
-        ExactOn::Braking => "braking",
-        ExactOn::Return => "return",
-        ExactOn::Mean => "mean",
-    };
-    let solver = match solver {
-        Solver::Ode { tolerance } => Input::new("solver", format!("ode {tolerance}"), "ode"),
-        Solver::Paper { stations } => Input::word("solver", format!("paper, {stations} stations")),
-    };
-    vec![solver, Input::word("balance", balance)]
-}
-
-/// Of a body that code has solved in a way the specification cannot tell: samples of its exact curves.
+/// Inputs of a body solved by code that the specification cannot describe: samples of its exact curves.
 pub(super) fn of_own(body: &dyn Body) -> Vec<Input> {
     let mut text = format!("{} {:?}\n", body.speeds(), body.shaft_speed());
-    if let Some(curves) = body.plane() {
-        sample(&curves, &mut text);
-    }
-    if let Some(conoid) = body.spatial() {
-        for (_, z, _) in conoid.cuts() {
-            text.push_str(&format!("z {z}\n"));
-            sample(&conoid.plane_of(&conoid.slice(z)), &mut text);
+    for cut in body.cuts() {
+        if let Some(curves) = cut.curves {
+            sample(&curves, &mut text);
+        } else if let Some(surface) = body.surface() {
+            text.push_str(&format!("z {}\n", cut.z));
+            surface.in_plane(cut.z, &mut |curves| sample(&curves, &mut text));
         }
     }
     let mut hash = sha256(text.as_bytes());
@@ -57,36 +42,54 @@ fn sample(curves: &Curves<'_>, text: &mut String) {
     }
 }
 
-/// Of what a drawing must contain. Whether errors refuse it, and which files show it, does not change the part.
+/// Inputs of a request for a drawing. Whether errors refuse it, and which files show it, does not change the part.
 pub(super) fn of_request(request: &Request) -> Vec<Input> {
     let fit = &request.fit;
-    let side = match fit.side {
-        Side::Both => "both",
-        Side::Inside => "inside",
-        Side::Outside => "outside",
-    };
-    let outline = match fit.laid {
-        Laid::Arcs => "arcs",
-        Laid::Splines => "spline",
-    };
     let [velocity, acceleration] = request.rates;
     let mut inputs = vec![
         Input::quantity("tolerance", fit.tolerance, ("um", 1e-6)),
-        Input::word("side", side),
-        Input::word("outline", outline),
+        Input::word("side", fit.side.word()),
+        Input::word("outline", fit.laid.word()),
         of_rate("tolerance-velocity", velocity, fit.motion.velocity),
         of_rate("tolerance-acceleration", acceleration, fit.motion.acceleration),
     ];
-    inputs.extend(request.cutter.map(|radius| Input::quantity("cutter", radius, ("mm", 1e-3))));
+    inputs.extend(request.cutter_radius.map(|radius| Input::quantity("cutter-diameter", 2.0 * radius, ("mm", 1e-3))));
     inputs.extend(request.points.into_iter().flat_map(of_points));
+    inputs.extend(request.start.map(|start| Input::quantity("start", start, ("deg", 1_f64.to_radians()))));
     inputs
+        .extend(request.lead_in.map(|lead_in| Input::quantity(lead_in_key(lead_in.form), lead_in.size, ("mm", 1e-3))));
+    inputs
+}
+
+/// Whether an input is one of a request for a drawing.
+pub(super) fn is_of_request(input: &Input) -> bool {
+    let drawing = [
+        "tolerance",
+        "side",
+        "outline",
+        "tolerance-velocity",
+        "tolerance-acceleration",
+        "cutter",
+        "cutter-diameter",
+        "start",
+    ];
+    let of_form = LeadInForm::ALL.iter().any(|(_, form)| input.key == lead_in_key(*form));
+    drawing.contains(&input.key.as_str()) || of_form || input.key.starts_with("points-")
+}
+
+/// The key of a lead-in of a form.
+fn lead_in_key(form: LeadInForm) -> &'static str {
+    match form {
+        LeadInForm::Tangent => "lead-in-tangent",
+        LeadInForm::Arc => "lead-in-arc",
+    }
 }
 
 fn of_rate(name: &str, asked: Option<RateTolerance>, own: f64) -> Input {
     match asked {
         Some(RateTolerance::Share(share)) => {
-            let told = Input::quantity(name, share, ("%", 0.01));
-            Input::new(name, format!("{} of the largest", told.value), told.typed)
+            let input = Input::quantity(name, share, ("%", 0.01));
+            Input::new(name, format!("{} of the largest", input.value), input.typed)
         }
         Some(RateTolerance::Rate { value, swing, by_time }) => {
             let unit = if swing { "rad" } else { "m" };
@@ -98,25 +101,16 @@ fn of_rate(name: &str, asked: Option<RateTolerance>, own: f64) -> Input {
     }
 }
 
-/// What is not by default of a table of points.
+/// The inputs of a table of points that differ from the default.
 fn of_points(points: Points) -> Vec<Input> {
-    let given = match points.given {
-        Given::Profile => None,
-        Given::Centre => Some("centre"),
-        Given::Cutter => Some("cutter"),
-    };
-    let form = points.form.map(|form| match form {
-        Form::Polar => "polar",
-        Form::Plane => "xy",
-    });
-    let step = points.step.map(|step| match step {
-        Step::Angle => "angle",
-        Step::Chord => "chord",
-    });
-    let between = match points.between {
-        Between::Linear => None,
-        Between::Cubic => Some("cubic"),
-    };
-    let all = [("points-of", given), ("points-as", form), ("points-step", step), ("points-between", between)];
+    let all = [
+        ("points-of", Some(points.curve).filter(|given| *given != PointCurve::Profile).map(NamedChoice::word)),
+        ("points-as", points.form.map(NamedChoice::word)),
+        ("points-step", points.step.map(NamedChoice::word)),
+        (
+            "points-between",
+            Some(points.between).filter(|between| *between != PointInterpolation::Linear).map(NamedChoice::word),
+        ),
+    ];
     all.into_iter().filter_map(|(name, word)| Some(Input::word(name, word?))).collect()
 }

@@ -1,42 +1,67 @@
-//! The pipeline as types: [`Spec`] → [`Cam`] → [`Drawing`] → [`Proven`] → [`FileSet`], each step a method of the one before.
+//! The pipeline as types: [`Spec`] → [`Cam`] → [`Drawing`] → [`Proven`] → [`FileSet`], each step a method of the one before. Each owns what it
+//! needs: it can be kept, returned and sent to another thread. An [`Assembly`] is several cams that walk it together.
 //!
-//! There is no other way from one to the next, so nothing can be written that was not proved: the files are made of what
+//! There is no other path from one to the next, so nothing can be written that was not proved: the files are made of what
 //! [`Drawing::prove`] read back from their own bytes.
 
+mod assembly;
 mod builder;
+mod cam_files;
 mod check;
 mod diagnosis;
 mod error;
 mod file_set;
 mod inputs;
 mod judged;
+mod pair;
 mod proven;
 mod spec;
+mod tool_files;
 
-pub use builder::Builder;
+pub use assembly::{Assembly, AssemblyDrawing, AssemblyReport, ProvenAssembly};
+pub(crate) use builder::SOURCE as OF_BUILDER;
+pub use builder::{
+    ArmSide, Builder, FlatFaceFollower, KnifeEdgeFollower, PlaceChoice, RollerFollower, SwingingFaceFollower,
+    SwingingRollerFollower,
+};
+pub use check::ExpectedFile;
+pub(crate) use diagnosis::Alternative;
 pub use error::Error;
 pub use file_set::{FileSet, Output, Writing};
 pub use judged::Judged;
 pub use proven::Proven;
 pub use spec::Spec;
+pub(crate) use spec::{SolvedBodies, WantedCams};
 
-use crate::body::disc::Compensated;
 use crate::body::points::{self, PointTable, TableError};
-use crate::body::{Body, DrawError, Drawn, Request};
+use crate::body::{self, Body, DrawError, Drawn, Request};
 use crate::document::Input;
-use crate::numeric::parallel;
 use crate::report::{Inputs, Report, Section};
+use std::sync::Arc;
 
-/// A solved cam: exact curves, nothing drawn yet.
-#[derive(Debug)]
+/// A solved cam: exact curves, nothing drawn yet. A copy shares its body.
+///
+/// ```
+/// use camgen::{Cam, Machine, Spec};
+///
+/// let (machine, _) = Machine::load("valve", &[])?;
+/// let cam: Cam = Spec::of_program(machine, None).ok_or("no motion")?.solve()?;
+///
+/// // A cam owns what it needs: it can be kept, and drawn in another thread.
+/// let copy = cam.clone();
+/// let coarse = std::thread::spawn(move || copy.draw(50e-6)).join().expect("no panic")?;
+/// let fine = cam.draw(2e-6)?;
+/// let arcs = |drawing: &camgen::Drawing| drawing.drawn().map(|drawn| drawn.parts[0].outline.contour.arcs());
+/// assert!(arcs(&coarse) < arcs(&fine));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
 pub struct Cam {
-    body: Box<dyn Body>,
-    /// The same for another speed, where it is made for one.
-    again: Option<diagnosis::Again>,
+    body: Arc<dyn Body>,
+    /// How it is solved for another speed, where it is made for one.
+    resolver: Option<diagnosis::Resolver>,
     /// What determines it.
     inputs: Vec<Input>,
-    /// The disc that takes its torque, and what it does by its law.
-    second: Option<(Box<Cam>, Compensated)>,
 }
 
 impl Cam {
@@ -48,34 +73,51 @@ impl Cam {
 
     /// Draws what is cut, within a tolerance (m) or as a [`Request`] asks.
     ///
+    /// ```
+    /// use camgen::{Fit, Machine, Request, Side, Spec};
+    ///
+    /// let (machine, _) = Machine::load("feeder", &[])?;
+    /// let cam = Spec::of_program(machine, None).ok_or("no motion")?.solve()?;
+    /// // Never cut too deep, with the path of an Ø12 mm cutter.
+    /// let fit = Fit { side: Side::Outside, ..Fit::from(10e-6) };
+    /// let drawing = cam.draw(Request { cutter_radius: Some(0.006), ..Request::within(fit) })?;
+    /// let drawn = drawing.drawn().ok_or("no outline")?;
+    /// assert!(drawn.cutter_path.is_some());
+    /// assert!(drawn.parts[0].outline.deviation < 0.010);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Draw`] when the outline cannot be drawn. A cam that has no outline at all, because it is undercut too
     /// far, gives a drawing without one: its checks say why, and it cannot be written.
-    pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing<'_>, Error> {
+    pub fn draw(&self, request: impl Into<Request>) -> Result<Drawing, Error> {
         let request = request.into();
-        let second = self.second.as_ref().map(|(cam, _)| || cam.draw(request));
-        let (drawing, second) = parallel::both(|| self.draw_alone(request), second);
-        let second = second.transpose()?.map(Box::new);
-        Ok(Drawing { second, ..drawing? })
-    }
-
-    /// Without the second disc.
-    fn draw_alone(&self, request: Request) -> Result<Drawing<'_>, Error> {
         let inputs = self.inputs_for(&request);
-        let request = request.resolved(&*self.body)?;
+        let request = request.resolved(&*self.body).map_err(Error::Draw)?;
+        body::finer_than_the_lift(&*self.body, request.fit.tolerance).map_err(Error::Draw)?;
         let (drawn, points) = match self.body.draw(&request) {
             Ok(drawn) => {
-                let points = match points::tables(self.body(), &request, &drawn.parts) {
+                let drawn = body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?;
+                let points = match points::tables(self.body(), &request, &drawn) {
                     // The check of the cutter's radius says so, too, and what would pass.
                     Err(TableError::Cutter(why)) => Err(why.to_string()),
-                    tables => Ok(tables.map_err(DrawError::Points)?),
+                    Err(TableError::Refused(why)) => return Err(Error::Draw(why.context("no table of points"))),
+                    Ok(tables) => Ok(tables),
                 };
                 (Ok(drawn), points)
             }
             Err(DrawError::NoOutline(why)) => (Err(why), Ok(Vec::new())),
-            Err(error) => return Err(error.into()),
+            Err(DrawError::Refused(why)) => return Err(Error::Draw(why)),
         };
-        Ok(Drawing { cam: self, request, inputs, drawn, points, second: None })
+        Ok(Drawing { cam: self.clone(), request, inputs, drawn, points })
+    }
+
+    /// Whether it is made from the inputs of a recorded run; how it is drawn does not matter.
+    #[must_use]
+    pub fn is_made_from(&self, recorded: &[Input]) -> bool {
+        let known = |input: &Input| self.inputs.contains(input);
+        let left = recorded.iter().filter(|input| !known(input));
+        self.inputs.iter().all(|input| recorded.contains(input)) && left.into_iter().all(inputs::is_of_request)
     }
 
     /// Everything that determines the part as it is drawn.
@@ -92,19 +134,17 @@ impl From<f64> for Request {
 
 /// A cam as drawn to a tolerance, not yet proved.
 #[derive(Debug, Clone)]
-pub struct Drawing<'c> {
-    cam: &'c Cam,
+pub struct Drawing {
+    cam: Cam,
     request: Request,
     inputs: Vec<Input>,
     /// What was drawn, or why there is no outline.
     drawn: Result<Drawn, String>,
     /// The tables of points that were requested, or why there are none.
     points: Result<Vec<PointTable>, String>,
-    /// The disc that takes its torque.
-    second: Option<Box<Self>>,
 }
 
-impl Drawing<'_> {
+impl Drawing {
     /// What was drawn; `None` when there is no outline.
     #[must_use]
     pub fn drawn(&self) -> Option<&Drawn> {
@@ -120,10 +160,12 @@ fn report(body: &dyn Body, inputs: Inputs, sections: Vec<Section>, checks: Vec<c
         noun: kind.noun.into(),
         machine: machine.name().to_owned(),
         rpm: body.speeds(),
+        shaft: body.shaft(),
         inputs,
         sections,
         checks,
-        notes: machine.idle_keys_told(kind.keys, kind.noun),
+        notes: machine.idle_key_notes(kind.keys, kind.noun).into_iter().chain(machine.material_note()).collect(),
+        not_modelled: body.not_modelled().into_iter().map(str::to_owned).collect(),
         files: Vec::new(),
     }
 }

@@ -1,15 +1,14 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
-use super::{Cam, Drawing, Error, FileSet, Writing, file_set, report};
-use crate::body::disc::AtSpeed;
-use crate::body::points::{Judged, PointTable, swings};
-use crate::body::{Body, Drawn, Found, Request, torque};
+use super::{Cam, Drawing, Error, report};
+use crate::body::points::{PointErrors, PointTable, swings};
+use crate::body::{Body, DrawingEvidence, Drawn, Request};
+use crate::check::Measure;
 use crate::document::Input;
 use crate::geometry::MILLIMETRES;
-use crate::geometry::points::{Between, Interpolant};
-use crate::numeric::parallel;
-use crate::profile::lifts;
-use crate::report::{Compensation, Finding, Inputs, PointMeasures, PreloadAt, Report, Rolled, Told, passed};
+use crate::geometry::points::{Interpolant, PointInterpolation};
+use crate::profile::outline::{Outline, OutlineError};
+use crate::report::{Finding, Inputs, LazyReport, PointMeasures, Report, Rolled, Section, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
 use crate::write::Rendering;
@@ -17,110 +16,153 @@ use crate::write::csv;
 use crate::write::dxf::Version;
 use crate::write::{points, proof};
 use std::ops::Deref;
+use std::sync::Arc;
 
-/// A cam whose cut files were written to memory, read back, and checked.
+/// A cam whose cut files were written to memory, read back, and checked. A copy shares all of it.
+///
+/// ```
+/// use camgen::{Machine, Spec, Verdict};
+///
+/// let (machine, _) = Machine::load("feeder", &["limits.pressure_angle=20 deg".to_owned(), "cam.base_radius=40 mm".to_owned()])?;
+/// let proven = Spec::of_program(machine, None).ok_or("no motion")?.solve()?.draw(10e-6)?.prove()?;
+/// assert!(!proven.passed());
+/// for finding in proven.findings().iter().filter(|finding| finding.verdict == Verdict::Fail) {
+///     println!("{}: {:.2} {}, limit {:?}", finding.check, finding.value, finding.unit, finding.limit);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Proven(Arc<ProvenData>);
+
+/// All data of a proven cam, shared by its copies.
 #[derive(Debug)]
-pub struct Proven<'c> {
-    pub(super) cam: &'c Cam,
+struct ProvenData {
+    cam: Cam,
     request: Request,
     /// Everything that determines the part.
-    pub(super) inputs: Vec<Input>,
+    inputs: Vec<Input>,
     /// Their hash.
     hashed: Inputs,
-    pub(super) drawn: Result<Drawn, String>,
+    drawn: Result<Drawn, String>,
     /// The bytes of the cut files, one for each part.
     cut_files: Vec<Vec<u8>>,
     /// The bytes of the tables of points, one for each part, when they were requested.
     points: Vec<Vec<u8>>,
-    /// What the report tells of them.
-    points_told: Vec<PointMeasures>,
+    /// The figures of those tables, for the report.
+    point_measures: Vec<PointMeasures>,
     version: Version,
     outlines: Vec<WrittenOutline>,
-    rolled: Option<Rolled>,
+    rolled: Vec<Rolled>,
     findings: Vec<Finding>,
-    /// The disc that takes its torque.
-    second: Option<Box<Self>>,
 }
 
 /// The cut files of a drawing in memory, and what is in them.
-struct Written {
+pub(super) struct WrittenCuts {
     cut_files: Vec<Vec<u8>>,
     outlines: Vec<WrittenOutline>,
-    rolled: Option<Rolled>,
+    rolled: Vec<Rolled>,
     inputs: Inputs,
 }
 
-impl<'c> Drawing<'c> {
+impl WrittenCuts {
+    /// The outlines as read back.
+    pub(super) fn outlines(&self) -> &[WrittenOutline] {
+        &self.outlines
+    }
+}
+
+impl Drawing {
+    /// The body that it is of.
+    pub(super) fn body(&self) -> &dyn Body {
+        self.cam.body()
+    }
+
     /// Writes the cut files to memory as R2000, reads the outlines back from their bytes, and checks the cam.
     ///
     /// # Errors
     /// [`Error::Proof`] when the bytes do not hold what was drawn: a fault of camgen.
-    pub fn prove(self) -> Result<Proven<'c>, Error> {
+    pub fn prove(self) -> Result<Proven, Error> {
         self.prove_as(Version::default())
     }
 
     /// As [`Drawing::prove`], in another version of DXF.
     ///
+    /// ```
+    /// use camgen::{Spec, Version};
+    ///
+    /// # let motion = camgen::motion::EccentricCircle::new(0.005, 0.040);
+    /// let cam = Spec::builder("eccentric").roller(0.010).base_radius(0.030).motion(motion)?.solve()?;
+    /// let proven = cam.draw(5e-6)?.prove_as(Version::R12)?;
+    /// let dxf = String::from_utf8_lossy(&proven.cut_files()[0]);
+    /// assert!(dxf.contains("AC1009"));
+    /// # Ok::<(), camgen::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`Drawing::prove`].
-    pub fn prove_as(self, version: Version) -> Result<Proven<'c>, Error> {
-        let mut drawing = self;
-        let second = drawing.second.take().map(|second| || second.prove_as(version));
-        let (written, second) = parallel::both(|| drawing.written(version), second);
-        let second = second.transpose()?.map(Box::new);
-        drawing.judged(version, written?, second)
+    pub fn prove_as(self, version: Version) -> Result<Proven, Error> {
+        let written = self.written(version)?;
+        Ok(self.judged(version, written, &[]))
     }
 
     /// The cut files in memory as they are read back, and what rolling on the first shows.
-    fn written(&self, version: Version) -> Result<Written, Error> {
+    pub(super) fn written(&self, version: Version) -> Result<WrittenCuts, Error> {
         let body = self.cam.body();
         let inputs = Inputs::of(&self.inputs);
         let mark = inputs.to_string();
         let (mut cut_files, mut outlines) = (Vec::new(), Vec::new());
         for part in self.drawn.iter().flat_map(|drawn| &drawn.parts) {
             // The proof is of the bytes that would be cut, not of the drawing they were made from.
-            let written = proof::write_marked(part, version, &mark)?;
+            let written = proof::write_marked(part, version, &mark).map_err(Error::Proof)?;
             cut_files.push(written.bytes);
-            outlines.push(WrittenOutline { z: part.z, contour: written.outline, beside: written.beside });
+            for contour in written.outlines {
+                let (cut, others) = (outlines.len(), written.others.clone());
+                outlines.push(WrittenOutline { cut, z: part.z, contour, others });
+            }
         }
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
-        let plane = body.plane().zip(outlines.first());
-        let rolled = plane.map(|(curves, outline)| rolling::roll(body, curves, &outline.contour, tolerance_mm));
-        Ok(Written { cut_files, outlines, rolled, inputs })
+        let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
+        Ok(WrittenCuts { cut_files, outlines, rolled, inputs })
     }
 
-    /// Every check, of what was written.
-    fn judged(self, version: Version, written: Written, second: Option<Box<Proven<'c>>>) -> Result<Proven<'c>, Error> {
-        let Written { cut_files, outlines, rolled, inputs: hashed } = written;
+    /// Every check, of what was written, with the cams that are cut with it.
+    pub(super) fn judged(self, version: Version, written: WrittenCuts, of_others: &[Measure]) -> Proven {
+        let WrittenCuts { cut_files, outlines, rolled, inputs: hashed } = written;
         let body = self.cam.body();
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let (middle, _) = self.request.fit.band();
-        let path = self.drawn.as_ref().ok().and_then(|drawn| drawn.cutter_path.as_ref()).zip(self.request.cutter);
-        let cutter_path = path.map(|(outline, radius)| {
-            let contour = match outline {
-                Ok(outline) => proof::cutter_path(&outline.contour, version).map_err(|error| error.to_string()),
+        let paths = self.drawn.iter().flat_map(Drawn::cutter_paths).enumerate();
+        let written_path = |(cut, outline): (usize, &Result<Outline, OutlineError>)| {
+            let read = match outline {
+                Ok(outline) => proof::cutter_path(outline, version).map_err(|error| error.to_string()),
                 Err(error) => Err(error.to_string()),
             };
-            WrittenPath { radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour }
-        });
-        let points_told = self.points.iter().flatten().map(|table| measures(body, table)).collect();
+            let (contour, lead_ins) = match read {
+                Ok((contour, lead_ins)) => (Ok(contour), lead_ins),
+                Err(why) => (Err(why), Vec::new()),
+            };
+            let radius = self.request.cutter_radius?;
+            Some(WrittenPath { cut, radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour, lead_ins })
+        };
+        let cutter_paths: Vec<WrittenPath> = paths.filter_map(written_path).collect();
+        let point_measures = self.points.iter().flatten().map(|table| measures(body, table)).collect();
         let (points, tables) = written_points(body, &self.request, self.points);
         let findings = verify::run(&Evidence {
             body,
             drawn: self.drawn.as_ref().ok(),
             outlines: &outlines,
-            rolled: rolled.as_ref(),
-            foreign: None,
-            cutter_path: cutter_path.as_ref(),
+            rolled: &rolled,
+            foreign: &[],
+            cutter_paths: &cutter_paths,
             points: tables.as_ref(),
-            compensator: second.as_ref().map(|second| second.findings.as_slice()),
+            of_others,
             solid: None,
             tolerance_mm,
             motion: self.request.fit.motion,
             strict: self.request.strict,
         });
         let (cam, request, inputs, drawn) = (self.cam, self.request, self.inputs, self.drawn);
-        Ok(Proven {
+        Proven(Arc::new(ProvenData {
             cam,
             request,
             inputs,
@@ -128,13 +170,12 @@ impl<'c> Drawing<'c> {
             drawn,
             cut_files,
             points,
-            points_told,
+            point_measures,
             version,
             outlines,
             rolled,
             findings,
-            second,
-        })
+        }))
     }
 }
 
@@ -154,34 +195,24 @@ fn written_points(
     let read = |(table, bytes): (PointTable, &Vec<u8>)| {
         let curve = points::read(bytes)
             .map(|read| Interpolant::new(&table.turned(&read.rows), read.form, read.between, read.closed));
-        WrittenPoints { table, cutter: request.cutter, curve }
+        WrittenPoints { table, cutter: request.cutter_radius, curve }
     };
     let written = tables.into_iter().zip(&files).map(read).collect();
     (files, Some(Ok(written)))
 }
 
-fn preload_at(at: &AtSpeed) -> PreloadAt {
-    PreloadAt {
-        rpm: at.rpm,
-        preload_n: at.preload,
-        torque_before_max_nm: at.before,
-        torque_unchanged_max_nm: at.unchanged,
-        torque_after_max_nm: at.after,
-    }
-}
-
-/// What the report tells of a table.
+/// The figures of a table, for the report.
 fn measures(body: &dyn Body, table: &PointTable) -> PointMeasures {
     let swings = swings(body);
     let unit = if swings { 1.0 } else { MILLIMETRES };
-    let [velocity, acceleration] = match table.felt {
-        Judged::Errors(errors) => errors.map(|error| Some(unit * error).filter(|error| error.is_finite())),
-        Judged::Not(_) => [None; 2],
+    let [velocity, acceleration] = match table.errors {
+        PointErrors::Known(errors) => errors.map(|error| Some(unit * error).filter(|error| error.is_finite())),
+        PointErrors::Unknown(_) => [None; 2],
     };
     PointMeasures {
         rpm: table.rpm,
         rows: table.rows.rows.len(),
-        interpolation: if table.wish.between == Between::Linear { "linear" } else { "cubic" },
+        interpolation: if table.wish.between == PointInterpolation::Linear { "linear" } else { "cubic" },
         tolerance_mm: table.wish.tolerance,
         error_mm: table.rows.error,
         swings,
@@ -190,116 +221,128 @@ fn measures(body: &dyn Body, table: &PointTable) -> PointMeasures {
     }
 }
 
-impl Proven<'_> {
+impl Proven {
     /// What every check found.
     #[must_use]
     pub fn findings(&self) -> &[Finding] {
-        &self.findings
+        &self.0.findings
     }
 
     /// Whether there is an outline and no check failed.
     #[must_use]
     pub fn passed(&self) -> bool {
-        self.drawn.is_ok() && passed(&self.findings) && self.second.as_ref().is_none_or(|second| second.passed())
+        self.0.drawn.is_ok() && passed(&self.0.findings)
     }
 
-    /// Why there is no outline, when there is none.
+    /// Why it has no outline, where it has none.
     #[must_use]
     pub fn no_outline(&self) -> Option<&str> {
-        self.drawn.as_ref().err().map(String::as_str).or(self.second.as_ref().and_then(|second| second.no_outline()))
+        self.0.drawn.as_ref().err().map(String::as_str)
     }
 
-    /// The disc that takes its torque, where there is one.
-    #[must_use]
-    pub fn second(&self) -> Option<&Proven<'_>> {
-        self.second.as_deref()
+    /// What was drawn.
+    ///
+    /// # Errors
+    /// [`Error::NoOutline`] when there is nothing to write.
+    pub(super) fn outlined(&self) -> Result<&Drawn, Error> {
+        self.0.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))
     }
 
-    /// What that disc does, for the report.
-    fn compensation(&self) -> Option<Compensation> {
-        let (second, (_, told)) = (self.second.as_deref()?, self.cam.second.as_ref()?);
-        let (body, machine) = (second.cam.body(), self.cam.body().machine());
-        let (curves, data) = (body.plane()?, machine.compensator()?);
-        let both = self.outlines.first().zip(second.outlines.first());
-        let part = second.drawn().and_then(|drawn| drawn.parts.first());
-        let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
-        let prime_radius_mm = MILLIMETRES * curves.follower.prime_radius()?;
-        Some(Compensation {
-            lift_max_mm: MILLIMETRES * lifts(curves.motion).1,
-            prime_radius_mm,
-            base_radius_mm: prime_radius_mm - MILLIMETRES * data.roller_radius,
-            roller_radius_mm: MILLIMETRES * data.roller_radius,
-            angle_deg: data.angle.to_degrees(),
-            work_j: told.work,
-            spring_force_max_n: told.spring_force,
-            torque_before_max_nm: told.before,
-            torque_after_max_nm: told.after,
-            torque_as_cut_max_nm: both
-                .and_then(|(first, second)| torque::left((self.cam.body(), &first.contour), (body, &second.contour))),
-            preload_by_rpm: told.by_speed.iter().map(preload_at).collect(),
-            outline: part.map(|part| part.measures(tolerance_mm, |_| false)),
-            rolling: second.rolled.clone(),
-            checks: second.findings.clone(),
-        })
+    /// Everything that determines the part.
+    pub(super) fn inputs(&self) -> &[Input] {
+        &self.0.inputs
+    }
+
+    /// Tolerance of its outlines, mm.
+    pub(crate) fn tolerance_mm(&self) -> f64 {
+        MILLIMETRES * self.0.request.fit.tolerance
     }
 
     /// The cam it proves.
     #[must_use]
     pub fn body(&self) -> &dyn Body {
-        self.cam.body()
+        self.0.cam.body()
     }
 
     /// What was drawn.
     #[must_use]
     pub fn drawn(&self) -> Option<&Drawn> {
-        self.drawn.as_ref().ok()
+        self.0.drawn.as_ref().ok()
     }
 
     /// The bytes of the cut files, as they were proved.
     #[must_use]
     pub fn cut_files(&self) -> &[Vec<u8>] {
-        &self.cut_files
+        &self.0.cut_files
     }
 
     /// The outlines as another program would find them in the cut files.
     #[must_use]
     pub fn outlines(&self) -> &[WrittenOutline] {
-        &self.outlines
+        &self.0.outlines
     }
 
     /// What rolling the follower on the written outline has shown, of a plane cam.
     #[must_use]
     pub fn rolled(&self) -> Option<&Rolled> {
-        self.rolled.as_ref()
+        self.0.rolled.first()
     }
 
     /// The report, without files.
+    ///
+    /// ```
+    /// use camgen::{Machine, Report, Spec};
+    ///
+    /// let (machine, _) = Machine::load("feeder", &[])?;
+    /// let proven = Spec::of_program(machine, None).ok_or("no motion")?.solve()?.draw(10e-6)?.prove()?;
+    /// let json = serde_json::to_string_pretty(&proven.report())?;
+    /// // Another program reads it back.
+    /// let report: Report = serde_json::from_str(&json)?;
+    /// assert_eq!(report.machine, "Feeder");
+    /// assert!(report.section("outline").is_some() && report.passed());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn report(&self) -> Report {
-        let body = self.cam.body();
-        let found = Found {
-            drawn: self.drawn(),
-            rolled: self.rolled.as_ref(),
-            tolerance_mm: MILLIMETRES * self.request.fit.tolerance,
-        };
-        let mut sections = body.sections(&found);
-        sections.extend(PointMeasures::section(&self.points_told));
-        sections.extend(self.compensation().map(|told| told.section()));
-        let mut report = report(body, self.hashed.clone(), sections, self.findings.clone());
-        report.notes.extend(self.no_outline().map(|why| format!("there is no outline: {why}")));
+        self.report_with(Vec::new(), self.no_outline())
+    }
+
+    /// The report with more sections, and with the reason why there is no outline of a cam that belongs to it.
+    pub(super) fn report_with(&self, more: Vec<Section>, no_outline: Option<&str>) -> Report {
+        let ProvenData { rolled, point_measures, hashed, findings, .. } = &*self.0;
+        let found = DrawingEvidence { drawn: self.drawn(), rolled, tolerance_mm: self.tolerance_mm() };
+        let mut sections = self.body().sections(&found);
+        sections.extend(PointMeasures::section(point_measures));
+        sections.extend(more);
+        let mut report = report(self.body(), hashed.clone(), sections, findings.clone());
+        report.notes.extend(no_outline.map(|why| format!("there is no outline: {why}")));
         report
     }
 
-    /// The same, made when somebody looks into it.
+    /// The report, made when it is first read.
     #[must_use]
-    pub fn told(&self) -> Told<'_> {
-        Told::new(Box::new(|| self.report()))
+    pub fn lazy_report(&self) -> LazyReport {
+        let proven = self.clone();
+        LazyReport::new(Box::new(move || proven.report()))
     }
 
     /// The point table with so many rows over a turn of the cam, or steps over the stroke of a plate.
+    ///
+    /// ```
+    /// use camgen::{Machine, Spec};
+    ///
+    /// let (machine, _) = Machine::load("feeder", &[])?;
+    /// let proven = Spec::of_program(machine, None).ok_or("no motion")?.solve()?.draw(10e-6)?.prove()?;
+    /// let table = proven.table(360);
+    /// let column = |name: &str| table.columns.iter().position(|column| *column == name).ok_or("no such column");
+    /// let (angle, lift) = (column("cam_deg")?, column("lift_mm")?);
+    /// assert_eq!((table.rows.len(), table.rows[90][angle]), (360, 90.0));
+    /// assert!(table.rows.iter().all(|row| row[lift] < 30.001));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn table(&self, samples: u32) -> Table {
-        csv::table(self.cam.body(), self.second_body(), &self.outlines, samples)
+        csv::table(self.body(), None, &self.0.outlines, samples)
     }
 
     /// The cam as the formats see it, with a report and the template of the sheet.
@@ -312,35 +355,23 @@ impl Proven<'_> {
         samples: u32,
         template: &'a str,
     ) -> Result<Rendering<'a>, Error> {
-        let drawn = self.drawn.as_ref().map_err(|why| Error::NoOutline(why.clone()))?;
-        let (body, cut_files, dxf_version) = (self.cam.body(), &self.cut_files, self.version);
+        let drawn = self.outlined()?;
+        let (body, cut_files, dxf_version) = (self.0.cam.body(), &self.0.cut_files, self.0.version);
         Ok(Rendering {
             body,
-            second: self.second.as_ref().map(|second| (second.cam.body(), second.outlines())),
+            other_cams: &[],
             drawn,
-            outlines: &self.outlines,
+            outlines: &self.0.outlines,
             cut_files,
-            points: &self.points,
-            fit: self.request.fit,
+            points: &self.0.points,
+            fit: self.0.request.fit,
+            cutter_radius: self.0.request.cutter_radius,
             dxf_version,
-            findings: &self.findings,
+            findings: &self.0.findings,
             report,
             samples,
             template,
             created: None,
         })
-    }
-
-    fn second_body(&self) -> Option<&dyn Body> {
-        self.second.as_ref().map(|second| second.cam.body())
-    }
-
-    /// Makes the files in memory.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] when a check failed and `writing.force` is not set; [`Error::NoOutline`], [`Error::Unfit`],
-    /// [`Error::Format`].
-    pub fn files(&self, writing: &Writing) -> Result<FileSet<'_>, Error> {
-        file_set::files(self, writing)
     }
 }

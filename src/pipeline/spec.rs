@@ -1,27 +1,60 @@
 //! The cam to be made: a machine, and how the body is solved from it.
 
-use super::diagnosis::Again;
-use super::{Builder, Cam, Error, inputs};
-use crate::body::conoid::{Conoid, between};
-use crate::body::disc::Disc;
-use crate::body::wedge::Wedge;
-use crate::body::{Body, SolveError};
+use super::diagnosis::{Alternative, Resolver};
+use super::pair::PairReport;
+use super::{Assembly, AssemblyReport, Cam, Error, inputs};
+use crate::body::{self, Body, ProgramCams, Request};
 use crate::document::Input;
-use crate::machine::{BrakeMachine, Machine};
-use crate::motion::equation_18::{ExactOn, Solver};
-use crate::motion::{BrakeDisc, Motion};
+use crate::machine::Machine;
+use crate::motion::Motion;
+use crate::refusal::Refusal;
+use crate::report::Inputs;
 use std::fmt;
 use std::sync::Arc;
 
-type Solve = dyn FnOnce(&Machine) -> Result<Box<dyn Body>, SolveError>;
+/// Solves a body and, where they are wanted, those that are made for it.
+type Solve = dyn FnOnce(&Machine, WantedCams) -> Result<SolvedBodies, Refusal> + Send;
+
+/// Which cams are solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum WantedCams {
+    /// The cam alone.
+    Alone,
+    /// And those that are made for it.
+    All,
+}
+
+/// A solved body, with those that are made for it.
+pub(crate) struct SolvedBodies {
+    body: Arc<dyn Body>,
+    /// What the names of its files have after the stem where others are made with it.
+    name: &'static str,
+    /// Each with what the names of its files have after the stem.
+    others: Vec<(String, Arc<dyn Body>)>,
+    joint_report: Option<Arc<dyn AssemblyReport>>,
+}
+
+impl SolvedBodies {
+    /// A body alone.
+    pub(crate) fn alone(body: impl Body + 'static) -> Self {
+        Self { body: Arc::new(body), name: "", others: Vec::new(), joint_report: None }
+    }
+
+    /// With another body that is made for it, whose files are named by its command, and the report on both together.
+    pub(crate) fn with(mut self, other: impl Body + 'static, joint_report: impl AssemblyReport + 'static) -> Self {
+        self.others.push((other.kind().command.to_owned(), Arc::new(other)));
+        Self { joint_report: Some(Arc::new(joint_report)), ..self }
+    }
+}
+
+/// A cam, its name among them, those that are made with it by their names, and the report on all of them.
+type SolvedCams = (Cam, &'static str, Vec<(String, Cam)>, Option<Arc<dyn AssemblyReport>>);
 
 /// A specification: the cam to be made, every value in range.
 pub struct Spec {
     machine: Machine,
     solve: Box<Solve>,
-    again: Option<Again>,
-    /// The disc that takes its torque is left out, although it is described.
-    alone: bool,
+    resolver: Option<Resolver>,
     /// How the body is solved; `None` where only `solve` knows.
     inputs: Option<Vec<Input>>,
 }
@@ -35,117 +68,129 @@ impl fmt::Debug for Spec {
 impl Spec {
     /// Any body: `solve` makes it from the machine.
     ///
-    /// What `solve` knows beside the machine is an input that the hash in the report cannot see as such: it is of the machine and
+    /// What `solve` knows in addition to the machine is an input that the hash in the report cannot see as such: it is of the machine and
     /// of samples of the solved curves, 65 in each piece of the motion.
-    pub fn new<B, E>(machine: Machine, solve: impl FnOnce(&Machine) -> Result<B, E> + 'static) -> Self
+    pub fn new<B, E>(machine: Machine, solve: impl FnOnce(&Machine) -> Result<B, E> + Send + 'static) -> Self
     where
         B: Body + 'static,
-        E: Into<SolveError>,
+        E: Into<Refusal>,
     {
-        let solve = |machine: &Machine| match solve(machine) {
-            Ok(body) => Ok(Box::new(body) as Box<dyn Body>),
-            Err(error) => Err(error.into()),
-        };
-        Self { machine, solve: Box::new(solve), again: None, alone: false, inputs: None }
+        Self::of_several(machine, |machine, _| solve(machine).map(SolvedBodies::alone).map_err(E::into))
     }
 
-    /// All that is known of how the body is solved, beside the machine.
-    fn with(self, inputs: Vec<Input>) -> Self {
+    /// Any body, with those that are made for it where they are wanted.
+    pub(crate) fn of_several(
+        machine: Machine,
+        solve: impl FnOnce(&Machine, WantedCams) -> Result<SolvedBodies, Refusal> + Send + 'static,
+    ) -> Self {
+        Self { machine, solve: Box::new(solve), resolver: None, inputs: None }
+    }
+
+    /// All inputs of the solution in addition to the machine.
+    pub(crate) fn with_inputs(self, inputs: Vec<Input>) -> Self {
         Self { inputs: Some(inputs), ..self }
     }
 
-    /// How the cam is solved for other speeds: a check that fails tells for which it would be the cam.
-    fn for_other_speeds<B, E>(self, solve: impl Fn(&Machine, f64) -> Result<B, E> + Send + Sync + 'static) -> Self
+    /// How the cam is solved for other speeds, and of which other machines a file may be the cam: a check that fails looks for these.
+    pub(crate) fn for_other_speeds<B, E>(
+        self,
+        solve: impl Fn(&Machine, f64) -> Result<B, E> + Send + Sync + 'static,
+        alternatives: fn(&Machine) -> Vec<Alternative>,
+    ) -> Self
     where
         B: Body + 'static,
     {
         let solve = move |machine: &Machine, rpm| Some(Box::new(solve(machine, rpm).ok()?) as Box<dyn Body>);
-        Self { again: Some(Again(Box::new(solve))), ..self }
+        Self { resolver: Some(Resolver { solve: Arc::new(solve), alternatives }), ..self }
     }
 
-    /// The disc cam of a press for a speed of its main shaft, rpm.
-    #[must_use]
-    pub fn rotary(machine: Machine, rpm: f64) -> Self {
-        Self::new(machine, move |machine| Disc::solve(machine, rpm))
-            .for_other_speeds(Disc::solve)
-            .with(vec![Input::number("rpm", rpm)])
-    }
-
-    /// The wedge cam of a press (a linear cam, the plate on the bed) for a speed of its main shaft, rpm.
-    #[must_use]
-    pub fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
-        let solve = move |machine: &Machine, rpm| Wedge::solve(machine, rpm, solver, exact_on);
-        let mut inputs = inputs::of_wedge(solver, exact_on);
-        inputs.push(Input::number("rpm", rpm));
-        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve).with(inputs)
-    }
-
-    /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the residual force
-    /// between them, N.
-    #[must_use]
-    pub fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
-        let mut inputs = vec![Input::numbers("rpm", &speeds)];
-        inputs.extend(residual_limit.map(|limit| Input::quantity("residual", limit, ("N", 1.0))));
-        let solve = move |machine: &Machine| Conoid::solve(machine, &speeds);
-        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(residual_limit)))
-            .with(inputs)
-    }
-
-    /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a residual force between them, N.
-    #[must_use]
-    pub fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
-        let solve = move |machine: &Machine| between::fewest(machine, speeds, residual_limit);
-        let (from, to) = speeds;
-        let inputs =
-            vec![Input::word("rpm", format!("{from}..{to}")), Input::quantity("residual", residual_limit, ("N", 1.0))];
-        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(Some(residual_limit))))
-            .with(inputs)
-    }
-
-    /// The disc cam of the motion program of the machine file; `rpm` is the speed of the cam itself, in place of that of the file.
+    /// The cam of the motion program of the machine file, with the body of its `cam.body`; `rpm` is the speed of the cam itself, in place of that of the file.
     /// `None` when the file has no motion.
+    ///
+    /// ```
+    /// use camgen::{Machine, Spec};
+    ///
+    /// let text = r#"
+    /// name = "Pusher"
+    /// [motion]
+    /// start = "0 mm"
+    /// [[motion.segment]]
+    /// law = "cycloidal"
+    /// over = "120 deg"
+    /// to = "15 mm"
+    /// [[motion.segment]]
+    /// law = "cycloidal"
+    /// over = "120 deg"
+    /// to = "0 mm"
+    /// [[motion.segment]]
+    /// law = "dwell"
+    /// [follower.roller]
+    /// radius = "10 mm"
+    /// [cam]
+    /// [limits]
+    /// "#;
+    /// let machine = Machine::from_toml("pusher.toml", text, &[])?;
+    /// let cam = Spec::of_program(machine, Some(60.0)).ok_or("no motion")?.solve()?;
+    /// assert!(cam.draw(10e-6)?.prove()?.passed());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn of_program(machine: Machine, rpm: Option<f64>) -> Option<Self> {
         let (motion, of_file) = machine.motion()?;
         let rpm = rpm.or(of_file);
         let inputs = rpm.map(|rpm| Input::number("rpm", rpm)).into_iter().collect();
-        Some(Self::of_motion(machine, motion, rpm).with(inputs))
+        Some(Self::of_motion(machine, motion, rpm).with_inputs(inputs))
     }
 
-    /// The disc cam of any motion; `rpm` is the speed of the cam itself, where it is known. Of the motion the hash in the report
+    /// The cam of any motion, with the body of the machine's `cam.body`; `rpm` is the speed of the cam itself, where it is known. Of the motion the hash in the report
     /// knows samples, as in [`Spec::new`].
+    ///
+    /// ```
+    /// use camgen::motion::EccentricCircle;
+    /// use camgen::{Machine, Spec};
+    /// use std::sync::Arc;
+    ///
+    /// let machine = Spec::builder("eccentric").roller(0.010).base_radius(0.030).machine()?;
+    /// let circle = EccentricCircle::new(0.005, 0.040);
+    /// let cam = Spec::of_motion(machine, Arc::new(circle), None).solve()?;
+    /// assert!(cam.draw(1e-6)?.prove()?.passed());
+    /// # Ok::<(), camgen::Error>(())
+    /// ```
     #[must_use]
     pub fn of_motion(machine: Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Self {
-        Self::new(machine, move |machine| Disc::of_motion(machine, motion, rpm))
+        Self::of_several(machine, move |machine, wanted| {
+            let ProgramCams { first: (name, body), others } = body::of_motion(machine, &motion, rpm)?;
+            let wanted = |_: &(_, _)| wanted == WantedCams::All;
+            let others: Vec<(String, Arc<dyn Body>)> =
+                others.into_iter().filter(wanted).map(|(name, body)| (name.to_owned(), body)).collect();
+            let joint_report = (!others.is_empty()).then(|| Arc::new(PairReport) as Arc<dyn AssemblyReport>);
+            Ok(SolvedBodies { body, name, others, joint_report })
+        })
     }
 
-    /// A specification put together in code instead of in a file.
+    /// The cam of this name that is made with that of the motion program of a machine, alone; `None` when the file has no motion.
     #[must_use]
-    pub fn builder(name: &str) -> Builder {
-        Builder::new(name)
+    pub fn made_with_program(machine: Machine, rpm: Option<f64>, name: &'static str) -> Option<Self> {
+        let (motion, of_file) = machine.motion()?;
+        let rpm = rpm.or(of_file);
+        let inputs = rpm.map(|rpm| Input::number("rpm", rpm)).into_iter().collect();
+        let solve = move |machine: &Machine, _| {
+            let cams = body::of_motion(machine, &motion, rpm)?;
+            let found = cams.others.into_iter().find(|(other, _)| *other == name);
+            let (_, body) = found.ok_or_else(|| Refusal::new(format!("there is no {name} with this cam")))?;
+            Ok(SolvedBodies { body, name: "", others: Vec::new(), joint_report: None })
+        };
+        Some(Self::of_several(machine, solve).with_inputs(inputs))
     }
 
-    /// The compensating cam of a press for a speed of its main shaft, rpm: the disc that takes the torque of the rotary cam, as the
-    /// machine file describes it.
+    /// The hash of what determines the part, as it is written into files, without solving it; for the command that makes it and the kind
+    /// of cam whose keys have an effect on it. `None` where only the solved cam shows it.
     #[must_use]
-    pub fn compensator(machine: Machine, rpm: f64) -> Self {
-        let solve = |machine: &Machine, rpm| Disc::solve(machine, rpm)?.compensating_disc();
-        Self::new(machine, move |machine| solve(machine, rpm))
-            .for_other_speeds(solve)
-            .with(vec![Input::number("rpm", rpm)])
-    }
-
-    /// The disc that holds the tension of a belt brake, with its motion; `None` of a brake that was read without.
-    #[must_use]
-    pub fn of_brake(brake: &BrakeMachine, disc: Arc<BrakeDisc>) -> Option<Self> {
-        let (machine, brake) = (brake.machine()?.clone(), brake.clone());
-        Some(Self::new(machine, move |_| Disc::of_brake(&brake, disc)).with(Vec::new()))
-    }
-
-    /// Without the disc that takes its torque.
-    #[must_use]
-    pub fn alone(self) -> Self {
-        Self { alone: true, ..self }
+    pub fn inputs_hash(&self, (command, keys): (&str, &str), request: &Request) -> Option<String> {
+        let own = self.inputs.as_ref()?;
+        let of_cam = std::iter::once(Input::word("command", command)).chain(self.machine.inputs(keys));
+        let all: Vec<Input> = of_cam.chain(own.iter().cloned()).chain(inputs::of_request(request)).collect();
+        Some(Inputs::of(&all).hash)
     }
 
     /// The machine it is for.
@@ -159,23 +204,35 @@ impl Spec {
     /// # Errors
     /// [`Error::Solve`] when there is no such cam.
     pub fn solve(self) -> Result<Cam, Error> {
-        let body = (self.solve)(&self.machine)?;
+        Ok(self.solved(WantedCams::Alone)?.0)
+    }
+
+    /// Solves the cam and those that the machine file describes to be made with it.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] when there is no such cam, of any of them.
+    pub fn assemble(self) -> Result<Assembly, Error> {
+        let (cam, name, others, joint_report) = self.solved(WantedCams::All)?;
+        let name = if others.is_empty() { "" } else { name };
+        let assembly =
+            others.into_iter().fold(Assembly::from(cam), |assembly, (name, cam)| assembly.with(name, cam)).called(name);
+        Ok(match joint_report {
+            Some(joint_report) => assembly.reported(joint_report),
+            None => assembly,
+        })
+    }
+
+    fn solved(self, wanted: WantedCams) -> Result<SolvedCams, Error> {
+        let SolvedBodies { body, name, others, joint_report } =
+            (self.solve)(&self.machine, wanted).map_err(Error::Solve)?;
         let own = self.inputs.unwrap_or_else(|| inputs::of_own(&*body));
-        let of = |body: &dyn Body| {
-            let mut all = vec![Input::word("command", body.kind().command)];
-            all.extend(self.machine.inputs(body.kind().keys));
-            all.extend(own.iter().cloned());
-            all
+        let cam = |body: Arc<dyn Body>, resolver| {
+            let mut inputs = vec![Input::word("command", body.kind().command)];
+            inputs.extend(self.machine.inputs(body.kind().keys));
+            inputs.extend(own.iter().cloned());
+            Cam { body, resolver, inputs }
         };
-        let second = match body.compensating().filter(|_| !self.alone) {
-            Some(second) => {
-                let (disc, told) = second.map_err(SolveError::from)?;
-                let inputs = of(&disc);
-                Some((Box::new(Cam { body: Box::new(disc), again: None, inputs, second: None }), told))
-            }
-            None => None,
-        };
-        let inputs = of(&*body);
-        Ok(Cam { body, again: self.again, inputs, second })
+        let others = others.into_iter().map(|(name, body)| (name, cam(body, None))).collect();
+        Ok((cam(body, self.resolver), name, others, joint_report))
     }
 }

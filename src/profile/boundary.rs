@@ -1,26 +1,26 @@
-//! The exact profile as a closed loop, against which a written outline is proved.
+//! The exact profile as a closed loop, the reference for the proof of a written outline.
 
-use super::envelope::{self, Approach, Loss, NoEnvelope, Parallel};
+use super::envelope::{self, BreakSide, NoEnvelope, Parallel, UndercutLoss};
 use super::outline::OutlineError;
 use super::{Curves, extremes, outline};
 use crate::geometry::MILLIMETRES;
-use crate::geometry::boundary::Stretch;
+use crate::geometry::boundary::BoundaryStretch;
 use crate::geometry::contour::Segment;
 use crate::motion::Piece;
 use nalgebra::Vector2;
 
-/// Stretches into which a piece of the motion is cut, so that none turns far: a piece turns by half a circle or little more.
+/// Stretches into which a piece of the motion is divided, so that none turns far: a piece turns by half a circle or little more.
 const STRETCHES: u32 = 8;
 /// A dwell turns evenly: stretches of this angle, rad.
 const DWELL_STRETCH: f64 = 0.9;
 
-/// The profile as stretches in millimetres, in the order of the motion, without the loops where it is undercut; `sharp` where
-/// loops are possible at all: a convex radius of the follower's curve is not larger than what the profile lies inside of it.
+/// The profile as stretches in millimetres, in the order of the motion, without the loops where it is undercut; with `sharp` where
+/// loops are possible: where a convex radius of the follower's curve is not larger than its distance from the profile.
 ///
 /// # Errors
 /// [`NoEnvelope`] when the profile folds over itself without an envelope.
-pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<Stretch>, NoEnvelope> {
-    let losses: Vec<Loss> = if sharp { envelope::losses(curves)? } else { Vec::new() };
+pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<BoundaryStretch>, NoEnvelope> {
+    let losses: Vec<UndercutLoss> = if sharp { envelope::losses(curves)? } else { Vec::new() };
     let gaps: Vec<(f64, f64)> = losses.iter().map(|loss| (loss.from, loss.to)).collect();
     let (pieces, period) = (curves.motion.pieces(), curves.motion.period());
     let corners = extremes::corners(curves);
@@ -37,7 +37,7 @@ pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<Stretch>, NoEnve
             let next = (index + 1) % pieces.len();
             let end =
                 pieces.get(next).map_or(start, |next_piece| curves.profile(next, next_piece.start).point * MILLIMETRES);
-            all.push(Stretch::of_segment(Segment { start, end, bulge: libm::tan(0.25 * corner.turn) }));
+            all.push(BoundaryStretch::of_segment(Segment { start, end, bulge: libm::tan(0.25 * corner.turn) }));
         }
     }
     Ok(all)
@@ -45,7 +45,7 @@ pub fn stretches(curves: Curves<'_>, sharp: bool) -> Result<Vec<Stretch>, NoEnve
 
 /// The follower's own curve as stretches in millimetres: the path of a roller's centre.
 #[must_use]
-pub fn of_centre(curves: Curves<'_>) -> Vec<Stretch> {
+pub fn of_centre(curves: Curves<'_>) -> Vec<BoundaryStretch> {
     let period = curves.motion.period();
     let of_piece = |(index, piece): (usize, &Piece)| {
         let ranges = outline::parts(piece, &[], period).into_iter();
@@ -59,16 +59,16 @@ pub fn of_centre(curves: Curves<'_>) -> Vec<Stretch> {
 ///
 /// # Errors
 /// [`OutlineError`] when the cutter does not get into a concave part, or the profile folds over itself.
-pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<Stretch>, OutlineError> {
-    outline::gets_in(curves, cutter_radius)?;
-    let distance = curves.offset() - cutter_radius;
-    let gaps = outline::left_out(curves, distance)?;
+pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<BoundaryStretch>, OutlineError> {
+    outline::check_cutter_fits(curves, cutter_radius)?;
+    let distance = curves.offset() - curves.metal_side() * cutter_radius;
+    let gaps = outline::undrawn_stretches(curves, distance)?;
     let spans: Vec<(f64, f64)> = gaps.iter().map(|gap| (gap.from, gap.to)).collect();
     let (pieces, period) = (curves.motion.pieces(), curves.motion.period());
     let corners = extremes::corners(curves);
     let parallel = Parallel { curves, distance };
     let arc = |start: Vector2<f64>, end: Vector2<f64>, turn: f64| {
-        Stretch::of_segment(Segment {
+        BoundaryStretch::of_segment(Segment {
             start: start * MILLIMETRES,
             end: end * MILLIMETRES,
             bulge: libm::tan(0.25 * turn),
@@ -81,29 +81,29 @@ pub fn of_cutter(curves: Curves<'_>, cutter_radius: f64) -> Result<Vec<Stretch>,
             all.extend(cut(index, piece, *range, period.is_none()));
             if let Some(gap) = gaps.iter().find(|gap| gap.arc != 0.0 && outline::starts_at(gap, range.1, period)) {
                 let start = parallel.in_piece(index, range.1).point;
-                all.push(arc(start, parallel.at(gap.to, Approach::After).point, gap.arc));
+                all.push(arc(start, parallel.at(gap.to, BreakSide::After).point, gap.arc));
             }
         }
         let whole = ranges.last().is_some_and(|range| range.1 == piece.end);
-        // Along the arc that a roller leaves at a concave corner of its path a smaller cutter turns about the same centre.
+        // Along the arc that a roller makes at a concave corner of its path, a smaller cutter turns about the same centre.
         if let Some(corner) = corners.iter().find(|corner| corner.turn < 0.0 && corner.at == piece.end)
             && distance > 0.0
             && whole
         {
             let start = parallel.in_piece(index, piece.end).point;
-            all.push(arc(start, parallel.at(piece.end, Approach::After).point, corner.turn));
+            all.push(arc(start, parallel.at(piece.end, BreakSide::After).point, corner.turn));
         }
     }
     Ok(all)
 }
 
-/// A range of a piece as stretches; the dwell of a cam that is run over once is straight.
+/// A range of a piece as stretches; the dwell of a cam without rotation is straight.
 pub fn cut(
     index: usize,
     piece: &Piece,
     (from, to): (f64, f64),
     straight: bool,
-) -> impl Iterator<Item = Stretch> + use<> {
+) -> impl Iterator<Item = BoundaryStretch> + use<> {
     let count = match (piece.dwell, straight) {
         (true, true) => 1.0,
         (true, false) => ((to - from) / DWELL_STRETCH).ceil().max(1.0),
@@ -113,5 +113,5 @@ pub fn cut(
         move |step: u32| if f64::from(step) >= count { to } else { from + (to - from) * (f64::from(step) / count) };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a dozen")]
     let steps = count as u32;
-    (0..steps).map(move |step| Stretch::of_curve(index, (at(step), at(step + 1))))
+    (0..steps).map(move |step| BoundaryStretch::of_curve(index, (at(step), at(step + 1))))
 }

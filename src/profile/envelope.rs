@@ -9,12 +9,12 @@
 //! A fold lies between two cusps, C₁ where the curve starts to run backwards and C₂ where it runs forwards again; at a corner
 //! they are the two ends of the gap, which is a step backwards. Take u along the mean of the tangents at the cusps. Up to C₁ u
 //! grows, from C₂ on it grows again, and u(C₁) > u(C₂): both branches pass every u between, at the heights v₁(u) and v₂(u).
-//! The tangent turns one way all along, so that the second branch is steeper than the first everywhere, and v₂ − v₁ grows
-//! with u; over the fold it is negative at u(C₂) and positive at u(C₁), since what runs backwards is less steep than what
-//! runs forwards over the same u. So a fold, however slight, has one crossing, and a bracket that holds it.
+//! The tangent turns in one sense throughout, so that the second branch is steeper than the first everywhere, and v₂ − v₁ grows
+//! with u; over the fold it is negative at u(C₂) and positive at u(C₁), since the part that runs backwards is less steep than the part
+//! that runs forwards over the same u. So a fold, however slight, has one crossing, and a bracket that contains it.
 //!
-//! A slight fold is small of third order in its width and the metal lost of fourth, far below the rounding of coordinates; its
-//! branches are summed up from the exact speed along the curve instead.
+//! A slight fold is small of third order in its width and the lost metal of fourth, far below the rounding of coordinates; its
+//! branches are integrated from the exact speed along the curve instead.
 
 mod fold;
 
@@ -27,28 +27,28 @@ use crate::numeric::{extremum, quadrature, root};
 use fold::folds;
 use nalgebra::Vector2;
 
-/// How far the branches beside a fold are followed, as a share of the cam, and how often the step is doubled on the way.
+/// How far the branches next to a fold are followed, as a share of the cam, and how often the step is doubled.
 const BRANCH_REACH: f64 = 0.25;
 const DOUBLINGS: u32 = 64;
 /// First step along a branch from a corner, whose fold has no width, as a share of the cam.
 const FIRST_STEP: f64 = 1e-12;
-/// Folds whose cusps lie closer, as a share of their distance from the origin, are summed up from their speed; the others are
-/// large against rounding.
+/// Folds whose cusps are closer than this share of their distance from the origin are integrated from their speed; the others are
+/// large compared with rounding.
 const NARROW: f64 = 1e-5;
-/// Panels of eight points for that: the speed of a narrow fold is a parabola with a little more.
+/// Panels of eight points for this integral: the speed of a narrow fold is nearly a parabola.
 const PANELS: u32 = 2;
-/// A fold whose cusps lie closer, as a share of that distance, is a point where rounding may leave no crossing: on a cam of
+/// A fold whose cusps are closer than this share of that distance is a point where rounding may leave no crossing: on a cam of
 /// 0.1 m with ρ'' = 0.1 m it loses less than 1e-17 m.
 const POINT: f64 = 1e-12;
-/// Cells in which the largest loss is searched.
+/// Cells in which the largest loss is looked for.
 const LOSS_CELLS: u32 = 64;
 
-/// A loop of the parallel curve.
+/// A loop of the parallel curve, and the lift lost at it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loss {
-    /// Parameter at which the roller comes onto the edge; may lie before the first piece by a turn.
+pub struct UndercutLoss {
+    /// Parameter at which the roller arrives at the edge; may lie before the first piece by a turn.
     pub from: f64,
-    /// Parameter at which it leaves it; above `from`.
+    /// Parameter at which it leaves the edge; above `from`.
     pub to: f64,
     /// Largest loss of lift, m.
     pub lost: f64,
@@ -66,16 +66,16 @@ pub struct NoEnvelope {
 
 /// A stretch of a parallel curve that is left out: the curve has the same point at both of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Loop {
+pub(crate) struct ParallelLoop {
     /// Parameter where it begins; may lie before the first piece by a turn.
     pub(crate) from: f64,
     /// Parameter where it ends, not below `from`.
     pub(crate) to: f64,
 }
 
-/// From which side a break is looked at.
+/// The side from which a break is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Approach {
+pub(crate) enum BreakSide {
     Before,
     After,
 }
@@ -90,8 +90,8 @@ pub(crate) struct Parallel<'a> {
 /// Every loop of the profile, in the order of the motion's parameter.
 ///
 /// # Errors
-/// [`NoEnvelope`] when what is left is no outline.
-pub fn losses(curves: Curves<'_>) -> Result<Vec<Loss>, NoEnvelope> {
+/// [`NoEnvelope`] when no outline remains.
+pub fn losses(curves: Curves<'_>) -> Result<Vec<UndercutLoss>, NoEnvelope> {
     let profile = Parallel { curves, distance: curves.offset() };
     Ok(profile.loops()?.into_iter().map(|found| loss(profile, found)).collect())
 }
@@ -103,12 +103,12 @@ impl Parallel<'_> {
     }
 
     /// The curve at any parameter, on the given side of a break.
-    pub(crate) fn at(&self, parameter: f64, side: Approach) -> CurvePoint {
+    pub(crate) fn at(&self, parameter: f64, side: BreakSide) -> CurvePoint {
         let motion = self.curves.motion;
         let (piece, inside) = motion.locate(parameter);
         let pieces = motion.pieces();
         let at_start = pieces.get(piece).is_some_and(|p| p.start == inside);
-        if side == Approach::Before && at_start && (piece > 0 || motion.period().is_some()) {
+        if side == BreakSide::Before && at_start && (piece > 0 || motion.period().is_some()) {
             let before = (piece + pieces.len() - 1) % pieces.len();
             let end = pieces.get(before).map_or(inside, |p| p.end);
             return self.in_piece(before, end);
@@ -117,8 +117,8 @@ impl Parallel<'_> {
     }
 
     /// Every loop of the curve, in the order of the parameter.
-    pub(crate) fn loops(&self) -> Result<Vec<Loop>, NoEnvelope> {
-        let mut found: Vec<((f64, f64), Loop)> = Vec::new();
+    pub(crate) fn loops(&self) -> Result<Vec<ParallelLoop>, NoEnvelope> {
+        let mut found: Vec<((f64, f64), ParallelLoop)> = Vec::new();
         for mut fold in folds(*self) {
             let loop_of = |fold: (f64, f64)| {
                 let loop_of = Branches::new(*self, fold).crossing();
@@ -128,14 +128,14 @@ impl Parallel<'_> {
                 continue;
             }
             let mut next = loop_of(fold)?;
-            // Loops that overlap are one.
+            // Loops that overlap become one.
             while let Some((before, _)) = found.pop_if(|(_, last)| next.from < last.to) {
                 fold.0 = before.0;
                 next = loop_of(fold)?;
             }
             found.push((fold, next));
         }
-        let loops: Vec<Loop> = found.into_iter().map(|(_, found)| found).collect();
+        let loops: Vec<ParallelLoop> = found.into_iter().map(|(_, found)| found).collect();
         match (loops.first(), loops.last()) {
             (Some(first), Some(last))
                 if self.curves.motion.period().is_some_and(|period| last.to > first.from + period) =>
@@ -152,9 +152,9 @@ struct Branches<'a> {
     parallel: Parallel<'a>,
     /// The cusps, or twice the corner.
     fold: (f64, f64),
-    /// Whether the branches are summed up.
+    /// Whether the branches are integrated from their speed.
     narrow: bool,
-    /// Where the sums start: the first cusp, looked at from before.
+    /// Where the integrals start: the first cusp, looked at from before.
     origin: Vector2<f64>,
     /// From the first cusp to the second.
     step: Vector2<f64>,
@@ -163,7 +163,7 @@ struct Branches<'a> {
 
 impl<'a> Branches<'a> {
     fn new(parallel: Parallel<'a>, fold: (f64, f64)) -> Self {
-        let (before, after) = (parallel.at(fold.0, Approach::Before), parallel.at(fold.1, Approach::After));
+        let (before, after) = (parallel.at(fold.0, BreakSide::Before), parallel.at(fold.1, BreakSide::After));
         let by_points = after.point - before.point;
         let narrow = by_points.norm() <= NARROW * before.point.norm();
         let step = if narrow { parallel.step(fold) } else { by_points };
@@ -171,12 +171,12 @@ impl<'a> Branches<'a> {
         Self { parallel, fold, narrow, origin: before.point, step, along }
     }
 
-    /// A point of the branch before the fold, seen from the first cusp.
+    /// A point of the branch before the fold, relative to the first cusp.
     fn before(&self, parameter: f64) -> Vector2<f64> {
         if self.narrow {
             return -self.parallel.sum((parameter, self.fold.0));
         }
-        self.parallel.at(parameter, Approach::Before).point - self.origin
+        self.parallel.at(parameter, BreakSide::Before).point - self.origin
     }
 
     /// A point of the branch after it.
@@ -184,14 +184,14 @@ impl<'a> Branches<'a> {
         if self.narrow {
             return self.step + self.parallel.sum((self.fold.1, parameter));
         }
-        self.parallel.at(parameter, Approach::After).point - self.origin
+        self.parallel.at(parameter, BreakSide::After).point - self.origin
     }
 
     /// How far a branch must be followed until it has passed a place along the tangent; `None` where it never does.
     fn reach(&self, sign: f64, place: f64) -> Option<f64> {
         let (first, last) = self.parallel.curves.motion.range();
         let start = if sign < 0.0 { self.fold.0 } else { self.fold.1 };
-        let side = if sign < 0.0 { Approach::Before } else { Approach::After };
+        let side = if sign < 0.0 { BreakSide::Before } else { BreakSide::After };
         let mut step = (self.fold.1 - self.fold.0).max(FIRST_STEP * (last - first));
         for _ in 0..DOUBLINGS {
             let within = step.min(BRANCH_REACH * (last - first));
@@ -214,11 +214,11 @@ impl<'a> Branches<'a> {
         None
     }
 
-    /// Where the branches meet.
-    fn crossing(&self) -> Option<Loop> {
+    /// Where the branches cross.
+    fn crossing(&self) -> Option<ParallelLoop> {
         let (low, high) = (self.step.dot(&self.along), 0.0);
         let point = self.step.norm() <= POINT * self.origin.norm();
-        let as_point = || point.then_some(Loop { from: self.fold.0, to: self.fold.1 });
+        let as_point = || point.then_some(ParallelLoop { from: self.fold.0, to: self.fold.1 });
         if !(low < high) {
             return as_point();
         }
@@ -231,14 +231,14 @@ impl<'a> Branches<'a> {
         };
         let apart = |place: f64| self.along.perp(&(self.after(end(place)) - self.before(start(place))));
         match root::bracketed(apart, low, high, 0.0) {
-            Ok(place) => Some(Loop { from: start(place), to: end(place) }),
+            Ok(place) => Some(ParallelLoop { from: start(place), to: end(place) }),
             Err(_) => as_point(),
         }
     }
 }
 
 impl Parallel<'_> {
-    /// What lies between the curve at two parameters, the earlier one looked at from after a break and the later from before.
+    /// The vector between the curve at two parameters, the earlier one looked at from after a break and the later from before.
     fn sum(&self, (from, to): (f64, f64)) -> Vector2<f64> {
         let motion = self.curves.motion;
         let mut sum = Vector2::zeros();
@@ -261,7 +261,7 @@ impl Parallel<'_> {
         sum
     }
 
-    /// From the first end of a fold, looked at from before it, to the last, looked at from after it: the corners in it are
+    /// The vector from the first end of a fold, looked at from before it, to the last, looked at from after it: its corners are
     /// steps.
     fn step(&self, fold: (f64, f64)) -> Vector2<f64> {
         let motion = self.curves.motion;
@@ -270,17 +270,17 @@ impl Parallel<'_> {
         let turns = [-period, 0.0, period];
         let within = |at: f64| turns.iter().any(|turn| fold.0 <= at + turn && at + turn <= fold.1);
         let steps = corners.iter().filter(|corner| within(corner.at)).map(|corner| {
-            let (before, after) = (self.at(corner.at, Approach::Before), self.at(corner.at, Approach::After));
+            let (before, after) = (self.at(corner.at, BreakSide::Before), self.at(corner.at, BreakSide::After));
             (before.outward() - after.outward()) * self.distance
         });
         self.sum(fold) + steps.sum::<Vector2<f64>>()
     }
 }
 
-/// How far the follower drops onto the edge that a loop leaves.
-fn loss(profile: Parallel<'_>, Loop { from, to }: Loop) -> Loss {
+/// How far the follower drops onto the edge at a loop.
+fn loss(profile: Parallel<'_>, ParallelLoop { from, to }: ParallelLoop) -> UndercutLoss {
     let curves = profile.curves;
-    let edge = profile.at(from, Approach::Before).point;
+    let edge = profile.at(from, BreakSide::Before).point;
     let lost = |parameter: f64| {
         let (piece, inside) = curves.motion.locate(parameter);
         let law = curves.motion.jet(piece, inside);
@@ -296,7 +296,7 @@ fn loss(profile: Parallel<'_>, Loop { from, to }: Loop) -> Loss {
                 let on_edge = face_lift(curves, inside, law, Guide::Circle(edge, 0.0)).unwrap_or(f64::NAN);
                 (law.s - on_edge) * curves.follower.leverage(&law)
             }
-            // The face stands at a height over the edge; it drops along its drive.
+            // The face is at a height above the edge; it drops along its drive.
             Element::Face => {
                 let normal = contact.curve.outward();
                 away.dot(&normal) / contact.drive.dot(&normal)
@@ -304,8 +304,9 @@ fn loss(profile: Parallel<'_>, Loop { from, to }: Loop) -> Loss {
         }
     };
     let worst = extremum::largest_without_slope(lost, (from, to), LOSS_CELLS, extremum::TO_ROUNDING);
-    Loss { from, to, lost: worst.value.max(0.0), lost_at: worst.at }
+    UndercutLoss { from, to, lost: worst.value.max(0.0), lost_at: worst.at }
 }
 
 #[cfg(test)]
+#[cfg(feature = "press")]
 mod tests;

@@ -2,11 +2,11 @@
 
 use super::Curves;
 use crate::motion::{Jet, Motion, Piece};
-use crate::numeric::chebyshev::{self, Known};
+use crate::numeric::chebyshev::{self, SearchStart};
 use crate::numeric::extremum::{self, Extremum};
 use nalgebra::Vector2;
 
-/// Of every piece, as what is searched.
+/// Cells of every piece in the search.
 fn everywhere(_piece: usize) -> bool {
     true
 }
@@ -21,8 +21,11 @@ fn largest(
     largest_beyond(&places(curves, searched, &quantity), quantity)
 }
 
-/// The same with the places between the cells, and the number of their piece.
-fn largest_beyond(all: &[(usize, Vec<extremum::Place>)], quantity: impl Fn(usize, f64) -> (f64, f64)) -> Extremum {
+/// Largest value of a quantity whose places between the cells, and the number of their piece, are given.
+fn largest_beyond(
+    all: &[(usize, Vec<extremum::ValueAndSlope>)],
+    quantity: impl Fn(usize, f64) -> (f64, f64),
+) -> Extremum {
     let known = all.iter().fold(NOTHING, |best, (_, places)| extremum::highest(best, places));
     all.iter().fold(known, |best, (index, places)| extremum::beyond(best, places, |at| quantity(*index, at)))
 }
@@ -32,7 +35,7 @@ fn places(
     curves: Curves<'_>,
     searched: impl Fn(usize) -> bool,
     quantity: impl Fn(usize, f64) -> (f64, f64),
-) -> Vec<(usize, Vec<extremum::Place>)> {
+) -> Vec<(usize, Vec<extremum::ValueAndSlope>)> {
     let in_piece = |(index, piece): (usize, &Piece)| {
         let cells = curves.motion.cells(index);
         (index, extremum::places(|at| quantity(index, at), (piece.start, piece.end), cells))
@@ -42,29 +45,29 @@ fn places(
 }
 
 /// Cosine of the turn of the follower's curve within a cell below which the cell is halved, and how often: where a curve turns by half a
-/// radian its curvature may have a spike, as where a small radius is passed with a large acceleration.
+/// radian its curvature may have a spike, for example where a small radius is passed with a large acceleration.
 const LEAST_COSINE: f64 = 0.88;
 const MOST_HALVED: u32 = 20;
-/// Places of a piece with which halving ends: a motion of a million waves turns in every cell however short.
+/// Places of a piece at which halving ends: a motion of a million waves turns in every cell, however short.
 const MOST_PLACES: usize = 4096;
 
 /// A place and the direction of the follower's curve there.
-type Along = (extremum::Place, Vector2<f64>);
+type PlaceAndDirection = (extremum::ValueAndSlope, Vector2<f64>);
 
-/// The same of a quantity that comes with the direction of the follower's curve: no cell of a movement turns much.
+/// Places of each piece with a quantity that comes with the direction of the follower's curve, cells halved where the curve turns much.
 fn places_along(
     curves: Curves<'_>,
     searched: impl Fn(usize) -> bool,
     quantity: impl Fn(usize, f64) -> (f64, f64, Vector2<f64>),
-) -> Vec<(usize, Vec<extremum::Place>)> {
+) -> Vec<(usize, Vec<extremum::ValueAndSlope>)> {
     let in_piece = |(index, piece): (usize, &Piece)| {
         let at = |at: f64| {
             let (value, slope, direction) = quantity(index, at);
-            (extremum::Place { at, value, slope }, direction)
+            (extremum::ValueAndSlope { at, value, slope }, direction)
         };
         let cells = curves.motion.cells(index);
         let mut places = Vec::with_capacity(cells as usize + 1);
-        let mut before: Option<Along> = None;
+        let mut before: Option<PlaceAndDirection> = None;
         for next in extremum::between_cells((piece.start, piece.end), cells).map(at) {
             if let Some(before) = before.filter(|_| !piece.dwell) {
                 halved(before, next, MOST_HALVED, &at, &mut places);
@@ -78,8 +81,14 @@ fn places_along(
     pieces.map(in_piece).collect()
 }
 
-/// Adds the places within a cell that turns much.
-fn halved(from: Along, to: Along, times: u32, at: &impl Fn(f64) -> Along, places: &mut Vec<extremum::Place>) {
+/// Adds the places within a cell in which the curve turns much.
+fn halved(
+    from: PlaceAndDirection,
+    to: PlaceAndDirection,
+    times: u32,
+    at: &impl Fn(f64) -> PlaceAndDirection,
+    places: &mut Vec<extremum::ValueAndSlope>,
+) {
     if times > 0 && places.len() < MOST_PLACES && from.1.dot(&to.1) < LEAST_COSINE {
         let middle = at(0.5 * (from.0.at + to.0.at));
         halved(from, middle, times - 1, at, places);
@@ -88,17 +97,17 @@ fn halved(from: Along, to: Along, times: u32, at: &impl Fn(f64) -> Along, places
     }
 }
 
-/// The larger of two, the first of equals; what is no number gives way.
+/// The larger of two, the first of equals; a number is preferred to NaN.
 fn larger(best: Extremum, next: Extremum) -> Extremum {
     if next.value > best.value || best.value.is_nan() { next } else { best }
 }
 
-/// Cells of a piece, and golden sections, in which a value without derivative is searched: forces are smooth with a
-/// hump or two.
+/// Cells of a piece, and golden sections, with which a value without derivative is searched: forces are smooth with one or two
+/// maxima.
 const FORCE_CELLS: u32 = 48;
 const FORCE_SECTIONS: u32 = 30;
 
-/// Largest value, where a follower runs, of something that depends on the cam angle of a piece, when no derivative is at hand.
+/// Largest value, where a follower runs, of something that depends on the cam angle of a piece and whose derivative is not known.
 pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f64) -> Extremum {
     let of_piece = |(index, piece): (usize, &Piece)| {
         let (cells, sections) = if piece.dwell { (1, 0) } else { (FORCE_CELLS, FORCE_SECTIONS) };
@@ -114,42 +123,43 @@ pub fn largest_without_slope(curves: Curves<'_>, value: impl Fn(usize, f64) -> f
         .fold(NOTHING, larger)
 }
 
-/// A closed range of the motion's parameter at whose ends a quantity may jump, to what it is inside.
-pub type Acting = (f64, f64);
+/// A closed range of the motion's parameter at whose ends a quantity may jump to its values within the range.
+pub type JumpRange = (f64, f64);
 
-/// How far beside such an end the outside begins, as a share of the piece.
-const BESIDE: f64 = 1e-12;
+/// How far from such an end the outside begins, as a share of the piece.
+const OUTSIDE: f64 = 1e-12;
 
 /// The stretches of a piece on which a quantity is smooth that may jump at the ends of these ranges.
 #[must_use]
-pub fn stretches(piece: &Piece, acting: &[Acting]) -> Vec<(f64, f64)> {
-    let beside = (BESIDE * (piece.end - piece.start)).max(4.0 * f64::EPSILON * piece.end.abs().max(piece.start.abs()));
+pub fn stretches(piece: &Piece, acting: &[JumpRange]) -> Vec<(f64, f64)> {
+    let outside =
+        (OUTSIDE * (piece.end - piece.start)).max(4.0 * f64::EPSILON * piece.end.abs().max(piece.start.abs()));
     let mut stretches = Vec::new();
     let mut from = piece.start;
     for &(start, end) in acting {
         if from < start && start < piece.end {
-            stretches.push((from, start - beside));
+            stretches.push((from, start - outside));
             from = start;
         }
         if from < end && end < piece.end {
             stretches.push((from, end));
-            from = end + beside;
+            from = end + outside;
         }
     }
     stretches.push((from, piece.end));
     stretches
 }
 
-/// Largest value, or size, where a follower runs, of something that is smooth on each piece but for the ends of the ranges
+/// Largest value, or size, where a follower runs, of something that is smooth on each piece except at the ends of the ranges
 /// `acting`.
 fn of_smooth(
     motion: &dyn Motion,
-    (acting, negligible): (&[Acting], f64),
+    (acting, negligible): (&[JumpRange], f64),
     value: impl Fn(usize, f64) -> f64,
-    search: impl Fn(&dyn Fn(f64) -> f64, (f64, f64), Known) -> Extremum,
+    search: impl Fn(&dyn Fn(f64) -> f64, (f64, f64), SearchStart) -> Extremum,
 ) -> Extremum {
-    let mut known = Known::nothing(negligible);
-    // Where the follower rests a force may change still.
+    let mut known = SearchStart::nothing(negligible);
+    // Where the follower rests, a force may still change.
     for (index, piece) in motion.distinct().iter().enumerate().filter(|(index, _)| motion.is_rolled(*index)) {
         for range in stretches(piece, acting) {
             known.best = search(&|at| value(index, at), range, known);
@@ -158,34 +168,38 @@ fn of_smooth(
     known.best
 }
 
-/// Largest value, where a follower runs, of something that is smooth on each piece but for the ends of the ranges `acting`;
+/// Largest value, where a follower runs, of something that is smooth on each piece except at the ends of the ranges `acting`;
 /// differences below `negligible` do not matter.
 pub fn largest_smooth(
     curves: Curves<'_>,
-    (acting, negligible): (&[Acting], f64),
+    (acting, negligible): (&[JumpRange], f64),
     value: impl Fn(usize, f64) -> f64,
 ) -> Extremum {
     largest_of_motion(curves.motion, (acting, negligible), value)
 }
 
-/// The same of something that does not depend on the follower.
-pub fn largest_of_motion(motion: &dyn Motion, smooth: (&[Acting], f64), value: impl Fn(usize, f64) -> f64) -> Extremum {
+/// Largest value of something that does not depend on the follower, smooth except at the ends of the ranges `acting`.
+pub fn largest_of_motion(
+    motion: &dyn Motion,
+    smooth: (&[JumpRange], f64),
+    value: impl Fn(usize, f64) -> f64,
+) -> Extremum {
     of_smooth(motion, smooth, value, |value, range, known| chebyshev::largest(value, range, known))
 }
 
-/// The same for the size of something that has a sign.
+/// Largest size of something with a sign, where a follower runs.
 pub fn largest_size(
     curves: Curves<'_>,
-    (acting, negligible): (&[Acting], f64),
+    (acting, negligible): (&[JumpRange], f64),
     value: impl Fn(usize, f64) -> f64,
 ) -> Extremum {
     largest_size_of_motion(curves.motion, (acting, negligible), value)
 }
 
-/// The same of something that does not depend on the follower.
+/// Largest size of something with a sign that does not depend on the follower.
 pub fn largest_size_of_motion(
     motion: &dyn Motion,
-    smooth: (&[Acting], f64),
+    smooth: (&[JumpRange], f64),
     value: impl Fn(usize, f64) -> f64,
 ) -> Extremum {
     of_smooth(motion, smooth, value, |value, range, known| chebyshev::largest_size(value, range, known))
@@ -200,7 +214,7 @@ pub fn pressure_angle(curves: Curves<'_>) -> Extremum {
     if rising.value >= falling.value { rising } else { falling }
 }
 
-/// Largest pressure angle and largest one of the other sign, as a positive number, where a follower runs, rad.
+/// Largest pressure angle and largest pressure angle of the opposite sign, as a positive number, where a follower runs, rad.
 #[must_use]
 pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
     let along = |piece: usize, angle: f64| {
@@ -208,7 +222,7 @@ pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
         (contact.pressure_angle, contact.pressure_angle_slope, contact.curve.tangent)
     };
     let (motion, symmetric) = (curves.motion, curves.follower.is_symmetric());
-    // In the mirror it has the other sign.
+    // Mirrored it has the opposite sign.
     let in_mirror_of = |piece: usize| {
         let (first, in_mirror) = motion.repeats(piece);
         (symmetric && in_mirror && first < piece && motion.is_rolled(first)).then_some(first)
@@ -219,15 +233,15 @@ pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
         let Some(((_, places), own)) = first.and_then(|found| Some((found, motion.pieces().get(found.0)?))) else {
             continue;
         };
-        let mirrored = |place: &extremum::Place| {
+        let mirrored = |place: &extremum::ValueAndSlope| {
             let at = (own.end - place.at + piece.start).clamp(piece.start, piece.end);
-            extremum::Place { at, value: -place.value, slope: place.slope }
+            extremum::ValueAndSlope { at, value: -place.value, slope: place.slope }
         };
         let places = places.iter().rev().map(mirrored).collect();
         rising.push((index, places));
     }
     rising.sort_by_key(|(index, _)| *index);
-    let negative = |(index, places): &(usize, Vec<extremum::Place>)| {
+    let negative = |(index, places): &(usize, Vec<extremum::ValueAndSlope>)| {
         (*index, places.iter().map(|place| place.negative()).collect())
     };
     let falling: Vec<_> = rising.iter().map(negative).collect();
@@ -239,16 +253,16 @@ pub fn pressure_angles(curves: Curves<'_>) -> [Extremum; 2] {
     })
 }
 
-/// Largest curvature of the follower's curve, 1/m: the sharpest convex place.
+/// Largest curvature of the follower's curve, 1/m: the sharpest convex place, as seen from the metal.
 #[must_use]
 pub fn convex_curvature(curves: Curves<'_>) -> Extremum {
     convex_curvature_on(curves, everywhere)
 }
 
-/// The same over the pieces that are searched; −∞ where none is.
+/// Largest curvature over the pieces that are searched; −∞ where there are none.
 #[must_use]
 pub fn convex_curvature_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Extremum {
-    largest_curvature(curves, searched, 1.0)
+    largest_curvature(curves, searched, curves.metal_side())
 }
 
 /// The largest curvature of one sign.
@@ -257,7 +271,7 @@ fn largest_curvature(curves: Curves<'_>, searched: impl Fn(usize) -> bool, sign:
         let pitch = curves.touch(piece, at).curve;
         (sign * pitch.curvature, sign * pitch.curvature_slope * pitch.speed, pitch.tangent)
     };
-    // In the mirror it is the same.
+    // Mirrored it is the same.
     let repeated = |piece: usize| curves.follower.is_symmetric() && curves.motion.repeats(piece).0 != piece;
     let searched = |piece: usize| searched(piece) && !repeated(piece);
     largest_beyond(&places_along(curves, searched, along), |piece, at| {
@@ -272,7 +286,7 @@ pub fn least_radius(curves: Curves<'_>) -> Extremum {
     least_radius_on(curves, everywhere)
 }
 
-/// The same over the pieces that are searched; ∞ where none is.
+/// Smallest radius over the pieces that are searched; ∞ where there are none.
 #[must_use]
 pub fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> Extremum {
     let least = largest(curves, searched, |piece, angle| {
@@ -282,8 +296,8 @@ pub fn least_radius_on(curves: Curves<'_>, searched: impl Fn(usize) -> bool) -> 
     Extremum { at: least.at, value: -least.value }
 }
 
-/// Where a flat face touches, least and most, m, as [`FaceTouch::place`](crate::follower::FaceTouch::place), while the follower runs;
-/// `None` of a roller.
+/// The places where a flat face touches, least and largest, m, as [`FaceTouch::place`](crate::follower::FaceTouch::place), while the follower runs;
+/// `None` for a roller.
 #[must_use]
 pub fn places_on_face(curves: Curves<'_>) -> Option<[Extremum; 2]> {
     curves.follower.on_face(&Jet::default())?;
@@ -296,7 +310,7 @@ pub fn places_on_face(curves: Curves<'_>) -> Option<[Extremum; 2]> {
     Some([Extremum { value: -least.value, ..least }, most])
 }
 
-/// Least rate at which the normal of a flat face turns on the cam, and where; `None` of a roller.
+/// Least rate at which the normal of a flat face turns on the cam, and where; `None` for a roller.
 #[must_use]
 pub fn least_turn(curves: Curves<'_>) -> Option<Extremum> {
     curves.follower.on_face(&Jet::default())?;
@@ -310,20 +324,20 @@ pub fn least_turn(curves: Curves<'_>) -> Option<Extremum> {
     Some(Extremum { value: -backwards.value, ..backwards })
 }
 
-/// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place.
+/// Largest concave curvature of the profile, 1/m (positive; negative when nothing is concave), and the place; concave as seen from the metal.
 ///
 /// The profile's concave radius is the pitch curve's plus the roller radius: both are sharpest at the same place.
 #[must_use]
 pub fn concave_profile_curvature(curves: Curves<'_>) -> Extremum {
-    let pitch = largest_curvature(curves, everywhere, -1.0);
-    Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * curves.offset()) }
+    let pitch = largest_curvature(curves, everywhere, -curves.metal_side());
+    Extremum { at: pitch.at, value: pitch.value / (1.0 + pitch.value * curves.offset().abs()) }
 }
 
-/// A step back of the profile below this is none, m: what it loses of the motion is its square over the radius of curvature.
+/// A shorter step back of the profile does not count, m: the motion it loses is its square over the radius of curvature.
 const LEAST_FOLD: f64 = 1e-9;
 
-/// Where the profile under a flat face steps back along itself because the velocity drops, the farthest: a length below 0, m, and the end
-/// of the piece before it. `None` where it does not.
+/// Where the profile under a flat face steps back along itself because the velocity drops, the longest step: a length below 0, m, and the
+/// end of the piece before it. `None` where there is no such step.
 #[must_use]
 pub fn fold(curves: Curves<'_>) -> Option<Extremum> {
     curves.follower.on_face(&Jet::default())?;
@@ -352,7 +366,7 @@ pub struct Corner {
 /// face, and 1e-17 m of the motion are lost. That is far below the 0.05° a shop tolerates, and above the rounding of any motion.
 const LEAST_CORNER: f64 = 1e-7;
 
-/// The corners of the pitch curve, in the order of the pieces; each stands at the end of a piece.
+/// The corners of the pitch curve, in the order of the pieces; each is at the end of a piece.
 #[must_use]
 pub fn corners(curves: Curves<'_>) -> Vec<Corner> {
     let pieces = curves.motion.pieces();

@@ -1,109 +1,113 @@
 //! A follower on a chain of arcs, lines and cubic curves: lift, velocity and acceleration as cut, in closed form.
 //!
 //! While the contact runs along an arc, the centre of the roller runs on a circle about the centre of the arc; along a line, on
-//! a line. Lift, velocity and acceleration follow one after the other from the point of the follower's curve C being on that
+//! a line. Lift, velocity and acceleration follow in turn from the condition that the point C of the follower's curve lies on that
 //! circle of radius ρ about M, n the unit vector from M to C:
 //!
 //! ```text
 //! |C − M| = ρ,   n·C' = 0,   n·C'' = −|C'|²/ρ
 //! ```
 //!
-//! C depends on the lift, C' is linear in its first derivative, C'' in its second, whatever the follower. A flat face touches
+//! C depends on the lift, C' is linear in its first derivative, C'' in its second, for any follower. A flat face touches
 //! an arc where its normal N is that of the arc: p = M·N + R is its distance from the shaft, M·T the place q of the contact along
-//! it, and R the radius of curvature. Each gives one of lift, velocity and acceleration: in closed form where N stands still in the
-//! frame of the follower; under a face on an arm p by secants, and q and ρ from what is linear, q β' = p' and ρ.
+//! it, and R the radius of curvature. Each gives one of lift, velocity and acceleration: in closed form where N is fixed in the
+//! frame of the follower; under a face on an arm p is solved by secants, and q and ρ from linear relations for q β' = p' and ρ.
 
 mod errors;
 
-pub use errors::Errors;
+pub use errors::ErrorsOnChain;
 
 use super::Curves;
 use crate::follower::Element;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::{Contour, Edge};
-use crate::motion::program::SegmentTold;
+use crate::motion::program::SegmentSummary;
 use crate::motion::{Jet, Motion, Piece, Quantity, own_pieces};
-use crate::numeric::chebyshev::{self, Known};
+use crate::numeric::chebyshev::{self, SearchStart};
 use crate::numeric::root;
 use nalgebra::Vector2;
 
 /// Stretches of the motion shorter than this, rad or m, are the rounding of a joint: the direction of an arc is known to 1e-9.
 pub(super) const HAIR: f64 = 1e-8;
-/// Steps to the lift: two are mostly enough.
+/// Steps to the lift: two are usually enough.
 const LIFT_STEPS: u32 = 8;
-/// A gap of this share of the distance from the shaft leaves less than a rounding after one more step of Newton's method.
+/// A gap of this share of the distance from the shaft leaves less than rounding after one more step of Newton's method.
 const SETTLED: f64 = 1e-9;
-/// The follower as placed by the motion is near the chain within the radius of its roller, but at least within this, m: a chain may
-/// lie farther from the profile than a small roller is large.
+/// The follower as placed by the motion counts as near the chain within the radius of its roller, but at least within this, m: a chain
+/// may be farther from the profile than a small roller is large.
 const LEAST_REACH: f64 = 2e-3;
-/// Roundings of a length at which the roller touches.
+/// A roller touches within this many roundings of a length.
 const TOUCHING: f64 = 2.0 * f64::EPSILON;
-/// A curve of less curvature, 1/m, is straight.
+/// A curve of less curvature, 1/m, counts as straight.
 pub(super) const STRAIGHT: f64 = 1e-9;
-/// A change of velocity or acceleration, m/rad or rad/rad, over which what is linear in it is measured.
+/// A change of velocity or acceleration, m/rad or rad/rad, with which the slope of a linear relation is measured.
 const CHANGE: f64 = 0.1;
-/// What the follower's curve follows while the contact runs along a segment.
+/// The curve that the follower's point follows while the contact runs along a segment.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Guide {
-    /// The centre of a roller, or the shaft's distance of a face, by a circle: its centre, m, and its radius, m; signed under a
-    /// face, where a hollow arc has a negative one.
+    /// For the centre of a roller, or the distance of a face from the shaft, a circle: its centre, m, and its radius, m; signed under a
+    /// face, where a concave arc has a negative one.
     Circle(Vector2<f64>, f64),
-    /// The centre of a roller by a line: a point of it, m, and its unit normal.
+    /// For the centre of a roller a line: a point of it, m, and its unit normal.
     Line(Vector2<f64>, Vector2<f64>),
-    /// What touches a curve: at each place its circle of curvature is followed, since that has the same curvature.
+    /// A cubic curve: at each place its circle of curvature is followed, since that has the same curvature.
     Curve(Edge),
 }
 
 /// A stretch of the motion over which the contact stays on one segment and the motion on one piece.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct ContactStretch {
     from: f64,
     to: f64,
     piece: usize,
-    /// From the running parameter to that of the piece.
+    /// Added to the running parameter it gives the parameter of the piece.
     shift: f64,
     guide: Guide,
 }
 
 /// A lift of the motion, and its place: a piece, and the parameter in it.
-pub type Lift = ((usize, f64), Jet);
+pub type LiftAtPlace = ((usize, f64), Jet);
 
 /// A follower on a chain.
 #[derive(Debug)]
-pub struct Followed<'a> {
+pub struct FollowerOnChain<'a> {
     curves: Curves<'a>,
-    /// From the chain out to the follower's curve, m; negative where it lies within.
+    /// Distance from the chain out to the follower's curve, m; negative where it lies within.
     out: f64,
-    stretches: Vec<Stretch>,
+    stretches: Vec<ContactStretch>,
     /// Whether the end of the chain is its start.
     closed: bool,
 }
 
 /// Turn between two edges that is rounding, rad.
 const SMOOTH: f64 = 1e-10;
-/// Shortest edge that is followed, mm: what it turns by moves a follower by less than rounding.
+/// Largest kink between two edges, degrees, that controls and shops treat as smooth. A follower passes it with a step of its velocity; at a
+/// larger one it turns about the corner.
+pub const LARGEST_SMOOTH_KINK: f64 = 0.05;
+const FLAT: f64 = LARGEST_SMOOTH_KINK * std::f64::consts::PI / 180.0;
+/// Shortest edge that is followed, mm: the turn of a shorter one moves a follower by less than rounding.
 const LEAST_EDGE: f64 = 1e-6;
 
-/// The outward unit normal at a tangent of an outline that runs counter-clockwise.
+/// The outward unit normal for a tangent of an outline that runs counter-clockwise.
 fn outward(tangent: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(tangent.y, -tangent.x)
 }
 
-impl<'a> Followed<'a> {
-    /// On edges of a profile in their order (mm), the metal on their left.
+impl<'a> FollowerOnChain<'a> {
+    /// A follower on the edges of a profile in their order (mm), the metal on their left.
     #[must_use]
     pub fn new(curves: Curves<'a>, edges: &[Edge]) -> Self {
-        Self::beside(curves, curves.offset(), edges)
+        Self::on_parallel(curves, curves.offset(), edges)
     }
 
-    /// On edges that stand for a parallel of the follower's curve so far inwards, m: the path of a cutter, of whose radius the
-    /// profile lies beside it.
+    /// A follower on edges that represent a parallel of the follower's curve at a distance inwards, m: the path of a cutter, whose radius
+    /// separates it from the profile.
     #[must_use]
-    pub fn beside(curves: Curves<'a>, out: f64, edges: &[Edge]) -> Self {
+    pub fn on_parallel(curves: Curves<'a>, out: f64, edges: &[Edge]) -> Self {
         let reach = MILLIMETRES * out;
         let face = curves.element() == Element::Face;
-        // NaN where the follower, placed by the motion, is nowhere near: on the end or the other flank of a plate.
-        let nearby = curves.offset().max(LEAST_REACH);
+        // NaN where the follower, placed by the motion, is not near the chain: on the end or the other flank of a plate.
+        let nearby = curves.offset().abs().max(LEAST_REACH);
         let parameter = |point: Vector2<f64>, tangent: Vector2<f64>| {
             let normal = outward(tangent);
             let centre = (point + normal * reach) / MILLIMETRES;
@@ -115,7 +119,7 @@ impl<'a> Followed<'a> {
             if near && normal.dot(&touch.drive) > 0.0 { parameter } else { f64::NAN }
         };
         let period = curves.motion.period();
-        // Every segment, and what lies between it and the one before, an edge about which the follower turns, where it goes on otherwise.
+        // Every segment, and between it and the one before, an edge about which the follower turns, where the direction changes.
         let mut ended: Option<(Vector2<f64>, Vector2<f64>, f64)> = None;
         let mut runs: Vec<(f64, f64, Guide)> = Vec::with_capacity(edges.len());
         let mut last: Option<f64> = None;
@@ -123,25 +127,24 @@ impl<'a> Followed<'a> {
         let corner = |from: f64, to: f64, point: Vector2<f64>| {
             (from, to, Guide::Circle(point / MILLIMETRES, if face { out } else { out.abs() }))
         };
-        // What is shorter has any direction where its ends were rounded, and is passed over.
+        // A shorter segment has an arbitrary direction where its ends were rounded, and is skipped.
         for edge in edges.iter().filter(|edge| edge.length() > LEAST_EDGE) {
             let near = |parameter: f64, to: f64| period.map_or(parameter, |period| nearest(parameter, to, period));
             let (start, tangent) = (edge.start(), edge.start_tangent());
-            let goes_on = ended.filter(|(end, before, _)| *end == start && is_smooth(*before, tangent));
+            let goes_on = ended.filter(|(end, before, _)| *end == start && turn_is_below(SMOOTH, *before, tangent));
+            let flat = ended.is_some_and(|(end, before, _)| end == start && turn_is_below(FLAT, before, tangent));
             let from = goes_on.map_or_else(|| parameter(start, tangent), |(.., at)| at);
             let to = parameter(edge.end(), edge.end_tangent());
             ended = Some((edge.end(), edge.end_tangent(), to));
             let from = last.map_or(from, |last| near(from, last));
-            // An arc of a dwell may go round by more than a half turn.
+            // An arc of a dwell may go round by more than half a turn.
             let to = near(to, from + edge.turning());
             if !(from.is_finite() && to.is_finite()) {
                 last = None;
                 continue;
             }
             first = first.or(Some((from, edge.start())));
-            join(&mut runs, last, from, &corner, edge.start());
-            // Where two runs overlap the contact jumps from one to the other between their ends.
-            let from = runs.last().map_or(from, |run| if last.is_some() { run.1.max(from) } else { from });
+            let from = join(&mut runs, (last, from), flat, &corner, edge.start());
             if let Some(guide) = guide(edge, out, face).filter(|_| to > from) {
                 runs.push((from, to, guide));
             }
@@ -150,7 +153,9 @@ impl<'a> Followed<'a> {
         let ends = edges.first().zip(edges.last());
         let closed = period.is_some() && ends.is_some_and(|(first, last)| first.start() == last.end());
         if let (true, Some(period), Some(last), Some((start, point))) = (closed, period, last, first) {
-            join(&mut runs, Some(last), start + period, &corner, point);
+            let tangents = ends.map(|(first, last)| (last.end_tangent(), first.start_tangent()));
+            let flat = tangents.is_some_and(|(before, after)| turn_is_below(FLAT, before, after));
+            join_round(&mut runs, (last, start, period), flat, &corner, point);
         }
         let mut stretches = Vec::with_capacity(runs.len() + curves.motion.pieces().len());
         for run in runs {
@@ -159,7 +164,7 @@ impl<'a> Followed<'a> {
         Self { curves, out, stretches, closed }
     }
 
-    /// On a whole outline (mm) as it lies in the drawing, on the first of the flanks that the follower meets as `mirrored` says.
+    /// A follower on a whole outline (mm) as it lies in the drawing, on the first of the flanks that it meets, or as `mirrored` says.
     #[must_use]
     pub fn on(curves: Curves<'a>, contour: &Contour, mirrored: &[bool]) -> Self {
         let turned = mirrored.first().copied().unwrap_or(false).then(|| contour.mirrored_about_x());
@@ -168,12 +173,17 @@ impl<'a> Followed<'a> {
     }
 
     /// Lift, velocity and acceleration as cut at a place of a stretch; the third derivative is that of the motion.
-    fn cut(&self, stretch: &Stretch, parameter: f64) -> Option<(Jet, Jet)> {
-        self.cut_beside(stretch, parameter, None)
+    fn cut(&self, stretch: &ContactStretch, parameter: f64) -> Option<(Jet, Jet)> {
+        self.cut_at_known_lift(stretch, parameter, None)
     }
 
-    /// The same where the motion may be known at that very place.
-    fn cut_beside(&self, stretch: &Stretch, parameter: f64, known: Option<Lift>) -> Option<(Jet, Jet)> {
+    /// Lift, velocity and acceleration as cut at a place where the motion may already be known.
+    fn cut_at_known_lift(
+        &self,
+        stretch: &ContactStretch,
+        parameter: f64,
+        known: Option<LiftAtPlace>,
+    ) -> Option<(Jet, Jet)> {
         let piece = self.curves.motion.pieces().get(stretch.piece)?;
         let inside = (parameter + stretch.shift).clamp(piece.start, piece.end);
         let law = match known {
@@ -184,19 +194,19 @@ impl<'a> Followed<'a> {
             Guide::Curve(edge) => touching(self.curves, self.out, edge, inside)?,
             known => *known,
         };
-        on_guide(self.curves, inside, law, guide).map(|cut| (cut, law))
+        jet_on_guide(self.curves, inside, law, guide).map(|cut| (cut, law))
     }
 
     /// Lift, velocity and acceleration as cut at a value of the motion's parameter, by that parameter; `None` where the chain
     /// is not touched.
     #[must_use]
     pub fn at(&self, parameter: f64) -> Option<Jet> {
-        self.beside_law(parameter, None)
+        self.at_known_lift(parameter, None)
     }
 
-    /// The same beside a lift of the motion that is known there.
+    /// Lift, velocity and acceleration as cut at a lift of the motion that is already known.
     #[must_use]
-    pub fn beside_law(&self, parameter: f64, known: Option<Lift>) -> Option<Jet> {
+    pub fn at_known_lift(&self, parameter: f64, known: Option<LiftAtPlace>) -> Option<Jet> {
         let (first, _) = self.stretches.first().map(|stretch| (stretch.from, stretch.to))?;
         let wanted = match self.curves.motion.period() {
             Some(period) => parameter + period * ((first - parameter) / period).ceil(),
@@ -205,21 +215,43 @@ impl<'a> Followed<'a> {
         let index = self.stretches.partition_point(|stretch| stretch.to < wanted);
         let stretch = self.stretches.get(index).or(self.stretches.last())?;
         let reached = wanted >= stretch.from - HAIR && wanted <= stretch.to + HAIR;
-        self.cut_beside(stretch, wanted, known).filter(|_| reached).map(|(cut, _)| cut)
+        self.cut_at_known_lift(stretch, wanted, known).filter(|_| reached).map(|(cut, _)| cut)
     }
 
     /// Whether the follower runs on a stretch.
-    fn is_rolled(&self, stretch: &Stretch) -> bool {
+    fn is_rolled(&self, stretch: &ContactStretch) -> bool {
         self.curves.motion.is_rolled(stretch.piece)
     }
 
-    /// The stretches on which the follower runs, between whose ends lift and velocity as cut are smooth, by the motion's parameter.
+    /// The stretches on which the follower runs; between their ends lift and velocity as cut are smooth; by the motion's parameter.
     pub fn ranges(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.stretches.iter().filter(|stretch| self.is_rolled(stretch)).map(|stretch| (stretch.from, stretch.to))
     }
 
+    /// The motion and what is cut of it wherever the follower runs on the chain, a list for each stretch: parameter, lift of the motion and
+    /// lift as cut, both with two derivatives by the angle of the shaft. The places are no farther apart than a share of the whole motion.
+    #[must_use]
+    pub fn lifts(&self, share: f64) -> Vec<Vec<(f64, Jet, Jet)>> {
+        let (first, last) = self.curves.motion.range();
+        let longest = (share * (last - first)).max(HAIR);
+        let of_stretch = |stretch: &ContactStretch| {
+            let length = stretch.to - stretch.from;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few thousand")]
+            let steps = (length / longest).ceil().clamp(1.0, 1e5) as u32;
+            let place = |step: u32| stretch.from + length * (f64::from(step) / f64::from(steps));
+            let at = |parameter: f64| {
+                let (speed, slowing) = self.curves.motion.pace(parameter + stretch.shift);
+                let by_angle =
+                    |jet: Jet| Jet { ds: jet.ds * speed, dds: jet.dds * speed * speed + jet.ds * slowing, ..jet };
+                self.cut(stretch, parameter).map(|(cut, law)| (parameter, by_angle(law), by_angle(cut)))
+            };
+            (0..=steps).map(place).filter_map(at).collect()
+        };
+        self.stretches.iter().filter(|stretch| self.is_rolled(stretch)).map(of_stretch).collect()
+    }
+
     /// Acceleration of the motion and as cut wherever the follower runs on the chain, by the angle of the shaft: parameter, motion, cut;
-    /// two at one place where it jumps. The places lie no farther apart than a share of the whole motion.
+    /// two at one place where it jumps. The places are no farther apart than a share of the whole motion.
     #[must_use]
     pub fn accelerations(&self, share: f64) -> Vec<[f64; 3]> {
         let (first, last) = self.curves.motion.range();
@@ -243,34 +275,51 @@ impl<'a> Followed<'a> {
     }
 }
 
-/// Whether the direction of a chain turns by no more than rounding.
-fn is_smooth(before: Vector2<f64>, after: Vector2<f64>) -> bool {
-    before.perp(&after).abs() < SMOOTH && before.dot(&after) > 0.0
+/// Whether the direction of a chain turns by less than a small angle, rad.
+fn turn_is_below(angle: f64, before: Vector2<f64>, after: Vector2<f64>) -> bool {
+    before.perp(&after).abs() < angle && before.dot(&after) > 0.0
 }
 
-/// Adds what lies between the end of the last run and the start of the next: a run about the edge between them, or, where they
-/// overlap, a common end in the middle.
+/// Adds the run between the end of the last run and the start of the next, and returns where the next then starts: after a run about the
+/// edge between them, or, where they overlap or the kink is flat, at a common end in the middle, at which the contact jumps.
 fn join(
     runs: &mut Vec<(f64, f64, Guide)>,
-    last: Option<f64>,
-    from: f64,
+    (last, from): (Option<f64>, f64),
+    flat: bool,
     corner: &impl Fn(f64, f64, Vector2<f64>) -> (f64, f64, Guide),
     point: Vector2<f64>,
-) {
-    let Some(last) = last else { return };
-    if from > last {
+) -> f64 {
+    let Some(last) = last else { return from };
+    let turns = from > last && !(flat && from - last > HAIR);
+    if turns {
         runs.push(corner(last, from, point));
     } else if let Some(run) = runs.last_mut() {
         run.1 = (0.5 * (last + from)).max(run.0);
+        return if from > last { run.1 } else { run.1.max(from) };
+    }
+    from
+}
+
+/// Joins the end of the last run to the start of the first, a period later.
+fn join_round(
+    runs: &mut Vec<(f64, f64, Guide)>,
+    (last, start, period): (f64, f64, f64),
+    flat: bool,
+    corner: &impl Fn(f64, f64, Vector2<f64>) -> (f64, f64, Guide),
+    point: Vector2<f64>,
+) {
+    let common = join(runs, (Some(last), start + period), flat, corner, point) - period;
+    if let Some(run) = runs.first_mut().filter(|run| common < start && common < run.1) {
+        run.0 = common;
     }
 }
 
-/// A parameter by whole periods as near as can be to another.
+/// A parameter moved by whole periods to be as near as possible to another.
 pub(super) fn nearest(parameter: f64, to: f64, period: f64) -> f64 {
     parameter + period * ((to - parameter) / period).round()
 }
 
-/// What the follower's curve follows along an edge; `None` under a face where no run of the motion belongs to it.
+/// The guide along an edge; `None` under a face where no run of the motion belongs to the edge.
 fn guide(edge: &Edge, offset: f64, face: bool) -> Option<Guide> {
     let Some(segment) = edge.segment() else { return Some(Guide::Curve(*edge)) };
     if segment.bulge == 0.0 {
@@ -316,22 +365,28 @@ fn touching(curves: Curves<'_>, out: f64, edge: &Edge, parameter: f64) -> Option
 }
 
 /// The parts of a run that lie on the pieces of the motion.
-fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> impl Iterator<Item = Stretch> {
-    parts(motion, (from, to)).map(move |Part { from, to, piece, shift }| Stretch { from, to, piece, shift, guide })
+fn on_pieces(motion: &dyn Motion, (from, to, guide): (f64, f64, Guide)) -> impl Iterator<Item = ContactStretch> {
+    parts(motion, (from, to)).map(move |PieceRange { from, to, piece, shift }| ContactStretch {
+        from,
+        to,
+        piece,
+        shift,
+        guide,
+    })
 }
 
 /// A part of a range of the motion's parameter, on one piece.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct PieceRange {
     pub(super) from: f64,
     pub(super) to: f64,
     pub(super) piece: usize,
-    /// From the running parameter to that of the piece.
+    /// Added to the running parameter it gives the parameter of the piece.
     pub(super) shift: f64,
 }
 
-/// A range of the motion's parameter, which may run over any number of periods, cut at the pieces of the motion.
-pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> impl Iterator<Item = Part> {
+/// A range of the motion's parameter, over any number of periods, divided at the pieces of the motion.
+pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> impl Iterator<Item = PieceRange> {
     let (first, last) = motion.range();
     let (from, to) = if motion.period().is_some() { (from, to) } else { (from.max(first), to.min(last)) };
     let mut at = from;
@@ -343,14 +398,14 @@ pub(super) fn parts(motion: &dyn Motion, (from, to): (f64, f64)) -> impl Iterato
         let end = motion.pieces().get(piece)?.end;
         let shift = inside - (at + HAIR);
         let until = (end - shift).max(at + HAIR);
-        // What is left of a piece, or of a run, may be a hair.
+        // The remainder of a piece, or of a run, may be negligible.
         let until = if to - until > HAIR { until } else { to };
-        Some(Part { from: std::mem::replace(&mut at, until), to: until, piece, shift })
+        Some(PieceRange { from: std::mem::replace(&mut at, until), to: until, piece, shift })
     })
 }
 
-/// The jet of a follower at a parameter whose curve follows a guide, the law's as a start.
-pub(super) fn on_guide(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
+/// The jet of a follower whose curve follows a guide, at a parameter, starting from the law's.
+pub(super) fn jet_on_guide(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
     match curves.element() {
         Element::Roller { .. } => rolled(curves, parameter, law, guide),
         Element::Face => under_face(curves, parameter, law, guide),
@@ -362,7 +417,7 @@ pub(super) fn on_guide(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guid
 /// By Newton's method: the centre moves by the leverage along the drive for a unit of lift, and C' and C'' change by as much for a
 /// unit of its first and second derivative.
 fn rolled(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<Jet> {
-    // How far a point is off the guide, and the normal of the guide there.
+    // Distance of a point from the guide, and the normal of the guide there.
     let off = |point: Vector2<f64>| match guide {
         Guide::Circle(centre, radius) => {
             let away = point - centre;
@@ -414,7 +469,7 @@ fn under_face(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Opt
         return Some(Jet { s: lift, ds, dds: -centre.dot(&curve.outward()) / along_normal, ..law });
     }
     let law = Jet { s: lift, ..law };
-    // How far the contact is from its place along the face, times β'; and the radius from that of the arc.
+    // The distance of the contact from its place along the face, times β'; and the difference of the radius from that of the arc.
     let off = |jet: Jet| {
         let (curve, turn) = (curves.follower.touch(parameter, &jet).curve, curves.follower.on_face(&jet)?.turn);
         Some(((curve.point - centre).dot(&curve.tangent) * turn, curve.speed / turn - radius))
@@ -426,7 +481,7 @@ fn under_face(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Opt
     (lift.is_finite() && law.ds.is_finite() && dds.is_finite()).then_some(Jet { dds, ..law })
 }
 
-/// The lift at which a flat face touches an arc, the law's as a start.
+/// The lift at which a flat face touches an arc, starting from the law's.
 pub(super) fn face_lift(curves: Curves<'_>, parameter: f64, law: Jet, guide: Guide) -> Option<f64> {
     let Guide::Circle(centre, radius) = guide else { return None };
     let touch = |s: f64| curves.follower.touch(parameter, &Jet { s, ..law }).curve;
@@ -458,14 +513,14 @@ pub(super) fn face_lift(curves: Curves<'_>, parameter: f64, law: Jet, guide: Gui
 #[must_use]
 pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
     if let Some(program) = motion.program() {
-        // It tells the peaks of its segments, and its shaft turns evenly.
+        // The motion knows the peaks of its segments, and its shaft turns evenly.
         let peak = |index: usize| {
-            let of_segment = |told: &SegmentTold| told.peaks.get(index).map_or(0.0, |(peak, _)| *peak);
+            let of_segment = |told: &SegmentSummary| told.peaks.get(index).map_or(0.0, |(peak, _)| *peak);
             program.segments().iter().map(of_segment).fold(0.0, f64::max)
         };
         return [peak(0), peak(1)];
     }
-    let mut known = [Known::nothing(0.0); 2];
+    let mut known = [SearchStart::nothing(0.0); 2];
     let moving = |(index, piece): &(usize, &Piece)| !piece.dwell && motion.is_rolled(*index);
     for (index, piece) in own_pieces(motion).filter(moving) {
         let range = (piece.start, piece.end);
@@ -478,7 +533,7 @@ pub fn largest_rates(motion: &dyn Motion) -> [f64; 2] {
         v.best = chebyshev::largest_size(velocity, range, *v);
         a.best = chebyshev::largest_size(acceleration, range, *a);
     }
-    // A follower that always rests has none.
+    // A follower that always rests has no peaks.
     known.map(|known| known.best.value.max(0.0))
 }
 

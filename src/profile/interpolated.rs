@@ -1,23 +1,23 @@
 //! A follower on the curve that a control makes of a table of points: the errors of its velocity and acceleration.
 //!
-//! A table gives the profile, the path of the roller's centre, or that of a cutter. What the cutter leaves is a parallel of the
+//! A table gives the profile, the path of the roller's centre, or the path of a cutter. A cutter cuts a parallel of the
 //! given curve, and the follower's own curve is a parallel of that: headings are the same, radii of curvature differ by the
-//! distance. So each point of the interpolated curve, with its tangent and curvature, tells where the follower stands, and the
-//! circle of curvature on which its curve runs there; lift, velocity and acceleration follow as on an arc (`followed`). Nothing is
-//! of first order only, and polar splines need be no cubics of x and y.
+//! distance. So each point of the interpolated curve, with its tangent and curvature, gives the place of the follower, and the
+//! circle of curvature on which its curve runs there; lift, velocity and acceleration follow as on an arc (`followed`). There is
+//! no approximation to first order, and polar splines need not be cubics of x and y.
 //!
 //! At a row where the curve has a corner the follower turns about it, or jumps to the next interval before the end of this one:
-//! either way the velocity stays between what the ends of the intervals say. Where a row stands twice since the acceleration jumps
+//! in both cases the velocity stays between the values at the ends of the intervals. Where a row occurs twice since the acceleration jumps
 //! there, the two splines differ in their headings by no more than their errors, so that the velocity steps by at most twice its
-//! error; the jump of the acceleration comes as much early or late, and each spline is judged by its own side of it.
+//! error; the jump of the acceleration is early or late by the same amount, and each spline is judged by its own side of it.
 
 use super::Curves;
-use super::followed::{Guide, HAIR, Part, STRAIGHT, largest_rates, nearest, on_guide, parts};
+use super::followed::{Guide, HAIR, PieceRange, STRAIGHT, jet_on_guide, largest_rates, nearest, parts};
 use crate::follower::Element;
-use crate::geometry::points::{Feel, Interpolant};
+use crate::geometry::points::{Interpolant, MotionErrors};
 use crate::geometry::{CurvePoint, MILLIMETRES};
 use crate::motion::Jet;
-use crate::numeric::chebyshev::{self, Known};
+use crate::numeric::chebyshev::{self, SearchStart};
 use crate::numeric::extremum::Extremum;
 use crate::numeric::root;
 
@@ -25,25 +25,25 @@ use crate::numeric::root;
 /// largest velocity and acceleration, which is rounding.
 const SHARE: f64 = 1e-5;
 const ROUNDING: f64 = 1e-8;
-/// A break of the motion this near to the end of an interval, as a share of it, is at the end.
+/// A break of the motion this near to the end of an interval, as a share of it, counts as at the end.
 const AT_END: f64 = 1e-3;
-/// How exactly the place of a break of the motion is found, as a share of the interval.
+/// Accuracy of the place of a break of the motion, as a share of the interval.
 const ROOT: f64 = 1e-12;
-/// The motion on both sides of a point of the exact curve is looked at so far from it, rad or m.
-const BESIDE: f64 = 1e-6;
+/// Distance from a point of the exact curve at which the motion on both sides of it is evaluated, rad or m.
+const ASIDE: f64 = 1e-6;
 
 /// A follower on interpolated curves.
 #[derive(Debug)]
-pub struct Interpolated<'a> {
+pub struct FollowerOnTable<'a> {
     curves: Curves<'a>,
-    /// From the given curve out to that of the follower, m; negative where it lies within.
+    /// Distance from the given curve out to that of the follower, m; negative where it lies within.
     out: f64,
     /// The largest velocity and acceleration of the motion.
     largest: [f64; 2],
 }
 
-/// An interval with what of the motion belongs to it.
-struct Run<'i> {
+/// An interval with the corresponding range of the motion.
+struct IntervalRun<'i> {
     curve: &'i Interpolant,
     interval: usize,
     range: (f64, f64),
@@ -51,27 +51,27 @@ struct Run<'i> {
     parameters: (f64, f64),
 }
 
-impl<'a> Interpolated<'a> {
-    /// On curves that stand for the parallel of the follower's curve so far inwards, m: the radius of the roller for its profile, 0
-    /// for the path of its centre.
+impl<'a> FollowerOnTable<'a> {
+    /// A follower on curves that represent the parallel of the follower's curve at this distance inwards, m: the radius of the roller
+    /// for a profile, 0 for the path of its centre.
     #[must_use]
     pub fn new(curves: Curves<'a>, inwards: f64) -> Self {
         Self { curves, out: inwards, largest: largest_rates(curves.motion) }
     }
 
-    /// The motion's parameter at which the follower touches what belongs to a point, mm.
+    /// The motion's parameter at which the follower touches the point of the profile for a point of the curve, mm.
     fn parameter(&self, point: &CurvePoint) -> f64 {
         let normal = point.outward();
         self.curves.follower.parameter_of(point.point / MILLIMETRES + normal * self.out, normal)
     }
 
-    /// The same by whole periods as near as can be to another.
+    /// This parameter, moved by whole periods to be as near as possible to another.
     fn parameter_near(&self, point: &CurvePoint, to: f64) -> f64 {
         let parameter = self.parameter(point);
         self.curves.motion.period().map_or(parameter, |period| nearest(parameter, to, period))
     }
 
-    /// What the follower's curve follows at a point; `None` where its parallel turns back.
+    /// The guide of the follower's curve at a point; `None` where its parallel turns back.
     fn guide(&self, point: &CurvePoint) -> Option<Guide> {
         let (normal, curvature) = (point.outward(), point.curvature * MILLIMETRES);
         if !(1.0 + curvature * self.out > 0.0) {
@@ -88,12 +88,12 @@ impl<'a> Interpolated<'a> {
     }
 
     /// Errors of velocity and acceleration where a guide is followed, by the angle of the shaft; infinite where it cannot be.
-    fn off(&self, part: &Part, parameter: f64, guide: Option<Guide>) -> [f64; 2] {
+    fn off(&self, part: &PieceRange, parameter: f64, guide: Option<Guide>) -> [f64; 2] {
         let motion = self.curves.motion;
         let Some(piece) = motion.pieces().get(part.piece) else { return [f64::INFINITY; 2] };
         let inside = (parameter + part.shift).clamp(piece.start, piece.end);
         let law = motion.jet(part.piece, inside);
-        let Some(cut) = guide.and_then(|guide| on_guide(self.curves, inside, law, guide)) else {
+        let Some(cut) = guide.and_then(|guide| jet_on_guide(self.curves, inside, law, guide)) else {
             return [f64::INFINITY; 2];
         };
         let (first, second) = motion.pace(inside);
@@ -102,7 +102,7 @@ impl<'a> Interpolated<'a> {
     }
 
     /// The errors at a parameter of an interval.
-    fn off_at(&self, run: &Run<'_>, part: &Part, at: f64) -> [f64; 2] {
+    fn off_at(&self, run: &IntervalRun<'_>, part: &PieceRange, at: f64) -> [f64; 2] {
         let Some(point) = run.curve.at(run.interval, at) else { return [f64::INFINITY; 2] };
         self.off(part, self.parameter_near(&point, run.near(at)), self.guide(&point))
     }
@@ -120,9 +120,9 @@ impl<'a> Interpolated<'a> {
         let from = self.parameter(&first);
         let turn = libm::atan2(first.point.perp(&last.point), first.point.dot(&last.point));
         let to = self.parameter_near(&last, from + turn);
-        let run = Run { curve, interval, range, parameters: (from, to) };
+        let run = IntervalRun { curve, interval, range, parameters: (from, to) };
         if !(to - from > HAIR) {
-            // Of an interval that the follower passes in no time nothing can be told.
+            // An interval that the follower passes in no time has no errors.
             return if to - from > -HAIR { [0.0; 2] } else { NOT_FOLLOWED };
         }
         let mut worst = [0.0_f64; 2];
@@ -135,15 +135,15 @@ impl<'a> Interpolated<'a> {
         worst
     }
 
-    /// The largest errors on a part of an interval, of those that are wanted.
-    fn largest_of(&self, run: &Run<'_>, part: &Part, range: (f64, f64), wanted: [bool; 2]) -> [f64; 2] {
+    /// The largest errors on a part of an interval, of the kinds that are wanted.
+    fn largest_of(&self, run: &IntervalRun<'_>, part: &PieceRange, range: (f64, f64), wanted: [bool; 2]) -> [f64; 2] {
         let places = [range.0, 0.5 * (range.0 + range.1), range.1];
         let seen = places.map(|at| self.off_at(run, part, at));
         let rate = |index: usize| {
             let of = |errors: &[f64; 2]| errors.get(index).copied().unwrap_or(0.0);
             let seen = seen.iter().map(|errors| of(errors).abs()).fold(0.0, f64::max);
             let negligible = (SHARE * seen).max(ROUNDING * of(&self.largest));
-            let known = Known { best: Extremum { at: range.0, value: seen }, negligible };
+            let known = SearchStart { best: Extremum { at: range.0, value: seen }, negligible };
             if seen.is_finite() {
                 chebyshev::largest_size(|at| of(&self.off_at(run, part, at)), range, known).value
             } else {
@@ -153,7 +153,7 @@ impl<'a> Interpolated<'a> {
         [if wanted[0] { rate(0) } else { 0.0 }, if wanted[1] { rate(1) } else { 0.0 }]
     }
 
-    /// A flat face on a chord touches its ends only: at its own heading it goes over from one to the other.
+    /// A flat face on a chord touches its ends only: at the heading of the chord the contact moves from one end to the other.
     fn on_chord(&self, first: &CurvePoint, last: &CurvePoint) -> [f64; 2] {
         let errors = [first, last].map(|point| {
             let parameter = self.parameter(point);
@@ -161,7 +161,7 @@ impl<'a> Interpolated<'a> {
             if !self.curves.motion.is_rolled(piece) {
                 return 0.0;
             }
-            let part = Part { from: inside, to: inside, piece, shift: 0.0 };
+            let part = PieceRange { from: inside, to: inside, piece, shift: 0.0 };
             let corner = point.point / MILLIMETRES + point.outward() * self.out;
             self.off(&part, inside, Some(Guide::Circle(corner, 0.0)))[0].abs()
         });
@@ -169,15 +169,15 @@ impl<'a> Interpolated<'a> {
     }
 }
 
-impl Run<'_> {
-    /// About where the motion's parameter is at a parameter of the interval.
+impl IntervalRun<'_> {
+    /// The approximate parameter of the motion at a parameter of the interval.
     fn near(&self, at: f64) -> f64 {
         let share = (at - self.range.0) / (self.range.1 - self.range.0);
         self.parameters.0 + share * (self.parameters.1 - self.parameters.0)
     }
 
     /// The parameter of the interval at which the motion's is reached.
-    fn place(&self, on: &Interpolated<'_>, parameter: f64) -> f64 {
+    fn place(&self, on: &FollowerOnTable<'_>, parameter: f64) -> f64 {
         if parameter <= self.parameters.0 {
             return self.range.0;
         }
@@ -193,9 +193,9 @@ impl Run<'_> {
     }
 }
 
-/// The parts of an interval; one at its end that is shorter than `least` belongs to its neighbour.
-fn own_parts(mut parts: Vec<Part>, least: f64) -> Vec<Part> {
-    let short = |part: Option<&Part>| part.is_some_and(|part| part.to - part.from < least);
+/// The parts of an interval; a part at its end that is shorter than `least` is joined to its neighbour.
+fn own_parts(mut parts: Vec<PieceRange>, least: f64) -> Vec<PieceRange> {
+    let short = |part: Option<&PieceRange>| part.is_some_and(|part| part.to - part.from < least);
     if parts.len() > 1 && short(parts.last()) {
         let end = parts.pop().map(|part| part.to);
         if let (Some(part), Some(end)) = (parts.last_mut(), end) {
@@ -211,7 +211,7 @@ fn own_parts(mut parts: Vec<Part>, least: f64) -> Vec<Part> {
     parts
 }
 
-/// The errors of so many intervals, up to the first that is above a limit.
+/// The errors of this many intervals, up to the first that exceeds a limit.
 pub fn up_to(count: usize, limit: [f64; 2], errors: impl Fn(usize) -> [f64; 2]) -> Vec<[f64; 2]> {
     let mut all = Vec::with_capacity(count);
     for interval in 0..count {
@@ -224,14 +224,14 @@ pub fn up_to(count: usize, limit: [f64; 2], errors: impl Fn(usize) -> [f64; 2]) 
     all
 }
 
-impl Feel for Interpolated<'_> {
+impl MotionErrors for FollowerOnTable<'_> {
     fn errors(&self, curve: &Interpolant, wanted: [bool; 2], limit: [f64; 2]) -> Vec<[f64; 2]> {
         up_to(curve.count(), limit, |interval| self.interval(curve, interval, wanted))
     }
 
     fn step(&self, at: &CurvePoint) -> f64 {
         let (motion, parameter) = (self.curves.motion, self.parameter(at));
-        let beside = |away: f64| {
+        let at_distance = |away: f64| {
             let (piece, inside) = motion.locate(parameter + away);
             let jet: Jet = motion
                 .pieces()
@@ -240,7 +240,7 @@ impl Feel for Interpolated<'_> {
             let (first, second) = motion.pace(inside - away);
             jet.dds * first * first + jet.ds * second
         };
-        (beside(BESIDE) - beside(-BESIDE)).abs()
+        (at_distance(ASIDE) - at_distance(-ASIDE)).abs()
     }
 }
 
@@ -248,16 +248,15 @@ impl Feel for Interpolated<'_> {
 mod tests {
     use super::*;
     use crate::follower::TranslatingRoller;
-    use crate::geometry::points::{Between, Form};
-    use crate::motion::brake_disc::tests::disc;
-    use crate::motion::{EccentricCircle, Motion};
+    use crate::geometry::points::{PointCoordinates, PointInterpolation};
+    use crate::motion::EccentricCircle;
     use nalgebra::Vector2;
     use std::f64::consts::TAU;
 
     /// A roller of any size on the tables of a circle about (e, 0) of another radius: its centre keeps a circle of radius ρ + δ, on
     /// which s = √(ρ'² − e² sin²θ) + e cos θ − …, and the errors are those of two such lifts.
     #[test]
-    fn a_larger_circle_is_felt_as_in_closed_form() {
+    fn a_larger_circle_has_the_errors_of_the_closed_form() {
         let (e, rho, grown) = (0.012, 0.06, 1e-3);
         let motion = EccentricCircle::new(e, rho);
         let follower = TranslatingRoller::new(rho - e, 0.0, 0.015);
@@ -281,9 +280,9 @@ mod tests {
             };
             let mut rows: Vec<[f64; 2]> = (0..7200).map(row).collect();
             rows.extend(rows.first().copied());
-            let curve = Interpolant::new(&rows, Form::Plane, Between::Cubic, true);
-            let felt = Interpolated::new(curves, inwards).errors(&curve, [true; 2], [f64::INFINITY; 2]);
-            let found = felt.iter().fold([0.0_f64; 2], |worst, own| [worst[0].max(own[0]), worst[1].max(own[1])]);
+            let curve = Interpolant::new(&rows, PointCoordinates::Plane, PointInterpolation::Cubic, true);
+            let errors = FollowerOnTable::new(curves, inwards).errors(&curve, [true; 2], [f64::INFINITY; 2]);
+            let found = errors.iter().fold([0.0_f64; 2], |worst, own| [worst[0].max(own[0]), worst[1].max(own[1])]);
             for (found, worst) in found.iter().zip(worst) {
                 assert!((found / worst - 1.0).abs() < 1e-3, "{inwards}: {found} {worst}");
             }
@@ -291,30 +290,10 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_felt_where_no_follower_runs() {
-        let (motion, follower) = (disc(), TranslatingRoller::new(0.05, 0.0, 0.01));
-        let curves = Curves { motion: &motion, follower: &follower };
-        let row = |i: u32| {
-            let (piece, angle) = motion.locate(f64::from(i).to_radians());
-            let point = curves.touch(piece, angle).curve.point * MILLIMETRES;
-            [point.x, point.y]
-        };
-        let rows: Vec<[f64; 2]> = (0..=360).map(row).collect();
-        let curve = Interpolant::new(&rows, Form::Plane, Between::Cubic, true);
-        let felt = Interpolated::new(curves, 0.0).errors(&curve, [true; 2], [f64::INFINITY; 2]);
-        let working = motion.pieces()[0].end.to_degrees();
-        for (degrees, errors) in felt.iter().enumerate() {
-            let degrees = f64::from(u32::try_from(degrees).expect("few"));
-            let rolled = degrees < working;
-            assert!(errors.iter().all(|error| error.is_finite() && (*error > 0.0) == rolled), "{degrees}: {errors:?}");
-        }
-    }
-
-    #[test]
-    fn the_step_of_a_smooth_motion_is_none() {
+    fn the_step_of_a_smooth_motion_is_zero() {
         let motion = EccentricCircle::new(0.012, 0.06);
         let follower = TranslatingRoller::new(0.048, 0.0, 0.015);
-        let on = Interpolated::new(Curves { motion: &motion, follower: &follower }, 0.0);
+        let on = FollowerOnTable::new(Curves { motion: &motion, follower: &follower }, 0.0);
         let at = CurvePoint {
             point: Vector2::new(72.0, 0.0),
             tangent: Vector2::new(0.0, 1.0),

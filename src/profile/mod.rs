@@ -28,16 +28,16 @@ pub struct Curves<'a> {
     pub follower: &'a dyn Follower,
 }
 
-/// What is known at one value of the parameter.
+/// The follower and its motion at one value of the parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Lift and its derivatives.
     pub lift: Jet,
     /// The follower's curve: the pitch curve of a roller, the profile under a face.
     pub curve: CurvePoint,
-    /// Unit vector in which what touches the cam moves when the lift grows.
+    /// Unit vector in which the element moves when the lift grows.
     pub drive: Vector2<f64>,
-    /// Angle from the outward normal to the drive direction, rad: positive where the lift grows (centred follower).
+    /// Angle from the outward normal to the direction of motion, rad: positive where the lift grows (centred follower).
     pub pressure_angle: f64,
     /// Its derivative by the parameter.
     pub pressure_angle_slope: f64,
@@ -108,7 +108,7 @@ impl<'a> Curves<'a> {
         self.face_radius_of(parameter, &self.motion.jet(piece, parameter))
     }
 
-    /// The same of a lift.
+    /// The radius of curvature under a face, and its derivative, for a given lift.
     pub(crate) fn face_radius_of(&self, parameter: f64, lift: &Jet) -> (f64, f64) {
         let curve = self.follower.touch(parameter, lift).curve;
         let turn = self.follower.on_face(lift).map_or(1.0, |face| face.turn);
@@ -117,19 +117,34 @@ impl<'a> Curves<'a> {
         (radius, -curve.curvature_slope * curve.speed * radius * radius)
     }
 
-    /// How far inwards of the follower's curve the profile lies, m.
+    /// Distance of the profile inwards from the follower's curve, m.
     #[must_use]
     pub fn offset(&self) -> f64 {
         self.follower.element().offset()
     }
 
-    /// What touches the cam.
+    /// 1 where the metal lies inside of the follower's curve, −1 where it lies around it.
+    #[must_use]
+    pub fn metal_side(&self) -> f64 {
+        if self.offset() < 0.0 { -1.0 } else { 1.0 }
+    }
+
+    /// Radius of the roller, m, whichever side of it the metal is on; `None` under a flat face or a knife edge.
+    #[must_use]
+    pub fn roller_radius(&self) -> Option<f64> {
+        match self.element() {
+            Element::Roller { radius } => Some(radius.abs()).filter(|radius| *radius > 0.0),
+            Element::Face => None,
+        }
+    }
+
+    /// The element that touches the cam.
     #[must_use]
     pub fn element(&self) -> Element {
         self.follower.element()
     }
 
-    /// The same motion under another follower.
+    /// This motion under another follower.
     #[must_use]
     pub fn with<'b>(&self, follower: &'b dyn Follower) -> Curves<'b>
     where
@@ -139,7 +154,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Cells in which the extreme lifts of a piece are searched: a piece has two extrema at the most.
+/// Cells in which the extreme lifts of a piece are searched: a piece has at most two extrema.
 const LIFT_CELLS: u32 = 64;
 
 /// Smallest and largest lift of a motion, m or rad.
@@ -150,7 +165,7 @@ pub fn lifts(motion: &dyn Motion) -> (f64, f64) {
             let jet = motion.jet(index, at);
             [jet.s, jet.ds, jet.dds]
         };
-        let [most, least] = extremum::both_ways_with_bend(all, (piece.start, piece.end), LIFT_CELLS);
+        let [most, least] = extremum::largest_of_both_signs(all, (piece.start, piece.end), LIFT_CELLS);
         (-least.value, most.value)
     };
     let all = own_pieces(motion).map(of_piece);
@@ -251,8 +266,8 @@ mod tests {
     #[test]
     fn frame_derivatives_belong_to_the_curve() {
         #[derive(Debug)]
-        struct Wave;
-        impl Motion for Wave {
+        struct SineLift;
+        impl Motion for SineLift {
             fn pieces(&self) -> &[crate::motion::Piece] {
                 const WHOLE: [crate::motion::Piece; 1] =
                     [crate::motion::Piece { start: 0.0, end: std::f64::consts::TAU, dwell: false }];
@@ -263,7 +278,7 @@ mod tests {
                 Jet { s: 0.004 * (1.0 + sin), ds: 0.012 * cos, dds: -0.036 * sin, ddds: -0.108 * cos }
             }
         }
-        let curves = Curves { motion: &Wave, follower: &TranslatingRoller::new(0.1, 0.02, 0.01) };
+        let curves = Curves { motion: &SineLift, follower: &TranslatingRoller::new(0.1, 0.02, 0.01) };
         let h = 1e-3;
         for i in 0..90 {
             let angle = 0.07 * f64::from(i);

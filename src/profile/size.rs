@@ -1,7 +1,9 @@
 //! The smallest prime radius that keeps every limit, solved.
 
+use super::outline::LARGEST_COORDINATE;
 use super::{Curves, extremes, lifts};
-use crate::follower::{Element, Follower, Place};
+use crate::follower::{Element, Follower, FollowerPlacement};
+use crate::geometry::MILLIMETRES;
 use crate::machine::{CamData, Limits};
 use crate::motion::{Jet, Motion, Piece};
 use crate::numeric::{extremum, root};
@@ -10,36 +12,37 @@ use crate::numeric::{extremum, root};
 const BASE_STEP: f64 = 1e-3;
 const BASE_STEP_NOISE: f64 = 1e-6;
 
-/// Smallest radius of curvature that an automatic size leaves under a flat face, m: a sharper place is an edge.
+/// Smallest radius of curvature that an automatic size allows under a flat face, m: a sharper place is an edge.
 const LEAST_FACE_RADIUS: f64 = 1e-3;
 
-/// Least convex radius of a roller's curve where it only closes the outline, over the radius of the roller: with nothing to spare the
-/// profile comes to a cusp there, and whether that is an undercut is left to rounding.
-const CLOSING_OVER_ROLLER: f64 = 1.05;
+/// Least convex radius of a roller's curve where it only closes the outline, over the radius of the roller: without a margin the
+/// profile has a cusp there, and rounding would decide whether that is an undercut.
+pub(crate) const CLOSING_OVER_ROLLER: f64 = 1.05;
 
-/// What a radius must keep.
+/// The limits that a radius must keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Required {
+pub struct SizeLimits {
     /// Largest pressure angles where it is positive and where it is negative, rad; infinite where there is no limit.
     pub pressure_angles: [f64; 2],
     /// Smallest convex radius of the follower's curve where the follower runs, m.
     pub convex_radius: f64,
-    /// Prime radius below which nothing is tried, m.
+    /// Least prime radius of the search, m.
     pub least: f64,
 }
 
-impl Required {
-    /// What the limits of a machine file and the bore require of a disc under a follower.
+impl SizeLimits {
+    /// What the limits of a machine file and a bore that reaches so far (m) require of a disc under a follower.
     #[must_use]
-    pub fn of(limits: &Limits, cam: &CamData, follower: &dyn Follower) -> Self {
+    pub fn of(limits: &Limits, (cam, reach): (&CamData, Option<f64>), follower: &dyn Follower) -> Self {
         let offset = follower.element().offset();
-        // Without a limit for the wall there must still be some.
-        let wall = if limits.wall > 0.0 { limits.wall } else { BASE_STEP };
-        let least_base = cam.bore_reach().map_or(BASE_STEP, |reach| reach + wall);
+        // Where no wall is asked for there must still be one.
+        let wall = Some(limits.least_wall(cam.bore_radius)).filter(|wall| *wall > 0.0).unwrap_or(BASE_STEP);
+        let least_base = reach.map_or(BASE_STEP, |reach| reach + wall);
         Self {
             pressure_angles: limits.pressure_angles(),
-            convex_radius: limits.convex_radius(offset).max(match follower.element() {
-                Element::Roller { radius } => radius,
+            convex_radius: limits.convex_radius(offset.abs()).max(match follower.element() {
+                Element::Roller { radius } => radius.abs(),
+                Element::Face if limits.min_convex_radius.is_some() => 0.0,
                 Element::Face => LEAST_FACE_RADIUS,
             }),
             least: (least_base + offset).max(follower.prime_radii().0),
@@ -47,21 +50,21 @@ impl Required {
     }
 }
 
-/// The base radius that `auto` makes of the smallest one, m: the next whole millimetre.
+/// The base radius that `auto` chooses for the smallest one, m: the next whole millimetre.
 #[must_use]
 pub fn rounded_up(base_radius: f64) -> f64 {
     rounded_up_to(base_radius, 1.0 / BASE_STEP)
 }
 
-/// The next of so many steps to a metre, but for rounding noise. A quotient keeps "69 mm" the number nearest to 0.069.
+/// The next multiple of a fraction of a metre, apart from rounding noise. A quotient keeps "69 mm" the number nearest to 0.069.
 fn rounded_up_to(radius: f64, steps_per_metre: f64) -> f64 {
     (radius * steps_per_metre - BASE_STEP_NOISE).ceil() / steps_per_metre
 }
 
-/// Doublings from the least radius before giving up: 1 µm to 1e9 m.
-const DOUBLINGS: u32 = 50;
+/// The largest radius that is looked for, m: no drawing holds a larger one.
+const LARGEST: f64 = LARGEST_COORDINATE / MILLIMETRES;
 
-/// Growth from one radius to the next under a follower of limited reach: a range of radii may pass between two that do not.
+/// Growth from one radius to the next under a follower of limited reach: a passing range of radii may lie between two that fail.
 const GROWTH_IN_REACH: f64 = 1.01;
 /// Where the reach of a follower ends below this, m, steps are small.
 const FAR: f64 = 1e3;
@@ -70,7 +73,7 @@ const HALVINGS: u32 = 60;
 /// Finer steps, of a tenth each, in which a base radius is rounded where the whole millimetre does not pass: to 1 nm.
 const FINER_STEPS: i32 = 6;
 
-/// Rounds of solving each limit in turn. A limit may be broken again by the radius that another one needs only where it
+/// Rounds of solving each limit in turn. A limit may be violated again by the radius that another one needs only where it
 /// is not monotone in the radius; each round then starts above the last.
 const ROUNDS: u32 = 8;
 
@@ -79,7 +82,7 @@ const ROUNDS: u32 = 8;
 #[error("no base radius keeps the limits")]
 pub struct NoRadius;
 
-/// The largest lift that a follower of limited reach has to follow, m or rad; any other can follow every lift.
+/// The largest lift that a follower of limited reach has to follow, m or rad; other followers can follow every lift.
 #[must_use]
 pub fn largest_lift_in_reach(motion: &dyn Motion, follower: &dyn Follower) -> f64 {
     if follower.reach().1.is_finite() { lifts(motion).1 } else { 0.0 }
@@ -87,40 +90,40 @@ pub fn largest_lift_in_reach(motion: &dyn Motion, follower: &dyn Follower) -> f6
 
 /// The smallest size of a disc that keeps every limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Smallest {
+pub struct SmallestSize {
     /// Prime radius, m.
     pub prime_radius: f64,
-    /// The base radius that `auto` makes of it, m.
+    /// The base radius that `auto` chooses for it, m.
     pub base_radius: f64,
 }
 
-/// What is solved for: by how much a disc of a prime radius breaks the limits.
-struct Sizing<'a> {
+/// The problem to solve: by how much a disc of a prime radius violates the limits.
+struct SizeProblem<'a> {
     motion: &'a dyn Motion,
     follower: &'a dyn Follower,
-    required: &'a Required,
+    required: &'a SizeLimits,
     /// The largest lift that has to be in reach.
     top: f64,
-    /// What is looked at first where sizes are tried one by one.
-    sampled: Option<Sampled>,
+    /// Samples that are examined first where sizes are tried one by one.
+    sampled: Option<SizeSamples>,
 }
 
-/// Places at which a size is looked at first: nearly all that do not pass are clearly broken at one of them.
-struct Sampled {
+/// Places at which a size is examined first: nearly all sizes that fail clearly violate a limit at one of them.
+struct SizeSamples {
     /// Cam angle and lift.
     lifts: Vec<(f64, Jet)>,
-    /// The follower's place where it has one.
-    place: Option<(Place, f64)>,
+    /// The place of the follower, for a roller with a chosen place.
+    place: Option<(FollowerPlacement, f64)>,
 }
 
 /// By how much a pressure angle is clearly too large, rad, or a profile too sharp, as a share: nearer to its limit it is solved, so that
-/// sizes are compared alike there.
+/// sizes are compared consistently there.
 const CLEARLY: f64 = 0.03;
-/// Steps of a piece at which a size is looked at first.
+/// Steps of a piece at which a size is examined first.
 const SAMPLES: u32 = 24;
 
 /// The lifts of a motion under a follower of limited reach, whose sizes are tried one by one.
-fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<Sampled> {
+fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<SizeSamples> {
     if follower.prime_radii().1.is_infinite() {
         return None;
     }
@@ -130,11 +133,11 @@ fn sampled(motion: &dyn Motion, follower: &dyn Follower) -> Option<Sampled> {
         let at = move |step: u32| piece.start + (piece.end - piece.start) * f64::from(step) / f64::from(steps);
         (0..=steps).map(move |step| (at(step), motion.jet(index, at(step))))
     });
-    Some(Sampled { lifts: lifts.collect(), place: follower.place().map(|place| (place, place.of(follower))) })
+    Some(SizeSamples { lifts: lifts.collect(), place: follower.place().map(|place| (place, place.of(follower))) })
 }
 
-impl Sizing<'_> {
-    /// A quantity of the disc of a radius; NaN, which does not pass, where the follower does not reach.
+impl SizeProblem<'_> {
+    /// A quantity of the disc with a radius; NaN, which does not pass, where the follower does not reach.
     fn at(&self, radius: f64, excess: impl Fn(Curves<'_>) -> f64) -> f64 {
         let follower = self.follower.sized(radius).filter(|follower| self.top <= follower.reach().1);
         follower.map_or(f64::NAN, |follower| excess(Curves { motion: self.motion, follower: &*follower }))
@@ -154,7 +157,7 @@ impl Sizing<'_> {
     fn curvature(&self, radius: f64) -> f64 {
         self.at(radius, |curves| match curves.element() {
             Element::Roller { radius: roller } => self.too_sharp(curves, roller),
-            // The profile under a face must not turn back on itself, nor come to an edge.
+            // The profile under a face must not turn back on itself, nor have an edge.
             Element::Face => (self.required.convex_radius - extremes::least_radius(curves).value) / radius,
         })
     }
@@ -171,7 +174,7 @@ impl Sizing<'_> {
         worse(excess, sharpest(false) * CLOSING_OVER_ROLLER * roller - 1.0)
     }
 
-    /// The worse of both limits; of one alone where that is clearly broken at one of the lifts that are looked at first.
+    /// The worse of both limits; only one where that is clearly violated at one of the sampled lifts.
     fn either(&self, radius: f64) -> f64 {
         let clearly = |excess: Option<f64>| excess.filter(|excess| *excess > CLEARLY);
         clearly(self.sampled_pressure(radius))
@@ -179,9 +182,9 @@ impl Sizing<'_> {
             .unwrap_or_else(|| worse(self.pressure(radius), self.curvature(radius)))
     }
 
-    /// By how much the pressure angle is too large at the lifts that are looked at first.
+    /// By how much the pressure angle is too large at the sampled lifts.
     fn sampled_pressure(&self, radius: f64) -> Option<f64> {
-        let Sampled { lifts, place } = self.sampled.as_ref()?;
+        let SizeSamples { lifts, place } = self.sampled.as_ref()?;
         let (place, choice) = place.as_ref()?;
         let shaft = place.shaft(*choice, radius)?;
         let [most, least] = self.required.pressure_angles;
@@ -192,7 +195,7 @@ impl Sizing<'_> {
         Some(lifts.iter().map(excess).fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// By how much the profile under a face is too sharp at the lifts that are looked at first.
+    /// By how much the profile under a face is too sharp at the sampled lifts.
     fn sampled_sharpness(&self, radius: f64) -> Option<f64> {
         if self.follower.element() != Element::Face {
             return None;
@@ -203,10 +206,10 @@ impl Sizing<'_> {
         Some((self.required.convex_radius - least.fold(f64::INFINITY, f64::min)) / radius)
     }
 
-    /// The prime radius that the pressure angle alone asks for under a roller on a straight path with its offset: tan α = (s' − ε)/(u0 + s)
+    /// The prime radius that the pressure angle alone requires under a roller on a straight path with its offset: tan α = (s' − ε)/(u0 + s)
     /// gives the least u0 of every lift. `None` under other followers, and without a limit.
     fn by_pressure_angle(&self) -> Option<f64> {
-        let place = self.follower.place().filter(|place| matches!(place, Place::Offset { .. }))?;
+        let place = self.follower.place().filter(|place| matches!(place, FollowerPlacement::Offset { .. }))?;
         let offset = place.of(self.follower);
         let least_height = |(limit, falling): (f64, bool)| {
             let of_piece = |(index, piece): (usize, &Piece)| {
@@ -228,7 +231,7 @@ impl Sizing<'_> {
     }
 }
 
-/// The larger of two excesses; NaN where one is.
+/// The larger of two excesses; NaN where one is NaN.
 fn worse(one: f64, other: f64) -> f64 {
     if one > other || one.is_nan() { one } else { other }
 }
@@ -236,30 +239,33 @@ fn worse(one: f64, other: f64) -> f64 {
 /// The smallest size (m) at which the disc made by the follower keeps every limit.
 ///
 /// # Errors
-/// [`NoRadius`] when no radius up to 1e9 m, or in reach of the follower, does.
-pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &Required) -> Result<Smallest, NoRadius> {
+/// [`NoRadius`] when no radius up to 1 km, or in reach of the follower, does.
+pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &SizeLimits) -> Result<SmallestSize, NoRadius> {
     let top = largest_lift_in_reach(motion, follower);
-    let sizing = Sizing { motion, follower, required, top, sampled: sampled(motion, follower) };
+    let sizing = SizeProblem { motion, follower, required, top, sampled: sampled(motion, follower) };
     let offset = follower.element().offset();
     let largest = follower.prime_radii().1;
     if largest.is_finite() {
         let prime_radius = first_in_reach(required.least, largest, |radius| sizing.either(radius))?;
         let base_radius = rounded_in_reach(prime_radius - offset, |base| sizing.either(base + offset) <= 0.0);
-        Ok(Smallest { prime_radius, base_radius })
+        Ok(SmallestSize { prime_radius, base_radius })
     } else {
         let prime_radius = first_of_falling(required.least, &sizing)?;
-        Ok(Smallest { prime_radius, base_radius: rounded_up(prime_radius - offset) })
+        Ok(SmallestSize { prime_radius, base_radius: rounded_up(prime_radius - offset) })
     }
 }
 
 /// Both the pressure angle and the curvature fall as the radius grows under a follower that reaches everywhere, so each limit
 /// is a root in the radius.
-fn first_of_falling(least: f64, sizing: &Sizing<'_>) -> Result<f64, NoRadius> {
+fn first_of_falling(least: f64, sizing: &SizeProblem<'_>) -> Result<f64, NoRadius> {
     let (pressure, curvature) = (|radius: f64| sizing.pressure(radius), |radius: f64| sizing.curvature(radius));
     let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
     let by_angle = sizing.by_pressure_angle().map(|by_angle| passing_just_above(by_angle, pressure));
     let mut radius = by_angle.map_or(least, |by_angle| by_angle.unwrap_or_else(|missed| missed).max(least));
-    // The radius at which each limit was seen to be kept last.
+    if !(radius <= LARGEST) {
+        return Err(NoRadius);
+    }
+    // The last radius found to keep each limit.
     let mut kept = [by_angle.and_then(Result::ok), None];
     for _ in 0..ROUNDS {
         for (limit, kept) in limits.iter().zip(&mut kept) {
@@ -278,12 +284,12 @@ fn first_of_falling(least: f64, sizing: &Sizing<'_>) -> Result<f64, NoRadius> {
 /// Ulps by which a radius in closed form may miss the side that passes.
 const ULPS: u32 = 64;
 
-/// A radius that should just pass, on the side that does.
+/// A radius that should just pass, moved to the passing side.
 fn just_above(radius: f64, excess: impl Fn(f64) -> f64) -> f64 {
     passing_just_above(radius, excess).unwrap_or_else(|missed| missed)
 }
 
-/// The same; the radius itself as an error where none so near passes.
+/// A radius that should just pass; the radius itself as an error where none so near passes.
 fn passing_just_above(radius: f64, excess: impl Fn(f64) -> f64) -> Result<f64, f64> {
     let grown = (0..=ULPS.ilog2()).map(|power| radius * (1.0 + f64::from(1_u32 << power) * f64::EPSILON));
     std::iter::once(radius).chain(grown).find(|radius| excess(*radius) <= 0.0).ok_or(radius)
@@ -296,10 +302,10 @@ fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRad
         return Ok(low);
     }
     let (mut failing, mut passing) = (low, 2.0 * low);
-    for _ in 0..DOUBLINGS {
+    while failing < LARGEST {
         if excess(passing) <= 0.0 {
             let mut radius = root::bracketed(&excess, failing, passing, 0.0).map_err(|_| NoRadius)?;
-            // The root is known to an ulp; take the side that passes.
+            // The root is known to one ulp; take the side that passes.
             while excess(radius) > 0.0 && radius < passing {
                 radius *= 1.0 + 4.0 * f64::EPSILON;
             }
@@ -310,8 +316,8 @@ fn first_at_or_above(low: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRad
     Err(NoRadius)
 }
 
-/// The same for an excess that may fall and grow again: every radius in steps of a hundredth is tried, and between three of
-/// which the middle one is the best, the best of all.
+/// The first radius at which an excess is not positive that may fall and grow again: every radius in steps of a hundredth is tried, and
+/// between three of which the middle one is the best, the best of all.
 fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Result<f64, NoRadius> {
     let passes = |radius: f64| excess(radius) <= 0.0;
     let at = |radius: f64| (radius, excess(radius));
@@ -338,7 +344,7 @@ fn first_in_reach(least: f64, largest: f64, excess: impl Fn(f64) -> f64) -> Resu
     }
 }
 
-/// The first radius above one that does not keep the limits at which they are kept, growing as far as `largest` (m); `None`
+/// The first radius above a failing one at which the limits are kept, growing up to `largest` (m); `None`
 /// when none is found.
 pub fn first_that_keeps(failing: f64, largest: f64, keeps: impl Fn(f64) -> bool) -> Option<f64> {
     let growth = if largest < FAR { GROWTH_IN_REACH } else { 2.0 };
@@ -353,17 +359,17 @@ pub fn first_that_keeps(failing: f64, largest: f64, keeps: impl Fn(f64) -> bool)
     None
 }
 
-/// Where an excess falls to 0 between a radius that does not pass, or is the same, and one that does: on the side that passes.
+/// Where an excess falls to 0 between a radius that fails, or has this excess, and one that passes: on the passing side.
 fn first_not_positive(failing: f64, passing: f64, excess: impl Fn(f64) -> f64) -> f64 {
     let root = root::bracketed(&excess, failing, passing, 0.0).map(|radius| just_above(radius, &excess));
     match root {
         Ok(radius) if excess(radius) <= 0.0 => radius,
-        // The follower does not reach everywhere between.
+        // The follower does not reach everywhere in between.
         _ => first_passing(failing, passing, |radius| excess(radius) <= 0.0),
     }
 }
 
-/// The first radius that passes between one that does not, or is the same, and one that does.
+/// The first radius that passes between one that fails, or is the only one, and one that passes.
 pub fn first_passing(mut failing: f64, mut passing: f64, passes: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (failing + passing);
@@ -372,7 +378,7 @@ pub fn first_passing(mut failing: f64, mut passing: f64, passes: impl Fn(f64) ->
     passing
 }
 
-/// A base radius in reach in whole millimetres, where that passes too; else in the coarsest finer step that does.
+/// A base radius within reach in whole millimetres, where that passes too; otherwise in the coarsest finer step that does.
 fn rounded_in_reach(base_radius: f64, passes: impl Fn(f64) -> bool) -> f64 {
     let tried = (0..=FINER_STEPS).map(|finer| rounded_up_to(base_radius, 10.0_f64.powi(finer) / BASE_STEP));
     let mut passing = tried.filter(|base| passes(*base));
@@ -382,11 +388,10 @@ fn rounded_in_reach(base_radius: f64, passes: impl Fn(f64) -> bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follower::{SwingingRoller, TranslatingRoller};
-    use crate::motion::brake_disc::{self, BrakeDisc};
+    use crate::follower::SwingingRoller;
+    use crate::motion::Quantity;
     use crate::motion::laws::LAWS;
     use crate::motion::program::Program;
-    use crate::motion::{Motion, Quantity};
     use std::f64::consts::TAU;
 
     /// Numbers in [0, 1) that repeat: Weyl's sequence of the golden ratio.
@@ -412,12 +417,12 @@ mod tests {
                 &[(law, rise, swing), (None, 0.3, swing), (law, fall, 0.0), (None, 0.0, 0.0)],
             );
             let follower = SwingingRoller::new(arm, pivot, 0.008, if case % 2 == 0 { 1.0 } else { -1.0 });
-            let required = Required {
+            let required = SizeLimits {
                 pressure_angles: [(20.0 + 30.0 * u(5)).to_radians(); 2],
                 convex_radius: 0.01,
                 least: 0.02_f64.max(follower.prime_radii().0),
             };
-            let sizing = Sizing {
+            let sizing = SizeProblem {
                 motion: &program,
                 follower: &follower,
                 required: &required,
@@ -432,7 +437,7 @@ mod tests {
                 grid *= 1.0 + (GROWTH_IN_REACH - 1.0) / 20.0;
             }
             match solved {
-                Ok(Smallest { prime_radius, base_radius }) => {
+                Ok(SmallestSize { prime_radius, base_radius }) => {
                     found += 1;
                     assert!(
                         sizing.either(prime_radius) <= 0.0 && sizing.either(base_radius + 0.008) <= 0.0,
@@ -444,53 +449,5 @@ mod tests {
             }
         }
         assert!(found > 5 && none > 1, "{found} found, {none} not");
-    }
-
-    /// The disc of a brake, and a centred roller on the smallest one that keeps a pressure angle.
-    fn of_brake(roller: f64, pressure_angle: f64) -> (BrakeDisc, TranslatingRoller) {
-        let motion = brake_disc::tests::disc();
-        let required = Required { pressure_angles: [pressure_angle; 2], convex_radius: roller, least: 1e-3 + roller };
-        let follower = TranslatingRoller::new(0.1, 0.0, roller);
-        let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
-        (motion, TranslatingRoller::new(prime_radius, 0.0, roller))
-    }
-
-    /// max(|y'|/tan 30° − y) of the law, counted from its own zero, which lies above the lowest point of the disc.
-    #[test]
-    fn where_no_follower_runs_the_pressure_angle_may_be_larger() {
-        let limit = 30.0_f64.to_radians();
-        let (motion, follower) = of_brake(1e-3, limit);
-        let prime_radius = follower.prime_radius().expect("sized") - motion.origin().expect("an origin");
-        assert!((1e3 * prime_radius - 44.327_659_755_76).abs() < 1e-9, "{prime_radius}");
-        let curves = Curves { motion: &motion, follower: &follower };
-        let [working, closing] = [0, 1].map(|index| {
-            let piece = motion.pieces()[index];
-            let lean = |i: u32| {
-                let at = piece.start + (piece.end - piece.start) * f64::from(i) / 1000.0;
-                curves.contact(index, at).pressure_angle.abs()
-            };
-            (0..=1000).map(lean).fold(0.0, f64::max)
-        });
-        assert!(working <= limit * (1.0 + 1e-12) && closing > 1.5 * limit, "{working} {closing}");
-    }
-
-    /// Under a large roller the closing stretch is the sharper one; a convex radius of twice that of the roller is not asked of it.
-    #[test]
-    fn where_no_follower_runs_there_is_no_undercut_and_no_more_is_asked() {
-        let roller = 0.08;
-        let (motion, follower) = of_brake(roller, 80.0_f64.to_radians());
-        let curves = Curves { motion: &motion, follower: &follower };
-        let radius = |piece: usize| 1.0 / extremes::convex_curvature_on(curves, |own| own == piece).value;
-        assert!((radius(1) / (CLOSING_OVER_ROLLER * roller) - 1.0).abs() < 1e-12, "{}", radius(1));
-        assert!(radius(0) > roller, "{}", radius(0));
-
-        let required =
-            Required { pressure_angles: [80.0_f64.to_radians(); 2], convex_radius: 2.0 * roller, least: roller };
-        let prime_radius = smallest(&motion, &follower, &required).expect("a radius").prime_radius;
-        let follower = TranslatingRoller::new(prime_radius, 0.0, roller);
-        let curves = Curves { motion: &motion, follower: &follower };
-        let radius = |piece: usize| 1.0 / extremes::convex_curvature_on(curves, |own| own == piece).value;
-        assert!((radius(0) / (2.0 * roller) - 1.0).abs() < 1e-12, "{}", radius(0));
-        assert!(radius(1) < 1.9 * roller, "{}", radius(1));
     }
 }

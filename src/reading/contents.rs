@@ -1,14 +1,14 @@
 //! The parts of a DXF file: its unit, its layers, its blocks, and the entities of model space.
 
-use super::ReadError;
-use super::Unit;
-use super::groups::{Group, Kept, Section, TYPE};
+use super::FileUnit;
+use super::groups::{DxfGroup, DxfSection, DxfSections, TYPE};
 use super::limits::MOST_NAMES;
-use super::record::Record;
-use crate::document;
+use super::record::EntityRecord;
+use super::too_much;
+use crate::refusal::Refusal;
 use std::collections::BTreeMap;
 
-/// Group codes with a meaning here.
+/// Group codes that are used here.
 const NAME: i32 = 2;
 const COLOUR: i32 = 62;
 const VARIABLE: i32 = 9;
@@ -21,88 +21,96 @@ const ANOTHER_FILE: i64 = 4 | 8 | 16;
 /// The block that is model space itself.
 const MODEL_SPACE: [&[u8]; 2] = [b"*model_space", b"$model_space"];
 
-/// A name without regard to capitals.
+/// A name without distinction of capitals.
 pub(super) fn folded(name: &[u8]) -> Vec<u8> {
     name.to_ascii_lowercase()
 }
 
-/// Whether the entities of a layer are seen.
+/// Whether the entities of a layer are visible.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct LayerState {
-    /// Its colour is negative: its own entities are not seen, but those of blocks inserted on it may be.
+    /// Its colour is negative: its own entities are hidden, but those of blocks inserted on it may be visible.
     pub(super) off: bool,
-    /// Nothing on it is seen, blocks inserted on it neither.
+    /// Everything on it is hidden, including blocks inserted on it.
     pub(super) frozen: bool,
 }
 
 /// A block.
 #[derive(Debug, Default)]
-pub(super) struct Block<'g> {
+pub(super) struct DxfBlock<'g> {
     /// Its `BLOCK` record, with the base point.
-    pub(super) head: Record<'g>,
-    pub(super) records: Vec<Record<'g>>,
-    /// What it holds stands in another file.
+    pub(super) head: EntityRecord<'g>,
+    pub(super) records: Vec<EntityRecord<'g>>,
+    /// Its content is in another file.
     pub(super) external: bool,
-    /// Another block has its name.
+    /// Another block has this name.
     pub(super) ambiguous: bool,
 }
 
-/// What a file holds.
+/// The contents of a file.
 #[derive(Debug)]
-pub(super) struct Contents<'g> {
-    pub(super) unit: Unit,
-    /// By their folded names; a layer that is not here is on.
+pub(super) struct DxfContents<'g> {
+    pub(super) unit: FileUnit,
+    /// Millimetres in this unit.
+    pub(super) scale: f64,
+    /// By their folded names; a layer that is not listed is on.
     pub(super) layers: BTreeMap<Vec<u8>, LayerState>,
     /// By their folded names.
-    pub(super) blocks: BTreeMap<Vec<u8>, Block<'g>>,
-    /// The entities, those of paper space among them.
-    pub(super) records: Vec<Record<'g>>,
+    pub(super) blocks: BTreeMap<Vec<u8>, DxfBlock<'g>>,
+    /// The entities, including those of paper space.
+    pub(super) records: Vec<EntityRecord<'g>>,
 }
 
-impl<'g> Contents<'g> {
+impl<'g> DxfContents<'g> {
     /// # Errors
-    /// [`ReadError`] where a unit or a layer is told by no number.
-    pub(super) fn of(kept: &'g Kept<'g>) -> Result<Self, ReadError> {
-        let mut contents =
-            Self { unit: Unit::Untold, layers: BTreeMap::new(), blocks: BTreeMap::new(), records: Vec::new() };
+    /// [`Refusal`] where a unit or the state of a layer is not a number.
+    pub(super) fn of(kept: &'g DxfSections<'g>) -> Result<Self, Refusal> {
+        let (layers, blocks) = (BTreeMap::new(), BTreeMap::new());
+        let mut contents = Self { unit: FileUnit::Unstated, scale: 1.0, layers, blocks, records: Vec::new() };
         for (section, groups) in &kept.sections {
             match section {
-                Section::Header => contents.header(groups)?,
-                Section::Tables => contents.tables(groups)?,
-                Section::Blocks => contents.blocks(groups)?,
-                Section::Entities => contents.records.extend(records(groups)),
+                DxfSection::Header => contents.header(groups)?,
+                DxfSection::Tables => contents.tables(groups)?,
+                DxfSection::Blocks => contents.blocks(groups)?,
+                DxfSection::Entities => contents.records.extend(records(groups)),
             }
             for (count, what) in [(contents.layers.len(), "layers"), (contents.blocks.len(), "blocks")] {
                 if count > MOST_NAMES {
-                    return Err(ReadError::TooMuch { what, most: MOST_NAMES });
+                    return Err(too_much(what, MOST_NAMES));
                 }
             }
         }
-        // Model space is a block, too, and some programs leave its entities there.
+        // Model space is also a block, and some programs leave its entities there.
         for name in MODEL_SPACE {
             contents.records.extend(contents.blocks.remove(name).into_iter().flat_map(|block| block.records));
         }
         Ok(contents)
     }
 
-    fn header(&mut self, groups: &[Group<'_>]) -> Result<(), ReadError> {
-        let mut of_unit = false;
-        for Group { code, value } in groups {
+    fn header(&mut self, groups: &[DxfGroup<'_>]) -> Result<(), Refusal> {
+        let (mut of_unit, mut of_system, mut english) = (false, false, false);
+        // Where an entity begins the header is over for other readers.
+        for DxfGroup { code, value } in groups.iter().take_while(|group| group.code != TYPE) {
             if *code == VARIABLE {
-                of_unit = value.text() == b"$INSUNITS";
+                (of_unit, of_system) = (value.text() == b"$INSUNITS", value.text() == b"$MEASUREMENT");
+            } else if of_system && *code == FLAGS {
+                english = value.whole()? == 0;
             } else if of_unit && *code == FLAGS {
                 let found = unit(value.whole()?);
-                let same = self.unit == Unit::Untold || self.unit == found;
-                self.unit = if same { found } else { Unit::Other("more than one unit") };
+                let same = self.unit == FileUnit::Unstated || self.unit == found.0;
+                (self.unit, self.scale) = if same { found } else { (FileUnit::Other("more than one unit"), 1.0) };
             }
+        }
+        if english && self.unit == FileUnit::Unstated {
+            self.unit = FileUnit::UnstatedEnglish;
         }
         Ok(())
     }
 
-    fn tables(&mut self, groups: &'g [Group<'g>]) -> Result<(), ReadError> {
+    fn tables(&mut self, groups: &'g [DxfGroup<'g>]) -> Result<(), Refusal> {
         for record in records(groups).filter(|record| record.is("LAYER")) {
             let (mut name, mut state) = (None, LayerState::default());
-            for Group { code, value } in record.groups {
+            for DxfGroup { code, value } in record.groups {
                 match *code {
                     NAME => name = Some(folded(value.text())),
                     COLOUR => state.off = value.whole()? < 0,
@@ -111,22 +119,23 @@ impl<'g> Contents<'g> {
                 }
             }
             let Some(name) = name else { continue };
-            // Told twice, it is seen where one of them is.
+            // A layer that occurs twice is visible where one of them is.
             let known = self.layers.entry(name).or_insert(state);
             *known = LayerState { off: known.off && state.off, frozen: known.frozen && state.frozen };
         }
         Ok(())
     }
 
-    fn blocks(&mut self, groups: &'g [Group<'g>]) -> Result<(), ReadError> {
-        let mut open: Option<(Vec<u8>, Block<'g>)> = None;
+    fn blocks(&mut self, groups: &'g [DxfGroup<'g>]) -> Result<(), Refusal> {
+        let mut open: Option<(Vec<u8>, DxfBlock<'g>)> = None;
         for record in records(groups) {
             if record.is("BLOCK") {
                 self.add(open.take());
                 let value = |code| record.groups.iter().find(|group| group.code == code).map(|group| group.value);
                 let name = value(NAME).map(|name| folded(name.text())).unwrap_or_default();
-                let flags = value(FLAGS).map_or(Ok(0), super::groups::Value::whole)?;
-                open = Some((name, Block { head: record, external: flags & ANOTHER_FILE != 0, ..Block::default() }));
+                let flags = value(FLAGS).map_or(Ok(0), super::groups::GroupValue::whole)?;
+                open =
+                    Some((name, DxfBlock { head: record, external: flags & ANOTHER_FILE != 0, ..DxfBlock::default() }));
             } else if record.is("ENDBLK") {
                 self.add(open.take());
             } else if let Some((_, block)) = &mut open {
@@ -137,10 +146,10 @@ impl<'g> Contents<'g> {
         Ok(())
     }
 
-    fn add(&mut self, block: Option<(Vec<u8>, Block<'g>)>) {
+    fn add(&mut self, block: Option<(Vec<u8>, DxfBlock<'g>)>) {
         let Some((name, block)) = block else { return };
         match self.blocks.get_mut(&name) {
-            // The entities of both, should it be model space.
+            // The entities of both, in case it is model space.
             Some(known) => {
                 known.ambiguous = true;
                 known.records.extend(block.records);
@@ -152,27 +161,27 @@ impl<'g> Contents<'g> {
     }
 }
 
-/// The unit of a number of `$INSUNITS`.
-fn unit(number: i64) -> Unit {
-    match number {
-        0 => Unit::Untold,
-        1 => Unit::Other("inches"),
-        4 => Unit::Millimetres,
-        5 => Unit::Other("centimetres"),
-        6 => Unit::Other("metres"),
-        _ => Unit::Other("another unit than millimetres"),
-    }
+/// The unit of a number of `$INSUNITS`, and its millimetres; 1 where they are not known.
+fn unit(number: i64) -> (FileUnit, f64) {
+    let (name, scale) = match number {
+        0 => return (FileUnit::Unstated, 1.0),
+        4 => return (FileUnit::Millimetres, 1.0),
+        1 => ("inches", 25.4),
+        2 => ("feet", 304.8),
+        5 => ("centimetres", 10.0),
+        6 => ("metres", 1e3),
+        8 => ("microinches", 25.4e-6),
+        9 => ("mils", 25.4e-3),
+        10 => ("yards", 914.4),
+        12 => ("nanometres", 1e-6),
+        13 => ("micrometres", 1e-3),
+        14 => ("decimetres", 100.0),
+        _ => ("another unit than millimetres", 1.0),
+    };
+    (FileUnit::Other(name), scale)
 }
 
-/// The groups of a section, record by record; what stands before the first is of none.
-fn records<'g>(groups: &'g [Group<'g>]) -> impl Iterator<Item = Record<'g>> {
-    groups.chunk_by(|_, next| next.code != TYPE).filter_map(Record::of)
-}
-
-/// Characters of a name that a message tells.
-const MOST_SHOWN: usize = 80;
-
-/// The name of a layer or a block, as a message tells it.
-pub(super) fn shown(name: &[u8]) -> String {
-    document::shown(&String::from_utf8_lossy(name), MOST_SHOWN)
+/// The groups of a section, record by record; groups before the first record are left out.
+fn records<'g>(groups: &'g [DxfGroup<'g>]) -> impl Iterator<Item = EntityRecord<'g>> {
+    groups.chunk_by(|_, next| next.code != TYPE).filter_map(EntityRecord::of)
 }

@@ -1,26 +1,27 @@
-//! Rational Bézier curves as tangent arcs, nearer to them than is asked, with a bound that is proved.
+//! Rational Bézier curves as tangent arcs within a given distance, with a proven bound.
 //!
 //! A piece is replaced by two arcs that share its ends and its tangents there. Its distance from the circle of an arc is a
 //! polynomial in the parameter (over the square of the weight), whose largest size is below that of its Bernstein coefficients;
-//! where that is too much the piece is halved. Nothing is sampled, so nothing hides between samples.
+//! where the bound is too large the piece is halved. The curve is not sampled, so that nothing can be missed between samples.
 
-use super::limits::Effort;
-use super::record::{Fault, fault};
+use super::limits::WorkCount;
+use super::not_finite;
+use super::record::{EntityFault, fault};
 use crate::geometry::contour::{Cubic, Edge, Segment};
 use nalgebra::Vector2;
 
-/// Highest degree that is read: no program writes more than 11.
+/// Highest degree that is read: no program writes a degree above 11.
 pub(super) const HIGHEST_DEGREE: usize = 11;
-/// Halvings of a piece: beyond them it is shorter than rounding.
+/// Most halvings of a piece: beyond them it is shorter than rounding.
 const HALVINGS: u32 = 48;
 /// The arcs of a piece turn by less than this from its chord, as a cosine.
 const LEAST_COSINE: f64 = 0.8;
 /// Segments shorter than this are left out, mm: readers drop them.
 const SHORTEST: f64 = 2e-6;
-/// Bulges up to this are a line, where that is off by no more than a share of what is allowed.
+/// A bulge up to this becomes a line, where that deviates by no more than a share of the allowed distance.
 const STRAIGHT: f64 = 1e-8;
 const STRAIGHT_SHARE: f64 = 0.05;
-/// The gap of two tangent circles beside the point where they touch, over ½ δ² of the difference of their curvatures: within
+/// The gap of two tangent circles near the point where they touch, over ½ δ² of the difference of their curvatures: within
 /// a fifth of a radius.
 const TANGENT_GAP: f64 = 1.1;
 
@@ -36,7 +37,7 @@ impl Bezier {
         Self { poles: poles.iter().map(|pole| [pole.x, pole.y, 1.0]).collect() }
     }
 
-    /// The part of an ellipse centre + cos t · a + sin t · b from one t to another, rad; several curves.
+    /// The part of an ellipse centre + cos t · a + sin t · b from one t to another, rad, in several curves.
     pub(super) fn ellipse(
         centre: Vector2<f64>,
         (a, b): (Vector2<f64>, Vector2<f64>),
@@ -60,7 +61,7 @@ impl Bezier {
         found
     }
 
-    /// The same curve with its points mapped.
+    /// The curve with its points mapped.
     pub(super) fn mapped(&self, origin: Vector2<f64>, direction: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Self {
         let pole = |[x, y, w]: &[f64; 3]| {
             let p = origin * *w + direction(Vector2::new(*x, *y));
@@ -69,7 +70,7 @@ impl Bezier {
         Self { poles: self.poles.iter().map(pole).collect() }
     }
 
-    /// The same curve as an edge, where it is a polynomial of degree 3 or less.
+    /// The curve as an edge, where it is a polynomial of degree 3 or less.
     pub(super) fn exact(&self) -> Option<Edge> {
         if !self.poles.iter().all(|[.., w]| *w == 1.0) {
             return None;
@@ -113,7 +114,7 @@ impl Bezier {
         (Self { poles: first }, Self { poles: last })
     }
 
-    /// How far any of its points may be from the circle through a point with a unit tangent there and a curvature.
+    /// Largest distance of its points from the circle through a point with a given unit tangent and curvature there.
     fn off_circle(&self, point: Vector2<f64>, tangent: Vector2<f64>, curvature: f64) -> f64 {
         // With d from the point, 2 n·d − κ d² is twice the distance where it is small, see `Segment::nearest`.
         let normal = Vector2::new(-tangent.y, tangent.x);
@@ -145,13 +146,13 @@ fn binomials(degree: usize) -> Vec<f64> {
     row
 }
 
-/// Edges in a row, each from where the one before ends.
+/// Edges in a row, each starting where the one before ends.
 #[derive(Debug, Default)]
-pub(super) struct Strand {
+pub(super) struct EdgeRun {
     pub(super) edges: Vec<Edge>,
 }
 
-impl Strand {
+impl EdgeRun {
     fn add(&mut self, from: Vector2<f64>, to: Vector2<f64>, bulge: f64) {
         let start = self.edges.last().map_or(from, Edge::end);
         if (to - start).norm() > SHORTEST {
@@ -159,17 +160,17 @@ impl Strand {
         }
     }
 
-    /// Curves, each from where the one before ends: polynomials up to degree 3 as they are, others within a distance (mm).
+    /// Curves, each starting where the one before ends: polynomials up to degree 3 as they are, others within a distance (mm).
     ///
     /// # Errors
-    /// [`Fault`] where they cannot be followed, or only with more work than there is room for.
-    pub(super) fn follow(&mut self, curves: &[Bezier], within: f64, effort: &mut Effort) -> Result<(), Fault> {
+    /// [`EntityFault`] where they cannot be followed, or only with more work than is allowed.
+    pub(super) fn follow(&mut self, curves: &[Bezier], within: f64, effort: &mut WorkCount) -> Result<(), EntityFault> {
         for curve in curves {
             if let Some(edge) = curve.exact() {
                 if !edge.is_finite() {
-                    return Err(Fault::File(super::ReadError::NotFinite));
+                    return Err(EntityFault::File(not_finite()));
                 }
-                effort.has_room(self.edges.len())?;
+                effort.check_room(self.edges.len())?;
                 if curve.points().any(|point| (point - edge.start()).norm() > SHORTEST) {
                     self.edges.push(edge);
                 }
@@ -178,9 +179,9 @@ impl Strand {
             let mut open = vec![(curve.clone(), HALVINGS)];
             while let Some((piece, left)) = open.pop() {
                 if !piece.poles.iter().flatten().all(|number| number.is_finite()) {
-                    return Err(Fault::File(super::ReadError::NotFinite));
+                    return Err(EntityFault::File(not_finite()));
                 }
-                effort.has_room(self.edges.len())?;
+                effort.check_room(self.edges.len())?;
                 effort.piece(piece.poles.len())?;
                 if !self.followed(&piece, within) {
                     if left == 0 {
@@ -198,7 +199,7 @@ impl Strand {
         Ok(())
     }
 
-    /// Adds a piece if two arcs, or a line, are near enough to it.
+    /// Adds a piece if two arcs, or a line, are close enough to it.
     fn followed(&mut self, piece: &Bezier, within: f64) -> bool {
         let (start, end) = (piece.start(), piece.end());
         let size = piece.points().map(|point| (point - start).norm()).fold(0.0, f64::max);
@@ -206,7 +207,7 @@ impl Strand {
             self.add(start, end, 0.0);
             return true;
         }
-        let Some(pair) = Pair::of(piece) else { return false };
+        let Some(pair) = Biarc::of(piece) else { return false };
         if !(pair.off(piece) <= within) {
             return false;
         }
@@ -222,7 +223,7 @@ impl Strand {
 }
 
 /// Two arcs with a common tangent that share the ends of a curve and its tangents there.
-struct Pair {
+struct Biarc {
     start: Vector2<f64>,
     start_tangent: Vector2<f64>,
     joint: Vector2<f64>,
@@ -233,14 +234,14 @@ struct Pair {
     second_bulge: f64,
 }
 
-impl Pair {
-    /// `None` where the curve turns back, or too far.
+impl Biarc {
+    /// `None` where the curve turns back, or turns too far.
     fn of(piece: &Bezier) -> Option<Self> {
         let (start, end) = (piece.start(), piece.end());
         let chord = end - start;
         let points: Vec<Vector2<f64>> = piece.points().collect();
         let legs: Vec<Vector2<f64>> = points.iter().zip(points.iter().skip(1)).map(|(a, b)| b - a).collect();
-        // Poles that go forwards only: then so does the curve (variation diminishing).
+        // Poles that only go forwards: then the curve does, too (variation diminishing).
         if !legs.iter().all(|leg| leg.dot(&chord) >= 0.0) {
             return None;
         }
@@ -268,7 +269,7 @@ impl Pair {
         (first_bulge.is_finite() && second_bulge.is_finite()).then_some(pair)
     }
 
-    /// How far the curve may be from the arcs, and they from it.
+    /// Largest distance of the curve from the arcs, in both directions.
     fn off(&self, piece: &Bezier) -> f64 {
         let curvature = |start: Vector2<f64>, end: Vector2<f64>, bulge: f64| {
             4.0 * bulge / ((1.0 + bulge * bulge) * (end - start).norm())
@@ -276,13 +277,13 @@ impl Pair {
         let first = curvature(self.start, self.joint, self.first_bulge);
         let second = curvature(self.joint, self.end, self.second_bulge);
         let (before, after) = piece.halves();
-        // The middle of the curve is not the joint: what lies between is measured from the circle of the other arc, which is
+        // The middle of the curve is not the joint: the part between them is measured from the circle of the other arc, which is
         // tangent to its own there.
-        let beside = (before.end() - self.joint).dot(&self.joint_tangent);
-        if !(beside.abs() * first.abs().max(second.abs()) < 0.2) {
+        let past = (before.end() - self.joint).dot(&self.joint_tangent);
+        if !(past.abs() * first.abs().max(second.abs()) < 0.2) {
             return f64::INFINITY;
         }
-        let between = 0.5 * TANGENT_GAP * beside * beside * (first - second).abs();
+        let between = 0.5 * TANGENT_GAP * past * past * (first - second).abs();
         let off_first = before.off_circle(self.start, self.start_tangent, first);
         let off_second = after.off_circle(self.end, self.end_tangent, second);
         off_first.max(off_second) + between
@@ -321,8 +322,8 @@ mod tests {
     #[test]
     fn arcs_are_as_near_as_they_say() {
         for within in [1e-2, 1e-5, 1e-8] {
-            let mut strand = Strand::default();
-            strand.follow(&bumpy(), within, &mut Effort::default()).expect("followed");
+            let mut strand = EdgeRun::default();
+            strand.follow(&bumpy(), within, &mut WorkCount::default()).expect("followed");
             let (curves, edges) = (bumpy(), &strand.edges);
             assert!(farthest(&curves, edges) <= 1.001 * within, "{within}: {}", farthest(&curves, edges));
             assert!(edges.windows(2).all(|pair| pair[0].end() == pair[1].start()));
@@ -335,8 +336,8 @@ mod tests {
 
     #[test]
     fn tangents_are_kept() {
-        let mut strand = Strand::default();
-        strand.follow(&bumpy()[1..2], 1e-7, &mut Effort::default()).expect("followed");
+        let mut strand = EdgeRun::default();
+        strand.follow(&bumpy()[1..2], 1e-7, &mut WorkCount::default()).expect("followed");
         for pair in strand.edges.windows(2) {
             assert!(pair[0].end_tangent().perp(&pair[1].start_tangent()).abs() < 1e-7, "{pair:?}");
         }
@@ -346,8 +347,8 @@ mod tests {
     fn an_ellipse_is_one() {
         let axes = (Vector2::new(3.0, 4.0), Vector2::new(-0.8, 0.6));
         let curves = Bezier::ellipse(Vector2::new(1.0, 2.0), axes, (0.0, std::f64::consts::TAU));
-        let mut strand = Strand::default();
-        strand.follow(&curves, 1e-9, &mut Effort::default()).expect("followed");
+        let mut strand = EdgeRun::default();
+        strand.follow(&curves, 1e-9, &mut WorkCount::default()).expect("followed");
         for edge in &strand.edges {
             let d = edge.middle() - Vector2::new(1.0, 2.0);
             let (u, v) = (d.dot(&axes.0) / 25.0, d.dot(&axes.1));
@@ -355,7 +356,7 @@ mod tests {
         }
     }
 
-    /// A cusp, a line that turns back, a point: none of them hangs.
+    /// A cusp, a line that turns back, a point: each of them ends.
     #[test]
     fn awkward_curves_end() {
         let v = Vector2::new;
@@ -366,14 +367,14 @@ mod tests {
             vec![v(0.0, 0.0), v(1e15, -1e15), v(-1e15, 1e15), v(0.0, 0.0)],
             vec![v(0.0, 0.0), v(0.0, 0.0), v(5.0, 0.0), v(5.0, 0.0)],
         ] {
-            let _ = Strand::default().follow(&[Bezier::polynomial(&poles)], 1e-6, &mut Effort::default());
+            let _ = EdgeRun::default().follow(&[Bezier::polynomial(&poles)], 1e-6, &mut WorkCount::default());
         }
-        let mut there = Strand::default();
+        let mut there = EdgeRun::default();
         there
             .follow(
                 &[Bezier::polynomial(&[v(0.0, 0.0), v(30.0, 0.0), v(-20.0, 0.0), v(10.0, 0.0)])],
                 1e-6,
-                &mut Effort::default(),
+                &mut WorkCount::default(),
             )
             .expect("a line");
         assert!(there.edges.iter().map(Edge::length).sum::<f64>() > 15.0, "it goes there and back");

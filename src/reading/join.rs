@@ -1,25 +1,26 @@
 //! Loose edges joined end to end into chains.
 
-use super::limits::{Effort, no_tangle};
-use super::walk::Cut;
-use super::{ReadError, Source};
+use super::EntitySource;
+use super::limits::{WorkCount, check_length};
+use super::walk::EntityCut;
 use crate::geometry::contour::{Contour, Edge};
+use crate::refusal::Refusal;
 use nalgebra::Vector2;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Edges, each starting where the one before ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Its edges, one at the least.
+    /// Its edges, at least one.
     pub edges: Vec<Edge>,
-    /// The last ends where the first starts.
+    /// Whether the last ends where the first starts.
     pub closed: bool,
-    /// What it is made of.
-    pub sources: Vec<Source>,
+    /// The entities it is made of.
+    pub sources: Vec<EntitySource>,
 }
 
 impl Chain {
-    /// A closed contour as a chain of nothing in particular.
+    /// A closed contour as a chain without sources.
     #[must_use]
     pub fn of(contour: &Contour) -> Self {
         Self { edges: contour.edges().collect(), closed: true, sources: Vec::new() }
@@ -40,21 +41,35 @@ impl Chain {
         }
     }
 
-    /// The same chain run the other way.
+    /// The chain in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let edges = self.edges.iter().rev().map(Edge::reversed).collect();
         Self { edges, closed: self.closed, sources: self.sources.clone() }
     }
 
-    /// Refuses a chain of so many segments on top of each other that no measure of it ends in time.
-    pub(super) fn is_no_tangle(&self) -> Result<(), ReadError> {
+    /// The contour of a closed chain with its inside on the left.
+    #[must_use]
+    pub fn counter_clockwise(&self) -> Contour {
+        let found = self.contour();
+        // The direction in which a program wrote it does not change the part.
+        if found.area_and_centroid().0 > 0.0 { found } else { self.reversed().contour() }
+    }
+
+    /// Whether all of it is on a layer, whose name is the same in capitals.
+    #[must_use]
+    pub fn on_layer(&self, layer: &str) -> bool {
+        !self.sources.is_empty() && self.sources.iter().all(|source| source.on_layer(layer))
+    }
+
+    /// Refuses a chain with so many segments on top of each other that measuring it would take too long.
+    pub(super) fn check_length(&self) -> Result<(), Refusal> {
         let ends = || self.edges.iter().flat_map(|edge| [edge.start(), edge.end()]);
         let (low, high) = ends().fold(
             (Vector2::repeat(f64::INFINITY), Vector2::repeat(f64::NEG_INFINITY)),
             |(low, high): (Vector2<f64>, Vector2<f64>), end| (low.inf(&end), high.sup(&end)),
         );
-        no_tangle(self.edges.len(), self.edges.iter().map(Edge::length).sum(), (high - low).norm())
+        check_length(self.edges.len(), self.edges.iter().map(Edge::length).sum(), (high - low).norm())
     }
 
     /// What it is made of and where, for a message: "CIRCLE on layer BORE".
@@ -69,35 +84,35 @@ impl Chain {
 /// Sources of a chain that a message names.
 const MOST_NAMES: usize = 3;
 
-/// A segment no longer than this has no length, mm: readers drop it, whatever reach its ends are joined with.
+/// A segment no longer than this counts as without length, mm: readers drop it, whatever the joining distance.
 const NO_LENGTH: f64 = 1e-6;
 
-/// Ends of two edges that are one, and the ends of a chain that is closed, lie nearer than this share of its length.
+/// Two ends count as one, and a chain counts as closed, where they are nearer than this share of its length.
 const SAME_SHARE: f64 = 0.1;
 
-pub(super) struct Joined {
+pub(super) struct JoinedChains {
     /// The chains on the layer of the outline.
     pub(super) outline: Vec<Chain>,
     /// The chains on all other layers.
-    pub(super) beside: Vec<Chain>,
+    pub(super) others: Vec<Chain>,
     pub(super) duplicates: Vec<Vector2<f64>>,
     pub(super) points: Vec<Vector2<f64>>,
 }
 
 /// Width of a cell of the grid over the reach.
 const CELL: f64 = 4.0;
-/// Ends about an end beyond which no nearer one is looked for.
+/// Ends near an end beyond which no nearer one is looked for.
 const MANY: usize = 1000;
-/// So many edges about a middle are looked at before one looks for fewer.
+/// Number of edges near a middle that are examined before a smaller group is looked for.
 const FEW: usize = 8;
 
-/// Places seen through a grid whose cells are wider than the reach, so that at most four of them are looked at.
-struct Grid {
+/// Places in a grid whose cells are wider than the reach, so that at most four cells are examined.
+struct PlaceGrid {
     reach: f64,
     places: BTreeMap<(i64, i64), Vec<usize>>,
 }
 
-impl Grid {
+impl PlaceGrid {
     fn new(reach: f64) -> Self {
         Self { reach, places: BTreeMap::new() }
     }
@@ -120,7 +135,7 @@ impl Grid {
         (low.0..=high.0).flat_map(move |x| (low.1..=high.1).map(move |y| (x, y)))
     }
 
-    /// The lists of the cells about a place, and how long they are together.
+    /// The lists of the cells about a place, and their total length.
     fn near(&self, place: Vector2<f64>) -> (Vec<&[usize]>, usize) {
         let lists: Vec<&[usize]> =
             self.about(place).filter_map(|cell| self.places.get(&cell)).map(Vec::as_slice).collect();
@@ -128,8 +143,8 @@ impl Grid {
         (lists, count)
     }
 
-    /// What lies nearest to a place among what is in it, no farther off than the reach, and how far; places no farther off than
-    /// [`NO_LENGTH`] are equally near. What is gone is left out for good. `looked` counts what is looked at.
+    /// The item nearest to a place, no farther away than the reach, and its distance; places no farther away than
+    /// [`NO_LENGTH`] are equally near. Items that are gone are removed for good. `looked` counts the examined items.
     fn nearest(
         &mut self,
         place: Vector2<f64>,
@@ -166,21 +181,21 @@ impl Grid {
     }
 }
 
-/// Segments that were kept, found by their middles, and by their ends: of many with one of them in common few have another.
-struct Known {
+/// Segments that were kept, found by their middles and by their ends: of many segments that share one of these few share another.
+struct EdgeIndex {
     edges: Vec<Edge>,
-    by_middle: Grid,
+    by_middle: PlaceGrid,
     /// By start, and by end, once too many have a middle in common.
-    by_ends: Option<[Grid; 2]>,
+    by_ends: Option<[PlaceGrid; 2]>,
     reach: f64,
 }
 
-impl Known {
+impl EdgeIndex {
     fn new(reach: f64) -> Self {
-        Self { edges: Vec::new(), by_middle: Grid::new(reach), by_ends: None, reach }
+        Self { edges: Vec::new(), by_middle: PlaceGrid::new(reach), by_ends: None, reach }
     }
 
-    fn has(&mut self, edge: &Edge, effort: &mut Effort) -> Result<bool, ReadError> {
+    fn has(&mut self, edge: &Edge, effort: &mut WorkCount) -> Result<bool, Refusal> {
         let (start, end) = (edge.start(), edge.end());
         let middles = self.by_middle.near(edge.middle());
         let mut found = |(lists, count): &(Vec<&[usize]>, usize)| {
@@ -192,7 +207,7 @@ impl Known {
             return found(&middles);
         }
         let [by_start, by_end] = self.by_ends.get_or_insert_with(|| ends_of(&self.edges, self.reach));
-        // A segment that is the same starts where this one starts or ends.
+        // A duplicate of a segment starts where this one starts or ends.
         let (there, back) = (by_start.near(start), by_end.near(start));
         if middles.1 <= there.1 + back.1 {
             return found(&middles);
@@ -217,8 +232,8 @@ impl Known {
 }
 
 /// Edges by their starts, and by their ends.
-fn ends_of(edges: &[Edge], reach: f64) -> [Grid; 2] {
-    let mut grids = [Grid::new(reach), Grid::new(reach)];
+fn ends_of(edges: &[Edge], reach: f64) -> [PlaceGrid; 2] {
+    let mut grids = [PlaceGrid::new(reach), PlaceGrid::new(reach)];
     let [by_start, by_end] = &mut grids;
     for (index, edge) in edges.iter().enumerate() {
         by_start.insert(edge.start(), index);
@@ -227,14 +242,14 @@ fn ends_of(edges: &[Edge], reach: f64) -> [Grid; 2] {
     grids
 }
 
-/// Segments in a row with the indices of their sources, and how long they are together, mm.
-struct Link {
+/// Segments in a row with the indices of their sources, and their total length, mm.
+struct EdgeLink {
     edges: Vec<Edge>,
     sources: BTreeSet<usize>,
     length: f64,
 }
 
-impl Link {
+impl EdgeLink {
     fn of(edges: Vec<Edge>, source: usize) -> Option<Self> {
         let length = edges.iter().map(Edge::length).sum();
         (!edges.is_empty()).then(|| Self { edges, sources: BTreeSet::from([source]), length })
@@ -244,7 +259,7 @@ impl Link {
         Some((self.edges.first()?.start(), self.edges.last()?.end()))
     }
 
-    /// The distance of its ends where it may be closed by itself: a few short edges within the reach are no loop.
+    /// The distance of its ends where it may be closed by itself: a few short edges within the reach are not a loop.
     fn gap(&self, reach: f64) -> Option<f64> {
         let (start, end) = self.ends().filter(|_| self.edges.len() > 1)?;
         let gap = (end - start).norm();
@@ -263,53 +278,58 @@ impl Link {
     }
 }
 
-/// Takes out edges without length and edges that lie on another, then joins what is left end to end: the outline, and
-/// what lies beside it.
+/// Takes out edges without length and edges that lie on another one, then joins the rest end to end: the outline, and
+/// everything else that would be cut.
 ///
 /// # Errors
-/// [`ReadError::TooMuch`] where too many segments lie within the reach of each other.
-pub(super) fn join(cuts: Vec<Cut>, sources: &[Source], reach: f64, effort: &mut Effort) -> Result<Joined, ReadError> {
+/// [`Refusal`] where too many segments lie within the reach of each other.
+pub(super) fn join(
+    cuts: Vec<EntityCut>,
+    (sources, layer): (&[EntitySource], &str),
+    reach: f64,
+    effort: &mut WorkCount,
+) -> Result<JoinedChains, Refusal> {
     let (mut duplicates, mut points) = (Vec::new(), Vec::new());
-    let mut known = Known::new(reach);
-    let (mut outline, mut beside) = (Vec::new(), Vec::new());
-    let on_outline = |cut: &Cut| sources.get(cut.source).is_some_and(Source::on_outline);
-    // The outline first: what repeats it lies beside it.
-    let (first, then): (Vec<Cut>, Vec<Cut>) = cuts.into_iter().partition(on_outline);
-    for (cuts, links) in [(first, &mut outline), (then, &mut beside)] {
-        for Cut { edges: all, source, .. } in cuts {
+    let mut known = EdgeIndex::new(reach);
+    let (mut outline, mut others) = (Vec::new(), Vec::new());
+    let on_outline = |cut: &EntityCut| sources.get(cut.source).is_some_and(|source| source.on_layer(layer));
+    // The outline first: what repeats it belongs to the rest.
+    let (first, then): (Vec<EntityCut>, Vec<EntityCut>) = cuts.into_iter().partition(on_outline);
+    for (cuts, links) in [(first, &mut outline), (then, &mut others)] {
+        for EntityCut { edges: all, source, .. } in cuts {
             let mut edges: Vec<Edge> = Vec::with_capacity(all.len());
             for edge in all {
                 if (edge.end() - edge.start()).norm() <= reach.min(NO_LENGTH) {
                     points.push(edge.start());
                 } else if known.has(&edge, effort)? {
                     duplicates.push(edge.middle());
-                    // What follows is no longer joined to what was before.
-                    links.extend(Link::of(std::mem::take(&mut edges), source));
+                    // From here on nothing is joined to what came before.
+                    links.extend(EdgeLink::of(std::mem::take(&mut edges), source));
                 } else {
                     known.add(edge);
                     edges.push(edge);
                 }
             }
-            links.extend(Link::of(edges, source));
+            links.extend(EdgeLink::of(edges, source));
         }
     }
-    let mut chains = |links| -> Result<Vec<Chain>, ReadError> {
+    let mut chains = |links| -> Result<Vec<Chain>, Refusal> {
         Ok(joined(links, reach, effort)?.into_iter().map(|link| chain(link, sources, reach)).collect())
     };
-    Ok(Joined { outline: chains(outline)?, beside: chains(beside)?, duplicates, points })
+    Ok(JoinedChains { outline: chains(outline)?, others: chains(others)?, duplicates, points })
 }
 
-fn chain(link: Link, sources: &[Source], reach: f64) -> Chain {
+fn chain(link: EdgeLink, sources: &[EntitySource], reach: f64) -> Chain {
     let closed = !link.open(reach);
     let sources = link.sources.iter().filter_map(|index| sources.get(*index)).cloned().collect();
     Chain { edges: link.edges, closed, sources }
 }
 
-/// Whether two edges are one, within the reach but never beyond a tenth of their length.
+/// Whether two edges coincide, within the reach but never beyond a tenth of their length.
 fn same(a: &Edge, b: &Edge, reach: f64) -> bool {
     let reach = reach.min(SAME_SHARE * (a.end() - a.start()).norm());
     let close = |a: Vector2<f64>, b: Vector2<f64>| (a - b).norm() <= reach;
-    // Three points tell arcs and lines, a cubic curve needs more.
+    // Three points distinguish arcs and lines, a cubic curve needs more.
     let between = |a: &Edge, b: &Edge| [0.25, 0.75].iter().all(|share| close(a.at(*share).0, b.at(*share).0));
     let ends = close(a.start(), b.start()) && close(a.end(), b.end())
         || close(a.start(), b.end()) && close(a.end(), b.start());
@@ -317,13 +337,13 @@ fn same(a: &Edge, b: &Edge, reach: f64) -> bool {
         && (ends && (a.segment().is_some() && b.segment().is_some() || between(a, b) || between(a, &b.reversed())))
 }
 
-/// Joins links as long as an end of one meets an end of another that is still free, the nearest first: among edges shorter
-/// than the reach it is the one that follows. A chain whose ends meet goes on where a free end is nearer than its own.
-fn joined(links: Vec<Link>, reach: f64, effort: &mut Effort) -> Result<Vec<Link>, ReadError> {
-    // Ends that are the same are found at once, however many others are within reach.
-    let mut by_end = [Grid::new(reach.min(NO_LENGTH)), Grid::new(reach)];
+/// Joins links as long as an end of one meets a free end of another, the nearest first: among edges shorter
+/// than the reach this is the one that follows. A chain whose ends meet goes on where a free end is nearer than its own.
+fn joined(links: Vec<EdgeLink>, reach: f64, effort: &mut WorkCount) -> Result<Vec<EdgeLink>, Refusal> {
+    // Coinciding ends are found at once, however many others are within reach.
+    let mut by_end = [PlaceGrid::new(reach.min(NO_LENGTH)), PlaceGrid::new(reach)];
     for (index, link) in links.iter().enumerate() {
-        // One that is closed by itself is joined to nothing.
+        // A link that is closed by itself is not joined to anything.
         if let Some((start, end)) = link.ends().filter(|_| link.open(reach)) {
             for grid in &mut by_end {
                 grid.insert(start, index);
@@ -331,13 +351,13 @@ fn joined(links: Vec<Link>, reach: f64, effort: &mut Effort) -> Result<Vec<Link>
             }
         }
     }
-    let ends: Vec<Option<(Vector2<f64>, Vector2<f64>)>> = links.iter().map(Link::ends).collect();
-    let mut free: Vec<Option<Link>> = links.into_iter().map(Some).collect();
+    let ends: Vec<Option<(Vector2<f64>, Vector2<f64>)>> = links.iter().map(EdgeLink::ends).collect();
+    let mut free: Vec<Option<EdgeLink>> = links.into_iter().map(Some).collect();
     let mut found = Vec::new();
     for index in 0..free.len() {
         let Some(mut link) = free.get_mut(index).and_then(Option::take) else { continue };
         let alone = !link.open(reach);
-        // Forwards as far as it goes, then the other way round, once.
+        // Forwards as far as possible, then backwards, once.
         for _ in 0..2 {
             while let Some((_, end)) = link.ends().filter(|_| !alone) {
                 let gap = link.gap(reach);
@@ -396,8 +416,8 @@ mod tests {
         // 389 has no factor in common with 1000.
         let mixed = (0..1000).map(|i| (i * 389 + 7) % 1000).filter_map(|i| ring.get(i).copied());
         let turned = mixed.enumerate().map(|(i, s)| if i % 3 == 0 { s.reversed() } else { s });
-        let links = || turned.clone().filter_map(|segment| Link::of(vec![segment], 0)).collect::<Vec<_>>();
-        let found = joined(links(), 4e-3, &mut Effort::default()).expect("few");
+        let links = || turned.clone().filter_map(|segment| EdgeLink::of(vec![segment], 0)).collect::<Vec<_>>();
+        let found = joined(links(), 4e-3, &mut WorkCount::default()).expect("few");
         assert_eq!(found.len(), 1);
         assert!(found.iter().all(|link| !link.open(4e-3) && link.edges.len() == 1000));
         for (a, b) in found.iter().flat_map(|link| link.edges.iter().zip(link.edges.iter().skip(1))) {

@@ -1,4 +1,4 @@
-//! Where a block's drawing comes to lie: an affine map of the plane, with the heights.
+//! Where a block's drawing is placed: an affine map of the plane, with the heights.
 
 use nalgebra::{Vector2, Vector3};
 
@@ -7,7 +7,7 @@ const SKEW: f64 = 1e-12;
 
 /// An affine map of the plane of the drawing, and of the heights above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Placement {
+pub(super) struct BlockPlacement {
     /// Images of the unit vectors.
     x: Vector2<f64>,
     y: Vector2<f64>,
@@ -17,8 +17,8 @@ pub(super) struct Placement {
     upwards: f64,
 }
 
-impl Placement {
-    /// As it stands.
+impl BlockPlacement {
+    /// The identity.
     pub(super) fn unchanged() -> Self {
         Self { x: Vector2::x(), y: Vector2::y(), origin: Vector2::zeros(), height: 0.0, upwards: 1.0 }
     }
@@ -41,12 +41,12 @@ impl Placement {
         }
     }
 
-    /// Moved only.
+    /// A translation.
     pub(super) fn moved(by: Vector3<f64>) -> Self {
         Self { origin: by.xy(), height: by.z, ..Self::unchanged() }
     }
 
-    /// This after another.
+    /// This map applied after another.
     pub(super) fn after(&self, first: &Self) -> Self {
         Self {
             x: self.direction(first.x),
@@ -69,12 +69,12 @@ impl Placement {
         self.height + self.upwards * z
     }
 
-    /// Whether it takes the plane onto a line or a point.
-    pub(super) fn flattens(&self) -> bool {
+    /// Whether it maps the plane onto a line or a point.
+    pub(super) fn is_degenerate(&self) -> bool {
         !(self.x.perp(&self.y).abs() > SKEW * self.x.norm() * self.y.norm())
     }
 
-    /// Whether it turns the plane over.
+    /// Whether it mirrors the plane.
     pub(super) fn mirrors(&self) -> bool {
         self.x.perp(&self.y) < 0.0
     }
@@ -91,7 +91,7 @@ impl Placement {
     }
 }
 
-/// Sine and cosine of an angle (rad), those of whole quarters of a turn without rounding.
+/// Sine and cosine of an angle (rad), exact for whole quarters of a turn.
 fn quarter_exact(angle: f64) -> (f64, f64) {
     let quarters = angle / std::f64::consts::FRAC_PI_2;
     if quarters != quarters.round() {
@@ -112,16 +112,16 @@ mod tests {
     #[test]
     fn maps_are_applied_one_after_the_other() {
         let point = Vector2::new(3.0, 4.0);
-        let turned = Placement::of(Vector3::new(2.0, 2.0, 2.0), 90_f64.to_radians(), Vector3::new(1.0, 1.0, 5.0));
+        let turned = BlockPlacement::of(Vector3::new(2.0, 2.0, 2.0), 90_f64.to_radians(), Vector3::new(1.0, 1.0, 5.0));
         assert_eq!(turned.point(point), Vector2::new(-7.0, 7.0));
         assert_eq!(turned.height(1.0), 7.0);
-        assert!(turned.keeps_circles() && !turned.mirrors() && !turned.flattens());
-        let behind = Placement::from_behind().after(&turned);
+        assert!(turned.keeps_circles() && !turned.mirrors() && !turned.is_degenerate());
+        let behind = BlockPlacement::from_behind().after(&turned);
         assert_eq!(behind.point(point), Vector2::new(7.0, 7.0));
         assert_eq!(behind.height(1.0), -7.0);
         assert!(behind.keeps_circles() && behind.mirrors());
-        let oblong = Placement::of(Vector3::new(2.0, -1.0, 1.0), 0.3, Vector3::zeros());
+        let oblong = BlockPlacement::of(Vector3::new(2.0, -1.0, 1.0), 0.3, Vector3::zeros());
         assert!(!oblong.keeps_circles() && oblong.mirrors());
-        assert!(Placement::of(Vector3::new(2.0, 0.0, 1.0), 0.3, Vector3::zeros()).flattens());
+        assert!(BlockPlacement::of(Vector3::new(2.0, 0.0, 1.0), 0.3, Vector3::zeros()).is_degenerate());
     }
 }

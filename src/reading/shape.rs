@@ -1,13 +1,13 @@
-//! What the kinds of entities cut, in their own coordinates.
+//! What each kind of entity cuts, in its own coordinates.
 
 use super::curve::Bezier;
-use super::record::{Fault, Record, fault};
+use super::record::{EntityFault, EntityRecord, fault};
 use super::spline;
 use crate::geometry::contour::{Contour, Segment, Vertex};
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
-/// Kinds that tell a reader something and cut nothing.
+/// Kinds that carry information and are not cut.
 const INFORMATION: &[&str] = &[
     "ACAD_TABLE",
     "ARCALIGNEDTEXT",
@@ -49,48 +49,72 @@ const FRAME_OF_SPLINE: i64 = 16;
 const OF_SPATIAL: i64 = 32;
 const OF_MESH: i64 = 64 | 128;
 
-/// Ends of a closed polyline that are one, mm: the side between them has no length.
+/// Ends of a closed polyline nearer than this count as one, mm: the side between them has no length.
 const REPEATED: f64 = 1e-6;
 
 /// A part of what is cut.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Piece {
+pub(super) enum ShapePiece {
     Segment(Segment),
     Curve(Bezier),
 }
 
 /// What an entity cuts.
 #[derive(Debug, Default)]
-pub(super) struct Shape {
-    /// In a row, each from where the one before ends.
-    pub(super) pieces: Vec<Piece>,
-    /// Coordinates are those of somebody who sees the drawing from behind.
+pub(super) struct EntityShape {
+    /// In a row, each starting where the one before ends.
+    pub(super) pieces: Vec<ShapePiece>,
+    /// Whether the coordinates are those of a viewer behind the drawing.
     pub(super) from_behind: bool,
-    /// Heights that its points have.
+    /// Heights of its points.
     pub(super) heights: Vec<f64>,
-    /// Widest that the line is drawn, mm.
+    /// Largest width with which the line is drawn, mm.
     pub(super) width: f64,
 }
 
-impl Shape {
+impl EntityShape {
     fn of(segments: impl IntoIterator<Item = Segment>, height: f64) -> Self {
-        Self { pieces: segments.into_iter().map(Piece::Segment).collect(), heights: vec![height], ..Self::default() }
+        Self {
+            pieces: segments.into_iter().map(ShapePiece::Segment).collect(),
+            heights: vec![height],
+            ..Self::default()
+        }
     }
 }
 
-/// Whether it tells a reader something and cuts nothing.
-pub(super) fn is_information(record: &Record<'_>) -> bool {
+/// Whether it carries information and is not cut.
+pub(super) fn is_information(record: &EntityRecord<'_>) -> bool {
     record.is_one_of(INFORMATION)
 }
 
-/// What an entity cuts; `vertices` are those of a POLYLINE. `None` when its kind is not known to be cut.
-pub(super) fn shape(record: &Record<'_>, vertices: &[Record<'_>]) -> Result<Option<Shape>, Fault> {
-    let curved = |(curves, heights): (Vec<Bezier>, Vec<f64>)| Shape {
-        pieces: curves.into_iter().map(Piece::Curve).collect(),
+/// The kinds of entities that are cut, with the classes that their groups belong to.
+const CUT: [(&str, &[&str]); 7] = [
+    ("LINE", &["AcDbLine"]),
+    ("ARC", &["AcDbCircle", "AcDbArc"]),
+    ("CIRCLE", &["AcDbCircle"]),
+    ("LWPOLYLINE", &["AcDbPolyline"]),
+    ("POLYLINE", &["AcDb2dPolyline", "AcDb3dPolyline", "AcDbVertex", "AcDb2dVertex", "AcDb3dPolylineVertex"]),
+    ("ELLIPSE", &["AcDbEllipse"]),
+    ("SPLINE", &["AcDbSpline"]),
+];
+
+/// What an entity cuts; `vertices` are those of a POLYLINE. `None` where it is unknown whether its kind is cut.
+pub(super) fn shape(
+    record: &EntityRecord<'_>,
+    vertices: &[EntityRecord<'_>],
+) -> Result<Option<EntityShape>, EntityFault> {
+    let curved = |(curves, heights): (Vec<Bezier>, Vec<f64>)| EntityShape {
+        pieces: curves.into_iter().map(ShapePiece::Curve).collect(),
         heights,
-        ..Shape::default()
+        ..EntityShape::default()
     };
-    Ok(Some(match record.kind().as_str() {
+    let kind = record.kind();
+    let Some((_, classes)) = CUT.iter().find(|(name, _)| *name == kind) else { return Ok(None) };
+    let outside = |record: &EntityRecord<'_>| record.outside_its_class(classes);
+    if let Some(class) = std::iter::once(record).chain(vertices).find_map(outside) {
+        return fault(format!("has a part of another class, {class}, which other readers leave out"));
+    }
+    Ok(Some(match kind.as_str() {
         "LINE" => line(record)?,
         "ARC" => arc(record)?,
         "CIRCLE" => circle(record)?,
@@ -102,31 +126,31 @@ pub(super) fn shape(record: &Record<'_>, vertices: &[Record<'_>]) -> Result<Opti
     }))
 }
 
-fn line(record: &Record<'_>) -> Result<Shape, Fault> {
+fn line(record: &EntityRecord<'_>) -> Result<EntityShape, EntityFault> {
     let (start, end) = (record.point(10)?, record.point(11)?);
     let segment = Segment { start: start.xy(), end: end.xy(), bulge: 0.0 };
-    Ok(Shape { heights: vec![start.z, end.z], ..Shape::of([segment], 0.0) })
+    Ok(EntityShape { heights: vec![start.z, end.z], ..EntityShape::of([segment], 0.0) })
 }
 
-fn radius(record: &Record<'_>) -> Result<f64, Fault> {
-    let radius = record.needed(40)?;
-    if radius < 0.0 { fault("has a radius below 0") } else { Ok(radius) }
+fn radius(record: &EntityRecord<'_>) -> Result<f64, EntityFault> {
+    let radius = record.required_real(40)?;
+    if radius < 0.0 { fault("has a negative radius") } else { Ok(radius) }
 }
 
-fn circle(record: &Record<'_>) -> Result<Shape, Fault> {
+fn circle(record: &EntityRecord<'_>) -> Result<EntityShape, EntityFault> {
     let (centre, radius) = (record.point(10)?, radius(record)?);
     let circle = Contour::circle(centre.xy(), radius);
-    Ok(Shape {
+    Ok(EntityShape {
         from_behind: record.is_seen_from_behind()?,
-        ..Shape::of(circle.segments().unwrap_or_default(), centre.z)
+        ..EntityShape::of(circle.segments().unwrap_or_default(), centre.z)
     })
 }
 
-fn arc(record: &Record<'_>) -> Result<Shape, Fault> {
+fn arc(record: &EntityRecord<'_>) -> Result<EntityShape, EntityFault> {
     let (centre, radius) = (record.point(10)?, radius(record)?);
-    let (from, to) = (record.needed(50)?, record.needed(51)?);
+    let (from, to) = (record.required_real(50)?, record.required_real(51)?);
     let swept = (to - from).rem_euclid(360.0);
-    // From 0 to 360 degrees is all round.
+    // From 0 to 360 degrees is a full circle.
     let swept = if swept == 0.0 && from != to { 360.0 } else { swept };
     let on = |degrees: f64| {
         let angle = degrees.to_radians();
@@ -144,11 +168,11 @@ fn arc(record: &Record<'_>) -> Result<Shape, Fault> {
     } else {
         vec![segment(on(from), end, swept)]
     };
-    Ok(Shape { from_behind: record.is_seen_from_behind()?, ..Shape::of(segments, centre.z) })
+    Ok(EntityShape { from_behind: record.is_seen_from_behind()?, ..EntityShape::of(segments, centre.z) })
 }
 
 /// The sides of a polyline; a closed one may repeat its first vertex as its last.
-fn sides(mut vertices: Vec<Vertex>, closed: bool) -> Result<Vec<Segment>, Fault> {
+fn sides(mut vertices: Vec<Vertex>, closed: bool) -> Result<Vec<Segment>, EntityFault> {
     if vertices.len() < 2 {
         return fault("has fewer than two vertices");
     }
@@ -166,7 +190,7 @@ fn sides(mut vertices: Vec<Vertex>, closed: bool) -> Result<Vec<Segment>, Fault>
     Ok(segments)
 }
 
-fn lightweight_polyline(record: &Record<'_>) -> Result<Shape, Fault> {
+fn lightweight_polyline(record: &EntityRecord<'_>) -> Result<EntityShape, EntityFault> {
     let mut vertices: Vec<[Option<f64>; 5]> = Vec::new();
     for group in record.groups {
         let place = match group.code {
@@ -180,28 +204,32 @@ fn lightweight_polyline(record: &Record<'_>) -> Result<Shape, Fault> {
         if place == 0 {
             vertices.push([None; 5]);
         }
-        // What stands before the first vertex belongs to none.
+        // Groups before the first vertex belong to no vertex.
         let Some(slot) = vertices.last_mut().and_then(|vertex| vertex.get_mut(place)) else { continue };
         if slot.replace(group.value.real()?).is_some() {
-            return fault(format!("tells group {} twice for a vertex", group.code));
+            return fault(format!("has group {} twice for a vertex", group.code));
         }
     }
-    let told = record.whole(90, i64::try_from(vertices.len()).unwrap_or(i64::MAX))?;
-    if usize::try_from(told) != Ok(vertices.len()) {
-        return fault(format!("has {} vertices and says that they are {told}", vertices.len()));
+    let stated = record.whole(90, i64::try_from(vertices.len()).unwrap_or(i64::MAX))?;
+    if usize::try_from(stated) != Ok(vertices.len()) {
+        return fault(format!("has {} vertices, but states that there are {stated}", vertices.len()));
     }
     let widths = vertices.iter().flat_map(|[.., start, end]| [start, end]).flatten();
     let width = widths.fold(record.real(43, 0.0)?.abs(), |widest, width| widest.max(width.abs()));
     let vertex = |[x, y, bulge, ..]: &[Option<f64>; 5]| match (x, y) {
         (Some(x), Some(y)) => Ok(Vertex::new(Vector2::new(*x, *y), bulge.unwrap_or(0.0))),
-        _ => fault("has a vertex of which only x is told"),
+        _ => fault("has a vertex with x but without y"),
     };
     let vertices: Vec<Vertex> = vertices.iter().map(vertex).collect::<Result<_, _>>()?;
     let segments = sides(vertices, record.whole(70, 0)? & CLOSED != 0)?;
-    Ok(Shape { from_behind: record.is_seen_from_behind()?, width, ..Shape::of(segments, record.real(38, 0.0)?) })
+    Ok(EntityShape {
+        from_behind: record.is_seen_from_behind()?,
+        width,
+        ..EntityShape::of(segments, record.real(38, 0.0)?)
+    })
 }
 
-fn polyline(record: &Record<'_>, vertices: &[Record<'_>]) -> Result<Shape, Fault> {
+fn polyline(record: &EntityRecord<'_>, vertices: &[EntityRecord<'_>]) -> Result<EntityShape, EntityFault> {
     let flags = record.whole(70, 0)?;
     if flags & MESH != 0 {
         return fault("is a mesh");
@@ -216,16 +244,16 @@ fn polyline(record: &Record<'_>, vertices: &[Record<'_>]) -> Result<Shape, Fault
         if kind & FRAME_OF_SPLINE != 0 {
             // Some readers take them for the outline.
             return fault(if flags & SPLINE_FIT != 0 {
-                "is fitted by a spline and keeps the points of its frame, which lie off the line"
+                "is a spline-fit polyline that still contains its control points, which do not lie on the curve"
             } else {
-                "has points of a spline's frame among its vertices, which lie off the line"
+                "has control points of a spline among its vertices, which do not lie on the curve"
             });
         }
         if kind & OF_MESH != 0 || kind & OF_SPATIAL != 0 && !spatial {
-            return fault("has vertices that belong to a mesh or a line in space");
+            return fault("has vertices of a mesh or of a polyline in space");
         }
         if spatial && bulge != 0.0 {
-            return fault("is a line in space with arcs");
+            return fault("is a polyline in space with arcs");
         }
         if spatial || point.z != 0.0 {
             heights.push(point.z);
@@ -235,10 +263,10 @@ fn polyline(record: &Record<'_>, vertices: &[Record<'_>]) -> Result<Shape, Fault
     }
     let segments = sides(found, flags & CLOSED != 0)?;
     let from_behind = if spatial { false } else { record.is_seen_from_behind()? };
-    Ok(Shape { from_behind, heights, width, ..Shape::of(segments, 0.0) })
+    Ok(EntityShape { from_behind, heights, width, ..EntityShape::of(segments, 0.0) })
 }
 
-/// An arc as curves, for a map under which it does not stay one.
+/// An arc as curves, for a map that does not keep circles.
 pub(super) fn as_curves(segment: &Segment) -> Vec<Bezier> {
     if segment.bulge == 0.0 {
         return vec![Bezier::polynomial(&[segment.start, segment.end])];
@@ -247,7 +275,7 @@ pub(super) fn as_curves(segment: &Segment) -> Vec<Bezier> {
     let a = segment.start - centre;
     let b = Vector2::new(-a.y, a.x);
     let mut curves = Bezier::ellipse(centre, (a, b), (0.0, segment.sweep().clamp(-2.0 * PI, 2.0 * PI)));
-    // The ends as they are told.
+    // The ends as the file gives them.
     if let Some(pole) = curves.first_mut().and_then(|curve| curve.poles.first_mut()) {
         *pole = [segment.start.x, segment.start.y, 1.0];
     }

@@ -1,20 +1,20 @@
 //! SPLINE and ELLIPSE as rational Bézier curves.
 
 use super::curve::{Bezier, HIGHEST_DEGREE};
-use super::record::{Fault, Record, fault};
+use super::record::{EntityFault, EntityRecord, fault};
 use crate::geometry::nurbs::blossom;
 use nalgebra::{Vector2, Vector3};
 
 /// Bits of the flags (70) of a SPLINE.
 const CLOSED: i64 = 1;
 const PERIODIC: i64 = 2;
-/// Ends of two curves that are one lie nearer than this share of their size: rounding.
+/// Ends of two curves count as one where they are nearer than this share of their size: rounding.
 const SAME: f64 = 1e-9;
-/// Parameters of an ellipse nearer to a whole turn than this are one: they are written with some fifteen digits, rad.
+/// Parameters of an ellipse nearer to a full turn than this count as a full turn: they are written with some fifteen digits, rad.
 const WHOLE_TURN: f64 = 1e-9;
 
-/// A SPLINE, with the heights of its points: by its control points where it has them, else through its fit points.
-pub(super) fn spline(record: &Record<'_>) -> Result<(Vec<Bezier>, Vec<f64>), Fault> {
+/// A SPLINE, with the heights of its points: by its control points where it has them, otherwise through its fit points.
+pub(super) fn spline(record: &EntityRecord<'_>) -> Result<(Vec<Bezier>, Vec<f64>), EntityFault> {
     let controls = record.points(10)?;
     let points = if controls.is_empty() { record.points(11)? } else { controls.clone() };
     let heights = points.iter().map(|point| point.z).collect();
@@ -28,15 +28,15 @@ pub(super) fn spline(record: &Record<'_>) -> Result<(Vec<Bezier>, Vec<f64>), Fau
 }
 
 /// The curves between the knots.
-fn by_controls(record: &Record<'_>, points: &[Vector2<f64>]) -> Result<Vec<Bezier>, Fault> {
+fn by_controls(record: &EntityRecord<'_>, points: &[Vector2<f64>]) -> Result<Vec<Bezier>, EntityFault> {
     let degree = usize::try_from(record.whole(71, 3)?).ok().filter(|degree| (1..=HIGHEST_DEGREE).contains(degree));
-    let Some(degree) = degree else { return fault(format!("is of a degree that is not 1 to {HIGHEST_DEGREE}")) };
+    let Some(degree) = degree else { return fault(format!("has a degree that is not between 1 and {HIGHEST_DEGREE}")) };
     let (knots, weights) = (record.reals(40)?, record.reals(41)?);
     if points.len() <= degree || knots.len() != points.len() + degree + 1 || !knots.is_sorted() {
         return fault("has knots that do not fit its control points");
     }
     if !(weights.is_empty() || weights.len() == points.len() && weights.iter().all(|weight| *weight > 0.0)) {
-        return fault("has weights that do not fit its control points, or are not above 0");
+        return fault("has weights that do not fit its control points, or that are not above 0");
     }
     let weights = weights.into_iter().chain(std::iter::repeat(1.0));
     let poles: Vec<[f64; 3]> = points.iter().zip(weights).map(|(p, w)| [p.x * w, p.y * w, w]).collect();
@@ -54,9 +54,9 @@ fn by_controls(record: &Record<'_>, points: &[Vector2<f64>]) -> Result<Vec<Bezie
 
 /// The cubic spline through fit points, with continuous second derivative by the length of chord.
 ///
-/// As CAD programs draw a SPLINE that has no control points: the end tangents as given (12 and 13), and where they are not, no
-/// curvature there; a closed one goes round smoothly.
-fn through(record: &Record<'_>, mut points: Vec<Vector2<f64>>) -> Result<Vec<Bezier>, Fault> {
+/// CAD programs draw a SPLINE without control points like this: with the given end tangents (12 and 13), and without curvature at ends
+/// that have no tangent; a closed one is smooth all round.
+fn through(record: &EntityRecord<'_>, mut points: Vec<Vector2<f64>>) -> Result<Vec<Bezier>, EntityFault> {
     points.dedup();
     let closed = record.whole(70, 0)? & (CLOSED | PERIODIC) != 0;
     if closed
@@ -68,7 +68,7 @@ fn through(record: &Record<'_>, mut points: Vec<Vector2<f64>>) -> Result<Vec<Bez
     if points.len() < 2 {
         return fault("has neither control points nor fit points");
     }
-    let tangent = |code: i32| -> Result<Option<Vector2<f64>>, Fault> {
+    let tangent = |code: i32| -> Result<Option<Vector2<f64>>, EntityFault> {
         if record.one(code)?.is_none() {
             return Ok(None);
         }
@@ -77,13 +77,13 @@ fn through(record: &Record<'_>, mut points: Vec<Vector2<f64>>) -> Result<Vec<Bez
     };
     let (start, end) = (tangent(12)?, tangent(13)?);
     let ends = if closed && points.len() > 3 && start.is_none() && end.is_none() {
-        Ends::Periodic
+        SplineEnds::Periodic
     } else {
-        Ends::Open(start, end)
+        SplineEnds::Open(start, end)
     };
     let slopes = slopes(&points, ends);
-    let hermite: Vec<Hermite> = points.into_iter().zip(slopes).collect();
-    let curve = |((p, d), (q, e)): (&Hermite, &Hermite)| {
+    let hermite: Vec<PointAndDerivative> = points.into_iter().zip(slopes).collect();
+    let curve = |((p, d), (q, e)): (&PointAndDerivative, &PointAndDerivative)| {
         let third = (q - p).norm() / 3.0;
         Bezier::polynomial(&[*p, p + d * third, q - e * third, *q])
     };
@@ -91,44 +91,44 @@ fn through(record: &Record<'_>, mut points: Vec<Vector2<f64>>) -> Result<Vec<Bez
 }
 
 /// A point and the derivative there.
-type Hermite = (Vector2<f64>, Vector2<f64>);
+type PointAndDerivative = (Vector2<f64>, Vector2<f64>);
 
-/// What is asked of a spline at its ends.
+/// The conditions of a spline at its ends.
 #[derive(Clone, Copy)]
-enum Ends {
-    /// A derivative by the length of chord, or none: then the second is 0.
+enum SplineEnds {
+    /// A derivative by the length of chord; without one the second derivative is 0.
     Open(Option<Vector2<f64>>, Option<Vector2<f64>>),
     /// The last point is the first.
     Periodic,
 }
 
-/// Row of a tridiagonal system: what stands below, on and above the diagonal, and on the right.
-type Row = (f64, f64, f64, Vector2<f64>);
+/// Row of a tridiagonal system: the entries below, on and above the diagonal, and the right side.
+type TridiagonalRow = (f64, f64, f64, Vector2<f64>);
 
 /// Derivatives by the length of chord at the points of the spline with a continuous second derivative.
-fn slopes(points: &[Vector2<f64>], ends: Ends) -> Vec<Vector2<f64>> {
+fn slopes(points: &[Vector2<f64>], ends: SplineEnds) -> Vec<Vector2<f64>> {
     let sides: Vec<Vector2<f64>> = points.iter().zip(points.iter().skip(1)).map(|(a, b)| b - a).collect();
     // d₋/h₋ + 2 d (1/h₋ + 1/h₊) + d₊/h₊ = 3 (Δ₋/h₋² + Δ₊/h₊²).
-    let inner = |before: &Vector2<f64>, after: &Vector2<f64>| -> Row {
+    let inner = |before: &Vector2<f64>, after: &Vector2<f64>| -> TridiagonalRow {
         let (g, h) = (1.0 / before.norm(), 1.0 / after.norm());
         (g, 2.0 * (g + h), h, (before * (g * g) + after * (h * h)) * 3.0)
     };
     let between = sides.iter().zip(sides.iter().skip(1)).map(|(before, after)| inner(before, after));
     let (Some(first), Some(last)) = (sides.first(), sides.last()) else { return Vec::new() };
     match ends {
-        Ends::Open(start, end) => {
+        SplineEnds::Open(start, end) => {
             let at_end = |given: Option<Vector2<f64>>, side: &Vector2<f64>| match given {
                 Some(slope) => (0.0, 1.0, 0.0, slope),
                 None => (1.0, 2.0, 1.0, side * (3.0 / side.norm())),
             };
             let (a, b) = (at_end(start, first), at_end(end, last));
-            let rows: Vec<Row> =
+            let rows: Vec<TridiagonalRow> =
                 std::iter::once((0.0, a.1, a.2, a.3)).chain(between).chain([(b.0, b.1, 0.0, b.3)]).collect();
             tridiagonal(&rows)
         }
-        Ends::Periodic => {
+        SplineEnds::Periodic => {
             // The last point is the first: the cyclic system by Sherman and Morrison.
-            let mut rows: Vec<Row> = std::iter::once(inner(last, first)).chain(between).collect();
+            let mut rows: Vec<TridiagonalRow> = std::iter::once(inner(last, first)).chain(between).collect();
             let corner = 1.0 / last.norm();
             let gamma = -rows.first().map_or(1.0, |row| row.1);
             let count = rows.len();
@@ -143,7 +143,7 @@ fn slopes(points: &[Vector2<f64>], ends: Ends) -> Vec<Vector2<f64>> {
                 index if index + 1 == count => Vector2::new(corner, 0.0),
                 _ => Vector2::zeros(),
             };
-            let aside: Vec<Row> =
+            let aside: Vec<TridiagonalRow> =
                 rows.iter().enumerate().map(|(index, row)| (row.0, row.1, row.2, unit(index))).collect();
             let (found, aside) = (tridiagonal(&rows), tridiagonal(&aside));
             let ends = |list: &[Vector2<f64>]| match (list.first(), list.last()) {
@@ -159,7 +159,7 @@ fn slopes(points: &[Vector2<f64>], ends: Ends) -> Vec<Vector2<f64>> {
 }
 
 /// Thomas' algorithm; the rows are dominated by their diagonals.
-fn tridiagonal(rows: &[Row]) -> Vec<Vector2<f64>> {
+fn tridiagonal(rows: &[TridiagonalRow]) -> Vec<Vector2<f64>> {
     let (mut above, mut right) = (0.0, Vector2::zeros());
     let forward: Vec<(f64, Vector2<f64>)> = rows
         .iter()
@@ -183,8 +183,8 @@ fn tridiagonal(rows: &[Row]) -> Vec<Vector2<f64>> {
 }
 
 /// An ELLIPSE, with the heights of its points.
-pub(super) fn ellipse(record: &Record<'_>) -> Result<(Vec<Bezier>, Vec<f64>), Fault> {
-    let (centre, major, ratio) = (record.point(10)?, record.point(11)?, record.needed(40)?);
+pub(super) fn ellipse(record: &EntityRecord<'_>) -> Result<(Vec<Bezier>, Vec<f64>), EntityFault> {
+    let (centre, major, ratio) = (record.point(10)?, record.point(11)?, record.required_real(40)?);
     let up = if record.is_seen_from_behind()? { -1.0 } else { 1.0 };
     let a = major.xy();
     if a.norm() == 0.0 || ratio == 0.0 {

@@ -1,6 +1,6 @@
 //! The result of a check, and where.
 
-use super::shown;
+use super::figures::shown;
 use serde::ser::Serializer;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::borrow::Cow;
@@ -14,7 +14,7 @@ pub enum Verdict {
     Pass,
     /// The limit is broken.
     Fail,
-    /// Nothing that must be kept is broken, but whoever cuts this cam should know it first.
+    /// No limit is broken, but whoever cuts this cam should know this first.
     Warn,
     /// There is no limit.
     Info,
@@ -38,7 +38,7 @@ impl Verdict {
         }
     }
 
-    /// Where it stands in a report: failures first, then warnings, then the rest.
+    /// Its order in a report: failures first, then warnings, then the rest.
     #[must_use]
     pub fn rank(self) -> u8 {
         match self {
@@ -120,12 +120,15 @@ impl std::fmt::Display for Place {
     }
 }
 
+/// A value below this share of its limit is shown as 0.
+const ROUNDING: f64 = 1e-6;
+
 /// The result of a check.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Finding {
     /// Name of the check.
     pub check: Cow<'static, str>,
-    /// What was found; not finite when there is nothing to measure (no concave part, for example), which JSON writes as null.
+    /// The value that was found; not finite when there is nothing to measure (no concave part, for example), which JSON writes as null.
     #[serde(serialize_with = "finite", deserialize_with = "or_nan")]
     pub value: f64,
     /// Its limit, if it has one.
@@ -140,29 +143,40 @@ pub struct Finding {
     pub place: Place,
     /// The verdict.
     pub verdict: Verdict,
+    /// What the check means, where the finding was not read from a report.
+    #[serde(skip)]
+    pub about: Option<&'static str>,
     /// A remedy, or what the figure means.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
 
 impl Finding {
+    /// The value for a reader, whom a remainder of rounding does not help.
+    #[must_use]
+    pub(crate) fn readable(&self) -> f64 {
+        let is_rounding = self.limit.is_some_and(|limit| self.value.abs() < ROUNDING * limit.abs());
+        if is_rounding { 0.0 } else { self.value }
+    }
+
     /// The value with its unit, as reports write it.
     #[must_use]
     pub fn value_words(&self) -> String {
-        if self.value.is_finite() { self.with_unit(self.value) } else { "–".into() }
+        let value = self.readable();
+        if value.is_finite() { self.with_unit(shown(value)) } else { "–".into() }
     }
 
-    /// The limit with its side and unit, `at most 30 deg`; `None` where there is none.
+    /// The limit with its side and unit, `at most 30 deg`; `None` without a limit.
     #[must_use]
     pub fn limit_words(&self) -> Option<String> {
         let side = self.bound.map_or(String::new(), |bound| format!("{} ", bound.words()));
-        Some(format!("{side}{}", self.with_unit(self.limit?)))
+        Some(format!("{side}{}", self.with_unit(shown(self.limit?))))
     }
 
-    fn with_unit(&self, value: f64) -> String {
+    fn with_unit(&self, value: String) -> String {
         match &*self.unit {
-            "" | "1" => shown(value),
-            unit => format!("{} {unit}", shown(value)),
+            "" | "1" => value,
+            unit => format!("{value} {unit}"),
         }
     }
 }
@@ -187,7 +201,7 @@ pub fn passed(findings: &[Finding]) -> bool {
 }
 
 /// JSON has no infinity.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature serde asks for")]
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde requires")]
 fn finite<S: Serializer>(value: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     if value.is_finite() { serializer.serialize_f64(*value) } else { serializer.serialize_none() }
 }
@@ -210,6 +224,7 @@ mod tests {
             unit: "1".into(),
             place,
             verdict,
+            about: None,
             note: None,
         }
     }

@@ -1,14 +1,14 @@
-//! The hash of everything that determines a part, which its files carry: files with the same hash are of the same part.
+//! The hash of everything that determines a part, written into its files: files with the same hash belong to the same part.
 
 use crate::document::Input;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt;
 
-/// Hexadecimal digits of a hash: of a million parts two have the same with a probability of 0.2 %.
+/// Hexadecimal digits of a hash: among a million parts two have the same one with a probability of 0.2 %.
 const DIGITS: usize = 12;
 
-/// From which inputs a part was made, and by which version of camgen.
+/// The hash of the inputs of a part, and the version of camgen that made it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Inputs {
     /// The first twelve hexadecimal digits of SHA-256 of the inputs.
@@ -18,7 +18,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Of all inputs, whatever their order.
+    /// The hash of all inputs, in any order.
     #[must_use]
     pub fn of(inputs: &[Input]) -> Self {
         let mut lines: Vec<(&str, &str)> = inputs.iter().map(|input| (&*input.key, &*input.value)).collect();
@@ -31,9 +31,25 @@ impl Inputs {
     }
 }
 
+/// What stands before the hash in the mark of a file.
+const BEFORE: &str = ", inputs ";
+/// The mark stands within so many bytes from the start of a file.
+const MARKED: usize = 4096;
+
+impl Inputs {
+    /// The hash that camgen has written into a file, where it has one.
+    #[must_use]
+    pub fn hash_in(bytes: &[u8]) -> Option<String> {
+        let head = String::from_utf8_lossy(bytes.get(..MARKED).unwrap_or(bytes)).into_owned();
+        let (_, after) = head.split_once("camgen ")?.1.split_once(BEFORE)?;
+        let hash = after.get(..DIGITS)?;
+        hash.bytes().all(|digit| digit.is_ascii_digit() || (b'a'..=b'f').contains(&digit)).then(|| hash.to_owned())
+    }
+}
+
 impl fmt::Display for Inputs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "camgen {}, inputs {}", self.camgen, self.hash)
+        write!(f, "camgen {}{BEFORE}{}", self.camgen, self.hash)
     }
 }
 
@@ -47,6 +63,17 @@ pub fn sha256(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_hash_of_a_file_is_read_back() {
+        let inputs = Inputs::of(&[Input::number("a", 1.0)]);
+        let marked = |mark: &str| Inputs::hash_in(format!("999\n{mark}\n  0\nSECTION\n").as_bytes());
+        assert_eq!(marked(&inputs.to_string()), Some(inputs.hash.clone()));
+        assert_eq!(marked(&format!("a press, {inputs}, a check failed")), Some(inputs.hash));
+        for other in ["camgen 1.0", "camgen 1.0, inputs 12", "camgen 1.0, inputs 0123456789zz", "inputs 0123456789ab"] {
+            assert_eq!(marked(other), None, "{other}");
+        }
+    }
 
     #[test]
     fn the_hash_is_of_keys_and_values_in_any_order() {

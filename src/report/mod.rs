@@ -1,15 +1,17 @@
-//! What is reported of a cam: findings, sections of a report, the review sheet.
+//! The report on a cam: findings, sections of a report, the review sheet.
 //!
 //! A report is a list of sections that the parts of a cam contribute (motion, follower, body, load, outline). Each section
-//! has its values for programs and its words for people; JSON, text and sheet walk the same list. Nothing here depends
+//! has its values for programs and its words for people; JSON, text and sheet use the same list. Nothing here depends
 //! on a kind of cam.
 
+mod as_cut_error;
 pub mod chart;
-mod compensation;
-mod felt;
+pub mod diagram;
+mod figures;
 mod finding;
 mod inputs;
 pub mod mechanism;
+pub mod motion_diagram;
 pub mod plot;
 mod point_measures;
 mod rolled;
@@ -18,16 +20,14 @@ pub mod sheet;
 pub mod trace;
 mod values;
 
-pub use compensation::{Compensation, PreloadAt};
-pub use felt::Felt;
+pub use as_cut_error::AsCutError;
+pub use figures::shown;
+pub(crate) use figures::to_type;
 pub use finding::{Bound, Finding, Place, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, sha256};
 pub use point_measures::PointMeasures;
-pub use rolled::{Rolled, TensionAsCut};
-pub use values::{
-    AirLaw, Break, CamMeasures, Equation18, Forces, OutlineMeasures, PlateMeasures, ResidualByWay, ReversalOfBed,
-    Weight, lobes_words, shown,
-};
+pub use rolled::Rolled;
+pub use values::{CamMeasures, OutlineMeasures, Weight, lobes_words};
 
 use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeMap;
@@ -52,7 +52,16 @@ pub enum Speeds {
     Any(()),
 }
 
-/// More speeds than these are named by the first and the last.
+/// The shaft that gives the time, where it does not turn as fast as the main shaft.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Shaft {
+    /// "camshaft".
+    pub name: Cow<'static, str>,
+    /// Its turns for each turn of the main shaft.
+    pub turns_per_main_shaft_turn: f64,
+}
+
+/// More speeds than this are shown as the first and the last.
 const MOST_NAMED: usize = 8;
 
 impl fmt::Display for Speeds {
@@ -64,7 +73,7 @@ impl fmt::Display for Speeds {
                 let all: Vec<String> = speeds.iter().map(|rpm| sheet::rounded(*rpm)).collect();
                 match all.as_slice() {
                     [first, .., last] if all.len() > MOST_NAMED => {
-                        write!(f, " for {first} to {last} rpm, {} sections", all.len())
+                        write!(f, " for {first} to {last} rpm, {} speeds", all.len())
                     }
                     _ => write!(f, " for {} rpm", all.join(", ")),
                 }
@@ -80,9 +89,9 @@ pub struct Section {
     pub key: Cow<'static, str>,
     /// Values with their units in their names.
     pub value: Value,
-    /// The same in words for people, a line each.
+    /// The values in words for people, a line each.
     pub words: Vec<String>,
-    /// The few that belong on the review sheet.
+    /// The few figures for the review sheet.
     pub figures: Vec<String>,
 }
 
@@ -90,7 +99,7 @@ impl Section {
     /// A section of values for programs only.
     #[must_use]
     pub fn new(key: &'static str, value: &impl Serialize) -> Self {
-        // Only a map whose keys are not texts cannot become a value; a report has none.
+        // Only maps with keys that are not text fail, and a report has no such map.
         let value = serde_json::to_value(value).unwrap_or(Value::Null);
         Self { key: key.into(), value, words: Vec::new(), figures: Vec::new() }
     }
@@ -119,23 +128,39 @@ pub struct Report {
     pub machine: String,
     /// Speeds of the main shaft.
     pub rpm: Speeds,
-    /// From which inputs it was made.
+    /// The shaft of the cam, where it has another speed.
+    pub shaft: Option<Shaft>,
+    /// The hash of its inputs.
     pub inputs: Inputs,
     /// What the parts contribute, in their order.
     pub sections: Vec<Section>,
     /// Every check.
     pub checks: Vec<Finding>,
-    /// What the user should know besides, such as keys that have no effect.
+    /// What else the user should know, such as keys that have no effect.
     pub notes: Vec<String>,
+    /// What the model leaves out, a sentence each.
+    pub not_modelled: Vec<String>,
     /// Files written.
     pub files: Vec<String>,
 }
 
 impl Report {
-    /// "DPI flat-bed press, 2 at, rotary cam for 35 rpm".
+    /// "DPI flat-bed press, 2 at, rotary cam for 35 rpm, camshaft 105 rpm".
     #[must_use]
     pub fn title(&self) -> String {
-        format!("{}, {}{}", self.machine, self.noun, self.rpm)
+        format!("{}, {}{}", self.machine, self.noun, self.speeds())
+    }
+
+    /// " for 35 rpm, camshaft 105 rpm"; nothing where the speed does not matter.
+    #[must_use]
+    pub fn speeds(&self) -> String {
+        let shaft = self.shaft.as_ref().map(|shaft| match self.rpm {
+            Speeds::One(rpm) => {
+                format!(", {} {} rpm", shaft.name, sheet::rounded(rpm * shaft.turns_per_main_shaft_turn))
+            }
+            _ => format!(", {} {} times as fast", shaft.name, sheet::rounded(shaft.turns_per_main_shaft_turn)),
+        });
+        format!("{}{}", self.rpm, shaft.unwrap_or_default())
     }
 
     /// The hash of the inputs, twelve hexadecimal digits: two different cams have different ones.
@@ -144,13 +169,13 @@ impl Report {
         &self.inputs.hash
     }
 
-    /// What a file bears of its report: version, hash of the inputs, and which checks failed where any did.
+    /// The mark in a file: version, hash of the inputs, and the checks that failed, if any.
     #[must_use]
     pub fn mark(&self) -> String {
         self.warning().map_or_else(|| self.inputs.to_string(), |warning| format!("{}; {warning}", self.inputs))
     }
 
-    /// What nobody may overlook of a cam that breaks a limit.
+    /// The warning for a cam that breaks a limit.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         warning(&self.checks)
@@ -175,10 +200,10 @@ impl Report {
     }
 }
 
-/// A report that is made when somebody looks into it: its sections measure the cam again, and not every file shows them.
-pub type Told<'a> = LazyLock<Report, Box<dyn FnOnce() -> Report + Send + 'a>>;
+/// A report that is made when it is first read: its sections measure the cam again, and not every file shows them.
+pub type LazyReport = LazyLock<Report, Box<dyn FnOnce() -> Report + Send>>;
 
-/// What nobody may overlook of a cam with these findings.
+/// The warning for a cam with these findings, if any failed.
 #[must_use]
 pub fn warning(findings: &[Finding]) -> Option<String> {
     let failed = failed(findings);
@@ -192,6 +217,9 @@ impl Serialize for Report {
         map.serialize_entry("command", &self.command)?;
         map.serialize_entry("machine", &self.machine)?;
         map.serialize_entry("rpm", &self.rpm)?;
+        if let Some(shaft) = &self.shaft {
+            map.serialize_entry("shaft_of_cam", shaft)?;
+        }
         map.serialize_entry("inputs", &self.inputs)?;
         for section in &self.sections {
             map.serialize_entry(&section.key, &section.value)?;
@@ -200,12 +228,15 @@ impl Serialize for Report {
         if !self.notes.is_empty() {
             map.serialize_entry("notes", &self.notes)?;
         }
+        if !self.not_modelled.is_empty() {
+            map.serialize_entry("not_modelled", &self.not_modelled)?;
+        }
         map.serialize_entry("files", &self.files)?;
         map.end()
     }
 }
 
-/// Values come back; words and figures are made of values and do not.
+/// Reads the values; words and figures are derived from values and are not read.
 impl<'de> Deserialize<'de> for Report {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_map(ReportVisitor)
@@ -227,10 +258,12 @@ impl<'de> Visitor<'de> for ReportVisitor {
             noun: "".into(),
             machine: String::new(),
             rpm: Speeds::Any(()),
+            shaft: None,
             inputs: Inputs::default(),
             sections: Vec::new(),
             checks: Vec::new(),
             notes: Vec::new(),
+            not_modelled: Vec::new(),
             files: Vec::new(),
         };
         let mut schema = None;
@@ -240,9 +273,11 @@ impl<'de> Visitor<'de> for ReportVisitor {
                 "command" => report.command = map.next_value::<String>()?.into(),
                 "machine" => report.machine = map.next_value()?,
                 "rpm" => report.rpm = map.next_value()?,
+                "shaft_of_cam" => report.shaft = Some(map.next_value()?),
                 "inputs" => report.inputs = map.next_value()?,
                 "checks" => report.checks = map.next_value()?,
                 "notes" => report.notes = map.next_value()?,
+                "not_modelled" => report.not_modelled = map.next_value()?,
                 "files" => report.files = map.next_value()?,
                 _ => {
                     let value = map.next_value()?;
@@ -269,6 +304,7 @@ mod tests {
             noun: "".into(),
             machine: "press".into(),
             rpm: Speeds::One(35.0),
+            shaft: Some(Shaft { name: "camshaft".into(), turns_per_main_shaft_turn: 3.0 }),
             inputs: Inputs::of(&[]),
             sections: vec![Section::new("cam", &serde_json::json!({"base_radius_mm": 69.0, "area_mm2": null}))],
             checks: vec![Finding {
@@ -279,9 +315,11 @@ mod tests {
                 unit: "mm".into(),
                 place: Place::default(),
                 verdict: Verdict::Pass,
+                about: None,
                 note: None,
             }],
             notes: vec!["`cam.balance` has no effect on a conoid".into()],
+            not_modelled: vec!["Temperature: all sizes are those of the drawing.".into()],
             files: vec!["a.dxf".into()],
         };
         let text = serde_json::to_string(&report).expect("JSON");
@@ -297,6 +335,6 @@ mod tests {
     fn speeds_are_told_in_words() {
         assert_eq!(Speeds::One(35.0).to_string(), " for 35 rpm");
         assert_eq!(Speeds::Several(vec![20.0, 35.0]).to_string(), " for 20, 35 rpm");
-        assert_eq!(Speeds::Several((0..9).map(f64::from).collect()).to_string(), " for 0 to 8 rpm, 9 sections");
+        assert_eq!(Speeds::Several((0..9).map(f64::from).collect()).to_string(), " for 0 to 8 rpm, 9 speeds");
     }
 }

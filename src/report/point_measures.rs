@@ -1,27 +1,27 @@
-//! What is told of tables of points.
+//! Tables of points in a report.
 
 use super::{Section, shown};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// A table of points, and what the curve that a control makes of it misses.
+/// A table of points, and the errors of the curve that a control makes of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointMeasures {
     /// Speed of its section, rpm, where there are several.
     pub rpm: Option<f64>,
     /// Rows.
     pub rows: usize,
-    /// What the control does between them.
+    /// The interpolation of the control between them.
     pub interpolation: &'static str,
-    /// Largest distance from the exact curve that was asked for, mm.
+    /// Largest allowed distance from the exact curve, mm.
     pub tolerance_mm: f64,
     /// Bound of that distance, mm.
     pub error_mm: f64,
     /// Whether the follower swings.
     pub swings: bool,
-    /// Largest error of the velocity, mm or rad per rad, where it can be told.
+    /// Largest error of the velocity, mm or rad per rad, where it is known.
     pub velocity_error: Option<f64>,
-    /// Largest error of the acceleration, mm or rad per rad², where it can be told.
+    /// Largest error of the acceleration, mm or rad per rad², where it is known.
     pub acceleration_error: Option<f64>,
 }
 

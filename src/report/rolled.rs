@@ -1,13 +1,13 @@
-//! What rolling the follower on a written outline has shown.
+//! The result of rolling the follower on a written outline.
 
-use super::{Felt, Place};
+use super::{AsCutError, Place};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// What rolling has shown.
+/// The result of rolling the follower on a written outline.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rolled {
-    /// Places at which the follower was put.
+    /// Number of places at which the follower was placed.
     pub places: usize,
     /// Segments it rolled on.
     pub segments: usize,
@@ -16,7 +16,7 @@ pub struct Rolled {
     /// Where it is.
     #[serde(flatten, serialize_with = "gap_place")]
     pub gap_at: Place,
-    /// Lift error of largest size, mm; `None` where the follower nowhere touches along its path.
+    /// Lift error of largest size, mm; `None` where the follower never touches along its path.
     pub lift_error_max_mm: Option<f64>,
     /// 99 of 100 lift errors are smaller, mm.
     pub lift_error_q99_mm: Option<f64>,
@@ -36,27 +36,13 @@ pub struct Rolled {
     /// Where it is.
     #[serde(flatten, serialize_with = "residual_place")]
     pub residual_at: Place,
-    /// Velocity and acceleration as cut; `None` where the follower is nowhere in touch.
+    /// Velocity and acceleration as cut; `None` where the follower never touches.
     #[serde(flatten)]
-    pub felt: Option<Felt>,
-    /// The web tension with this outline as the disc of a belt brake.
-    #[serde(skip)]
-    pub tension: Option<TensionAsCut>,
-}
-
-/// The web tension over the roll with the outline of a brake's disc as it is written.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TensionAsCut {
-    /// Radius of the roll, m, and the least tension, N.
-    pub least: [f64; 2],
-    /// Radius of the roll, m, and the largest tension, N.
-    pub largest: [f64; 2],
-    /// Radius of the roll, m, and tension, N, from the full roll on.
-    pub points: Vec<[f64; 2]>,
+    pub as_cut: Option<AsCutError>,
 }
 
 /// A place under names of its own: `gap_cam_deg` of a disc, `gap_x_mm` of a plate.
-fn named<S: Serializer>(place: Place, [angle, overrun]: [&str; 2], serializer: S) -> Result<S::Ok, S::Error> {
+fn serialize_place<S: Serializer>(place: Place, [angle, overrun]: [&str; 2], serializer: S) -> Result<S::Ok, S::Error> {
     let mut map = serializer.serialize_map(None)?;
     match place.x_mm {
         Some(x) => map.serialize_entry(overrun, &x)?,
@@ -66,14 +52,14 @@ fn named<S: Serializer>(place: Place, [angle, overrun]: [&str; 2], serializer: S
 }
 
 fn gap_place<S: Serializer>(place: &Place, serializer: S) -> Result<S::Ok, S::Error> {
-    named(*place, ["gap_cam_deg", "gap_x_mm"], serializer)
+    serialize_place(*place, ["gap_cam_deg", "gap_x_mm"], serializer)
 }
 
-#[expect(clippy::ref_option, reason = "the signature serde asks for")]
+#[expect(clippy::ref_option, reason = "the signature that serde requires")]
 fn double_contact_place<S: Serializer>(place: &Option<Place>, serializer: S) -> Result<S::Ok, S::Error> {
-    named(place.unwrap_or_default(), ["double_contact_cam_deg", "double_contact_x_mm"], serializer)
+    serialize_place(place.unwrap_or_default(), ["double_contact_cam_deg", "double_contact_x_mm"], serializer)
 }
 
 fn residual_place<S: Serializer>(place: &Place, serializer: S) -> Result<S::Ok, S::Error> {
-    named(*place, ["residual_cam_deg", "residual_x_mm"], serializer)
+    serialize_place(*place, ["residual_cam_deg", "residual_x_mm"], serializer)
 }

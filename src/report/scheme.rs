@@ -1,37 +1,37 @@
-//! A mechanism drawn to scale, as it stands at a few moments: lines, joints and their letters. Whoever draws it needs no kinematics.
+//! A mechanism drawn to scale, in a few positions: lines, joints and their letters. Drawing it needs no kinematics.
 //!
-//! Millimetres, y upwards, all stands in one frame.
+//! Millimetres, y upwards, all positions in one frame.
 
 use nalgebra::Vector2;
 
-/// The mechanism at a few moments.
+/// The mechanism in a few positions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scheme {
-    /// How it stands, one below the other.
-    pub stands: Vec<Stand>,
+    /// Its positions, one below the other.
+    pub poses: Vec<SchemePose>,
     /// What the lines are, and what the drawing assumes, a sentence each.
     pub notes: Vec<String>,
 }
 
-/// The mechanism at one moment.
+/// The mechanism in one position.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stand {
-    /// Which moment it is.
+pub struct SchemePose {
+    /// The name of the position.
     pub name: String,
     /// Its lines, from the back to the front.
     pub strokes: Vec<Stroke>,
     /// Its joints, on top of the lines.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<SchemeJoint>,
 }
 
 /// What a line is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum StrokeKind {
     /// A link, or a side of one, in one of the colours of curves.
     Link(usize),
     /// The outline of a body.
     Body,
-    /// What a joint describes over a turn.
+    /// The path of a joint over a turn.
     Path,
     /// A line on which something moves.
     Guide,
@@ -43,31 +43,31 @@ pub struct Stroke {
     /// What it shows.
     pub name: &'static str,
     /// What it is.
-    pub kind: Kind,
+    pub kind: StrokeKind,
     /// Its points, mm.
     pub points: Vec<Vector2<f64>>,
 }
 
 /// A joint with its letter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Joint {
+pub struct SchemeJoint {
     /// Its letter.
     pub letter: &'static str,
     /// Its place, mm.
     pub at: Vector2<f64>,
-    /// Whether it stands on the frame of the machine.
+    /// Whether it is fixed to the frame of the machine.
     pub fixed: bool,
-    /// Where its letter would best stand from it.
+    /// The preferred direction of its letter.
     pub towards: Vector2<f64>,
 }
 
 impl Scheme {
-    /// Every point of every stand, mm.
+    /// Every point of every position, mm.
     pub fn points(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
-        let of_stand = |stand: &Stand| {
-            let of_strokes = stand.strokes.iter().flat_map(|stroke| stroke.points.iter().copied());
-            of_strokes.chain(stand.joints.iter().map(|joint| joint.at)).collect::<Vec<_>>()
+        let of_pose = |pose: &SchemePose| {
+            let of_strokes = pose.strokes.iter().flat_map(|stroke| stroke.points.iter().copied());
+            of_strokes.chain(pose.joints.iter().map(|joint| joint.at)).collect::<Vec<_>>()
         };
-        self.stands.iter().flat_map(of_stand)
+        self.poses.iter().flat_map(of_pose)
     }
 }

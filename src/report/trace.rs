@@ -1,6 +1,6 @@
-//! A curve as cut beside that of the law, as a diagram of a sheet.
+//! A curve as cut together with that of the law, as a diagram of a sheet.
 
-use super::sheet::{Group, Shape, TextAnchor, font, rounded, words};
+use super::sheet::{ShapeGroup, SheetShape, TextAnchor, font, rounded, words};
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
@@ -22,21 +22,42 @@ pub struct Trace {
     pub places: &'static str,
     /// Distance of the lines along, in the unit of the places.
     pub step: f64,
-    /// After so much the places begin again, as angles do.
+    /// The period after which the places start again, as angles do.
     pub period: Option<f64>,
     /// Place, value of the motion and value as cut, in the order of the places; two at one place where a value jumps.
     pub points: Vec<[f64; 3]>,
 }
 
-/// The largest of 1, 2 and 5 times a power of ten of which no more than so many fit into a range.
+/// The largest of 1, 2 and 5 times a power of ten of which at most a given number fit into a range.
 pub(crate) fn round_step(range: f64, most: f64) -> f64 {
     let decade = libm::pow(10.0, libm::log10(range / most).floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|n| n * decade).find(|step| range / step <= most).unwrap_or(10.0 * decade)
 }
 
+/// The points of a whole period from its start on: a curve over angles may start anywhere.
+fn from_start(points: &[[f64; 3]], period: Option<f64>) -> Vec<[f64; 3]> {
+    let Some(period) = period else { return points.to_vec() };
+    let turns = points.first().map_or(0.0, |[first, ..]| (first / period).floor());
+    let moved = |[place, motion, cut]: [f64; 3], by: f64| [place - by, motion, cut];
+    let end = period * (turns + 1.0);
+    let Some(split) = points.iter().position(|[place, ..]| *place >= end) else {
+        return points.iter().map(|point| moved(*point, period * turns)).collect();
+    };
+    let (before, behind) = points.split_at(split);
+    let between = before.last().zip(behind.first()).map(|(a, b)| {
+        let share = if b[0] > a[0] { (end - a[0]) / (b[0] - a[0]) } else { 0.0 };
+        [end, a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])]
+    });
+    let start = between.map(|point| moved(point, end));
+    let behind = behind.iter().map(|point| moved(*point, end));
+    let before = before.iter().chain(&between).map(|point| moved(*point, period * turns));
+    start.into_iter().chain(behind).chain(before).collect()
+}
+
 /// The diagram within a field of paper, with this lettering; nothing where there is no value.
 #[must_use]
-pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
+pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<ShapeGroup> {
+    let trace = &Trace { points: from_start(&trace.points, trace.period), ..trace.clone() };
     let values = trace.points.iter().flat_map(|[_, motion, cut]| [*motion, *cut]);
     let (low, high) = values.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
     let (Some([first, ..]), Some([last, ..])) = (trace.points.first(), trace.points.last()) else { return Vec::new() };
@@ -58,7 +79,7 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
     let mut grid = Vec::new();
     let mut value = low;
     while value <= high + 0.5 * step {
-        grid.push(Shape::Line(at(*first, value), at(*last, value)));
+        grid.push(SheetShape::Line(at(*first, value), at(*last, value)));
         let place = at(*first, value) - Vector2::new(0.5, 0.35) * size;
         let text = rounded((value / step).round() * step);
         let (text, size) = font::fitted_in_one(&text, size, (LEFT - 2.0) * k);
@@ -71,7 +92,7 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
             let [place, ..] = values;
             values.get(index).map(|value| at(*place, *value))
         };
-        vec![Shape::Path(trace.points.iter().filter_map(point).collect())]
+        vec![SheetShape::Path(trace.points.iter().filter_map(point).collect())]
     };
     let (head, head_size) = font::fitted_in_one(&trace.head, size, width);
     let below = Vector2::new(0.5 * (inner.least.x + inner.largest.x), inner.least.y - 2.7 * size);
@@ -80,10 +101,10 @@ pub(crate) fn within(field: &Extents, k: f64, trace: &Trace) -> Vec<Group> {
         words(below, size, TextAnchor::Middle, trace.places),
     ];
     vec![
-        Group::new("trace-grid", "lines of the diagram", grid),
-        Group::new("trace-cut", "as cut", curve(2)),
-        Group::new("trace-motion", "by the law", curve(1)),
-        Group { class: "facts", ..Group::new("trace-names", "names of the diagram", names) },
+        ShapeGroup::new("trace-grid", "lines of the diagram", grid),
+        ShapeGroup::new("trace-cut", "as cut", curve(2)),
+        ShapeGroup::new("trace-motion", "by the law", curve(1)),
+        ShapeGroup { class: "facts", ..ShapeGroup::new("trace-names", "names of the diagram", names) },
     ]
 }
 
@@ -94,13 +115,15 @@ fn along(
     size: f64,
     width: f64,
     at: impl Fn(f64, bool) -> Vector2<f64>,
-) -> Vec<Shape> {
+) -> Vec<SheetShape> {
     let mut lines = Vec::new();
     let named = (font::width("0000", size) * (last - first) / (width * trace.step)).ceil().max(1.0) * trace.step;
     let mut place = (first / trace.step).ceil() * trace.step;
     while place <= last {
-        lines.push(Shape::Line(at(place, false), at(place, true)));
-        let shown = trace.period.map_or(place, |period| place.rem_euclid(period)) + 0.0;
+        lines.push(SheetShape::Line(at(place, false), at(place, true)));
+        // The end of a whole turn is 360°, not 0.
+        let shown =
+            trace.period.filter(|period| place > *period).map_or(place, |period| place.rem_euclid(period)) + 0.0;
         if (place / named - (place / named).round()).abs() < 1e-9 {
             let below = at(place, false) - Vector2::new(0.0, 1.3 * size);
             lines.push(words(below, size, TextAnchor::Middle, rounded(shown)));
@@ -108,4 +131,21 @@ fn along(
         place += trace.step;
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A turn that begins at 300° is shown from 0, cut where it passes 360°, and ends there.
+    #[test]
+    fn a_turn_is_shown_from_its_start() {
+        let points: Vec<[f64; 3]> = [300.0, 340.0, 380.0, 500.0, 660.0].map(|at| [at, 2.0 * at, -at]).to_vec();
+        let shown = from_start(&points, Some(360.0));
+        let places: Vec<f64> = shown.iter().map(|[at, ..]| *at).collect();
+        assert_eq!(places, [0.0, 20.0, 140.0, 300.0, 300.0, 340.0, 360.0]);
+        assert_eq!(shown.first(), Some(&[0.0, 720.0, -360.0]));
+        assert_eq!(shown.last(), Some(&[360.0, 720.0, -360.0]));
+        assert_eq!(from_start(&points, None), points);
+    }
 }

@@ -1,14 +1,16 @@
 //! The point table: one list of columns, walked for every kind of cam.
 //!
 //! A row holds what a cam knows at one place, in the units of the table; what a cam does not have stays empty, and so does the
-//! column. A new column is one function and one line in [`COLUMNS`].
+//! column. A new column is one function and one line in [`COLUMNS`]; a domain adds its own to a row.
 
-use crate::motion::{Jet, State};
+use crate::motion::Jet;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
+use std::fmt;
+use std::sync::Arc;
 
 /// What is known at one place of a cam: millimetres, degrees, newtons; derivatives by the parameter in radians.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Row {
     /// Cam angle.
     pub cam_deg: Option<f64>,
@@ -20,10 +22,10 @@ pub struct Row {
     pub at: Option<(usize, f64)>,
     /// Lift in radians, of a cam under a swinging follower.
     pub swing: Option<Jet>,
-    /// Bed, bottom and crank of a press.
-    pub bed: Option<BedRow>,
-    /// The press under a cam that turns, as its forces are computed from.
-    pub state: Option<State>,
+    /// Parameter of the motion of a cam that does not turn, m.
+    pub parameter: Option<f64>,
+    /// What moves behind the follower, where its load knows that.
+    pub load: Option<Arc<dyn LoadState>>,
     /// A point of the follower's curve.
     pub curve: Option<Vector2<f64>>,
     /// A point of the profile.
@@ -32,20 +34,16 @@ pub struct Row {
     pub pressure_angle_deg: Option<f64>,
     /// Signed radius of curvature of the follower's curve, convex positive.
     pub curve_radius: Option<f64>,
-    /// The same of the profile.
+    /// Signed radius of curvature of the profile, convex positive.
     pub profile_radius: Option<f64>,
     /// Forces of a turning cam.
     pub force: Option<ForceRow>,
-    /// The force balance of a press.
-    pub balance: Option<BalanceRow>,
-    /// What only a plate on the bed has.
-    pub plate: Option<PlateRow>,
     /// What only a body has whose sections differ.
     pub surface: Option<SurfaceRow>,
     /// Velocity and acceleration of the follower on the written outline, by the angle of the shaft; NaN where it is not in
     /// touch.
     pub cut: Option<[f64; 2]>,
-    /// Size of the residual force with the lift as cut, N, of a cam of a press that turns.
+    /// Size of the residual force with the lift as cut, N, of a cam that turns under a load.
     pub residual_cut: Option<f64>,
     /// Torque of a second disc on the same shaft, N·m.
     pub torque_of_second: Option<f64>,
@@ -53,17 +51,29 @@ pub struct Row {
     pub face: Option<f64>,
     /// Whether the follower swings.
     pub swings: bool,
+    /// What a domain adds, in the order of its columns.
+    pub added: Vec<(&'static AddedColumn, f64)>,
 }
 
-/// The press at a place.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct BedRow {
-    /// Crank angle in [0, 360), of a cam that turns.
-    pub crank_deg: Option<f64>,
-    /// Overrun of the bed.
-    pub x: f64,
-    /// Δx of the bottom.
-    pub dx: f64,
+/// A column that a domain adds.
+#[derive(Debug, PartialEq, Eq)]
+pub struct AddedColumn {
+    /// Its name, with its unit.
+    pub name: &'static str,
+    /// The column of [`COLUMNS`] after which it comes.
+    pub after: &'static str,
+}
+
+/// What moves behind the follower of a cam, at a place of its motion.
+pub trait LoadState: fmt::Debug + Send + Sync {
+    /// Force that presses the follower onto the cam along its path, N.
+    fn pressing(&self) -> f64;
+
+    /// Size of the residual force with the follower `moved` (m) along its path from where the motion puts it, N.
+    fn residual(&self, moved: f64) -> f64;
+
+    /// What it adds to the row of the table at a place of a turn.
+    fn columns(&self, at: &TurnAngles) -> Vec<(&'static AddedColumn, f64)>;
 }
 
 /// Forces of a turning cam at a place.
@@ -75,38 +85,6 @@ pub struct ForceRow {
     pub torque: f64,
     /// Along the normal, where it is known.
     pub contact: Option<f64>,
-}
-
-/// The force balance of a press at a place, N; 0 outside the reversal.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct BalanceRow {
-    /// Inertia force of the bed, (1).
-    pub inertia: f64,
-    /// Force of the air with this cam.
-    pub air: f64,
-    /// Force of the air of a plain buffer, (9): fixed bottom, column by (7) at this speed.
-    pub air_fixed_bottom: f64,
-    /// Inertia less air, where nothing else takes part in the balance.
-    pub residual: Option<f64>,
-}
-
-/// A plate at a place.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PlateRow {
-    /// Lift of the bottom by the angle of the crank, m.
-    pub lift: Jet,
-    /// ψ of (19).
-    pub psi_deg: f64,
-    /// α of (21).
-    pub alpha_deg: f64,
-    /// dΔx/dx.
-    pub slope: f64,
-    /// Normal force of one roller while the bed is braked, (17).
-    pub roller_force: f64,
-    /// Residual force of (18) on the way back.
-    pub residual_return: f64,
-    /// Residual force of (18) while the bed is braked.
-    pub residual_braking: f64,
 }
 
 /// A surface at a place.
@@ -128,19 +106,13 @@ pub struct SurfaceRow {
     pub axial_force: f64,
 }
 
-/// A column: its name, with its unit, and its value; `None` for a cam that does not have it.
-pub type Column = (&'static str, fn(&Row) -> Option<f64>);
+/// A column of every kind of cam: its name, with its unit, and its value; `None` for a cam that does not have it.
+pub type CamColumn = (&'static str, fn(&Row) -> Option<f64>);
 
-/// Every column, in the order of the table. Two entries of one name stand where two kinds of cam have it at different
-/// places; a cam has one of them.
-pub const COLUMNS: &[Column] = &[
+/// Every column but those of domains, in the order of the table.
+pub const COLUMNS: &[CamColumn] = &[
     ("z_mm", |row| Some(row.surface?.z)),
     ("cam_deg", |row| row.cam_deg),
-    ("crank_deg", |row| row.bed?.crank_deg),
-    ("x_mm", |row| Some(row.bed?.x)),
-    ("dx_mm", |row| Some(row.bed?.dx)),
-    ("psi_deg", |row| Some(row.plate?.psi_deg)),
-    ("alpha_deg", |row| Some(row.plate?.alpha_deg)),
     ("position_mm", |row| row.lift.and(row.position).map(|position| 1e3 * position)),
     ("position_deg", |row| row.swing.and(row.position).map(f64::to_degrees)),
     // Rounding at the lowest point must not give a negative lift.
@@ -156,10 +128,6 @@ pub const COLUMNS: &[Column] = &[
     ("pitch_y_mm", |row| Some(row.curve?.y)),
     ("profile_x_mm", |row| Some(row.profile?.x)),
     ("profile_y_mm", |row| Some(row.profile?.y)),
-    ("roller_force_n", |row| Some(row.plate?.roller_force)),
-    ("residual_return_n", |row| Some(row.plate?.residual_return)),
-    ("residual_braking_n", |row| Some(row.plate?.residual_braking)),
-    ("slope", |row| Some(row.plate?.slope)),
     ("pressure_angle_deg", |row| row.pressure_angle_deg),
     ("pitch_curvature_radius_mm", |row| row.curve_radius),
     ("profile_curvature_radius_mm", |row| row.profile_radius),
@@ -178,17 +146,9 @@ pub const COLUMNS: &[Column] = &[
     ("acceleration_cut_mm_per_rad2", |row| row.cut.filter(|_| !row.swings).map(|[_, acceleration]| 1e3 * acceleration)),
     ("velocity_cut_rad_per_rad", |row| row.cut.filter(|_| row.swings).map(|[velocity, _]| velocity)),
     ("acceleration_cut_rad_per_rad2", |row| row.cut.filter(|_| row.swings).map(|[_, acceleration]| acceleration)),
-    ("inertia_n", |row| Some(row.balance?.inertia)),
-    ("air_n", |row| Some(row.balance?.air)),
-    ("air_fixed_bottom_n", |row| Some(row.balance?.air_fixed_bottom)),
-    ("residual_n", |row| row.balance?.residual),
     ("residual_cut_n", |row| row.residual_cut),
     ("compensator_torque_nm", |row| row.torque_of_second),
     ("torque_left_nm", |row| Some(row.force?.torque + row.torque_of_second?)),
-    ("lift_mm", |row| Some(1e3 * row.plate?.lift.s.max(0.0))),
-    ("velocity_mm_per_rad", |row| Some(1e3 * row.plate?.lift.ds)),
-    ("acceleration_mm_per_rad2", |row| Some(1e3 * row.plate?.lift.dds)),
-    ("jerk_mm_per_rad3", |row| Some(1e3 * row.plate?.lift.ddds)),
     ("face_mm", |row| row.face),
 ];
 
@@ -202,30 +162,66 @@ pub struct Table {
     pub columns: Vec<&'static str>,
     /// Rows, each as long as `columns`.
     pub rows: Vec<Vec<f64>>,
-    /// Of each column whether a row may have no value in it, which is NaN then.
+    /// For each column whether a row may have no value in it; the value is NaN then.
     pub may_lack: Vec<bool>,
     /// A column of words before the others, with its name: a word for each row.
-    pub words: Option<(&'static str, Vec<&'static str>)>,
+    pub words: Option<(&'static str, Vec<String>)>,
+}
+
+/// A column of a table.
+#[derive(Debug, Clone, Copy)]
+pub struct Column {
+    /// Its name, with its unit.
+    pub name: &'static str,
+    source: ColumnSource,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum ColumnSource {
+    Every(fn(&Row) -> Option<f64>),
+    /// Place among what the domain adds to each row.
+    Added(usize),
 }
 
 /// The columns that a cam has.
 #[must_use]
-pub fn columns(rows: &[Row]) -> Vec<&'static Column> {
-    let has = |column: &&Column| rows.first().is_some_and(|row| (column.1)(row).is_some());
-    COLUMNS.iter().filter(has).collect()
+pub fn columns(rows: &[Row]) -> Vec<Column> {
+    let Some(first) = rows.first() else { return Vec::new() };
+    let mut all = Vec::new();
+    for (name, of) in COLUMNS {
+        if of(first).is_some() {
+            all.push(Column { name, source: ColumnSource::Every(*of) });
+        }
+        let behind = first.added.iter().enumerate().filter(|(_, (column, _))| column.after == *name);
+        all.extend(behind.map(|(at, (column, _))| Column { name: column.name, source: ColumnSource::Added(at) }));
+    }
+    all
 }
 
 /// The value of a row in a column, NaN where there is none.
 #[must_use]
-pub fn value(row: &Row, (_, of): &Column) -> f64 {
+pub fn value(row: &Row, column: &Column) -> f64 {
+    let value = match column.source {
+        ColumnSource::Every(of) => of(row),
+        ColumnSource::Added(at) => row.added.get(at).map(|(_, value)| *value),
+    };
     // A negative zero is zero.
-    of(row).unwrap_or(f64::NAN) + 0.0
+    value.unwrap_or(f64::NAN) + 0.0
+}
+
+/// The value of a row in the column of a name; `None` where its cam does not have the column.
+#[must_use]
+pub fn named_value(row: &Row, name: &str) -> Option<f64> {
+    let added = || row.added.iter().find(|(column, _)| column.name == name).map(|(_, value)| *value);
+    let own = COLUMNS.iter().find(|(column, _)| *column == name).and_then(|(_, of)| of(row));
+    // A negative zero is zero.
+    own.or_else(added).map(|value| value + 0.0)
 }
 
 /// Whether a row may have no value in a column.
 #[must_use]
-pub fn may_lack((name, _): &Column) -> bool {
-    name.contains(AS_CUT)
+pub fn may_lack(column: &Column) -> bool {
+    column.name.contains(AS_CUT)
 }
 
 impl Table {
@@ -234,35 +230,35 @@ impl Table {
     pub fn of(rows: &[Row]) -> Self {
         let columns = columns(rows);
         Self {
-            columns: columns.iter().map(|(name, _)| *name).collect(),
+            columns: columns.iter().map(|column| column.name).collect(),
             rows: rows.iter().map(|row| columns.iter().map(|column| value(row, column)).collect()).collect(),
-            may_lack: columns.iter().map(|column| may_lack(column)).collect(),
+            may_lack: columns.iter().map(may_lack).collect(),
             words: None,
         }
     }
 
-    /// Rows of anything but a cam, under the names of what is told of each.
+    /// Rows of anything but a cam, under the names of the columns.
     #[must_use]
-    pub fn listed<T>(told: &[Told<T>], rows: &[T]) -> Self {
-        let values = |row: &T| told.iter().map(|(_, value)| value(row) + 0.0).collect();
+    pub fn listed<T>(listed: &[ListedColumn<T>], rows: &[T]) -> Self {
+        let values = |row: &T| listed.iter().map(|(_, value)| value(row) + 0.0).collect();
         Self {
-            columns: told.iter().map(|(name, _)| *name).collect(),
+            columns: listed.iter().map(|(name, _)| *name).collect(),
             rows: rows.iter().map(values).collect(),
-            may_lack: vec![true; told.len()],
+            may_lack: vec![true; listed.len()],
             words: None,
         }
     }
 }
 
 /// The name of a value with its unit, and the value of a row.
-pub type Told<T> = (&'static str, fn(&T) -> f64);
+pub type ListedColumn<T> = (&'static str, fn(&T) -> f64);
 
-/// Where a row of a turning cam's table stands.
+/// The angles of a row of the table of a turning cam.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Turned {
+pub struct TurnAngles {
     /// Cam angle, degrees in [0, 360).
     pub cam_deg: f64,
-    /// The same in radians: at the start of a lobe the very number at which its motion starts.
+    /// Cam angle in radians: at the start of a lobe exactly the number at which its motion starts.
     pub angle: f64,
     /// Crank angle of a cam with a lobe for each turn of the crank, degrees in [0, 360).
     pub crank_deg: f64,
@@ -271,7 +267,7 @@ pub struct Turned {
 /// The row `index` of `rows` in a turn of a cam of so many lobes, all at least 1. Whole turns of the crank are taken off as
 /// whole numbers: an angle in degrees would lose the round ones.
 #[must_use]
-pub fn turned(index: u32, rows: u32, lobes: u32) -> Turned {
+pub fn turned(index: u32, rows: u32, lobes: u32) -> TurnAngles {
     let (rows, lobes) = (rows.max(1), lobes.max(1));
     let degrees = |index: f64| 360.0 * index / f64::from(rows);
     let (whole, part) = {
@@ -281,7 +277,7 @@ pub fn turned(index: u32, rows: u32, lobes: u32) -> Turned {
     #[expect(clippy::cast_precision_loss, reason = "fewer than 2^32 rows and lobes")]
     let (whole, crank_deg) = (whole as f64, degrees(part as f64));
     let angle = TAU * whole / f64::from(lobes) + crank_deg.to_radians() / f64::from(lobes);
-    Turned { cam_deg: degrees(f64::from(index)), angle, crank_deg }
+    TurnAngles { cam_deg: degrees(f64::from(index)), angle, crank_deg }
 }
 
 #[cfg(test)]
@@ -303,36 +299,28 @@ mod tests {
         assert_eq!((third.cam_deg, third.crank_deg, third.angle), (120.0, 0.0, TAU / 3.0));
     }
 
-    /// A name stands twice only for cams that cannot be the same.
     #[test]
     fn a_cam_has_every_column_once() {
         let turning = Row {
             cam_deg: Some(1.0),
             position: Some(1.0),
             lift: Some(Jet::default()),
-            at: None,
-            swing: None,
-            bed: Some(BedRow { crank_deg: Some(1.0), ..BedRow::default() }),
-            state: None,
             curve: Some(Vector2::zeros()),
             profile: Some(Vector2::zeros()),
             pressure_angle_deg: Some(1.0),
             curve_radius: Some(1.0),
             profile_radius: Some(1.0),
             force: Some(ForceRow { contact: Some(1.0), ..ForceRow::default() }),
-            balance: Some(BalanceRow { residual: Some(1.0), ..BalanceRow::default() }),
-            plate: None,
             surface: Some(SurfaceRow::default()),
             cut: Some([1.0; 2]),
             residual_cut: Some(1.0),
             torque_of_second: Some(1.0),
             face: Some(1.0),
-            swings: false,
+            ..Row::default()
         };
-        let plate = Row { lift: None, force: None, plate: Some(PlateRow::default()), ..turning };
-        let swinging = Row { lift: None, swing: Some(Jet::default()), swings: true, ..turning };
+        let swinging = Row { lift: None, swing: Some(Jet::default()), swings: true, ..turning.clone() };
         let mut all: Vec<&str> = Vec::new();
-        for row in [turning, plate, swinging] {
+        for row in [turning, swinging] {
             let columns = Table::of(&[row]).columns;
             let mut names = columns.clone();
             names.sort_unstable();
@@ -342,5 +330,17 @@ mod tests {
         }
         assert!(COLUMNS.iter().all(|(name, _)| all.contains(name)), "every column belongs to some cam");
         assert!(Table::of(&[]).columns.is_empty());
+    }
+
+    #[test]
+    fn columns_of_a_domain_stand_where_they_belong() {
+        const FIRST: AddedColumn = AddedColumn { name: "x_mm", after: "cam_deg" };
+        const NEXT: AddedColumn = AddedColumn { name: "dx_mm", after: "cam_deg" };
+        let row =
+            |x: f64| Row { lift: Some(Jet::default()), added: vec![(&FIRST, x), (&NEXT, -0.0)], ..Row::default() };
+        let table = Table::of(&[row(1.0), row(2.0)]);
+        assert_eq!(table.columns[..3], ["x_mm", "dx_mm", "lift_mm"]);
+        assert_eq!(table.rows[1][..2], [2.0, 0.0]);
+        assert!(table.rows[1][1].is_sign_positive());
     }
 }

@@ -1,21 +1,25 @@
-//! The static unbalance that the holes of a disc leave.
+//! The static unbalance that remains in a disc with its balance holes.
 
-use super::{Bound, Check, Evidence, Explained, On};
+use super::check::{Evidence, FileCheck};
 use crate::body::NEGLIGIBLE_MM;
-use crate::body::balancing::{MOST_HOLES, Unbalanced, moment};
-use crate::report::{Finding, Verdict};
+use crate::body::balancing::{BalanceFailure, MOST_HOLES, moment};
+use crate::check::{Check, CheckExplanation, CheckScope};
+use crate::report::{Bound, Finding, Verdict};
 use std::f64::consts::PI;
 
-pub(super) const CHECK: Check = Check {
-    name: "balance",
-    on: On::Cam,
-    about: "The static unbalance of a disc that the holes within cam.balance leave, of the metal as written: outline as read back, \
-            bore with keyway, holes. Holes keep limits.wall, at least a millimetre, to all of them and to each other.",
-    explained: Explained {
-        bound: Bound::AtMost,
-        formula: "U = m e, of the metal left, with the centre of mass off the shaft by e",
-        usual: "camgen's own rule: e at most a nanometre, the rounding of the holes; ISO 21940-11 has the grades that rotors need",
-        change: "a wider band `cam.balance`, a larger `cam.base_radius`, or no balancing",
+pub(super) const CHECK: FileCheck = FileCheck {
+    check: Check {
+        name: "balance",
+        on: CheckScope::Cam,
+        unit: "g·mm",
+        about: "The static unbalance that remains in a disc with its holes within cam.balance, for the metal as written: outline as read back, \
+                bore with keyway, holes. Holes keep limits.wall, at least a millimetre, to all of these and to each other.",
+        explained: CheckExplanation {
+            bound: Bound::AtMost,
+            formula: "U = m e, m the mass of the metal left, e the distance of its centre of mass from the shaft",
+            usual: "camgen's own rule: e at most a nanometre, the rounding of the holes; for the grades of rotors see ISO 21940-11",
+            change: "a wider band `cam.balance`, a larger `cam.base_radius`, or no balancing",
+        },
     },
     run: check,
 };
@@ -24,7 +28,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let part = evidence.drawn?.parts.first()?;
     let balancing = part.balancing.as_ref()?;
     let machine = evidence.body.machine();
-    // Grams times millimetres of a disc of this thickness, or of one as thick as a millimetre.
+    // Grams times millimetres for a disc of this thickness, or of one millimetre where none is given.
     let thickness = machine.cam.thickness.unwrap_or(1e-3);
     let weight = 1e-3 * machine.cam.density() * thickness;
     let outline = evidence.outlines.first().map_or(&part.outline.contour, |written| &written.contour);
@@ -41,16 +45,16 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         ([], Some(unbalanced)) => words(unbalanced, weight, before),
         ([], None) => "nothing to balance".into(),
     };
-    Some(Finding { note: Some(note), ..CHECK.found(after, Some(limit), "g·mm", Verdict::of(after <= limit)) })
+    Some(Finding { note: Some(note), ..CHECK.found(after, Some(limit), Verdict::of(after <= limit)) })
 }
 
-fn words(unbalanced: &Unbalanced, weight: f64, before: f64) -> String {
-    let family = format!("1 to {MOST_HOLES} equal holes evenly spaced on a circle about the heavy side");
+fn words(unbalanced: &BalanceFailure, weight: f64, before: f64) -> String {
+    let family = format!("1 to {MOST_HOLES} equal holes, evenly spaced on an arc about the heavy side");
     let best = unbalanced.best.map_or_else(
         || format!("no hole fits into the band of cam.balance; tried: {family}"),
         |row| {
             format!(
-                "the band of cam.balance is too narrow: of {family}, none leaves less than {:.0} g·mm; {} of radius {:.2} mm at \
+                "the band of cam.balance is too narrow: with {family}, at least {:.0} g·mm remain; {} of radius {:.2} mm at \
                  {:.2} mm from the shaft, {:.2}° apart, would leave {:.0} g·mm",
                 weight * unbalanced.least,
                 row.count,
@@ -63,6 +67,6 @@ fn words(unbalanced: &Unbalanced, weight: f64, before: f64) -> String {
     );
     match unbalanced.band {
         Some((inner, outer)) => format!("{best}; cam.balance = \"{inner} mm .. {outer} mm\" would pass"),
-        None => format!("{best}; no wider band would do"),
+        None => format!("{best}; no wider band would help"),
     }
 }

@@ -1,50 +1,64 @@
-//! What the follower feels: velocity and acceleration on the outline as it is in the file.
+//! The motion as cut: velocity and acceleration of the follower on the outline as it is in the file.
 
-use super::{Bound, Check, Evidence, Explained, On, felt_sections};
-use crate::body::Body;
+use super::check::{Evidence, FileCheck};
+use super::felt_sections;
+use crate::body::{Body, curves_of};
+use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Edge;
 use crate::motion::Quantity;
-use crate::profile::followed::{Errors, Followed};
+use crate::profile::followed::{ErrorsOnChain, FollowerOnChain};
+use crate::profile::outline::too_many_arcs;
 use crate::profile::{Curves, Worst};
-use crate::report::{Felt, Finding, Place, Verdict, shown};
+use crate::report::{AsCutError, Bound, Finding, Place, Verdict, shown};
 
-pub(super) const CHECK: Check = Check {
-    name: "acceleration",
-    on: On::Outline,
-    about: "The largest error of the follower's acceleration on the outline as it is in the file, over the largest acceleration of \
-            the motion. Arcs give the acceleration in steps, however small their distance from the exact curve.",
-    explained: Explained {
-        bound: Bound::AtMost,
-        formula: "max |s''(cut) − s''(motion)|/max |s''(motion)|",
-        usual: "camgen's own rule: 5 % as it is drawn; it warns above 10 %",
-        change: "a smaller --tolerance-acceleration, `--outline spline`, or `limits.acceleration_share`",
+pub(super) const CHECK: FileCheck = FileCheck {
+    check: Check {
+        name: "acceleration",
+        on: CheckScope::Outline,
+        unit: "1",
+        about: "The largest error of the follower's acceleration on the outline as it is in the file, over the largest acceleration of \
+                the motion. On arcs the acceleration changes in steps, however close they are to the exact curve.",
+        explained: CheckExplanation {
+            bound: Bound::AtMost,
+            formula: "max |s''(cut) − s''(motion)|/max |s''(motion)|",
+            usual: "camgen's own rule: outlines are drawn to 5 %, the check warns above 10 %",
+            change: "a smaller --tolerance-acceleration, `--outline spline`, or `limits.acceleration_share`",
+        },
     },
     run: check,
 };
 
-/// A tolerance may be exceeded by the rounding of the solved error.
+/// The solved error may exceed the tolerance by its rounding.
 const ROUNDING: f64 = 1e-6;
-/// Warns beyond this share when no limit is given.
+/// A step of the velocity below this share of its largest value is the rounding of a file.
+const FELT: f64 = 1e-6;
+/// Without a limit, the check warns beyond this share.
 const CUSTOMARY: f64 = 0.1;
 
-/// What the follower feels on the flanks of a written outline, each a list of edges that lies as the follower meets it;
-/// `None` where it is nowhere in touch.
-pub(super) fn felt<'s>(body: &dyn Body, curves: Curves<'_>, flanks: impl Iterator<Item = &'s [Edge]>) -> Option<Felt> {
-    let errors = flanks.map(|edges| Followed::new(curves, edges).errors());
-    let errors = errors.fold(Errors::NONE, Errors::or_larger);
+/// The motion of the follower on the flanks of a written outline, each a list of edges in the order in which the follower meets them;
+/// `None` where it touches nowhere.
+pub(super) fn of_flanks<'s>(
+    body: &dyn Body,
+    curves: Curves<'_>,
+    flanks: impl Iterator<Item = &'s [Edge]>,
+) -> Option<AsCutError> {
+    let errors = flanks.map(|edges| FollowerOnChain::new(curves, edges).errors());
+    let errors = errors.fold(ErrorsOnChain::NONE, ErrorsOnChain::or_larger);
     if errors.acceleration == Worst::NONE {
         return None;
     }
     let swings = curves.motion.quantity() == Quantity::Angle;
     let unit = if swings { 1.0 } else { MILLIMETRES };
-    let [_, acceleration] = body.largest_rates();
-    let told = |worst: Worst| (unit * worst.value.max(0.0), body.place(worst.at));
-    Some(Felt {
+    let [velocity, acceleration] = body.largest_rates();
+    let kink = errors.velocity_step;
+    let placed = |worst: Worst| (unit * worst.value.max(0.0), body.place(worst.at));
+    Some(AsCutError {
         swings,
-        velocity_error: told(errors.velocity),
-        acceleration_error: told(errors.acceleration),
-        acceleration_step: told(errors.step),
+        velocity_error: placed(errors.velocity),
+        acceleration_error: placed(errors.acceleration),
+        acceleration_step: placed(errors.step),
+        velocity_step: (kink.value > FELT * velocity).then(|| placed(kink)),
         acceleration_of_motion: unit * acceleration,
         shaft_speed: body.shaft_speed(),
         // The mass of a plate's follower moves along another path than the bottom.
@@ -52,18 +66,25 @@ pub(super) fn felt<'s>(body: &dyn Body, curves: Curves<'_>, flanks: impl Iterato
     })
 }
 
+/// The motion on the outlines that a follower rolls on, for the outline with the largest error of the acceleration.
+fn of_outlines(evidence: &Evidence<'_>) -> Option<AsCutError> {
+    let all = evidence.rolled.iter().filter_map(|rolled| rolled.as_cut);
+    all.reduce(|worst, next| if next.acceleration_error.0 > worst.acceleration_error.0 { next } else { worst })
+}
+
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
-    let of_sections = |conoid| felt_sections::felt(conoid, evidence.outlines);
-    let felt =
-        evidence.rolled.and_then(|rolled| rolled.felt).or_else(|| evidence.body.spatial().and_then(of_sections))?;
-    let share = felt.acceleration_share()?;
-    let unit = if felt.swings { 1.0 } else { MILLIMETRES };
-    let over = |(error, _): (f64, Place), asked: f64| error > unit * asked * (1.0 + ROUNDING);
-    let too_fast = over(felt.velocity_error, evidence.motion.velocity);
-    let too_much = over(felt.acceleration_error, evidence.motion.acceleration);
+    let motion = match evidence.body.surface() {
+        Some(surface) => felt_sections::of_sections(evidence, surface),
+        None => of_outlines(evidence),
+    }?;
+    let share = motion.acceleration_share()?;
+    let unit = if motion.swings { 1.0 } else { MILLIMETRES };
+    let over = |(error, _): (f64, Place), requested: f64| error > unit * requested * (1.0 + ROUNDING);
+    let too_fast = over(motion.velocity_error, evidence.motion.velocity);
+    let too_much = over(motion.acceleration_error, evidence.motion.acceleration);
     let given = evidence.body.machine().limits.acceleration_share;
-    let asked = unit * evidence.motion.acceleration / felt.acceleration_of_motion;
-    let limit = given.unwrap_or(CUSTOMARY).min(asked);
+    let requested = unit * evidence.motion.acceleration / motion.acceleration_of_motion;
+    let limit = given.unwrap_or(CUSTOMARY).min(requested);
     let verdict = match given {
         Some(limit) if share > limit => Verdict::Fail,
         _ if (too_fast && evidence.strict[0]) || (too_much && evidence.strict[1]) => Verdict::Fail,
@@ -71,37 +92,45 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         None if share > CUSTOMARY => Verdict::Warn,
         _ => Verdict::Pass,
     };
-    let found = CHECK.found(share, Some(limit), "1", verdict);
-    let mut note = words(&felt);
-    if evidence.body.spatial().is_some() {
+    let found = CHECK.found(share, Some(limit), verdict);
+    let mut note = words(&motion);
+    let needed = curves_of(evidence.body).and_then(|curves| too_many_arcs(curves, evidence.motion));
+    if let (true, Some(arcs)) = (too_much, needed) {
+        note =
+            format!("the acceleration requested needs {} arcs or more, too many for a control; {note}", arcs.round());
+    }
+    if evidence.body.surface().is_some() {
         note = format!("sections, to first order: {note}");
     }
     if too_fast {
-        let [velocity, _] = felt.units();
+        let [velocity, _] = motion.units();
         note =
-            format!("the velocity exceeds the {} {velocity} asked for; {note}", shown(unit * evidence.motion.velocity));
+            format!("the velocity exceeds the {} {velocity} requested; {note}", shown(unit * evidence.motion.velocity));
     }
-    Some(Finding { place: felt.acceleration_error.1, note: Some(note), ..found })
+    Some(Finding { place: motion.acceleration_error.1, note: Some(note), ..found })
 }
 
-fn words(felt: &Felt) -> String {
-    let [velocity, acceleration] = felt.units();
+fn words(motion: &AsCutError) -> String {
+    let [velocity, acceleration] = motion.units();
     let mut words = format!(
         "off by {} {acceleration} of the motion's {}, in steps of up to {} at {}; the velocity by {} {velocity} at {}",
-        shown(felt.acceleration_error.0),
-        shown(felt.acceleration_of_motion),
-        shown(felt.acceleration_step.0),
-        felt.acceleration_step.1,
-        shown(felt.velocity_error.0),
-        felt.velocity_error.1,
+        shown(motion.acceleration_error.0),
+        shown(motion.acceleration_of_motion),
+        shown(motion.acceleration_step.0),
+        motion.acceleration_step.1,
+        shown(motion.velocity_error.0),
+        motion.velocity_error.1,
     );
-    let unit = if felt.swings { "rad/s²" } else { "m/s²" };
+    if let Some((step, place)) = motion.velocity_step {
+        words += &format!("; at the kinks the velocity steps by up to {} {velocity}, at {place}", shown(step));
+    }
+    let unit = if motion.swings { "rad/s²" } else { "m/s²" };
     if let (Some(error), Some(motion)) =
-        (felt.acceleration(felt.acceleration_error.0), felt.acceleration(felt.acceleration_of_motion))
+        (motion.acceleration(motion.acceleration_error.0), motion.acceleration(motion.acceleration_of_motion))
     {
         words += &format!("; at this speed {} of {} {unit}", shown(error), shown(motion));
     }
-    if let Some(force) = felt.force() {
+    if let Some(force) = motion.force() {
         words += &format!(", {} N of the follower's own mass", shown(force));
     }
     words

@@ -1,33 +1,34 @@
-//! What the follower of a conoid feels of its written sections, to first order.
+//! The motion of a conoid's follower on its written sections, to first order.
 //!
-//! The cut of a section is touched by rollers that stand at different places along the axis, and the file of one section says
-//! nothing of the flank between them. What follows from it is what its own heading and curvature miss of the exact cut:
+//! The cut of a section is touched by rollers at different places along the axis, and the file of one section does not contain
+//! the flank between them. What can be derived from it is by how much its own heading and curvature miss the exact cut:
 //! δs' = (ℓ/cos α) δheading and δs'' = −(ℓ²/cos α) δκ, ℓ the speed of the cut and α the angle between its normal and the roller's path.
 
-use super::WrittenOutline;
-use crate::body::Body;
-use crate::body::conoid::{BESIDE, Conoid, Missed};
+use super::check::{Evidence, WrittenOutline};
+use crate::body::surface::{BESIDE, RateErrors, Surface};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Edge;
-use crate::machine::Rotation;
 use crate::numeric::parallel;
 use crate::profile::Worst;
-use crate::report::Felt;
+use crate::report::AsCutError;
 
-/// Places on each edge, both ends among them.
+/// Places on each edge, including both ends.
 const PLACES: u32 = 5;
-/// What the follower feels of the sections; `None` where a section has no such place.
-pub(super) fn felt(conoid: &Conoid, outlines: &[WrittenOutline]) -> Option<Felt> {
-    let turned = conoid.machine().cam.rotation == Rotation::CounterClockwise;
+/// The errors of motion on the sections; `None` where a section has no such place.
+pub(super) fn of_sections(evidence: &Evidence<'_>, surface: &dyn Surface) -> Option<AsCutError> {
+    let (body, cuts) = (evidence.body, evidence.body.cuts());
     let of_section = |section: &WrittenOutline| {
+        let turned = cuts.get(section.cut).is_some_and(|cut| cut.mirrored == [true]);
         let contour = if turned { section.contour.mirrored_about_x() } else { section.contour.clone() };
         let edges: Vec<Edge> = contour.edges().collect();
-        let off =
-            |edge: &Edge| (0..PLACES).map(|place| off(conoid, section.z, edge, place)).collect::<Option<Vec<Missed>>>();
-        let all: Option<Vec<Vec<Missed>>> = edges.iter().map(off).collect();
+        let off = |edge: &Edge| {
+            (0..PLACES).map(|place| off(surface, section.z, edge, place)).collect::<Option<Vec<RateErrors>>>()
+        };
+        let all: Option<Vec<Vec<RateErrors>>> = edges.iter().map(off).collect();
         all.map(|all| (section.z, all))
     };
-    let all: Option<Vec<(f64, Vec<Vec<Missed>>)>> = parallel::map(outlines, of_section).into_iter().collect();
+    let all: Option<Vec<(f64, Vec<Vec<RateErrors>>)>> =
+        parallel::map(evidence.outlines, of_section).into_iter().collect();
     let (mut velocity, mut acceleration, mut step) = (Worst::NONE, Worst::NONE, Worst::NONE);
     for (z, edges) in &all? {
         let next = edges.iter().cycle().skip(1);
@@ -42,13 +43,14 @@ pub(super) fn felt(conoid: &Conoid, outlines: &[WrittenOutline]) -> Option<Felt>
             }
         }
     }
-    let [_, largest] = conoid.largest_rates();
-    let told = |worst: Worst| (MILLIMETRES * worst.value.max(0.0), conoid.place(worst.at));
-    Some(Felt {
+    let [_, largest] = body.largest_rates();
+    let placed = |worst: Worst| (MILLIMETRES * worst.value.max(0.0), body.place(worst.at));
+    Some(AsCutError {
         swings: false,
-        velocity_error: told(velocity),
-        acceleration_error: told(acceleration),
-        acceleration_step: told(step),
+        velocity_error: placed(velocity),
+        acceleration_error: placed(acceleration),
+        acceleration_step: placed(step),
+        velocity_step: None,
         acceleration_of_motion: MILLIMETRES * largest,
         // Every section has a speed of its own.
         shaft_speed: None,
@@ -56,8 +58,8 @@ pub(super) fn felt(conoid: &Conoid, outlines: &[WrittenOutline]) -> Option<Felt>
     })
 }
 
-/// What an edge misses of the exact cut at one of its places.
-fn off(conoid: &Conoid, z: f64, edge: &Edge, place: u32) -> Option<Missed> {
+/// By how much an edge misses the exact cut at one of its places.
+fn off(surface: &dyn Surface, z: f64, edge: &Edge, place: u32) -> Option<RateErrors> {
     let share = f64::from(place) / f64::from(PLACES - 1);
     let (point, tangent) = edge.at(share);
     // At its ends an edge belongs to the piece of the law on its own side.
@@ -68,5 +70,5 @@ fn off(conoid: &Conoid, z: f64, edge: &Edge, place: u32) -> Option<Missed> {
     } else {
         0.0
     };
-    conoid.missed(z, (point / MILLIMETRES, tangent, MILLIMETRES * edge.curvature(share)), inwards)
+    surface.rate_errors(z, (point / MILLIMETRES, tangent, MILLIMETRES * edge.curvature(share)), inwards)
 }

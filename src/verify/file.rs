@@ -1,130 +1,165 @@
-//! What a DXF file must be before it can be rolled on: one closed outline in millimetres, on its layer, readable, once.
+//! What a DXF file must be before a follower can be rolled on it: one closed outline in millimetres, on its layer, readable, not duplicated.
 
-use super::{Bound, Check, Evidence, Explained, place};
+use super::check::{Evidence, FileCheck, place};
+use crate::check::{Check, CheckExplanation};
 use crate::geometry::contour::Edge;
-use crate::reading::{OUTLINE_LAYER, Reading, Stray, Unit, few};
-use crate::report::{Finding, Verdict};
+use crate::reading::{FileUnit, OUTLINE_LAYER, OutlinePlace, Reading, StrayEntity, few};
+use crate::report::{Bound, Finding, Verdict};
 
-pub(super) const LAYER: Check = Check::on_file(
+pub(super) const LAYER: FileCheck = FileCheck::on_file(
     "layer",
-    "Whether the layer CAM_PROFILE, where the outline belongs, exists and is not empty.",
-    Explained {
+    "",
+    "Whether the layer CAM_PROFILE, or that of --layer, where the outline belongs, exists and is not empty. Without it the only closed contour \
+     of the file is taken for the outline, with a warning.",
+    CheckExplanation {
         bound: Bound::Exactly,
-        formula: "the number of layers CAM_PROFILE that hold something",
+        formula: "the number of layers CAM_PROFILE that are not empty",
         usual: "camgen's own rule: its cut files have the outline on CAM_PROFILE",
-        change: "put the outline on layer CAM_PROFILE of the file",
+        change: "put the outline on layer CAM_PROFILE of the file, or give its layer with --layer",
     },
-    |evidence| Some(layer(evidence.foreign?)),
+    |evidence| worst_of(evidence, layer),
 );
 
-pub(super) const UNITS: Check = Check::on_file(
+pub(super) const UNITS: FileCheck = FileCheck::on_file(
     "units",
+    "mm",
     "Whether the file is in millimetres.",
-    Explained {
+    CheckExplanation {
         bound: Bound::Exactly,
         formula: "$INSUNITS, or $MEASUREMENT, of a DXF file; the length unit of a STEP file",
         usual: "camgen's own rule: its files are in millimetres",
         change: "save the file in millimetres, or scale it",
     },
     |evidence| {
-        let told = evidence.foreign.map(|reading| reading.unit).or(evidence.solid.map(|solid| solid.file.unit))?;
-        Some(unit(told))
+        let stated =
+            evidence.foreign.first().map(|reading| reading.unit).or(evidence.solid.map(|solid| solid.file.unit))?;
+        Some(unit(stated))
     },
 );
 
-pub(super) const READABLE: Check = Check::on_file(
+pub(super) const READABLE: FileCheck = FileCheck::on_file(
     "readable",
-    "How many entities would be cut, or may be, and are not lines of no width in one plane.",
-    Explained {
+    "",
+    "How many entities would or might be cut but are not plain curves in the plane of the drawing, without a width.",
+    CheckExplanation {
         bound: Bound::AtMost,
         formula: "the number of such entities",
-        usual: "camgen's own rule: what a reader cannot place may be cut",
+        usual: "camgen's own rule: what a reader cannot place might be cut",
         change: "delete or explode the entities that are named, and save a plain two-dimensional DXF",
     },
-    |evidence| Some(readable(evidence, evidence.foreign?)),
+    |evidence| worst_of(evidence, |reading| readable(evidence, reading)),
 );
 
-pub(super) const DUPLICATES: Check = Check::on_file(
+pub(super) const DUPLICATES: FileCheck = FileCheck::on_file(
     "duplicates",
+    "",
     "How many segments lie on another one or have no length.",
-    Explained {
+    CheckExplanation {
         bound: Bound::AtMost,
         formula: "the number of such segments",
-        usual: "camgen's own rule; shops ask for cut files without duplicates, which would be cut twice",
+        usual: "camgen's own rule; a duplicate would be cut twice",
         change: "delete the segments that are named (OVERKILL in AutoCAD)",
     },
-    |evidence| Some(duplicates(evidence, evidence.foreign?)),
+    |evidence| worst_of(evidence, |reading| duplicates(evidence, reading)),
 );
 
-pub(super) const CONTOURS: Check = Check::on_file(
+pub(super) const CONTOURS: FileCheck = FileCheck::on_file(
     "contours",
-    "How many separate contours lie on the layer of the outline; it must be one that goes round once.",
-    Explained {
+    "",
+    "How many separate contours lie on the layer of the outline; it must be one that goes round the shaft once.",
+    CheckExplanation {
         bound: Bound::Exactly,
         formula: "the number of contours after joining ends",
         usual: "camgen's own rule: a cam has one outline",
-        change: "keep one contour on CAM_PROFILE; put the rest on other layers",
+        change: "keep one contour on the layer of the outline; put the rest on other layers",
     },
-    |evidence| Some(contours(evidence.foreign?)),
+    |evidence| worst_of(evidence, contours),
 );
 
-pub(super) const CLOSED: Check = Check::on_file(
+pub(super) const CLOSED: FileCheck = FileCheck::on_file(
     "closed",
-    "How far apart the ends of the outline are.",
-    Explained {
+    "mm",
+    "The distance between the two ends of the outline.",
+    CheckExplanation {
         bound: Bound::AtMost,
         formula: "the distance of the two ends of the outline",
         usual: "camgen's own rule: a tenth of the tolerance",
         change: "join the ends of the outline",
     },
-    |evidence| closed(evidence, evidence.foreign?),
+    |evidence| evidence.foreign.iter().filter_map(|reading| closed(evidence, reading)).reduce(worse),
 );
 
-/// Entities that are told one by one.
-const MOST_TOLD: usize = 5;
+/// Most entities that are listed one by one.
+const MOST_LISTED: usize = 5;
 
-/// Ends nearer than this share of the tolerance are one: programs round coordinates to four to six decimals.
+/// Ends nearer than this share of the tolerance count as one: programs round coordinates to four to six decimals.
 const JOIN_SHARE: f64 = 0.1;
 
-/// Reach (mm) within which ends of a file are joined, for a tolerance in mm.
+/// Within this distance (mm) the ends of a file are joined, for a tolerance in mm.
 #[must_use]
 pub fn join_reach(tolerance_mm: f64) -> f64 {
     JOIN_SHARE * tolerance_mm
 }
 
+/// The finding on the outline of a file that is worst, the first of equals.
+fn worst_of(evidence: &Evidence<'_>, judge: impl Fn(&Reading) -> Finding) -> Option<Finding> {
+    evidence.foreign.iter().map(judge).reduce(worse)
+}
+
+/// The finding with the worse verdict, the first of equals.
+fn worse(first: Finding, next: Finding) -> Finding {
+    if next.verdict.rank() < first.verdict.rank() { next } else { first }
+}
+
 #[expect(clippy::cast_precision_loss, reason = "counts of things in a file")]
 fn count(check: &Check, found: usize, limit: usize, kept: bool, note: Option<String>) -> Finding {
-    Finding { note, ..check.found(found as f64, Some(limit as f64), "", Verdict::of(kept)) }
+    Finding { note, ..check.found(found as f64, Some(limit as f64), Verdict::of(kept)) }
 }
 
 fn layer(reading: &Reading) -> Finding {
-    let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(OUTLINE_LAYER));
     let layers = few(&reading.layers);
-    let note = (!there).then(|| format!("nothing lies on layer {OUTLINE_LAYER}; the file's layers are: {layers}"));
+    let OutlinePlace::Layer(name) = &reading.outline else {
+        let note = format!(
+            "layer {OUTLINE_LAYER} is empty or missing: the only closed contour is taken for the outline; the file's layers are: {layers}"
+        );
+        return Finding { verdict: Verdict::Warn, ..count(&LAYER, 0, 1, false, Some(note)) };
+    };
+    let there = reading.layers.iter().any(|layer| layer.eq_ignore_ascii_case(name));
+    let note = (!there).then(|| {
+        let other = if reading.layers.is_empty() { "" } else { "; --layer NAME checks the outline on another layer" };
+        format!("layer {name} is empty or missing; the file's layers are: {layers}{other}")
+    });
     count(&LAYER, usize::from(there), 1, there, note)
 }
 
-fn unit(told: Unit) -> Finding {
-    let (verdict, note) = match told {
-        Unit::Millimetres => (Verdict::Pass, None),
-        Unit::Untold => (Verdict::Info, Some("the file states no unit; read as millimetres".to_owned())),
-        Unit::Other(name) => (Verdict::Fail, Some(format!("the file is in {name}, not in millimetres"))),
+fn unit(stated: FileUnit) -> Finding {
+    let (verdict, note) = match stated {
+        FileUnit::Millimetres => (Verdict::Pass, None),
+        FileUnit::Unstated => (Verdict::Info, Some("the file states no unit; read as millimetres".to_owned())),
+        FileUnit::UnstatedEnglish => {
+            let why = "the file states no unit, and its $MEASUREMENT = 0 stands for inches; read as millimetres";
+            (Verdict::Warn, Some(why.to_owned()))
+        }
+        FileUnit::Other(name) => (
+            Verdict::Fail,
+            Some(format!("the file is in {name}, not in millimetres; the other checks are of its true size")),
+        ),
     };
-    Finding { note, ..UNITS.found(1.0, None, "mm", verdict) }
+    Finding { note, ..UNITS.found(1.0, None, verdict) }
 }
 
 fn readable(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
     let (found, information) = (&reading.unreadable, &reading.information);
-    let mut notes = told(found);
+    let mut notes = listed(found);
     if !information.is_empty() {
-        notes.push(format!("on the layer of the outline, cutting nothing: {}", told(information).join("; ")));
+        notes.push(format!("on the layer of the outline, not cut: {}", listed(information).join("; ")));
     }
     notes.extend_from_slice(&reading.remarks);
     if reading.splines > 0 {
         notes.push(format!("{} curves were read as arcs", reading.splines));
     }
     if !reading.hidden.is_empty() {
-        notes.push(format!("not seen, so not cut: what is hidden on layer {}", few(&reading.hidden)));
+        notes.push(format!("hidden, so not cut: the entities on layer {}", few(&reading.hidden)));
     }
     let finding = count(&READABLE, found.len(), 0, found.is_empty(), (!notes.is_empty()).then(|| notes.join("; ")));
     let doubtful = found.is_empty() && !information.is_empty();
@@ -133,10 +168,10 @@ fn readable(evidence: &Evidence<'_>, reading: &Reading) -> Finding {
     Finding { verdict, place: place.unwrap_or_default(), ..finding }
 }
 
-/// Each entity in words, the first of many.
-fn told(strays: &[Stray]) -> Vec<String> {
-    let mut words: Vec<String> = strays.iter().take(MOST_TOLD).map(ToString::to_string).collect();
-    words.extend((strays.len() > MOST_TOLD).then(|| format!("and {} more", strays.len() - MOST_TOLD)));
+/// Each entity in words, up to a limit.
+fn listed(strays: &[StrayEntity]) -> Vec<String> {
+    let mut words: Vec<String> = strays.iter().take(MOST_LISTED).map(ToString::to_string).collect();
+    words.extend((strays.len() > MOST_LISTED).then(|| format!("and {} more", strays.len() - MOST_LISTED)));
     words
 }
 
@@ -170,7 +205,7 @@ fn closed(evidence: &Evidence<'_>, reading: &Reading) -> Option<Finding> {
     let open = reading.chains.iter().filter(|chain| !chain.closed).max_by(|a, b| a.gap().total_cmp(&b.gap()));
     let end = open.and_then(|chain| chain.edges.last()).map(Edge::end);
     let gap = open.or(reading.chains.first())?.gap();
-    let found = CLOSED.found(gap, Some(join_reach(evidence.tolerance_mm)), "mm", Verdict::of(open.is_none()));
+    let found = CLOSED.found(gap, Some(join_reach(evidence.tolerance_mm)), Verdict::of(open.is_none()));
     Some(Finding {
         place: end.map(|point| place(evidence.body, point)).unwrap_or_default(),
         note: open.map(|_| "the outline is open: its ends do not meet".to_owned()),

@@ -1,45 +1,47 @@
-//! The flank of a conoid's solid as read from a file, against the exact surface: how far every patch is from it, and that the
-//! patches go round once.
+//! The flank of a conoid's solid as read from a file, compared with the exact surface: the distance of every patch from it, and
+//! whether the patches go round once.
 //!
 //! The exact surface is the pitch surface offset by the roller. From a point of a patch the nearest place of the pitch surface is
 //! found by Newton's method with exact derivatives; its distance less the roller's radius is the distance from the flank, since
-//! the two lie on one normal. Nothing of what made the patches is used, nor how they are parametrised.
+//! the two lie on one normal. Neither the curves the patches were made from nor their parameters are used.
 //!
-//! Between the samples a bound holds. On a cell, a share of a knot span of 15 mm at the most, the deviation is a polynomial of the
-//! patch's degrees less a surface so smooth there that one degree more holds it. A polynomial of degree m is nowhere larger than
+//! Between the samples a bound holds. On a cell, a share of a knot span no longer than 15 mm, the deviation is a polynomial of the
+//! patch's degrees less a surface so smooth there that one degree more represents it. A polynomial of degree m is nowhere larger than
 //! 1/cos(m π/2n) times its largest size at the n Chebyshev places (H. Ehlich, K. Zeller, Schwankung von Polynomen zwischen
 //! Gitterpunkten, 1964). The places are doubled until the bound keeps the limit, or a sample breaks it.
 
-use super::{Bound, Check, Evidence, Explained, On, at};
-use crate::body::Body;
-use crate::body::conoid::Conoid;
+use super::check::{Evidence, FileCheck, at};
+use crate::body::Surface;
+use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::MILLIMETRES;
-use crate::geometry::nurbs::Surface;
-use crate::machine::Rotation;
+use crate::geometry::nurbs::NurbsSurface as Patch;
 use crate::motion::Motion;
 use crate::numeric::parallel;
 use crate::profile::Worst;
-use crate::report::{Finding, Verdict};
+use crate::report::{Bound, Finding, Verdict};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 
-pub(super) const CHECK: Check = Check {
-    name: "flank",
-    on: On::File,
-    about: "The largest distance of the flank of a conoid's solid, as read from a STEP file, from the exact surface, wherever on its \
-            patches.",
-    explained: Explained {
-        bound: Bound::AtMost,
-        formula: "max distance of the file's patches from the exact surface, bounded between places",
-        usual: "the tolerance",
-        change: "a finer --tolerance in the program that wrote the file",
+pub(super) const CHECK: FileCheck = FileCheck {
+    check: Check {
+        name: "flank",
+        on: CheckScope::File,
+        unit: "mm",
+        about: "The largest distance of the flank of a conoid's solid, as read from a STEP file, from the exact surface, anywhere on its \
+                patches.",
+        explained: CheckExplanation {
+            bound: Bound::AtMost,
+            formula: "max distance of the file's patches from the exact surface, bounded between places",
+            usual: "the tolerance",
+            change: "a finer --tolerance in the program that wrote the file",
+        },
     },
     run: check,
 };
 
 /// Longest side of a cell, mm: on a tenth of a radian and less the exact surface is as smooth as its splines.
 const CELL: f64 = 15.0;
-/// Most cells along a span: a span of a metre is none of a cam.
+/// Most cells along a span: no cam has a span of a metre.
 const MOST_CELLS: f64 = 64.0;
 /// Places along a cell at first, and how often they are doubled.
 const PLACES: u32 = 8;
@@ -49,32 +51,32 @@ const SLACK: f64 = 1.01;
 /// Newton steps to the nearest place of the pitch surface, and the step (m) at which they end.
 const STEPS: usize = 12;
 const AT_REST: f64 = 1e-10;
-/// Least cosine between the normal of a patch and that of the exact surface: within a tolerance of it nothing folds.
+/// Least cosine between the normal of a patch and that of the exact surface: a patch within a tolerance of it is not folded.
 const SAME_SIDE: f64 = 0.9;
 /// Points on each side of a patch by which the patches are counted round the axis, and how near one turn they must be.
 const AROUND: u32 = 256;
 const ONE_TURN: f64 = 1e-3;
 
-/// The exact surface, seen from a point.
-struct Exact<'a> {
-    conoid: &'a Conoid,
+/// The exact surface, as the reference for points of a patch.
+struct ExactSurface<'a> {
+    surface: &'a dyn Surface,
     turned: bool,
 }
 
-/// What was found of a cell or of the whole flank.
+/// The result for a cell or for the whole flank.
 #[derive(Debug, Clone, Copy)]
-struct Found {
+struct FlankDeviation {
     worst: Worst,
     bound: f64,
     samples: usize,
     folded: bool,
 }
 
-impl Found {
+impl FlankDeviation {
     const NONE: Self = Self { worst: Worst { value: 0.0, at: 0.0, z: 0.0 }, bound: 0.0, samples: 0, folded: false };
 
     fn with(self, other: Self) -> Self {
-        // Of a deviation that is no number nothing may be larger.
+        // Where the deviation is not a number, it is the largest.
         let larger = !(other.worst.value.abs() <= self.worst.value.abs());
         Self {
             worst: if larger { other.worst } else { self.worst },
@@ -85,25 +87,25 @@ impl Found {
     }
 }
 
-impl Exact<'_> {
+impl ExactSurface<'_> {
     /// The deviation of a point (mm) of a patch with this normal, positive where metal is missing, with the cam angle and the
     /// place along the axis of the sphere that touches there; and the cosine between the normals.
     fn deviation(&self, slice: &dyn Motion, point: Vector3<f64>, normal: Vector3<f64>) -> (Worst, f64) {
         let sense = if self.turned { -1.0 } else { 1.0 };
         let mirrored = |v: Vector3<f64>| Vector3::new(v.x, sense * v.y, v.z);
         let (point, normal) = (mirrored(point) / MILLIMETRES, mirrored(normal));
-        let roller = self.conoid.roller();
-        // The centre of a sphere that touches the patch.
-        let centre = point + normal * roller.radius;
+        let [radius, offset] = self.surface.sphere();
+        // The centre of a sphere that touches the patch there.
+        let centre = point + normal * radius;
         let across = centre.xy();
-        let height = (across.norm_squared() - roller.offset * roller.offset).max(0.0).sqrt();
-        let mut angle = libm::atan2(across.y, across.x) - libm::atan2(roller.offset, height);
+        let height = (across.norm_squared() - offset * offset).max(0.0).sqrt();
+        let mut angle = libm::atan2(across.y, across.x) - libm::atan2(offset, height);
         let mut z = centre.z;
         let mut away = Vector3::repeat(f64::NAN);
         let mut rests = false;
         for _ in 0..STEPS {
             let (piece, inside) = slice.locate(angle);
-            let (place, [by_angle, by_z], [twice_angle, mixed, twice_z]) = self.pitch(piece, inside, z);
+            let (place, [by_angle, by_z], [twice_angle, mixed, twice_z]) = self.surface.pitch(piece, inside, z);
             away = point - place;
             let (a, b) = (away.dot(&by_angle), away.dot(&by_z));
             let e = by_angle.norm_squared() - away.dot(&twice_angle);
@@ -119,59 +121,37 @@ impl Exact<'_> {
             }
         }
         let outward = -away.normalize();
-        // Where the steps do not come to rest, the place is not the nearest.
-        let value = if rests { MILLIMETRES * (away.norm() - roller.radius) } else { f64::INFINITY };
+        // Where the steps do not converge, the place is not the nearest.
+        let value = if rests { MILLIMETRES * (away.norm() - radius) } else { f64::INFINITY };
         (Worst { value, at: slice.locate(angle).1, z }, outward.dot(&normal))
-    }
-
-    /// The pitch surface: place, first and second derivatives by the angle and along the axis, m.
-    fn pitch(&self, piece: usize, angle: f64, z: f64) -> (Vector3<f64>, [Vector3<f64>; 2], [Vector3<f64>; 3]) {
-        let lift = self.conoid.lift(piece, angle, z);
-        let offset = self.conoid.roller().offset;
-        let prime = self.conoid.prime_radius();
-        let height = ((prime - offset) * (prime + offset)).sqrt() + lift[0][0];
-        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-        let frame = |along: f64, across: f64, axial: f64| {
-            Vector3::new(along * cos - across * sin, along * sin + across * cos, axial)
-        };
-        let slope = lift[1][0] - offset;
-        (
-            frame(height, offset, z),
-            [frame(slope, height, 0.0), frame(lift[0][1], 0.0, 1.0)],
-            [
-                frame(lift[2][0] - height, lift[1][0] + slope, 0.0),
-                frame(lift[1][1], lift[0][1], 0.0),
-                frame(lift[0][2], 0.0, 0.0),
-            ],
-        )
     }
 }
 
-/// A share of a knot span in both directions.
-struct Cell<'a> {
-    patch: &'a Surface,
+/// A part of a knot span in both directions.
+struct SpanCell<'a> {
+    patch: &'a Patch,
     /// The patch's own normal points out of the metal.
     outward: bool,
     u: (f64, f64),
     v: (f64, f64),
 }
 
-impl Cell<'_> {
-    /// The deviation at n by n Chebyshev places, with the bound for what lies between.
-    fn at_places(&self, exact: &Exact<'_>, slice: &dyn Motion, n: u32) -> Found {
+impl SpanCell<'_> {
+    /// The deviation at n by n Chebyshev places, with the bound for the places between.
+    fn at_places(&self, exact: &ExactSurface<'_>, slice: &dyn Motion, n: u32) -> FlankDeviation {
         let place = |range: (f64, f64), i: u32| {
             let share = 0.5 - 0.5 * libm::cos(PI * (f64::from(i) + 0.5) / f64::from(n));
             range.0 + (range.1 - range.0) * share
         };
         let sense = if self.outward { 1.0 } else { -1.0 };
-        let mut found = Found::NONE;
+        let mut found = FlankDeviation::NONE;
         for i in 0..n {
             for j in 0..n {
                 let [point, by_u, by_v] = self.patch.at(place(self.u, i), place(self.v, j));
                 let normal = by_u.cross(&by_v).normalize() * sense;
                 let (worst, cosine) = exact.deviation(slice, point, normal);
                 let folded = !(cosine >= SAME_SIDE);
-                found = found.with(Found { worst, bound: 0.0, samples: 1, folded });
+                found = found.with(FlankDeviation { worst, bound: 0.0, samples: 1, folded });
             }
         }
         let growth = |degree: usize| {
@@ -180,11 +160,11 @@ impl Cell<'_> {
             if angle < 0.5 * PI { 1.0 / libm::cos(angle) } else { f64::INFINITY }
         };
         let bound = found.worst.value.abs() * growth(self.patch.u.degree) * growth(self.patch.v.degree);
-        Found { bound, ..found }
+        FlankDeviation { bound, ..found }
     }
 
-    /// As many places as it takes to decide.
-    fn found(&self, exact: &Exact<'_>, slice: &dyn Motion, tolerance: f64) -> Found {
+    /// The deviation with as many places as the decision needs.
+    fn found(&self, exact: &ExactSurface<'_>, slice: &dyn Motion, tolerance: f64) -> FlankDeviation {
         let mut found = self.at_places(exact, slice, PLACES);
         for doubling in 1..=DOUBLINGS {
             let decided = found.bound <= tolerance || !(found.worst.value.abs() <= tolerance);
@@ -200,14 +180,14 @@ impl Cell<'_> {
 }
 
 /// The knot spans of a patch.
-fn spans(patch: &Surface, outward: bool) -> Vec<Cell<'_>> {
+fn spans(patch: &Patch, outward: bool) -> Vec<SpanCell<'_>> {
     let across = patch.v.spans();
-    let with = |u: (f64, f64)| across.iter().map(move |v| Cell { patch, outward, u, v: *v });
+    let with = |u: (f64, f64)| across.iter().map(move |v| SpanCell { patch, outward, u, v: *v });
     patch.u.spans().into_iter().flat_map(with).collect()
 }
 
-/// What is found of a knot span, cell by cell; one that is off at its first places is off.
-fn of_span(span: &Cell<'_>, exact: &Exact<'_>, slice: &dyn Motion, tolerance: f64) -> Found {
+/// The result for a knot span, cell by cell; a span that fails at its first places is not refined.
+fn of_span(span: &SpanCell<'_>, exact: &ExactSurface<'_>, slice: &dyn Motion, tolerance: f64) -> FlankDeviation {
     let whole = span.at_places(exact, slice, PLACES);
     if whole.folded || !(whole.worst.value.abs() <= tolerance) {
         return whole;
@@ -221,10 +201,10 @@ fn of_span(span: &Cell<'_>, exact: &Exact<'_>, slice: &dyn Motion, tolerance: f6
         let place = |share: f64| range.0 + (range.1 - range.0) * share;
         (place(i / of), place((i + 1.0) / of))
     };
-    let mut found = Found::NONE;
+    let mut found = FlankDeviation::NONE;
     let (mut i, mut j) = (0.0, 0.0);
     while i < along {
-        let cell = Cell { u: part(u, along, i), v: part(v, across, j), ..*span };
+        let cell = SpanCell { u: part(u, along, i), v: part(v, across, j), ..*span };
         found = found.with(cell.found(exact, slice, tolerance));
         j += 1.0;
         if j >= across {
@@ -234,9 +214,9 @@ fn of_span(span: &Cell<'_>, exact: &Exact<'_>, slice: &dyn Motion, tolerance: f6
     found
 }
 
-/// Area of a patch in polar angle and height, rad mm, by its sides: all patches together go round once where their sum is a turn
+/// Area of a patch in polar angle and height, rad mm, by its sides: the patches go round once where their sum is a full turn
 /// times the height.
-fn around(patch: &Surface, outward: bool) -> f64 {
+fn around(patch: &Patch, outward: bool) -> f64 {
     let mut area = 0.0;
     for side in patch.boundary().into_iter().flatten() {
         let (first, last) = side.knots.range();
@@ -251,15 +231,15 @@ fn around(patch: &Surface, outward: bool) -> f64 {
 }
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
-    let (conoid, solid) = (evidence.body.spatial()?, evidence.solid?);
+    let (surface, solid) = (evidence.body.surface()?, evidence.solid?);
     let patches = &solid.form.patches;
-    let turned = conoid.machine().cam.rotation == Rotation::CounterClockwise;
-    let (exact, slice) = (Exact { conoid, turned }, conoid.slice(0.0));
+    let turned = evidence.body.cuts().first().is_some_and(|cut| cut.mirrored == [true]);
+    let (exact, law) = (ExactSurface { surface, turned }, surface.law(0.0));
     let limit = evidence.tolerance_mm;
-    let spans: Vec<Cell<'_>> = patches.iter().flat_map(|(patch, outward)| spans(patch, *outward)).collect();
-    let all: Vec<Found> = parallel::map(&spans, |span| of_span(span, &exact, &slice, limit));
-    let found = all.into_iter().fold(Found::NONE, Found::with);
-    let (low, high) = conoid.ends();
+    let spans: Vec<SpanCell<'_>> = patches.iter().flat_map(|(patch, outward)| spans(patch, *outward)).collect();
+    let all: Vec<FlankDeviation> = parallel::map(&spans, |span| of_span(span, &exact, &*law, limit));
+    let found = all.into_iter().fold(FlankDeviation::NONE, FlankDeviation::with);
+    let (low, high) = surface.ends();
     let round: f64 = patches.iter().map(|(patch, outward)| around(patch, *outward)).sum();
     let turns = round / (TAU * MILLIMETRES * (high - low));
     let once = (turns - 1.0).abs() <= ONE_TURN;
@@ -277,11 +257,12 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     if found.folded {
         words.push("a patch is folded or turned inside out".to_owned());
     }
-    let finding = CHECK.found(size, Some(limit), "mm", Verdict::of(kept));
+    let finding = CHECK.found(size, Some(limit), Verdict::of(kept));
     Some(at(evidence.body, &found.worst, finding, Some(words.join("; "))))
 }
 
 #[cfg(test)]
+#[cfg(feature = "press")]
 mod tests {
     use super::*;
     use crate::geometry::nurbs::{Knots, weighted};
@@ -293,23 +274,23 @@ mod tests {
         Spec::conoid(machine, vec![20.0, 35.0], None).solve().expect("a conoid")
     }
 
-    /// A point beside the flank, on its normal, is as far from it as that, also seen along a normal that is off by a tenth of a radian.
+    /// A point on the normal of the flank is at its distance from it, also along a normal that is off by a tenth of a radian.
     #[test]
     fn a_deviation_is_the_distance_from_the_nearest_place() {
         let cam = conoid();
-        let conoid = cam.body().spatial().expect("a conoid");
-        let (exact, slice) = (Exact { conoid, turned: false }, conoid.slice(0.0));
-        let (low, high) = conoid.ends();
-        let radius = conoid.roller().radius;
+        let surface = cam.body().surface().expect("a conoid");
+        let (exact, slice) = (ExactSurface { surface, turned: false }, surface.law(0.0));
+        let (low, high) = surface.ends();
+        let radius = surface.sphere()[0];
         for i in 0..60 {
             let (piece, angle) = slice.locate(TAU * f64::from(i) / 60.0);
             let z = low + (high - low) * f64::from(i % 7 + 1) / 9.0;
-            let (place, [by_angle, by_z], _) = exact.pitch(piece, angle, z);
+            let (place, [by_angle, by_z], _) = surface.pitch(piece, angle, z);
             let outward = by_angle.cross(&by_z).normalize();
             for (off, turned) in [(0.0, 0.0), (2e-6, 0.1), (-3e-6, -0.1)] {
                 let point = (place - outward * (radius - off)) * MILLIMETRES;
                 let normal = (outward + by_angle.normalize() * turned).normalize();
-                let (found, cosine) = exact.deviation(&slice, point, normal);
+                let (found, cosine) = exact.deviation(&*slice, point, normal);
                 assert!((found.value + MILLIMETRES * off).abs() < 1e-10, "{i} {off}: {found:?}");
                 assert!((cosine - outward.dot(&normal)).abs() < 1e-6, "{i} {off}: {cosine}");
             }
@@ -317,10 +298,10 @@ mod tests {
     }
 
     /// A bilinear patch between four corners.
-    fn bilinear(corners: [[Vector3<f64>; 2]; 2]) -> Surface {
+    fn bilinear(corners: [[Vector3<f64>; 2]; 2]) -> Patch {
         let knots = || Knots { degree: 1, values: vec![0.0, 0.0, 1.0, 1.0] };
         let controls = corners.iter().map(|row| row.iter().map(|corner| weighted(*corner, 1.0)).collect()).collect();
-        Surface { u: knots(), v: knots(), controls }
+        Patch { u: knots(), v: knots(), controls }
     }
 
     /// A quarter of a turn, four high, three above the plane: whichever way its sides run.
@@ -335,25 +316,25 @@ mod tests {
         assert!((other + area).abs() < 1e-9, "{other}");
     }
 
-    /// Where the places are doubled all of them are counted: 8², 16², 32² and 64².
+    /// Where the places are doubled, all of them are counted: 8², 16², 32² and 64².
     #[test]
     fn every_place_of_a_cell_is_counted() {
         let cam = conoid();
-        let conoid = cam.body().spatial().expect("a conoid");
-        let (exact, slice) = (Exact { conoid, turned: false }, conoid.slice(0.0));
-        let (low, high) = conoid.ends();
+        let surface = cam.body().surface().expect("a conoid");
+        let (exact, slice) = (ExactSurface { surface, turned: false }, surface.law(0.0));
+        let (low, high) = surface.ends();
         let on = |angle: f64, z: f64| {
             let (piece, inside) = slice.locate(angle);
-            let (place, [by_angle, by_z], _) = exact.pitch(piece, inside, z);
-            (place - by_angle.cross(&by_z).normalize() * conoid.roller().radius) * MILLIMETRES
+            let (place, [by_angle, by_z], _) = surface.pitch(piece, inside, z);
+            (place - by_angle.cross(&by_z).normalize() * surface.sphere()[0]) * MILLIMETRES
         };
         let (z, height) = (0.5 * (low + high), 0.1 * (high - low));
         let patch = bilinear([[on(1.0, z), on(1.0, z + height)], [on(1.1, z), on(1.1, z + height)]]);
-        let cell = Cell { patch: &patch, outward: true, u: (0.0, 1.0), v: (0.0, 1.0) };
-        let finest = cell.at_places(&exact, &slice, PLACES << DOUBLINGS);
+        let cell = SpanCell { patch: &patch, outward: true, u: (0.0, 1.0), v: (0.0, 1.0) };
+        let finest = cell.at_places(&exact, &*slice, PLACES << DOUBLINGS);
         assert!(!finest.folded && finest.worst.value.abs() > 0.0 && finest.bound > finest.worst.value.abs());
-        // Larger than anything found, and smaller than any bound.
-        let found = cell.found(&exact, &slice, finest.worst.value.abs() * (1.0 + 1e-12));
+        // Larger than any deviation found, and smaller than any bound.
+        let found = cell.found(&exact, &*slice, finest.worst.value.abs() * (1.0 + 1e-12));
         assert_eq!(found.samples, 64 + 256 + 1024 + 4096);
     }
 }

@@ -1,27 +1,29 @@
-//! Kinks between the segments of the outline. The corners of a plate's ends do not count: joints within a few tolerances of where
-//! they are meant to be.
+//! Kinks between the segments of the outline. The corners at the ends of a plate do not count: joints within a few tolerances of
+//! their intended place.
 
-use super::{Bound, Check, Evidence, Explained, On, WrittenOutline, place};
+use super::check::{Evidence, FileCheck, WrittenOutline, place};
 use crate::body::CORNER_REACH;
+use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::contour::Vertex;
-use crate::report::{Finding, Place, Verdict};
+use crate::profile::followed::LARGEST_SMOOTH_KINK;
+use crate::report::{Bound, Finding, Place, Verdict};
 
-pub(super) const CHECK: Check = Check {
-    name: "tangency",
-    on: On::Outline,
-    about: "The largest kink between neighbouring arcs and lines of the outline. Controls and shops take up to 0.05° for smooth; \
-            more is a mark on the metal and a knock in the follower.",
-    explained: Explained {
-        bound: Bound::AtMost,
-        formula: "the angle between the tangents on both sides of a joint",
-        usual: "0.05°, camgen's own rule",
-        change: "write the file with more decimals, or let camgen write it again; splines and chords from other programs have such kinks",
+pub(super) const CHECK: FileCheck = FileCheck {
+    check: Check {
+        name: "tangency",
+        on: CheckScope::Outline,
+        unit: "deg",
+        about: "The largest kink between neighbouring arcs and lines of the outline. Controls and shops treat up to 0.05° as smooth; \
+                more leaves a mark on the metal and knocks the follower.",
+        explained: CheckExplanation {
+            bound: Bound::AtMost,
+            formula: "the angle between the tangents on both sides of a joint",
+            usual: "0.05°, camgen's own rule",
+            change: "write the file with more decimals, or write it with camgen again; splines and chords of other programs often have such kinks",
+        },
     },
     run: check,
 };
-
-/// Largest kink, degrees, that controllers and shops treat as smooth.
-const LIMIT: f64 = 0.05;
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let body = evidence.body;
@@ -36,8 +38,8 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let all = evidence.outlines.iter().filter_map(of);
     let (turn, vertex, z) = all.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
     let value = turn.abs().to_degrees();
-    let found = CHECK.found(value, Some(LIMIT), "deg", Verdict::of(value <= LIMIT));
-    Some(match body.spatial() {
+    let found = CHECK.found(value, Some(LARGEST_SMOOTH_KINK), Verdict::of(value <= LARGEST_SMOOTH_KINK));
+    Some(match body.surface() {
         Some(_) => Finding { place: Place::default(), note: Some(format!("at z = {:.3} mm", 1e3 * z)), ..found },
         None => Finding { place: place(body, vertex.point), ..found },
     })

@@ -1,36 +1,37 @@
-//! Tables as CSV: a header line, then numbers, the shortest that round-trip, unquoted, behind a word where rows have names. Where there is no
-//! value a cell is `NaN`.
+//! Tables as CSV: a header line, then numbers, unquoted, in the shortest form that reads back exactly, after a name where rows have names.
+//! A cell without a value is `NaN`.
 
-use super::number::push_shortest;
-use super::{Format, FormatError, OfAnalysis, When, fits_all};
-use crate::body::Body;
-use crate::geometry::MILLIMETRES;
+use super::number::shortest;
+use super::{AnalysisFormat, Format, FormatSelection, fits_all};
+use crate::body::{Body, torque};
 use crate::motion::{Jet, Quantity};
-use crate::profile::followed::Followed;
+use crate::profile::followed::FollowerOnChain;
+use crate::refusal::Refusal;
 use crate::table::{self, Row, Table};
 use crate::verify::WrittenOutline;
+use std::borrow::Cow;
 
-/// Most rows of a point table: a cam angle of six seconds from one to the next.
+/// Most rows of a point table: one every six seconds of cam angle.
 pub const MOST_ROWS: u32 = 200_000;
 
 /// The point table.
 pub const FORMAT: Format = Format {
     name: "csv",
-    when: When::Usual,
+    when: FormatSelection::Usual,
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".csv".into()],
     write: |cam| {
-        let rows = rows(cam.body, cam.second.map(|(body, _)| body), cam.outlines, cam.samples);
+        let rows = rows(cam.body, cam.other_cams.first().map(|(body, _)| *body), cam.outlines, cam.samples);
         Ok(vec![of_cam(&rows)?])
     },
-    of_analysis: Some(OfAnalysis {
+    of_analysis: Some(AnalysisFormat {
         endings: |analysis| analysis.tables.iter().map(|(ending, _)| format!("{ending}.csv")).collect(),
         write: |account| Ok(account.analysis.tables.iter().map(|(_, table)| write(table)).collect()),
     }),
 };
 
-/// The point table of a cam, with what its follower does on the outline as written, and with the torque of a second disc on its
+/// The point table of a cam, with the motion of its follower on the outline as written, and with the torque of a second disc on its
 /// shaft.
 #[must_use]
 pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline], samples: u32) -> Table {
@@ -42,24 +43,25 @@ fn rows(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline],
     if let Some(second) = second {
         for row in &mut rows {
             let at = row.cam_deg.map(f64::to_radians);
-            row.torque_of_second = at.and_then(|at| second.force_and_torque(at)).map(|[_, torque]| torque);
+            row.torque_of_second = at.and_then(|at| torque::force_and_torque(second, at)).map(|[_, torque]| torque);
         }
     }
-    if let (Some(curves), Some(outline)) = (body.plane(), outlines.first()) {
+    let cuts = body.cuts();
+    let first = cuts.first().and_then(|cut| Some((cut.curves?, cut.mirrored)));
+    if let (Some((curves, mirrored)), Some(outline)) = (first, outlines.first()) {
         let motion = curves.motion;
-        let followed = Followed::on(curves, &outline.contour, body.mirrored());
+        let followed = FollowerOnChain::on(curves, &outline.contour, mirrored);
         for row in &mut rows {
-            let place = row.cam_deg.map(f64::to_radians).or(row.bed.map(|bed| bed.x / MILLIMETRES));
+            let place = row.cam_deg.map(f64::to_radians).or(row.parameter);
             let law = row.at.zip(row.lift.or(row.swing));
-            let followed = place.and_then(|place| Some((place, followed.beside_law(place, law)?)));
+            let followed = place.and_then(|place| Some((place, followed.at_known_lift(place, law)?)));
             let cut = followed.map(|(place, cut)| {
                 let (first, second) = motion.pace(place);
                 [cut.ds * first, cut.dds * first * first + cut.ds * second]
             });
-            // Of a press only: what is left of the forces of a plate depends on the slope as cut, too, and is not told.
-            if let (Some(state), Some(law)) = (&row.state, row.lift.or(row.swing)) {
+            if let (Some(state), Some(law)) = (&row.load, row.lift.or(row.swing)) {
                 let moved = |cut: Jet| (cut.s - law.s) * curves.follower.leverage(&law);
-                let left = followed.map(|(_, cut)| body.unbalanced_in(state, moved(cut)));
+                let left = followed.map(|(_, cut)| state.residual(moved(cut)));
                 row.residual_cut = Some(left.unwrap_or(f64::NAN));
             }
             row.swings = motion.quantity() == Quantity::Angle;
@@ -69,45 +71,49 @@ fn rows(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline],
     rows
 }
 
-/// Bytes of most numbers with what stands between two.
-const NUMBER: usize = 16;
-
-/// The rows of a cam as text, in which every value is a number, but where there may be none.
+/// The rows of a cam as text; every value must be a number, except where a value may be missing.
 ///
 /// # Errors
-/// [`FormatError::NotFinite`].
-fn of_cam(rows: &[Row]) -> Result<Vec<u8>, FormatError> {
+/// [`Refusal`] when a value of the table is missing.
+fn of_cam(rows: &[Row]) -> Result<Vec<u8>, Refusal> {
     let columns = table::columns(rows);
-    let strict: Vec<bool> = columns.iter().map(|column| !table::may_lack(column)).collect();
-    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
-    let mut text = text_of(&names, rows.len());
+    let names: Vec<&str> = columns.iter().map(|column| column.name).collect();
+    let mut text = names.join(",") + "\n";
     for (index, row) in rows.iter().enumerate() {
-        for (place, (column, strict)) in columns.iter().zip(&strict).enumerate() {
+        for column in &columns {
             let value = table::value(row, column);
-            if value.is_nan() && *strict {
-                return Err(FormatError::NotFinite { column: column.0, row: index + 1 });
+            if value.is_nan() && !table::may_lack(column) {
+                let (row, name) = (index + 1, column.name);
+                return Err(Refusal::new(format!(
+                    "row {row} of the table has no number in column {name}; nothing was written"
+                ))
+                .remedy("please report this"));
             }
-            push_cell(&mut text, place, value);
+            push_cell(&mut text, &shortest(value));
         }
-        text.push(b'\n');
+        end_line(&mut text);
     }
-    Ok(text)
+    Ok(text.into_bytes())
 }
 
-/// The line of names, and room for so many rows.
-fn text_of(names: &[&str], rows: usize) -> Vec<u8> {
-    let mut text = Vec::with_capacity(NUMBER * (rows + 1) * names.len());
-    text.extend_from_slice(names.join(",").as_bytes());
-    text.push(b'\n');
-    text
+fn push_cell(text: &mut String, cell: &str) {
+    text.push_str(cell);
+    text.push(',');
 }
 
-/// Adds a number at its place in a line.
-fn push_cell(text: &mut Vec<u8>, place: usize, value: f64) {
-    if place > 0 {
-        text.push(b',');
+/// A word as a cell; in quotes where it has a comma, a quote or a line break.
+fn quoted(word: &str) -> Cow<'_, str> {
+    if word.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", word.replace('"', "\"\"")).into()
+    } else {
+        word.into()
     }
-    push_shortest(text, value);
+}
+
+/// A line feed instead of the last comma.
+fn end_line(text: &mut String) {
+    text.pop();
+    text.push('\n');
 }
 
 /// The table as text with line feeds.
@@ -115,15 +121,16 @@ fn push_cell(text: &mut Vec<u8>, place: usize, value: f64) {
 pub fn write(table: &Table) -> Vec<u8> {
     let (name, words) = table.words.as_ref().map_or((None, &[][..]), |(name, words)| (Some(*name), words.as_slice()));
     let names: Vec<&str> = name.into_iter().chain(table.columns.iter().copied()).collect();
-    let mut text = text_of(&names, table.rows.len());
+    let mut text = names.join(",") + "\n";
     let mut words = words.iter();
     for row in &table.rows {
         if let Some(word) = words.next() {
-            text.extend_from_slice(word.as_bytes());
-            text.push(b',');
+            push_cell(&mut text, &quoted(word));
         }
-        row.iter().enumerate().for_each(|(place, value)| push_cell(&mut text, place, *value));
-        text.push(b'\n');
+        for value in row {
+            push_cell(&mut text, &shortest(*value));
+        }
+        end_line(&mut text);
     }
-    text
+    text.into_bytes()
 }

@@ -1,19 +1,20 @@
 //! The report as JSON.
 
-use super::{Format, OfAnalysis, When, fits_all};
+use super::{AnalysisFormat, Format, FormatSelection, fits_all};
+use crate::refusal::Refusal;
 use serde::Serialize;
 
 /// The report.
 pub const FORMAT: Format = Format {
     name: "json",
-    when: When::Asked,
+    when: FormatSelection::Asked,
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".json".into()],
-    write: |cam| Ok(vec![write(&**cam.report)?]),
-    of_analysis: Some(OfAnalysis {
+    write: |cam| Ok(vec![write(&**cam.report).map_err(Refusal::of)?]),
+    of_analysis: Some(AnalysisFormat {
         endings: |_| vec![".json".into()],
-        write: |account| Ok(vec![write(account.report)?]),
+        write: |account| Ok(vec![write(account.report).map_err(Refusal::of)?]),
     }),
 };
 

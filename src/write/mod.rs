@@ -3,51 +3,63 @@
 //! One table of formats, walked for every kind of cam: a new format is one file and one line in [`FORMATS`].
 
 pub mod csv;
+pub mod diagram;
 mod directory;
 pub mod dxf;
+mod error;
 pub mod files;
 mod finite;
+#[cfg(feature = "html")]
 pub mod html;
+mod interrupted;
 pub mod json;
+mod known;
 pub mod number;
 mod path_data;
+#[cfg(feature = "pdf")]
 pub mod pdf;
 pub mod points;
 pub mod proof;
 pub mod record;
+#[cfg(feature = "second-reader")]
+mod second_reader;
 pub mod step;
+pub mod step_assembly;
 pub mod stl;
 pub mod svg;
+mod template;
 pub mod toml;
 
 use crate::analysis::Analysis;
 use crate::body::{Body, Drawn, Part};
-use crate::geometry::solid::SolidError;
-use crate::profile::outline::{Fit, OutlineError};
+use crate::profile::outline::Fit;
+use crate::refusal::Refusal;
 use crate::report::{Finding, Report};
 use crate::verify::WrittenOutline;
 use std::ops::Deref;
 
-/// A proven cam as the formats see it.
+/// A proven cam, as the formats receive it.
 #[derive(Clone, Copy)]
 pub struct Rendering<'a> {
     /// The solved cam.
     pub body: &'a dyn Body,
-    /// The disc on the same shaft that takes its torque, and its outlines as read back.
-    pub second: Option<(&'a dyn Body, &'a [WrittenOutline])>,
+    /// The other cams on the same shaft, and their outlines as read back.
+    pub other_cams: &'a [(&'a dyn Body, &'a [WrittenOutline])],
     /// Its drawing.
     pub drawn: &'a Drawn,
-    /// The outlines as read back from them.
+    /// Its outlines as read back.
     pub outlines: &'a [WrittenOutline],
     /// The cut files, written and proved, one for each part of the drawing.
     pub cut_files: &'a [Vec<u8>],
-    /// The tables of points, written and proved, one for each part of the drawing; none when they were not requested.
+    /// The tables of points, written and proved, one for each part of the drawing; empty when they were not requested.
     pub points: &'a [Vec<u8>],
-    /// How near the outlines keep to the exact curves, and on which side.
+    /// The tolerance of the outlines, and on which side of the exact curves they lie.
     pub fit: Fit,
+    /// Radius of the cutter whose path was drawn, m.
+    pub cutter_radius: Option<f64>,
     /// Version of the cut files.
     pub dxf_version: dxf::Version,
-    /// What every check found.
+    /// The findings of every check.
     pub findings: &'a [Finding],
     /// Its report, the names of the files in it.
     pub report: &'a (dyn Deref<Target = Report> + Sync),
@@ -55,13 +67,13 @@ pub struct Rendering<'a> {
     pub samples: u32,
     /// The template of the review sheet.
     pub template: &'a str,
-    /// The time that the files bear, seconds since 1970 UTC.
+    /// The time stamp of the files, seconds since 1970 UTC.
     pub created: Option<u64>,
 }
 
-/// An analysis as the formats see it.
+/// An analysis, as the formats receive it.
 #[derive(Debug, Clone, Copy)]
-pub struct Account<'a> {
+pub struct AnalysisRendering<'a> {
     /// The analysis.
     pub analysis: &'a Analysis,
     /// Its report, the names of the files in it.
@@ -70,50 +82,18 @@ pub struct Account<'a> {
     pub template: &'a str,
 }
 
-/// How an analysis has a format.
+/// How a format is made of an analysis.
 #[derive(Debug, Clone, Copy)]
-pub struct OfAnalysis {
-    /// What its files add to the stem of their names; none where the analysis has nothing for it.
+pub struct AnalysisFormat {
+    /// The endings of its files, added to the stem of their names; empty where the analysis has nothing for the format.
     pub endings: fn(&Analysis) -> Vec<String>,
     /// The files, in the same order.
-    pub write: fn(&Account<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
-}
-
-/// Why a format could not be made.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum FormatError {
-    /// The preview has a curve that cannot be drawn.
-    #[error(transparent)]
-    Outline(#[from] OutlineError),
-    /// The template is not valid.
-    #[error(transparent)]
-    Template(#[from] svg::TemplateError),
-    /// The solid is not valid.
-    #[error(transparent)]
-    Solid(#[from] SolidError),
-    /// There is no PDF.
-    #[error(transparent)]
-    Pdf(#[from] pdf::PdfError),
-    /// Points are drawn and proved with the cam.
-    #[error("no table of points was requested with the drawing, or the cutter has no path")]
-    NoPoints,
-    /// A value of the table is none: a fault of camgen.
-    #[error("row {row} of the table would hold no number in {column}; nothing was written; please report this")]
-    NotFinite {
-        /// The column.
-        column: &'static str,
-        /// The row, from 1.
-        row: usize,
-    },
-    /// The report could not be serialised.
-    #[error(transparent)]
-    Json(#[from] serde_json::Error),
+    pub write: fn(&AnalysisRendering<'_>) -> Result<Vec<Vec<u8>>, Refusal>,
 }
 
 /// When a format is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum When {
+pub enum FormatSelection {
     /// By default, and when it is requested.
     Usual,
     /// When it is requested.
@@ -122,23 +102,23 @@ pub enum When {
     Drawn,
 }
 
-/// A format: what it is called, which cams it fits, and its files. Each computes only what it shows.
+/// A format: its name, the cams it fits, and its files. Each computes only what it shows.
 #[derive(Debug)]
 pub struct Format {
     /// Its name on the command line.
     pub name: &'static str,
     /// When it is written.
-    pub when: When,
+    pub when: FormatSelection,
     /// Whether it shows the flank of a body whose sections differ, which then has to be drawn.
     pub flank: bool,
-    /// Why a cam cannot have it, if so.
+    /// Why a cam cannot have it, if it cannot.
     pub unfit: fn(&dyn Body) -> Option<&'static str>,
-    /// What its files add to the stem of their names; none where the drawing has nothing for it.
+    /// The endings of its files, added to the stem of their names; empty where the drawing has nothing for the format.
     pub endings: fn(&Drawn) -> Vec<String>,
     /// The files, in the same order.
-    pub write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, FormatError>,
-    /// How an analysis has it, where it can.
-    pub of_analysis: Option<OfAnalysis>,
+    pub write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal>,
+    /// How it is made of an analysis, where that is possible.
+    pub of_analysis: Option<AnalysisFormat>,
 }
 
 /// Every format, in the order in which files are listed.
@@ -148,28 +128,41 @@ pub const FORMATS: &[Format] = &[
     step::FORMAT,
     csv::FORMAT,
     json::FORMAT,
+    #[cfg(feature = "html")]
     html::FORMAT,
+    #[cfg(feature = "pdf")]
     pdf::FORMAT,
     stl::FORMAT,
     points::FORMAT,
+    diagram::FORMAT,
     toml::FORMAT,
     dxf::CUTTER_PATH,
 ];
 
 /// The formats that can be requested.
 pub fn by_name() -> impl Iterator<Item = &'static Format> {
-    FORMATS.iter().filter(|format| format.when != When::Drawn)
+    FORMATS.iter().filter(|format| format.when != FormatSelection::Drawn)
 }
 
-/// What the names of the files of every part end with: a section has the speed it is for before the ending.
+/// The endings of the files of every part: a section has the speed it is for before the ending, one of several outlines its
+/// name.
 fn of_parts(drawn: &Drawn, ending: &str) -> Vec<String> {
     let speeds: Vec<f64> = drawn.parts.iter().filter_map(|part| part.rpm).collect();
     let mut speeds = number::names(&speeds).into_iter();
     let mut of_part = |part: &Part| match part.rpm.and_then(|_| speeds.next()) {
         Some(rpm) => format!("-{rpm}rpm{ending}"),
-        None => ending.to_owned(),
+        None if part.name.is_empty() => ending.to_owned(),
+        None => format!("-{}{ending}", part.name),
     };
     drawn.parts.iter().map(&mut of_part).collect()
+}
+
+/// The endings of files of every outline: of several of a part each has its name before the ending.
+fn of_outlines(drawn: &Drawn, ending: &str) -> Vec<String> {
+    if drawn.parts.iter().all(|part| part.track.as_ref().is_none_or(|track| track.others.is_empty())) {
+        return of_parts(drawn, ending);
+    }
+    drawn.outlines().map(|(_, layer, _)| format!("-{}{ending}", layer.word())).collect()
 }
 
 /// Any cam.

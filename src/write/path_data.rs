@@ -1,15 +1,17 @@
 //! Shapes as path data of SVG: arcs are arcs, y is flipped once, in the coordinates.
 
-use super::number::push_short;
+use super::number::short;
+#[cfg(feature = "html")]
 use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Edge, Segment};
-use crate::report::sheet::Shape;
+#[cfg(feature = "html")]
+use crate::report::sheet::SheetShape;
 use nalgebra::Vector2;
 
 /// Largest sweep of one arc, rad: the direction of a half circle is ambiguous within rounding.
 const LONGEST_SWEEP: f64 = 3.0;
 
-/// Path data with so many decimals of a millimetre.
+/// Path data with this many decimals of a millimetre. The data of the crate svg are in single precision.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PathData {
     pub(super) decimals: usize,
@@ -17,107 +19,68 @@ pub(super) struct PathData {
 
 impl PathData {
     pub(super) fn number(self, value: f64) -> String {
-        let mut text = Vec::with_capacity(16);
-        self.push_number(&mut text, value);
-        String::from_utf8(text).unwrap_or_default()
+        short(value, self.decimals)
     }
 
-    pub(super) fn push_number(self, text: &mut Vec<u8>, value: f64) {
-        push_short(text, value, self.decimals);
+    fn place(self, point: Vector2<f64>) -> String {
+        format!("{},{}", self.number(point.x), self.number(-point.y))
     }
 
-    fn push_place(self, text: &mut Vec<u8>, point: Vector2<f64>) {
-        self.push_number(text, point.x);
-        text.push(b',');
-        self.push_number(text, -point.y);
+    /// Places, separated by a sign or a blank.
+    pub(super) fn places(self, points: &[Vector2<f64>], between: &str) -> String {
+        points.iter().map(|point| self.place(*point)).collect::<Vec<_>>().join(between)
     }
 
-    /// Places with a sign between two.
-    pub(super) fn push_places(self, text: &mut Vec<u8>, points: &[Vector2<f64>], between: u8) {
-        for (index, point) in points.iter().enumerate() {
-            if index > 0 {
-                text.push(between);
-            }
-            self.push_place(text, *point);
-        }
-    }
-
-    /// A shape; nothing of a text.
-    pub(super) fn shape(self, shape: &Shape) -> String {
-        let mut text = Vec::new();
+    /// A shape; nothing for a text.
+    #[cfg(feature = "html")]
+    pub(super) fn shape(self, shape: &SheetShape) -> String {
         match shape {
-            Shape::Entity(Entity::Polyline(contour)) => self.push_contour(&mut text, contour),
-            Shape::Entity(Entity::Circle(centre, radius)) => {
-                self.push_contour(&mut text, &Contour::circle(*centre, *radius));
-            }
-            Shape::Line(a, b) => self.push_chain(&mut text, &[*a, *b]),
-            Shape::Path(points) => self.push_chain(&mut text, points),
-            Shape::Arc(start, end, bulge) => {
-                self.push_open_arc(&mut text, &Segment { start: *start, end: *end, bulge: *bulge });
-            }
-            Shape::Triangle(corners) => {
-                self.push_chain(&mut text, corners);
-                text.push(b'Z');
-            }
-            Shape::Text { .. } => {}
+            SheetShape::Entity(Entity::Polyline(contour)) => self.contour(contour),
+            SheetShape::Entity(Entity::Circle(centre, radius)) => self.contour(&Contour::circle(*centre, *radius)),
+            SheetShape::Entity(Entity::Segment(segment)) => self.open_arc(segment),
+            SheetShape::Line(a, b) => self.chain(&[*a, *b]),
+            SheetShape::Path(points) => self.chain(points),
+            SheetShape::Arc(start, end, bulge) => self.open_arc(&Segment { start: *start, end: *end, bulge: *bulge }),
+            SheetShape::Triangle(corners) => self.chain(corners) + "Z",
+            SheetShape::Text { .. } => String::new(),
         }
-        String::from_utf8(text).unwrap_or_default()
     }
 
-    pub(super) fn push_contour(self, text: &mut Vec<u8>, contour: &Contour) {
-        text.push(b'M');
-        if let Some(first) = contour.vertices.first() {
-            self.push_place(text, first.point);
-        }
-        for edge in contour.edges() {
-            text.push(b' ');
-            self.push_edge(text, &edge);
-        }
-        text.extend_from_slice(b" Z");
+    pub(super) fn contour(self, contour: &Contour) -> String {
+        let first = contour.vertices.first().map(|first| self.place(first.point)).unwrap_or_default();
+        let edges = contour.edges().map(|edge| self.edge(&edge));
+        format!("M{} Z", std::iter::once(first).chain(edges).collect::<Vec<_>>().join(" "))
     }
 
-    pub(super) fn push_open_arc(self, text: &mut Vec<u8>, segment: &Segment) {
-        text.push(b'M');
-        self.push_place(text, segment.start);
-        text.push(b' ');
-        self.push_arc(text, segment);
+    pub(super) fn open_arc(self, segment: &Segment) -> String {
+        format!("M{} {}", self.place(segment.start), self.arc(segment))
     }
 
-    fn push_chain(self, text: &mut Vec<u8>, points: &[Vector2<f64>]) {
-        text.push(b'M');
-        self.push_places(text, points, b'L');
+    #[cfg(feature = "html")]
+    fn chain(self, points: &[Vector2<f64>]) -> String {
+        format!("M{}", self.places(points, "L"))
     }
 
-    fn push_edge(self, text: &mut Vec<u8>, edge: &Edge) {
+    fn edge(self, edge: &Edge) -> String {
         match edge {
-            Edge::Segment(segment) => self.push_arc(text, segment),
+            Edge::Segment(segment) => self.arc(segment),
             Edge::Cubic(cubic) => {
                 let [_, rest @ ..] = &cubic.points;
-                text.push(b'C');
-                self.push_places(text, rest, b' ');
+                format!("C{}", self.places(rest, " "))
             }
         }
     }
 
     /// A line, an arc, or the two halves of a long arc.
-    fn push_arc(self, text: &mut Vec<u8>, segment: &Segment) {
+    fn arc(self, segment: &Segment) -> String {
         if segment.bulge == 0.0 {
-            text.push(b'L');
-            self.push_place(text, segment.end);
-            return;
+            return format!("L{}", self.place(segment.end));
         }
+        let radius = self.number(segment.radius().abs());
         // A left turn upwards is a right turn (sweep flag 0) once y points down.
-        let sweep = if segment.bulge < 0.0 { b" 0 0 1 " } else { b" 0 0 0 " };
+        let sweep = u8::from(segment.bulge < 0.0);
         let middle = (segment.sweep().abs() > LONGEST_SWEEP).then(|| segment.middle());
-        for (index, point) in middle.into_iter().chain([segment.end]).enumerate() {
-            text.extend_from_slice(if index > 0 { b" A" } else { b"A" });
-            let from = text.len();
-            self.push_number(text, segment.radius().abs());
-            let radius = from..text.len();
-            text.push(b',');
-            text.extend_from_within(radius);
-            text.extend_from_slice(sweep);
-            self.push_place(text, point);
-        }
+        let to = |point| format!("A{radius},{radius} 0 0 {sweep} {}", self.place(point));
+        middle.into_iter().chain([segment.end]).map(to).collect::<Vec<_>>().join(" ")
     }
 }

@@ -1,31 +1,35 @@
-//! Tables of points for the control of a grinder or an old mill: what they are in lines that begin with `#`, the columns, then
+//! Tables of points for the control of a grinder or an old mill: a description in lines that begin with `#`, the columns, then
 //! plain decimals that read back as the same numbers.
 
 use super::number::{plain, shortest};
-use super::{Format, FormatError, When, fits_all, of_parts};
+use super::{Format, FormatSelection, fits_all, of_outlines};
 use crate::body::Body;
-use crate::body::points::{Given, Judged, PointTable, swings};
+use crate::body::points::{PointCurve, PointErrors, PointTable, swings};
 use crate::geometry::MILLIMETRES;
-use crate::geometry::points::{Between, Form, Step};
+use crate::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
 use crate::machine::Rotation;
+use crate::refusal::Refusal;
 
 /// The points of every section, as they were proved.
 pub const FORMAT: Format = Format {
     name: "points",
-    when: When::Asked,
+    when: FormatSelection::Asked,
     flank: false,
     unfit: fits_all,
-    endings: |drawn| of_parts(drawn, "-points.csv"),
-    write: |cam| if cam.points.is_empty() { Err(FormatError::NoPoints) } else { Ok(cam.points.to_vec()) },
+    endings: |drawn| of_outlines(drawn, "-points.csv"),
+    write: |cam| match cam.points {
+        [] => Err(Refusal::new("no table of points was requested with the drawing, or the cutter has no path")),
+        points => Ok(points.to_vec()),
+    },
     of_analysis: None,
 };
 
-/// Decimals of a number: as in a DXF file.
+/// Decimals of a number, as in a DXF file.
 const DECIMALS: usize = 12;
 /// The columns of either form.
 const POLAR: &str = "cam_deg,radius_mm";
 const PLANE: &str = "x_mm,y_mm";
-/// Words that a reader looks for.
+/// Words that the reader looks for.
 const INTERPOLATION: &str = "# interpolation: ";
 const LINEAR: &str = "linear";
 const CUBIC: &str = "cubic";
@@ -38,7 +42,7 @@ pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
     for (key, value) in head(body, table) {
         text.push_str(&format!("# {key}: {value}\n"));
     }
-    text.push_str(if table.wish.form == Form::Polar { POLAR } else { PLANE });
+    text.push_str(if table.wish.form == PointCoordinates::Polar { POLAR } else { PLANE });
     text.push('\n');
     for [first, second] in table.turned(&table.rows.rows) {
         text.push_str(&format!("{},{}\n", plain(first, DECIMALS), plain(second, DECIMALS)));
@@ -46,7 +50,7 @@ pub fn write(body: &dyn Body, table: &PointTable) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// What the table is, line by line.
+/// The description of the table, line by line.
 fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
     let (wish, rows) = (&table.wish, &table.rows);
     let speed =
@@ -71,8 +75,8 @@ fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
     let closed = if table.closed { "yes, the last row is the first point again" } else { "no" };
     let corners = match (rows.corners, wish.between) {
         (0, _) => "none".to_owned(),
-        (count, Between::Linear) => format!("{count}, each at a row of its own"),
-        (count, Between::Cubic) => {
+        (count, PointInterpolation::Linear) => format!("{count}, each at a row of its own"),
+        (count, PointInterpolation::Cubic) => {
             format!("{count}, each a row that stands twice: one spline ends and the next begins")
         }
     };
@@ -90,13 +94,13 @@ fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
         ("error_mm", plain(rows.error, DECIMALS)),
         ("error", "bound of the distance between the interpolated curve and the exact one, either way".to_owned()),
     ]);
-    head.extend(felt(body, table));
+    head.extend(motion_lines(body, table));
     head.push(("rows", rows.rows.len().to_string()));
     head
 }
 
-/// What the follower feels of the curve that the control makes, and what of it is kept.
-fn felt(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
+/// The errors of the follower's motion on the curve that the control makes, and which tolerances are kept.
+fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
     const KEYS: [[&str; 2]; 4] = [
         ["velocity_tolerance_mm_per_rad", "velocity_tolerance_rad_per_rad"],
         ["velocity_error_mm_per_rad", "velocity_error_rad_per_rad"],
@@ -107,24 +111,24 @@ fn felt(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
     let (keys, unit) =
         (KEYS.map(|[straight, swung]| if swings { swung } else { straight }), if swings { 1.0 } else { MILLIMETRES });
     let mut head = Vec::new();
-    let errors = match table.felt {
-        Judged::Errors(errors) => errors,
-        Judged::Not(why) => {
+    let errors = match table.errors {
+        PointErrors::Known(errors) => errors,
+        PointErrors::Unknown(why) => {
             head.push(("felt", format!("velocity and acceleration are not told: {why}")));
             [f64::INFINITY; 2]
         }
     };
-    let told = keys.iter().zip([table.allowed[0], errors[0], table.allowed[1], errors[1]]);
-    head.extend(told.filter(|(_, value)| value.is_finite()).map(|(key, value)| (*key, plain(unit * value, DECIMALS))));
-    if matches!(table.felt, Judged::Errors(_)) {
-        let how = if body.spatial().is_some() && table.given == Given::Profile {
+    let rows = keys.iter().zip([table.allowed[0], errors[0], table.allowed[1], errors[1]]);
+    head.extend(rows.filter(|(_, value)| value.is_finite()).map(|(key, value)| (*key, plain(unit * value, DECIMALS))));
+    if matches!(table.errors, PointErrors::Known(_)) {
+        let how = if body.surface().is_some() && table.curve == PointCurve::Profile {
             ", to first order, at five places of every interval"
         } else {
             ""
         };
         let what = match table.wish.between {
-            Between::Linear => "largest error of the follower's velocity",
-            Between::Cubic => "largest errors of the follower's velocity and acceleration",
+            PointInterpolation::Linear => "largest error of the follower's velocity",
+            PointInterpolation::Cubic => "largest errors of the follower's velocity and acceleration",
         };
         let shaft = if table.closed { "cam" } else { "crank" };
         head.push((
@@ -136,23 +140,24 @@ fn felt(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
     head
 }
 
-/// With which wheel the follower feels what is told.
+/// The radius of the wheel for which the errors of motion hold.
 fn wheel(table: &PointTable) -> &'static str {
-    match table.given {
-        Given::Profile => "",
-        Given::Centre => ", ground by a wheel as large as the roller",
-        Given::Cutter => ", ground by that wheel",
+    match table.curve {
+        PointCurve::Profile => "",
+        PointCurve::Centre => ", ground by a wheel as large as the roller",
+        PointCurve::Cutter => ", ground by that wheel",
     }
 }
 
 /// Which tolerances are kept, and which are not.
 fn kept(table: &PointTable, errors: [f64; 2]) -> Vec<(&'static str, String)> {
     let names = ["velocity", "acceleration"];
-    let asked = || names.iter().zip(table.allowed.iter().zip(&errors)).filter(|(_, (allowed, _))| allowed.is_finite());
+    let limited =
+        || names.iter().zip(table.allowed.iter().zip(&errors)).filter(|(_, (allowed, _))| allowed.is_finite());
     let list =
-        |keeps: bool| asked().filter(move |(_, (allowed, error))| (error <= allowed) == keeps).map(|(name, _)| *name);
+        |keeps: bool| limited().filter(move |(_, (allowed, error))| (error <= allowed) == keeps).map(|(name, _)| *name);
     let mut head = vec![("keeps", std::iter::once("distance").chain(list(true)).collect::<Vec<_>>().join(", "))];
-    if table.wish.between == Between::Linear {
+    if table.wish.between == PointInterpolation::Linear {
         let words =
             "acceleration: a control that goes straight from row to row turns at each, and the velocity jumps there";
         head.push((
@@ -169,34 +174,36 @@ fn given(table: &PointTable) -> String {
     let radius = table
         .radius
         .map_or_else(String::new, |radius| format!(" of radius {} mm", plain(MILLIMETRES * radius, DECIMALS)));
-    match (table.given, table.closed) {
-        (Given::Profile, true) => "profile of the cam".to_owned(),
-        (Given::Profile, false) => "upper flank of the plate; the lower is its mirror image, y negated".to_owned(),
-        (Given::Centre, true) => format!("path of the centre of the roller{radius}"),
-        (Given::Centre, false) => {
+    match (table.curve, table.closed) {
+        (PointCurve::Profile, true) => "profile of the cam".to_owned(),
+        (PointCurve::Profile, false) => "upper flank of the plate; the lower is its mirror image, y negated".to_owned(),
+        (PointCurve::Centre, true) => format!("path of the centre of the roller{radius}"),
+        (PointCurve::Centre, false) => {
             format!("path of the centre of the upper roller{radius}; the lower is its mirror image, y negated")
         }
-        (Given::Cutter, _) => format!("path of the centre of a cutter or wheel{radius}"),
+        (PointCurve::Cutter, _) => format!("path of the centre of a cutter or wheel{radius}"),
     }
 }
 
 fn coordinates(table: &PointTable) -> &'static str {
     match (table.wish.form, table.closed) {
-        (Form::Polar, _) => {
+        (PointCoordinates::Polar, _) => {
             "polar; cam_deg is the angle of the point about the shaft from the X axis of the drawing, against the rotation of the \
              cam, radius_mm its distance from the shaft"
         }
-        (Form::Plane, true) => "x and y of the drawing, the shaft at the origin",
-        (Form::Plane, false) => "x and y of the drawing, X the axis of the bed",
+        (PointCoordinates::Plane, true) => "x and y of the drawing, the shaft at the origin",
+        (PointCoordinates::Plane, false) => "x and y of the drawing, X the axis of the bed",
     }
 }
 
 fn points(table: &PointTable) -> String {
     let intervals = table.rows.intervals;
     match table.wish.step {
-        Step::Angle if table.rows.corners > 0 => format!("{intervals} intervals at equal angles, cut at the corners"),
-        Step::Angle => format!("{intervals} intervals at equal angles about the shaft"),
-        Step::Chord => format!("{intervals} intervals of equal error"),
+        PointStep::Angle if table.rows.corners > 0 => {
+            format!("{intervals} intervals at equal angles, cut at the corners")
+        }
+        PointStep::Angle => format!("{intervals} intervals at equal angles about the shaft"),
+        PointStep::Chord => format!("{intervals} intervals of equal error"),
     }
 }
 
@@ -207,10 +214,14 @@ fn interpolation(table: &PointTable) -> String {
         (false, _) => "not-a-knot at its ends and at rows that stand twice",
     };
     match (table.wish.between, table.wish.form) {
-        (Between::Linear, Form::Polar) => format!("{LINEAR}, radius linear in the angle between two rows"),
-        (Between::Linear, Form::Plane) => format!("{LINEAR}, a straight line between two rows"),
-        (Between::Cubic, Form::Polar) => format!("{CUBIC}, the cubic spline of the radius over the angle, {ends}"),
-        (Between::Cubic, Form::Plane) => {
+        (PointInterpolation::Linear, PointCoordinates::Polar) => {
+            format!("{LINEAR}, radius linear in the angle between two rows")
+        }
+        (PointInterpolation::Linear, PointCoordinates::Plane) => format!("{LINEAR}, a straight line between two rows"),
+        (PointInterpolation::Cubic, PointCoordinates::Polar) => {
+            format!("{CUBIC}, the cubic spline of the radius over the angle, {ends}")
+        }
+        (PointInterpolation::Cubic, PointCoordinates::Plane) => {
             format!(
                 "{CUBIC}, the cubic splines of x and of y over the sum of the chord lengths from row to row, {ends}"
             )
@@ -218,13 +229,52 @@ fn interpolation(table: &PointTable) -> String {
     }
 }
 
-/// A table as a control finds it in a file.
+/// What the head of a file says of the curve and its places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StatedCurve {
+    /// The curve.
+    pub curve: PointCurve,
+    /// Radius of the cutter whose centre it gives, m, where it is stated.
+    pub cutter: Option<f64>,
+    /// How its places were chosen.
+    pub step: PointStep,
+}
+
+/// Whether bytes are those of a table of points, by the line that names its columns.
+#[must_use]
+pub fn is_points(bytes: &[u8]) -> bool {
+    let columns = |line: &[u8]| [POLAR.as_bytes(), PLANE.as_bytes()].contains(&line.trim_ascii_end());
+    let mut lines = bytes.split(|byte| *byte == b'\n').skip_while(|line| line.starts_with(b"#"));
+    lines.next().is_some_and(columns)
+}
+
+/// What the head of a file says; without a word it is the profile at equal angles.
+#[must_use]
+pub fn stated(bytes: &[u8]) -> StatedCurve {
+    let text = String::from_utf8_lossy(bytes);
+    let line = |key: &str| {
+        let mut lines = text.lines().take_while(|line| line.starts_with('#'));
+        lines.find_map(|line| line.strip_prefix("# ")?.strip_prefix(key)?.strip_prefix(": ")).unwrap_or_default()
+    };
+    let given = line("given");
+    let curve = match given {
+        _ if given.contains("cutter") => PointCurve::Cutter,
+        _ if given.contains("roller") => PointCurve::Centre,
+        _ => PointCurve::Profile,
+    };
+    let radius = given.split_once("radius ").and_then(|(_, rest)| rest.split(' ').next()?.parse::<f64>().ok());
+    let cutter = radius.filter(|_| curve == PointCurve::Cutter).map(|radius| radius / MILLIMETRES);
+    let step = if line("points").contains("equal error") { PointStep::Chord } else { PointStep::Angle };
+    StatedCurve { curve, cutter, step }
+}
+
+/// A table as a control reads it from a file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Read {
+pub struct ReadPoints {
     /// Its coordinates, by the names of its columns.
-    pub form: Form,
+    pub form: PointCoordinates,
     /// Its interpolation, by its head.
-    pub between: Between,
+    pub between: PointInterpolation,
     /// Whether it closes, by its head.
     pub closed: bool,
     /// Its rows.
@@ -234,34 +284,36 @@ pub struct Read {
 /// The table of a file.
 ///
 /// # Errors
-/// A sentence when the file is no table of points.
-pub fn read(bytes: &[u8]) -> Result<Read, String> {
+/// A sentence when the file is not a table of points.
+pub fn read(bytes: &[u8]) -> Result<ReadPoints, String> {
     let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
     let (mut between, mut closed, mut form, mut rows) = (None, false, None, Vec::new());
     for line in text.lines() {
         if let Some(words) = line.strip_prefix(INTERPOLATION) {
             between = match words.split(',').next() {
-                Some(LINEAR) => Some(Between::Linear),
-                Some(CUBIC) => Some(Between::Cubic),
+                Some(LINEAR) => Some(PointInterpolation::Linear),
+                Some(CUBIC) => Some(PointInterpolation::Cubic),
                 _ => None,
             };
         }
         closed |= line.starts_with(CLOSED);
         match line {
             _ if line.starts_with('#') => {}
-            POLAR => form = Some(Form::Polar),
-            PLANE => form = Some(Form::Plane),
+            POLAR => form = Some(PointCoordinates::Polar),
+            PLANE => form = Some(PointCoordinates::Plane),
             row => {
                 let numbers = row.split_once(',').map(|(first, second)| (first.parse(), second.parse()));
-                let Some((Ok(first), Ok(second))) = numbers else { return Err(format!("`{row}` is no row")) };
+                let Some((Ok(first), Ok(second))) = numbers else {
+                    return Err(format!("`{row}` is not a row of two numbers"));
+                };
                 rows.push([first, second]);
             }
         }
     }
     match (form, between) {
-        (Some(form), Some(between)) => Ok(Read { form, between, closed, rows }),
-        (None, _) => Err("there is no line of columns".into()),
-        (_, None) => Err("the interpolation is not told".into()),
+        (Some(form), Some(between)) => Ok(ReadPoints { form, between, closed, rows }),
+        (None, _) => Err("the line that names the columns is missing".into()),
+        (_, None) => Err("the interpolation is not stated".into()),
     }
 }
 
@@ -270,12 +322,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_table_is_told() {
+    fn what_is_not_a_table_is_refused() {
         let good = "# interpolation: cubic, whatever\n# closed: yes, so\nx_mm,y_mm\n1.0,-2.5\n";
-        let table = Read { form: Form::Plane, between: Between::Cubic, closed: true, rows: vec![[1.0, -2.5]] };
+        let table = ReadPoints {
+            form: PointCoordinates::Plane,
+            between: PointInterpolation::Cubic,
+            closed: true,
+            rows: vec![[1.0, -2.5]],
+        };
         assert_eq!(read(good.as_bytes()), Ok(table));
         assert!(read(good.replace("cubic", "quintic").as_bytes()).is_err_and(|why| why.contains("interpolation")));
-        assert!(read(good.replace("x_mm", "u_mm").as_bytes()).is_err_and(|why| why.contains("no row")));
+        assert!(read(good.replace("x_mm", "u_mm").as_bytes()).is_err_and(|why| why.contains("is not a row")));
         assert!(read(good.replace("-2.5", "").as_bytes()).is_err_and(|why| why.contains("1.0,")));
         assert!(read(b"# interpolation: linear, x\n").is_err_and(|why| why.contains("columns")));
         assert!(read(&[0xff, 0xfe]).is_err());

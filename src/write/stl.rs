@@ -1,17 +1,17 @@
 //! The conoid as a binary STL file in millimetres, for a first print: triangles on the exact surface.
 
-use super::{Format, When};
-use crate::body::conoid::flank::Flank;
-use crate::body::conoid::mesh::Mesh;
+use super::{Format, FormatSelection};
+use crate::body::Flank;
+use crate::body::mesh::Mesh;
 use crate::geometry::MILLIMETRES;
 use nalgebra::Vector3;
 
 /// Triangles on the flank of a conoid.
 pub const FORMAT: Format = Format {
     name: "stl",
-    when: When::Asked,
+    when: FormatSelection::Asked,
     flank: true,
-    unfit: |body| body.spatial().is_none().then_some("it is for a conoid; a plane cam has step"),
+    unfit: |body| body.surface().is_none().then_some("stl is for a conoid; use step for a plane cam"),
     endings: |_| vec![".stl".into()],
     write: |cam| {
         let bore = cam.body.machine().cam.bore_radius.map(|radius| MILLIMETRES * radius);
@@ -29,7 +29,7 @@ pub fn write(flank: &Flank, bore_radius: Option<f64>, title: &str) -> Vec<u8> {
     for (place, byte) in bytes.iter_mut().zip(title.bytes()) {
         *place = byte;
     }
-    // Corners that are one in single precision make no triangle.
+    // Corners that coincide in single precision make no triangle.
     #[expect(clippy::cast_possible_truncation, reason = "STL holds single precision")]
     let single = |p: &Vector3<f64>| p.map(|value| value as f32);
     let whole = |[a, b, c]: &&[Vector3<f64>; 3]| {

@@ -2,29 +2,30 @@
 //! coordinates.
 
 use super::path_data::PathData;
-use super::{Format, FormatError, OfAnalysis, Rendering, When, fits_all};
+use super::template;
+use super::{AnalysisFormat, Format, FormatSelection, Rendering, fits_all};
 use crate::body;
 use crate::geometry::contour::Segment;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::outline::Fit;
-use crate::report::sheet::{Extras, Group, Shape, Sheet, TextAnchor, compose, font};
-use crate::report::{plot, shown};
-use nalgebra::Vector2;
-use std::borrow::Cow;
-use svg::node::element;
+use crate::refusal::Refusal;
+use crate::report::sheet::{ShapeGroup, Sheet, SheetExtras, SheetShape, TextAnchor, compose, font};
+use crate::report::{Finding, Verdict, shown};
+use crate::verify;
+use svg::node::{self, Node, element};
 
 /// The review sheet.
 pub const FORMAT: Format = Format {
     name: "svg",
-    when: When::Usual,
+    when: FormatSelection::Usual,
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".svg".into()],
     write: |cam| Ok(vec![fill(&sheet(cam)?, cam.template, true, &cam.report.mark())?]),
-    of_analysis: Some(OfAnalysis {
+    of_analysis: Some(AnalysisFormat {
         endings: |_| vec![".svg".into()],
         write: |account| {
-            let sheet = plot::sheet(&account.analysis.plot, &account.report.mark());
+            let sheet = account.analysis.picture.sheet(&account.report.mark());
             Ok(vec![fill(&sheet, account.template, true, &account.report.mark())?])
         },
     }),
@@ -33,50 +34,48 @@ pub const FORMAT: Format = Format {
 /// The review sheet of a proven cam.
 ///
 /// # Errors
-/// [`FormatError`] when a curve for viewing cannot be drawn.
-pub fn sheet(cam: &Rendering<'_>) -> Result<Sheet, FormatError> {
-    let view = cam.body.view(cam.drawn)?;
-    let outline = cam.outlines.first().map(|outline| &outline.contour);
-    let second = cam.second.and_then(|(body, outlines)| Some((body, &outlines.first()?.contour)));
-    let traces = outline.map_or_else(Vec::new, |outline| body::traces((cam.body, outline), second));
-    let profile_tolerance = tolerance_words(&cam.fit);
-    Ok(compose(&view, cam.report, &Extras { profile_tolerance: &profile_tolerance, traces: &traces }))
+/// [`Refusal`] when a curve for viewing cannot be drawn.
+pub fn sheet(cam: &Rendering<'_>) -> Result<Sheet, Refusal> {
+    numbered(cam, "1/1")
 }
 
-/// The zone in which the profile must lie, in words.
-fn tolerance_words(fit: &Fit) -> String {
+/// The review sheet as one of several, such as "1/2".
+pub(super) fn numbered(cam: &Rendering<'_>, number: &'static str) -> Result<Sheet, Refusal> {
+    let view = cam.body.view(cam.drawn).map_err(Refusal::of)?;
+    let outline = cam.outlines.first().map(|outline| &outline.contour);
+    let second = cam.other_cams.first().and_then(|(body, outlines)| Some((*body, &outlines.first()?.contour)));
+    let traces = outline.map_or_else(Vec::new, |outline| body::traces((cam.body, outline), second));
+    let file_deviates = deviation_words(&cam.fit);
+    // Figures about the bytes of the files are for the report, where they passed.
+    let is_listed = |finding: &&Finding| finding.verdict != Verdict::Pass || !verify::reads_files(&finding.check);
+    let checks: Vec<Finding> = cam.report.checks.iter().filter(is_listed).cloned().collect();
+    let passed_otherwise = cam.report.checks.len() - checks.len();
+    let extras =
+        SheetExtras { file_deviates: &file_deviates, number, traces: &traces, checks: &checks, passed_otherwise };
+    Ok(compose(&view, cam.report, &extras))
+}
+
+/// How far the profile of the file may lie from the exact one, in words.
+pub(super) fn deviation_words(fit: &Fit) -> String {
     let (middle, half) = fit.band();
     let [low, high] = [middle - half, middle + half].map(|limit| shown(MILLIMETRES * limit));
-    if middle == 0.0 { format!("±{high} mm to exact curve") } else { format!("{low} to {high} mm to exact curve") }
+    if middle == 0.0 { format!("at most {high} mm") } else { format!("{low} mm to {high} mm outwards") }
 }
 
 /// The sheet used when none is given.
 pub const TEMPLATE: &str = include_str!("../../templates/sheet.svg");
 
-/// Classes of the groups that show an outline: they tell their scale.
+/// Classes of the groups that show an outline: they state their scale.
 const OUTLINES: [&str; 2] = ["profile", "section"];
 /// Decimals of a coordinate: a nanometre.
 const DECIMALS: usize = 6;
 
-/// Why a template cannot be used.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TemplateError {
-    /// It has no placeholder for the drawing.
-    #[error("the template has no {{{{drawing}}}}: nothing would be drawn")]
-    NoDrawing,
-    /// It has an unknown placeholder.
-    #[error("the template has the unknown placeholder {{{{{0}}}}}; known are {KNOWN}")]
-    Unknown(String),
-}
-
-const KNOWN: &str = "width, height, left, top, stroke, thick, heavy, dash, dot, title, drawing";
+const KNOWN: &str = "width, height, left, top, stroke, thick, heavy, dash, dot, font, title, drawing";
+/// The letters of sheets, embedded: a viewer may not have the font that they are measured in.
+const FONT_RULE: &str = include_str!("../../templates/fonts/sheet-font.css");
 
 /// The coordinates of the sheet.
 const DATA: PathData = PathData { decimals: DECIMALS };
-
-/// Bytes of a sheet of a usual cam.
-const ROOM: usize = 1 << 17;
 
 fn number(value: f64) -> String {
     DATA.number(value)
@@ -85,239 +84,160 @@ fn number(value: f64) -> String {
 /// Fills a template with the sheet.
 ///
 /// # Errors
-/// [`TemplateError`] when a placeholder is missing or unknown.
-pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, TemplateError> {
+/// [`Refusal`] when a placeholder is missing or unknown.
+pub fn write(sheet: &Sheet, template: &str) -> Result<Vec<u8>, Refusal> {
     fill(sheet, template, true, "")
 }
 
-/// As [`write`], with a comment before the root, whatever the template; `told`: every text tells its length, so that a viewer with
+/// As [`write`], with a comment before the root, whatever the template; with `with_lengths` every text states its length, so that a viewer with
 /// another font keeps it.
-pub(super) fn fill(sheet: &Sheet, template: &str, told: bool, comment: &str) -> Result<Vec<u8>, TemplateError> {
+pub(super) fn fill(sheet: &Sheet, template: &str, with_lengths: bool, comment: &str) -> Result<Vec<u8>, Refusal> {
     let size = sheet.extents.size();
     let dashes = |parts: &[f64]| parts.iter().map(|n| number(n * sheet.stroke)).collect::<Vec<_>>().join(" ");
-    let push = |text: &mut Vec<u8>, name: &str| {
-        let value = match name {
-            "width" => number(size.x),
-            "height" => number(size.y),
-            "left" => number(sheet.extents.least.x),
-            // Upwards in the drawing, downwards in the file.
-            "top" => number(-sheet.extents.largest.y),
-            "stroke" => number(sheet.stroke),
-            "thick" => number(2.0 * sheet.stroke),
-            "heavy" => number(4.0 * sheet.stroke),
-            "dash" => dashes(&[24.0, 6.0, 4.0, 6.0]),
-            "dot" => dashes(&[8.0, 8.0]),
-            "title" => escaped(&sheet.title),
-            "drawing" => {
-                for (index, shown) in sheet.groups.iter().enumerate() {
-                    text.extend_from_slice(if index > 0 { b"\n" } else { b"" });
-                    push_group(text, shown, sheet.scale, told);
-                }
-                return Ok(());
-            }
-            _ => return Err(TemplateError::Unknown(name.to_owned())),
-        };
-        text.extend_from_slice(value.as_bytes());
-        Ok(())
+    let drawing =
+        || sheet.groups.iter().map(|group| layer(group, sheet.scale, with_lengths).to_string()).collect::<Vec<_>>();
+    let value = |name: &str| match name {
+        "width" => Ok(number(size.x)),
+        "height" => Ok(number(size.y)),
+        "left" => Ok(number(sheet.extents.least.x)),
+        // Upwards in the drawing is downwards in the file.
+        "top" => Ok(number(-sheet.extents.largest.y)),
+        "stroke" => Ok(number(sheet.stroke)),
+        "thick" => Ok(number(2.0 * sheet.stroke)),
+        "heavy" => Ok(number(4.0 * sheet.stroke)),
+        "dash" => Ok(dashes(&[24.0, 6.0, 4.0, 6.0])),
+        "dot" => Ok(dashes(&[8.0, 8.0])),
+        // A PDF gets the whole font from elsewhere.
+        "font" => Ok(if with_lengths { FONT_RULE.trim_end().to_owned() } else { String::new() }),
+        "title" => Ok(node::Text::new(printable(&sheet.title)).to_string()),
+        "drawing" => Ok(drawing().join("\n")),
+        _ => Err(Refusal::new(format!("the template has the unknown placeholder {{{{{name}}}}}"))
+            .remedy(format!("known are {KNOWN}"))),
     };
-    if !template.contains("{{drawing}}") {
-        return Err(TemplateError::NoDrawing);
-    }
     // The comment that explains the placeholders belongs to the template and is left out of the sheet.
-    let mut text = Vec::with_capacity(template.len() + ROOM);
-    let template = without_comments(template);
-    let mut rest = template.as_str();
-    if !comment.is_empty() {
-        rest = push_comment(&mut text, rest, comment);
+    let bare = without_comments(template, |_| String::new());
+    if template != TEMPLATE {
+        let in_its_lines = without_comments(template, |comment| comment.chars().filter(|c| *c == '\n').collect());
+        template::check(&in_its_lines)?;
     }
+    let (mut text, mut rest) = marked(&bare, comment);
     while let Some((before, behind)) = rest.split_once("{{") {
         let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
-        text.extend_from_slice(before.as_bytes());
-        push(&mut text, name.trim())?;
+        text.push_str(before);
+        text.push_str(&value(name.trim())?);
         rest = after;
-    }
-    text.extend_from_slice(rest.as_bytes());
-    Ok(text)
-}
-
-/// Adds the declaration of XML that a template may begin with, and a comment behind it; what is left of the template.
-fn push_comment<'a>(text: &mut Vec<u8>, template: &'a str, comment: &str) -> &'a str {
-    let declared = template.strip_prefix("<?xml").and_then(|behind| behind.split_once("?>"));
-    if let Some((declaration, _)) = declared {
-        for part in ["<?xml", declaration, "?>\n"] {
-            text.extend_from_slice(part.as_bytes());
+        if text.len() > template::LARGEST_SHEET {
+            return Err(Refusal::new("the sheet in this template is larger than 20 MiB"));
         }
     }
-    for part in ["<!-- ", comment, " -->\n"] {
-        text.extend_from_slice(part.as_bytes());
-    }
-    declared.map_or(template, |(_, rest)| rest.trim_ascii_start())
+    text.push_str(rest);
+    Ok(text.into_bytes())
 }
 
-fn without_comments(template: &str) -> String {
+/// The declaration of XML that a template may begin with, with a comment behind it, and what is left of the template.
+fn marked<'a>(template: &'a str, comment: &str) -> (String, &'a str) {
+    if comment.is_empty() {
+        return (String::new(), template);
+    }
+    let comment = node::Comment::new(comment);
+    match template.strip_prefix("<?xml").and_then(|behind| behind.split_once("?>")) {
+        Some((declaration, rest)) => (format!("<?xml{declaration}?>\n{comment}\n"), rest.trim_ascii_start()),
+        None => (format!("{comment}\n"), template),
+    }
+}
+
+/// A template with something in the place of each comment and the line feeds behind it.
+fn without_comments(template: &str, instead: impl Fn(&str) -> String) -> String {
     let mut text = String::new();
     let mut rest = template;
     while let Some((before, behind)) = rest.split_once("<!--") {
         text.push_str(before);
-        rest = behind.split_once("-->").map_or("", |(_, after)| after.trim_start_matches('\n'));
+        let after = behind.split_once("-->").map_or("", |(_, after)| after.trim_start_matches('\n'));
+        text.push_str(&instead(behind.strip_suffix(after).unwrap_or(behind)));
+        rest = after;
     }
     text.push_str(rest);
     text
 }
 
-/// Text that may stand in XML: escaped, control characters left out.
-fn escaped(text: &str) -> String {
-    let mut out = Vec::new();
-    push_escaped(&mut out, text);
-    String::from_utf8(out).unwrap_or_default()
+/// A text without the characters that XML does not allow: control characters and the two noncharacters.
+fn printable(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')).collect()
 }
 
-/// Whether XML has a place for a character: for no control and neither of the two noncharacters.
-fn is_printable(c: char) -> bool {
-    !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
-}
-
-/// A text without what XML has no place for.
-fn printable(text: &str) -> Cow<'_, str> {
-    if text.chars().all(is_printable) { text.into() } else { text.chars().filter(|c| is_printable(*c)).collect() }
-}
-
-/// Adds a text without what XML has no place for, escaped.
-fn push_escaped(out: &mut Vec<u8>, text: &str) {
-    if text.bytes().all(|byte| matches!(byte, b' '..=b'~') && !matches!(byte, b'&' | b'<' | b'>')) {
-        return out.extend_from_slice(text.as_bytes());
-    }
-    for c in text.chars().filter(|c| is_printable(*c)) {
-        let mut own = [0; 4];
-        let escaped = match c {
-            '&' => "&amp;",
-            '<' => "&lt;",
-            '>' => "&gt;",
-            c => c.encode_utf8(&mut own),
-        };
-        out.extend_from_slice(escaped.as_bytes());
-    }
-}
-
-/// Adds an attribute whose value is written by a function.
-fn attribute(out: &mut Vec<u8>, name: &str, value: impl FnOnce(&mut Vec<u8>)) {
-    for part in [" ", name, "=\""] {
-        out.extend_from_slice(part.as_bytes());
-    }
-    value(out);
-    out.push(b'"');
-}
-
-/// Adds attributes that are numbers; of each what stands before its number.
-fn numbers(out: &mut Vec<u8>, values: &[(&str, f64)]) {
-    for (begin, value) in values {
-        out.extend_from_slice(begin.as_bytes());
-        DATA.push_number(out, *value);
-        out.push(b'"');
-    }
-}
-
-/// Adds a group of shapes, each on a line of its own. Its many shapes are written into its tag: as elements of their own they took half of
-/// the time of a sheet.
-fn push_group(out: &mut Vec<u8>, group: &Group, scale: f64, told: bool) {
+/// A group of shapes as a layer of Inkscape.
+fn layer(group: &ShapeGroup, scale: f64, with_lengths: bool) -> element::Group {
     let mut node = element::Group::new()
         .set("id", group.id.as_str())
         .set("class", group.class)
         .set("inkscape:groupmode", "layer")
-        .set("inkscape:label", printable(&group.label).as_ref());
+        .set("inkscape:label", printable(&group.label));
     if let Some(colour) = &group.colour {
         node = node.set("stroke", colour.as_str());
     }
     if OUTLINES.contains(&group.class) {
         node = node.set("data-scale", number(scale));
     }
-    let tag = node.to_string();
-    if group.shapes.is_empty() {
-        return out.extend_from_slice(tag.as_bytes());
-    }
-    out.extend_from_slice(tag.trim_end_matches("/>").as_bytes());
-    out.extend_from_slice(b">\n");
-    for shape in &group.shapes {
-        push_shape(out, shape, told);
-        out.push(b'\n');
-    }
-    out.extend_from_slice(b"</g>");
+    group.shapes.iter().fold(node, |node, shape| node.add(shape_element(shape, with_lengths)))
 }
 
-fn push_shape(out: &mut Vec<u8>, shape: &Shape, told: bool) {
-    let element = match shape {
-        Shape::Entity(Entity::Polyline(_)) | Shape::Arc(..) => "<path",
-        Shape::Entity(Entity::Circle(..)) => "<circle",
-        Shape::Line(..) => "<line",
-        Shape::Path(_) => "<polyline",
-        Shape::Triangle(_) => "<polygon",
-        Shape::Text { at, height, anchor, text } => return push_words(out, (*at, *height, *anchor), text, told),
-    };
-    out.extend_from_slice(element.as_bytes());
+fn shape_element(shape: &SheetShape, with_lengths: bool) -> Box<dyn Node> {
     match shape {
-        Shape::Entity(Entity::Polyline(contour)) => attribute(out, "d", |out| DATA.push_contour(out, contour)),
-        Shape::Entity(Entity::Circle(centre, radius)) => {
-            numbers(out, &[(" cx=\"", centre.x), (" cy=\"", -centre.y), (" r=\"", *radius)]);
+        SheetShape::Entity(Entity::Polyline(contour)) => element::Path::new().set("d", DATA.contour(contour)).into(),
+        SheetShape::Entity(Entity::Circle(centre, radius)) => {
+            let circle = element::Circle::new().set("cx", number(centre.x)).set("cy", number(-centre.y));
+            circle.set("r", number(*radius)).into()
         }
-        Shape::Line(a, b) => {
-            numbers(out, &[(" x1=\"", a.x), (" x2=\"", b.x), (" y1=\"", -a.y), (" y2=\"", -b.y)]);
+        SheetShape::Entity(Entity::Segment(segment)) => element::Path::new().set("d", DATA.open_arc(segment)).into(),
+        SheetShape::Line(a, b) => {
+            let line = element::Line::new().set("x1", number(a.x)).set("y1", number(-a.y));
+            line.set("x2", number(b.x)).set("y2", number(-b.y)).into()
         }
-        Shape::Path(points) => attribute(out, "points", |out| DATA.push_places(out, points, b' ')),
-        Shape::Arc(start, end, bulge) => {
+        SheetShape::Path(points) => element::Polyline::new().set("points", DATA.places(points, " ")).into(),
+        SheetShape::Arc(start, end, bulge) => {
             let segment = Segment { start: *start, end: *end, bulge: *bulge };
-            attribute(out, "d", |out| DATA.push_open_arc(out, &segment));
+            element::Path::new().set("d", DATA.open_arc(&segment)).into()
         }
-        Shape::Triangle(corners) => attribute(out, "points", |out| DATA.push_places(out, corners, b' ')),
-        Shape::Text { .. } => {}
+        SheetShape::Triangle(corners) => element::Polygon::new().set("points", DATA.places(corners, " ")).into(),
+        SheetShape::Text { at, height, anchor, text } => {
+            let anchor = match anchor {
+                TextAnchor::Start => "start",
+                TextAnchor::Middle => "middle",
+                TextAnchor::End => "end",
+            };
+            // Blanks at its ends are dropped by readers: the crate `svg` puts the text on a line of its own.
+            let mut node = element::Text::new(printable(text))
+                .set("x", number(at.x))
+                .set("y", number(-at.y))
+                .set("font-size", number(*height))
+                .set("text-anchor", anchor);
+            if with_lengths {
+                let width = number(font::width(text, *height));
+                node = node.set("textLength", width).set("lengthAdjust", "spacingAndGlyphs");
+            }
+            node.into()
+        }
     }
-    out.extend_from_slice(b"/>");
-}
-
-/// Adds a text at a place, of a height, on its anchor.
-fn push_words(out: &mut Vec<u8>, (at, height, anchor): (Vector2<f64>, f64, TextAnchor), text: &str, told: bool) {
-    let anchor = match anchor {
-        TextAnchor::Start => "start",
-        TextAnchor::Middle => "middle",
-        TextAnchor::End => "end",
-    };
-    out.extend_from_slice(br#"<text font-size=""#);
-    DATA.push_number(out, height);
-    out.extend_from_slice(if told {
-        br#"" lengthAdjust="spacingAndGlyphs" text-anchor=""#
-    } else {
-        br#"" text-anchor=""#
-    });
-    out.extend_from_slice(anchor.as_bytes());
-    if told {
-        out.extend_from_slice(br#"" textLength=""#);
-        DATA.push_number(out, font::width(text, height));
-    }
-    out.extend_from_slice(br#"" x=""#);
-    DATA.push_number(out, at.x);
-    out.extend_from_slice(br#"" xml:space="preserve" y=""#);
-    DATA.push_number(out, -at.y);
-    out.extend_from_slice(b"\">\n");
-    push_escaped(out, text);
-    out.extend_from_slice(b"\n</text>");
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::contour::{Contour, Extents};
+    use nalgebra::Vector2;
 
     fn sheet(title: &str) -> Sheet {
         let contour = Contour::circle(Vector2::new(1.0, 2.0), 5.0);
         let shapes = vec![
-            Shape::Entity(Entity::Polyline(contour)),
-            Shape::Text { at: Vector2::zeros(), height: 2.0, anchor: TextAnchor::Middle, text: title.into() },
+            SheetShape::Entity(Entity::Polyline(contour)),
+            SheetShape::Text { at: Vector2::zeros(), height: 2.0, anchor: TextAnchor::Middle, text: title.into() },
         ];
         Sheet {
             title: title.into(),
             extents: Extents { least: Vector2::new(-10.0, -20.0), largest: Vector2::new(30.0, 40.0) },
             stroke: 0.1,
             scale: 1.0,
-            groups: vec![Group::new("profile", "profile", shapes)],
+            groups: vec![ShapeGroup::new("profile", "profile", shapes)],
         }
     }
 
@@ -329,6 +249,17 @@ mod tests {
         assert!(!text.contains("{{"));
     }
 
+    /// Line ends about a text that were kept would be blanks: a digit would be drawn at a third of its width.
+    #[test]
+    fn a_text_has_no_blanks_at_its_ends() {
+        let text = String::from_utf8(write(&sheet("7"), TEMPLATE).expect("filled")).expect("UTF-8");
+        let document = roxmltree::Document::parse(&text).expect("XML");
+        let digit = document.descendants().find(|node| node.has_tag_name("text")).expect("a text");
+        assert_eq!(digit.text().map(str::trim), Some("7"));
+        let kept = digit.ancestors().any(|node| node.attributes().any(|attribute| attribute.name() == "space"));
+        assert!(!kept, "{text}");
+    }
+
     #[test]
     fn words_are_escaped_and_cleaned() {
         let text = String::from_utf8(write(&sheet("a<b>&\u{1}\u{7f}\"Ю\""), TEMPLATE).expect("filled")).expect("UTF-8");
@@ -337,8 +268,9 @@ mod tests {
     }
 
     #[test]
-    fn a_template_that_cannot_be_filled_is_told() {
-        assert_eq!(write(&sheet("x"), "<svg/>"), Err(TemplateError::NoDrawing));
-        assert_eq!(write(&sheet("x"), "{{drawing}}{{colour}}"), Err(TemplateError::Unknown("colour".into())));
+    fn a_template_that_cannot_be_filled_is_refused() {
+        let what = |template: &str| write(&sheet("x"), template).expect_err("refused").what;
+        assert_eq!(what("<svg/>"), "the template has no placeholder {{drawing}}, so nothing would be drawn");
+        assert_eq!(what("<svg>{{drawing}}{{colour}}</svg>"), "the template has the unknown placeholder {{colour}}");
     }
 }

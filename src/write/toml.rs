@@ -1,16 +1,16 @@
 //! What an analysis describes as a table of a machine file, to paste there.
 
-use super::{Format, OfAnalysis, When};
+use super::{AnalysisFormat, Format, FormatSelection};
 
 /// A table of a machine file.
 pub const FORMAT: Format = Format {
     name: "toml",
-    when: When::Asked,
+    when: FormatSelection::Asked,
     flank: false,
-    unfit: |_| Some("it is for a linkage; a cam is described by its machine file"),
+    unfit: |_| Some("toml is for a linkage; a cam is described by its machine file already"),
     endings: |_| Vec::new(),
     write: |_| Ok(Vec::new()),
-    of_analysis: Some(OfAnalysis {
+    of_analysis: Some(AnalysisFormat {
         endings: |analysis| analysis.document.iter().map(|_| ".toml".into()).collect(),
         write: |account| {
             let mark = account.report.mark();

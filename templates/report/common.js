@@ -20,25 +20,30 @@ function makeSvg(tag, attributes = {}) {
   return element;
 }
 
-/** A number for a person: five digits, an exponent only where it is short. */
-function shown(value, digits = 5) {
+/** A number for a person: at most six digits and four decimals, a power of ten only where nothing else is short. */
+function shown(value, digits = 6) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  const text = size !== 0 && (size < 1e-4 || size >= 1e7)
-    ? value.toExponential(2).replace("e+", "e")
-    : String(Number(value.toPrecision(digits)));
+  if (size < 1e-9) return "0";
+  if (size < 1e-6 || size >= 1e9) {
+    const [mantissa, power] = value.toExponential(1).split("e");
+    const raised = [...power.replace("+", "")].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
+    return `${mantissa}·10${raised}`.replace(/-/g, "−");
+  }
+  const rounded = Number(value.toFixed(size < 0.1 ? 6 : 4));
+  return String(Number(rounded.toPrecision(digits))).replace(/-/g, "−");
+}
+
+/** A number with a steady number of decimals, so that it does not jump while it changes. */
+function steady(value) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size < 5e-4) return size < 1e-6 ? "0.000" : shown(value, 2);
+  const text = size < 1e5 ? value.toFixed(size < 10 ? 3 : size < 1000 ? 2 : 1) : String(Number(value.toPrecision(6)));
   return text.replace(/-/g, "−");
 }
 
-/** The same with as many decimals whatever the value, so that it does not jump while it changes. */
-function steady(value) {
-  if (value === null || !Number.isFinite(value)) return "–";
-  const size = Math.abs(value);
-  if (size !== 0 && size < 5e-4) return Math.abs(value) < 1e-9 ? "0.000" : shown(value, 2);
-  return value.toFixed(size < 10 ? 3 : size < 1000 ? 2 : 1).replace(/-/g, "−");
-}
-
-/** Where a value lies in a growing list: the index before it and the share of the way to the next. */
+/** The place of a value in an increasing list: the index before it and the share of the distance to the next. */
 function locate(list, value) {
   let low = 0;
   let high = list.length - 1;
@@ -61,7 +66,7 @@ function between(list, [index, share]) {
   return a === null || b === null ? null : a + (b - a) * share;
 }
 
-/** The columns of a view, closed where the motion goes round: the first row stands again at the end. */
+/** The columns of a view; for a cyclic motion the first row is repeated at the end. */
 function closed(view) {
   const columns = {};
   for (const [name, values] of Object.entries(view.columns)) {
@@ -84,7 +89,7 @@ const state = {
 const viewOf = (cam) => cam.views[Math.min(state.section, cam.views.length - 1)];
 const first = () => viewOf(cams[0]);
 
-/** Length of a cycle of a view, degrees of the shaft: a turn, or there and back. */
+/** Length of a cycle of a view, degrees of the shaft: a turn, or out and back. */
 function cycleOf(view) {
   const span = view.turn[view.turn.length - 1] - view.turn[0];
   return view.returns ? 2 * span : span;
@@ -100,7 +105,7 @@ function turnOf(view) {
 /** The place in a view: in its table's own coordinate. */
 const placeOf = (view) => between(view.at, locate(view.turn, turnOf(view)));
 
-/** A colour of the style as it is now. */
+/** A colour of the current style. */
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 /** Factor and unit in which a column of an order of derivation is shown. */
@@ -110,8 +115,9 @@ function inRates(view, unit, order) {
   // Millimetres to metres where the numbers would be long.
   const metres = above === "mm" && order > 1;
   const power = ["", "s", "s²", "s³"][order];
+  if (above === "rad" && state.rate === "degrees") return [(view.shaftSpeed ** order * 180) / Math.PI, `°/${power}`];
   return [view.shaftSpeed ** order * (metres ? 1e-3 : 1), `${metres ? "m" : above}/${power}`];
 }
 
-/** The letter of a cam beside another. */
+/** The letter of a cam that is shown next to another. */
 const letter = (index) => (cams.length > 1 ? "AB"[index] : "");

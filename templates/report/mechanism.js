@@ -1,4 +1,4 @@
-// The mechanism: rigid parts put where their samples say.
+// The mechanism: rigid parts at the places of their samples.
 
 function mechanism(cam, index) {
   const svg = makeSvg("svg", { role: "img", preserveAspectRatio: "xMidYMid meet" });
@@ -6,6 +6,8 @@ function mechanism(cam, index) {
   const figure = make("figure", {}, svg, caption);
   let moving = [];
   let shownView = null;
+  /** Size of a pixel of the screen, mm. */
+  let pixel = 1;
 
   function build(view) {
     shownView = view;
@@ -25,7 +27,7 @@ function mechanism(cam, index) {
         names.push(name);
       }
       const range = Array.isArray(part.pressure) ? [Math.min(...part.pressure), Math.max(...part.pressure)] : null;
-      moving.push({ part, group, name, range });
+      moving.push({ part, group, name, range, room: 0 });
     }
     svg.append(...names);
     const words = [letter(index) && `${letter(index)}: ${cam.title}.`, ...cam.pictureNotes].filter(Boolean);
@@ -33,22 +35,24 @@ function mechanism(cam, index) {
     requestAnimationFrame(scale);
   }
 
-  /** Text keeps its size on the screen whatever the size of the machine. */
+  /** Text keeps its size on the screen, independent of the size of the machine. */
   function scale() {
     const [, , width, height] = shownView.box;
     const box = svg.getBoundingClientRect();
-    const pixel = box.width > 0 ? Math.max(width / box.width, height / box.height) : width / 1000;
+    pixel = box.width > 0 ? Math.max(width / box.width, height / box.height) : width / 1000;
     svg.style.setProperty("--scale", pixel);
+    for (const one of moving) if (one.name) one.room = one.name.getBBox().width / 2;
     draw();
   }
 
-  /** Of names that would lie over each other the first stays. */
+  /** Of names that would overlap or touch the first is kept. */
   function unravel() {
     const kept = [];
     for (const { name } of moving) {
       if (!name) continue;
       const own = name.getBBox();
-      const over = (other) => own.x < other.x + other.width && other.x < own.x + own.width && own.y < other.y + other.height && other.y < own.y + own.height;
+      const gap = 5 * pixel;
+      const over = (other) => own.x < other.x + other.width + gap && other.x < own.x + own.width + gap && own.y < other.y + other.height && other.y < own.y + own.height;
       const hidden = kept.some(over);
       name.style.visibility = hidden ? "hidden" : "";
       if (!hidden) kept.push(own);
@@ -60,11 +64,15 @@ function mechanism(cam, index) {
     if (view !== shownView) build(view);
     const sample = locate(view.turn, turnOf(view));
     const of = (track) => (Array.isArray(track) ? between(track, sample) : track);
-    for (const { part, group, name, range } of moving) {
+    const [left, , wide] = view.box;
+    // Names are larger on paper.
+    if ("printing" in document.documentElement.dataset) for (const one of moving) if (one.name) one.room = one.name.getBBox().width / 2;
+    for (const { part, group, name, range, room } of moving) {
       const [x, y] = [of(part.x), -of(part.y)];
       group.setAttribute("transform", `translate(${x} ${y}) rotate(${-of(part.turn)}) scale(${of(part.stretch)} ${of(part.height ?? 1)})`);
       if (name) {
-        name.setAttribute("x", x + part.name[1]);
+        // A name at the edge is not cut.
+        name.setAttribute("x", Math.max(left + room, Math.min(left + wide - room, x + part.name[1])));
         name.setAttribute("y", y + part.name[2]);
       }
       // Pale at ambient pressure, deep at the largest.
@@ -111,7 +119,7 @@ function readout(cam, index) {
     const places = view.columns[view.place];
     const place = placeOf(view);
     // A plate has a run-in before the first row of its table.
-    const told = place >= places[0] - 1e-9;
+    const inTable = place >= places[0] - 1e-9;
     const sample = locate(places, place);
     for (const { name, value, unit } of entries) {
       if (name === null) {
@@ -120,7 +128,7 @@ function readout(cam, index) {
       }
       const [, kind, order] = view.kinds[name];
       const [factor, words] = inRates(view, kind, order);
-      const at = name === view.place ? place : told ? between(view.columns[name], sample) : null;
+      const at = name === view.place ? place : inTable ? between(view.columns[name], sample) : null;
       value.textContent = steady(at === null ? null : at * factor);
       unit.textContent = words;
     }

@@ -54,7 +54,7 @@ function solidView(cam, index) {
         const [a, b, c, d] = [points[r][i], points[r][j], points[r + 1][j], points[r + 1][i]];
         const area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
         if (area > 0) continue;
-        // Light from the eye: what is seen slantwise is darker.
+        // Light from the eye: oblique faces are darker.
         const edge = Math.hypot(b[0] - a[0], b[1] - a[1], size * (b[2] - a[2])) * Math.hypot(d[0] - a[0], d[1] - a[1], size * (d[2] - a[2]));
         const light = 0.45 + 0.55 * Math.min(1, Math.abs(area) / (2 * edge || 1));
         const mix = (from, to) => Math.round((from + (to - from) * t) * light);

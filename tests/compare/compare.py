@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
-"""Runs two builds of camgen on the same random machines and lists where their outputs differ.
+"""Runs two builds of camgen on the same random machines and motion programs and lists where their outputs differ.
 
-usage: compare.py BEFORE AFTER [--machines 100] [--seed 1] [--jobs 2] [--allow FILE]
+usage: compare.py BEFORE AFTER [--machines 100] [--programs 100] [--seed 1] [--jobs 2] [--allow FILE]
 
-Each machine is an embedded one, or a file made of one by dropping lines, with random overrides; some values are invalid
-on purpose. It goes through `rotary`, `translating` and `conoid` with random flags, and a part of the DXF files written
-goes through `check`. Either build runs in a fresh directory of its own with the same arguments.
+A machine is an embedded one, or a file made of one by dropping lines, with random overrides; some values are invalid on purpose. It goes
+through `rotary`, `translating` and `conoid` with random flags, and a part of the DXF files written goes through `check`. With each machine
+every analysis runs once, on an embedded machine of its kind whose values are changed at random. A program is a design file of
+tests/independent/programs.py: it goes through `make`, a part of them through `check`, `size` and `laws` (needs numpy; tests/run installs it in
+target/independent-venv). Either build runs in a fresh directory of its own with the same arguments.
 
-A difference is: another exit code; another set of files; other bytes in a .dxf, .step, .stl or .csv; a value of a report
-that has changed or gone. Reports are compared value by value, their list of checks by the names of the checks.
+A difference is: another exit code; another set of files; other bytes in a .dxf, .step, .stl, .csv (also of points), .txt or .toml; a value
+of a report, its hash of the inputs among them, that has changed or gone. Reports are compared value by value, their list of checks by the
+names of the checks.
 
 Listed, but no difference: additions (keys, tables and checks of a report that only AFTER has) and wording (notes of
-checks, and what is said on standard error by a run that ends with exit code 2). SVG files, printed text and other messages
+checks, and what is said on standard error by a run that ends with exit code 2). SVG, HTML and PDF files, printed text and other messages
 are only counted.
 
 --allow names a file of regular expressions, one a line, lines with # are comments. A difference is intended when one of
@@ -27,12 +30,14 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import tomllib
 from collections import Counter, defaultdict
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
-BYTES = {".dxf", ".step", ".stl", ".csv"}
+BYTES = {".dxf", ".step", ".stl", ".csv", ".txt", ".toml"}
+COUNTED = {".svg", ".html", ".pdf"}
 TIMEOUT = 120  # seconds for one run
 
 
@@ -161,6 +166,14 @@ def random_speed(rng):
     return rng.choice(["20", "25", "30", "35", "40", f"{rng.uniform(15, 55):.1f}", f"{rng.uniform(15, 55):.6f}"])
 
 
+def points_flags(rng, has_centre=True):
+    curves = [["profile"], ["cutter", "--cutter-radius", "8mm"], *([["centre"]] if has_centre else [])]
+    flags = ["--points-of", *rng.choice(curves)] if rng.random() < 0.6 else []
+    for flag, values in (("--points-as", ["polar", "xy"]), ("--points-step", ["angle", "chord"]), ("--points-between", ["linear", "cubic"])):
+        flags += [flag, rng.choice(values)] if rng.random() < 0.4 else []
+    return flags
+
+
 def random_flags(rng, command, overrides):
     flags = []
 
@@ -192,6 +205,9 @@ def random_flags(rng, command, overrides):
     if rng.random() < 0.9:
         kinds = ["dxf", "svg", "step", "csv"] + (["stl"] if command == "conoid" or rng.random() < 0.03 else [])
         kinds = [kind for kind in kinds if rng.random() < 0.75] + ["json"]
+        if rng.random() < (0.3 if command != "translating" else 0.03):
+            kinds.append("points")
+            flags += points_flags(rng)
         rng.shuffle(kinds)
         flags += ["--format", ",".join(kinds)]
     sometimes(0.9, "--samples", str(rng.choice([1, 2, 3, 7, 36, 60, 90])))
@@ -199,8 +215,8 @@ def random_flags(rng, command, overrides):
     sometimes(0.25, "--dxf-version", rng.choice(["r12", "r2000", "r2010", "r2013"]))
     sometimes(0.6, "--force")
     sometimes(0.05, "--name", "part")
-    if command == "rotary":
-        sometimes(0.25, "--cutter", f"{rng.choice([1, 5, 8, 20, 60, 300])}mm")
+    if command == "rotary" and "--cutter-radius" not in flags:
+        sometimes(0.25, "--cutter-radius", f"{rng.choice([1, 5, 8, 20, 60, 300])}mm")
     if command == "translating":
         sometimes(0.3, "--balance", rng.choice(["braking", "return", "mean"]))
         if rng.random() < 0.25:
@@ -239,7 +255,18 @@ class Case:
     files: tuple[dict, dict] | None = None  # name to bytes
 
 
+# Flags as revisions before them call them.
+FORMER = {"--cutter-radius": "--cutter"}
+
+
+def knows(binary, flag, known={}):
+    if (binary, flag) not in known:
+        known[binary, flag] = flag in subprocess.run([binary, "rotary", "--help"], capture_output=True, text=True).stdout
+    return known[binary, flag]
+
+
 def start(binary, arguments, directory):
+    arguments = [FORMER[word] if word in FORMER and not knows(binary, word) else word for word in arguments]
     # Under one name, because the usage names the program.
     try:
         done = subprocess.run(
@@ -251,55 +278,172 @@ def start(binary, arguments, directory):
     return Ended(done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace"))
 
 
-def files_in(directory):
-    return {
-        str(path.relative_to(directory)): path.read_bytes()
-        for path in sorted(Path(directory).rglob("*"))
-        if path.is_file() and path.name not in ("press.toml", ".camgen.json")
-    }
+class Pair:
+    """Both builds, each in a directory of its own with the same files in it."""
+
+    def __init__(self, binaries, files):
+        self.binaries, self.given = binaries, set(files)
+        self.kept = [tempfile.TemporaryDirectory() for _ in binaries]
+        self.directories = [Path(kept.name) for kept in self.kept]
+        for name, text in files.items():
+            self.put(name, [text.encode()] * 2)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for kept in self.kept:
+            kept.cleanup()
+
+    def put(self, name, contents):
+        for directory, content in zip(self.directories, contents):
+            (directory / name).write_bytes(content)
+
+    def run(self, arguments, note="", with_files=True):
+        """A case of these arguments: how both ended, and the files they wrote."""
+        ended = [start(binary, arguments, directory) for binary, directory in zip(self.binaries, self.directories)]
+        line = shlex.join(["camgen", *arguments]) + note
+        return Case(arguments[0], line, *ended, tuple(map(self.files_in, self.directories)) if with_files else None)
+
+    def files_in(self, directory):
+        paths = [path for path in sorted(directory.rglob("*")) if path.is_file() and path.name not in self.given | {".camgen.json"}]
+        return {str(path.relative_to(directory)): path.read_bytes() for path in paths}
 
 
 def cases_of_command(binaries, rng, command, machine, text, overrides):
     sets = [word for override in overrides for word in ("--set", override)]
     flags = random_flags(rng, command, overrides)
-    arguments = [command, machine, *sets, *flags]
-    with tempfile.TemporaryDirectory() as before, tempfile.TemporaryDirectory() as after:
-        directories = [Path(before), Path(after)]
-        if text is not None:
-            for directory in directories:
-                (directory / "press.toml").write_text(text)
+    with Pair(binaries, {} if text is None else {"press.toml": text}) as pair:
+        made = pair.run([command, machine, *sets, *flags])
+        yield made
+        kind = ["--cam", "translating"] if command == "translating" else []
+        yield from cases_of_check(pair, rng, made, [machine, *sets, *kind], flags)
 
-        def both(arguments):
-            return [start(binary, arguments, directory) for binary, directory in zip(binaries, directories)]
 
-        ended = both(arguments)
-        files = tuple(files_in(directory) for directory in directories)
-        yield Case(command, shlex.join(["camgen", *arguments]), *ended, files)
+def cases_of_check(pair, rng, made, machine, flags):
+    """A part of the DXF files written, some of them cut off, through `check`."""
+    files = made.files
+    draw, cut, tolerance = rng.random(), rng.random(), rng.choice(["1um", "5um", "0.05mm"])
+    drawn = sorted(name for name in files[0] if name.endswith(".dxf"))
+    if draw >= 0.4 or not drawn:
+        return
+    name = drawn[int(len(drawn) * draw / 0.4)]
+    if name not in files[1]:
+        return
+    note = ""
+    if cut < 0.15:
+        pair.put(name, [own[name][: int(len(own[name]) * cut / 0.15)] for own in files])
+        note = f" # of the file cut off at {cut / 0.15:.6f} of its length"
+    arguments = ["check", name, *machine, "--json"]
+    # As the file was cut, but at times with another tolerance.
+    kept = ["--tolerance", "--accuracy", "--balance"] + (["--rpm"] if made.command != "conoid" else [])
+    for flag in [flag for flag in kept if flag in flags]:
+        arguments += [flag, flags[flags.index(flag) + 1]]
+    if cut > 0.8 and "--tolerance" not in flags and "--accuracy" not in flags:
+        arguments += ["--tolerance", tolerance]
+    if made.command == "conoid" and (speed := re.search(r"([\d.]+)rpm\.dxf$", name)):
+        arguments += ["--rpm", speed[1]]
+    yield pair.run(arguments, note, with_files=False)
 
-        draw, cut, tolerance = rng.random(), rng.random(), rng.choice(["1um", "5um", "0.05mm"])
-        drawn = sorted(name for name in files[0] if name.endswith(".dxf"))
-        if draw >= 0.4 or not drawn:
-            return
-        name = drawn[int(len(drawn) * draw / 0.4)]
-        if name not in files[1]:
-            return
-        line = ""
-        if cut < 0.15:
-            for directory, own in zip(directories, files):
-                (directory / name).write_bytes(own[name][: int(len(own[name]) * cut / 0.15)])
-            line = f" # of the file cut off at {cut / 0.15:.6f} of its length"
-        arguments = ["check", name, machine, *sets, "--json"]
-        # As the file was cut, but at times with another tolerance.
-        kept = ["--tolerance", "--accuracy", "--balance"] + (["--rpm"] if command != "conoid" else [])
-        for flag in [flag for flag in kept if flag in flags]:
-            arguments += [flag, flags[flags.index(flag) + 1]]
-        if cut > 0.8 and "--tolerance" not in flags and "--accuracy" not in flags:
-            arguments += ["--tolerance", tolerance]
-        if command == "translating":
-            arguments += ["--cam", "translating"]
-        if command == "conoid" and (speed := re.search(r"([\d.]+)rpm\.dxf$", name)):
-            arguments += ["--rpm", speed[1]]
-        yield Case("check", shlex.join(["camgen", *arguments]) + line, *both(arguments))
+
+# ---- analyses ----
+
+
+PRESSES = ["dpi", "dpi", "dpi-paper", "dpi-crank-slider", "dpi-six-bar"]
+DESIGNS = ["feeder", "lever", "valve"]
+# Every analysis, the embedded machines it takes, and the flags it may have, each with its values.
+ANALYSES = {
+    "regimes": (PRESSES, {"--rpm": ["25", "20,30,40", "33.5,41"], "--cut-for": ["30", "41.7"], "--reset": ["end", "half", "level"]}),
+    "spring": (["dpi", "dpi-paper"], {"--rpm": ["30", "20,45"], "--stiffness": ["68kgf/cm,165kgf/cm", "120N/mm"], "--residual": ["50kgf", "900N"]}),
+    "drive": (["dp"], {"--solver": ["paper"], "--step": ["5deg", "7deg", "0.1rad"]}),
+    "linkage": (["dpi-six-bar", "dpi-crank-slider"], {"--rpm": ["30", "42.5"]}),
+    "shaft": (
+        ["press-cylinder", "dpi-shaft"],
+        {"--rpm": ["30", "400"], "--modes": ["1", "4"], "--whirl": ["planar", "backward"], "--solver": ["paper"], "--samples": ["12", "90"]},
+    ),
+    "brake": (["roll", "roll-level"], {"--samples": ["7", "40"], "--cam": [None], "--synthesize=robust": [None]}),
+    "size": (DESIGNS, {"--rpm": ["90", "250"], "--free": ["offset", "pivot-distance"]}),
+    "laws": (DESIGNS, {"--rpm": ["90"], "--lift": ["12mm", "20deg"], "--over": ["75deg", "2rad"], "--sort": ["cv", "cj"]}),
+}
+# Of equal lobes: no other size will do.
+COUNTS = {"cam.cam_turns_per_crank_turn"}
+SELDOM = {"--synthesize=robust", "--solver"}
+
+
+def leaves(table, before=""):
+    for key, value in table.items():
+        if isinstance(value, dict):
+            yield from leaves(value, f"{before}{key}.")
+        else:
+            yield f"{before}{key}", value
+
+
+def changed(rng, value):
+    """A number or quantity of another size; None of what is neither."""
+    factor = rng.choice([rng.uniform(0.95, 1.05), rng.uniform(0.8, 1.25), rng.uniform(0.3, 3)])
+    if isinstance(value, str) and (parts := re.fullmatch(r"(-?[\d.]+)( *[A-Za-z].*)", value)):
+        return f"{float(parts[1]) * factor:.5g}{parts[2]}"
+    return f"{value * factor:.5g}" if type(value) in (int, float) else None
+
+
+def overrides_of(rng, text):
+    share = rng.choice([0.0, 0.05, 0.15, 0.3])
+    values = [(key, changed(rng, value)) for key, value in leaves(tomllib.loads(text)) if key not in COUNTS and rng.random() < share]
+    values = [(key, value) for key, value in values if value is not None]
+    if values and rng.random() < 0.05:
+        values[0] = values[0][0], rng.choice(INVALID)
+    return [f"{key}={value}" for key, value in values]
+
+
+def cases_of_analysis(binaries, rng, command, embedded):
+    machines, flags = ANALYSES[command]
+    name = rng.choice(machines)
+    arguments = [command, name]
+    for override in overrides_of(rng, embedded[name]):
+        arguments += ["--set", override]
+    for flag, values in flags.items():
+        if rng.random() < (0.08 if flag in SELDOM else 0.3):
+            arguments += [word for word in (flag, rng.choice(values)) if word is not None]
+    kinds = ["json", *(kind for kind in ("csv", "svg") if rng.random() < 0.8)]
+    kinds += ["toml"] if command in ("linkage", "brake") and rng.random() < 0.5 else []
+    kinds += ["dxf"] if "--cam" in arguments else []
+    arguments += ["--format", ",".join(kinds), *(["--json"] if rng.random() < 0.85 else [])]
+    arguments += ["--force"] if rng.random() < 0.6 else []
+    with Pair(binaries, {}) as pair:
+        yield pair.run(arguments)
+
+
+# ---- motion programs ----
+
+
+def programs():
+    """The generator of tests/independent/programs.py; None without numpy."""
+    sys.path.append(str(Path(__file__).resolve().parents[1] / "independent"))
+    try:
+        import program_draw
+    except ModuleNotFoundError as error:
+        if error.name != "numpy":
+            raise
+        return None
+    return program_draw
+
+
+def cases_of_program(binaries, rng, generator):
+    case = generator.draw(rng)
+    kinds = ["json", *(kind for kind in ("dxf", "csv", "svg", "step") if rng.random() < 0.7)]
+    flags = list(case["words"]) + (["--set", f"cam.thickness={rng.choice([8, 15.5])}mm"] if "step" in kinds else [])
+    if rng.random() < 0.3:
+        kinds.append("points")
+        flags += points_flags(rng, has_centre="roller" in case["kind"])
+    for share, *more in ((0.1, "--outline", "spline"), (0.1, "--cutter-radius", "8mm"), (0.1, "--dxf-version", "r12"), (0.1, "--rpm", "95")):
+        flags += more if rng.random() < share and more[0] not in flags else []
+    with Pair(binaries, {"design.toml": generator.written(case), **case["files"]}) as pair:
+        made = pair.run(["make", "design.toml", *flags, "--format", ",".join(kinds), *(["--json"] if rng.random() < 0.85 else [])])
+        yield made
+        yield from cases_of_check(pair, rng, made, ["--design", "design.toml"], flags)
+        for command in ("size", "laws"):
+            if rng.random() < 0.15:
+                yield pair.run([command, "design.toml", "--format", "csv,json", "--json", "--name", command])
 
 
 # ---- comparing ----
@@ -445,7 +589,7 @@ def compare_files(seen, tally, before, after):
             seen.add("differences", "bytes", kind, f"{name}, {first_change(one, other)}")
         elif kind == ".json":
             compare_reports(seen, "in the file", one.decode(errors="replace"), other.decode(errors="replace"))
-        elif kind != ".svg":
+        elif kind not in COUNTED:
             seen.add("differences", "bytes", kind, f"{name}, of no known kind")
 
 
@@ -512,7 +656,8 @@ def tell_counts(tally):
         same, other = tally.files[kind, True], tally.files[kind, False]
         print(f"  {kind:12} {same + other:5}   {same}")
     print("only counted")
-    print(f"  SVG files {tally.files['.svg', False]}, standard output as text {tally.text['standard output']}, "
+    counted = sum(tally.files[kind, False] for kind in COUNTED)
+    print(f"  SVG, HTML and PDF files {counted}, standard output as text {tally.text['standard output']}, "
           f"standard error (exit code not 2) {tally.text['standard error']}")
 
 
@@ -521,6 +666,7 @@ def main():
     parser.add_argument("before", type=Path)
     parser.add_argument("after", type=Path)
     parser.add_argument("--machines", type=int, default=100)
+    parser.add_argument("--programs", type=int, help="100 where numpy is installed")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--allow", type=Path)
@@ -530,7 +676,7 @@ def main():
         allowed = [re.compile(line) for line in args.allow.read_text().splitlines()
                    if line.strip() and not line.startswith("#")] if args.allow else []
         embedded = {}
-        for name in ("dpi", "dpi-paper"):
+        for name in dict.fromkeys(["dpi", "dpi-paper"] + [name for machines, _ in ANALYSES.values() for name in machines]):
             shown = start(binaries[0], ["machines", "show", name], ".")
             if shown.code != 0:
                 parser.error(f"{args.before} machines show {name}: exit code {shown.code}: {shown.err}")
@@ -539,17 +685,31 @@ def main():
     except (OSError, re.error) as error:
         parser.error(str(error))
 
-    def work(place):
-        index, command = place
-        machine = random_machine(random.Random(f"{args.seed} {index}"), embedded)
+    generator = programs()
+    if generator is None and args.programs:
+        parser.error("--programs needs numpy: run this with target/independent-venv/bin/python, which tests/run installs")
+    count = 0 if generator is None else 100 if args.programs is None else args.programs
+    if generator is None:
+        print("no motion programs are compared: numpy is not installed\n")
+
+    def cases(index, command):
         rng = random.Random(f"{args.seed} {index} {command}")
+        if command == "make":
+            return cases_of_program(binaries, rng, generator)
+        if command in ANALYSES:
+            return cases_of_analysis(binaries, rng, command, embedded)
+        machine = random_machine(random.Random(f"{args.seed} {index}"), embedded)
+        return cases_of_command(binaries, rng, command, *machine)
+
+    def work(place):
         found = Tally()
-        for case in cases_of_command(binaries, rng, command, *machine):
+        for case in cases(*place):
             compare_case(found, case)
         return found
 
     tally = Tally()
-    places = [(index, command) for index in range(args.machines) for command in ("rotary", "translating", "conoid")]
+    places = [(index, command) for index in range(args.machines) for command in ("rotary", "translating", "conoid", *ANALYSES)]
+    places += [(index, "make") for index in range(count)]
     with ThreadPoolExecutor(args.jobs) as pool:
         # Added up in the order of the runs, so that the list does not depend on which of them ends first.
         for found in pool.map(work, places):

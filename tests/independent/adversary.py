@@ -4,9 +4,11 @@ The exact outline is a file camgen wrote a thousand times finer than the toleran
 files). It is walked here by arc length, deformed along its normal by known amounts, and written as biarcs, lines or splines by
 a DXF writer of its own; whatever else would be cut is added, moved or taken away. Each class of fault has a generator; a
 file counts as wrong when it is by construction at least 1.01 tolerances off (or not one simple loop, or not this part), as
-right when it stays within 0.99 of it with kinks of at most 0.05 degrees.
+right when it stays within 0.99 of it with kinks of at most 0.05 degrees. A right file in inches or centimetres must fail by its unit
+alone. Solids are moved, turned and doubled by OpenCASCADE, which also says where they lie.
 
-usage: adversary.py CAMGEN_BINARY DIRECTORY [--wrong N] [--right N] [--seed N] [--jobs N]
+usage: adversary.py CAMGEN_BINARY DIRECTORY [--wrong N] [--right N] [--units N] [--solids N]
+                    [--seed N] [--jobs N]
 """
 import argparse
 import json
@@ -43,6 +45,8 @@ class Case:
         self.vertices = vertices
         self.holes = [e for e in document.modelspace() if e.dxf.layer != "CAM_PROFILE"]
         words = [word for word in command[1:] if word not in ("--force",)]
+        # Without a machine it would look for the design of the file.
+        words = words if words and not words[0].startswith("--") else ["dpi", *words]
         self.check = ["check", *words, *([] if kind == "rotary" else ["--cam", kind]), "--tolerance", f"{tolerance * 1e3}um"]
         self.check += ["--section", str(section)] if section else []
 
@@ -96,7 +100,7 @@ def wrong(case, rng):
     plain = lambda: put(drawing, case.vertices, rng, how="lw")
     holes = case.draw_holes
     kinds = ["bump", "bump", "bump", "slot", "fin", "loop", "backtrack", "step", "moved", "open", "stray", "block",
-             "height", "width", "unit", "second", "kink"]
+             "height", "width", "unit", "second", "kink", "inverted", "lost", "misreversed", "decimals", "layer", "wrong-unit"]
     if case.kind == "rotary":
         kinds += ["hole", "hole", "through", "none", "chords"]
     kind = rng.choice(kinds)
@@ -231,6 +235,30 @@ def wrong(case, rng):
         drawing.unit = rng.choice([1, 5, 6])
         plain()
         holes(drawing)
+    elif kind == "wrong-unit":
+        # Inches called centimetres, and so on: the size is wrong.
+        unit, factor = rng.choice([(1, 10.0), (5, 25.4), (6, 25.4), (4, 25.4), (4, 10.0), (0, 25.4)])
+        title = f"wrong-unit {unit} of sizes over {factor}"
+        drawing.unit = unit
+        put(drawing, transformed(case.vertices, factor=1 / factor), rng, how="lw")
+        holes(drawing, scale=1 / factor)
+    elif kind in ("inverted", "lost", "misreversed"):
+        title = f"{kind} bulges"
+        put(drawing, misbulged(case.vertices, kind, rng), rng, how="lw")
+        holes(drawing)
+    elif kind == "decimals":
+        # Rounded so far that the vertices are many tolerances off.
+        decimals = int(math.floor(-math.log10(40 * tolerance)))
+        title = f"decimals {decimals}"
+        rounded = np.column_stack([np.round(case.vertices[:, :2], decimals), case.vertices[:, 2]])
+        put(drawing, rounded, rng, how="lw")
+        holes(drawing)
+    elif kind == "layer":
+        # On another layer, beside holes: which contour is meant is not known.
+        title = "layer of another name"
+        put(drawing, case.vertices, rng, how="lw", layer=rng.choice(["0", "CONTOUR", "CAM_PROFIL"]))
+        holes(drawing)
+        drawing.circle("NOTES", (0.0, 0.0), case.bore * 0.3)
     elif kind == "second":
         plain()
         holes(drawing)
@@ -270,6 +298,34 @@ def wrong(case, rng):
         put(drawing, np.column_stack([points, np.zeros(n)]), rng)
         holes(drawing)
     return title, drawing.text()
+
+
+def misbulged(vertices, kind, rng):
+    """The vertices of the exact outline with bulges as programs get them wrong."""
+    wrong = np.array(vertices, dtype=float)
+    if kind == "inverted":
+        wrong[:, 2] *= -1
+    elif kind == "lost":
+        # The sharpest is lost where the closing one is a line already.
+        index = len(wrong) - 1 if abs(wrong[-1, 2]) > 0.05 else int(np.argmax(np.abs(wrong[:, 2])))
+        wrong[index, 2] = 0.0
+    else:
+        sign = rng.choice([1.0, -1.0])
+        wrong = wrong[::-1].copy()
+        wrong[:, 2] *= sign
+    return wrong
+
+
+# ---- right files in other units: refused by the unit alone
+
+
+def in_units(case, rng):
+    drawing = Drawing()
+    unit, factor, name = rng.choice([(1, 25.4, "inches"), (5, 10.0, "centimetres"), (6, 1e3, "metres"), (14, 100.0, "decimetres")])
+    drawing.unit = unit
+    put(drawing, transformed(case.vertices, factor=1 / factor), rng, how="lw")
+    case.draw_holes(drawing, scale=1 / factor)
+    return name, drawing.text()
 
 
 # ---- right files
@@ -371,12 +427,14 @@ def right(case, rng):
 
 def judge(binary, directory, case, number, kind, seed):
     rng = random.Random(f"{seed}-{kind}-{number}")
-    title, text = (wrong if kind == "wrong" else right)(case, rng)
+    title, text = {"wrong": wrong, "right": right, "units": in_units}[kind](case, rng)
     path = directory / f"{kind}-{number % 64}-{number}.dxf"
     path.write_text(text)
     run = subprocess.run([binary, case.check[0], str(path), *case.check[1:], "--json"], capture_output=True, text=True)
-    expected = 1 if kind == "wrong" else 0
+    expected = 0 if kind == "right" else 1
     good = run.returncode == expected
+    if good and kind == "units":
+        good = [c["check"] for c in json.loads(run.stdout)["checks"] if c["verdict"] == "fail"] == ["units"]
     said = ""
     if not good:
         kept = directory / "kept"
@@ -392,17 +450,118 @@ def judge(binary, directory, case, number, kind, seed):
     return good, run.returncode, f"{case.name}: {title}", said, path.name
 
 
+# ---- solids that lie elsewhere
+
+
+def written(shape, path):
+    """Writes a shape by OpenCASCADE, which gives what has a location a placement."""
+    from OCP.STEPControl import STEPControl_AsIs, STEPControl_Writer
+
+    writer = STEPControl_Writer()
+    writer.Transfer(shape, STEPControl_AsIs)
+    writer.Write(str(path))
+
+
+def loaded(path):
+    """What OpenCASCADE finds in a file: the shape, the number of its solids, and its bounding box."""
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+    from OCP.STEPControl import STEPControl_Reader
+    from OCP.TopAbs import TopAbs_SOLID
+    from OCP.TopExp import TopExp_Explorer
+
+    reader = STEPControl_Reader()
+    reader.ReadFile(str(path))
+    reader.TransferRoots()
+    shape = reader.OneShape()
+    explorer, count = TopExp_Explorer(shape, TopAbs_SOLID), 0
+    while explorer.More():
+        count += 1
+        explorer.Next()
+    box = Bnd_Box()
+    BRepBndLib.AddOptimal_s(shape, box, False, False)
+    return shape, count, np.array(box.Get())
+
+
+def solids(binary, directory, total, rng):
+    from OCP.BRep import BRep_Builder
+    from OCP.gp import gp_Ax1, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
+    from OCP.Message import Message, Message_Gravity
+    from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS_Compound
+
+    for printer in Message.DefaultMessenger_s().Printers():
+        printer.SetTraceLevel(Message_Gravity.Message_Fail)
+    make = [binary, "rotary", "dpi", "--format", "step", "--out", directory, "--name", "solid", "--quiet"]
+    assert subprocess.run([str(word) for word in make], capture_output=True).returncode == 0
+    own, count, home = loaded(directory / "solid.step")
+    assert count == 1
+    text = (directory / "solid.step").read_text()
+    kinds, failed = Counter(), 0
+    for number in range(total):
+        path = directory / "placed.step"
+        kind = ("home", "shift", "turn", "over", "tilt", "text", "second", "far")[number % 8]
+        move, expected = gp_Trsf(), 1
+        size = 10 ** rng.uniform(-1.5, 2.7) * rng.choice([-1, 1])
+        if kind in ("shift", "turn", "over", "tilt"):
+            axis = gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(*((0, 0, 1) if kind == "turn" else (1, 0, 0))))
+            if kind == "shift":
+                move.SetTranslation(gp_Vec(*[size if i == number // 8 % 3 else 0.0 for i in range(3)]))
+            else:
+                move.SetRotation(axis, {"turn": math.radians(rng.uniform(1, 359)), "over": math.pi, "tilt": rng.uniform(0.01, 1.5)}[kind])
+        if kind in ("home", "shift", "turn", "over", "tilt"):
+            expected = 0 if kind == "home" else 1
+            written(own.Moved(TopLoc_Location(move)), path)
+        elif kind == "text":
+            # A placement in the representation of the solid, as text.
+            place, axis = rng.choice([((size, 0, 0), (0, 0, 1)), ((0, 0, size), (0, 0, 1)), ((0, 0, 0), (0, 0, -1)), ((0, 0, 30), (0, 0, -1))])
+            items = text.index("ADVANCED_BREP_SHAPE_REPRESENTATION")
+            placed = text[:items] + text[items:].replace("(#", "(#900001, #", 1)
+            point = lambda values: ", ".join(f"{value:.9f}" for value in values)
+            lines = (f"#900001 = AXIS2_PLACEMENT_3D('', #900002, #900003, #900004);\n#900002 = CARTESIAN_POINT('', ({point(place)}));\n"
+                     f"#900003 = DIRECTION('', ({point(axis)}));\n#900004 = DIRECTION('', (1., 0., 0.));\n")
+            end = placed.rindex("ENDSEC;")
+            path.write_text(placed[:end] + lines + placed[end:])
+        elif kind == "second":
+            move.SetTranslation(gp_Vec(400.0 * rng.choice([0, 1]), 0, 0))
+            both, builder = TopoDS_Compound(), BRep_Builder()
+            builder.MakeCompound(both)
+            builder.Add(both, own)
+            builder.Add(both, own.Moved(TopLoc_Location(move)))
+            written(both, path)
+        else:
+            # A point that no entity of the shell uses.
+            end = text.rindex("ENDSEC;")
+            path.write_text(f"{text[:end]}#900005 = CARTESIAN_POINT('', ({size:.3f}E+100, 0., 0.));\n{text[end:]}")
+        _, count, box = loaded(path)
+        same = count == 1 and np.abs(box - home).max() < 5e-3
+        run = subprocess.run([binary, "check", str(path), "dpi", "--rpm", "35", "--json"], capture_output=True, text=True)
+        # Where OpenCASCADE loads something else than the cam in its place, it must be refused; a turn by its box alone is not seen.
+        good = run.returncode == expected and not (run.returncode == 0 and not same)
+        kinds[kind] += 1
+        if not good:
+            failed += 1
+            kept = directory / "kept"
+            kept.mkdir(exist_ok=True)
+            path.rename(kept / f"{kind}-{number}.step")
+            print(f"  solid {kind}, {size:.4f}: exit {run.returncode}, {count} solids, box {np.round(box, 3)} {run.stderr[:200]}")
+    print(f"solids: {total} files, {failed} wrong")
+    print("  " + ", ".join(f"{kind} {n}" for kind, n in sorted(kinds.items())))
+    return failed
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("binary"), parser.add_argument("directory")
     parser.add_argument("--wrong", type=int, default=600), parser.add_argument("--right", type=int, default=150)
+    parser.add_argument("--units", type=int, default=60), parser.add_argument("--solids", type=int, default=60)
     parser.add_argument("--seed", default="1"), parser.add_argument("--jobs", type=int, default=2)
     given = parser.parse_args()
     binary, directory = str(Path(given.binary).resolve()), Path(given.directory) / "adversary"
     directory.mkdir(parents=True, exist_ok=True)
     cams = cases(binary, directory)
     failed = 0
-    for kind, total in (("wrong", given.wrong), ("right", given.right)):
+    for kind, total in (("wrong", given.wrong), ("right", given.right), ("units", given.units)):
         classes, missed = Counter(), Counter()
         task = lambda number: judge(binary, directory, cams[number % len(cams)], number, kind, given.seed)
         with ThreadPoolExecutor(given.jobs) as pool:
@@ -418,6 +577,7 @@ def main():
         print(f"{kind}: {total} files, {sum(missed.values())} {'accepted' if kind == 'wrong' else 'refused'}")
         print("  " + ", ".join(f"{what} {n}" + (f" ({missed[what]} failed)" if missed[what] else "")
                                for what, n in sorted(classes.items())))
+    failed += solids(binary, directory, given.solids, random.Random(f"{given.seed}-solids"))
     sys.exit(failed > 0)
 
 

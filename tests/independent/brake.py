@@ -935,7 +935,7 @@ def random_frames(runner, count, seed):
             error, report = disc_case(runner, wrong, name, frame, gear, rate, preload, sampled, path, None, rotation == "cw")
             if end >= 360:
                 tally["discs of more than a turn refused"] += 1
-                if error != 2 or "turns_per_frame_turn at most" not in str(report):
+                if error != 2 or "give a turns_per_frame_turn of" not in str(report):
                     wrong.append(f"a disc of {end:.2f}° is not refused: {str(report)[:200]}")
             elif isinstance(error, int):
                 if error == 2 and any(w in str(report) for w in ("does not fit", "undercut", "base radius", "base_radius")):

@@ -8,17 +8,15 @@ what both leave on the shaft is compared with what the report tells. Prints the 
 
 usage: compensator.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
-import argparse
 import csv
 import json
 import math
 import random
 import subprocess
-import sys
-from collections import Counter, defaultdict
-from concurrent.futures import ThreadPoolExecutor
+from collections import defaultdict
 from pathlib import Path
 
+import cases
 import numpy as np
 from disc import Disc
 from felt import Track
@@ -425,32 +423,18 @@ def ladder(binary, directory):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("binary"), parser.add_argument("directory")
-    parser.add_argument("--count", type=int, default=60)
-    parser.add_argument("--seed", default="1"), parser.add_argument("--jobs", type=int, default=2)
-    given = parser.parse_args()
-    binary, directory = str(Path(given.binary).resolve()), Path(given.directory) / "compensator"
-    directory.mkdir(parents=True, exist_ok=True)
-    wrong = ladder(binary, directory)
-    failed, states = len(wrong), Counter()
+    words = cases.given("compensator", 60)
+    wrong = ladder(words.binary, words.directory)
     for line in wrong:
         print(f"  ladder: {line}")
 
-    def task(number):
-        return number, one(binary, directory, number, random.Random(f"{given.seed}-{number}"))
+    def one_case(number, rng):
+        state, wrong, command, _ = one(words.binary, words.directory, number, rng)
+        return state, wrong, " ".join(command[1:])
 
-    with ThreadPoolExecutor(given.jobs) as pool:
-        for number, (state, wrong, command, note) in pool.map(task, range(given.count)):
-            states[state] += 1
-            failed += bool(wrong)
-            if wrong:
-                print(f"  {number}: " + "\n    ".join(wrong[:8]) + f"\n    {' '.join(command[1:])}")
-    print("largest relative differences:")
-    for what, share in sorted(Wrong.largest.items()):
-        print(f"  {what:40} {share:.1e}")
-    print(", ".join(f"{n} {state}" for state, n in sorted(states.items())) + f"; {failed} wrong")
-    sys.exit(failed > 0)
+    states, failed = cases.judged(words, one_case)
+    cases.show_largest(Wrong.largest)
+    cases.finish(states, failed + len(wrong))
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ OUT = "deep/out"
 # Nothing that is tried takes so long, unless it hangs; s.
 PATIENCE = 60
 RECORD, COMMIT, STAGED = ".camgen.json", ".camgen-commit", ".camgen-new-"
-KEPT = "the set is kept"
+KEPT = "the new files are kept"
 NOBODY = 65534
 
 RADIUS = ["--set", "follower.roller.radius=29mm"]
@@ -1087,9 +1087,9 @@ def odd_names(bench, wrong):
     odd = {
         "a symlink": (replaced(link_to), "symbolic link"),
         "a broken symlink": (replaced(lambda path, where: path.symlink_to(where / "none")), "symbolic link"),
-        "a pipe": (replaced(lambda path, where: os.mkfifo(path)), "no file"),
+        "a pipe": (replaced(lambda path, where: os.mkfifo(path)), "not a regular file"),
         "a directory": (replaced(lambda path, where: path.mkdir()), "a directory"),
-        "a socket": (replaced(lambda path, where: listening(path)), "no file"),
+        "a socket": (replaced(lambda path, where: listening(path)), "not a regular file"),
     }
     for what, (set_up, word) in odd.items():
         nothing_of_it(bench, wrong, f"{what} in the place of a target", set_up, word)
@@ -1117,24 +1117,27 @@ def records(bench, wrong):
         "a path that is staged": whole([{"staged": ".camgen-new-/../x", "target": "cam.dxf"}]),
         "not a staged file": whole([{"staged": "notes.txt", "target": "cam.dxf"}]),
     }
-    for what, set_up in garbage.items():
-        nothing_of_it(bench, wrong, f"a record: {what}", set_up, COMMIT)
     harmless = {
         "of files that are gone": whole([{"staged": ".camgen-new-1-0", "target": "cam.dxf"}]), "of nothing": whole([]),
         "a pipe": lambda out, where: os.mkfifo(out / COMMIT),
         "a symlink": lambda out, where: (out / COMMIT).symlink_to("/dev/zero"),
+        "a directory": lambda out, where: (out / COMMIT).mkdir(),
+        "a directory that is to be staged": lambda out, where: (out / f"{STAGED}x").mkdir(),
     }
-    for what, set_up in harmless.items():
+    for what, set_up in {**garbage, **harmless}.items():
         where = bench.copy("rotary-dxf", "old")
         set_up(where / OUT, where)
-        run = bench.run(bench.words("rotary-dxf"), where)
-        if run.code not in (0, 2) or run.panicked():
+        before = os.lstat(where / OUT / COMMIT) if os.path.lexists(where / OUT / COMMIT) else None
+        run = bench.run([*bench.words("rotary-dxf"), "--quiet"], where)
+        if run.code != 0 or run.panicked():
             wrong.add(f"a record: {what}: exit {run.code}: {run.err[-200:]}", run.line)
-        if run.code == 0 and (contents(where / OUT) != bench.after("rotary-dxf", "old") or left(where / OUT)):
+        found = {name: content for name, content in contents(where / OUT).items() if not is_left(name)}
+        if run.code == 0 and found != bench.after("rotary-dxf", "old"):
             wrong.add(f"a record: {what}: exit 0, and {sorted(os.listdir(where / OUT))}", run.line)
-    nothing_of_it(bench, wrong, "a record: a directory", lambda out, where: (out / COMMIT).mkdir())
-    nothing_of_it(bench, wrong, f"a directory {STAGED}x", lambda out, where: (out / f"{STAGED}x").mkdir())
-    return f"{len(garbage) + len(harmless) + 2} records"
+        stays = what in garbage or what in ("a pipe", "a symlink", "a directory")
+        if stays and (os.lstat(where / OUT / COMMIT).st_ino != before.st_ino or f"{COMMIT}`" not in run.err):
+            wrong.add(f"a record: {what}: it is not told and left: {run.err.strip()[-200:]}", run.line)
+    return f"{len(garbage) + len(harmless)} records"
 
 
 def left_behind(bench, wrong):
@@ -1144,7 +1147,7 @@ def left_behind(bench, wrong):
             file.write(b"x")
     def many(out):
         for number in range(3000):
-            (out / f"{STAGED}{number}").write_text("x")
+            (out / f"{STAGED}{number}-0").write_text("x")
     def link(out):
         (out / f"{STAGED}1-0").symlink_to("cam.dxf")
     for what, set_up in (("a name that is no UTF-8", odd), ("3000 files", many), ("a symlink", link)):
@@ -1157,7 +1160,173 @@ def left_behind(bench, wrong):
             os.unlink(foreign)
         if run.code != 0 or left(where / OUT) or contents(where / OUT) != bench.after("rotary-dxf", "old"):
             wrong.add(f"{what} left behind: exit {run.code}: {run.err.strip()[-200:]}", run.line)
-    return "3 leftovers"
+    # Names that no run gives are of somebody else's files.
+    mine = [f"{STAGED}notes.txt", f"{STAGED}1", f"{STAGED}1-x", f"{STAGED}-1", f"{COMMIT}s", f"{COMMIT}-new-x"]
+    where = bench.copy("rotary-dxf", "old")
+    for name in mine:
+        (where / OUT / name).write_text("mine\n")
+    (where / OUT / f"{STAGED}1-0").mkdir()
+    run = bench.run(bench.words("rotary-dxf"), where)
+    if run.code != 0 or left(where / OUT) != sorted([*mine, f"{STAGED}1-0"]):
+        wrong.add(f"files of its user's own: exit {run.code}, there are {left(where / OUT)}: {run.err.strip()[-200:]}", run.line)
+    return f"{3 + len(mine)} leftovers"
+
+
+# --- directories that users share ---------------------------------------------------------------------------------------------
+
+USERS = (NOBODY, NOBODY - 1)
+
+
+def as_user(user):
+    return {"user": user, "group": user, "extra_groups": []}
+
+
+def of_user(directory, user):
+    """What a user owns in a directory, by name."""
+    return {path.name: entry(path) for path in Path(directory).iterdir() if os.lstat(path).st_uid == user}
+
+
+def shared(bench, wrong):
+    """Two users write into a sticky directory, and are killed at random places: nobody is stopped, and nobody's files are touched."""
+    needs_strace(bench)
+    if os.geteuid() != 0:
+        raise Skip("needs the superuser, to become two other users")
+    where = bench.case()
+    out = where / OUT
+    out.mkdir(parents=True)
+    os.chmod(out, 0o1777)
+
+    def words(stem, variant):
+        return ["rotary", "--rpm", "35", "--format", "dxf,csv", *((), RADIUS)[variant], "--out", OUT, "--name", stem, "--quiet"]
+
+    def whole(stem, variant):
+        """The set of a stem."""
+        case = bench.case()
+        run = bench.run(words(stem, variant), case)
+        assert run.code == 0, run.err
+        return {name: content for name, content in contents(case / OUT).items() if name != RECORD}
+
+    sets = {(user, variant): whole(f"cam{index}", variant) for index, user in enumerate(USERS) for variant in (0, 1)}
+    try:
+        if bench.run(["--version"], where, **as_user(NOBODY)).code != 0:
+            raise Skip("needs a binary that every user may reach")
+    except PermissionError as error:
+        raise Skip("needs a directory and a binary that every user may reach") from error
+    kills, refused, calls = 0, 0, ("openat", "write", "fsync", "renameat", "unlinkat", "getdents64")
+    for number in range(bench.options.rounds):
+        user = bench.rng.choice(USERS)
+        other, stem, variant = USERS[user == USERS[0]], f"cam{USERS.index(user)}", number % 2
+        theirs = of_user(out, other)
+        call = bench.rng.choice(calls)
+        kill = [*bench.tracer([call]), "-e", f"inject={call}:signal=KILL:when={bench.rng.randint(1, {'openat': 30, 'write': 12}.get(call, 6))}"]
+        run = bench.run(words(stem, variant), where, kill, **as_user(user))
+        kills += run.code == -signal.SIGKILL
+        if run.code not in (0, -signal.SIGKILL):
+            wrong.add(f"round {number}: user {user} is stopped: exit {run.code}: {run.err.strip()[-200:]}", run.line)
+        # One round in three the other goes on first, beside what was left.
+        turns = [other, user] if number % 3 == 0 else [user]
+        for one in turns:
+            rest = of_user(out, USERS[one == USERS[0]])
+            again = bench.run(words(f"cam{USERS.index(one)}", variant), where, **as_user(one))
+            mine = of_user(out, one)
+            found = {name: data[1] for name, data in mine.items() if name in sets[one, variant]}
+            if again.code != 0 or found != sets[one, variant] or any(is_left(name) for name in mine):
+                wrong.add(f"round {number}: user {one} is stopped or has another set: exit {again.code}, {sorted(mine)}: {again.err.strip()[-300:]}", again.line)
+            if of_user(out, USERS[one == USERS[0]]) != rest:
+                wrong.add(f"round {number}: user {one} has touched what the other has", again.line)
+        if len(turns) == 1 and of_user(out, other) != theirs:
+            wrong.add(f"round {number}: user {user} has touched what the other has", run.line)
+        if number % 4 == 0 and theirs:
+            # The name of the other's file: refused, and the file stays.
+            before = of_user(out, other)
+            taken = bench.run(words(f"cam{USERS.index(other)}", 1 - variant), where, **as_user(user))
+            refused += taken.code == 2
+            if taken.code != 2 or of_user(out, other) != before:
+                wrong.add(f"round {number}: the name of another's file: exit {taken.code}: {taken.err.strip()[-200:]}", taken.line)
+    # What is planted by the other under every name of camgen's own.
+    for name in (RECORD, ".camgen-1.json", COMMIT, f"{COMMIT}-1", f"{STAGED}1-0"):
+        if not os.path.lexists(out / name):
+            (out / name).write_text("{}")
+            os.chown(out / name, USERS[1], USERS[1])
+    planted = of_user(out, USERS[1])
+    run = bench.run(words("cam0", 0), where, **as_user(USERS[0]))
+    if run.code != 0 or of_user(out, USERS[1]) != planted:
+        wrong.add(f"planted names stop a user: exit {run.code}: {run.err.strip()[-300:]}", run.line)
+    return f"{bench.options.rounds} rounds of two users, {kills} killed, {refused} refused for a name of the other"
+
+
+def planted_records(own, stamps):
+    """Records of a set as nobody but an attacker writes them: what they are, their entries, and what is staged."""
+    digest, evil = siphash(b"evil\n"), b"evil\n"
+    targets = ["thesis.txt", ".bashrc", "new.txt", ".profile", "new.dxf", "cam.dxf", RECORD, "cam", "link", "../mine", "sub/x", "/etc/x", "..", "", COMMIT,
+               "a\npass  forged", "\x1b[31mred", ".camgen-7.json"]
+    for target in targets:
+        for states, stamp in (("its stamp", stamps.get(target)), ("no stamp", None), ("another stamp", "5 1.1")):
+            # Alone, with the record that is there, with one that lies, and with one that says nothing.
+            lying = json.dumps({"files": {**own["files"], target: digest}, "inputs": {}}).encode()
+            for how, record in (("alone", None), ("with a lying record", lying), ("with an empty record", b'{"files":{},"inputs":{}}')):
+                entries = [{"staged": f"{STAGED}1-0", "target": target, "replaces": stamp}]
+                staged = {f"{STAGED}1-0": evil}
+                if record is not None and target != RECORD:
+                    entries.append({"staged": f"{STAGED}1-1", "target": RECORD, "replaces": stamps[RECORD]})
+                    staged[f"{STAGED}1-1"] = record
+                yield f"{target!r}, {states}, {how}", entries, staged
+
+
+def planted(bench, wrong):
+    """Records that somebody has put into a directory: no file but camgen's own is touched, and no run is stopped."""
+    allowed = {"cam.dxf", RECORD, "new.dxf"}
+    own = json.loads((bench.start("rotary-dxf", "old")[0] / OUT / RECORD).read_text())
+    kinds = 0
+    plans = None
+    for number in itertools.count():
+        where = bench.copy("rotary-dxf", "old")
+        out = where / OUT
+        for name in ("thesis.txt", ".bashrc"):
+            (out / name).write_text("mine\n")
+        (where / "mine").write_text("mine\n")
+        (out / "cam").mkdir()
+        (out / "link").symlink_to("../../mine")
+        stamps = {}
+        for path in out.iterdir():
+            data = os.lstat(path)
+            stamps[path.name] = f"{data.st_size} {data.st_mtime_ns // 10**9}.{data.st_mtime_ns % 10**9}"
+        plans = list(planted_records(own, stamps))
+        if not bench.options.full:
+            bench.rng.seed(bench.options.seed)
+            plans = [plans[i] for i in sorted(bench.rng.sample(range(len(plans)), 45))]
+        if number >= len(plans):
+            break
+        what, entries, staged = plans[number]
+        kinds += 1
+        for name, content in staged.items():
+            (out / name).write_bytes(content)
+        (out / COMMIT).write_text(json.dumps(entries))
+        if number % 5 == 4 and os.geteuid() == 0:
+            os.chown(out / COMMIT, NOBODY, NOBODY)
+        before = seen(where)
+        run = bench.run(["laws", "feeder", "--out", OUT, "--name", "laws"], where)
+        after = seen(where)
+        touched = {Path(name).name for name in {*before, *after} if before.get(name) != after.get(name)}
+        touched = {name for name in touched if not name.startswith(("laws", ".camgen"))} - allowed
+        forged = [line for line in (run.out.decode(errors="replace") + run.err).splitlines() if line.startswith("pass  forged") or "\x1b" in line]
+        if run.code != 0 or touched or forged or entry(out / "link")[1] != "../../mine":
+            wrong.add(f"{what}: exit {run.code}, touched {sorted(touched)}, forged {forged}: {run.err.strip()[-300:]}", run.line)
+        if entry(out / "cam.dxf") != before[f"{OUT}/cam.dxf"] and not fits(out):
+            wrong.add(f"{what}: cam.dxf is not as the record says", run.line)
+        shutil.rmtree(where)
+    # What the record of the directory says of the last run is shown in one line.
+    where = bench.copy("rotary-dxf", "old")
+    record = json.loads((where / OUT / RECORD).read_text())
+    for values in record["inputs"].values():
+        values["rpm\npass  forged"] = ["1", "1\npass  forged\x1b[31m"]
+        for value in values.values():
+            value[1] += "\npass  forged"
+    (where / OUT / RECORD).write_text(json.dumps(record))
+    run = bench.run(bench.words("rotary-dxf"), where)
+    if any(line.startswith("pass  forged") for line in (run.out.decode() + run.err).splitlines()) or b"\x1b" in run.out:
+        wrong.add("values of the record of the directory forge a line", run.line)
+    return f"{kinds} planted records, and values of a record"
 
 
 def edited_meanwhile(bench, wrong):
@@ -1350,6 +1519,110 @@ def interrupted(process, where, wrong, bench, what):
     return f"{time.monotonic() - begun:.1f} s"
 
 
+def inits(bench, wrong):
+    """`camgen init FILE`: whole or not there, and the next `init` is not in the way of its own remains."""
+    needs_strace(bench)
+    where = bench.case()
+    text = bench.run(["init"], where).out
+    file, log = f"{OUT}/own.toml", where / "trace"
+    run = bench.run(["init", file], where, bench.tracer(ERRORS, log))
+    assert run.code == 0 and (where / file).read_bytes() == text, run.err
+    counts, made, begun = {}, [], False
+    for line in log.read_text(errors="replace").splitlines():
+        match = re.match(r"\d+ +(\w+)\((.*)", line)
+        if not match:
+            continue
+        call = match[1]
+        counts[call] = counts.get(call, 0) + 1
+        begun = begun or '"deep' in match[2]
+        if begun:
+            made += [[f"error={error.rstrip('!')}", call, counts[call]] for error in ERRORS[call]]
+            made += [["signal=KILL", call, counts[call]]] if call in KILLED else []
+    tried = sampled(bench, made, None if bench.options.full else 60)
+
+    def one(plan):
+        how, call, ordinal = plan
+        place = bench.case()
+        run = bench.run(["init", file], place, [*bench.tracer([call]), "-e", f"inject={call}:{how}:when={ordinal}"])
+        path, faults = place / file, []
+        there = path.read_bytes() if path.exists() else None
+        if there not in (None, text):
+            faults.append(f"{len(there)} bytes of {len(text)}")
+        if run.code == 0 and there != text or run.code not in (0, 2, -signal.SIGKILL):
+            faults.append(f"exit code {run.code}, file {'there' if there else 'not there'}: {run.err[-200:]}")
+        again = bench.run(["init", file], place)
+        if again.code != 0 and not (again.code == 2 and "already exists" in again.err + run.err and path.exists()):
+            faults.append(f"the next init: exit code {again.code}: {again.err[-200:]}")
+        if not path.exists() or path.read_bytes() != text or left(path.parent):
+            faults.append(f"the next init left {sorted(os.listdir(path.parent)) if path.parent.exists() else None}")
+        for what in faults:
+            wrong.add(what, run.line)
+        shutil.rmtree(place, ignore_errors=True)
+
+    in_parallel(bench, one, tried)
+    # A limit of the size of files, and a file that is there.
+    place = bench.case()
+    run = bench.run(["init", "own.toml"], place, ["prlimit", "--fsize=1024"])
+    if run.code != 2 or (place / "own.toml").exists():
+        wrong.add(f"a limit of 1 kB: exit code {run.code}", run.line)
+    (place / "own.toml").write_text("mine")
+    run = bench.run(["init", "own.toml"], place)
+    if run.code != 2 or (place / "own.toml").read_text() != "mine":
+        wrong.add("a file of the user's own is replaced", run.line)
+    return f"{len(tried)} of {len(made)} faults and kills"
+
+
+def watching(bench, wrong):
+    """Three runs with --watch write the same names when their machine changes, and one is killed at it: the others go on, and the set is
+    whole."""
+    where = bench.case()
+    text = bench.run(["machines", "show", "dpi"], where).out.decode()
+    assert 'radius = "30 mm"' in text, text[-300:]
+    file = where / "own.toml"
+    words = ["rotary", "own.toml", "--rpm", "35", "--format", "dxf,csv", "--out", OUT, "--name", "cam", "--quiet"]
+
+    def change(radius):
+        new = file.with_suffix(".new")
+        new.write_text(text.replace('radius = "30 mm"', f'radius = "{radius} mm"', 1))
+        new.replace(file)
+
+    def made(radius):
+        """The set for a radius."""
+        case = bench.case()
+        change(radius)
+        shutil.copy(file, case / "own.toml")
+        run = bench.run(words, case)
+        assert run.code == 0, run.err
+        return {name: content for name, content in contents(case / OUT).items() if name != RECORD}
+
+    sets = {radius: made(radius) for radius in (29, 28, 27, 26)}
+    change(29)
+    kill = ["strace", "-f", "-o", os.devnull, "-e", "trace=renameat", "-e", "inject=renameat:signal=KILL:when=3"] if bench.strace else []
+    errors = [open(where / f"err{number}", "wb") for number in range(3)]
+    runs = [bench.begun([*words, "--watch"], where, kill if number == 0 else (), stdout=subprocess.DEVNULL, stderr=errors[number]) for number in range(3)]
+
+    def is_made(radius):
+        found = contents(where / OUT)
+        return {name: found.get(name) for name in sets[radius]} == sets[radius] and fits(where / OUT) and not left(where / OUT)
+
+    for radius in (29, 28, 27, 26):
+        change(radius)
+        time.sleep(1.5)
+        # What the killed one has left is finished by the next run of another, at the next change.
+        until(lambda radius=radius: is_made(radius) or runs[0].poll() is not None and COMMIT in left(where / OUT), 40)
+        torn = {name for name, content in contents(where / OUT).items() if name in sets[29] and content not in {one[name] for one in sets.values()}}
+        if torn or not is_made(radius) and not (radius != 26 and COMMIT in left(where / OUT)):
+            wrong.add(f"radius {radius}: another set after 40 s: {difference(contents(where / OUT), sets[radius])}, left {left(where / OUT)}", runs[1].line)
+    time.sleep(1)
+    alive = [process.poll() is None for process in runs[1:]]
+    if alive != [True, True] or bench.strace and runs[0].poll() is None:
+        wrong.add(f"still running are {alive}, and the first {runs[0].poll()}", runs[1].line)
+    for process in runs:
+        os.killpg(process.pid, signal.SIGKILL) if process.poll() is None else None
+        process.wait()
+    return "3 writers, 4 changes"
+
+
 KINDS = {
     "faults of calls": single_and_lasting,
     "a disk that is gone": disk_gone,
@@ -1371,6 +1644,9 @@ KINDS = {
     "odd names": odd_names,
     "records of none": records,
     "leftovers of none": left_behind,
+    "a shared directory": shared,
+    "planted records": planted,
+    "watching": watching,
     "edits after a cut": edited_meanwhile,
     "locks": locked,
     "a first run gives up": given_up,
@@ -1378,6 +1654,7 @@ KINDS = {
     "no locks": no_locks,
     "names of its own": own_names,
     "paths": paths,
+    "init": inits,
 }
 # Of one cause no more are shown.
 SHOWN = 6

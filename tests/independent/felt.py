@@ -8,16 +8,13 @@ every kind; the told maxima must be right to 1e-6.
 
 usage: felt.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
-import argparse
 import json
 import math
 import random
 import subprocess
-import sys
-from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import cases
 import numpy as np
 from disc import Disc, golden
 from machines import machine, settings
@@ -422,29 +419,16 @@ def table(binary, directory):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("binary"), parser.add_argument("directory")
-    parser.add_argument("--count", type=int, default=24)
-    parser.add_argument("--seed", default="1"), parser.add_argument("--jobs", type=int, default=2)
-    given = parser.parse_args()
-    binary, directory = str(Path(given.binary).resolve()), Path(given.directory) / "felt"
-    directory.mkdir(parents=True, exist_ok=True)
-    failed = table(binary, directory)
+    words = cases.given("felt", 24)
+    failed = table(words.binary, words.directory)
 
-    def task(number):
-        rng = random.Random(f"{given.seed}-{number}")
+    def one(number, rng):
         kind = (rotary, make, rotary, make, rotary, plate)[number % 6]
-        return number, kind(binary, directory, f"f{number}", rng)
+        state, wrong, _ = kind(words.binary, words.directory, f"f{number}", rng)
+        return state, wrong, kind.__name__
 
-    states = Counter()
-    with ThreadPoolExecutor(given.jobs) as pool:
-        for number, (state, wrong, _) in pool.map(task, range(given.count)):
-            states[state] += 1
-            failed += bool(wrong)
-            for line in wrong:
-                print(f"  cam {number}: {line}")
-    print(", ".join(f"{n} {state}" for state, n in sorted(states.items())) + f"; {failed} wrong")
-    sys.exit(failed > 0)
+    states, wrong = cases.judged(words, one)
+    cases.finish(states, failed + wrong)
 
 
 if __name__ == "__main__":

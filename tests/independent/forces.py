@@ -24,8 +24,8 @@ LAWS = ["cycloidal", "modified-sine", "3-4-5", "4-5-6-7", "modified-trapezoid", 
 FOLLOWERS = ["roller", "swinging-roller", "flat", "swinging-flat", "knife"]
 # Largest relative differences; forces, stresses and residuals agree to rounding. For a place its value is compared, as places are only as
 # sharp as the root of the rounding. Integrals (of the largest torque) are allowed what a rule of fixed steps misses at kinks, deviations
-# what harmonics miss that are cut off where the acceleration jumps.
-TOLERANCES = {"row": 1e-9, "integral": 5e-5, "extreme": 1e-7, "place": 1e-5, "vibration": 1e-7, "harmonic": 1e-9, "deviation": 2e-3}
+# what harmonics miss that are cut off where the acceleration jumps, and words the rounding to six digits.
+TOLERANCES = {"row": 1e-9, "integral": 5e-5, "extreme": 1e-7, "place": 1e-5, "vibration": 1e-7, "harmonic": 1e-9, "deviation": 2e-3, "words": 6e-6}
 
 
 def program(rng, swings):
@@ -179,8 +179,7 @@ class Tally:
 
     def fail(self, figure, text):
         self.wrong.append((self.title, figure, text))
-        if self.verbose:
-            print(f"{self.title}: {figure}: {text}")
+        print(f"{self.title}: {figure}: {text}")
         return False
 
 
@@ -220,7 +219,9 @@ def compare_rows(case, path, tally):
                 continue
             found = cam.state(segment, np.clip(turn[inside], segment.low, segment.high))
             for name in columns.values():
-                for i, value in zip(inside, found[name]):
+                # 0 where the follower has left the cam.
+                told = np.maximum(found[name], 0.0) if name == "contact" else found[name]
+                for i, value in zip(inside, told):
                     slot = 0 if np.isnan(want[0][name][i]) else 1
                     want[slot][name][i] = value
     for column, name in columns.items():
@@ -298,7 +299,7 @@ def compare_closure(case, path, report, checks, tally):
         cam.omega = at
     for key, value, unit, speed in remedies:
         tally.equal("unit of the remedy", unit, "N*m" if case.moment else "N")
-        tally.near("speed of the remedy", speed or case.rpm, case.rpm * ((case.margin or 1) if speed else 1), "harmonic")
+        tally.near("speed of the remedy", speed or case.rpm, case.rpm * ((case.margin or 1) if speed else 1), "words")
         _, out, err = call(case.binary, path, "--set", f'{key}="{value} {unit}"', "--dry-run", "--json")
         if not out:
             tally.fail("remedy", err)
@@ -351,7 +352,13 @@ def compare_contact(case, report, checks, tally):
         got = checks["contact_stress"]
         tally.near("crowned stress" if "crown_radius" in case.keys else "line stress", got["value"], want, "extreme")
         tally.near("contact_stress place", nearest(case, got["cam_deg"], value, want), want, "place")
-        tally.equal("contact_stress verdict", got["verdict"], "pass" if want <= got["limit"] else "fail")
+        # Under a crown the fatigue limit of running contact warns up to that of rest (ISO 281, ISO 76: 1500 and 4200 MPa for steel).
+        bearable = got["limit"] * (4200 / 1500 if "crown_radius" in case.keys else 1)
+        judged = "pass" if want <= got["limit"] else "warn" if want <= bearable else "fail"
+        # Without a speed the inertia is not in the forces.
+        if judged == "pass" and not case.rpm and {"mass", "inertia"} & set(case.keys):
+            judged = "info"
+        tally.equal("contact_stress verdict", got["verdict"], judged)
     if cam.radius:
         mean = sum((w * cam.state(s, t)["spin"]).sum() for s, a, b in cam.pieces() for t, w in [panels(a, b, 16)]) / TAU
         tally.near("roller turns", report["cam"]["roller_turns"][0], mean, "integral")

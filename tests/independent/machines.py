@@ -8,20 +8,20 @@ camoid.py through any number of sections, by its fundamental forms.
 
 usage: machines.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N] [--only KIND]
 """
-import argparse
 import json
 import math
-import random
 import subprocess
-import sys
-from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import cases
 import numpy as np
 from camoid import SHARES, Camoid
 from disc import CUSTOMARY, MODULI, Disc, roll
 from outline import Chain, polyline
+
+
+# Customary limits: the column, m, and the size, mm.
+LONGEST_COLUMN, LARGEST_SIZE = 2.0, 2000.0
 
 
 def machine(rng):
@@ -107,7 +107,6 @@ def rotary(binary, directory, number, rng):
     close(told("undercut"), left, "undercut", wrong, absolute=1e-6 * 1e3 * f["convex"])
     close(told("min_convex_radius"), 1e3 * f["convex"], "min_convex_radius", wrong)
     close(told("cutter_radius"), 1e3 * f["hollow"], "cutter_radius", wrong)
-    close(told("wall"), 1e3 * f["wall"], "wall", wrong, absolute=1e-9)
     close(force["inertia_max_n"], f["inertia"], "inertia", wrong)
     close(force["residual_fixed_bottom_max_n"], f["fixed"], "fixed bottom", wrong)
     close(force["roller_force_max_n"], f["force"], "roller force", wrong)
@@ -118,12 +117,18 @@ def rotary(binary, directory, number, rng):
         close(told("force_closure"), f["least"], "force_closure", wrong, absolute=1e-6 * f["force"])
     if "air" in checks:
         close(told("air"), 1e3 * f["air"], "air", wrong)
+    close(told("column"), 1e3 * disc.law.L, "column", wrong)
 
     # Rolling on the written outline.
+    size = 0.0
     file_wrong = kinked = False
     if report["files"]:
         _, vertices = polyline(report["files"][0])
         chain = Chain(vertices)
+        # Wall and size are those of the outline as written.
+        f["wall"], size = chain.distance(np.zeros((1, 2)))[0] * 1e-3 - m["bore"], chain.extents().max()
+        close(told("wall"), 1e3 * f["wall"], "wall", wrong, absolute=1e-9)
+        close(told("size"), size, "size", wrong, absolute=1e-9)
         gap, lift_error, rolled_residual = roll(disc, chain)
         if gap > report["rolling"]["gap_mm"] and abs(report["rolling"]["gap_mm"]) < gap - 1e-9:
             wrong.append(f"gap told {report['rolling']['gap_mm']}, at least {gap}")
@@ -145,7 +150,8 @@ def rotary(binary, directory, number, rng):
         "min_convex_radius": m["ratio"] * disc.rf / f["convex"], "cutter_radius": m["cutter"] / f["hollow"],
         "wall": (m["wall"] + 1e-15) / f["wall"] if f["wall"] > 0 else 2.0,
         "contact_stress": f["stress"] / stress_limit if left > 0 else 0.0, "residual": value / share,
-        "air": 0.0 if f["air"] > 0 else 2.0,
+        # With a lead the bottom leaves with a velocity.
+        "air": 0.0 if f["air"] > 0 else 2.0, "continuity": 2.0 if m["lead"] > 0 else 0.0, "column": disc.law.L / LONGEST_COLUMN, "size": size / LARGEST_SIZE,
         "force_closure": 0.0 if m["preload"] is None or f["least"] > 0 else 2.0, "rolling": 2.0 if file_wrong else 0.0, "tangency": 2.0 if kinked else 0.0,
     }
     if left <= 0:
@@ -423,31 +429,14 @@ def force_of(report, key):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("binary"), parser.add_argument("directory")
-    parser.add_argument("--count", type=int, default=150)
-    parser.add_argument("--seed", default="1"), parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", choices=["rotary", "translating", "conoid"])
-    given = parser.parse_args()
-    binary, directory = str(Path(given.binary).resolve()), Path(given.directory) / "machines"
-    directory.mkdir(parents=True, exist_ok=True)
-    states, failed = Counter(), 0
+    kinds = {"rotary": rotary, "translating": translating, "conoid": conoid}
+    words = cases.given("machines", 150, only={"choices": kinds})
 
-    def task(number):
-        rng = random.Random(f"{given.seed}-{number}")
-        kind = {"rotary": rotary, "translating": translating, "conoid": conoid}.get(
-            given.only, conoid if number % 24 == 5 else translating if number % 4 == 3 else rotary)
-        return number, kind(binary, directory, number, rng)
+    def one(number, rng):
+        kind = kinds.get(words.only, conoid if number % 24 == 5 else translating if number % 4 == 3 else rotary)
+        return kind(words.binary, words.directory, number, rng)
 
-    with ThreadPoolExecutor(given.jobs) as pool:
-        for number, (state, wrong, command) in pool.map(task, range(given.count)):
-            states[state] += 1
-            if wrong:
-                failed += 1
-                if failed <= 12:
-                    print(f"  machine {number}: " + "\n    ".join(wrong) + f"\n    {command}")
-    print(", ".join(f"{n} {state}" for state, n in states.items()) + f"; {failed} with a wrong figure or verdict")
-    sys.exit(failed > 0)
+    cases.finish(*cases.judged(words, one))
 
 
 if __name__ == "__main__":

@@ -229,7 +229,7 @@ def dxf():
 
 def step():
     """STEP files."""
-    head = b"ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n"
+    head = b"ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\nENDSEC;\nDATA;\n"
     end = b"ENDSEC;\nEND-ISO-10303-21;\n"
     yield "lists", [head, b"#1=X(", b"(" * 1_000_000]
     yield "instances", [head, *many(1_500_000, lambda i: f"#{i}=X();\n".encode()), end]

@@ -43,6 +43,17 @@ class Chain:
         cap = np.where(self.is_arc, self.radius**2 * (np.abs(self.sweep) - np.sin(np.abs(self.sweep))), 0)
         return 0.5 * (cross + np.sign(self.sweep) * cap).sum()
 
+    def extents(self):
+        """Length and width of the upright rectangle about the chain."""
+        points = [self.start]
+        start = np.arctan2(*(self.start - self.centre).T[::-1])
+        for quarter in np.arange(4) * np.pi / 2:
+            along = (quarter - start) * np.sign(self.sweep) % (2 * np.pi)
+            touched = self.is_arc & (along <= np.abs(self.sweep))
+            points.append((self.centre + self.radius[:, None] * [np.cos(quarter), np.sin(quarter)])[touched])
+        points = np.concatenate(points)
+        return points.max(axis=0) - points.min(axis=0)
+
     def flattened(self, step=0.01):
         points = []
         for i in range(len(self.start)):

@@ -1,8 +1,10 @@
 """Opens the moving report in Chromium without a network, and uses it as a person would.
 
-No message on the console; play moves the roller and the numbers; the keyboard works; nothing plays by itself; text has the
-contrast of WCAG AA in light and dark; no figure is wider than the page; printing gives A4 pages, none of them empty; a name full of
-HTML stays a name. The time to the first paint is printed, not judged.
+No message on the console; play moves the roller and the numbers; the keyboard works; nothing plays by itself; the legend has the
+values of the place that the mechanism shows; text has the contrast of WCAG AA in light and dark. Mechanism and first diagram are
+wholly visible in a window of 1440 x 900 without scrolling; nothing is wider than the window at 1440, 1024, 800 and 390 px; the
+checks are one line, which is open where one failed or warns, these first. Printing gives A4 pages, none of them nearly empty, no
+figure on two of them. A name full of HTML stays a name. The time to the first paint is printed, not judged.
 
 usage: page.py CAMGEN_BINARY DIRECTORY [--pictures]
 """
@@ -15,7 +17,7 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-LIFTER = Path(__file__).parent.parent / "common" / "lifter.toml"
+LIFTER = Path(__file__).parent.parent / "all" / "common" / "lifter.toml"
 HOSTILE = 'name = "</script><b id=planted>Ролик</b><script>document.title=1</script>"'
 SWINGING = '[follower.swinging-roller]\nradius = "16 mm"\narm = "110 mm"\npivot_distance = "140 mm"\n'
 CASES = {
@@ -31,8 +33,24 @@ CASES = {
     "hostile": ["make", "hostile.toml"],
     "beside": ["side-by-side", "dpi", "lifter.toml"],
     "linkage": ["linkage", "dpi-six-bar"],
+    "crank-slider": ["linkage", "dpi-crank-slider"],
+    "feeder": ["make", "feeder"],
+    "lever": ["make", "lever"],
+    "valve": ["make", "valve"],
+    "brake": ["brake", "roll-level"],
+    "drive": ["drive"],
+    "shaft": ["shaft"],
+    "laws": ["laws", "lifter.toml"],
+    "size": ["size", "lifter.toml"],
+    "regimes": ["regimes"],
+    "spring": ["spring"],
 }
+# Pages of what does not move.
+STILL = {"drive", "shaft", "laws", "size", "regimes", "spring"}
+WITH_SPRING = {"lever", "valve"}
 LARGEST = 1_000_000
+WINDOWS = ((1440, 900), (1024, 768), (800, 900), (390, 844))
+FOLD = WINDOWS[0]
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update", "--no-first-run"]
 
 # Contrast of every text that is seen: of its colour against the first background behind it, both as computed.
@@ -57,11 +75,35 @@ CONTRAST = """() => {
   }
   return found;
 }"""
+CHECKS = """() => {
+  const box = document.querySelector('#verdict > details');
+  if (!box || document.getElementById('verdict').hidden) return null;
+  const cams = JSON.parse(document.getElementById('data').textContent).cams;
+  const verdicts = cams.flatMap((cam) => cam.checks.map((check) => check.verdict));
+  return {
+    open: box.open, bad: verdicts.some((verdict) => verdict === 'fail' || verdict === 'warn'), high: box.getBoundingClientRect().height,
+    rows: new Set(cams.flatMap((cam) => cam.checks.map((check) => check.check))).size,
+    first: [...box.querySelectorAll(':scope > .wide tbody td:nth-child(2) .badge')].map((badge) => badge.textContent),
+  };
+}"""
+LEGENDS = """() => {
+  const text = (e) => e.textContent.replace(/\\s+/g, ' ').trim();
+  const readout = [...document.querySelectorAll('.readout dd')].map((dd) => [...dd.children].map(text).join(' ').trim());
+  const first = document.querySelector('#lead .plot');
+  const [place, ...values] = [...first.querySelectorAll('.legend .value')].map(text);
+  const left = (e) => e.getBoundingClientRect().left + e.getBoundingClientRect().width / 2;
+  return [{ place, values, readout, cursor: left(first.querySelector('.cursor')), dot: left(first.querySelector('.dot')) }];
+}"""
+CUT_NAMES = """() => [...document.querySelectorAll('#mechanisms svg')].flatMap((svg) => {
+  const all = svg.getBoundingClientRect();
+  const inside = (box) => box.left >= all.left - 1 && box.right <= all.right + 1 && box.top >= all.top - 1 && box.bottom <= all.bottom + 1;
+  return [...svg.querySelectorAll('text')].filter((name) => !inside(name.getBoundingClientRect())).map((name) => name.textContent);
+})"""
 STATE = """() => ({
   roller: [...document.querySelectorAll('.part.normal, .part.follower')].map((p) => p.getAttribute('transform')).join(),
-  cam: document.querySelector('.part.cam, .part.crank').getAttribute('transform'),
+  cam: (document.querySelector('.part.cam, .part.crank') ?? document.querySelector('.part.bed')).getAttribute('transform'),
   numbers: document.querySelector('.readout').innerText,
-  legend: document.querySelector('.u-legend').innerText,
+  legend: document.querySelector('.legend').innerText,
   scrub: Number(document.getElementById('scrub').value),
 })"""
 
@@ -93,7 +135,7 @@ class Page:
     """A page that remembers what it was told and what it asked for."""
 
     def __init__(self, browser, path, **options):
-        self.context = browser.new_context(viewport={"width": 1280, "height": 900}, **options)
+        self.context = browser.new_context(viewport=dict(zip(("width", "height"), FOLD)), **options)
         self.page, self.said = self.context.new_page(), []
         self.page.on("console", lambda message: self.said.append(f"{message.type}: {message.text}"))
         self.page.on("pageerror", lambda error: self.said.append(f"error: {error}"))
@@ -150,7 +192,46 @@ def uses(page):
     page.page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 20)
     hovered = page.state()
     assert abs(hovered["scrub"] - 90) < 25 or "returns" in page.page.content(), hovered["scrub"]
+    agrees(page)
     page.page.mouse.move(2, 2)
+
+
+def agrees(page):
+    """The first values of a diagram's legend are those of the readout at the same place, in the same units."""
+    for legend in page.page.evaluate(LEGENDS):
+        assert legend["place"] in legend["readout"], legend
+        assert all(value in legend["readout"] for value in legend["values"]), legend
+        assert abs(legend["cursor"] - legend["dot"]) < 1, legend
+
+
+def opens(page, name):
+    """The checks are a line; open are those that failed or warn, these first, and the rest by a click."""
+    found = page.page.evaluate(CHECKS)
+    if not found:
+        return
+    assert found["open"] == found["bad"], f"{name}: open {found['open']}, something failed or warns: {found['bad']}"
+    if found["bad"]:
+        assert set(found["first"]) <= {"FAIL", "WARN"} and found["first"] == sorted(found["first"]), found
+    else:
+        assert found["high"] < 60, f"{name}: the line of checks is {found['high']} px high"
+        page.page.click("#verdict summary")
+        assert page.page.is_visible("#verdict table")
+        page.page.click("#verdict summary")
+    assert page.page.evaluate("document.querySelectorAll('#verdict tbody tr').length") == found["rows"], name
+
+
+def above_the_fold(page, name):
+    """Mechanism and first diagram are visible without scrolling; what has no mechanism has its diagram there."""
+    for selector in ("#mechanisms svg", "#lead .plot"):
+        for box in page.page.evaluate("(selector) => [...document.querySelectorAll(selector)].map((e) => e.getBoundingClientRect().toJSON())", selector):
+            if box["width"]:
+                assert box["top"] >= 0 and box["bottom"] <= FOLD[1] and box["height"] > 80, f"{name}: {selector} {box}"
+
+
+def named(page, name):
+    """No name in a mechanism is cut at the edge of the picture."""
+    cut = page.page.evaluate(CUT_NAMES)
+    assert not cut, f"{name}: {cut}"
 
 
 def units(page):
@@ -165,14 +246,13 @@ def units(page):
 
 
 def fits(page, name):
-    """Nothing is wider than the window, at three widths."""
-    for width in (1280, 800, 420):
-        page.page.set_viewport_size({"width": width, "height": 900})
+    """Nothing is wider than the window."""
+    for width, height in (*WINDOWS, FOLD):
+        page.page.set_viewport_size({"width": width, "height": height})
         page.page.wait_for_timeout(120)
         wide = page.page.evaluate("document.documentElement.scrollWidth")
         assert wide <= width, f"{name} at {width} px is {wide} px wide"
-    page.page.set_viewport_size({"width": 1280, "height": 900})
-    page.page.wait_for_timeout(120)
+        named(page, name)
 
 
 def prints(page, path):
@@ -182,21 +262,33 @@ def prints(page, path):
     sizes = {tuple(round(float(v)) for v in box.split()) for box in boxes}
     assert sizes == {(0, 0, 595, 842)}, f"{path.name}: {sizes}, not A4"
     pages = len(re.findall(rb"/Type\s*/Page\b", bytes_))
-    assert 3 <= pages <= 8, f"{path.name} has {pages} pages"
-    if shutil.which("pdftotext"):
-        text = subprocess.run(["pdftotext", str(path), "-"], capture_output=True, text=True, check=True).stdout
-        empty = [i + 1 for i, page_text in enumerate(text.split("\f")[:-1]) if not page_text.strip()]
-        assert not empty, f"{path.name}: pages {empty} are empty"
+    assert 1 <= pages <= (7 if path.stem == "beside" else 5), f"{path.name} has {pages} pages"
+    if shutil.which("pdftoppm"):
+        filled = [filled_share(path, number) for number in range(1, pages + 1)]
+        assert all(share > 0.55 for share in filled[:-1]) and filled[-1] > 0.15, f"{path.name}: pages filled to {filled}"
     return pages
+
+
+def filled_share(path, number):
+    """How far down a printed page there is something."""
+    page = subprocess.run(["pdftoppm", "-r", "20", "-gray", "-f", str(number), "-l", str(number), str(path)], capture_output=True, check=True).stdout
+    head = re.match(rb"P5\s+(\d+)\s+(\d+)\s+255\s", page)
+    width, height = map(int, head.groups())
+    rows = [page[head.end() + width * row : head.end() + width * (row + 1)] for row in range(height)]
+    return max((row for row, pixels in enumerate(rows) if min(pixels) < 200), default=0) / height
 
 
 def judge(browser, directory, name, pictures):
     path = directory / f"{name}.html"
     page = Page(browser, path)
     paint = page.page.evaluate("performance.getEntriesByName('first-paint')[0]?.startTime ?? NaN")
-    uses(page)
-    units(page)
+    opens(page, name)
+    above_the_fold(page, name)
+    if name not in STILL:
+        uses(page)
+        units(page)
     fits(page, name)
+    assert page.page.locator(".part.spring").count() == (1 if name in WITH_SPRING else 0), f"{name}: springs"
     poor = page.page.evaluate(CONTRAST)
     assert not poor, f"{name}, light: {poor[:5]}"
     page.page.click("#theme")

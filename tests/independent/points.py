@@ -278,7 +278,7 @@ def main():
         refused = False
         for of, form, step, way in ways:
             command = [binary, "rotary", *keys, "--json", "--out", str(directory), "--name", "table", "--format", "points"]
-            command += ["--cutter", f"{cutter!r}m"] if of == "cutter" else []
+            command += ["--cutter-diameter", f"{2 * cutter!r}m"] if of == "cutter" else []
             command += ["--tolerance", f"{tolerance!r}mm", "--points-of", of, "--points-as", form]
             command += ["--points-step", step, "--points-between", way]
             velocity, acceleration = shares_asked

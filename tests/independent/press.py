@@ -8,18 +8,15 @@ floats where forces cancel.
 
 usage: press.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
-import argparse
 import csv
 import json
 import math
-import random
 import re
 import subprocess
-import sys
 from collections import defaultdict
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import cases
 import numpy as np
 
 X = np.longdouble
@@ -45,6 +42,10 @@ class Wrong(list):
         Wrong.largest[what] = max(Wrong.largest[what], share)
         if not off <= relative * abs(true) + absolute:
             self.append(f"{what} told {float(told)!r}, is {float(true)!r} ({share:.1e})")
+
+
+# What a press has room for, m: limits.column where it is not given.
+LONGEST_COLUMN = 2
 
 
 def run(binary, words, directory, name, wrong=None, code=0):
@@ -248,9 +249,15 @@ def regimes(binary, directory, number, rng):
     if set(seen) != set(speeds):
         wrong.append(f"speeds {sorted(map(float, seen))} told, {sorted(map(float, speeds))} asked for")
     below = any(reset < column * X(1 - 1e-12) for reset, _ in seen.values())
-    verdict = {c["check"]: c["verdict"] for c in report["checks"]}["added_volume"]
-    if (verdict == "fail") != below or got.returncode != int(below):
+    longest = max([column, *(reset for reset, _ in seen.values())])
+    too_long = longest > LONGEST_COLUMN
+    checks = {c["check"]: c for c in report["checks"]}
+    verdict = checks["added_volume"]["verdict"]
+    if (verdict == "fail") != below or got.returncode != int(below or too_long):
         wrong.append(f"added_volume {verdict}, exit {got.returncode}, though the shortest column is {'' if below else 'not '}shorter")
+    if (checks["column"]["verdict"] == "fail") != too_long:
+        wrong.append(f"column {checks['column']['verdict']}, though the longest is {float(longest)} m")
+    wrong.close(checks["column"]["value"], 1000 * longest, "longest column", 1e-9 if rule == "level" else CLOSE)
     same(table(report["files"][0]), told["speeds"], wrong, "regimes")
     rows = table(report["files"][1])
     if len(rows) < 21 * len(seen):
@@ -262,8 +269,8 @@ def regimes(binary, directory, number, rng):
         wrong.close(row["inertia_n"], p.inertia(n, x), "curve inertia", CLOSE)
         wrong.close(row["residual_n"], left(x) if n != cut else 0, "curve residual", 1e-8, slack * (1e3 if rule == "level" else 1))
         wrong.close(row["air_n"], p.inertia(n, x) - left(x), "curve air", 1e-8, slack)
-    # Without --force a cam that asks for less air than there is leaves no file.
-    if below:
+    # Without --force a cam that asks for less air than there is, or for a column that no press has room for, leaves no file.
+    if below or too_long:
         words.remove("--force")
         got, report = run(binary, words, directory, name + "-refused", wrong, 1)
         if report["files"] or list(Path(directory).glob(f"{name}-refused*")):
@@ -682,7 +689,9 @@ def drive(binary, directory, number, rng):
         work = (y[1] - y[0]) / 3 * (f[0] + f[-1] + 4 * f[1:-1:2].sum() + 2 * f[2:-1:2].sum())
         wrong.close(work, d.energy, "energy where it stops", 2e-6 * d.force(x) * 0.05 / d.energy + 1e-7)
     value = next(c["value"] for c in report["checks"] if c["check"] == "closing")
-    wrong.close(value, abs(d.work / d.energy - 1), "closing", 1e-6, 1e-12 * tight)
+    # The speed that is left or lacks; what closes to 1e-9 of the work arrives at rest.
+    open_by = abs(d.work / d.energy - 1)
+    wrong.close(value, d.v0 * math.sqrt(open_by) if open_by > 1.1e-9 else 0.0, "closing", 1e-6, 4e-5 * d.v0)
     if not d.closed:
         if told["crank_time_s"] is not None:
             wrong.append("a time of a phase that does not end as it should")
@@ -800,35 +809,18 @@ def golden(binary, directory):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("binary"), parser.add_argument("directory")
-    parser.add_argument("--count", type=int, default=60)
-    parser.add_argument("--seed", default="1"), parser.add_argument("--jobs", type=int, default=2)
-    given = parser.parse_args()
-    binary, directory = str(Path(given.binary).resolve()), Path(given.directory) / "press"
-    directory.mkdir(parents=True, exist_ok=True)
-    for old in directory.iterdir():
-        old.unlink()
-    failed, states = 0, defaultdict(int)
-    for line in golden(binary, directory):
-        failed += 1
+    words = cases.given("press", 60)
+    wrong = golden(words.binary, words.directory)
+    for line in wrong:
         print(f"  golden: {line}")
 
-    def task(number):
-        rng = random.Random(f"{given.seed}-{number}")
-        return number, (regimes, spring, drive)[number % 3](binary, directory, number, rng)
+    def one(number, rng):
+        state, wrong, arguments = (regimes, spring, drive)[number % 3](words.binary, words.directory, number, rng)
+        return state, wrong, " ".join(arguments)
 
-    with ThreadPoolExecutor(given.jobs) as pool:
-        for number, (state, wrong, words) in pool.map(task, range(given.count)):
-            states[state] += 1
-            failed += bool(wrong)
-            if wrong:
-                print(f"  {number}: " + "\n    ".join(wrong[:30]) + f"\n    {' '.join(words)}")
-    print("largest relative differences:")
-    for what, share in sorted(Wrong.largest.items()):
-        print(f"  {what:40} {share:.1e}")
-    print(", ".join(f"{n} {state}" for state, n in sorted(states.items())) + f"; {failed} wrong")
-    sys.exit(failed > 0)
+    states, failed = cases.judged(words, one)
+    cases.show_largest(Wrong.largest)
+    cases.finish(states, failed + len(wrong))
 
 
 if __name__ == "__main__":

@@ -260,6 +260,9 @@ def draw(rng):
         limits["cutter_radius"] = length(rng, rng.uniform(2, 40))
     if spring and rng.random() < 0.2:
         limits["jump_margin"] = rng.choice([1.2, 1.5, 2])
+    if {"points", "table"} & motion.keys() or any(segment.get("law") in ("spline", "table") for segment in segments):
+        # How far a curve leaves its rows is judged in tables.py.
+        limits["overshoot"] = "90 deg" if swings else "5 m"
     words = ["--tolerance", rng.choice(["1um", "5um", "5um", "50um"]), "--samples", str(rng.choice([181, 240, 360]))]
     words += ["--tolerance-acceleration", "none"] if rng.random() < 0.5 else []
     words += ["--force"] if rng.random() < 0.5 else []

@@ -53,6 +53,8 @@ def rows(rng, pairs):
 
 def knots(rng, count, size):
     shares = [rng.uniform(0.4, 1) for _ in range(count)]
+    # The last gap closes the turn and is no wider than the others.
+    shares[-1] = min(shares)
     at = [sum(shares[:i]) / sum(shares) for i in range(count)]
     values = [size * (rng.uniform(0.5, 1) if i % 2 else rng.uniform(0, 0.5)) for i in range(count)]
     return at, values
@@ -77,7 +79,7 @@ def draw_form(rng, motion, size, text, files, rounded):
         first = rng.choice([0.0, 0.0, rng.uniform(0, 0.2) / len(at)])
         begin = quantity(motion.get("at", "0 deg"))
         first += 1e-3 * (begin != 0)
-        motion["points"] = [[rounded(rng, begin + (share * 0.9 + first) * TAU / lobes), text(value)] for share, value in zip(at, values)]
+        motion["points"] = [[rounded(rng, begin + (share + first) * TAU / lobes), text(value)] for share, value in zip(at, values)]
         if rng.random() < 0.7:
             motion["degree"] = rng.choice([3, 5])
     else:
@@ -133,8 +135,11 @@ def vary(rng, motion, segments, text, files, rounded):
                     at = [0.0, *sorted(round(rng.uniform(0.15 / count, 0.85 / count) + j / count, 4) for j in range(1, count)), 1.0]
                 name = f"law-{rng.randrange(16**6):06x}.csv"
                 segment["law"], segment["table"] = "table", name
-                files[name] = rows(rng, [(x, round(law(x), rng.choice([6, 12]))) if 0 < x < 1 else (x, x) for x in at])
-                if rests or rng.random() < 0.3:
+                at_rest = rests or rng.random() < 0.3
+                # Rounded shares may begin at rest where they are free to move.
+                digits = rng.choice([6, 12]) if at_rest else 17
+                files[name] = rows(rng, [(x, round(law(x), digits)) if 0 < x < 1 else (x, x) for x in at])
+                if at_rest:
                     segment["ends"] = "rest"
                 elif rng.random() < 0.3:
                     segment["ends"] = "free"

@@ -135,7 +135,8 @@ class Judge:
         limit = quantity(limits["pressure_angle"]) if "pressure_angle" in limits else usual
         self.verdict(told, "pressure_angle", math.degrees(own["alpha"]), 1e-4, lambda v, top: v <= top, limit and math.degrees(limit))
         if self.corner and self.clear:
-            if told["undercut"]["verdict"] != "fail":
+            # Round a corner a knife edge loses nothing: the impact is the fault.
+            if (told["undercut"]["verdict"] != "fail") != (follower.kind == "knife"):
                 self.wrong.append("a corner is not told as an undercut")
         elif follower.circle and self.clear:
             scale = abs(own["convex"]) * 1e-6 + 1e-7
@@ -160,7 +161,7 @@ class Judge:
         self.forces(told, report, follower)
         self.failed = {name for name, check in told.items() if check["verdict"] == "fail"}
         self.apart = "does not touch along its path" in ((told.get("rolling") or {}).get("note") or "")
-        known = {"continuity", "pressure_angle", "undercut", "min_convex_radius", "cutter_radius", "face_width", "force_closure", "jump_speed", "wall"}
+        known = {"continuity", "pressure_angle", "undercut", "min_convex_radius", "cutter_radius", "face_width", "force_closure", "jump_speed", "wall", "size"}
         known |= self.kink(told, follower)
         # What is bent as sharp as the tolerance cannot be told from a corner.
         bent = own["convex"] - follower.radius if follower.circle else own["radius"]
@@ -283,7 +284,8 @@ class Judge:
         forces = [load.at(side[0] - self.program.lowest, side[1], side[2]) for side in sides]
         reaches = [load.reach(follower, c) for c in found]
         along = np.stack([force / reach for force, reach in zip(forces, reaches)])
-        normal = along / np.cos([c["alpha"] for c in found])
+        # 0 where the follower has left the cam.
+        normal = np.maximum(along, 0.0) / np.cos([c["alpha"] for c in found])
         torque = np.stack([force * side[1] for force, side in zip(forces, sides)]) * (1.0 if self.swings else 1e-3)
         pairs = [("roller_force_n", along), ("torque_nm", torque), ("contact_force_n", normal)]
         for name, values in pairs:
@@ -299,7 +301,8 @@ class Judge:
         self.close("arcs and lines", [report["outline"]["arcs"], report["outline"]["lines"]], [outline.arc.sum(), (~outline.arc).sum()], 0.5)
         wall = next((c for c in report["checks"] if c["check"] == "wall"), None)
         if wall and not self.failed & {"undercut", "outline"} and wall["value"] is not None and "bore_radius" in self.case["cam"]:
-            self.close("wall", wall["value"], outline.nearest - quantity(self.case["cam"]["bore_radius"]), 1.1 * tolerance)
+            self.close("wall", wall["value"], outline.nearest - quantity(self.case["cam"]["bore_radius"]), 1e-6)
+            self.close("limit of wall", wall["limit"], self.least_wall(), 1e-9)
         joints = np.concatenate([np.array([low, high]) for low, high, _, _ in self.program.parts])
         theta = np.concatenate([np.arange(2000) * TAU / 2000 + rng.uniform(0, 1e-3), joints + 1e-7, joints - 1e-7])
         s, v, a, _ = self.program.everywhere(theta)
@@ -325,6 +328,12 @@ class Judge:
     def bore(self):
         return PI * quantity(self.case["cam"]["bore_radius"]) ** 2 if "bore_radius" in self.case["cam"] else 0.0
 
+    def least_wall(self):
+        """The larger of 3 mm and 0.15 of the bore's radius; a millimetre of disc without a bore."""
+        if "bore_radius" not in self.case["cam"]:
+            return 1.0
+        return max(3.0, 0.15 * quantity(self.case["cam"]["bore_radius"]))
+
     def automatic(self, report):
         """An automatic size keeps every limit, and the smallest told breaks one just below."""
         told, kind = report["cam"], self.case["kind"]
@@ -343,8 +352,7 @@ class Judge:
         bore = quantity(self.case["cam"]["bore_radius"]) if "bore_radius" in self.case["cam"] else 0.0
         for share, expected in ((1 + 1e-6, True), (1 - 1e-5, False)):
             prime = smallest * share
-            # A millimetre of wall, and of the disc itself.
-            if prime - r <= (bore + 1) * (1 + 1e-4):
+            if prime - r <= (bore + self.least_wall()) * (1 + 1e-4):
                 continue
             if self.keeps(kind, prime - r) == (not expected):
                 self.wrong.append(f"smallest prime radius told {smallest}: {'breaks' if expected else 'keeps'} the limits at {prime}")

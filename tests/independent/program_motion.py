@@ -425,11 +425,40 @@ class Program:
             state = {"auto": set(), "v": (to - position) / width, "a": 0.0, "j": None, "turn": False}
         return Segment(law, self.at + angle, width, given, position, to, state)
 
+    def following(self, segment):
+        return self.segments[(self.segments.index(segment) + 1) % len(self.segments)]
+
+    def meet(self):
+        """A turn has the acceleration of the segment before it, else of that behind it, once one of them is known; rests and lines have none."""
+        for segment in self.segments:
+            if segment.state["turn"] and segment.state.get("turning") is None:
+                for beside, side in ((segment, -1), (self.following(segment), 0)):
+                    if beside.pieces and beside.law not in ("dwell", "constant-velocity"):
+                        segment.state["turning"] = self.end_acceleration(beside, side)
+                        break
+
     def solve(self):
         self.own_states()
-        chain = self.least_jerk()
         faults, later = set(), [s for s in self.segments if s.source.get("inflection") == "match" and s.law in NAMES]
+        alone = [s for s in self.segments if s not in later and not s.pieces and s.law not in ("polynomial", "spline")]
+        # A half without an inflection takes the acceleration of a formula or table behind its turn, where it can.
+        adapts = lambda s: s.law in HALVES and "inflection" not in s.source and s.state["turn"] and self.following(s).law in ("formula", "table")
+        self.chain_faults()
+        for segment in sorted(alone, key=adapts):
+            try:
+                if adapts(segment):
+                    try:
+                        self.solve_one(segment, self.end_acceleration(self.following(segment), 0), "match")
+                        continue
+                    except Illegal:
+                        pass
+                self.solve_one(segment, None)
+            except Illegal as fault:
+                faults.add(str(fault))
+        self.meet()
+        chain = self.least_jerk()
         for segment in [s for s in self.segments if s not in later + chain and not s.pieces] + later:
+            self.meet()
             wanted = None
             if segment in later:
                 index = self.segments.index(segment)
@@ -475,8 +504,10 @@ class Program:
             v, a = (0.0 if abs(d) < size else d for d, size in zip((v, a), least))
             segment.state = {"auto": set(), "v": v, "a": a, "j": None, "turn": False, "near": near}
 
-    def least_jerk(self):
-        """Splines, and polynomials beside a state that is to be found: quintics of least ∫(s‴)²; the segments that are done."""
+    def chain_faults(self):
+        self.least_jerk_chain()
+
+    def least_jerk_chain(self):
         count = len(self.segments)
         chain = []
         for i, segment in enumerate(self.segments):
@@ -486,14 +517,25 @@ class Program:
                 chain.append(segment)
         if any(s.state["j"] is not None or self.segments[self.segments.index(s) - 1].state["j"] is not None for s in chain):
             raise Illegal("jerk beside")
+        for segment in self.segments:
+            if segment.source.get("start") == "free" and segment.law not in ("polynomial", "spline"):
+                raise Illegal("start")
+            if segment.source.get("start") == "free" and segment in chain and self.segments[self.segments.index(segment) - 1] in chain:
+                raise Illegal("start")
+        return chain
+
+    def least_jerk(self):
+        """Splines, and polynomials beside a state that is to be found: quintics of least ∫(s‴)²; the segments that are done."""
+        count, chain = len(self.segments), self.least_jerk_chain()
         unknowns, at_end, intervals = 0, {}, []
         for segment in chain:
             i = self.segments.index(segment)
             after = self.segments[(i + 1) % count]
             known, states = segment.state, []
             for letter in "va":
-                free = letter in known["auto"] or letter == "a" and known["turn"]
-                states.append(unknowns if free else known[letter])
+                turning = known.get("turning") if letter == "a" and known["turn"] else None
+                free = letter in known["auto"] or letter == "a" and known["turn"] and turning is None
+                states.append(unknowns if free else known[letter] if turning is None else turning)
                 unknowns += free
             at_end[i] = states
             # A turn beside what is not of the chain is free for itself.
@@ -506,7 +548,9 @@ class Program:
             else:
                 known = self.segments[before].state
                 states = [known["v"], known["a"]]
-                if known["turn"]:
+                if known["turn"] and known.get("turning") is not None:
+                    states[1] = known["turning"]
+                if known["turn"] and known.get("turning") is None or segment.source.get("start") == "free":
                     states[1], unknowns = unknowns, unknowns + 1
             knots = [(quantity(a) - segment.start, quantity(p)) for a, p in segment.source.get("points", [])]
             knots.append((segment.width, segment.to))
@@ -534,7 +578,7 @@ class Program:
                 segment.state |= {"v": v, "a": a, "near": near}
         return chain
 
-    def solve_one(self, segment, wanted):
+    def solve_one(self, segment, wanted, usual="smooth"):
         begin, end = self.segments[self.segments.index(segment) - 1].state, segment.state
         travel, width = segment.to - segment.begin, segment.width
         if segment.law == "dwell":
@@ -544,7 +588,11 @@ class Program:
             ends = []
             for state, value in ((begin, 0.0), (end, travel)):
                 given = [value, state["v"] * width]
-                if not state["turn"]:
+                if value == 0.0 and state is begin and segment.source.get("start") == "free":
+                    pass
+                elif state["turn"]:
+                    given += [] if state.get("turning") is None else [state["turning"] * width**2]
+                else:
                     given.append(state["a"] * width**2)
                     given += [state["j"] * width**3] if state["j"] is not None else []
                 ends.append(given)
@@ -561,7 +609,7 @@ class Program:
             if state["a"] != 0 and not state["turn"]:
                 raise Illegal("accelerated")
             ends.append(("U", 0.0) if state["turn"] else ("G" if state["v"] else "R", state["v"] * width / travel))
-        inflection = segment.source.get("inflection", "smooth")
+        inflection = segment.source.get("inflection", usual)
         inflection = inflection if inflection in ("smooth", "match") else float(inflection)
         own = {key: segment.source[key] for key in ("fractions", "line", "amplitudes", "ramp") if key in segment.source}
         beside = None if wanted is None else wanted * width**2 / travel

@@ -30,13 +30,13 @@ LIMIT_S = 20.0
 # Tangent of a pressure angle of 89°.
 STEEP = 57
 REASONS = {
-    "serve": "cannot ", "accelerated": "cannot begin or end with an acceleration", "travel": "needs a travel|needs `to`", "inflection": "inflection",
-    "parameter": "must be ", "sum": "leads away|the segments|must be behind|already cover|greater than|above 0|`over`", "rpm": "needs motion.rpm",
-    "dwell": "a dwell", "return": "does not end where it starts", "line": "do not fit", "reach": "offset|reach|pivot|arm|lever|swing",
+    "serve": "cannot ", "accelerated": "cannot begin or end with an acceleration", "travel": "needs some travel|needs `to`", "inflection": "inflection",
+    "parameter": "must be ", "sum": "points away|the segments|must come after|already cover|greater than|above 0|`over`", "rpm": "needs motion.rpm",
+    "dwell": "a dwell", "return": "does not end where it starts", "line": "contradict each other", "reach": "offset|reach|pivot|arm|lever|swing",
     "bore": "bore_radius", "back": "turns back|does not reach|bore_radius", "over": "`over`",
     "end": "turn|rest",
-    "own state": "has its own velocity", "auto": "\"auto\" finds", "jerk beside": "the jerk follows", "speed": "made for one speed",
-    "impact": "of the load jumps", "range": "not in the turn|is not behind|not inside",
+    "own state": "determines velocity and acceleration itself", "auto": "\"auto\" finds", "jerk beside": "the jerk cannot be given", "speed": "made for one speed",
+    "impact": "of the load jumps", "range": "outside the turn|does not come after|not inside",
 }
 
 
@@ -171,10 +171,10 @@ def refused(case, stderr, files, reason, program, follower, tally, samples):
         reason = "impact"
     # A face needs as much radius as the acceleration falls, an edge as the velocity asks for.
     peak = lambda order: program.extreme(lambda i, t: np.abs(program.jet(i, t, order)[order]))[0]
-    if "more than a drawing holds" in stderr and program and max(peak(0), peak(1), peak(2) * (case["kind"] == "flat")) > 1e5:
+    if "more than the largest coordinate of a drawing" in stderr and program and max(peak(0), peak(1), peak(2) * (case["kind"] == "flat")) > 1e5:
         reason = "too large"
-    # Within a degree of the radius no edges follow a profile: the cam is a spike.
-    if "no edges follow the outline" in stderr and program and follower and peak(1) > STEEP * follower.base:
+    # Within a degree of the radius no arcs or splines fit a profile: the cam is a spike.
+    if "no arcs or splines fit the outline" in stderr and program and follower and peak(1) > STEEP * follower.base:
         reason = "a spike"
     if reason is None:
         wrong.append(f"refused, but legal: {stderr[:400]}")

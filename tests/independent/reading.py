@@ -26,7 +26,7 @@ SAME = 2.5e-4
 
 def check(binary, path):
     run = subprocess.run(
-        [binary, "check", str(path), "--json", "--tolerance", "5um"], capture_output=True, text=True, check=False
+        [binary, "check", str(path), "dpi", "--json", "--tolerance", "5um"], capture_output=True, text=True, check=False
     )
     assert run.returncode in (0, 1), run.stderr
     return run.returncode, json.loads(run.stdout)

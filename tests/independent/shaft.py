@@ -11,20 +11,19 @@ bore and the holes that the DXF of the disc shows, and what that DXF draws must 
 
 usage: shaft.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
 """
-import argparse
 import csv
 import json
 import math
 import random
 import re
 import subprocess
-import sys
 import time
 import traceback
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import cases
 import numpy as np
 from outline import Chain, polyline
 
@@ -1215,18 +1214,9 @@ def task(given):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("binary"), parser.add_argument("directory")
-    parser.add_argument("--count", type=int, default=42)
-    parser.add_argument("--seed", default="1"), parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--only", type=int)
-    given = parser.parse_args()
+    given = cases.given("shaft", 42, only={"type": int})
     start = time.monotonic()
-    binary, directory = str(Path(given.binary).resolve()), Path(given.directory) / "shaft"
-    directory.mkdir(parents=True, exist_ok=True)
-    for old in directory.iterdir():
-        if old.is_file():
-            old.unlink()
+    binary, directory = given.binary, given.directory
     failed, states, worst = 0, defaultdict(int), defaultdict(float)
     numbers = range(given.count) if given.only is None else [given.only]
     if given.only is None:
@@ -1245,11 +1235,8 @@ def main():
                 print(f"  {number} ({state}): " + "\n    ".join(wrong[:12]) + f"\n    {' '.join(map(str, words))}")
             elif text:
                 print(f"  {number} {state}: {text[:300]}")
-    print("largest relative differences:")
-    for what, share in sorted(worst.items()):
-        print(f"  {what:60} {share:.1e}")
-    print(", ".join(f"{n} {state}" for state, n in sorted(states.items())) + f"; {failed} wrong; {time.monotonic() - start:.0f} s")
-    sys.exit(failed > 0)
+    cases.show_largest(worst)
+    cases.finish(states, failed, f"; {time.monotonic() - start:.0f} s")
 
 
 if __name__ == "__main__":

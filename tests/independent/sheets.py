@@ -1,8 +1,10 @@
-"""The review sheets as PDF, read by PDFium: page size, fonts, the ruler, the outline in its scale, and no text over another.
+"""The review sheets as PDF, read by PDFium: page size, fonts, the ruler, the outline in its scale, and no text over another; the motion diagram
+on the second page, whose largest and least values are those of the CSV.
 
     sheets.py BINARY DIRECTORY
 """
 
+import csv
 import ctypes
 import json
 import re
@@ -22,7 +24,7 @@ CASES = {
     "rotary": ["rotary"],
     "ccw": ["rotary", "--set", "cam.rotation=ccw"],
     "offset": ["rotary", "--set", "follower.roller.offset=20mm"],
-    "huge": ["rotary", "--set", "cam.base_radius=1000mm"],
+    "huge": ["rotary", "--set", "cam.base_radius=1000mm", "--set", "limits.size=3m"],
     "small": ["rotary", "--set", "cam.base_radius=10mm", "--set", "cam.bore_radius=4mm", "--force"],
     "undercut": ["rotary", "--set", "cam.base_radius=20mm", "--set", "cam.bore_radius=8mm", "--force"],
     "long": ["rotary", "--set", "name=" + "A press with a name of sixty letters, to be told in full here"],
@@ -67,10 +69,46 @@ def horizontal_lines(page):
     return found
 
 
+# Columns of the table, and whether the diagram has their rates by time.
+COLUMNS = {
+    "lift_mm": 0, "velocity_mm_per_rad": 1, "acceleration_mm_per_rad2": 2, "jerk_mm_per_rad3": 3, "pressure_angle_deg": 0,
+    "contact_force_n": 0, "torque_nm": 0,
+}
+
+
+def diagram(name, page, table):
+    """The page of the diagram against the table: how many largest and least values of columns it has as labels."""
+    assert abs(page.get_size()[0] * POINT - 420) < 0.1 and abs(page.get_size()[1] * POINT - 297) < 0.1, name
+    assert all(fonts(page).values()), name
+    text = page.get_textpage().get_text_range()
+    flat = re.sub(r"\s", "", text)
+    assert "motiondiagram" in flat and "2/2" in flat, name
+    speed = re.search(r"ω=([\d.]+)rad/s", flat)
+    speed = float(speed.group(1)) if speed else 1.0
+    labels = [float(number) for number in re.findall(r"(?:max|min)(-?[\d.]+(?:e-?\d+)?)at", flat)]
+    with open(table, newline="") as file:
+        rows = [row for row in csv.DictReader(file)]
+    if "cam_deg" not in rows[0]:
+        return 0
+    compared = 0
+    for column, order in COLUMNS.items():
+        if column not in rows[0]:
+            continue
+        values = [float(row[column]) * speed**order for row in rows]
+        size = max(abs(value) for value in values)
+        for value in (max(values), min(values)):
+            if size == 0 or column == "lift_mm" and value == min(values):
+                continue
+            near = any(abs(label * unit - value) < 1e-2 * size for label in labels for unit in (1, 1000))
+            assert near, (name, column, value, labels)
+            compared += 1
+    return compared
+
+
 def check(name, arguments, binary, directory):
     out = directory / "sheets" / name
     run = subprocess.run(
-        [binary, *arguments, "--format", "svg,pdf,dxf", "--out", str(out), "--name", name, "--json"],
+        [binary, *arguments, "--format", "svg,pdf,dxf,csv", "--samples", "7200", "--out", str(out), "--name", name, "--json"],
         capture_output=True, text=True, timeout=300)
     forced = "--force" in arguments
     assert run.returncode == (1 if forced else 0), (name, run.stderr)
@@ -79,7 +117,10 @@ def check(name, arguments, binary, directory):
     svg = ElementTree.parse(out / f"{name}.svg").getroot()
     size = [float(svg.get(side).removesuffix("mm")) for side in ("width", "height")]
     assert tuple(size) in PAPERS.values(), (name, size)
-    document, (page,) = pages(out / f"{name}.pdf")
+    document, (page, *others) = pages(out / f"{name}.pdf")
+    # A conoid has a motion for each of its sections.
+    assert len(others) == (0 if arguments[0] == "conoid" else 1), (name, len(others))
+    compared = sum(diagram(name, other, out / f"{name}.csv") for other in others)
     for told, read in zip(size, page.get_size()):
         assert abs(told - read * POINT) < 0.1, (name, told, read * POINT)
     used = fonts(page)
@@ -98,7 +139,7 @@ def check(name, arguments, binary, directory):
     assert outlines, name
     page.render(scale=1280 / page.get_size()[0]).to_pil().save(out / f"{name}.png") if has_pillow() else None
     print(f"{name:10} {size[0]:g} x {size[1]:g} mm, scale {outlines[0].get('data-scale')}, ruler {ruler:.4f} mm, "
-          f"{len(text)} letters, fonts {', '.join(used)}")
+          f"{len(text)} letters, {compared} values of the diagram, fonts {', '.join(used)}")
     document.close()
 
 

@@ -294,7 +294,7 @@ def any_case(rng):
     if rng.random() < 0.7:
         bore = round(float(rng.choice([4, 12, 30]) * rng.uniform(0.8, 1.3)), 2)
         text.append(f'bore_radius = "{bore} mm"')
-        least = bore + (wall or 1.0)
+        least = bore + (wall or max(3.0, 0.15 * bore))
     limits = [round(float(rng.uniform(10, 60)), 1)] * 2
     text += ["[limits]", f'pressure_angle = "{limits[0]} deg"'] + ([f'wall = "{wall} mm"'] if wall else [])
     if rng.random() < 0.4:

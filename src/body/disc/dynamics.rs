@@ -1,6 +1,6 @@
 //! Torque and power of the shaft of a motion program, the flywheel that evens its speed, and the spin of a roller.
 
-use super::{Disc, GENERAL};
+use super::Disc;
 use crate::body::plane;
 use crate::follower::Element;
 use crate::numeric::{quadrature, root};
@@ -14,14 +14,14 @@ use std::f64::consts::TAU;
 const CELLS: u32 = 128;
 /// Panels of a stretch over which the torque is integrated: 1e-15 of ten half waves.
 const PANELS: u32 = 16;
-/// The same of a torque with kinks: 1e-7 of it.
+/// Panels of a stretch of a torque with kinks: 1e-7 of it.
 const KINKED_PANELS: u32 = 256;
 /// Panels of a piece over which the spin of a roller is integrated.
 const SPIN_PANELS: u32 = 24;
 
 /// The section `dynamics`. Power and work need the speed of the cam.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct Told {
+struct DynamicsSection {
     torque_mean_nm: f64,
     torque_max_nm: f64,
     torque_max_at_deg: f64,
@@ -45,7 +45,7 @@ struct Told {
     jump_at_deg: Option<f64>,
 }
 
-/// What the shaft does over a turn.
+/// The torque of the shaft over a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShaftTorque {
     /// Mean torque, N·m.
@@ -84,13 +84,14 @@ impl Disc {
             .flat_map(|(index, piece)| stretches(piece, &acting).into_iter().map(move |of| (index, of)))
             .collect();
         // The friction of a guide has kinks where a bearing changes sides.
-        let panels = if self.own.guide.is_some() { KINKED_PANELS } else { PANELS };
+        let panels = if self.program_follower.guide.is_some() { KINKED_PANELS } else { PANELS };
         let work = |of: &(usize, (f64, f64))| quadrature::integrate(|at| torque(of.0, at), of.1, panels);
         let turn: f64 = all.iter().map(|(_, (from, to))| to - from).sum();
         let mean = all.iter().map(work).sum::<f64>() / turn;
         // A conservative follower gives everything back: what is left of the sum is rounding.
         let size = largest.value.max(-least.value);
-        let dissipates = self.own.guide.is_some() || self.own.spring.is_some_and(|spring| spring.damping > 0.0);
+        let dissipates = self.program_follower.guide.is_some()
+            || self.program_follower.spring.is_some_and(|spring| spring.damping > 0.0);
         let mean = if dissipates || self.load.is_some() || mean.abs() > ROUNDING * size { mean } else { 0.0 };
         let (mut sum, mut low, mut high) = (0.0_f64, 0.0_f64, 0.0_f64);
         for (piece, range) in all {
@@ -112,12 +113,12 @@ impl Disc {
         Some(force).filter(|force| force.is_finite())
     }
 
-    /// How a roller turns about its own axis on the cam, |C'|/r − 1 − τψ' for a turn of the cam, rolling: |C'|/r by the way of its centre, the
+    /// How a roller turns about its own axis on the cam, |C'|/r − 1 − τψ' for a turn of the cam, rolling: |C'|/r by the path of its centre, the
     /// rest by the turning of what carries it. `None` of any other follower, and of an edge.
     #[must_use]
     pub fn spin(&self) -> Option<Spin> {
         let Element::Roller { radius } = self.follower.element() else { return None };
-        if !(radius > 0.0) {
+        if radius == 0.0 {
             return None;
         }
         let curves = self.curves();
@@ -136,7 +137,7 @@ impl Disc {
 
     /// The section `dynamics` of a motion program whose forces are known.
     pub(super) fn dynamics(&self) -> Option<Section> {
-        if *self.kind != GENERAL {
+        if !self.is_of_program() {
             return None;
         }
         let torque = self.shaft_torque()?;
@@ -144,7 +145,7 @@ impl Disc {
         let (force, least) = (self.largest_force(normal), self.largest_force(|piece, angle| -normal(piece, angle)));
         let jump = self.jump().and_then(Result::ok).filter(|jump| jump.value.is_finite());
         let flywheel = self.machine.fluctuation().zip(self.speed);
-        let told = Told {
+        let figures = DynamicsSection {
             torque_mean_nm: torque.mean,
             torque_max_nm: torque.largest.value,
             torque_max_at_deg: degrees(torque.largest.at),
@@ -160,64 +161,54 @@ impl Disc {
             jump_rpm: jump.map(|jump| 60.0 * jump.value / TAU),
             jump_at_deg: jump.map(|jump| degrees(jump.at)),
         };
-        Some(Section::new("dynamics", &told).with_words(self.words(&told)))
+        Some(Section::new("dynamics", &figures).with_words(self.words(&figures)))
     }
 
-    fn words(&self, told: &Told) -> Vec<String> {
+    fn words(&self, figures: &DynamicsSection) -> Vec<String> {
         let mut words = vec![format!(
             "torque of the shaft from {} N·m at {:.3}° to {} N·m at {:.3}°, mean {} N·m",
-            shown(told.torque_min_nm),
-            told.torque_min_at_deg,
-            shown(told.torque_max_nm),
-            told.torque_max_at_deg,
-            shown(told.torque_mean_nm)
+            shown(figures.torque_min_nm),
+            figures.torque_min_at_deg,
+            shown(figures.torque_max_nm),
+            figures.torque_max_at_deg,
+            shown(figures.torque_mean_nm)
         )];
-        if let Some((mean, most)) = told.power_mean_w.zip(told.power_max_w) {
-            words.push(format!("power {} W at the most, mean {} W", shown(most), shown(mean)));
+        if let Some((mean, most)) = figures.power_mean_w.zip(figures.power_max_w) {
+            words.push(format!("power at most {} W, mean {} W", shown(most), shown(mean)));
         } else {
-            words.push("without motion.rpm or --rpm inertia and damping are left out, and no power is told".into());
+            words.push("without motion.rpm or --rpm inertia and damping are left out, and no power is reported".into());
         }
-        let flywheel = match (told.flywheel_kg_m2, self.machine.fluctuation()) {
+        let flywheel = match (figures.flywheel_kg_m2, self.machine.fluctuation()) {
             (Some(inertia), Some(share)) => {
                 format!("; {} kg·m² on the shaft keeps its speed within {}", shown(inertia), shown(share))
             }
             (None, Some(_)) => "; the flywheel needs motion.rpm or --rpm".into(),
             _ => String::new(),
         };
-        words.push(format!("work that the speed swings with {} J{flywheel}", shown(told.work_fluctuation_j)));
-        let force = told.contact_force_max_n.map(|force| {
+        words.push(format!("work of the speed fluctuation {} J{flywheel}", shown(figures.work_fluctuation_j)));
+        let force = figures.contact_force_max_n.map(|force| {
             format!(
                 "force along the normal up to {} N at {:.3}°, least {} N",
                 shown(force),
-                told.contact_force_max_at_deg,
-                shown(told.contact_force_min_n)
+                figures.contact_force_max_at_deg,
+                shown(figures.contact_force_min_n)
             )
         });
         words.extend(force);
-        if told.contact_force_min_n <= 0.0 {
+        if figures.contact_force_min_n <= 0.0 && !self.is_closed() {
             words.push("the follower leaves the cam: torque, power and work are as if it were held on it".into());
         }
         words
     }
 }
 
-/// Of the largest torque, a mean that is rounding of what is given back.
+/// Share of the largest torque below which the mean is rounding.
 const ROUNDING: f64 = 1e-11;
-/// Of the mean spin, a difference that does not matter.
+/// Share of the mean spin below which a difference does not matter.
 const SPIN_MATTERS: f64 = 1e-9;
 
 /// The ends of a range and where a function changes its sign in it.
 fn crossings(function: &dyn Fn(f64) -> f64, (low, high): (f64, f64)) -> Vec<f64> {
-    let place = |cell: u32| low + (high - low) * f64::from(cell) / f64::from(CELLS);
-    let mut cuts = vec![low];
-    let mut before = function(low);
-    for cell in 1..=CELLS {
-        let here = function(place(cell));
-        if before * here < 0.0 {
-            cuts.extend(root::bracketed(function, place(cell - 1), place(cell), 0.0));
-        }
-        before = here;
-    }
-    cuts.push(high);
-    cuts
+    let inside = root::sign_changes(function, (low, high), CELLS).into_iter().filter(|at| low < *at && *at < high);
+    std::iter::once(low).chain(inside).chain([high]).collect()
 }

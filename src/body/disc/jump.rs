@@ -1,6 +1,6 @@
 //! The speed of a cam at which its follower first leaves it.
 
-use super::{Disc, GENERAL};
+use super::Disc;
 use crate::load::Pressing;
 use crate::numeric::root;
 use crate::profile::Worst;
@@ -17,11 +17,14 @@ impl Disc {
     /// which the least force of the turn is 0.
     ///
     /// # Errors
-    /// Why it is not known. `None` of what is no motion program, and where neither mass nor spring is given.
+    /// Why it is not known. `None` of a motion that is not a program, and where neither mass nor spring is given.
     pub fn jump(&self) -> Option<Result<Worst, String>> {
         let follower = &self.machine.follower;
-        let pressed = follower.preload.is_some() || self.own.spring.is_some();
-        if *self.kind != GENERAL || (follower.mass.is_none() && self.own.spring.is_none()) {
+        let pressed = follower.preload.is_some() || self.program_follower.spring.is_some();
+        if !self.is_of_program()
+            || self.is_closed()
+            || (follower.mass.is_none() && self.program_follower.spring.is_none())
+        {
             return None;
         }
         let inertia = if self.motion.quantity() == crate::motion::Quantity::Angle { "inertia" } else { "mass" };
@@ -29,11 +32,12 @@ impl Disc {
         if !pressed {
             return Some(Err("no preload and no [spring] press the follower on".into()));
         }
+        let mass = self.curves().metal_side() * mass;
         let pressing = Pressing { mass, ..self.pressing().unwrap_or_default() };
         if !(pressing.constant > 0.0) {
             return Some(Err("nothing presses the follower on at its lowest position; give spring.preload".into()));
         }
-        Some(Ok(*self.own.jump.get_or_init(|| {
+        Some(Ok(*self.program_follower.jump.get_or_init(|| {
             let undamped = self.undamped_jump(&pressing);
             if pressing.damping == 0.0 { undamped } else { self.damped_jump(&pressing, undamped) }
         })))

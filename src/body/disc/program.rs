@@ -1,16 +1,17 @@
-//! What the report tells of a motion program.
+//! The section of the report on a motion program.
 
 use super::Disc;
 use crate::geometry::MILLIMETRES;
 use crate::motion::Quantity;
-use crate::motion::laws::optimum::{Least, Optimum};
-use crate::motion::program::SegmentTold;
+use crate::motion::laws::optimum::{Objective, Optimum};
+use crate::motion::program::SegmentSummary;
+use crate::motion::program::rows::{RowFigures, Smoothing};
 use crate::report::{Section, shown};
 use serde::Serialize;
 
 /// A segment; positions in mm or degrees, rates by the cam angle in radians.
 #[derive(Debug, Serialize)]
-struct Segment {
+struct SegmentFigures {
     law: &'static str,
     class: String,
     from_deg: f64,
@@ -22,13 +23,16 @@ struct Segment {
     highest: f64,
     overshoot: f64,
     #[serde(flatten)]
-    optimum: Option<Optimal>,
+    optimum: Option<OptimumFigures>,
     peaks: Peaks,
+    /// Of a spline or a table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows: Option<RowsSection>,
 }
 
-/// Of a polynomial that makes something least.
+/// A polynomial that minimises a quantity.
 #[derive(Debug, Serialize)]
-struct Optimal {
+struct OptimumFigures {
     degree: u32,
     minimise: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -37,9 +41,9 @@ struct Optimal {
     robust: Option<bool>,
 }
 
-impl Optimal {
+impl OptimumFigures {
     fn of(optimum: &Optimum) -> Self {
-        let (ratio, robust) = if let Least::Residual { ratio, robust } = optimum.least {
+        let (ratio, robust) = if let Objective::Residual { ratio, robust } = optimum.least {
             (Some(ratio), Some(robust))
         } else {
             (None, None)
@@ -64,7 +68,7 @@ struct Peaks {
     acceleration_at_deg: f64,
     jerk: Option<f64>,
     jerk_at_deg: f64,
-    /// By the time, m or rad per second.
+    /// By time, m or rad per second.
     #[serde(skip_serializing_if = "Option::is_none")]
     velocity_per_s: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -75,13 +79,88 @@ struct Peaks {
 
 /// The section `motion`.
 #[derive(Debug, Serialize)]
-struct Told {
+struct MotionSection {
     unit: &'static str,
     /// Of rates by the time, where the speed is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     unit_by_time: Option<&'static str>,
     repeat: u32,
-    segments: Vec<Segment>,
+    segments: Vec<SegmentFigures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows: Option<RowsSection>,
+}
+
+/// A curve through rows; lengths in the unit of the section.
+#[derive(Debug, Serialize)]
+struct RowsSection {
+    count: usize,
+    spacing_deg: f64,
+    dwells_deg: Vec<[f64; 2]>,
+    overshoot: f64,
+    overshoot_at_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rounding: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    smoothing: Option<SmoothingFigures>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    read: Vec<String>,
+}
+
+/// How rows were smoothed.
+#[derive(Debug, Serialize)]
+struct SmoothingFigures {
+    bound: f64,
+    largest: f64,
+    rms: f64,
+}
+
+impl RowsSection {
+    fn of(rows: &RowFigures, size: f64) -> Self {
+        Self {
+            count: rows.count,
+            spacing_deg: degrees(rows.spacing),
+            dwells_deg: rows.dwells.iter().map(|(from, to)| [degrees(*from), degrees(*to)]).collect(),
+            overshoot: size * rows.overshoot.0,
+            overshoot_at_deg: degrees(rows.overshoot.1),
+            rounding: (rows.rounding > 0.0).then_some(size * rows.rounding),
+            smoothing: rows.smoothing.map(|Smoothing { bound, largest, rms }| SmoothingFigures {
+                bound: size * bound,
+                largest: size * largest,
+                rms: size * rms,
+            }),
+            read: rows.told.clone(),
+        }
+    }
+
+    fn words(&self, unit: &str) -> Vec<String> {
+        let mut words = vec![format!("{} rows, usually {}° apart", self.count, shown(self.spacing_deg))];
+        if !self.dwells_deg.is_empty() {
+            let all: Vec<String> =
+                self.dwells_deg.iter().map(|[from, to]| format!("{} to {}°", shown(*from), shown(*to))).collect();
+            words.push(format!("equal rows are kept as dwells: {}", all.join(", ")));
+        }
+        if let Some(SmoothingFigures { bound, largest, rms }) = &self.smoothing {
+            let text = if *bound > 0.0 {
+                format!(
+                    "smoothed within {} {unit} of each row: largest deviation {}, rms {} {unit}",
+                    shown(*bound),
+                    shown(*largest),
+                    shown(*rms)
+                )
+            } else {
+                "not smoothed: no rounding is seen in the digits of the rows".to_owned()
+            };
+            words.push(text);
+        }
+        words.extend(self.read.iter().cloned());
+        words
+    }
+
+    /// Of a segment only what is not as its rows say.
+    fn words_of_segment(&self, unit: &str) -> Vec<String> {
+        let usual = self.smoothing.is_none() && self.dwells_deg.is_empty();
+        if usual { Vec::new() } else { self.words(unit) }
+    }
 }
 
 /// A position of less than this share of the travel is 0.
@@ -94,24 +173,24 @@ pub(super) fn degrees(angle: f64) -> f64 {
 }
 
 /// A segment with its lengths or angles in a size, at an angular speed of the cam, rad/s, where that is known.
-fn segment(told: &SegmentTold, size: f64, speed: Option<f64>) -> Segment {
-    let [first, last] = told.classes.map(crate::motion::program::Class::letter);
-    let [velocity, acceleration, jerk] = told.peaks.map(|(value, at)| (size * value, degrees(at)));
+fn segment(summary: &SegmentSummary, size: f64, speed: Option<f64>) -> SegmentFigures {
+    let [first, last] = summary.classes.map(crate::motion::program::EndClass::letter);
+    let [velocity, acceleration, jerk] = summary.peaks.map(|(value, at)| (size * value, degrees(at)));
     let by_time = |order: usize, power: i32| {
-        let value = told.peaks.get(order).map(|peak| peak.0).filter(|value| value.is_finite());
+        let value = summary.peaks.get(order).map(|peak| peak.0).filter(|value| value.is_finite());
         value.zip(speed).map(|(value, speed)| value * speed.powi(power))
     };
-    Segment {
-        law: told.law,
+    SegmentFigures {
+        law: summary.law,
         class: format!("{first}-{last}"),
-        from_deg: degrees(told.angles.0),
-        to_deg: degrees(told.angles.1),
-        from: size * told.positions.0,
-        to: size * told.positions.1,
-        lowest: size * told.range.0,
-        highest: size * told.range.1,
-        overshoot: size * told.overshoot,
-        optimum: told.optimum.as_ref().map(Optimal::of),
+        from_deg: degrees(summary.angles.0),
+        to_deg: degrees(summary.angles.1),
+        from: size * summary.positions.0,
+        to: size * summary.positions.1,
+        lowest: size * summary.range.0,
+        highest: size * summary.range.1,
+        overshoot: size * summary.overshoot,
+        optimum: summary.optimum.as_ref().map(OptimumFigures::of),
         peaks: Peaks {
             velocity: velocity.0,
             velocity_at_deg: velocity.1,
@@ -123,6 +202,7 @@ fn segment(told: &SegmentTold, size: f64, speed: Option<f64>) -> Segment {
             acceleration_per_s2: by_time(1, 2),
             jerk_per_s3: by_time(2, 3),
         },
+        rows: None,
     }
 }
 
@@ -132,10 +212,11 @@ impl Disc {
         let program = self.motion.program()?;
         let swings = self.motion.quantity() == Quantity::Angle;
         let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
-        let told = program.segments();
-        let segments: Vec<Segment> = told.iter().map(|told| segment(told, size, self.speed)).collect();
+        let summary = program.segments();
+        let mut segments: Vec<SegmentFigures> =
+            summary.iter().map(|summary| segment(summary, size, self.speed)).collect();
         let mut words: Vec<String> =
-            segments.iter().zip(told).map(|(segment, told)| line(segment, told, unit)).collect();
+            segments.iter().zip(summary).map(|(segment, summary)| line(segment, summary, unit)).collect();
         let of_time = if swings { "rad" } else { "m" };
         words.extend(at_speed(&segments, of_time));
         if self.motion.lobes() > 1 {
@@ -143,58 +224,68 @@ impl Disc {
         }
         if let Some(load) = program.load() {
             words.push(format!(
-                "for an elastic load, cam speed over natural {} and damping {}: the cam as told, the load as the file gives it",
+                "for an elastic load, cam speed over natural frequency {}, damping {}: these are the figures of the cam, and the \
+                    program of the file is that of the load",
                 shown(load.ratio),
                 shown(load.damping)
             ));
         }
         let unit_by_time = self.speed.map(|_| of_time);
-        let value = Told { unit, unit_by_time, repeat: self.motion.lobes(), segments };
+        let mut rows = None;
+        for found in program.rows() {
+            let section = RowsSection::of(found, size);
+            let Some(index) = found.segment else {
+                words.extend(section.words(unit));
+                rows = Some(section);
+                continue;
+            };
+            let of_segment = section.words_of_segment(unit);
+            words.extend(of_segment.into_iter().map(|text| format!("segment {}: {text}", index + 1)));
+            if let Some(segment) = segments.get_mut(index) {
+                segment.rows = Some(section);
+            }
+        }
+        let value = MotionSection { unit, unit_by_time, repeat: self.motion.lobes(), segments, rows };
         Some(Section::new("motion", &value).with_words(words))
     }
 }
 
 /// The largest rates by the time.
-fn at_speed(segments: &[Segment], unit: &str) -> Option<String> {
+fn at_speed(segments: &[SegmentFigures], unit: &str) -> Option<String> {
     let most =
         |of: fn(&Peaks) -> Option<f64>| segments.iter().filter_map(|segment| of(&segment.peaks)).reduce(f64::max);
     let (velocity, acceleration) = (most(|peaks| peaks.velocity_per_s)?, most(|peaks| peaks.acceleration_per_s2)?);
     let unbounded = segments.iter().any(|segment| segment.peaks.jerk.is_none());
     let jerk = most(|peaks| peaks.jerk_per_s3).filter(|_| !unbounded);
-    let jerk = jerk.map_or("without bound".to_owned(), |jerk| format!("{} {unit}/s³", shown(jerk)));
-    Some(format!(
-        "at this speed v to {} {unit}/s, a to {} {unit}/s², j {jerk} at the most",
-        shown(velocity),
-        shown(acceleration)
-    ))
+    let jerk = jerk.map_or("unbounded".to_owned(), |jerk| format!("{} {unit}/s³", shown(jerk)));
+    Some(format!("at this speed at most v {} {unit}/s, a {} {unit}/s², j {jerk}", shown(velocity), shown(acceleration)))
 }
 
-fn line(segment: &Segment, told: &SegmentTold, unit: &str) -> String {
-    let Segment { law, class, from_deg, to_deg, from, to, overshoot, optimum, peaks, .. } = segment;
-    let least = optimum.as_ref().map_or(String::new(), Optimal::words);
+fn line(segment: &SegmentFigures, summary: &SegmentSummary, unit: &str) -> String {
+    let SegmentFigures { law, class, from_deg, to_deg, from, to, overshoot, optimum, peaks, .. } = segment;
+    let least = optimum.as_ref().map_or(String::new(), OptimumFigures::words);
     let mut text = format!("{} to {}° {law}{least}", shown(*from_deg), shown(*to_deg));
-    if told.peaks[0].0 == 0.0 {
+    if summary.peaks[0].0 == 0.0 {
         return format!("{text} at {} {unit}", shown(*from));
     }
-    let positions = if told.whole {
+    let positions = if summary.whole {
         let size = if unit == "deg" { 1.0_f64.to_degrees() } else { MILLIMETRES };
-        let (low, high) = told.range;
-        // A place that is 0 but for rounding is told as 0.
+        let (low, high) = summary.range;
+        // A place that is 0 but for rounding is shown as 0.
         let [low, high] = [low, high].map(|at| if at.abs() > ROUNDING * (high - low) { size * at } else { 0.0 });
         format!("between {} and {}", shown(low), shown(high))
     } else {
         format!("{class} from {} to {}", shown(*from), shown(*to))
     };
-    text.push_str(&format!(
-        " {positions} {unit}: v {} {unit}/rad, a {} {unit}/rad²",
-        shown(peaks.velocity),
-        shown(peaks.acceleration)
-    ));
-    text.push_str(&peaks.jerk.map_or(", j without bound".into(), |jerk| format!(", j {} {unit}/rad³", shown(jerk))));
+    // Rates of an angle are per radian in radians, as everywhere else.
+    let (of_rate, size) = if unit == "deg" { ("rad", 1.0_f64.to_radians()) } else { (unit, 1.0) };
+    let rate = |value: f64| format!("{} {of_rate}", shown(size * value));
+    text.push_str(&format!(" {positions} {unit}: v {}/rad, a {}/rad²", rate(peaks.velocity), rate(peaks.acceleration)));
+    text.push_str(&peaks.jerk.map_or(", j unbounded".into(), |jerk| format!(", j {}/rad³", rate(jerk))));
     if *overshoot > 0.0 {
-        text.push_str(&format!("; it goes {} {unit} beyond its ends", shown(*overshoot)));
+        text.push_str(&format!("; it overshoots its ends by {} {unit}", shown(*overshoot)));
     }
-    if told.humps {
+    if summary.humps {
         text.push_str(
             "; its acceleration has two humps of one sign: another inflection or law = \"polynomial\" avoids that",
         );

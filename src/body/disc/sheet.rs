@@ -1,19 +1,25 @@
 //! What the review sheet of a disc cam shows.
 
-use super::Disc;
+use super::{Disc, shop_views};
+use crate::body::figures;
 use crate::body::part::{as_turned, point_as_turned};
-use crate::body::sheet::{PATH_OVER_RADIUS, axes, bore, lost_motion, overall, places, pressure_angle, roller, turning};
-use crate::body::{Body, Drawn};
+use crate::body::sheet::{
+    PATH_OVER_RADIUS, axes, bore, lost_motion, overall, pressure_angle, profile_table, roller, turning,
+};
+use crate::body::{Body, Drawn, Figures, Part};
 use crate::follower::Element;
 use crate::geometry::contour::{Contour, Edge, Extents, Vertex};
-use crate::geometry::{Entity, MILLIMETRES};
+use crate::geometry::{Entity, MILLIMETRES, polar};
 use crate::profile::envelope;
-use crate::profile::outline::{Outline, OutlineError, pitch};
-use crate::report::sheet::{Facts, Group, Mark, Shape, View, rounded};
+use crate::profile::outline::{OutlineError, pitch};
+use crate::report::sheet::{Mark, ShapeGroup, SheetShape, SheetView, TitleFacts, extents_of, rounded};
 use nalgebra::Vector2;
 
 /// Half the length at which a flat face is shown, over the base radius.
 const FACE_OVER_BASE: f64 = 0.8;
+/// The note where the file itself takes what the tolerance of the lift permits.
+const NOTHING_LEFT: &str =
+    "no tolerance of the profile is proposed: the deviation of the file takes all that title.lift_tolerance permits";
 /// Points of a stretch of lost motion.
 const LOST_POINTS: u32 = 48;
 
@@ -23,50 +29,64 @@ const NOWHERE: Extents = Extents { least: Vector2::new(0.0, 0.0), largest: Vecto
 ///
 /// # Errors
 /// [`OutlineError`] when the pitch curve cannot be drawn.
-pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<View, OutlineError> {
+pub(super) fn view(disc: &Disc, drawn: &Drawn) -> Result<SheetView, OutlineError> {
     // A flat face and a knife edge have no pitch curve: their curve is the profile, which may be undercut.
     let part = drawn.parts.first();
     let pitch_curve = match disc.roller_radius() {
-        Some(radius) => Some(pitch_curve(disc, part.map(|part| &part.outline), MILLIMETRES * radius)?),
+        Some(radius) => Some(pitch_curve(disc, part, MILLIMETRES * radius)?),
         None => None,
     };
-    let outline = part.map_or(NOWHERE, |part| part.outline.contour.extents());
+    let outline = part.map_or(NOWHERE, Part::extents);
     let (prime, base) = (MILLIMETRES * disc.prime_radius(), MILLIMETRES * disc.base_radius());
-    let profile = part.map(|part| Shape::Entity(Entity::Polyline(part.outline.contour.clone())));
-    let holes = part.map_or_else(Vec::new, |part| part.holes().into_iter().map(Shape::Entity).collect());
-    let circle = |radius: f64| vec![Shape::Entity(Entity::Circle(Vector2::zeros(), radius))];
-    let group = Group::new;
+    let profile = part.map(|part| SheetShape::Entity(Entity::Polyline(part.outline.contour.clone())));
+    let holes = part.map_or_else(Vec::new, |part| part.holes().into_iter().map(SheetShape::Entity).collect());
+    let circle = |radius: f64| vec![SheetShape::Entity(Entity::Circle(Vector2::zeros(), radius))];
+    let group = ShapeGroup::new;
     let crossed = pitch_curve.as_ref().map_or(outline, |curve| curve.extents().with(&outline));
     let mut groups = vec![
-        group("profile", "profile", profile.into_iter().collect()).told(),
+        group("profile", "profile", profile.into_iter().collect()).with_legend(),
         group("bore", "bore", holes),
-        group("axis", "axes", axes(&crossed)),
-        group("base-circle", &format!("base circle R {}", rounded(base)), circle(base)).told(),
+        group("axis", shop_views::zero_of(disc), axes(&crossed)).with_legend(),
+        group("base-circle", &format!("base circle R {}", rounded(base)), circle(base)).with_legend(),
     ];
     if let Some(pitch_curve) = pitch_curve {
-        groups.push(group("prime-circle", &format!("prime circle R {}", rounded(prime)), circle(prime)).told());
-        let curve = vec![Shape::Entity(Entity::Polyline(pitch_curve))];
-        groups.push(group("pitch-curve", "pitch curve", curve).told());
+        groups.push(group("prime-circle", &format!("prime circle R {}", rounded(prime)), circle(prime)).with_legend());
+        let curve = vec![SheetShape::Entity(Entity::Polyline(pitch_curve))];
+        groups.push(group("pitch-curve", "pitch curve", curve).with_legend());
     }
+    groups.extend(part.and_then(shop_views::lead_in));
     groups.extend(lost_motion(lost(disc)));
     let (shapes, angle) = worst_place(disc);
-    groups.push(group("roller", "follower at its worst pressure angle", shapes).told());
-    let zero = if disc.load.is_some() { "θ = 0, φ = 0" } else { "θ = 0" };
-    let at_zero = profile_radius_at_zero(part.map(|part| &part.outline.contour), base);
+    groups.push(group("roller", "follower at its worst pressure angle", shapes).with_legend());
+    let (arms, arm_marks) = shop_views::arm(disc);
+    let (side, side_marks) = shop_views::side_view(disc, part, &extents_of(&groups).with(&outline));
+    groups.extend(arms.into_iter().chain(side));
+    let zero = disc.duty.as_ref().map_or("θ = 0", |duty| duty.angle_origin());
+    let at_zero =
+        part.and_then(|part| polar::outermost(&part.outline.contour, &[Vector2::x()]).pop().flatten()).unwrap_or(base);
+    let tolerance = part.and_then(|part| shop_views::tolerance(disc, &part.outline));
+    let nothing_left = disc.machine.title.lift_tolerance.is_some() && tolerance.is_none();
     let marks = [
         overall(&outline),
         bore(&disc.machine, part.and_then(|part| part.balancing.as_ref())),
         turning(&disc.machine, base, at_zero, zero),
         angle,
         farthest(part.map(|part| &part.outline.contour)).into_iter().collect(),
+        arm_marks,
+        side_marks,
+        part.map_or_else(Vec::new, |part| shop_views::of_profile(disc, &part.outline, tolerance)),
     ];
-    Ok(View {
+    Ok(SheetView {
         groups,
         marks: marks.into_iter().flatten().collect(),
-        tables: places(disc.curves()),
-        facts: Facts::of(&disc.machine, part.and_then(|part| part.weight(&disc.machine).mass_kg)),
-        notes: Vec::new(),
-        lost: if disc.least_radius().value <= disc.curves().offset() { disc.lost_motion() } else { Vec::new() },
+        tables: part.map_or_else(Vec::new, |part| profile_table(&disc.machine, disc.curves(), &part.outline.contour)),
+        facts: TitleFacts::of(&disc.machine, part.and_then(|part| part.weight(&disc.machine).mass_kg)),
+        notes: nothing_left.then(|| NOTHING_LEFT.to_owned()).into_iter().collect(),
+        lost: if disc.least_radius().value <= disc.curves().offset().abs() {
+            figures::lost_motion(disc.curves(), &|at| disc.place(at))
+        } else {
+            Vec::new()
+        },
     })
 }
 
@@ -77,17 +97,21 @@ const LEAST_RADIUS: f64 = 1e-3;
 /// Largest turn of a joint without a corner, rad.
 const SMOOTH: f64 = 1e-6;
 
-/// The follower's curve as it lies in the drawing: beside an outline of tangent arcs and lines the same about the same centres, else
+/// The follower's curve in the drawing: of an outline of tangent arcs and lines, arcs and lines about the same centres, else
 /// fitted anew.
-fn pitch_curve(disc: &Disc, outline: Option<&Outline>, radius: f64) -> Result<Contour, OutlineError> {
-    match outline.filter(|outline| outline.deviation <= SHOWN).and_then(|outline| beside(&outline.contour, radius)) {
+fn pitch_curve(disc: &Disc, part: Option<&Part>, radius: f64) -> Result<Contour, OutlineError> {
+    // Flanks beside a roller may lie elsewhere than at its radius.
+    match part
+        .filter(|part| part.track.is_none() && part.outline.deviation <= SHOWN)
+        .and_then(|part| offset_outline(&part.outline.contour, radius))
+    {
         Some(curve) => Ok(curve),
         None => Ok(as_turned(&disc.machine, pitch(disc.curves())?.contour)),
     }
 }
 
 /// The parallel so far outside a contour of tangent arcs and lines that has the metal on its left; `None` of any other.
-fn beside(contour: &Contour, distance: f64) -> Option<Contour> {
+fn offset_outline(contour: &Contour, distance: f64) -> Option<Contour> {
     if contour.tangent_breaks().iter().any(|turn| turn.abs() > SMOOTH) {
         return None;
     }
@@ -104,24 +128,6 @@ fn beside(contour: &Contour, distance: f64) -> Option<Contour> {
     Some(Contour { vertices: contour.edges().map(moved).collect::<Option<_>>()? })
 }
 
-/// Where the outline crosses the positive X axis, mm, to a hundredth of an edge; the base radius where it does not.
-fn profile_radius_at_zero(outline: Option<&Contour>, base: f64) -> f64 {
-    const STEPS: u32 = 100;
-    // Farther from the axis than this, mm, no rounding brings an edge across it.
-    const CLEAR: f64 = 1e-3;
-    let crossing = |edge: Edge| {
-        let extents = edge.extents();
-        if extents.least.y > CLEAR || extents.largest.y < -CLEAR || extents.largest.x < -CLEAR {
-            return None;
-        }
-        let points: Vec<Vector2<f64>> = (0..=STEPS).map(|step| edge.at(f64::from(step) / f64::from(STEPS)).0).collect();
-        let pairs = points.iter().zip(points.iter().skip(1));
-        let across = pairs.filter(|(a, b)| a.x > 0.0 && (a.y <= 0.0) != (b.y <= 0.0));
-        across.map(|(a, b)| 0.5 * (a.x + b.x)).reduce(f64::max)
-    };
-    outline.and_then(|outline| outline.edges().filter_map(crossing).reduce(f64::max)).unwrap_or(base)
-}
-
 /// The largest radius of the outline.
 fn farthest(outline: Option<&Contour>) -> Option<Mark> {
     let points = outline?.edges().map(|edge| edge.start());
@@ -135,7 +141,7 @@ fn shown_radius(disc: &Disc) -> f64 {
 }
 
 /// The follower where the pressure angle is worst, with its path and the normal of the cam, and the angle between them.
-fn worst_place(disc: &Disc) -> (Vec<Shape>, Vec<Mark>) {
+fn worst_place(disc: &Disc) -> (Vec<SheetShape>, Vec<Mark>) {
     let curves = disc.curves();
     let worst = disc.pressure_angle();
     let (piece, angle) = curves.motion.locate(worst.at);
@@ -148,8 +154,10 @@ fn worst_place(disc: &Disc) -> (Vec<Shape>, Vec<Mark>) {
     let outward = turned(contact.curve.outward());
     match curves.element() {
         Element::Roller { radius: 0.0 } => {
-            let shapes =
-                vec![Shape::Line(centre, centre + drive * radius), Shape::Line(centre, centre + outward * radius)];
+            let shapes = vec![
+                SheetShape::Line(centre, centre + drive * radius),
+                SheetShape::Line(centre, centre + outward * radius),
+            ];
             (shapes, pressure_angle(centre, drive, outward, radius / (1.0 + PATH_OVER_RADIUS), text))
         }
         Element::Roller { .. } => {
@@ -157,8 +165,8 @@ fn worst_place(disc: &Disc) -> (Vec<Shape>, Vec<Mark>) {
         }
         Element::Face => {
             let shapes = vec![
-                Shape::Line(centre - along * radius, centre + along * radius),
-                Shape::Line(centre, centre + drive * radius),
+                SheetShape::Line(centre - along * radius, centre + along * radius),
+                SheetShape::Line(centre, centre + drive * radius),
             ];
             let label = Mark::Label { class: "roller", at: centre + drive * radius, towards: drive, text };
             (shapes, vec![label])
@@ -169,7 +177,7 @@ fn worst_place(disc: &Disc) -> (Vec<Shape>, Vec<Mark>) {
 /// The stretches of the follower's curve on which the follower loses its motion, mm.
 fn lost(disc: &Disc) -> Vec<Vec<Vector2<f64>>> {
     let curves = disc.curves();
-    if disc.least_radius().value > curves.offset() {
+    if disc.least_radius().value > curves.offset().abs() {
         return Vec::new();
     }
     let losses = envelope::losses(curves).unwrap_or_default();
@@ -177,7 +185,7 @@ fn lost(disc: &Disc) -> Vec<Vec<Vector2<f64>>> {
         let (piece, angle) = curves.motion.locate(parameter);
         point_as_turned(&disc.machine, curves.contact(piece, angle).curve.point * MILLIMETRES)
     };
-    let stretch = |loss: &envelope::Loss| {
+    let stretch = |loss: &envelope::UndercutLoss| {
         let share = |step: u32| f64::from(step) / f64::from(LOST_POINTS);
         (0..=LOST_POINTS).map(|step| at(loss.from + (loss.to - loss.from) * share(step))).collect()
     };

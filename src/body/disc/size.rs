@@ -1,13 +1,17 @@
-//! How large a disc is, and where its follower stands, when that is left open.
+//! The size of a disc, and the position of its follower, where these are to be chosen.
 
-use super::{Disc, DiscError, LARGEST_BASE};
-use crate::body::{Body, WorstPlaces, broken_limit};
-use crate::follower::{Follower, Place};
+use super::{Disc, LARGEST_BASE};
+use crate::body::{Figures, WorstPlaces, broken_limit};
+use crate::check::contact_stress;
+use crate::follower::{Follower, FollowerPlacement};
 use crate::geometry::MILLIMETRES;
+use crate::machine::Machine;
+use crate::motion::program::Program;
 use crate::numeric::extremum::{self, TO_ROUNDING};
-use crate::profile::placing::{self, Nearest};
-use crate::profile::size::{self, NoRadius, Required, Smallest};
+use crate::profile::placing::{self, SmallestShaftPlace};
+use crate::profile::size::{self, SizeLimits, SmallestSize};
 use crate::profile::{Curves, Worst, extremes};
+use crate::refusal::{Refusal, WorkBound};
 use std::cell::Cell;
 use std::sync::{Arc, OnceLock};
 
@@ -15,20 +19,25 @@ use std::sync::{Arc, OnceLock};
 const CHOICE_STEP: f64 = 0.5e-3;
 /// Places tried, and golden sections between the best of them, where more than the pressure angle matters.
 const PLACES: u32 = 24;
+/// Segments of a motion whose follower is placed: the cam is sized some hundred times.
+const PLACED_SEGMENTS: WorkBound =
+    WorkBound { what: "segments of a motion whose follower has a free place", most: 200 };
 /// Valleys of the size over the place that are followed to their ground.
 const VALLEYS: usize = 3;
 /// By how much a prime radius is larger than another one, as a share, before it is held to be.
 const LARGER: f64 = 1e-9;
+/// A radius in reach is looked for in whole millimetres, of large ones in shares of this.
+const FINE_STEPS: f64 = 1000.0;
 /// A prime radius from which sizes are tried, m.
-const LEAST_PRIME: f64 = 1e-4;
+pub(super) const LEAST_PRIME: f64 = 1e-4;
 /// By how much a cam is made smaller to see which limit it then breaks, as a share.
 const JUST_BELOW: f64 = 1e-6;
 
-/// What was chosen of a follower's place.
+/// The chosen position of a follower.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placed {
-    /// What may be chosen.
-    pub place: Place,
+pub struct FollowerChoice {
+    /// The dimension that is to be chosen.
+    pub place: FollowerPlacement,
     /// The best choice and the prime radius of the cam with it, m.
     pub best: (f64, f64),
     /// The choice, in half millimetres where that passes, m.
@@ -41,15 +50,16 @@ pub struct Binding {
     /// The limit that a smaller one breaks, as `limits` of the machine file calls it; `bore` for the metal about the bore, `reach` where
     /// the follower would not reach.
     pub limit: &'static str,
-    /// Where.
+    /// Place where it is broken.
     pub at: Option<Worst>,
 }
 
 impl Disc {
-    pub(super) fn sized(mut self) -> Result<Self, DiscError> {
+    pub(super) fn sized(mut self) -> Result<Self, Refusal> {
         let (motion, follower) = (self.motion.quantity(), self.follower.quantity());
         if motion != follower {
-            return Err(DiscError::WrongQuantity { motion: motion.words(), follower: follower.words() });
+            let (motion, follower) = (motion.words(), follower.words());
+            return Err(Refusal::new(format!("the motion is {motion}, but the follower takes {follower}")));
         }
         if let Some(place) = self.machine.follower.place {
             let placed = self.best_place(place)?;
@@ -57,7 +67,10 @@ impl Disc {
         }
         // How quickly a face turns on the cam does not depend on the size.
         if let Some(turn) = extremes::least_turn(self.curves()).filter(|turn| !(turn.value > 0.0)) {
-            return Err(DiscError::FaceTurnsBack { cam_deg: turn.at.to_degrees() });
+            let what = "the face on its arm, which swings by more than the cam turns, turns back on the cam";
+            return Err(Refusal::new(what)
+                .at(format!("{:.3} deg", turn.at.to_degrees()))
+                .remedy("give a smaller swing, a longer rise, or the other follower.swinging-flat.side"));
         }
         let offset = self.follower.element().offset();
         let required = self.required();
@@ -68,31 +81,63 @@ impl Disc {
             // Its worst places are known.
             (None, Some((smallest, disc))) => return Ok(Self { smallest: Some(smallest), ..disc }),
             // A limit that no radius keeps: its check says so.
-            (None, None) => (by_shape?.base_radius, None),
+            (None, None) => (by_shape.map_err(|_| self.without_radius())?.base_radius, None),
         };
         let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
         let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
-        self.follower = sized.ok_or(DiscError::OutOfReach { base_radius_mm: MILLIMETRES * base })?.into();
+        let out_of_reach = || {
+            let what =
+                format!("the follower does not reach every lift on a cam of base radius {} mm", MILLIMETRES * base);
+            let refusal = Refusal::new(what);
+            match self.largest_in_reach(base) {
+                Some(base) => {
+                    refusal.remedy(format!("cam.base_radius = \"{base} mm\" is in reach, or give another arm"))
+                }
+                None => refusal.remedy("give another arm or a smaller swing"),
+            }
+        };
+        self.follower = sized.ok_or_else(out_of_reach)?.into();
         self.smallest = smallest;
         Ok(self)
     }
 
-    /// What its limits and its bore require of its size.
-    fn required(&self) -> Required {
-        Required::of(&self.machine.limits, &self.machine.cam, &*self.follower)
+    /// What its limits and its bore require of its size; where a keyway stands under a lobe it does not matter.
+    pub(super) fn required(&self) -> SizeLimits {
+        let cam = &self.machine.cam;
+        SizeLimits::of(&self.machine.limits, (cam, cam.bore_radius), &*self.follower)
+    }
+
+    /// Whether more than pressure angle, curvature and bore determines its size.
+    fn is_limited_by_more(&self) -> bool {
+        let Machine { limits, cam, .. } = &*self.machine;
+        limits.cutter_radius.is_some()
+            || cam.keyway.is_some()
+            || contact_stress::largest_allowed(&self.machine, self.touching()).is_some()
     }
 
     /// The same cam on another base radius (m), if the follower reaches it.
-    pub(super) fn on(&self, base_radius: f64) -> Option<Self> {
+    pub(in crate::body) fn on(&self, base_radius: f64) -> Option<Self> {
         let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
         let follower = self.follower.sized(base_radius + self.follower.element().offset())?;
         let reached = top <= follower.reach().1;
         reached.then(|| Self { follower: follower.into(), worst: WorstPlaces::default(), ..self.clone() })
     }
 
+    /// The largest base radius below one that is out of reach, in whole millimetres, mm.
+    fn largest_in_reach(&self, base_radius: f64) -> Option<f64> {
+        let mut base = (MILLIMETRES * base_radius).ceil() - 1.0;
+        while base >= 1.0 {
+            if self.on(base / MILLIMETRES).is_some() {
+                return Some(base);
+            }
+            base -= (base / FINE_STEPS).floor().max(1.0);
+        }
+        None
+    }
+
     /// The same cam with another choice of its follower's place, m, not yet sized.
     #[must_use]
-    pub fn placed_at(&self, place: Place, chosen: f64) -> Self {
+    pub fn placed_at(&self, place: FollowerPlacement, chosen: f64) -> Self {
         let follower = place.follower(chosen);
         Self { follower, smallest: None, exact: OnceLock::new(), worst: WorstPlaces::default(), ..self.clone() }
     }
@@ -100,7 +145,7 @@ impl Disc {
     /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each
     /// as its check measures it, and the cam on its base radius; `None` when no size in reach does. The prime radius is the least of
     /// all once [`Self::before_rounding`] has seen it.
-    fn keeping_all(&self, smallest: Smallest) -> Option<(Smallest, Self)> {
+    fn keeping_all(&self, smallest: SmallestSize) -> Option<(SmallestSize, Self)> {
         let offset = self.follower.element().offset();
         let cornered = Cell::new(false);
         let kept = |disc: &Self| {
@@ -124,19 +169,18 @@ impl Disc {
         if cornered.get() {
             return None;
         }
-        Some((Smallest { prime_radius, base_radius }, self.on(base_radius)?))
+        Some((SmallestSize { prime_radius, base_radius }, self.on(base_radius)?))
     }
 
     /// A size that keeps every limit when it is rounded: as small as it does, where more than pressure angle and curvature matters.
-    pub(super) fn before_rounding(&self, smallest: Smallest) -> Smallest {
+    pub(super) fn before_rounding(&self, smallest: SmallestSize) -> SmallestSize {
         let keeps = |base: f64| self.on(base).is_some_and(|disc| broken_limit(&disc).is_none());
-        let (limits, offset) = (&self.machine.limits, self.follower.element().offset());
-        let of_more = limits.cutter_radius.is_some() || limits.contact_stress.is_some();
-        if !of_more || keeps(smallest.prime_radius - offset) {
+        let offset = self.follower.element().offset();
+        if !self.is_limited_by_more() || keeps(smallest.prime_radius - offset) {
             return smallest;
         }
         let exact = size::first_passing(smallest.prime_radius - offset, smallest.base_radius, keeps);
-        Smallest { prime_radius: exact + offset, ..smallest }
+        SmallestSize { prime_radius: exact + offset, ..smallest }
     }
 
     /// Whether its profile has an edge at any size, because the velocity of the follower drops.
@@ -160,21 +204,21 @@ impl Disc {
 
     /// The smallest size with a choice of its follower's place; `least` is a prime radius (m) below which none passes.
     #[must_use]
-    pub fn smallest_at(&self, place: Place, chosen: f64, least: f64) -> Option<Smallest> {
+    pub fn smallest_at(&self, place: FollowerPlacement, chosen: f64, least: f64) -> Option<SmallestSize> {
         let disc = self.placed_at(place, chosen);
         let required = disc.required();
-        let required = Required { least: required.least.max(least), ..required };
+        let required = SizeLimits { least: required.least.max(least), ..required };
         let by_shape = size::smallest(&*disc.motion, &*disc.follower, &required).ok()?;
         let (smallest, disc) = disc.keeping_all(by_shape)?;
         Some(disc.before_rounding(smallest))
     }
 
-    /// The same by the pressure angle alone, m.
+    /// The smallest prime radius with that choice by the pressure angle alone, m.
     #[must_use]
-    pub fn smallest_inclined_at(&self, place: Place, chosen: f64, least: f64) -> Option<f64> {
+    pub fn smallest_inclined_at(&self, place: FollowerPlacement, chosen: f64, least: f64) -> Option<f64> {
         let disc = self.placed_at(place, chosen);
         let least = disc.follower.prime_radii().0.max(LEAST_PRIME).max(least);
-        let required = Required { convex_radius: 0.0, least, ..disc.required() };
+        let required = SizeLimits { convex_radius: 0.0, least, ..disc.required() };
         size::smallest(&*disc.motion, &*disc.follower, &required).ok().map(|smallest| smallest.prime_radius)
     }
 
@@ -187,33 +231,44 @@ impl Disc {
     /// The smallest cam by the pressure angle alone over every place of its follower.
     ///
     /// # Errors
-    /// [`DiscError::NoPlace`] when no place keeps it.
-    pub fn nearest(&self, place: Place) -> Result<Nearest, DiscError> {
+    /// [`Refusal`] when no place keeps it.
+    pub fn nearest(&self, place: FollowerPlacement) -> Result<SmallestShaftPlace, Refusal> {
         let limits = self.machine.limits.pressure_angles();
-        let no_place = DiscError::NoPlace { path: self.machine.follower.path, key: place.key() };
-        placing::nearest(&*self.motion, place, limits).ok_or(no_place)
+        placing::nearest(&*self.motion, place, limits).ok_or_else(|| {
+            let (path, key) = (self.machine.follower.path, place.key());
+            Refusal::new(format!("{path}.{key} = \"auto\": no place of the follower keeps the pressure angle"))
+                .remedy("relax limits.pressure_angle, or give a longer rise")
+        })
     }
 
     /// The place of the smallest cam, or with a given base radius of that with the least pressure angle for its limit.
-    fn best_place(&self, place: Place) -> Result<Placed, DiscError> {
+    fn best_place(&self, place: FollowerPlacement) -> Result<FollowerChoice, Refusal> {
+        PLACED_SEGMENTS.allow(self.motion.program().map_or(1, Program::segment_count))?;
         let offset = self.follower.element().offset();
         if let Some(base) = self.machine.cam.base_radius {
             let prime_radius = base + offset;
             let best = self.least_inclined(place, prime_radius);
             let chosen = better(place, best, |choice| self.inclination(place, choice, prime_radius));
-            return Ok(Placed { place, best: (best, prime_radius), chosen: chosen.unwrap_or(best) });
+            return Ok(FollowerChoice { place, best: (best, prime_radius), chosen: chosen.unwrap_or(best) });
         }
         let nearest = self.nearest(place)?;
         let least = nearest.prime_radius * (1.0 - LARGER);
         let size = |choice: f64| self.smallest_at(place, choice, least);
-        let best = self.best_of(place, &nearest, size).ok_or(NoRadius)?;
+        let best = self
+            .best_of(place, &nearest, size)
+            .ok_or_else(|| self.placed_at(place, place.chosen(nearest.shaft)).without_radius())?;
         let chosen = better(place, best.0, |choice| size(choice).map(|smallest| smallest.base_radius));
-        Ok(Placed { place, best, chosen: chosen.unwrap_or(best.0) })
+        Ok(FollowerChoice { place, best, chosen: chosen.unwrap_or(best.0) })
     }
 
-    /// The choice with the smallest prime radius, and that radius; from the one that the pressure angle alone asks for, which is the best
+    /// The choice with the smallest prime radius, and that radius; from the one that the pressure angle alone requires, which is the best
     /// where nothing else matters.
-    fn best_of(&self, place: Place, nearest: &Nearest, size: impl Fn(f64) -> Option<Smallest>) -> Option<(f64, f64)> {
+    fn best_of(
+        &self,
+        place: FollowerPlacement,
+        nearest: &SmallestShaftPlace,
+        size: impl Fn(f64) -> Option<SmallestSize>,
+    ) -> Option<(f64, f64)> {
         let ideal = place.chosen(nearest.shaft);
         if self.keeps_but_rounding(place, ideal, nearest.prime_radius) {
             return Some((ideal, nearest.prime_radius));
@@ -235,16 +290,15 @@ impl Disc {
         if !best.1.is_finite() {
             return None;
         }
-        // Where the bore or a limit of the curvature asks for the size, many places may have it: that with the least pressure angle is
+        // Where the bore or a limit of the curvature determines the size, many places may have it: that with the least pressure angle is
         // taken.
         let flattest = self.least_inclined(place, best.1);
         if prime(flattest) <= best.1 * (1.0 + LARGER) { Some((flattest, best.1)) } else { Some(best) }
     }
 
-    /// Whether a size that the pressure angle alone asks for keeps every other limit.
-    fn keeps_but_rounding(&self, place: Place, choice: f64, prime_radius: f64) -> bool {
-        let limits = &self.machine.limits;
-        let of_more = limits.cutter_radius.is_some() || limits.contact_stress.is_some();
+    /// Whether a size that the pressure angle alone requires keeps every other limit.
+    fn keeps_but_rounding(&self, place: FollowerPlacement, choice: f64, prime_radius: f64) -> bool {
+        let of_more = self.is_limited_by_more();
         let disc = self.placed_at(place, choice).of_prime_radius(prime_radius * (1.0 + LARGER));
         disc.is_some_and(|disc| {
             prime_radius >= disc.required().least
@@ -254,13 +308,13 @@ impl Disc {
     }
 
     /// The choice with the least pressure angle over its limit on a cam of a prime radius, m.
-    fn least_inclined(&self, place: Place, prime_radius: f64) -> f64 {
+    fn least_inclined(&self, place: FollowerPlacement, prime_radius: f64) -> f64 {
         let inclined = |choice: f64| -self.inclination(place, choice, prime_radius).unwrap_or(f64::INFINITY);
         extremum::largest_without_slope(inclined, place.choices(prime_radius), PLACES, TO_ROUNDING).at
     }
 
     /// Largest pressure angle over its limit with a choice on a cam of a prime radius, m; `None` where the follower does not reach.
-    fn inclination(&self, place: Place, choice: f64, prime_radius: f64) -> Option<f64> {
+    fn inclination(&self, place: FollowerPlacement, choice: f64, prime_radius: f64) -> Option<f64> {
         let follower = place.follower(choice).sized(prime_radius)?;
         let top = size::largest_lift_in_reach(&*self.motion, &*follower);
         let curves = Curves { motion: &*self.motion, follower: &*follower };
@@ -269,13 +323,13 @@ impl Disc {
             .then(|| worst().map(|(angle, limit)| angle.value / limit).fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// Why a cam with its follower where it stands is not smaller than the smallest; `None` where none passes.
+    /// Why a cam with its follower in its place is not smaller than the smallest; `None` where none passes.
     #[must_use]
     pub fn binding(&self) -> Option<Binding> {
         let offset = self.follower.element().offset();
         let below = self.smallest_prime_radius()? * (1.0 - JUST_BELOW) - offset;
         let Some(smaller) = self.on(below) else { return Some(Binding { limit: "reach", at: None }) };
-        // The radius that is kept under a face without being asked for is no limit of a check.
+        // The radius that is kept under a face without a given limit is not the limit of a check.
         let sharp = || smaller.least_rolled_radius().value < self.required().convex_radius * (1.0 - LARGER);
         let limit = broken_limit(&smaller).unwrap_or_else(|| if sharp() { "min_convex_radius" } else { "bore" });
         let at = match limit {
@@ -284,7 +338,7 @@ impl Disc {
                 Some(smaller.least_rolled_radius())
             }
             "contact_stress" => smaller.contact_stress(),
-            "cutter_radius" => smaller.hollow(),
+            "cutter_radius" => smaller.min_concave_radius(),
             _ => None,
         };
         Some(Binding { limit, at })
@@ -297,9 +351,9 @@ impl Disc {
         if falling.value / of_falling > rising.value / of_rising { falling } else { rising }
     }
 
-    /// What was chosen of the place of its follower, where that is asked for.
+    /// The chosen position of its follower, where it was to be chosen.
     #[must_use]
-    pub fn placed(&self) -> Option<Placed> {
+    pub fn placed(&self) -> Option<FollowerChoice> {
         self.placed
     }
 
@@ -311,9 +365,9 @@ impl Disc {
 }
 
 /// The better of the two half millimetres about a choice; `None` where neither passes.
-fn better(place: Place, best: f64, value: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+fn better(place: FollowerPlacement, best: f64, value: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let steps = (best / CHOICE_STEP).floor();
-    let least = if matches!(place, Place::Pivot { .. }) { 0.0 } else { f64::NEG_INFINITY };
+    let least = if matches!(place, FollowerPlacement::Pivot { .. }) { 0.0 } else { f64::NEG_INFINITY };
     let both = [steps, steps + 1.0].map(|steps| steps * CHOICE_STEP + 0.0);
     let passing = both.into_iter().filter(|choice| *choice > least);
     let valued = passing.filter_map(|choice| Some((choice, value(choice)?)));

@@ -1,33 +1,28 @@
 //! The load behind an elastic train, as one mass on one spring that the follower moves: ẍ + 2 ζ ω_n ẋ + ω_n² x = ω_n² y.
 
+use super::steady_vibration::ElasticTrain;
 use super::{Disc, program};
 use crate::geometry::MILLIMETRES;
 use crate::machine::VibrationData;
 use crate::motion::Quantity;
 use crate::motion::program::{Harmonics, Program};
-use crate::numeric::extremum::{self, Extremum};
+use crate::numeric::extremum::Extremum;
 use crate::report::{Section, degrees, shown};
-use nalgebra::Complex;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
-/// How far beside the natural frequency the worst is looked for: as far as one is known before the machine runs.
+/// Share of the natural frequency within which the worst is looked for: as exactly as it is known before the machine runs.
 const BESIDE: f64 = 0.2;
-/// Waves over a lobe that are summed up, at the least and at the most, and how many times as far as the natural frequency: their
+/// Smallest and largest number of waves over a lobe that are summed up, and how many times as far as the natural frequency: their
 /// amplitudes fall with at least the third power of their order.
 const LEAST_WAVES: u32 = 128;
 const MOST_WAVES: u32 = 2048;
 const BEYOND: f64 = 4.0;
-/// Cells for each wave up to the natural frequency in which the deviation is searched.
-const CELLS_PER_WAVE: f64 = 8.0;
-const LEAST_CELLS: u32 = 256;
 /// Waves that the report gives, and that its words give.
 const GIVEN: usize = 20;
 const SHOWN: usize = 8;
-/// Nearer to 1 a ratio of frequencies is 1 but for rounding.
-const AT_RESONANCE: f64 = 1e-12;
 
-/// What is left behind a movement.
+/// Residual vibration after a movement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Movement {
     /// First and last cam angle, rad.
@@ -58,7 +53,7 @@ pub struct Resonance {
 pub struct Vibration {
     /// Natural frequency over that of the cam.
     pub frequency: f64,
-    /// Of each movement from rest to rest.
+    /// Residual vibration after each movement from rest to rest.
     pub movements: Vec<Movement>,
     /// Largest deviation of the load from the follower when nothing changes from turn to turn, m or rad, and where; infinite at an undamped
     /// resonance.
@@ -72,7 +67,7 @@ pub struct Vibration {
 impl Vibration {
     fn of(program: &Program, lobes: u32, data: VibrationData, speed: f64) -> Self {
         let frequency = TAU * data.natural_frequency / speed;
-        let movement = |movement: &crate::motion::program::Movement| {
+        let movement = |movement: &crate::motion::program::ProgramMovement| {
             let worst = movement.largest_residual(((1.0 - BESIDE) * frequency, (1.0 + BESIDE) * frequency));
             Movement {
                 angles: movement.angles,
@@ -100,7 +95,7 @@ impl Vibration {
         Self {
             frequency,
             movements: program.movements().iter().map(movement).collect(),
-            deviation: deviation(&harmonics, lobes, (frequency, data.damping)),
+            deviation: ElasticTrain { frequency, damping: data.damping }.largest_deviation(program),
             resonances,
             harmonics,
         }
@@ -113,53 +108,18 @@ impl Vibration {
     }
 }
 
-/// The largest size of Σ (H_k − 1) S_k e^{ikθ} with H_k = 1/(1 − (kq)² + 2iζkq), q the frequency of the cam over the natural one.
-fn deviation(harmonics: &Harmonics, lobes: u32, (frequency, damping): (f64, f64)) -> Extremum {
-    let mut terms: Vec<(f64, Complex<f64>)> = Vec::new();
-    for (order, [a, b]) in (1_u32..).zip(&harmonics.waves).filter(|(order, _)| order.is_multiple_of(lobes)) {
-        let ratio = f64::from(order) / frequency;
-        let rigidity = Complex::new((1.0 - ratio) * (1.0 + ratio), 2.0 * damping * ratio);
-        let wave = Complex::new(*a, -*b);
-        if rigidity.norm() < AT_RESONANCE && wave.norm() > 0.0 {
-            return Extremum { at: 0.0, value: f64::INFINITY };
-        }
-        terms.push((f64::from(order), (Complex::new(1.0, 0.0) - rigidity) / rigidity * wave));
-    }
-    // Value and slope, from wave to wave by one product each.
-    let both = |angle: f64| {
-        let (sin, cos) = libm::sincos(f64::from(lobes) * angle);
-        let (step, mut turned) = (Complex::new(cos, sin), Complex::new(1.0, 0.0));
-        let (mut value, mut slope) = (0.0, 0.0);
-        for (order, term) in &terms {
-            turned *= step;
-            let wave = term * turned;
-            value += wave.re;
-            slope -= order * wave.im;
-        }
-        (value, slope)
-    };
-    let each = (CELLS_PER_WAVE * frequency / f64::from(lobes)).min(f64::from(MOST_WAVES) * CELLS_PER_WAVE);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between its bounds")]
-    let cells = (each as u32).max(LEAST_CELLS);
-    let range = (0.0, TAU / f64::from(lobes));
-    let signed =
-        |sign: f64| extremum::largest(|angle| sign * both(angle).0, |angle| sign * both(angle).1, range, cells);
-    let (above, below) = (signed(1.0), signed(-1.0));
-    if above.value >= below.value { above } else { below }
-}
-
 impl Disc {
     /// As [`Body::vibration`](crate::body::Body::vibration).
     pub(super) fn vibrating(&self) -> Option<&Vibration> {
-        let found = self.own.vibration.get_or_init(|| {
-            let (data, speed) = (self.machine.vibration().filter(|_| *self.kind == super::GENERAL)?, self.speed?);
+        let found = self.program_follower.vibration.get_or_init(|| {
+            let (data, speed) = (self.machine.vibration().filter(|_| self.is_of_program())?, self.speed?);
             Some(Vibration::of(self.motion.program()?, self.motion.lobes(), data, speed))
         });
         found.as_ref()
     }
 
     /// The sections `vibration` and `harmonics`.
-    pub(super) fn vibration_told(&self) -> Vec<Section> {
+    pub(super) fn vibration_sections(&self) -> Vec<Section> {
         let (Some(found), Some(data)) = (self.vibrating(), self.machine.vibration()) else { return Vec::new() };
         let swings = self.motion.quantity() == Quantity::Angle;
         let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
@@ -184,11 +144,11 @@ impl Disc {
         let mut words: Vec<String> = found.movements.iter().map(movement_words).collect();
         words.push(match finite(deviation) {
             Some(deviation) => format!(
-                "turn after turn the load deviates from the follower by up to {} {unit}, at {:.3}°",
+                "in steady operation the load deviates from the follower by up to {} {unit}, at {:.3}°",
                 shown(deviation),
                 degrees(found.deviation.at)
             ),
-            None => "undamped, at a resonance: the load swings without bound".into(),
+            None => "undamped, at a resonance: the vibration of the load is unbounded".into(),
         });
         words.extend(found.resonances.iter().map(|at| {
             let amplitude = shown(size * at.amplitude);

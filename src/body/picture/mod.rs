@@ -3,43 +3,27 @@
 //! All is shown in the frame of the machine, the shaft at the origin. A cam of a press has its follower's path along +x, and behind
 //! it the cylinder with its bottom, the air, and the bed with its crank; any other has it upwards.
 
-pub(super) mod press;
+mod symbols;
+
+pub(crate) use symbols::bracket;
 
 use super::Part;
 use crate::follower::{Carrier, Element};
+use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Extents;
-use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
-use crate::report::mechanism::{Rigid, Track, View, circle, line, rectangle};
-use crate::report::sheet::Shape;
+use crate::report::mechanism::{CoordinateTrack, MechanismView, RigidPart, circle, line, rectangle};
+use crate::report::sheet::SheetShape;
 use nalgebra::Vector2;
-use press::{Buffer, Stand};
+use symbols::{FOOT, SPRING_SOLID, coil, frame, spiral};
 
-/// What no cam here models.
-pub(super) const RIGID: &[&str] = &[
+/// What is not modelled of any cam.
+pub(crate) const RIGID: &[&str] = &[
     "Elasticity: shaft, lever, follower and contact are rigid, so that vibration and bending under load are not shown.",
     "Clearance and wear: bearings, guides and the roller have no play and keep their size.",
-    "Speed: the shaft turns evenly; neither starting, stopping nor the drive's own unevenness is modelled.",
+    "Speed: the shaft turns at constant speed; starting, stopping and the fluctuation of the drive are not modelled.",
     "Temperature: all sizes are those of the drawing.",
 ];
-
-/// What is not modelled of a press.
-const OF_A_PRESS: &[&str] = &[
-    "Air: it follows p·v^k = const without leakage or exchange of heat; k is that of the machine file.",
-    "The bed between its reversals: it runs evenly, and its reversal at the other end is another cam's.",
-];
-
-/// The same where a linkage moves its bed.
-const UNDER_A_LINKAGE: &[&str] = &[
-    "Air: it follows p·v^k = const without leakage or exchange of heat; k is that of the machine file.",
-    "The other end of the bed's stroke: its buffers have a cam of their own (--end).",
-    "Between its reversals the cylinders are open: how they are opened and closed is not modelled.",
-];
-
-/// What is not modelled of the press of a machine.
-pub(super) fn of_its_press(machine: &Machine) -> &'static [&'static str] {
-    if machine.end().is_some() { UNDER_A_LINKAGE } else { OF_A_PRESS }
-}
 
 /// Share of the prime radius and of the roller by which stems and guides reach beyond what moves.
 const MARGIN: f64 = 0.12;
@@ -53,49 +37,68 @@ const KNIFE: f64 = 0.26;
 
 /// The follower at a place of a turn, in the frame of a clockwise cam, m and rad.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Placed {
+pub(crate) struct FollowerPose {
     /// Cam angle, rad.
-    pub(super) angle: f64,
-    /// The same in degrees, as the table has it.
-    pub(super) cam_deg: f64,
+    pub(crate) angle: f64,
+    /// Cam angle in degrees, as the table has it.
+    pub(crate) cam_deg: f64,
     /// Point of the follower's curve.
-    pub(super) curve: Vector2<f64>,
+    pub(crate) curve: Vector2<f64>,
     /// Normal out of the metal there.
-    pub(super) outward: Vector2<f64>,
-    /// The press, where there is one; its crank angle grows over all lobes.
-    pub(super) stand: Option<Stand>,
+    pub(crate) outward: Vector2<f64>,
+}
+
+/// The roller of the follower of a turning cam over a turn, mm.
+#[derive(Debug)]
+pub struct FollowerTrack {
+    /// Centres of the roller.
+    pub rollers: Vec<Vector2<f64>>,
+    /// Its radius.
+    pub radius: f64,
+    /// Largest radius of the cam.
+    pub reach: f64,
+}
+
+/// The mechanism that a follower drives, in the picture.
+pub trait DrivenMechanism {
+    /// Its shapes, back to front.
+    fn shapes(&self, driven: &FollowerTrack, cover: &mut Cover) -> Vec<RigidPart>;
+
+    /// What is simplified in the picture.
+    fn notes(&self) -> Vec<String>;
 }
 
 /// What is shown of a turning cam.
-#[derive(Debug)]
-pub(super) struct Scene<'a> {
-    pub(super) machine: &'a Machine,
-    pub(super) element: Element,
-    pub(super) carrier: Carrier,
-    pub(super) part: &'a Part,
-    pub(super) places: Vec<Placed>,
-    /// The cylinder, where there is a press.
-    pub(super) buffer: Option<Buffer>,
-    pub(super) shaft_speed: Option<f64>,
-    pub(super) rpm: Option<f64>,
+pub(crate) struct Scene<'a> {
+    pub(crate) machine: &'a Machine,
+    pub(crate) element: Element,
+    pub(crate) carrier: Carrier,
+    pub(crate) part: &'a Part,
+    pub(crate) places: Vec<FollowerPose>,
+    /// The mechanism that the follower drives; its path then lies along +x.
+    pub(crate) behind: Option<Box<dyn DrivenMechanism>>,
+    pub(crate) shaft_speed: Option<f64>,
+    pub(crate) rpm: Option<f64>,
+    /// Whether a spring presses the follower on.
+    pub(crate) spring: bool,
 }
 
-/// What the picture covers so far.
+/// Extents of the picture so far.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cover(pub(super) Extents);
+pub struct Cover(pub(crate) Extents);
 
 impl Cover {
-    pub(super) fn nothing() -> Self {
+    pub(crate) fn nothing() -> Self {
         Self(Extents { least: Vector2::repeat(f64::INFINITY), largest: Vector2::repeat(f64::NEG_INFINITY) })
     }
 
-    pub(super) fn add(&mut self, x: (f64, f64), y: (f64, f64)) {
+    pub(crate) fn add(&mut self, x: (f64, f64), y: (f64, f64)) {
         let box_ = Extents { least: Vector2::new(x.0, y.0), largest: Vector2::new(x.1, y.1) };
         self.0 = self.0.with(&box_);
     }
 
     /// With a margin all round.
-    pub(super) fn with_margin(self, margin: f64) -> Extents {
+    pub(crate) fn with_margin(self, margin: f64) -> Extents {
         let margin = Vector2::repeat(margin);
         Extents { least: self.0.least - margin, largest: self.0.largest + margin }
     }
@@ -113,16 +116,16 @@ impl Scene<'_> {
     /// A vector in the frame of the follower, x along û and y along n̂, in the frame of the machine.
     fn shown(&self, local: Vector2<f64>) -> Vector2<f64> {
         let across = self.sense() * local.y;
-        if self.buffer.is_some() { Vector2::new(local.x, across) } else { Vector2::new(-across, local.x) }
+        if self.behind.is_some() { Vector2::new(local.x, across) } else { Vector2::new(-across, local.x) }
     }
 
     /// Direction of the follower's path, degrees.
     fn path_deg(&self) -> f64 {
-        if self.buffer.is_some() { 0.0 } else { 90.0 }
+        if self.behind.is_some() { 0.0 } else { 90.0 }
     }
 
     /// A vector of the cam's frame in that of the follower.
-    fn local(placed: &Placed, vector: Vector2<f64>) -> Vector2<f64> {
+    fn local(placed: &FollowerPose, vector: Vector2<f64>) -> Vector2<f64> {
         let along = Vector2::new(libm::cos(placed.angle), libm::sin(placed.angle));
         Vector2::new(vector.dot(&along), along.perp(&vector))
     }
@@ -133,13 +136,13 @@ impl Scene<'_> {
     }
 
     /// The tracks of points of the follower's frame.
-    fn tracks(&self, points: &[Vector2<f64>]) -> (Track, Track) {
+    fn tracks(&self, points: &[Vector2<f64>]) -> (CoordinateTrack, CoordinateTrack) {
         let (x, y): (Vec<f64>, Vec<f64>) = points.iter().map(|p| self.shown(*p)).map(|p| (p.x, p.y)).unzip();
         (x.into(), y.into())
     }
 
     /// The view: its parts from the back to the front, and what is below the cam, if anything, added by `more`.
-    pub(super) fn view(&self, more: impl FnOnce(&mut Vec<Rigid>, &mut Cover)) -> View {
+    pub(crate) fn view(&self, more: impl FnOnce(&mut Vec<RigidPart>, &mut Cover)) -> MechanismView {
         let (mut parts, mut cover) = (Vec::new(), Cover::nothing());
         let radius = self.largest_radius();
         cover.add((-radius, radius), (-1.2 * radius, radius));
@@ -148,7 +151,7 @@ impl Scene<'_> {
         parts.extend(self.cam());
         parts.extend(self.touching());
         let size = cover.0.largest - cover.0.least;
-        View {
+        MechanismView {
             rpm: self.rpm,
             shaft_speed: self.shaft_speed,
             returns: false,
@@ -163,13 +166,13 @@ impl Scene<'_> {
     /// Largest radius of the profile, mm, at the places.
     fn largest_radius(&self) -> f64 {
         let offset = self.element.offset();
-        let of = |placed: &Placed| MILLIMETRES * (placed.curve - placed.outward * offset).norm();
-        self.places.iter().map(of).fold(0.0, f64::max)
+        let of = |placed: &FollowerPose| MILLIMETRES * (placed.curve - placed.outward * offset).norm();
+        let blank = self.part.track.as_ref().map_or(0.0, |track| track.blank);
+        self.places.iter().map(of).fold(blank, f64::max)
     }
 
-    fn cam(&self) -> Vec<Rigid> {
-        let outline = Shape::Entity(Entity::Polyline(self.part.outline.contour.clone()));
-        let shapes = std::iter::once(outline).chain(self.part.holes().into_iter().map(Shape::Entity)).collect();
+    fn cam(&self) -> Vec<RigidPart> {
+        let shapes = self.part.rims().into_iter().map(|rim| SheetShape::Entity(rim.curve)).collect();
         let turn: Vec<f64> = self.places.iter().map(|placed| self.path_deg() - self.sense() * placed.cam_deg).collect();
         let bore = MILLIMETRES * self.machine.cam.bore_radius.unwrap_or(0.0);
         let edge = self.places.first().map_or(0.0, |placed| placed.curve.norm() - self.element.offset());
@@ -179,15 +182,15 @@ impl Scene<'_> {
         let axis = vec![line((-cross, 0.0), (cross, 0.0)), line((0.0, -cross), (0.0, cross))];
         let arrow = self.arrow(bore + 0.4 * (MILLIMETRES * edge - bore).max(0.0));
         vec![
-            Rigid::new("cam", shapes).turned(turn.clone()),
-            Rigid::new("arrow", arrow),
-            Rigid::new("mark", mark).turned(turn),
-            Rigid::new("ground", axis).named("cam", 0.0, -1.04 * self.largest_radius()),
+            RigidPart::new("cam", shapes).turned(turn.clone()),
+            RigidPart::new("arrow", arrow),
+            RigidPart::new("mark", mark).turned(turn),
+            RigidPart::new("ground", axis).named("cam", 0.0, -1.04 * self.largest_radius()),
         ]
     }
 
     /// How the cam turns: an arc about the shaft with a head.
-    fn arrow(&self, radius: f64) -> Vec<Shape> {
+    fn arrow(&self, radius: f64) -> Vec<SheetShape> {
         let on = |degrees: f64, radius: f64| {
             let angle = degrees.to_radians();
             Vector2::new(radius * libm::cos(angle), radius * libm::sin(angle))
@@ -196,13 +199,13 @@ impl Scene<'_> {
         let (start, end) = (270.0 - 0.5 * sweep, 270.0 + 0.5 * sweep);
         let back = end - sweep.signum() * (1.6 * head / radius).to_degrees();
         vec![
-            Shape::Arc(on(start, radius), on(end, radius), libm::tan(0.25 * sweep.to_radians())),
-            Shape::Path(vec![on(back, radius - head), on(end, radius), on(back, radius + head)]),
+            SheetShape::Arc(on(start, radius), on(end, radius), libm::tan(0.25 * sweep.to_radians())),
+            SheetShape::Path(vec![on(back, radius - head), on(end, radius), on(back, radius + head)]),
         ]
     }
 
     /// The roller or the contact on a face, with the normal there.
-    fn touching(&self) -> Vec<Rigid> {
+    fn touching(&self) -> Vec<RigidPart> {
         let locals = self.locals();
         let (x, y) = self.tracks(&locals);
         let normal: Vec<f64> = self
@@ -216,62 +219,60 @@ impl Scene<'_> {
         match self.element {
             Element::Roller { radius: 0.0 } => {
                 let reach = 2.0 * self.roller();
-                vec![Rigid::new("normal", vec![line((-0.5 * reach, 0.0), (reach, 0.0))]).at(x, y).turned(normal)]
+                vec![RigidPart::new("normal", vec![line((-0.5 * reach, 0.0), (reach, 0.0))]).at(x, y).turned(normal)]
             }
             Element::Roller { radius } => {
-                let radius = MILLIMETRES * radius;
+                let radius = MILLIMETRES * radius.abs();
                 let roller = vec![circle(0.0, 0.0, radius), circle(0.0, 0.0, 0.12 * radius)];
                 let lines = vec![line((-radius, 0.0), (1.9 * radius, 0.0))];
                 vec![
-                    Rigid::new("roller", roller).at(x.clone(), y.clone()).named("roller", 0.0, -1.15 * radius),
-                    Rigid::new("normal", lines).at(x, y).turned(normal),
+                    RigidPart::new("roller", roller).at(x.clone(), y.clone()).named("roller", 0.0, -1.15 * radius),
+                    RigidPart::new("normal", lines).at(x, y).turned(normal),
                 ]
             }
             Element::Face => {
                 let reach = 0.25 * locals.iter().map(|p| p.x).fold(0.0, f64::max);
-                vec![Rigid::new("normal", vec![line((-0.3 * reach, 0.0), (reach, 0.0))]).at(x, y).turned(normal)]
+                vec![RigidPart::new("normal", vec![line((-0.3 * reach, 0.0), (reach, 0.0))]).at(x, y).turned(normal)]
             }
         }
     }
 
     /// What carries the element.
-    fn follower(&self, cover: &mut Cover) -> Vec<Rigid> {
+    fn follower(&self, cover: &mut Cover) -> Vec<RigidPart> {
         let locals = self.locals();
-        match (self.carrier, self.element, self.buffer) {
+        match (self.carrier, self.element, &self.behind) {
             (Carrier::Arm { pivot }, Element::Face, _) => self.swinging_face(pivot * MILLIMETRES, &locals, cover),
             (Carrier::Arm { pivot }, ..) => self.arm(pivot * MILLIMETRES, &locals, cover),
-            (_, _, Some(buffer)) => {
-                let stands: Vec<Stand> = self.places.iter().filter_map(|placed| placed.stand).collect();
+            (_, _, Some(behind)) => {
                 let rollers: Vec<Vector2<f64>> = locals.iter().map(|p| self.shown(*p)).collect();
                 let radius = MILLIMETRES * self.element.offset();
-                let lever = self.machine.cam.lever;
-                press::behind(&buffer, &stands, &press::Driven { rollers, radius, lever }, self.largest_radius(), cover)
+                behind.shapes(&FollowerTrack { rollers, radius, reach: self.largest_radius() }, cover)
             }
             (Carrier::Stem { offset, tilt }, ..) => self.face((MILLIMETRES * offset, tilt), &locals, cover),
             (Carrier::Straight, _, None) => self.stem(&locals, cover),
         }
     }
 
-    /// Radius of the roller, or what stands for it in the size of a knife edge, mm.
+    /// Radius of the roller, or of the symbol of a knife edge, mm.
     fn roller(&self) -> f64 {
-        let radius = MILLIMETRES * self.element.offset();
+        let radius = MILLIMETRES * self.element.offset().abs();
         if radius > 0.0 { radius } else { KNIFE_OVER_CAM * self.largest_radius() }
     }
 
     /// A stem on a straight path between two guides.
-    fn stem(&self, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+    fn stem(&self, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<RigidPart> {
         let radius = self.roller();
         let (low, high) = range(locals.iter().map(|p| p.x));
         let half = STEM * radius;
         let start = (high + radius * (1.0 + MARGIN)).max(self.largest_radius() + half);
         let length = start + 3.0 * radius - low;
         let (x, y) = self.tracks(locals);
-        let stem = if self.element.offset() > 0.0 {
-            vec![rectangle((0.0, length), (-half, half))]
-        } else {
+        let stem = if self.element.offset() == 0.0 {
             let point = half / libm::tan(KNIFE);
             let corners = [(0.0, 0.0), (point, half), (length, half), (length, -half), (point, -half), (0.0, 0.0)];
-            vec![Shape::Path(corners.map(|(x, y)| Vector2::new(x, y)).to_vec())]
+            vec![SheetShape::Path(corners.map(|(x, y)| Vector2::new(x, y)).to_vec())]
+        } else {
+            vec![rectangle((0.0, length), (-half, half))]
         };
         let offset = locals.first().map_or(0.0, |p| self.shown(*p).x);
         let guides = [-1.0, 1.0].map(|side| {
@@ -280,13 +281,35 @@ impl Scene<'_> {
         });
         let top = start + 3.0 * radius + high - low;
         cover.add((offset - radius, offset + radius), (low, top));
-        vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", stem).at(x, y).turned(self.path_deg())]
+        let mut parts = vec![RigidPart::new("ground", guides.to_vec())];
+        parts.extend(self.spring_on((locals, length), 0.55 * radius, cover));
+        parts.push(RigidPart::new("follower", stem).at(x, y).turned(self.path_deg()));
+        parts
+    }
+
+    /// The spring between the end of a stem, so far above the points of the follower, and the frame above it; of half this width, mm.
+    fn spring_on(&self, (foots, length): (&[Vector2<f64>], f64), half: f64, cover: &mut Cover) -> Vec<RigidPart> {
+        let (low, high) = range(foots.iter().map(|foot| foot.x + length));
+        if !self.spring || !low.is_finite() {
+            return Vec::new();
+        }
+        let top = high + SPRING_SOLID * half;
+        let ends: Vec<Vector2<f64>> = foots.iter().map(|foot| Vector2::new(foot.x + length, foot.y)).collect();
+        let stretch: Vec<f64> = ends.iter().map(|end| top - end.x).collect();
+        let middle = ends.first().map_or(0.0, |end| self.shown(*end).x);
+        let (x, y) = self.tracks(&ends);
+        cover.add((middle - 2.0 * half, middle + 2.0 * half), (low, top + half));
+        let spring = RigidPart::new("spring", vec![coil(half)]).at(x, y).turned(self.path_deg());
+        vec![
+            RigidPart::new("ground", frame(Vector2::new(middle, top), (2.0 * half, 1.0))),
+            RigidPart { stretch: stretch.into(), ..spring },
+        ]
     }
 
     /// A flat face at an angle (rad) with its stem at a distance from the shaft, mm.
-    fn face(&self, (offset, tilt): (f64, f64), locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+    fn face(&self, (offset, tilt): (f64, f64), locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<RigidPart> {
         let (sin, cos) = (libm::sin(tilt), libm::cos(tilt));
-        // Where the stem stands on the face: on its line, at the offset.
+        // Where the stem meets the face: on its line, at the offset.
         let foot = |p: &Vector2<f64>| Vector2::new((p.x * cos + p.y * sin - offset * sin) / cos, offset);
         let feet: Vec<Vector2<f64>> = locals.iter().map(foot).collect();
         let (low, high) = range(feet.iter().map(|p| p.x));
@@ -304,7 +327,7 @@ impl Scene<'_> {
             let sin = self.sense() * sin;
             let corners = [(0.0, -half), (thick, -half), (thick, half), (0.0, half), (0.0, -half)];
             let at = |(x, y): (f64, f64)| Vector2::new(x * cos - y * sin, x * sin + y * cos);
-            Shape::Path(corners.map(at).to_vec())
+            SheetShape::Path(corners.map(at).to_vec())
         };
         // Into a tilted plate, behind whose corner there would be a gap.
         let from = if tilt == 0.0 { thick } else { 0.0 };
@@ -315,11 +338,14 @@ impl Scene<'_> {
             rectangle((from, to), (start + thick, start + thick + 0.2 * size))
         });
         cover.add((middle - half, middle + half), (low - half * sin.abs(), start + 0.4 * size + high - low));
-        vec![Rigid::new("ground", guides.to_vec()), Rigid::new("follower", shapes).at(x, y).turned(self.path_deg())]
+        let mut parts = vec![RigidPart::new("ground", guides.to_vec())];
+        parts.extend(self.spring_on((&feet, length), 3.0 * thick, cover));
+        parts.push(RigidPart::new("follower", shapes).at(x, y).turned(self.path_deg()));
+        parts
     }
 
     /// A flat face on an arm about a pivot, mm: a bar on the face's side away from the cam, from the pivot past the farthest contact.
-    fn swinging_face(&self, pivot: Vector2<f64>, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
+    fn swinging_face(&self, pivot: Vector2<f64>, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<RigidPart> {
         let normals: Vec<Vector2<f64>> = self.places.iter().map(|placed| Self::local(placed, placed.outward)).collect();
         // Along the face from the pivot to the contact.
         let along = |(p, normal): (&Vector2<f64>, &Vector2<f64>)| {
@@ -348,16 +374,14 @@ impl Scene<'_> {
         let ((left, right), (bottom, top)) = (range(xs.into_iter()), range(ys.into_iter()));
         let (foot, around) = (1.5 * thick, thick + height.abs());
         cover.add((left - around, right + around), (bottom - around, top + around));
-        cover.add((place.x - 1.5 * foot, place.x + 1.5 * foot), (place.y, place.y + 1.6 * foot));
-        vec![
-            Rigid::new("ground", bracket(place, foot)),
-            Rigid::new("follower", vec![line((0.0, 0.0), (0.0, height)), bar, hub]).at(place.x, place.y).turned(turn),
-        ]
+        cover.add((place.x - 1.5 * foot, place.x + 1.5 * foot), (place.y, place.y + 2.2 * foot));
+        let arm = RigidPart::new("follower", vec![line((0.0, 0.0), (0.0, height)), bar, hub]);
+        self.on_pivot(arm.at(place.x, place.y).turned(turn), place, (foot, 0.6 * thick.max(height.abs())))
     }
 
     /// An arm from a pivot to the roller, mm.
-    fn arm(&self, pivot: Vector2<f64>, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<Rigid> {
-        let half = STEM * MILLIMETRES * self.element.offset();
+    fn arm(&self, pivot: Vector2<f64>, locals: &[Vector2<f64>], cover: &mut Cover) -> Vec<RigidPart> {
+        let half = STEM * MILLIMETRES * self.element.offset().abs();
         let arm = locals.first().map_or(0.0, |p| (p - pivot).norm());
         // Counted from the line to the shaft: an arm swings by less than half a turn from it.
         let turn: Vec<f64> = locals
@@ -372,34 +396,24 @@ impl Scene<'_> {
         let (x, y) = (place.x, place.y);
         let foot = 2.2 * half.max(0.02 * arm);
         let (low, high) = range(locals.iter().map(|p| self.shown(*p).x));
-        let roller = MILLIMETRES * self.element.offset();
+        let roller = MILLIMETRES * self.element.offset().abs();
         cover.add((low - roller, high + roller), (0.0, 0.0));
         let tops = range(locals.iter().map(|p| self.shown(*p).y));
-        cover.add((x - 1.5 * foot, x + 1.5 * foot), (tops.0 - roller, (y + 1.6 * foot).max(tops.1 + roller)));
-        vec![
-            Rigid::new("ground", bracket(place, foot)),
-            Rigid::new("follower", vec![rectangle((0.0, arm), (-half, half)), circle(0.0, 0.0, 1.6 * half)])
-                .at(x, y)
-                .turned(turn),
-        ]
+        cover.add((x - 1.5 * foot, x + 1.5 * foot), (tops.0 - roller, (y + 2.2 * foot).max(tops.1 + roller)));
+        let part = RigidPart::new("follower", vec![rectangle((0.0, arm), (-half, half)), circle(0.0, 0.0, 1.6 * half)]);
+        self.on_pivot(part.at(x, y).turned(turn), place, (foot, 1.6 * half))
+    }
+
+    /// An arm with what holds its pivot, and the spring about it; sizes of foot and hub, mm.
+    fn on_pivot(&self, arm: RigidPart, place: Vector2<f64>, (foot, hub): (f64, f64)) -> Vec<RigidPart> {
+        let spring = self.spring.then(|| RigidPart::new("spring", vec![spiral(hub, FOOT * foot)]).at(place.x, place.y));
+        let pin = RigidPart::new("pin", vec![circle(place.x, place.y, 0.35 * hub)]);
+        let ground = RigidPart::new("ground", bracket(place, (foot, 1.0)));
+        [Some(ground), spring, Some(arm), Some(pin)].into_iter().flatten().collect()
     }
 }
 
-/// What holds a pivot at a place, mm.
-fn bracket(place: Vector2<f64>, foot: f64) -> Vec<Shape> {
-    let (x, y) = (place.x, place.y);
-    vec![
-        Shape::Path(vec![
-            Vector2::new(x, y),
-            Vector2::new(x - foot, y + 1.6 * foot),
-            Vector2::new(x + foot, y + 1.6 * foot),
-            Vector2::new(x, y),
-        ]),
-        line((x - 1.5 * foot, y + 1.6 * foot), (x + 1.5 * foot, y + 1.6 * foot)),
-    ]
-}
-
 /// Smallest and largest of some numbers.
-pub(super) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }

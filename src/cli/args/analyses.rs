@@ -1,38 +1,41 @@
 //! Flags of the commands that analyse a machine and cut nothing.
 
-use super::common::{AccuracyArgs, EndOf, ToldArgs};
-use super::files::{LaidArgs, OutArgs};
-use super::parse::{
-    Order, crank_step, force, format, lift, order, power_share, rpm, segment_angle, stiffness, stiffnesses,
-};
+use super::common::ReportArgs;
+use super::files::OutputArgs;
+#[cfg(feature = "linkage")]
+use super::parse::power_share;
+#[cfg(feature = "shaft")]
+use super::parse::{Order, order, stiffnesses};
+use super::parse::{crank_step, force, format, law, lift, rpm, segment_angle, stiffness, word};
+use camgen::analysis::size::FreeDimension;
 use camgen::document::LengthOrAngle;
-use clap::{Args, ValueEnum, ValueHint};
+use camgen::domains::press::analysis::drive;
+use camgen::domains::press::bed_motion::End;
+use camgen::domains::press::buffer::regime::Reset;
+#[cfg(feature = "shaft")]
+use camgen::domains::shaft::mechanics::Whirl;
+use camgen::motion::laws::Law;
+#[cfg(any(feature = "linkage", feature = "shaft"))]
+use clap::ValueEnum;
+use clap::{Args, ValueHint};
 
 /// Flags of every analysis.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct AnalysisArgs {
-    /// Overrides one key of the machine file, e.g. --set buffer.lead=10mm; repeatable
+    /// Override one key of the machine file, e.g. --set buffer.lead=10mm; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub(in crate::cli) set: Vec<String>,
 
-    /// What to write: csv, svg, json, html (the report with its curves), pdf and, of a linkage or a brake, toml (its table of a machine
-    /// file) [default: csv,svg]; with a cam also what that can have
+    /// Formats to write: csv, svg, json, html (the report with its curves), pdf and, for a linkage or a brake, toml (its table for a
+    /// machine file); with a cam also the formats of a cam [default: csv,svg]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(in crate::cli) format: Option<Vec<String>>,
 
     #[command(flatten)]
-    pub(in crate::cli) to: OutArgs,
+    pub(in crate::cli) to: OutputArgs,
 
     #[command(flatten)]
-    pub(in crate::cli) told: ToldArgs,
-}
-
-/// What the reset of a column keeps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum ResetOf {
-    End,
-    Half,
-    Level,
+    pub(in crate::cli) report: ReportArgs,
 }
 
 #[derive(Debug, Args)]
@@ -41,7 +44,7 @@ pub(in crate::cli) struct RegimesArgs {
     #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
 
-    /// Speeds of the main shaft, rpm [default: those of the file, else 4, 5, 6 and 7 sevenths of the design speed]
+    /// Speeds of the main shaft, rpm [default: those of the file, else 4/7, 5/7, 6/7 and 7/7 of the design speed]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Vec<f64>,
 
@@ -49,15 +52,15 @@ pub(in crate::cli) struct RegimesArgs {
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) cut_for: Option<f64>,
 
-    /// What the reset keeps: end (no residual force at the end of the stroke), half (the paper's rule: half of the largest one there)
-    /// or level (as much there as at the worst place, which is least)
+    /// Rule for the residual force at the end of the stroke after the reset: end (zero there), half (the paper's rule: half of the
+    /// largest) or level (as large there as at the worst other place, which gives the smallest maximum)
     /// [default: that of the file, else end]
-    #[arg(long, value_name = "RULE", ignore_case = true)]
-    pub(in crate::cli) reset: Option<ResetOf>,
+    #[arg(long, value_name = "RULE", ignore_case = true, value_parser = word::<Reset>())]
+    pub(in crate::cli) reset: Option<Reset>,
 
-    /// End of the bed's stroke at which the buffers stand; only with [linkage] in the machine file [default: outer]
-    #[arg(long, value_name = "END", ignore_case = true)]
-    pub(in crate::cli) end: Option<EndOf>,
+    /// End of the bed's stroke that has the buffers; needs [linkage] in the machine file [default: outer]
+    #[arg(long, value_name = "END", ignore_case = true, value_parser = word::<End>())]
+    pub(in crate::cli) end: Option<End>,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,
@@ -70,11 +73,11 @@ pub(in crate::cli) struct SpringArgs {
     pub(in crate::cli) machine: String,
 
     /// Stiffness of each of the two springs, e.g. 68kgf/cm,165kgf/cm [default: that of the file, else 1.125, 1.375 and
-    /// 2.75 times the least one]
+    /// 2.75 times the smallest possible one]
     #[arg(long, value_name = "STIFFNESS,…", value_delimiter = ',', value_parser = stiffness, allow_hyphen_values = true)]
     pub(in crate::cli) stiffness: Vec<f64>,
 
-    /// Largest residual force at the design speed: also takes the stiffness that leaves it, e.g. 50kgf
+    /// Largest residual force at the design speed: adds the stiffness that leaves exactly this force, e.g. 50kgf
     #[arg(long, value_name = "FORCE", value_parser = force, allow_hyphen_values = true)]
     pub(in crate::cli) residual: Option<f64>,
 
@@ -86,13 +89,6 @@ pub(in crate::cli) struct SpringArgs {
     pub(in crate::cli) analysis: AnalysisArgs,
 }
 
-/// How the law of a drive is solved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum DriveSolver {
-    Energy,
-    Paper,
-}
-
 #[derive(Debug, Args)]
 pub(in crate::cli) struct DriveArgs {
     /// An embedded machine or the path of a machine file with the table [drive]
@@ -100,10 +96,10 @@ pub(in crate::cli) struct DriveArgs {
     pub(in crate::cli) machine: String,
 
     /// energy (in closed form) or paper (the paper's sections, of second order in the step)
-    #[arg(long, value_name = "SOLVER", default_value = "energy", ignore_case = true)]
-    pub(in crate::cli) solver: DriveSolver,
+    #[arg(long, value_name = "SOLVER", default_value = "energy", ignore_case = true, value_parser = word::<drive::DriveSolver>())]
+    pub(in crate::cli) solver: drive::DriveSolver,
 
-    /// Crank angle from row to row, and of the paper's sections, 0.01deg to 90deg
+    /// Crank angle between rows, and of the paper's sections, 0.01deg to 90deg
     #[arg(long, value_name = "ANGLE", default_value = "10deg", value_parser = crank_step, allow_hyphen_values = true)]
     pub(in crate::cli) step: f64,
 
@@ -111,20 +107,23 @@ pub(in crate::cli) struct DriveArgs {
     pub(in crate::cli) analysis: AnalysisArgs,
 }
 
-/// What a drag link is designed for.
+/// The goal of the design of a drag link.
+#[cfg(feature = "linkage")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum GoalOf {
+pub(in crate::cli) enum LinkageGoal {
     Equal,
     Symmetric,
     Least,
 }
 
-/// What a design keeps.
+/// The condition that a design keeps.
+#[cfg(feature = "linkage")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum KeepOf {
+pub(in crate::cli) enum LinkageSymmetry {
     Symmetric,
 }
 
+#[cfg(feature = "linkage")]
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LinkageArgs {
     /// An embedded machine or the path of a machine file with the table [linkage]
@@ -135,16 +134,16 @@ pub(in crate::cli) struct LinkageArgs {
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Option<f64>,
 
-    /// Designs the drag link for the slider of the file: equal (largest accelerations equal at both ends), symmetric (also as long out as
-    /// back) or least (the least largest acceleration within [limits]), and prints it as a table to paste
+    /// Design the drag link for the slider of the file and print it as a table to paste: equal (equal largest accelerations at both ends),
+    /// symmetric (also equal times out and back) or least (the smallest largest acceleration within [limits])
     #[arg(long, value_name = "GOAL", ignore_case = true)]
-    pub(in crate::cli) synthesize: Option<GoalOf>,
+    pub(in crate::cli) synthesize: Option<LinkageGoal>,
 
-    /// With --synthesize least: as long out as back
+    /// With --synthesize least: equal times out and back
     #[arg(long, value_name = "WHAT", ignore_case = true)]
-    pub(in crate::cli) keep: Option<KeepOf>,
+    pub(in crate::cli) keep: Option<LinkageSymmetry>,
 
-    /// With --synthesize least: largest peak of power over that of the crank-slider alone, e.g. 0.831
+    /// With --synthesize least: largest peak power, divided by that of the crank-slider alone, e.g. 0.831
     #[arg(long, value_name = "SHARE", value_parser = power_share, allow_hyphen_values = true)]
     pub(in crate::cli) power_limit: Option<f64>,
 
@@ -153,28 +152,22 @@ pub(in crate::cli) struct LinkageArgs {
 }
 
 /// How critical speeds are found.
+#[cfg(feature = "shaft")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum ShaftSolver {
     Exact,
     Paper,
 }
 
-/// How a shaft whirls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum WhirlOf {
-    Forward,
-    Planar,
-    Backward,
-}
-
+#[cfg(feature = "shaft")]
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ShaftArgs {
     /// An embedded machine or the path of a machine file with the table [shaft]
     #[arg(default_value = "press-cylinder", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
 
-    /// Speed of the main shaft of a press, of the cam of a motion program, or of a shaft alone, rpm [default: that of the file]; several are
-    /// the sections of the conoid of the file
+    /// Speed of the main shaft of a press, of the cam of a motion program, or of a shaft alone, rpm; several speeds are
+    /// those of the sections of a conoid [default: that of the file]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Vec<f64>,
 
@@ -182,9 +175,9 @@ pub(in crate::cli) struct ShaftArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12))]
     pub(in crate::cli) modes: Option<u8>,
 
-    /// Whirl with the shaft, in a plane, or against the shaft
-    #[arg(long, value_name = "WAY", default_value = "forward", ignore_case = true)]
-    pub(in crate::cli) whirl: WhirlOf,
+    /// Direction of whirl: with the shaft, in a plane, or against the shaft
+    #[arg(long, value_name = "DIRECTION", default_value = "forward", ignore_case = true, value_parser = word::<Whirl>())]
+    pub(in crate::cli) whirl: Whirl,
 
     /// exact (to rounding) or paper (the paper's iteration: one critical speed, two supports, without shear and gyroscopic moments)
     #[arg(long, value_name = "SOLVER", default_value = "exact", ignore_case = true)]
@@ -194,11 +187,11 @@ pub(in crate::cli) struct ShaftArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(in crate::cli) stations: Option<u32>,
 
-    /// Order of the load polynomials of --solver exact, 1 to 24, or auto: as many as leave rounding only
+    /// Order of the load polynomials of --solver exact, 1 to 24, or auto: as high as needed to leave only rounding
     #[arg(long, value_name = "N", default_value = "auto", value_parser = order)]
     pub(in crate::cli) order: Order,
 
-    /// Gives every elastic support these stiffnesses in turn, e.g. "1e8 N/m .. 1e9 N/m"
+    /// Give every elastic support these stiffnesses in turn, e.g. "1e8 N/m .. 1e9 N/m"
     #[arg(long, value_name = "FROM..TO", value_parser = stiffnesses, allow_hyphen_values = true)]
     pub(in crate::cli) sweep: Option<(f64, f64)>,
 
@@ -214,64 +207,16 @@ pub(in crate::cli) struct ShaftArgs {
     pub(in crate::cli) analysis: AnalysisArgs,
 }
 
-/// What a frame is designed for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum FrameOf {
-    Level,
-    Robust,
-}
-
-#[derive(Debug, Args)]
-pub(in crate::cli) struct BrakeArgs {
-    /// An embedded machine or the path of a machine file with the table [brake]
-    #[arg(default_value = "roll", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) machine: String,
-
-    /// Also cuts the disc of [brake.cam] that holds the tension over the whole roll; its files are STEM-cam.*
-    #[arg(long)]
-    pub(in crate::cli) cam: bool,
-
-    /// Designs the frame for the roll, the friction and the pulleys of the file: level (least change of the tension over the roll) or
-    /// robust (over the roll and a friction of ± 20 % together), and prints it as a table to paste [default of the flag: level]
-    #[arg(long, value_name = "GOAL", ignore_case = true, num_args = 0..=1, require_equals = true, default_missing_value = "level", conflicts_with = "cam")]
-    pub(in crate::cli) synthesize: Option<FrameOf>,
-
-    /// Random start of --synthesize
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "synthesize")]
-    pub(in crate::cli) seed: u64,
-
-    /// Equal steps of the roll's radius in the table
-    #[arg(long, value_name = "N", default_value_t = 110, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub(in crate::cli) samples: u32,
-
-    #[command(flatten)]
-    pub(in crate::cli) accuracy: AccuracyArgs,
-
-    #[command(flatten)]
-    pub(in crate::cli) laid: LaidArgs,
-
-    #[command(flatten)]
-    pub(in crate::cli) analysis: AnalysisArgs,
-}
-
-/// What may be left open beside the base radius.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum FreeOf {
-    Offset,
-    #[value(alias = "pivot_distance", alias = "arm")]
-    PivotDistance,
-}
-
 #[derive(Debug, Args)]
 pub(in crate::cli) struct SizeArgs {
     /// The path of a file with [motion] and a follower, or an embedded one
-    #[arg(value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
 
-    /// What may be chosen beside the base radius: offset (of a roller or a knife edge on a straight path) or pivot-distance (of an
-    /// arm; also called arm) [default: what the file leaves to auto]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', ignore_case = true)]
-    pub(in crate::cli) free: Vec<FreeOf>,
+    /// What may be chosen in addition to the base radius: offset (of a roller or a knife edge on a straight path) or pivot_distance (of an
+    /// arm; also called pivot-distance or arm) [default: what the file leaves to auto]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', ignore_case = true, value_parser = word::<FreeDimension>())]
+    pub(in crate::cli) free: Vec<FreeDimension>,
 
     /// Speed of the cam, rpm [default: that of the file]
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
@@ -283,7 +228,7 @@ pub(in crate::cli) struct SizeArgs {
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LawsArgs {
-    /// The path of a file with [motion] and a follower, or an embedded one; without it only the laws themselves are told
+    /// The path of a file with [motion] and a follower, or an embedded one; without it only the laws themselves are listed
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: Option<String>,
 
@@ -299,15 +244,24 @@ pub(in crate::cli) struct LawsArgs {
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Option<f64>,
 
-    /// Column of the table to sort by, the least first; its beginning is enough [default: ca, the peak acceleration]
+    /// The laws to compare, in any order [default: all]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = law)]
+    pub(in crate::cli) laws: Vec<&'static Law>,
+
+    /// What is chosen with the base radius for each law: offset or pivot_distance, in the place of what the file gives
+    #[arg(long, value_name = "LIST", value_delimiter = ',', ignore_case = true, value_parser = word::<FreeDimension>())]
+    pub(in crate::cli) free: Vec<FreeDimension>,
+
+    /// Column to sort by, the smallest value first; the start of its name is enough [default: ca, the peak acceleration, with
+    /// the laws whose acceleration jumps last]
     #[arg(long, value_name = "COLUMN")]
     pub(in crate::cli) sort: Option<String>,
 
-    /// Print the table as CSV in place of the report; with --svg both are written as files only
+    /// Print the table as CSV instead of the report; with --svg as well, both are only written as files
     #[arg(long, conflicts_with = "json")]
     pub(in crate::cli) csv: bool,
 
-    /// Print the picture as SVG in place of the report
+    /// Print the picture as SVG instead of the report
     #[arg(long, conflicts_with = "json")]
     pub(in crate::cli) svg: bool,
 

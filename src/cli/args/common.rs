@@ -2,14 +2,15 @@
 
 use super::super::Failure;
 use super::super::text::Page;
-use super::parse::{Rate, Speed, acceleration_error, speed, tolerance, velocity_error};
+use super::parse::{RateLimit, Speed, acceleration_error, speed, tolerance, velocity_error, word};
+use camgen::analysis::size::FreeDimension;
 use camgen::body::RateTolerance;
-use camgen::linkage::End;
+use camgen::domains::press::bed_motion::End;
 use camgen::machine::Machine;
 use clap::{Args, ValueEnum, ValueHint};
 use std::io::IsTerminal;
 
-/// Named tolerances of those that `trade` measures.
+/// Named tolerances, of those that `trade` measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Accuracy {
     /// 50 µm: for a first look.
@@ -20,9 +21,9 @@ pub(in crate::cli) enum Accuracy {
     Fine,
 }
 
-/// How a report is told.
+/// How a report is printed.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct ToldArgs {
+pub(in crate::cli) struct ReportArgs {
     /// Print the report as JSON and nothing else
     #[arg(long)]
     pub(in crate::cli) json: bool,
@@ -44,7 +45,7 @@ pub(in crate::cli) struct ToldArgs {
     pub(in crate::cli) no_color: bool,
 }
 
-/// How near an outline keeps to its exact curve.
+/// How close an outline is to its exact curve.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct AccuracyArgs {
     /// Largest distance of the outline from the exact curve, along its normal [default: 5um]
@@ -59,20 +60,23 @@ pub(in crate::cli) struct AccuracyArgs {
     /// Largest error of the follower's velocity as cut: a share of the motion's largest (2%), a quantity (mm/rad, mm/s, m/s,
     /// rad/rad, rad/s), or none [default: none]
     #[arg(long, value_name = "ERROR", value_parser = velocity_error, allow_hyphen_values = true)]
-    pub(in crate::cli) tolerance_velocity: Option<Rate>,
+    pub(in crate::cli) tolerance_velocity: Option<RateLimit>,
 
     /// Largest error of the follower's acceleration as cut: a share of the motion's largest (5%), a quantity (mm/rad2, m/s2,
     /// rad/rad2, rad/s2), or none [default: 5%]
     #[arg(long, value_name = "ERROR", value_parser = acceleration_error, allow_hyphen_values = true)]
-    pub(in crate::cli) tolerance_acceleration: Option<Rate>,
+    pub(in crate::cli) tolerance_acceleration: Option<RateLimit>,
 }
+
+/// The machine of a press that is not named.
+const PRESS: &str = "dpi";
 
 /// Flags of every command about a cam.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct CommonArgs {
-    /// An embedded machine or the path of a machine file; `make` needs a file with a motion
-    #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
-    pub(in crate::cli) machine: String,
+    /// An embedded machine or the path of a machine file; `make` needs one with a motion [default: dpi; none for make]
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: Option<String>,
 
     /// Main-shaft speed the cam is cut for (for `make` the speed of the cam), rpm [default: that of the machine file]
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = speed, allow_hyphen_values = true)]
@@ -81,50 +85,70 @@ pub(in crate::cli) struct CommonArgs {
     #[command(flatten)]
     pub(in crate::cli) accuracy: AccuracyArgs,
 
-    /// End of the bed's stroke at which the buffers stand; only with [linkage] in the machine file [default: outer]
-    #[arg(long, value_name = "END", ignore_case = true)]
-    pub(in crate::cli) end: Option<EndOf>,
+    /// End of the bed's stroke that has the buffers; needs [linkage] in the machine file [default: outer]
+    #[arg(long, value_name = "END", ignore_case = true, value_parser = word::<End>())]
+    pub(in crate::cli) end: Option<End>,
 
-    /// Overrides one key of the machine file, e.g. --set follower.roller.radius=25mm; repeatable
+    /// What is chosen with the base radius, for a motion program: offset or pivot_distance, in the place of what the file gives
+    #[arg(long, value_name = "LIST", value_delimiter = ',', ignore_case = true, value_parser = word::<FreeDimension>())]
+    pub(in crate::cli) free: Vec<FreeDimension>,
+
+    /// Override one key of the machine file, e.g. --set follower.roller.diameter=50mm; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub(in crate::cli) set: Vec<String>,
 
     #[command(flatten)]
-    pub(in crate::cli) told: ToldArgs,
+    pub(in crate::cli) report: ReportArgs,
 }
 
-/// An end of the stroke of the bed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum EndOf {
-    /// Where the bed is farthest from the shaft of the crank.
-    Outer,
-    /// Where it is nearest.
-    Inner,
+/// The machine with its buffers at an end of the stroke, and the stem of its files, which names the inner end.
+pub(in crate::cli) fn at_end(
+    end: Option<End>,
+    (machine, name): (Machine, String),
+) -> Result<(Machine, String), Failure> {
+    let Some(end) = end else { return Ok((machine, name)) };
+    let name = if end == End::Inner { format!("{name}-inner") } else { name };
+    Ok((machine.at_end(end).map_err(Failure::new)?, name))
 }
 
-impl EndOf {
-    /// The machine with its buffers there, and the word that names its files: the inner end has a name of its own.
-    pub(in crate::cli) fn of(
-        end: Option<Self>,
-        (machine, name): (Machine, String),
-    ) -> Result<(Machine, String), Failure> {
-        match end {
-            None => Ok((machine, name)),
-            Some(Self::Outer) => Ok((machine.at_end(End::Outer).map_err(Failure::new)?, name)),
-            Some(Self::Inner) => Ok((machine.at_end(End::Inner).map_err(Failure::new)?, format!("{name}-inner"))),
-        }
+/// The machine of a file with overrides, and with what is left free to be chosen.
+pub(in crate::cli) fn machine_with_free(
+    name: &str,
+    overrides: &[String],
+    free: &[FreeDimension],
+) -> Result<(Machine, String), Failure> {
+    let loaded = Machine::load(name, overrides).map_err(Failure::new)?;
+    if free.is_empty() {
+        return Ok(loaded);
     }
+    let table = loaded.0.follower_table();
+    let place = free.iter().map(|free| match free {
+        FreeDimension::Offset => format!("{table}.offset=auto"),
+        FreeDimension::Pivot => format!("{table}.pivot_distance=auto"),
+    });
+    let all: Vec<String> = overrides.iter().cloned().chain(place).chain(["cam.base_radius=auto".to_owned()]).collect();
+    Machine::load(name, &all).map_err(Failure::new)
 }
 
 impl CommonArgs {
-    /// The machine with its overrides, and the word that names its files.
-    pub(in crate::cli) fn machine(&self) -> Result<(Machine, String), Failure> {
-        self.machine_of(&self.machine)
+    /// The machine as it is named, or the default one.
+    pub(in crate::cli) fn machine_name(&self) -> &str {
+        self.machine.as_deref().unwrap_or(PRESS)
     }
 
-    /// The same of another file than that given as the machine.
+    /// The machine with its overrides, and the stem of its files.
+    pub(in crate::cli) fn machine(&self) -> Result<(Machine, String), Failure> {
+        self.machine_of(self.machine_name())
+    }
+
+    /// The machine of another file, with these overrides.
     pub(in crate::cli) fn machine_of(&self, name: &str) -> Result<(Machine, String), Failure> {
-        EndOf::of(self.end, Machine::load(name, &self.set).map_err(Failure::new)?)
+        self.machine_with(name, &self.set)
+    }
+
+    /// The machine of a file with these overrides, and what is left free.
+    pub(in crate::cli) fn machine_with(&self, name: &str, overrides: &[String]) -> Result<(Machine, String), Failure> {
+        at_end(self.end, machine_with_free(name, overrides, &self.free)?)
     }
 
     /// The one speed of a cam that is not a conoid.
@@ -133,6 +157,9 @@ impl CommonArgs {
             [] => Ok(machine.press().map_err(Failure::new)?.design_rpm),
             [Speed::One(rpm)] => Ok(*rpm),
             [Speed::Range(..)] => Err(Failure("this cam is cut for one speed, not for a range".into())),
+            [Speed::One(whole), Speed::One(rest)] if rest.fract() == 0.0 && *rest < 10.0 => Err(Failure(format!(
+                "this cam is cut for one speed, not for {whole} and {rest} rpm; of one speed write --rpm {whole}.{rest}, with a decimal point"
+            ))),
             more => Err(Failure(format!("this cam is cut for one speed, not {}", more.len()))),
         }
     }
@@ -149,24 +176,24 @@ impl AccuracyArgs {
         }
     }
 
-    /// Tolerances of velocity and acceleration, and whether a cam that does not keep each of them is refused: a default one is told
-    /// only.
+    /// Tolerances of velocity and acceleration, and whether a cam that exceeds each of them is refused: a default one is only
+    /// reported.
     pub(in crate::cli) fn rates(&self) -> ([Option<RateTolerance>; 2], [bool; 2]) {
         let named = match self.accuracy {
             Some(Accuracy::Draft) => None,
             None | Some(Accuracy::Standard) => Some(RateTolerance::Share(0.05)),
             Some(Accuracy::Fine) => Some(RateTolerance::Share(0.01)),
         };
-        let asked = |rate: Option<Rate>, default| match rate {
-            Some(Rate::Any) => None,
-            Some(Rate::Within(rate)) => Some(rate),
+        let asked = |rate: Option<RateLimit>, default| match rate {
+            Some(RateLimit::Any) => None,
+            Some(RateLimit::Within(rate)) => Some(rate),
             None => default,
         };
         let strict = [self.tolerance_velocity.is_some(), self.tolerance_acceleration.is_some()];
         ([asked(self.tolerance_velocity, None), asked(self.tolerance_acceleration, named)], strict)
     }
 
-    /// The same of a file that somebody wrote: what was not asked for is not held against it.
+    /// The tolerances for a file to check: only those that were given.
     pub(in crate::cli) fn demanded(&self) -> ([Option<RateTolerance>; 2], [bool; 2]) {
         let ([velocity, acceleration], strict) = self.rates();
         let asked = self.accuracy.is_some() || self.tolerance_acceleration.is_some();
@@ -174,7 +201,7 @@ impl AccuracyArgs {
     }
 }
 
-impl ToldArgs {
+impl ReportArgs {
     /// How the report is laid out on standard output.
     pub(in crate::cli) fn page(&self) -> Page {
         let terminal = std::io::stdout().is_terminal();
@@ -183,7 +210,7 @@ impl ToldArgs {
         Page { colour, width }
     }
 
-    /// Whether a person is waiting at a terminal, who is shown how far the work is.
+    /// Whether progress is shown: a person waits at a terminal.
     pub(in crate::cli) fn shows_progress(&self) -> bool {
         !self.quiet && std::io::stderr().is_terminal()
     }

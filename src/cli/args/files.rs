@@ -1,34 +1,32 @@
 //! Flags of the commands that write files.
 
-use super::parse::{cutter, dxf_version, format, samples, stem};
+use super::parse::{bare_cutter, cutter_diameter, cutter_radius, dxf_version, format, samples, start, stem, word};
+use camgen::body::points::PointCurve;
+use camgen::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
+use camgen::profile::outline::{SegmentKind, Side};
 use camgen::write::dxf::Version;
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
 /// The cutter of a disc cam.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct CutterArgs {
-    /// Also writes the path of the centre of a cutter of this radius, as STEM-cutter.dxf
-    #[arg(long, value_name = "RADIUS", value_parser = cutter)]
+    /// Also write the path of the centre of a cutter of this diameter, as STEM-cutter.dxf: 8mm for an Ø8 mm end mill
+    #[arg(long, value_name = "DIAMETER", value_parser = cutter_diameter)]
+    pub(in crate::cli) cutter_diameter: Option<f64>,
+
+    /// The radius of the cutter in place of its diameter: 4mm for an Ø8 mm end mill
+    #[arg(long, value_name = "RADIUS", value_parser = cutter_radius, conflicts_with = "cutter_diameter")]
+    pub(in crate::cli) cutter_radius: Option<f64>,
+
+    /// Refused: it does not say whether it is a diameter or a radius.
+    #[arg(long, hide = true, value_name = "LENGTH", num_args = 0..=1, default_missing_value = "", value_parser = bare_cutter)]
     pub(in crate::cli) cutter: Option<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum SideOf {
-    Both,
-    Inside,
-    Outside,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum LaidOf {
-    Arcs,
-    Spline,
-}
-
-/// Where files are written, and over what.
+/// Where files are written, and what they may replace.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct OutArgs {
+pub(in crate::cli) struct OutputArgs {
     /// Directory for the files, created when missing
     #[arg(long, value_name = "DIR", default_value = "output", value_hint = ValueHint::DirPath)]
     pub(in crate::cli) out: PathBuf,
@@ -45,31 +43,40 @@ pub(in crate::cli) struct OutArgs {
     #[arg(long)]
     pub(in crate::cli) force: bool,
 
-    /// Replace files that were edited, or not written by camgen; its own are replaced without
+    /// Also replace files that were edited or not written by camgen; unchanged files of camgen are always replaced
     #[arg(long)]
     pub(in crate::cli) overwrite: bool,
 }
 
 /// How an outline is drawn and its DXF file is written.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct LaidArgs {
+pub(in crate::cli) struct OutlineArgs {
     /// Version of the DXF file: r12, r2000, r2010 or r2013
     #[arg(long, value_name = "VERSION", default_value = "r2000", value_parser = dxf_version)]
     pub(in crate::cli) dxf_version: Version,
 
-    /// Side of the exact curve the outline keeps to: both, inside (never metal in the way) or outside (never cut too deep)
-    #[arg(long, value_name = "SIDE", default_value = "both", ignore_case = true)]
-    pub(in crate::cli) side: SideOf,
+    /// Side of the exact curve on which the outline stays: both, inside (never too much metal) or outside (never too little metal)
+    #[arg(long, value_name = "SIDE", default_value = "both", ignore_case = true, value_parser = word::<Side>())]
+    pub(in crate::cli) side: Side,
 
-    /// What the curved parts of the outline are: arcs, which every control reads, or spline: cubic SPLINEs without steps of curvature
-    #[arg(long, value_name = "KIND", default_value = "arcs", ignore_case = true)]
-    pub(in crate::cli) outline: LaidOf,
+    /// How curved parts of the outline are drawn: arcs, which every control reads, or spline (cubic SPLINEs without steps of curvature)
+    #[arg(long, value_name = "KIND", default_value = "arcs", ignore_case = true, value_parser = word::<SegmentKind>())]
+    pub(in crate::cli) outline: SegmentKind,
+
+    /// Cam angle at which the outline starts [default: the middle of the longest dwell at the lowest lift, or where the outline is flattest]
+    #[arg(long, value_name = "ANGLE", value_parser = start, allow_hyphen_values = true)]
+    pub(in crate::cli) start: Option<f64>,
+
+    /// Also draw the way of the tool to the start, on layer `LEAD_IN`: a straight line, tangent LENGTH, or a quarter of a circle, arc RADIUS
+    /// [default of the size: 5mm]
+    #[arg(long, num_args = 1..=2, value_names = ["FORM", "SIZE"])]
+    pub(in crate::cli) lead_in: Option<Vec<String>>,
 }
 
 /// What is written, where, and how.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct FileArgs {
-    /// What to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet), points, and stl of a conoid
+    /// Formats to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet and the motion diagram), diagram (the motion diagram as SVG), points, and stl for a conoid
     /// [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(in crate::cli) format: Option<Vec<String>>,
@@ -79,59 +86,34 @@ pub(in crate::cli) struct FileArgs {
     pub(in crate::cli) samples: u32,
 
     #[command(flatten)]
-    pub(in crate::cli) laid: LaidArgs,
+    pub(in crate::cli) outline: OutlineArgs,
 
     #[command(flatten)]
-    pub(in crate::cli) to: OutArgs,
+    pub(in crate::cli) to: OutputArgs,
 
     #[command(flatten)]
     pub(in crate::cli) points: PointsArgs,
 }
 
-/// The table of --format points, STEM-points.csv: as many points as it takes to keep --tolerance between them.
+/// The table of --format points, STEM-points.csv: as many points as needed to keep --tolerance between them.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct PointsArgs {
-    /// Curve of --format points: profile, centre (of the roller), or cutter (the centre of the cutter or wheel of --cutter)
+    /// Curve of --format points: profile, centre (of the roller), or cutter (the centre of the cutter or wheel of --cutter-diameter)
     /// [default: profile]
-    #[arg(long, value_name = "CURVE", help_heading = "Points", ignore_case = true)]
-    pub(in crate::cli) points_of: Option<PointsOf>,
+    #[arg(long, value_name = "CURVE", help_heading = "Points", ignore_case = true, value_parser = word::<PointCurve>())]
+    pub(in crate::cli) points_of: Option<PointCurve>,
 
-    /// Its coordinates: polar (angle about the shaft, radius) or xy [default: polar; xy of a plate]
-    #[arg(long, value_name = "FORM", help_heading = "Points", ignore_case = true)]
-    pub(in crate::cli) points_as: Option<PointsAs>,
+    /// Coordinates of the points: polar (angle about the shaft, radius) or xy [default: polar; xy of a plate]
+    #[arg(long, value_name = "FORM", help_heading = "Points", ignore_case = true, value_parser = word::<PointCoordinates>())]
+    pub(in crate::cli) points_as: Option<PointCoordinates>,
 
-    /// Its places: angle (equal angles about the shaft) or chord (the same error in every interval, fewer points) [default: angle;
+    /// Spacing of the points: angle (equal angles about the shaft) or chord (equal error in every interval, fewer points) [default: angle;
     /// chord on a plate]
-    #[arg(long, value_name = "STEP", help_heading = "Points", ignore_case = true)]
-    pub(in crate::cli) points_step: Option<PointsStep>,
+    #[arg(long, value_name = "STEP", help_heading = "Points", ignore_case = true, value_parser = word::<PointStep>())]
+    pub(in crate::cli) points_step: Option<PointStep>,
 
     /// How the control interpolates between two points: linear (polar: the radius linear in the angle; xy: a straight line) or
     /// cubic (the cubic spline of the radius over the angle, or of x and y over the sum of the chords) [default: linear]
-    #[arg(long, value_name = "WAY", help_heading = "Points", ignore_case = true)]
-    pub(in crate::cli) points_between: Option<PointsBetween>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum PointsOf {
-    Profile,
-    Centre,
-    Cutter,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum PointsAs {
-    Polar,
-    Xy,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum PointsStep {
-    Angle,
-    Chord,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum PointsBetween {
-    Linear,
-    Cubic,
+    #[arg(long, value_name = "INTERPOLATION", help_heading = "Points", ignore_case = true, value_parser = word::<PointInterpolation>())]
+    pub(in crate::cli) points_between: Option<PointInterpolation>,
 }

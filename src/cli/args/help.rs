@@ -17,8 +17,8 @@ pub(super) const TRANSLATING: &str = "\
 Examples:
   camgen translating --rpm 35 --format dxf
       the plate for 35 rpm, equation (18) integrated as a differential equation
-  camgen translating --solver paper --stations 180 --balance mean --dry-run
-      as the paper solves it, with equal residual forces in both directions; only the report";
+  camgen translating --solver paper --stations 180 --balance return --dry-run
+      solved as in the paper, the forces balanced while the bed is accelerated; only the report";
 
 pub(super) const CONOID: &str = "\
 Examples:
@@ -53,8 +53,9 @@ Examples:
   camgen drive
       the drive of the embedded press dp, as a table and a plot
   camgen drive --solver paper --step 5deg --set buffer.column=500mm --dry-run
-      another column, as the paper solves it; only the report";
+      another column, solved as in the paper; only the report";
 
+#[cfg(feature = "linkage")]
 pub(super) const LINKAGE: &str = "\
 Examples:
   camgen linkage
@@ -62,13 +63,15 @@ Examples:
   camgen linkage dpi-crank-slider --synthesize least --keep symmetric --dry-run
       the drag link with the least acceleration for that crank-slider, as a table to paste; only the report";
 
+#[cfg(feature = "shaft")]
 pub(super) const SHAFT: &str = "\
 Examples:
   camgen shaft --sweep 1e8N/m..1e9N/m
       the embedded printing cylinder over the stiffness of its bearings, as tables and a plot
   camgen shaft dpi-shaft --rpm 35 --dry-run
-      what the shaft takes off the lift of the cam of a press; only the report";
+      how much the shaft reduces the lift of the cam of a press; only the report";
 
+#[cfg(feature = "brake")]
 pub(super) const BRAKE: &str = "\
 Examples:
   camgen brake --cam
@@ -80,15 +83,15 @@ pub(super) const LAWS: &str = "\
 Examples:
   camgen laws --lift 30mm --over 120deg --rpm 300
       every law for a rise of 30 mm in 120 degrees at 300 rpm
-  camgen laws valve --sort torque --csv
-      what each makes of the cam of the embedded valve, the least torque first, as CSV";
+  camgen laws valve --laws modified-sine,cycloidal,3-4-5 --sort torque --csv
+      the cam of the embedded valve with each of three laws, the smallest torque first, as CSV";
 
 pub(super) const SIZE: &str = "\
 Examples:
   camgen size feeder --free offset
       base radius and offset of the smallest cam of the embedded feeder, and how they depend on each other
   camgen size lever --free pivot-distance --dry-run
-      the same for the pivot of an arm; only the report";
+      base radius and pivot distance of an arm; only the report";
 
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
@@ -99,10 +102,13 @@ Examples:
 
 pub(super) const CHECK: &str = "\
 Examples:
-  camgen check part.dxf dpi --rpm 35
-      whether part.dxf is the rotary cam of the embedded press for 35 rpm
+  camgen check part.dxf
+      finds its design in the record next to it, or by the hash in it, and checks whether part.dxf is that cam; `check part.dxf dpi --rpm 35`
+      names a machine
   camgen check part.dxf --design lifter.toml
-      exit code 1: it is not the cam that camgen make makes of lifter.toml";
+      exit code 1: it is not the cam of the motion program in lifter.toml
+
+The file may also be the path of a cutter (-cutter.dxf) or a table of points (-points.csv).";
 
 pub(super) const TRADE: &str = "\
 Examples:
@@ -114,41 +120,41 @@ Examples:
 pub(super) const MACHINES: &str = "\
 Examples:
   camgen machines
-      their names
+      lists their names
   camgen machines show dpi
-      one of them as a file: > press.toml makes it your own";
+      prints one of them; add > press.toml for a file of your own";
 
 pub(super) const INIT: &str = "\
 Examples:
   camgen init mine.toml
-      writes it; `camgen rotary mine.toml` makes its cam
+      writes the file; `camgen rotary mine.toml` makes its cam
   camgen init --follower swinging-roller
       prints a motion program for `camgen make`";
 
 pub(super) const EXPLAIN: &str = "\
 Examples:
   camgen explain
-      every check in a line
+      every check in one line
   camgen explain pressure_angle
-      one in full";
+      one check in full";
 
 pub(super) const SCHEMA: &str = "\
 Examples:
   camgen schema
-      prints it: > machine.schema.json keeps it
+      prints it; add > machine.schema.json for a file
   camgen schema --help
       editors with Taplo complete and check a machine file whose first line is: #:schema ./machine.schema.json";
 
 pub(super) const COMPLETIONS: &str = "\
 Examples:
   camgen completions bash
-      prints them: > ~/.local/share/bash-completion/completions/camgen
+      prints them; add > ~/.local/share/bash-completion/completions/camgen
   camgen completions zsh
-      prints them: > a file _camgen in a directory of $fpath";
+      prints them; redirect them to a file _camgen in a directory of $fpath";
 
 pub(super) const MAN: &str = "\
 Examples:
   camgen man
-      the page of camgen: > camgen.1
+      the page of camgen; add > camgen.1 for a file
   camgen man rotary
-      the page of a command: > camgen-rotary.1";
+      the page of a command; add > camgen-rotary.1 for a file";

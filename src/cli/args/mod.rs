@@ -1,28 +1,37 @@
 //! What the user typed.
 
 mod analyses;
+#[cfg(feature = "brake")]
+mod brake;
 mod common;
+mod deferred;
 mod files;
 mod help;
-mod later;
 mod parse;
+mod side_by_side;
 
-pub(super) use analyses::{
-    AnalysisArgs, BrakeArgs, DriveArgs, DriveSolver, FrameOf, FreeOf, GoalOf, LawsArgs, LinkageArgs, RegimesArgs,
-    ResetOf, ShaftArgs, ShaftSolver, SizeArgs, SpringArgs, WhirlOf,
-};
-pub(super) use common::{AccuracyArgs, CommonArgs, EndOf, ToldArgs};
-pub(super) use files::{
-    CutterArgs, FileArgs, LaidArgs, LaidOf, OutArgs, PointsArgs, PointsAs, PointsBetween, PointsOf, PointsStep, SideOf,
-};
-pub(super) use later::Later;
-pub(super) use parse::{Order, Speed};
+pub(super) use analyses::{AnalysisArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs};
+#[cfg(feature = "linkage")]
+pub(super) use analyses::{LinkageArgs, LinkageGoal};
+#[cfg(feature = "shaft")]
+pub(super) use analyses::{ShaftArgs, ShaftSolver};
+#[cfg(feature = "brake")]
+pub(super) use brake::BrakeArgs;
+pub(super) use common::{AccuracyArgs, CommonArgs, ReportArgs, at_end, machine_with_free};
+pub(super) use deferred::DeferredArgs;
+pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs};
+#[cfg(feature = "shaft")]
+pub(super) use parse::Order;
+pub(super) use parse::Speed;
+pub(super) use side_by_side::SideBySideArgs;
 
-use camgen::motion::equation_18::ExactOn;
+use camgen::analysis::size::FreeDimension;
+use camgen::domains::press::bed_motion::End;
+use camgen::domains::press::motion::equation_18::ExactOn;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
-use parse::{force, share};
-pub(super) use parse::{rpm, stem, tolerance};
+pub(super) use parse::rpm;
+use parse::{cutter_diameter, cutter_radius, force, share, word};
 use std::path::PathBuf;
 
 /// Cams a CNC shop can cut: solved exactly, drawn as tangent arcs, proved on the written file
@@ -34,6 +43,10 @@ use std::path::PathBuf;
 #[derive(Debug, Parser)]
 #[command(name = "camgen", version, max_term_width = 110, after_help = help::CAMGEN)]
 pub(super) struct Cli {
+    /// Tables of a machine file may also lie in this folder; repeatable
+    #[arg(long, global = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(super) allow_path: Vec<PathBuf>,
+
     #[command(subcommand)]
     pub(super) command: Option<Command>,
 }
@@ -44,86 +57,89 @@ pub(super) enum Command {
     ///
     /// The cam moves the bottom of the air buffers so that the air force equals the inertia force of the bed.
     #[command(after_help = help::ROTARY)]
-    Rotary(Later<RotaryArgs>),
+    Rotary(DeferredArgs<RotaryArgs>),
     /// Wedge cam of a press: a plate on the bed, by equation (18)
     ///
     /// The plate rides on the bed and moves the bottom through a bell crank with a roller on each flank.
     #[command(after_help = help::TRANSLATING)]
-    Translating(Later<TranslatingArgs>),
+    Translating(DeferredArgs<TranslatingArgs>),
     /// Three-dimensional cam of a press for many speeds
     ///
     /// The cam is shifted along its axis as the speed changes; it is written as sections and as a solid.
     #[command(after_help = help::CONOID)]
-    Conoid(Later<ConoidArgs>),
+    Conoid(DeferredArgs<ConoidArgs>),
     /// Disc cam of any motion under any follower, from a file
     ///
     /// The file has a program of segments, `[motion]` and `[[motion.segment]]`, and a follower.
     #[command(after_help = help::MAKE)]
-    Make(Later<DiscArgs>),
+    Make(DeferredArgs<DiscArgs>),
     /// One cam of a press at other speeds: the column is reset, or air is added
     ///
     /// The cam stays as it is cut. Equations (14) and (15) give the column and the volume for each speed, and the residual force that
     /// is left then.
     #[command(after_help = help::REGIMES)]
-    Regimes(Later<RegimesArgs>),
+    Regimes(DeferredArgs<RegimesArgs>),
     /// Buffers of a press whose bottoms rest on springs, without a cam
     ///
     /// Equations (26) to (28): travel of the springs, air, residual force and setting of the screw, for each stiffness and speed.
     #[command(after_help = help::SPRING)]
-    Spring(Later<SpringArgs>),
-    /// Drive of a bed without a cam: the speed of the crank that plain buffers ask for
+    Spring(DeferredArgs<SpringArgs>),
+    /// Drive of a bed without a cam: the crank speed that plain buffers need
     ///
-    /// The drive slows down so that the crank carries nothing while plain buffers brake the bed.
+    /// The drive slows down so that the crank carries no load while plain buffers brake the bed.
     #[command(after_help = help::DRIVE)]
-    Drive(Later<DriveArgs>),
+    Drive(DeferredArgs<DriveArgs>),
     /// Linkage that moves a bed: dead points, accelerations, transmission angles, torque
     ///
     /// A crank-slider, or a six-bar whose drag link turns the crank of the slider unevenly.
+    #[cfg(feature = "linkage")]
     #[command(after_help = help::LINKAGE)]
-    Linkage(Later<LinkageArgs>),
+    Linkage(DeferredArgs<LinkageArgs>),
     /// The shaft under a cam, or alone: critical speeds, lift error, unbalance
     ///
-    /// What bending and twist of the shaft take off the lift, and the force that this leaves, for the cam of the file.
+    /// How much bending and twist of the shaft reduce the lift, and the residual force that results, for the cam of the file.
+    #[cfg(feature = "shaft")]
     #[command(after_help = help::SHAFT)]
-    Shaft(Later<ShaftArgs>),
+    Shaft(DeferredArgs<ShaftArgs>),
     /// Belt brake of a paper roll: web tension, and the disc that holds it
     ///
-    /// What a hinged frame with a belt makes of the tension, the paper's equations beside it, frames that hold it by themselves, and a
-    /// disc on the frame's shaft that holds it exactly.
+    /// Web tension with a belt on a hinged frame, compared with the paper's equations; frames that hold it by themselves, and a disc on
+    /// the frame's shaft that holds it exactly.
+    #[cfg(feature = "brake")]
     #[command(after_help = help::BRAKE)]
-    Brake(Later<BrakeArgs>),
-    /// Smallest disc for a motion program, and which limit binds it
+    Brake(DeferredArgs<BrakeArgs>),
+    /// Smallest disc for a motion program, and the limit that decides it
     ///
     /// Base radius, and offset or pivot distance where they are left open; how the size changes with the place of the follower.
     #[command(after_help = help::SIZE)]
-    Size(Later<SizeArgs>),
+    Size(DeferredArgs<SizeArgs>),
     /// Every law of motion at the numbers of a design, in one table
     ///
     /// Peaks of velocity, acceleration and jerk; with a file also pressure angle, size, forces, jump speed, vibration and harmonics.
     #[command(after_help = help::LAWS)]
-    Laws(Later<LawsArgs>),
-    /// Two disc cams in one HTML report, beside each other
+    Laws(DeferredArgs<LawsArgs>),
+    /// Two disc cams in one HTML report, side by side
     ///
-    /// Both mechanisms move together, the curves lie over each other, and the differences are marked.
+    /// Both mechanisms move together, the curves are overlaid, and the differences are marked.
     #[command(after_help = help::SIDE_BY_SIDE)]
-    SideBySide(Later<super::side_by_side::SideBySideArgs>),
-    /// Is this DXF or STEP file that cam, and if not, why?
+    SideBySide(DeferredArgs<SideBySideArgs>),
+    /// Whether a DXF or STEP file is the cam of a design, and if not, why
     ///
-    /// The file may have been edited or written by another program. The follower is rolled on what it holds.
+    /// The file may have been edited or written by another program. The follower is rolled on the outline in the file.
     #[command(after_help = help::CHECK)]
-    Check(Later<CheckArgs>),
+    Check(DeferredArgs<CheckArgs>),
     /// Speed against accuracy, measured on this computer
     ///
     /// Arcs, splines and tables of points side by side: time of each stage, pieces, bytes, true error and residual force.
     #[command(after_help = help::TRADE)]
-    Trade(Later<TradeArgs>),
-    /// The machine files that camgen carries
+    Trade(DeferredArgs<TradeArgs>),
+    /// The machine files built into camgen
     #[command(after_help = help::MACHINES)]
     Machines(MachinesArgs),
     /// A commented machine file to start from
     #[command(after_help = help::INIT)]
     Init(InitArgs),
-    /// What a check means, how it is made, usual limits, what to change
+    /// What a check means, how it is calculated, usual limits, what to change
     #[command(after_help = help::EXPLAIN)]
     Explain(ExplainArgs),
     /// The JSON schema of machine files, for editors
@@ -138,51 +154,60 @@ pub(super) enum Command {
 }
 
 impl Command {
-    /// The files that `--watch` looks at, when it is asked for: the machine file, and the file that is checked.
+    /// The files that `--watch` watches, when it is given: the machine file, and the file that is checked.
     pub(super) fn watched(&self) -> Option<Vec<PathBuf>> {
         let (common, more) = match self {
-            Command::Rotary(Later(RotaryArgs { disc: args, .. })) | Command::Make(Later(args)) => {
+            Command::Rotary(DeferredArgs(RotaryArgs { disc: args, .. })) | Command::Make(DeferredArgs(args)) => {
                 (&args.common, args.files.to.template.as_ref())
             }
-            Command::Translating(Later(args)) => (&args.common, args.files.to.template.as_ref()),
-            Command::Conoid(Later(args)) => (&args.common, args.files.to.template.as_ref()),
-            Command::Check(Later(args)) => {
-                let machine = args.design.as_ref().unwrap_or(&args.common.machine);
-                return args.common.told.watch.then(|| vec![PathBuf::from(machine), args.file.clone()]);
+            Command::Translating(DeferredArgs(args)) => (&args.common, args.files.to.template.as_ref()),
+            Command::Conoid(DeferredArgs(args)) => (&args.common, args.files.to.template.as_ref()),
+            Command::Check(DeferredArgs(args)) => {
+                let machine = args.design.as_deref().unwrap_or(args.common.machine_name());
+                return args.common.report.watch.then(|| vec![PathBuf::from(machine), args.file.clone()]);
             }
-            Command::Trade(Later(args)) => (&args.common, None),
             other => return other.analysis_watched(),
         };
-        common.told.watch.then(|| std::iter::once(PathBuf::from(&common.machine)).chain(more.cloned()).collect())
+        common
+            .report
+            .watch
+            .then(|| std::iter::once(PathBuf::from(common.machine_name())).chain(more.cloned()).collect())
     }
 
-    /// The same of an analysis.
+    /// The watched files of an analysis.
     fn analysis_watched(&self) -> Option<Vec<PathBuf>> {
-        if let Command::Laws(Later(LawsArgs { machine: Some(machine), analysis, .. })) = self {
-            return analysis.told.watch.then(|| vec![PathBuf::from(machine)]);
+        if let Command::Laws(DeferredArgs(LawsArgs { machine: Some(machine), analysis, .. })) = self {
+            return analysis.report.watch.then(|| vec![PathBuf::from(machine)]);
+        }
+        if let Command::Trade(DeferredArgs(args)) = self {
+            let machine = args.target().1.unwrap_or("dpi");
+            return args.analysis.report.watch.then(|| vec![PathBuf::from(machine)]);
         }
         let (machine, args) = match self {
-            Command::Regimes(Later(args)) => (&args.machine, &args.analysis),
-            Command::Spring(Later(args)) => (&args.machine, &args.analysis),
-            Command::Drive(Later(args)) => (&args.machine, &args.analysis),
-            Command::Linkage(Later(args)) => (&args.machine, &args.analysis),
-            Command::Shaft(Later(args)) => (&args.machine, &args.analysis),
-            Command::Brake(Later(args)) => (&args.machine, &args.analysis),
-            Command::Size(Later(args)) => (&args.machine, &args.analysis),
+            Command::Regimes(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            Command::Spring(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            Command::Drive(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            #[cfg(feature = "linkage")]
+            Command::Linkage(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            #[cfg(feature = "shaft")]
+            Command::Shaft(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            #[cfg(feature = "brake")]
+            Command::Brake(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            Command::Size(DeferredArgs(args)) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();
-        args.told.watch.then(files)
+        args.report.watch.then(files)
     }
 }
 
 #[derive(Debug, Args)]
 pub(super) struct InitArgs {
-    /// File to write; printed when it is left out. A file that is there is never replaced
+    /// File to write; an existing file is never replaced [default: print it]
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: Option<PathBuf>,
 
-    /// For camgen make, with this follower: roller, swinging-roller, flat, swinging-flat or knife [default: a press]
+    /// A motion program for camgen make with this follower: roller, swinging-roller, flat, swinging-flat or knife [default: a press]
     #[arg(long, value_name = "FOLLOWER")]
     pub(super) follower: Option<String>,
 }
@@ -196,14 +221,14 @@ pub(super) struct CompletionsArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct ManArgs {
-    /// A command; the page of camgen itself when it is left out
+    /// A command; the page of camgen itself when omitted
     #[arg(value_name = "COMMAND")]
     pub(super) command: Option<String>,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct ExplainArgs {
-    /// Name of the check, as in reports; all in short when it is left out
+    /// Name of the check, as in reports; lists all checks when omitted
     pub(super) check: Option<String>,
 }
 
@@ -212,7 +237,7 @@ pub(super) struct RotaryArgs {
     #[command(flatten)]
     pub(super) disc: DiscArgs,
 
-    /// Also makes a second disc whose spring takes the torque of the camshaft, with these keys of the table [compensator], e.g.
+    /// Also make a second disc whose spring balances the torque of the camshaft, with these keys of the table [compensator], e.g.
     /// spring_rate=100N/mm,preload=10kN; its files are STEM-compensator.*
     #[arg(long, value_name = "KEY=VALUE,…", value_delimiter = ',')]
     pub(super) compensator: Vec<String>,
@@ -236,23 +261,40 @@ pub(super) struct CheckArgs {
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
 
-    /// Kind of cam the file should hold, by the command that makes it [default: rotary; make for a motion program]
+    /// Kind of cam the file should contain, named by the command that makes it [default: rotary; make for a motion program]; without MACHINE
+    /// that of the record next to the file, or of the hash in the file
     #[arg(long, value_name = "KIND", ignore_case = true)]
-    pub(super) cam: Option<Checked>,
+    pub(super) cam: Option<CheckTarget>,
 
-    /// The file of a motion program, as given to make, in place of MACHINE
+    /// The file of a motion program, as given to make, instead of MACHINE
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["machine", "cam"])]
     pub(super) design: Option<String>,
 
-    /// Direction of the bed in which the forces of a plate balance
-    #[arg(long, value_name = "WAY", default_value = "braking", ignore_case = true)]
-    pub(super) balance: Balanced,
+    /// How the report is printed: text, or json as with --json
+    #[arg(long, value_name = "FORMAT", default_value = "text", ignore_case = true)]
+    pub(super) format: ReportFormat,
 
-    /// Speed of the section of a conoid that a DXF file should hold, one of those of --rpm
+    /// Layer of the outline in a DXF file [default: CAM_PROFILE; without that layer the only closed contour]
+    #[arg(long, value_name = "NAME")]
+    pub(super) layer: Option<String>,
+
+    /// Radius of the cutter, when the file is the path of its centre [default: that of the record next to the file]
+    #[arg(long, value_name = "RADIUS", value_parser = cutter_radius, conflicts_with = "cutter_diameter")]
+    pub(super) cutter_radius: Option<f64>,
+
+    /// Diameter of the cutter, when the file holds the path of its centre
+    #[arg(long, value_name = "DIAMETER", value_parser = cutter_diameter)]
+    pub(super) cutter_diameter: Option<f64>,
+
+    /// Direction of the bed in which the forces of a plate balance
+    #[arg(long, value_name = "DIRECTION", default_value = "braking", ignore_case = true, value_parser = word::<ExactOn>())]
+    pub(super) balance: ExactOn,
+
+    /// Speed of the section of a conoid that a DXF file should contain, one of those of --rpm
     #[arg(long, value_name = "RPM", value_parser = rpm, allow_hyphen_values = true)]
     pub(super) section: Option<f64>,
 
-    /// Residual force by which the sections of a conoid were chosen, as given to conoid --rpm A..B
+    /// Residual force for which the sections of a conoid were chosen, as given to conoid --rpm A..B
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
 
@@ -260,25 +302,34 @@ pub(super) struct CheckArgs {
     pub(super) common: CommonArgs,
 }
 
+/// How a report is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum ReportFormat {
+    Text,
+    Json,
+}
+
 /// A kind of cam that `check` knows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Checked {
+pub(super) enum CheckTarget {
     Rotary,
     Compensator,
     Translating,
     Conoid,
     Make,
+    #[cfg(feature = "brake")]
     Brake,
 }
 
 /// A kind of cam that `trade` knows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum CamKind {
+pub(super) enum TradeTarget {
     Rotary,
     Translating,
     /// The disc cam of a motion program.
     Make,
     /// The first critical speed of a shaft, press-cylinder by default.
+    #[cfg(feature = "shaft")]
     Shaft,
 }
 
@@ -300,39 +351,54 @@ pub(super) struct TranslatingArgs {
     pub(super) stations: Option<u32>,
 
     /// Direction of the bed in which the forces balance, or mean: equal residual forces in both
-    #[arg(long, value_name = "WAY", default_value = "braking", ignore_case = true)]
-    pub(super) balance: Balanced,
+    #[arg(long, value_name = "DIRECTION", default_value = "braking", ignore_case = true, value_parser = word::<ExactOn>())]
+    pub(super) balance: ExactOn,
 }
 
 #[derive(Debug, Args)]
 pub(super) struct TradeArgs {
-    /// Kind of cam: rotary, translating or make (a motion program, by default feeder); or shaft: the first critical speed of the shaft of a file (by default press-cylinder)
-    #[arg(default_value = "rotary", value_name = "KIND", ignore_case = true)]
-    pub(super) kind: CamKind,
+    /// A machine or motion program, embedded or the path of a file; or, before it, a kind of cam: rotary, translating or make (a motion program,
+    /// by default feeder), or shaft: the first critical speed of the shaft of a file (by default press-cylinder) [default: rotary]
+    #[arg(value_name = "KIND|FILE", value_hint = ValueHint::FilePath)]
+    pub(super) kind: Option<String>,
 
-    #[command(flatten)]
-    pub(super) common: CommonArgs,
+    /// An embedded machine or the path of a machine file, after a kind
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(super) machine: Option<String>,
 
-    /// Largest residual force: the advice is the cheapest setting that keeps it [default: 0.01 % of the largest inertia; none of a motion program]
+    /// Main-shaft speed the cam is cut for (for `make` the speed of the cam), rpm [default: that of the machine file]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(super) rpm: Option<f64>,
+
+    /// End of the bed's stroke that has the buffers; needs [linkage] in the machine file [default: outer]
+    #[arg(long, value_name = "END", ignore_case = true, value_parser = word::<End>())]
+    pub(super) end: Option<End>,
+
+    /// What is chosen with the base radius, for a motion program: offset or pivot_distance, in the place of what the file gives
+    #[arg(long, value_name = "LIST", value_delimiter = ',', ignore_case = true, value_parser = word::<FreeDimension>())]
+    pub(super) free: Vec<FreeDimension>,
+
+    /// Largest residual force: the advice is the cheapest setting that keeps it [default: 0.01 % of the largest inertia force; none for a motion program]
     #[arg(long, value_name = "FORCE", value_parser = force)]
     pub(super) residual: Option<f64>,
 
     /// Largest error of the acceleration that the advice keeps, as a share of the motion's largest, e.g. 2%
-    /// [default: 5% of a motion program]
+    /// [default: 5% for a motion program]
     #[arg(long, value_name = "SHARE", value_parser = share, allow_hyphen_values = true)]
     pub(super) acceleration: Option<f64>,
 
-    /// Directory for the table and the picture, created when missing
-    #[arg(long, value_name = "DIR", default_value = "output")]
-    pub(super) out: PathBuf,
+    #[command(flatten)]
+    pub(super) analysis: AnalysisArgs,
+}
 
-    /// File stem [default: MACHINE-trade-KIND-RPMrpm]
-    #[arg(long, value_name = "STEM", value_parser = stem)]
-    pub(super) name: Option<String>,
-
-    /// Replace files that were edited, or not written by camgen; its own are replaced without
-    #[arg(long)]
-    pub(super) overwrite: bool,
+impl TradeArgs {
+    /// The kind, where it is named, and the file, where one is.
+    pub(super) fn target(&self) -> (Option<TradeTarget>, Option<&str>) {
+        let first = self.kind.as_deref();
+        let kind = first.and_then(|word| TradeTarget::from_str(word, true).ok());
+        let file = if kind.is_some() { None } else { first };
+        (kind, file.or(self.machine.as_deref()))
+    }
 }
 
 #[derive(Debug, Args)]
@@ -352,23 +418,6 @@ pub(super) struct ConoidArgs {
 pub(super) enum SolverKind {
     Ode,
     Paper,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Balanced {
-    Braking,
-    Return,
-    Mean,
-}
-
-impl Balanced {
-    pub(super) fn exact_on(self) -> ExactOn {
-        match self {
-            Balanced::Braking => ExactOn::Braking,
-            Balanced::Return => ExactOn::Return,
-            Balanced::Mean => ExactOn::Mean,
-        }
-    }
 }
 
 #[derive(Debug, Args)]

@@ -1,18 +1,21 @@
 //! The values of flags, as they were typed.
 
 use camgen::body::RateTolerance;
-use camgen::document::{LengthOrAngle, similar};
+use camgen::document::{LengthOrAngle, NamedChoice, similar};
+#[cfg(feature = "shaft")]
+use camgen::domains::shaft::mechanics::MOST_ORDER;
 use camgen::machine::{fault_of_stem, valid_rpm};
-use camgen::shaft::MOST_ORDER;
+use camgen::motion::laws::{self, LAWS, Law};
 use camgen::units::{self, Dimension};
 use camgen::write::by_name;
 use camgen::write::csv::MOST_ROWS;
 use camgen::write::dxf::Version;
-use std::f64::consts::PI;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::f64::consts::{PI, TAU};
 
-/// A tolerance of velocity or acceleration, or that there is none.
+/// A tolerance of velocity or acceleration, or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::cli) enum Rate {
+pub(in crate::cli) enum RateLimit {
     Any,
     Within(RateTolerance),
 }
@@ -28,39 +31,39 @@ pub(in crate::cli) enum Speed {
     Range(f64, f64),
 }
 
-pub(super) fn velocity_error(text: &str) -> Result<Rate, String> {
+pub(super) fn velocity_error(text: &str) -> Result<RateLimit, String> {
     rate(text, 1, VELOCITIES)
 }
 
-pub(super) fn acceleration_error(text: &str) -> Result<Rate, String> {
+pub(super) fn acceleration_error(text: &str) -> Result<RateLimit, String> {
     rate(text, 2, ACCELERATIONS)
 }
 
 pub(super) fn share(text: &str) -> Result<f64, String> {
     match rate(text, 2, ACCELERATIONS)? {
-        Rate::Within(RateTolerance::Share(share)) => Ok(share),
+        RateLimit::Within(RateTolerance::Share(share)) => Ok(share),
         _ => Err("must be a share, e.g. 2%".into()),
     }
 }
 
-fn rate(text: &str, order: u32, known: &str) -> Result<Rate, String> {
+fn rate(text: &str, order: u32, known: &str) -> Result<RateLimit, String> {
     let text = text.trim();
     if text.eq_ignore_ascii_case("none") {
-        return Ok(Rate::Any);
+        return Ok(RateLimit::Any);
     }
     if let Some(share) = text.strip_suffix('%') {
         let share =
             units::parse_bare(share).map_err(|error| format!("{error}; e.g. 5%, none, or in one of {known}"))?;
         return match share {
             share if !(share > 0.0) => Err("must be above 0".into()),
-            share if share <= 100.0 => Ok(Rate::Within(RateTolerance::Share(share / 100.0))),
+            share if share <= 100.0 => Ok(RateLimit::Within(RateTolerance::Share(share / 100.0))),
             _ => Err("must be at most 100%".into()),
         };
     }
     match units::parse_rate(text, order) {
         Ok(rate) if rate.value > 0.0 => {
-            let units::Rate { value, swing, by_time } = rate;
-            Ok(Rate::Within(RateTolerance::Rate { value, swing, by_time }))
+            let units::DerivativeValue { value, swing, by_time } = rate;
+            Ok(RateLimit::Within(RateTolerance::Rate { value, swing, by_time }))
         }
         Ok(_) => Err("must be above 0".into()),
         Err(error) => Err(format!("{error}; it is a share (5%), none, or in one of {known}")),
@@ -122,11 +125,12 @@ const STEPS: (f64, f64) = (1.0e-2 * PI / 180.0, PI / 2.0);
 pub(super) fn crank_step(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Angle)
         .map_err(|error| format!("{error}; an angle has one of {}", Dimension::Angle.unit_list()))?;
-    // With a hair for the rounding of the conversion.
+    // With a margin for the rounding of the conversion.
     let (least, most) = (STEPS.0 * (1.0 - 1e-12), STEPS.1 * (1.0 + 1e-12));
     if (least..=most).contains(&quantity.si) { Ok(quantity.si) } else { Err("must be from 0.01 deg to 90 deg".into()) }
 }
 
+#[cfg(feature = "linkage")]
 pub(super) fn power_share(text: &str) -> Result<f64, String> {
     let share = units::parse_bare(text).map_err(|error| format!("{error}; a share is a bare number, e.g. 0.831"))?;
     if share > 0.0 && share <= 10.0 { Ok(share) } else { Err("must be above 0 and at most 10".into()) }
@@ -139,6 +143,7 @@ pub(super) fn stiffness(text: &str) -> Result<f64, String> {
 }
 
 /// Two stiffnesses, the first below the second, N/m.
+#[cfg(feature = "shaft")]
 pub(super) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
     let (from, to) =
         text.split_once("..").ok_or("a sweep goes from one stiffness to another, e.g. \"1e8 N/m .. 1e9 N/m\"")?;
@@ -147,12 +152,14 @@ pub(super) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
 }
 
 /// An order of load polynomials, or as many as it takes.
+#[cfg(feature = "shaft")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) enum Order {
     Auto,
     Of(usize),
 }
 
+#[cfg(feature = "shaft")]
 pub(super) fn order(text: &str) -> Result<Order, String> {
     if text.eq_ignore_ascii_case("auto") {
         return Ok(Order::Auto);
@@ -184,14 +191,47 @@ pub(in crate::cli) fn tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn cutter(text: &str) -> Result<f64, String> {
+/// Radius of the largest cutter or wheel, m.
+const LARGEST_CUTTER: f64 = 1.0;
+
+/// The radius of a cutter of a diameter, m.
+pub(super) fn cutter_diameter(text: &str) -> Result<f64, String> {
+    cutter(text, "diameter", 2.0)
+}
+
+pub(super) fn cutter_radius(text: &str) -> Result<f64, String> {
+    cutter(text, "radius", 1.0)
+}
+
+/// The radius of a cutter that is given by a number of radii, m.
+fn cutter(text: &str, what: &str, radii: f64) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Length)
-        .map_err(|error| format!("{error}; a radius is a length with one of {}", Dimension::Length.unit_list()))?;
-    if quantity.si > 0.0 && quantity.si <= 1.0 {
+        .map_err(|error| format!("{error}; a {what} is a length with one of {}", Dimension::Length.unit_list()))?;
+    if quantity.si > 0.0 && quantity.si <= radii * LARGEST_CUTTER {
+        Ok(quantity.si / radii)
+    } else {
+        Err(format!("must be above 0 and at most {}", quantity.in_same_unit(radii * LARGEST_CUTTER)))
+    }
+}
+
+/// The cam angle of a start, rad.
+pub(super) fn start(text: &str) -> Result<f64, String> {
+    let quantity = units::parse(text, Dimension::Angle)
+        .map_err(|error| format!("{error}; a start is an angle with one of {}", Dimension::Angle.unit_list()))?;
+    if (0.0..TAU).contains(&quantity.si) {
         Ok(quantity.si)
     } else {
-        Err(format!("must be above 0 and at most {}", quantity.in_same_unit(1.0)))
+        Err(format!("must be at least 0 and below {}", quantity.in_same_unit(TAU)))
     }
+}
+
+/// `--cutter` alone names neither: a cutter bought by its diameter and moved by its radius leaves twice or half of what it should.
+pub(super) fn bare_cutter(text: &str) -> Result<f64, String> {
+    let (typed, example) = if text.is_empty() { ("LENGTH", "8mm") } else { (text, text) };
+    Err(format!(
+        "is {typed} the diameter or the radius? For a cutter of Ø {example} write --cutter-diameter {example}, for one of radius {example} \
+         --cutter-radius {example}"
+    ))
 }
 
 pub(super) fn samples(text: &str) -> Result<u32, String> {
@@ -211,6 +251,11 @@ pub(super) fn format(text: &str) -> Result<String, String> {
     Err(format!("no such format; {}one of {}", meant(text, &known), known.join(", ")))
 }
 
+pub(super) fn law(text: &str) -> Result<&'static Law, String> {
+    let known = || LAWS.iter().map(|law| law.name).collect::<Vec<_>>();
+    laws::named(text).ok_or_else(|| format!("no such law; {}one of {}", meant(text, &known()), known().join(", ")))
+}
+
 pub(super) fn dxf_version(text: &str) -> Result<Version, String> {
     Version::ALL.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|(_, version)| *version).ok_or_else(
         || {
@@ -220,7 +265,20 @@ pub(super) fn dxf_version(text: &str) -> Result<Version, String> {
     )
 }
 
-/// The known word that was meant, as the start of a message; empty when none is near.
+/// One of the words of a choice.
+pub(in crate::cli) fn word<T: NamedChoice>() -> impl TypedValueParser<Value = T> {
+    let mut known: Vec<(PossibleValue, T)> = Vec::new();
+    for (name, case) in T::ALL {
+        match known.iter_mut().find(|(_, other)| other == case) {
+            Some((value, _)) => *value = value.clone().alias(name),
+            None => known.push((PossibleValue::new(*name), *case)),
+        }
+    }
+    let known = known.into_iter().map(|(value, _)| value);
+    PossibleValuesParser::new(known).try_map(|typed| T::named(&typed).ok_or("no such word"))
+}
+
+/// The known word that was probably meant, as the start of a message; empty when none is near.
 fn meant(text: &str, known: &[&str]) -> String {
     similar(text, known.iter().copied()).map_or(String::new(), |word| format!("did you mean `{word}`? It is "))
 }

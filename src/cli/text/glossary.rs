@@ -1,26 +1,26 @@
-//! Terms of a report that are not in every textbook on cams, each in a line.
+//! Terms of a report that are not in every textbook on cams, each in a line, from the project's glossary.
 
-/// A term, as reports write it, and what it means.
-const TERMS: &[(&str, &str)] = &[
-    ("air column", "length of the air between piston and bottom where the reversal begins"),
-    ("bottom", "movable end of an air buffer, which the cam moves"),
-    ("Δx", "way of the bottom by its law; negative away from the piston"),
-    ("fixed bottom", "the same buffer without a cam"),
-    ("inertia less air", "residual force: what the air does not balance of the bed's inertia"),
-    ("best possible", "number of arcs below which no tangent arcs keep the tolerance, and the ratio to it"),
-    ("kinks", "angles between neighbouring segments"),
-    ("run_up", "ramp that brings the bottom to the slope of its law before the reversal"),
-    ("sections", "plane cuts of a three-dimensional cam, one for each speed"),
-];
+const WORDS: &str = include_str!("../../../docs/words.md");
+/// The heading of the part of the glossary that reports show.
+const EXPLAINED: &str = "## Words that a report explains";
+
+/// The terms that reports explain, each with its meaning.
+fn terms() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let (_, behind) = WORDS.split_once(EXPLAINED).unwrap_or_default();
+    let (part, _) = behind.split_once("\n## ").unwrap_or((behind, ""));
+    let rows = part.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | "));
+    // After the row of headings.
+    rows.skip(1)
+}
 
 /// The terms that occur in a text.
 pub(super) fn of(text: &str) -> Vec<String> {
-    let widest = TERMS.iter().map(|(term, _)| term.chars().count()).max().unwrap_or(0);
-    let occurring = TERMS.iter().filter(|(term, _)| occurs(text, term));
+    let widest = terms().map(|(term, _)| term.chars().count()).max().unwrap_or(0);
+    let occurring = terms().filter(|(term, _)| occurs(text, term));
     occurring.map(|(term, meaning)| format!("{term:<widest$}  {meaning}")).collect()
 }
 
-/// Whether a term stands in a text as whole words.
+/// Whether a term occurs in a text as whole words.
 fn occurs(text: &str, term: &str) -> bool {
     let of_word = |c: char| c.is_alphanumeric() || c == '_';
     text.match_indices(term).any(|(at, _)| {
@@ -37,8 +37,9 @@ mod tests {
     #[test]
     fn only_whole_terms_are_explained() {
         assert!(of("the bottomless pit, an undercutting").is_empty());
-        let told = of("air column 243 mm, bottom");
-        assert_eq!(told.len(), 2);
-        assert!(told[0].starts_with("air column") && told[1].starts_with("bottom  "), "{told:?}");
+        let explained = of("air column 243 mm, bottom");
+        assert_eq!(explained.len(), 2);
+        assert!(explained[0].starts_with("air column") && explained[1].starts_with("bottom  "), "{explained:?}");
+        assert_eq!(terms().count(), 8);
     }
 }

@@ -1,4 +1,4 @@
-//! The least deviation that a chain of so many arcs can have.
+//! The least deviation that a chain with a given number of arcs can have.
 //!
 //! Counted from the curve, the deviations e of a chain are very nearly linear in the freedoms x of its joints, so that the
 //! least largest deviation is almost a linear program,
@@ -10,75 +10,75 @@
 //! c the openings of the joints, whose matrices are narrow bands along the chain. It is solved by a primal-dual interior
 //! point method (Wright, Primal-Dual Interior-Point Methods, 1997, chapters 1 and 5): each step computes deviations and
 //! derivatives again, so that it is a step for the curve as well as for the program. The first chain within the tolerance
-//! is taken. Where there is none the dual value, a lower bound once its own conditions are met, shows it before the
-//! steps run out; it only saves time.
+//! is taken. Where there is none, the dual value, a lower bound once its own conditions are met, shows it before the
+//! steps run out; this only saves time.
 
-use super::nodes::Node;
-use super::trial::{Link, Place, Step, Trial};
-use super::{Joint, Target};
-use crate::numeric::blocks::{Blocks, GROUP, PAIR, Rows};
+use super::nodes::CurveSample;
+use super::trial::{ArcTrial, ChainArc, ChainStep, JointPlace};
+use super::{ArcJoint, FitTarget};
+use crate::numeric::blocks::{BlockMatrix, BlockRows, GROUP, PAIR};
 use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
 
-/// Most steps: of 1552 chains that exist all were found within twelve; ten would cost an arc in a thousand.
+/// Most steps: all of 1552 existing chains were found within twelve; ten would cost one arc in a thousand.
 const MOST_STEPS: u32 = 12;
-/// Where a chain exists, the largest deviation exceeds the tolerance by no more than this, in tolerances, after the first step, and comes
-/// down by such a factor in each further one: of 248 chains that exist one came later, and half the work was for those that do not.
+/// Where a chain exists, the largest deviation exceeds the tolerance by no more than this, in tolerances, after the first step, and falls
+/// by such a factor in each further one: of 248 existing chains one came later, and half the work was for those that do not exist.
 const SLOWEST: (f64, f64) = (0.9, 0.55);
-/// From so many steps on it stalls where it exceeds the tolerance by so much and by so many times what the last step took off.
+/// From this step on it counts as stalled where it exceeds the tolerance by this much and by this many times what the last step gained.
 const STALLS_FROM: u32 = 5;
 const STALLED: (f64, f64) = (0.015, 2.0);
-/// The level starts so far above the largest deviation, and is kept so far above it.
+/// The level starts this far above the largest deviation, and is kept this far above it.
 const ROOM: (f64, f64) = (2.0, 1.005);
 /// Share of the mean product of slack and multiplier that a step aims at.
 const CENTRE: f64 = 0.3;
-/// Share of the way to the boundary that a step may take.
+/// Share of the distance to the boundary that a step may take.
 const BOUNDARY: f64 = 0.95;
-/// A node stands for the curve as far as its third order shows it to such a share of the tolerance.
+/// A node represents the curve as far as its third order is valid to this share of the tolerance.
 const SHOWN: f64 = 0.01;
-/// Longest step of a joint along the curve, in the shorter chord beside it.
+/// Longest step of a joint along the curve, as a share of its shorter chord.
 const LONGEST_STEP: f64 = 0.4;
-/// Weight of the three freedoms: between two arcs of one curvature a joint may lie anywhere.
+/// Weight of the three freedoms: between two arcs of equal curvature a joint may lie anywhere.
 const STAY: [f64; 3] = [0.1, 1e-9, 1e-9];
 /// Weight of the multipliers, which keeps the pivots from zero.
 const GIVE: f64 = 1e-9;
-/// Room for the extrema of the curvature of a piece.
+/// Capacity for the extrema of the curvature of a piece.
 const FEW_TURNS: usize = 8;
-/// The freedoms of a joint, which stand before the multiplier of the opening of the arc that ends there.
+/// The freedoms of a joint, followed by the multiplier of the opening of the arc that ends there.
 const FREEDOMS: usize = 3;
-/// Of a joint at an end, which is held: its rows hold nothing else.
-const HELD: Rows = {
+/// Diagonal entry of a joint at an end, which is fixed: its rows have no other entries.
+const HELD: BlockRows = {
     let mut rows = [[0.0; PAIR]; GROUP];
     (rows[0][0], rows[1][1], rows[2][2]) = (1.0, 1.0, 1.0);
     rows
 };
-/// What closing may add to the deviation, as a share of the widest opening: above, it is not tried.
+/// How much closing may add to the deviation, as a share of the widest opening: above it, closing is not tried.
 const CLOSING: f64 = 0.1;
-/// The dual value is trusted once the chain is open by less: wider, it says little about chains that are closed.
+/// The dual value is trusted once the chain is open by less than this: for wider openings it says little about closed chains.
 const TELLING: f64 = 2.0;
 
-/// What is compared at a node, with what is allowed of it.
+/// The quantity compared at a node, with its allowed error.
 #[derive(Debug, Clone, Copy)]
-enum Kept {
+enum NodeCondition {
     /// The distance.
-    Distance(Beside),
+    Distance(LocalCurve),
     /// The curvature.
     Curvature(f64, f64),
 }
 
-/// The curve about a node, as far as the node stands for it.
+/// The curve near a node, as far as the node represents it.
 #[derive(Debug, Clone, Copy)]
-struct Beside {
+struct LocalCurve {
     tangent: Vector2<f64>,
     curvature: f64,
     slope: f64,
-    /// Half the ways to the nodes before and behind.
+    /// Half the distances to the nodes before and behind.
     back: f64,
     ahead: f64,
 }
 
-impl Beside {
-    /// The point by so much along the curve, to the third order.
+impl LocalCurve {
+    /// The point at a distance along the curve, to the third order.
     fn point(&self, from: Vector2<f64>, along: f64) -> Vector2<f64> {
         let square = along * along;
         let on = along - self.curvature * self.curvature * square * along / 6.0;
@@ -86,8 +86,8 @@ impl Beside {
         from + self.tangent * on + Vector2::new(-self.tangent.y, self.tangent.x) * left
     }
 
-    /// How far along the curve the distance from an arc is farthest from 0, within what the node stands for; 0 where it is nearest.
-    fn way_to_top(&self, link: &Link, [a, b]: [f64; 2], off: f64) -> f64 {
+    /// The place along the curve where the distance from an arc is largest, within the range that the node represents; 0 where it is nearest.
+    fn way_to_top(&self, link: &ChainArc, [a, b]: [f64; 2], off: f64) -> f64 {
         let arc = &link.arc;
         let (along, across) = (arc.heading.dot(&self.tangent), arc.heading.perp(&self.tangent));
         let rise = across - arc.curvature * (a * along + b * across);
@@ -96,11 +96,11 @@ impl Beside {
     }
 }
 
-/// How far towards another node one stands for the curve: half the way, or as far as its third order holds.
+/// How far towards another node a node represents the curve: half the distance, or as far as its third order is valid.
 ///
-/// Where the curvature there is off by Δκ from what its growth here gives, x on the way d it is by about Δκ (x/d)², and the
-/// curve by Δκ x⁴/(12 d²). A circle leaves its third order by κ³ x⁴/24.
-fn reach(node: &Node, other: Option<&Node>, tolerance: f64) -> f64 {
+/// Where the curvature there differs by Δκ from the value that its growth here predicts, x on the distance d it differs by about Δκ (x/d)²,
+/// and the curve by Δκ x⁴/(12 d²). A circle departs from its third order by κ³ x⁴/24.
+fn reach(node: &CurveSample, other: Option<&CurveSample>, tolerance: f64) -> f64 {
     other.map_or(0.0, |other| {
         let square = (other.point - node.point).norm_squared();
         let way = square.sqrt();
@@ -112,13 +112,13 @@ fn reach(node: &Node, other: Option<&Node>, tolerance: f64) -> f64 {
     })
 }
 
-/// A node with what the method keeps about it.
+/// A node with the state of the method there.
 #[derive(Debug)]
-struct Sample {
+struct NodeSample {
     point: Vector2<f64>,
     parameter: f64,
-    kept: Kept,
-    /// 1, a, b, a² + b², see [`crate::geometry::arcs::nodes::Arc::seen_from`], or what these become by the length or in the
+    kept: NodeCondition,
+    /// 1, a, b, a² + b², see [`crate::geometry::arcs::nodes::TangentArc::basis_at`], or their derivatives by the length or for the
     /// curvature.
     basis: Vector4<f64>,
     /// Deviation in tolerances.
@@ -136,32 +136,32 @@ struct Slack {
     change: f64,
 }
 
-/// The curvature, or the heading, that is kept at a joint of an arc.
+/// The condition on the curvature, or the heading, at a joint of an arc.
 #[derive(Debug, Clone, Copy)]
-struct End {
-    /// Which of [`Trial::bends`].
+struct JointCondition {
+    /// Index into [`ArcTrial::joint_misses`].
     bend: usize,
     off: f64,
     off_by: [f64; 6],
     sides: [Slack; 2],
 }
 
-/// The samples of a piece, what is kept at the joints of every arc, and the tolerance.
-struct Program {
-    samples: Vec<Sample>,
-    ends: Vec<Vec<End>>,
+/// The samples of a piece, the conditions at the joints of every arc, and the tolerance.
+struct MinimaxProgram {
+    samples: Vec<NodeSample>,
+    ends: Vec<Vec<JointCondition>>,
     tolerance: f64,
 }
 
-/// What both conditions of a sample do to a step: the force on what is kept, the same on the level, and the stiffness of either.
-struct Push {
+/// The contribution of both conditions of a sample to a step: the force on the sampled quantity, that on the level, and both stiffnesses.
+struct BarrierForces {
     force: f64,
     on_level: f64,
     pull: f64,
     stiff: f64,
 }
 
-impl Push {
+impl BarrierForces {
     fn of(sides: &[Slack; 2], aim: f64) -> Self {
         let [(force, stiff), (back, stiff_back)] =
             sides.map(|side| (aim / side.distance, side.multiplier / side.distance));
@@ -169,8 +169,8 @@ impl Push {
     }
 }
 
-/// What the samples of an arc do to the six freedoms of its two joints, and to the level.
-struct Pressed {
+/// The contribution of the samples of an arc to the six freedoms of its two joints, and to the level.
+struct ArcNormalEquations {
     /// Only the upper triangle.
     stiff: [[f64; 6]; 6],
     push: [f64; 6],
@@ -183,11 +183,11 @@ struct Pressed {
 }
 
 #[expect(clippy::needless_range_loop, reason = "only the upper triangles")]
-impl Pressed {
-    fn by(samples: &[Sample], aim: f64) -> Self {
+impl ArcNormalEquations {
+    fn by(samples: &[NodeSample], aim: f64) -> Self {
         let (mut moments, mut forces, mut corner, mut excess) = ([[0.0; 4]; 4], [[0.0; 2]; 4], 0.0, 0.0);
         for sample in samples {
-            let push = Push::of(&sample.sides, aim);
+            let push = BarrierForces::of(&sample.sides, aim);
             let [basis] = sample.basis.data.0;
             for row in 0..4 {
                 let weighted = push.stiff * basis[row];
@@ -203,7 +203,7 @@ impl Pressed {
         Self { stiff: [[0.0; 6]; 6], push: [0.0; 6], pull: [0.0; 6], moments, forces, corner, excess }
     }
 
-    /// Takes the sums by the basis to the freedoms. Those of the later joint change the curvature only, the last of the four.
+    /// Transforms the sums by the basis to the freedoms. Those of the later joint change the curvature only, the last of the four.
     fn spread(&mut self, off_by: &[Vector4<f64>; 6]) {
         let m = &self.moments;
         let bends = [off_by[3].w, off_by[4].w, off_by[5].w];
@@ -238,12 +238,12 @@ impl Pressed {
         }
     }
 
-    /// Adds itself and the opening of its arc to the rows of both joints and their right-hand sides.
+    /// Adds these equations and the opening of the arc to the rows of both joints and their right-hand sides.
     fn add_to(
         &self,
-        (rows, side): (&mut Rows, &mut [[f64; 2]; GROUP]),
-        (next, beside): (&mut Rows, &mut [[f64; 2]; GROUP]),
-        link: &Link,
+        (rows, side): (&mut BlockRows, &mut [[f64; 2]; GROUP]),
+        (next, next_side): (&mut BlockRows, &mut [[f64; 2]; GROUP]),
+        link: &ChainArc,
     ) {
         for row in 0..FREEDOMS {
             for column in row..FREEDOMS {
@@ -256,18 +256,18 @@ impl Pressed {
             rows[row][GROUP + FREEDOMS] += link.open_by[row];
             next[row][FREEDOMS] += link.open_by[FREEDOMS + row];
             next[row][row] += STAY[row];
-            for (joint, row) in [(&mut *side, row), (&mut *beside, FREEDOMS + row)] {
+            for (joint, row) in [(&mut *side, row), (&mut *next_side, FREEDOMS + row)] {
                 let [right, border] = &mut joint[row % FREEDOMS];
                 *right -= self.push[row];
                 *border -= self.pull[row];
             }
         }
         next[FREEDOMS][FREEDOMS] -= GIVE;
-        beside[FREEDOMS] = [-link.open, 0.0];
+        next_side[FREEDOMS] = [-link.open, 0.0];
     }
 
-    /// Adds what is kept at a joint.
-    fn press(&mut self, off_by: &[f64; 6], push: &Push) {
+    /// Adds the condition at a joint.
+    fn press(&mut self, off_by: &[f64; 6], push: &BarrierForces) {
         for row in 0..6 {
             let weighted = push.stiff * off_by[row];
             for column in row..6 {
@@ -281,18 +281,18 @@ impl Pressed {
     }
 }
 
-/// Joints of a chain within `tolerance` at the nodes, from a first guess; where none was found, the least deviation that was seen, in
+/// Joints of a chain within `tolerance` at the nodes, from a first guess; where none was found, the least deviation reached, in
 /// tolerances.
 pub(super) fn relax(
-    target: &impl Target,
-    nodes: &[Node],
+    target: &impl FitTarget,
+    nodes: &[CurveSample],
     tolerance: f64,
-    mut places: Vec<Place>,
-) -> Result<Vec<Joint>, f64> {
-    let mut program = Program::new(nodes, places.len() - 1, tolerance);
+    mut places: Vec<JointPlace>,
+) -> Result<Vec<ArcJoint>, f64> {
+    let mut program = MinimaxProgram::new(nodes, places.len() - 1, tolerance);
     let (mut level, mut least, mut before) = (None, f64::INFINITY, f64::INFINITY);
     for steps in 0..MOST_STEPS {
-        let Some(trial) = Trial::new(target, &places, tolerance) else { break };
+        let Some(trial) = ArcTrial::new(target, &places, tolerance) else { break };
         let (worst, open) = (program.measure(&trial), trial.open());
         if !worst.is_finite() {
             break;
@@ -317,7 +317,7 @@ pub(super) fn relax(
         }
         let (step, rise) = program.direction(&trial, aim);
         let (primal, dual) = program.shares(&trial, &step, rise, aim);
-        let primal = primal.min(trial.careful(&step, LONGEST_STEP));
+        let primal = primal.min(trial.step_share(&step, LONGEST_STEP));
         program.press_on(dual);
         places = trial.moved(&step, primal, tolerance);
         level = Some(top + primal * rise);
@@ -325,7 +325,7 @@ pub(super) fn relax(
     Err(least)
 }
 
-/// Whether the largest deviation, in tolerances, comes down so slowly that it will not get below one.
+/// Whether the largest deviation, in tolerances, falls so slowly that it will not get below one.
 fn is_too_slow(steps: u32, worst: f64, before: f64) -> bool {
     let excess = worst - 1.0;
     let allowed =
@@ -333,24 +333,24 @@ fn is_too_slow(steps: u32, worst: f64, before: f64) -> bool {
     excess > allowed || (steps >= STALLS_FROM && excess > STALLED.0 && excess > STALLED.1 * (before - worst))
 }
 
-impl Program {
-    fn new(nodes: &[Node], arcs: usize, tolerance: f64) -> Self {
+impl MinimaxProgram {
+    fn new(nodes: &[CurveSample], arcs: usize, tolerance: f64) -> Self {
         let bent = nodes.iter().any(|node| node.allowed.curvature.is_finite());
         let turned = nodes.iter().any(|node| node.allowed.heading.is_finite());
         let sides = [Slack { distance: 0.0, multiplier: 0.0, change: 0.0 }; 2];
         let mut samples = Vec::with_capacity(nodes.len() + FEW_TURNS);
         for (index, node) in nodes.iter().enumerate() {
-            let &Node { point, tangent, curvature, slope, parameter, allowed, .. } = node;
+            let &CurveSample { point, tangent, curvature, slope, parameter, allowed, .. } = node;
             let mut keep =
-                |kept| samples.push(Sample { point, parameter, kept, basis: Vector4::zeros(), off: 0.0, sides });
+                |kept| samples.push(NodeSample { point, parameter, kept, basis: Vector4::zeros(), off: 0.0, sides });
             let (before, after) = (index.checked_sub(1).and_then(|index| nodes.get(index)), nodes.get(index + 1));
             let (back, ahead) = (reach(node, before, tolerance), reach(node, after, tolerance));
-            keep(Kept::Distance(Beside { tangent, curvature, slope, back, ahead }));
-            // Between the joints the curvature is farthest off where that of the curve turns back.
+            keep(NodeCondition::Distance(LocalCurve { tangent, curvature, slope, back, ahead }));
+            // Between the joints the error of the curvature is largest where the curvature of the curve has an extremum.
             let before = before.or(after);
             let turns = before.is_some_and(|other| other.best_heading.signum() != node.best_heading.signum());
             if turns && allowed.curvature.is_finite() {
-                keep(Kept::Curvature(curvature, allowed.curvature));
+                keep(NodeCondition::Curvature(curvature + allowed.middle, allowed.curvature));
             }
         }
         let kept: Vec<usize> =
@@ -361,13 +361,14 @@ impl Program {
         for sample in &mut samples {
             sample.sides = sides;
         }
-        let ends: Vec<End> = kept.into_iter().map(|bend| End { bend, off: 0.0, off_by: [0.0; 6], sides }).collect();
+        let ends: Vec<JointCondition> =
+            kept.into_iter().map(|bend| JointCondition { bend, off: 0.0, off_by: [0.0; 6], sides }).collect();
         let ends = if ends.is_empty() { Vec::new() } else { vec![ends; arcs] };
         Self { samples, ends, tolerance }
     }
 
     /// Every arc with its samples, up to the foot of its end.
-    fn by_arc<'a>(&'a mut self, trial: &'a Trial) -> impl Iterator<Item = (&'a Link, &'a mut [Sample])> {
+    fn by_arc<'a>(&'a mut self, trial: &'a ArcTrial) -> impl Iterator<Item = (&'a ChainArc, &'a mut [NodeSample])> {
         let mut rest = self.samples.as_mut_slice();
         trial.links.iter().zip(trial.parameters().skip(1)).map(move |(link, end)| {
             let all = std::mem::take(&mut rest);
@@ -380,7 +381,7 @@ impl Program {
     }
 
     /// Computes the deviation at every sample, and returns the largest, in tolerances.
-    fn measure(&mut self, trial: &Trial) -> f64 {
+    fn measure(&mut self, trial: &ArcTrial) -> f64 {
         let tolerance = self.tolerance;
         let mut worst = 0.0_f64;
         for (link, samples) in self.by_arc(trial) {
@@ -390,7 +391,7 @@ impl Program {
             }
         }
         for (index, ends) in self.ends.iter_mut().enumerate() {
-            let bends = trial.bends(index, tolerance);
+            let bends = trial.joint_misses(index, tolerance);
             for end in ends {
                 if let Some(bend) = bends.as_ref().and_then(|bends| bends.get(end.bend)) {
                     (end.off, end.off_by) = (bend.off, bend.off_by);
@@ -401,7 +402,7 @@ impl Program {
         worst
     }
 
-    /// Computes the slacks below a level, and returns how far the dual value lies below it, and the product of slack and
+    /// Computes the slacks below a level, and returns the distance of the dual value below it, and the product of slack and
     /// multiplier to aim at.
     fn slacks(&mut self, level: f64, arcs: usize) -> (f64, f64) {
         let mut product = 0.0;
@@ -426,9 +427,9 @@ impl Program {
     /// Newton's step for the freedoms and the multipliers of the openings, and for the level.
     ///
     /// The multipliers of the samples are eliminated; the level is a border of the band.
-    fn direction(&mut self, trial: &Trial, aim: f64) -> (Step, f64) {
+    fn direction(&mut self, trial: &ArcTrial, aim: f64) -> (ChainStep, f64) {
         let arcs = trial.links.len();
-        let mut matrix = Blocks::with_capacity(arcs + 1);
+        let mut matrix = BlockMatrix::with_capacity(arcs + 1);
         // The right-hand side, and the border of the level.
         let mut right = Vec::with_capacity(arcs + 1);
         #[expect(clippy::cast_precision_loss, reason = "below the largest number of nodes")]
@@ -437,18 +438,18 @@ impl Program {
         let (mut rows, mut side) = (HELD, [[0.0; 2]; GROUP]);
         rows[FREEDOMS][FREEDOMS] = 1.0;
         for (index, (link, samples)) in self.by_arc(trial).enumerate() {
-            let mut pressed = Pressed::by(samples, aim);
+            let mut pressed = ArcNormalEquations::by(samples, aim);
             pressed.spread(&link.off_by);
             for end in ends.get(index).into_iter().flatten() {
-                pressed.press(&end.off_by, &Push::of(&end.sides, aim));
+                pressed.press(&end.off_by, &BarrierForces::of(&end.sides, aim));
             }
             (corner, excess) = (corner + pressed.corner, excess + pressed.excess);
             let mut next = if index + 1 == arcs { HELD } else { [[0.0; PAIR]; GROUP] };
-            let mut beside = [[0.0; 2]; GROUP];
-            pressed.add_to((&mut rows, &mut side), (&mut next, &mut beside), link);
+            let mut next_side = [[0.0; 2]; GROUP];
+            pressed.add_to((&mut rows, &mut side), (&mut next, &mut next_side), link);
             matrix.push(rows);
             right.push(side);
-            (rows, side) = (next, beside);
+            (rows, side) = (next, next_side);
         }
         matrix.push(rows);
         right.push(side);
@@ -461,10 +462,10 @@ impl Program {
             across += edge * border;
         }
         let rise = (excess - along) / (corner - across);
-        (Step(right.iter().map(|joint| joint.map(|[r, b]| r - b * rise)).collect()), rise)
+        (ChainStep(right.iter().map(|joint| joint.map(|[r, b]| r - b * rise)).collect()), rise)
     }
 
-    /// Changes the multipliers by a share of what is kept with the samples.
+    /// Changes the multipliers by a share of the changes stored with the samples.
     fn press_on(&mut self, share: f64) {
         let press = |sides: &mut [Slack; 2]| {
             for side in sides {
@@ -475,8 +476,8 @@ impl Program {
         self.ends.iter_mut().flatten().for_each(|end| press(&mut end.sides));
     }
 
-    /// Shares of a step that slacks and multipliers allow; the changes of the multipliers are kept with the samples.
-    fn shares(&mut self, trial: &Trial, step: &Step, rise: f64, aim: f64) -> (f64, f64) {
+    /// Shares of a step that slacks and multipliers allow; the changes of the multipliers are stored with the samples.
+    fn shares(&mut self, trial: &ArcTrial, step: &ChainStep, rise: f64, aim: f64) -> (f64, f64) {
         let (mut primal, mut dual) = (1.0_f64, 1.0_f64);
         let least = |share: &mut f64, most: f64| {
             if most < *share {
@@ -510,18 +511,18 @@ impl Program {
     }
 }
 
-impl Sample {
-    /// Computes what is kept, in what is allowed of it, and its basis.
-    fn measure(&mut self, link: &Link, tolerance: f64) {
-        let (basis, distance) = link.arc.seen_from(self.point);
+impl NodeSample {
+    /// Computes the error of the sampled quantity over its allowed value, and its basis.
+    fn measure(&mut self, link: &ChainArc, tolerance: f64) {
+        let (basis, distance) = link.arc.basis_at(self.point);
         (self.basis, self.off) = match &self.kept {
-            Kept::Distance(beside) => {
-                let along = beside.way_to_top(link, [basis.y, basis.z], distance);
-                let there = if along == 0.0 { self.point } else { beside.point(self.point, along) };
-                let (basis, distance) = link.arc.seen_from(there);
+            NodeCondition::Distance(local) => {
+                let along = local.way_to_top(link, [basis.y, basis.z], distance);
+                let there = if along == 0.0 { self.point } else { local.point(self.point, along) };
+                let (basis, distance) = link.arc.basis_at(there);
                 (basis, distance / tolerance)
             }
-            &Kept::Curvature(curvature, allowed) => {
+            &NodeCondition::Curvature(curvature, allowed) => {
                 (Vector4::new(0.0, 0.0, 0.0, -2.0 * tolerance / allowed), (link.arc.curvature - curvature) / allowed)
             }
         };
@@ -532,9 +533,9 @@ impl Sample {
 mod tests {
     use super::*;
     use crate::geometry::arcs::nodes::sample;
-    use crate::geometry::{Allowed, CurvePoint};
+    use crate::geometry::{ChainTolerance, CurvePoint};
 
-    /// The third order of a node stays beside the curve over its reach, on an ellipse, whose curvature changes by a factor of 3.4,
+    /// The third order of a node stays close to the curve over its reach, on an ellipse, whose curvature changes by a factor of 3.4,
     /// and over decades of the tolerance. Twice the share: the estimate of what is left leaves out what is smaller by one more order.
     #[test]
     fn a_node_shows_the_curve_as_far_as_it_reaches() {
@@ -547,17 +548,17 @@ mod tests {
                 Vector2::new(-a * cos, -b * sin),
                 Vector2::new(a * sin, -b * cos),
             );
-            (frame, Allowed::ANY)
+            (frame, ChainTolerance::ANY)
         };
         for tolerance in [1e-1, 1e-3, 1e-6] {
             let (nodes, _) = sample(&ellipse, (0.2, 3.0), tolerance, tolerance).expect("nodes");
             let mut farthest = 0.0_f64;
             for pair in nodes.windows(2) {
                 for (node, other, side) in [(&pair[0], &pair[1], 1.0), (&pair[1], &pair[0], -1.0)] {
-                    let &Node { tangent, curvature, slope, .. } = node;
+                    let &CurveSample { tangent, curvature, slope, .. } = node;
                     let way = reach(node, Some(other), tolerance);
-                    let beside = Beside { tangent, curvature, slope, back: way, ahead: way };
-                    let point = beside.point(node.point, side * way);
+                    let local = LocalCurve { tangent, curvature, slope, back: way, ahead: way };
+                    let point = local.point(node.point, side * way);
                     // To first order the distance from a² and b² of the implicit equation.
                     let (x, y) = (point.x / a, point.y / b);
                     let off = (x * x + y * y - 1.0) / (2.0 * libm::hypot(x / a, y / b));

@@ -5,7 +5,7 @@
 //! Along an arc the deviation e(s) from the curve obeys e'' = κ_arc − κ(s), so a chain of tangent arcs is, to first
 //! order, a C¹ spline of second degree with free knots, and e''' = −κ' on each arc. Where κ' is constant the best such
 //! chain repeats itself: e = −κ'/6 · s (s − h/2)(s − h) on each arc of length h, two equal lobes of κ'h³/(72√3). The
-//! joints lie on the curve, the heading there is off the curve's tangent by η* = −κ'h²/12. With K = 72√3 an arc may be
+//! joints lie on the curve, the heading there differs from the curve's tangent by η* = −κ'h²/12. With K = 72√3 an arc may be
 //! h = (K tol/|κ'|)^(1/3) long, so that the count is
 //!
 //! ```text
@@ -15,11 +15,11 @@
 //! # The method
 //!
 //! The curve is sampled once, at nodes of equal share of I₃ (`nodes`). The number of arcs and the places of their joints
-//! are known to first order, the arcs at an exact tangent and those over an extremum of the curvature too (`spacing`).
-//! From there joints and headings are moved together until no node is off by more than the tolerance (`trial`, `minimax`);
-//! where that cannot be, one more arc is tried. Tangency is a condition of the same system, and is met to rounding in the end.
+//! are known to first order, including the arcs at an exact tangent and those over an extremum of the curvature (`spacing`).
+//! From there joints and headings are moved together until no node deviates by more than the tolerance (`trial`, `minimax`);
+//! where that is impossible, one more arc is tried. Tangency is a condition of the same system, and is finally met to rounding.
 //!
-//! The distance at a node is that of the top of its lobe, as far as half way to the next node, so that the lobes are seen to
+//! The distance at a node is that of the top of its lobe, as far as half way to the next node, so that the lobes are found to
 //! a percent. The finished chain is checked again between the nodes, and fitted again with the places that exceed the
 //! tolerance as further nodes.
 
@@ -29,46 +29,48 @@ mod spacing;
 mod trial;
 
 use crate::geometry::contour::{Edge, Segment};
-use crate::geometry::{Allowed, CurvePoint};
+use crate::geometry::{ChainTolerance, CurvePoint};
 use crate::numeric::extremum::larger;
 use nalgebra::Vector2;
-use nodes::{Arc, Node, sample};
-use spacing::Spacing;
+use nodes::{CurveSample, TangentArc, sample};
+use spacing::ArcSpacing;
 
-/// Share of the tolerance that the lobes may take as seen at the nodes; the rest is what is not seen there.
+/// Share of the tolerance that the lobes may take at the nodes; the rest is for deviations between them.
 const SEEN: f64 = 0.992;
 /// Points per arc at which the finished chain is checked.
 const CHECKS_PER_ARC: u32 = 16;
 const FEWER_CHECKS: u32 = 4;
-/// Further nodes beyond which less is taken as well.
+/// Most additional nodes; beyond them fewer than required are accepted.
 const MANY: usize = 200;
-/// Share of the tolerance that may lie unseen between two of them, twice what a lobe leaves, and how often a stretch is
-/// halved for it at the most.
+/// Share of the tolerance that may remain undetected between two of them, twice what a lobe leaves, and how often a stretch is
+/// halved at most to reach it.
 const UNSEEN: f64 = 0.004;
 const HALVINGS: u32 = 12;
 /// How often a chain is fitted again when the check between the nodes finds more than the tolerance.
 const TRIES: u32 = 12;
-/// Most arcs that are tried, over the first number: far beyond any that was ever needed.
+/// Most arcs that are tried, over the first number: far more than was ever needed.
 const MOST_TIMES: u32 = 4;
 const MOST_MORE: u32 = 60;
-/// Of the arcs that a deviation says are missing, the share that is added before the next try, and the largest share of all arcs: of 152
-/// such leaps among 296 none went too far.
+/// Share of the missing arcs, estimated from a deviation, that is added before the next try, and the largest share of all arcs: of 152
+/// such leaps among 296 none was too large.
 const SURE: f64 = 0.5;
 const MOST_AT_ONCE: u32 = 8;
-/// A distance so many times that of the best chain for heading and curvature is as good as none.
+/// A tolerance of the distance this many times that of the best chain for heading and curvature has no effect.
 const ROOMY: f64 = 10.0;
-/// That many roundings of a coordinate at the least.
+/// At least this many roundings of a coordinate.
 const LEAST_ROOM: f64 = 1e5;
-/// One arc in so many does not matter: a fifth of a percent.
+/// One arc in this many does not matter: a fifth of a percent.
 const FEW: u32 = 500;
-/// A piece of a smaller share may be a circle, which its headings show; one with a feature between them has more.
+/// A piece with a smaller share may be a circle, which its headings show; a piece with a feature between them has more.
 const CIRCLE: f64 = 0.1;
-/// Headings closer than this are one, rad: a circle is seen as a circle with rounding.
+/// An arc that bulges by less than this share of half its chord is a line: a straight curve is sampled with rounding.
+const STRAIGHT: f64 = 1e-12;
+/// Headings closer than this count as equal, rad: a circle is sampled with rounding.
 const SAME_HEADING: f64 = 1e-10;
 
 /// One joint of a chain: the arc that leaves it turns by 4 atan(bulge).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Joint {
+pub struct ArcJoint {
     /// Place.
     pub point: Vector2<f64>,
     /// Parameter of the curve there.
@@ -79,36 +81,36 @@ pub struct Joint {
 
 /// A fitted piece.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Chain {
+pub struct ArcChain {
     /// Start of every arc; the last ends where the piece ends.
-    pub joints: Vec<Joint>,
-    /// Largest distance between chain and curve, checked between the nodes, with a bound for what lies between.
+    pub joints: Vec<ArcJoint>,
+    /// Largest distance between chain and curve, checked between the nodes, with a bound for the places between.
     pub deviation: f64,
     /// Best possible number of arcs N* for the distance; 0 for a circle.
     pub best_possible: f64,
-    /// The same for heading and curvature: ∫ (|κ'|/(12 ε))^(1/2) ds and ∫ |κ'|/(2 ε) ds; 0 where they do not matter.
+    /// Best possible numbers of arcs for heading and curvature: ∫ (|κ'|/(12 ε))^(1/2) ds and ∫ |κ'|/(2 ε) ds; 0 where they do not matter.
     pub best_for: [f64; 2],
 }
 
-impl Chain {
+impl ArcChain {
     /// Its arcs, the last of which ends at a point.
     #[must_use]
     pub fn edges(&self, end: Vector2<f64>) -> Vec<Edge> {
         let ends = self.joints.iter().skip(1).map(|joint| joint.point).chain([end]);
-        let arc = |(joint, end): (&Joint, Vector2<f64>)| {
+        let arc = |(joint, end): (&ArcJoint, Vector2<f64>)| {
             Edge::Segment(Segment { start: joint.point, end, bulge: joint.bulge })
         };
         self.joints.iter().zip(ends).map(arc).collect()
     }
 }
 
-/// A curve by its parameter, and what a chain may miss of it beside the distance.
-trait Target {
-    fn at(&self, parameter: f64) -> (CurvePoint, Allowed);
+/// A curve by its parameter, and the allowed errors of a chain in addition to the distance.
+trait FitTarget {
+    fn at(&self, parameter: f64) -> (CurvePoint, ChainTolerance);
 }
 
-impl<F: Fn(f64) -> (CurvePoint, Allowed)> Target for F {
-    fn at(&self, parameter: f64) -> (CurvePoint, Allowed) {
+impl<F: Fn(f64) -> (CurvePoint, ChainTolerance)> FitTarget for F {
+    fn at(&self, parameter: f64) -> (CurvePoint, ChainTolerance) {
         self(parameter)
     }
 }
@@ -120,10 +122,10 @@ pub enum FitError {
     /// The curve is not finite or turns back.
     #[error("the curve is not smooth near parameter {parameter}")]
     NotSmooth {
-        /// Where.
+        /// Parameter of the place.
         parameter: f64,
     },
-    /// The tolerance asks for more arcs than a drawing can hold, or lies in the rounding of the coordinates.
+    /// The tolerance requires more arcs than a drawing can hold, or is below the rounding of the coordinates.
     #[error(
         "a tolerance of {tolerance} cannot be kept: it must lie between 64 times the rounding of the coordinates and 1 mm"
     )]
@@ -133,36 +135,36 @@ pub enum FitError {
     },
 }
 
-/// Fits the piece of `curve` over `range`, growing parameters, which need not be short but must not close on itself. The
+/// Fits the piece of `curve` over `range`, of growing parameters, which need not be short but must not close on itself. The
 /// tolerance is in the unit of the curve.
 ///
 /// # Errors
 /// [`FitError`] when the curve is not smooth or the tolerance cannot be kept.
-pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Result<Chain, FitError> {
-    let anything = |parameter: f64| (curve(parameter), Allowed::ANY);
+pub fn fit(curve: impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Result<ArcChain, FitError> {
+    let anything = |parameter: f64| (curve(parameter), ChainTolerance::ANY);
     fit_within(&anything, &curve, range, tolerance)
 }
 
-/// As [`fit`], of a curve that also tells what the chain may miss beside the distance at a parameter. The curvature is kept at
+/// As [`fit`], for a curve that also gives the allowed errors in addition to the distance at a parameter. The curvature is kept at
 /// the joints and the extrema of the curve's, between which it is monotonic, the heading at the joints: between two the error of the
 /// distance is a cubic, whose slope is largest at its ends.
 ///
 /// # Errors
 /// As [`fit`].
-pub fn fit_allowed(
-    curve: impl Fn(f64) -> (CurvePoint, Allowed),
+pub fn fit_with_tolerances(
+    curve: impl Fn(f64) -> (CurvePoint, ChainTolerance),
     range: (f64, f64),
     tolerance: f64,
-) -> Result<Chain, FitError> {
+) -> Result<ArcChain, FitError> {
     fit_within(&curve, &|parameter| curve(parameter).0, range, tolerance)
 }
 
 fn fit_within(
-    target: &impl Target,
+    target: &impl FitTarget,
     curve: &impl Fn(f64) -> CurvePoint,
     range: (f64, f64),
     tolerance: f64,
-) -> Result<Chain, FitError> {
+) -> Result<ArcChain, FitError> {
     let (start, end) = (curve(range.0), curve(range.1));
     let size = start.point.norm().max(end.point.norm());
     if !(tolerance > 64.0 * f64::EPSILON * size) {
@@ -172,15 +174,15 @@ fn fit_within(
     let mut missed = Vec::new();
     for _ in 0..TRIES {
         let (mut nodes, counts) = sample(target, range, tolerance, seen)?;
-        let limited = nodes.iter().any(|node| node.allowed != Allowed::ANY);
+        let limited = nodes.iter().any(|node| node.allowed != ChainTolerance::ANY);
         if counts.all < CIRCLE
             && let Some(chain) = one_arc(curve, range, tolerance)
         {
             return Ok(chain);
         }
         nodes::insert(&mut nodes, target, &missed, seen);
-        // Where heading or curvature ask for shorter arcs these miss the curve by less; a tolerance far above that would only
-        // make the numbers of the method unlike each other.
+        // Where heading or curvature require shorter arcs, these miss the curve by less; a tolerance far above that would only
+        // make the numbers of the method differ in size.
         let within = if limited {
             let farthest = nodes::farthest_lobe(&nodes);
             seen.min((ROOMY * farthest).max(LEAST_ROOM * f64::EPSILON * size))
@@ -190,12 +192,12 @@ fn fit_within(
         let Some(joints) = fewest(target, &nodes, within) else {
             return Err(FitError::ToleranceTooFine { tolerance });
         };
-        // Arcs that are shorter than the distance asks for miss it by little, and less is looked for there.
+        // Arcs that are shorter than the distance requires have small deviations, which need less effort.
         let checks = if limited { FEWER_CHECKS } else { CHECKS_PER_ARC };
         let (deviation, mut beyond) = check(curve, &joints, (range.1, end.point), tolerance, checks);
         if deviation <= tolerance {
             let best_for = [counts.heading, counts.curvature];
-            return Ok(Chain { joints, deviation, best_possible: counts.distance, best_for });
+            return Ok(ArcChain { joints: straightened(joints), deviation, best_possible: counts.distance, best_for });
         }
         if beyond.is_empty() || missed.len() > MANY {
             seen *= (tolerance / deviation).clamp(0.5, 0.995);
@@ -205,17 +207,17 @@ fn fit_within(
     Err(FitError::ToleranceTooFine { tolerance })
 }
 
-/// The first chain that the minimax finds, from the least number of arcs that may do.
-fn fewest(target: &impl Target, nodes: &[Node], seen: f64) -> Option<Vec<Joint>> {
-    let mut spacing = Spacing::new(nodes);
+/// The first chain that the minimax finds, starting from the least number of arcs that may be sufficient.
+fn fewest(target: &impl FitTarget, nodes: &[CurveSample], seen: f64) -> Option<Vec<ArcJoint>> {
+    let mut spacing = ArcSpacing::new(nodes);
     let first = spacing.arcs();
     while spacing.arcs() <= MOST_TIMES * first + MOST_MORE {
         let least = match minimax::relax(target, nodes, seen, spacing.places(nodes)) {
             Ok(joints) => return Some(joints),
             Err(least) => least,
         };
-        // One by one where a chain must be near, faster where one among thousands does not matter or the curve is not what
-        // the spacing expects.
+        // One by one where a chain must be near, faster where one among thousands does not matter or the curve differs from
+        // the assumptions of the spacing.
         let arcs = spacing.arcs();
         for _ in 0..(1 + arcs / FEW + (arcs - first) / 8).max(missing(arcs, least)) {
             spacing.add_arc();
@@ -224,8 +226,8 @@ fn fewest(target: &impl Target, nodes: &[Node], seen: f64) -> Option<Vec<Joint>>
     None
 }
 
-/// How many more arcs are missing at the least where so many leave a deviation, in tolerances, of which their number's third power would
-/// take off the most.
+/// The least number of additional arcs, where the present number leaves a deviation, in tolerances, that falls at most with the third
+/// power of the number.
 fn missing(arcs: u32, deviation: f64) -> u32 {
     let wanted = SURE * f64::from(arcs) * (libm::cbrt(deviation) - 1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "limited to a share of the arcs")]
@@ -234,42 +236,55 @@ fn missing(arcs: u32, deviation: f64) -> u32 {
 }
 
 /// The piece as one arc, when it is a circle to rounding.
-fn one_arc(curve: &impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Option<Chain> {
+fn one_arc(curve: &impl Fn(f64) -> CurvePoint, range: (f64, f64), tolerance: f64) -> Option<ArcChain> {
     let (start, end) = (curve(range.0), curve(range.1));
-    let (arc, heading) = Arc::to(start.point, start.tangent, end.point)?;
+    let (arc, heading) = TangentArc::to(start.point, start.tangent, end.point)?;
     if (heading - end.tangent).norm() > SAME_HEADING {
         return None;
     }
-    let joints = vec![Joint { point: start.point, parameter: range.0, bulge: arc.bulge }];
+    let joints = vec![ArcJoint { point: start.point, parameter: range.0, bulge: arc.bulge }];
     let (deviation, _) = check(curve, &joints, (range.1, end.point), tolerance, CHECKS_PER_ARC);
-    (deviation <= tolerance).then_some(Chain { joints, deviation, best_possible: 0.0, best_for: [0.0; 2] })
+    let chain = ArcChain { joints: straightened(joints), deviation, best_possible: 0.0, best_for: [0.0; 2] };
+    (deviation <= tolerance).then_some(chain)
+}
+
+/// The joints with lines in place of arcs that bulge by rounding.
+fn straightened(mut joints: Vec<ArcJoint>) -> Vec<ArcJoint> {
+    for joint in joints.iter_mut().filter(|joint| joint.bulge.abs() < STRAIGHT) {
+        joint.bulge = 0.0;
+    }
+    joints
 }
 
 /// Largest distance between the chain and the curve, and the parameters where it exceeds the tolerance.
 ///
-/// Each arc, as its two points and its bulge give it, is compared with its stretch of the curve at
-/// so many points and one more. Between two of them the distance cannot exceed the larger by more than
-/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points. Where that may be more than what was found
-/// elsewhere and is not small against the tolerance the stretch is halved. A NaN anywhere is the result.
+/// Each arc, as given by its two points and its bulge, is compared with its stretch of the curve at
+/// this many points plus one. Between two of them the distance cannot exceed the larger by more than
+/// Δs²/8 · |κ_arc − κ|, the bound of linear interpolation, κ taken at the points. Where that may exceed the largest distance
+/// found elsewhere and is not small against the tolerance the stretch is halved. A NaN anywhere is the result.
 fn check(
     curve: &impl Fn(f64) -> CurvePoint,
-    joints: &[Joint],
+    joints: &[ArcJoint],
     end: (f64, Vector2<f64>),
     tolerance: f64,
     checks: u32,
 ) -> (f64, Vec<f64>) {
     let mut beyond = Vec::new();
-    let mut compared = |arc: &Arc, place: f64, frame: &CurvePoint| {
+    let mut compared = |arc: &TangentArc, place: f64, frame: &CurvePoint| {
         let distance = arc.distance(frame.point).abs();
         if distance > tolerance {
             beyond.push(place);
         }
-        Checked { place, distance, bend: frame.speed * frame.speed / 8.0 * (arc.curvature - frame.curvature).abs() }
+        ArcComparison {
+            place,
+            distance,
+            bend: frame.speed * frame.speed / 8.0 * (arc.curvature - frame.curvature).abs(),
+        }
     };
     let ends = joints.iter().skip(1).map(|joint| (joint.parameter, joint.point)).chain([end]);
     let mut looks = Vec::with_capacity(joints.len());
     let mut worst = 0.0;
-    // A joint is a place of both arcs.
+    // A joint belongs to both arcs.
     let mut first = joints.first().map(|joint| curve(joint.parameter));
     for (joint, (parameter, point)) in joints.iter().zip(ends) {
         let arc = arc_of(joint, point);
@@ -295,34 +310,34 @@ fn check(
     (worst, beyond)
 }
 
-/// The arc from a joint to a point, as its bulge gives it.
-fn arc_of(joint: &Joint, end: Vector2<f64>) -> Arc {
+/// The arc from a joint to a point, with its bulge.
+fn arc_of(joint: &ArcJoint, end: Vector2<f64>) -> TangentArc {
     let segment = Segment { start: joint.point, end, bulge: joint.bulge };
     let curvature = if joint.bulge == 0.0 { 0.0 } else { 1.0 / segment.radius() };
-    Arc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge }
+    TangentArc { start: joint.point, heading: segment.start_tangent(), curvature, bulge: joint.bulge }
 }
 
 /// A point of the curve that was compared with an arc.
 #[derive(Clone, Copy)]
-struct Checked {
+struct ArcComparison {
     place: f64,
     distance: f64,
-    /// |κ_arc − κ| ℓ²/8: times the square of a step of the parameter it bounds what is not seen.
+    /// |κ_arc − κ| ℓ²/8: times the square of a step of the parameter it bounds the undetected deviation.
     bend: f64,
 }
 
-/// Largest distance between two points, with the bound for what lies between; no closer where it is less than what is known.
+/// Largest distance between two points, with the bound for the places between; not refined where it is less than what is known.
 fn between(
-    at: &mut impl FnMut(f64) -> Checked,
-    a: Checked,
-    b: Checked,
+    at: &mut impl FnMut(f64) -> ArcComparison,
+    a: ArcComparison,
+    b: ArcComparison,
     (tolerance, known): (f64, f64),
     halvings: u32,
 ) -> f64 {
     let step = b.place - a.place;
     let unseen = step * step * larger(a.bend, b.bend);
     let seen = larger(a.distance, b.distance);
-    // A distance already beyond the tolerance need not be refined. Written so that a NaN is not either.
+    // A distance beyond the tolerance already need not be refined. Written so that a NaN is not refined either.
     let refined = seen + unseen > known && unseen > UNSEEN * tolerance && seen <= tolerance;
     if !refined || halvings == 0 {
         return seen + unseen;
@@ -350,7 +365,7 @@ mod tests {
         }
     }
 
-    fn contour(chain: &Chain, end: Vector2<f64>) -> Vec<Segment> {
+    fn contour(chain: &ArcChain, end: Vector2<f64>) -> Vec<Segment> {
         let ends = chain.joints.iter().skip(1).map(|joint| joint.point).chain([end]);
         chain.joints.iter().zip(ends).map(|(j, end)| Segment { start: j.point, end, bulge: j.bulge }).collect()
     }
@@ -408,7 +423,7 @@ mod tests {
         };
         let line = fit(line, (0.0, 9.0), 1e-6).expect("a chain");
         assert_eq!(line.joints.len(), 1);
-        assert!(line.joints[0].bulge.abs() < 1e-16);
+        assert_eq!(line.joints[0].bulge, 0.0);
     }
 
     /// A long circle has no share at all, a sharp tip hardly one; a chain must not turn by a half circle in one arc.
@@ -467,7 +482,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_fitted_is_told() {
+    fn what_cannot_be_fitted_is_refused() {
         let curve = ellipse(60.0, 40.0);
         assert!(matches!(fit(&curve, (0.0, 1.0), 1e-14), Err(FitError::ToleranceTooFine { .. })));
         assert!(matches!(fit(&curve, (0.0, 1.0), f64::NAN), Err(FitError::ToleranceTooFine { .. })));

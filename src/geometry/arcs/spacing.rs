@@ -6,43 +6,43 @@
 //! of an arc of three lobes, e = −κ''/24 (s⁴ − a²s² + b), which is 1.56 shares long. Between two such places the number
 //! of arcs is whole, so that each stretch has a scale of its own.
 
-use super::nodes::Node;
-use super::trial::Place;
+use super::nodes::CurveSample;
+use super::trial::JointPlace;
 
-/// What the arc at an exact tangent is shorter by.
+/// By how much the arc at an exact tangent is shorter.
 const CLAMPED: f64 = 0.31;
-/// What an arc over an extremum of the curvature reaches to either side.
+/// How far an arc over an extremum of the curvature extends to either side.
 const HALF_OVER: f64 = 0.78;
-/// Shares between two extrema, or an extremum and an end, at the least; nearer ones are passed over. Tried from 0.5 to 1.5
-/// and from 0.2 to 0.7 on 1552 pieces: these leave the fewest arcs, by one in fifty pieces.
+/// Least shares between two extrema, or an extremum and an end; nearer ones are ignored. Tried from 0.5 to 1.5
+/// and from 0.2 to 0.7 on 1552 pieces: these give the fewest arcs, by one in fifty pieces.
 const LEAST_BETWEEN: f64 = 1.0;
 const LEAST_AT_END: f64 = 0.2;
 
-/// Steepest heading against the curve to start from: where κ' changes within an arc, that of a node may be none of a chain.
+/// Steepest heading relative to the curve to start from: where κ' changes within an arc, that of a node may not fit any chain.
 const STEEPEST: f64 = 0.3;
 
-/// Cosine of the turn between two joints from where on more are put between them.
+/// Cosine of the turn between two joints beyond which more joints are inserted.
 const SHARPEST: f64 = -0.9;
 
 /// A stretch between the ends of the piece and the extrema of its curvature.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct CurvatureStretch {
     from: f64,
     to: f64,
     /// Whether it begins and ends at an end of the piece, not at an extremum.
     clamped: (bool, bool),
-    /// Arcs that lie in it whole.
+    /// Whole arcs in it.
     arcs: u32,
 }
 
-impl Stretch {
-    /// What its ends take of it beside its whole arcs, in arcs.
+impl CurvatureStretch {
+    /// How much its ends take in addition to its whole arcs, in arcs.
     fn taken(&self) -> f64 {
         let end = |clamped| if clamped { -CLAMPED } else { HALF_OVER };
         end(self.clamped.0) + end(self.clamped.1)
     }
 
-    /// Shares to the arc.
+    /// Shares per arc.
     fn scale(&self) -> f64 {
         (self.to - self.from) / (f64::from(self.arcs) + self.taken())
     }
@@ -50,11 +50,11 @@ impl Stretch {
 
 /// The stretches of a piece.
 #[derive(Debug, Clone)]
-pub(super) struct Spacing(Vec<Stretch>);
+pub(super) struct ArcSpacing(Vec<CurvatureStretch>);
 
-impl Spacing {
-    /// The least number of arcs that may do.
-    pub(super) fn new(nodes: &[Node]) -> Self {
+impl ArcSpacing {
+    /// The least number of arcs that may be sufficient.
+    pub(super) fn new(nodes: &[CurveSample]) -> Self {
         let total = nodes.last().map_or(0.0, |node| node.share);
         let mut bounds: Vec<f64> = Vec::new();
         let signs = nodes.iter().filter(|node| node.best_heading != 0.0);
@@ -64,7 +64,7 @@ impl Spacing {
             }
             let share = 0.5 * (before.share + node.share);
             match bounds.last() {
-                // Two extrema close together count as none.
+                // Two extrema close together are ignored.
                 Some(last) if share - last < LEAST_BETWEEN => _ = bounds.pop(),
                 None if share < LEAST_AT_END => {}
                 _ => bounds.push(share),
@@ -78,7 +78,7 @@ impl Spacing {
         let last = bounds.len();
         let stretches = starts.zip(ends).enumerate().map(|(index, (from, to))| {
             let clamped = (index == 0, index == last);
-            Stretch { from, to, clamped, arcs: u32::from(clamped.0 && clamped.1) }
+            CurvatureStretch { from, to, clamped, arcs: u32::from(clamped.0 && clamped.1) }
         });
         let mut spacing = Self(stretches.collect());
         #[expect(clippy::cast_precision_loss, reason = "few extrema")]
@@ -95,7 +95,7 @@ impl Spacing {
         whole + u32::try_from(self.0.len()).unwrap_or(u32::MAX) - 1
     }
 
-    /// One arc more, where they are longest.
+    /// Adds one arc where the arcs are longest.
     pub(super) fn add_arc(&mut self) {
         if let Some(widest) = self.0.iter_mut().max_by(|a, b| a.scale().total_cmp(&b.scale())) {
             widest.arcs += 1;
@@ -103,20 +103,20 @@ impl Spacing {
     }
 
     /// Every joint, on the curve with the heading of the best chain; at the ends with that of the curve.
-    pub(super) fn places(&self, nodes: &[Node]) -> Vec<Place> {
+    pub(super) fn places(&self, nodes: &[CurveSample]) -> Vec<JointPlace> {
         let mut pairs = nodes.iter().zip(nodes.iter().skip(1)).peekable();
         let mut place = |(share, scale): (f64, f64)| {
             while pairs.next_if(|(_, after)| after.share < share).is_some() {}
             let (before, after) = pairs.peek()?;
             let part = ((share - before.share) / (after.share - before.share).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
             let between = |a: f64, b: f64| a + part * (b - a);
-            Some(Place {
+            Some(JointPlace {
                 parameter: between(before.parameter, after.parameter),
                 offset: 0.0,
                 slope: (between(before.best_heading, after.best_heading) * scale * scale).clamp(-STEEPEST, STEEPEST),
             })
         };
-        let mut places: Vec<Place> = nodes.iter().take(1).map(Place::at).collect();
+        let mut places: Vec<JointPlace> = nodes.iter().take(1).map(JointPlace::at).collect();
         for stretch in &self.0 {
             let scale = stretch.scale();
             let first = if stretch.clamped.0 { -CLAMPED } else { HALF_OVER };
@@ -124,22 +124,22 @@ impl Spacing {
             let joints = (skip..most).map(|arc| (stretch.from + (first + f64::from(arc)) * scale, scale));
             places.extend(joints.filter_map(&mut place));
         }
-        places.extend(nodes.last().map(Place::at));
+        places.extend(nodes.last().map(JointPlace::at));
         within_half_circles(places, nodes)
     }
 }
 
-/// Puts further joints where the curve turns by almost a half circle from one to the next: a sharp tip of constant curvature
-/// has hardly a share.
-fn within_half_circles(places: Vec<Place>, nodes: &[Node]) -> Vec<Place> {
-    let node_at = |place: &Place| nodes.get(nodes.partition_point(|node| node.parameter < place.parameter));
-    let mut result: Vec<Place> = Vec::with_capacity(places.len());
+/// Inserts further joints where the curve turns by almost half a circle from one to the next: a sharp tip of constant curvature
+/// has almost no share.
+fn within_half_circles(places: Vec<JointPlace>, nodes: &[CurveSample]) -> Vec<JointPlace> {
+    let node_at = |place: &JointPlace| nodes.get(nodes.partition_point(|node| node.parameter < place.parameter));
+    let mut result: Vec<JointPlace> = Vec::with_capacity(places.len());
     for place in places {
         if let (Some(from), Some(to)) = (result.last().and_then(node_at), node_at(&place))
             && from.tangent.dot(&to.tangent) < SHARPEST
         {
             let middle = |part: f64| from.parameter + part * (to.parameter - from.parameter);
-            let further = [0.25, 0.5, 0.75].map(|part| Place { parameter: middle(part), offset: 0.0, slope: 0.0 });
+            let further = [0.25, 0.5, 0.75].map(|part| JointPlace { parameter: middle(part), offset: 0.0, slope: 0.0 });
             result.extend(further);
         }
         result.push(place);

@@ -3,53 +3,53 @@
 //! A joint is free in three ways: along the curve, across it, and in its heading. An arc is given by both of its points and
 //! the heading at its start; the chain is tangent when its other heading has the same angle with the chord.
 
-use super::nodes::{Arc, Node};
-use super::{Joint, Target};
-use crate::geometry::{Allowed, CurvePoint};
-use crate::numeric::banded::Banded;
+use super::nodes::{CurveSample, TangentArc};
+use super::{ArcJoint, FitTarget};
+use crate::geometry::{ChainTolerance, CurvePoint};
+use crate::numeric::banded::BandedMatrix;
 use crate::numeric::extremum::larger;
 use nalgebra::{Vector2, Vector4};
 
 /// Newton steps that close a chain to rounding: each squares the openings.
 const CLOSING_STEPS: u32 = 4;
-/// A chain is closed when no heading is off by more, rad: half of what the joints are promised.
+/// A chain counts as closed when no heading differs by more, rad: half of the accuracy promised for the joints.
 const CLOSED: f64 = 5e-10;
-/// Roundings of a coordinate that a heading may be off by beside that.
+/// Additional difference of a heading, in roundings of a coordinate.
 const ROUNDINGS: f64 = 4.0;
-/// No further step is of use here, rad.
+/// Below this no further step helps, rad.
 const ROUNDING: f64 = 1e-13;
 
-/// A joint by its place along the curve, its offset to the left and the tangent of its heading against the curve's.
+/// A joint by its place along the curve, its offset to the left and the tangent of its heading relative to the curve's.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct JointPlace {
     pub(super) parameter: f64,
     pub(super) offset: f64,
     pub(super) slope: f64,
 }
 
-impl Place {
+impl JointPlace {
     /// On the curve, with its heading.
-    pub(super) fn at(node: &Node) -> Self {
+    pub(super) fn at(node: &CurveSample) -> Self {
         Self { parameter: node.parameter, offset: 0.0, slope: 0.0 }
     }
 }
 
 /// A joint in the plane.
 #[derive(Debug)]
-struct Stand {
-    place: Place,
+struct PlaneJoint {
+    place: JointPlace,
     frame: CurvePoint,
     point: Vector2<f64>,
     heading: Vector2<f64>,
-    allowed: Allowed,
-    /// Half the sum of the chords beside it, the length its freedoms are measured by.
+    allowed: ChainTolerance,
+    /// Half the sum of its two chords, the length in which its freedoms are measured.
     length: f64,
-    /// At an end of the piece, where it has no freedoms.
+    /// Whether it is at an end of the piece, where it has no freedoms.
     held: bool,
 }
 
-impl Stand {
-    fn new(target: &impl Target, place: Place) -> Self {
+impl PlaneJoint {
+    fn new(target: &impl FitTarget, place: JointPlace) -> Self {
         let (frame, allowed) = target.at(place.parameter);
         let left = -frame.outward();
         let heading = (frame.tangent + left * place.slope).normalize();
@@ -57,7 +57,7 @@ impl Stand {
     }
 
     /// Change of the point and of the angle of the heading with the three freedoms: along the curve by the length, across
-    /// it by the tolerance, in heading by the tolerance over the length; none where it is held.
+    /// it by the tolerance, in heading by the tolerance over the length; 0 where it is fixed.
     fn freedoms(&self, tolerance: f64) -> [(Vector2<f64>, f64); 3] {
         if self.held {
             return [(Vector2::zeros(), 0.0); 3];
@@ -72,9 +72,9 @@ impl Stand {
     }
 
     /// The place after a step of the freedoms.
-    fn moved(&self, [along, across, turn, _]: [f64; 4], share: f64, tolerance: f64) -> Place {
-        let Place { parameter, offset, slope } = self.place;
-        Place {
+    fn moved(&self, [along, across, turn, _]: [f64; 4], share: f64, tolerance: f64) -> JointPlace {
+        let JointPlace { parameter, offset, slope } = self.place;
+        JointPlace {
             parameter: parameter + share * along * self.length / self.frame.speed,
             offset: offset + share * across * tolerance,
             slope: slope + share * turn * tolerance / self.length,
@@ -82,25 +82,25 @@ impl Stand {
     }
 }
 
-/// An arc of the chain with its derivatives by the six freedoms of its two joints, 0 by those of a joint that is held.
+/// An arc of the chain with its derivatives by the six freedoms of its two joints, 0 by those of a fixed joint.
 #[derive(Debug)]
-pub(super) struct Link {
-    pub(super) arc: Arc,
+pub(super) struct ChainArc {
+    pub(super) arc: TangentArc,
     chord: f64,
     /// Half the difference of the angles of headings and chord, in tolerances over the chord, and its derivatives, both to
-    /// first order in what is open.
+    /// first order in the opening.
     pub(super) open: f64,
     pub(super) open_by: [f64; 6],
-    /// Derivatives of the deviation, in tolerances, as factors of 1, a, b, a² + b², see [`Arc::seen_from`].
+    /// Derivatives of the deviation, in tolerances, as factors of 1, a, b, a² + b², see [`TangentArc::basis_at`].
     pub(super) off_by: [Vector4<f64>; 6],
 }
 
-impl Link {
-    fn new(start: &Stand, end: &Stand, tolerance: f64) -> Option<Self> {
+impl ChainArc {
+    fn new(start: &PlaneJoint, end: &PlaneJoint, tolerance: f64) -> Option<Self> {
         let v = end.point - start.point;
         let (square, chord) = (v.norm_squared(), v.norm());
-        let (arc, _) = Arc::to(start.point, start.heading, end.point)?;
-        let Arc { heading, curvature, bulge, .. } = arc;
+        let (arc, _) = TangentArc::to(start.point, start.heading, end.point)?;
+        let TangentArc { heading, curvature, bulge, .. } = arc;
         let unit = chord / tolerance;
         let arrival = v.perp(&end.heading) / (chord + v.dot(&end.heading));
         let open = unit * (arrival - bulge) / (1.0 + arrival * bulge);
@@ -124,20 +124,20 @@ impl Link {
     }
 }
 
-/// How much an arc misses the curvature, or the heading, of the curve at one of its joints, in what is allowed, and its derivatives
-/// by the six freedoms.
+/// By how much an arc misses the curvature, or the heading, of the curve at one of its joints, over the allowed error, and its
+/// derivatives by the six freedoms.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Bend {
+pub(super) struct JointMiss {
     pub(super) off: f64,
     pub(super) off_by: [f64; 6],
 }
 
-/// A step of every freedom of a chain: four numbers a joint, its three freedoms and the multiplier of the opening of the arc that ends
+/// A step of every freedom of a chain: four numbers per joint, its three freedoms and the multiplier of the opening of the arc that ends
 /// there.
 #[derive(Debug, Clone)]
-pub(super) struct Step(pub(super) Vec<[f64; 4]>);
+pub(super) struct ChainStep(pub(super) Vec<[f64; 4]>);
 
-impl Step {
+impl ChainStep {
     /// The six freedoms of both joints of an arc.
     pub(super) fn of_arc(&self, index: usize) -> [f64; 6] {
         match self.0.get(index..).unwrap_or_default() {
@@ -149,18 +149,18 @@ impl Step {
 
 /// A chain with its arcs.
 #[derive(Debug)]
-pub(super) struct Trial {
-    stands: Vec<Stand>,
-    pub(super) links: Vec<Link>,
+pub(super) struct ArcTrial {
+    stands: Vec<PlaneJoint>,
+    pub(super) links: Vec<ChainArc>,
 }
 
-impl Trial {
-    /// `None` when the joints are out of order or an arc is longer than a half circle.
-    pub(super) fn new(target: &impl Target, places: &[Place], tolerance: f64) -> Option<Self> {
+impl ArcTrial {
+    /// `None` when the joints are out of order or an arc is longer than half a circle.
+    pub(super) fn new(target: &impl FitTarget, places: &[JointPlace], tolerance: f64) -> Option<Self> {
         if !places.is_sorted_by(|a, b| a.parameter < b.parameter) {
             return None;
         }
-        let mut stands: Vec<Stand> = places.iter().map(|place| Stand::new(target, *place)).collect();
+        let mut stands: Vec<PlaneJoint> = places.iter().map(|place| PlaneJoint::new(target, *place)).collect();
         let pairs = stands.iter().zip(stands.iter().skip(1));
         let chords: Vec<f64> = pairs.map(|(a, b)| (b.point - a.point).norm()).collect();
         let before = chords.iter().take(1).chain(&chords);
@@ -172,25 +172,28 @@ impl Trial {
             (first.held, last.held) = (true, true);
         }
         let pairs = stands.iter().zip(stands.iter().skip(1));
-        let links = pairs.map(|(start, end)| Link::new(start, end, tolerance)).collect::<Option<Vec<Link>>>()?;
+        let links =
+            pairs.map(|(start, end)| ChainArc::new(start, end, tolerance)).collect::<Option<Vec<ChainArc>>>()?;
         Some(Self { stands, links })
     }
 
-    /// Misses of the curvature at both joints of an arc, and of the heading at the later one.
-    pub(super) fn bends(&self, index: usize, tolerance: f64) -> Option<[Bend; 3]> {
+    /// Errors of the curvature at both joints of an arc, and of the heading at the later one.
+    pub(super) fn joint_misses(&self, index: usize, tolerance: f64) -> Option<[JointMiss; 3]> {
         let (link, start, end) = (self.links.get(index)?, self.stands.get(index)?, self.stands.get(index + 1)?);
-        let bend = |stand: &Stand, along: usize| {
-            let allowed = stand.allowed.curvature;
+        let bend = |stand: &PlaneJoint, along: usize| {
+            let ChainTolerance { curvature: allowed, middle, slopes: [middle_slope, growth], .. } = stand.allowed;
+            let off = (link.arc.curvature - stand.frame.curvature - middle) / allowed;
             let mut off_by = link.off_by.map(|by| -2.0 * tolerance * by.w / allowed);
-            // The joint moves along the curve, whose curvature changes.
+            // The joint moves along the curve, whose curvature changes, and what is allowed with it.
             if let Some(by) = off_by.get_mut(along).filter(|_| !stand.held) {
-                *by -= stand.frame.curvature_slope * stand.length / allowed;
+                *by -= (stand.frame.curvature_slope + middle_slope) * stand.length / allowed;
+                *by -= off * growth * stand.length;
             }
-            Bend { off: (link.arc.curvature - stand.frame.curvature) / allowed, off_by }
+            JointMiss { off, off_by }
         };
         let slope = end.place.slope;
         let by = if end.held { 0.0 } else { tolerance / (end.length * (1.0 + slope * slope) * end.allowed.heading) };
-        let turn = Bend { off: libm::atan(slope) / end.allowed.heading, off_by: [0.0, 0.0, 0.0, 0.0, 0.0, by] };
+        let turn = JointMiss { off: libm::atan(slope) / end.allowed.heading, off_by: [0.0, 0.0, 0.0, 0.0, 0.0, by] };
         Some([bend(start, 0), bend(end, 3), turn])
     }
 
@@ -204,29 +207,29 @@ impl Trial {
         self.stands.iter().map(|stand| stand.place.parameter)
     }
 
-    /// What a step does to the deviation from an arc, as factors of the basis.
-    pub(super) fn change(&self, index: usize, step: &Step) -> Vector4<f64> {
+    /// The change of the deviation from an arc with a step, as factors of the basis.
+    pub(super) fn change(&self, index: usize, step: &ChainStep) -> Vector4<f64> {
         let Some(link) = self.links.get(index) else { return Vector4::zeros() };
         link.off_by.iter().zip(step.of_arc(index)).fold(Vector4::zeros(), |sum, (off_by, by)| sum + off_by * by)
     }
 
-    /// Share of a step that moves no joint along the curve by more than `most` of the shorter chord beside it.
-    pub(super) fn careful(&self, step: &Step, most: f64) -> f64 {
-        let beside = self.links.iter().zip(self.links.iter().skip(1));
-        let of_joint = |([along, ..], (before, after)): (&[f64; 4], (&Link, &Link))| {
+    /// Share of a step that moves no joint along the curve by more than `most` of its shorter chord.
+    pub(super) fn step_share(&self, step: &ChainStep, most: f64) -> f64 {
+        let pairs = self.links.iter().zip(self.links.iter().skip(1));
+        let of_joint = |([along, ..], (before, after)): (&[f64; 4], (&ChainArc, &ChainArc))| {
             most * before.chord.min(after.chord) / (along.abs() * 0.5 * (before.chord + after.chord))
         };
-        step.0.iter().skip(1).zip(beside).map(of_joint).fold(1.0, f64::min)
+        step.0.iter().skip(1).zip(pairs).map(of_joint).fold(1.0, f64::min)
     }
 
     /// The joints after a share of a step.
-    pub(super) fn moved(&self, step: &Step, share: f64, tolerance: f64) -> Vec<Place> {
+    pub(super) fn moved(&self, step: &ChainStep, share: f64, tolerance: f64) -> Vec<JointPlace> {
         self.stands.iter().zip(&step.0).map(|(stand, step)| stand.moved(*step, share, tolerance)).collect()
     }
 
     /// The joints with the bulges of their arcs.
-    pub(super) fn joints(&self) -> Vec<Joint> {
-        let joint = |(stand, link): (&Stand, &Link)| Joint {
+    pub(super) fn joints(&self) -> Vec<ArcJoint> {
+        let joint = |(stand, link): (&PlaneJoint, &ChainArc)| ArcJoint {
             point: stand.point,
             parameter: stand.place.parameter,
             bulge: link.arc.bulge,
@@ -234,13 +237,13 @@ impl Trial {
         self.stands.iter().zip(&self.links).map(joint).collect()
     }
 
-    /// The chain made tangent by the least change of its freedoms; `None` when it cannot be.
-    pub(super) fn closed(&self, target: &impl Target, tolerance: f64) -> Option<Self> {
+    /// The chain made tangent by the least change of its freedoms; `None` where that is impossible.
+    pub(super) fn closed(&self, target: &impl FitTarget, tolerance: f64) -> Option<Self> {
         let close = |trial: &Self| Self::new(target, &trial.moved(&trial.closing_step(), 1.0, tolerance), tolerance);
         let off = |trial: &Self| {
-            // A chord that is short against its coordinates has no more digits in its heading.
-            let rounding = |link: &Link| ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
-            let of_link = |link: &Link| (link.open * tolerance / link.chord).abs() - rounding(link);
+            // The heading of a chord that is short relative to its coordinates is rounding.
+            let rounding = |link: &ChainArc| ROUNDINGS * f64::EPSILON * link.arc.start.norm() / link.chord;
+            let of_link = |link: &ChainArc| (link.open * tolerance / link.chord).abs() - rounding(link);
             trial.links.iter().map(of_link).fold(0.0, larger)
         };
         let mut closed = close(self)?;
@@ -254,11 +257,11 @@ impl Trial {
     }
 
     /// The shortest step x with c + A x = 0: x = Aᵀ y, A Aᵀ y = −c, a tridiagonal system.
-    fn closing_step(&self) -> Step {
+    fn closing_step(&self) -> ChainStep {
         let arcs = self.links.len();
-        let mut matrix = Banded::<2>::zero(arcs);
+        let mut matrix = BandedMatrix::<2>::zero(arcs);
         let mut forces: Vec<f64> = self.links.iter().map(|link| -link.open).collect();
-        let mut before: Option<&Link> = None;
+        let mut before: Option<&ChainArc> = None;
         for (index, link) in self.links.iter().enumerate() {
             matrix.add(index, index, link.open_by.iter().map(|open_by| open_by * open_by).sum());
             if let (Some(above), Some(before)) = (index.checked_sub(1), before) {
@@ -275,7 +278,7 @@ impl Trial {
                 *value += open_by * force;
             }
         }
-        Step(step)
+        ChainStep(step)
     }
 }
 
@@ -298,21 +301,21 @@ mod tests {
     #[test]
     fn the_derivatives_are_those_of_the_chain() {
         let tolerance = 1e-3;
-        let target = |t: f64| (curve(t), Allowed::ANY);
-        let place = |parameter, offset, slope| Place { parameter, offset, slope };
+        let target = |t: f64| (curve(t), ChainTolerance::ANY);
+        let place = |parameter, offset, slope| JointPlace { parameter, offset, slope };
         let places = [place(1.0, 0.0, 0.0), place(3.0, 4e-4, -1e-4), place(4.5, -3e-4, 2e-4), place(7.0, 0.0, 0.0)];
-        let open = Trial::new(&target, &places, tolerance).expect("in order");
+        let open = ArcTrial::new(&target, &places, tolerance).expect("in order");
         let trial = open.closed(&target, tolerance).expect("a chain");
         let point = curve(3.9).point;
-        let of = |trial: &Trial| (trial.links[1].open, trial.links[1].arc.seen_from(point).1 / tolerance);
+        let of = |trial: &ArcTrial| (trial.links[1].open, trial.links[1].arc.basis_at(point).1 / tolerance);
         for freedom in 0..6 {
             let small = 1e-6;
-            let mut step = Step(vec![[0.0; 4]; 4]);
+            let mut step = ChainStep(vec![[0.0; 4]; 4]);
             step.0[1 + freedom / 3][freedom % 3] = small;
-            let there = Trial::new(&target, &trial.moved(&step, 1.0, tolerance), tolerance).expect("in order");
-            let back = Trial::new(&target, &trial.moved(&step, -1.0, tolerance), tolerance).expect("in order");
+            let there = ArcTrial::new(&target, &trial.moved(&step, 1.0, tolerance), tolerance).expect("in order");
+            let back = ArcTrial::new(&target, &trial.moved(&step, -1.0, tolerance), tolerance).expect("in order");
             let ((open, off), (open_back, off_back)) = (of(&there), of(&back));
-            let basis = trial.links[1].arc.seen_from(point).0;
+            let basis = trial.links[1].arc.basis_at(point).0;
             let (by, wanted) = (trial.links[1].open_by[freedom], (open - open_back) / (2.0 * small));
             assert!((by - wanted).abs() < 1e-2 * (1.0 + wanted.abs()), "opening by {freedom}: {by} {wanted}");
             let (by, wanted) = (trial.change(1, &step).dot(&basis) / small, (off - off_back) / (2.0 * small));

@@ -2,7 +2,7 @@
 //!
 //! # How many
 //!
-//! Counted along the normal, a spline S that runs beside a curve C by nearly the same length is off it by e(s) with
+//! Measured along the normal, a spline S that runs along a curve C with nearly equal length deviates from it by e(s) with
 //! e⁗ = −f, f = κ'' − κ³ the part of C⁗ along the normal; e is twice continuously differentiable, and e''' jumps at the knots.
 //! Where f is constant the best such e repeats itself: a Bernoulli polynomial, e = f h⁴/24 (x⁴ − 2x³ + x² − 1/32) over a span of
 //! length h, whose
@@ -17,11 +17,11 @@
 //! # The method
 //!
 //! The curve is sampled once. For a number of spans knots are laid at equal shares of the density, and the control points found
-//! by least squares of the distances from the nodes, along the normals, each over what it may be; the places on the spline that
-//! the nodes see are then found again, and so on (`squares`). What is felt worse than elsewhere gets shorter spans. Along the
-//! curve the control points are nearly free, which is worth more than the count above says: a spline need not run by the length.
+//! by least squares of the distances from the nodes, along the normals, each over its allowed value; the places on the spline that
+//! the nodes project to are then found again, and so on (`squares`). Where the errors are larger than elsewhere the spans become shorter.
+//! Along the curve the control points are nearly free, which gives fewer spans than the count above: a spline need not run by the length.
 //!
-//! The first number of spans with which everything is kept is taken, and certified between the nodes (`measure`).
+//! The first number of spans with which every tolerance is kept is taken, and certified between the nodes (`measure`).
 
 mod measure;
 mod nodes;
@@ -30,23 +30,23 @@ mod spline;
 mod squares;
 
 pub use super::arcs::FitError;
-pub use runs::{Run, runs};
-pub use spline::Spline;
+pub use runs::{CurveRun, runs};
+pub use spline::CubicBSpline;
 
-use super::{Allowed, CurvePoint};
-use nodes::{Samples, sample};
+use super::{ChainTolerance, CurvePoint};
+use nodes::{SampledPiece, sample};
 
-/// Rounds of laying the knots anew, and of seeing the nodes from the spline again in each.
+/// Rounds of placing the knots, and of projecting the nodes to the spline in each.
 const KNOT_ROUNDS: u32 = 8;
-/// A round that finds nothing better in so many is the last.
+/// After this many rounds without improvement the search ends.
 const PATIENCE: u32 = 3;
-/// How much of a misfit the knots answer in a round.
+/// Exponent with which the knots react to a misfit in a round.
 const DAMPING: f64 = 0.7;
-/// Share of everything allowed that may be used as seen at the nodes; the rest is what is not seen there.
+/// Share of every allowed error that may be used at the nodes; the rest is for errors between them.
 const SEEN: f64 = 0.99;
 /// Where the search for the number of spans begins, over the number by theory.
 const FIRST_SHARE: f64 = 0.5;
-/// Up to so many spans no number is left out.
+/// Up to this many spans no number is skipped.
 const FEW: f64 = 16.0;
 /// Most spans that are tried, over the number by theory.
 const MOST_TIMES: f64 = 3.0;
@@ -54,11 +54,11 @@ const MOST_MORE: f64 = 40.0;
 
 /// A fitted piece.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fitted {
+pub struct FittedSpline {
     /// The spline, from the start of the curve to its end, tangent to it there.
-    pub spline: Spline,
-    /// Largest distance of any point of the one from the other, both ways, with a bound for what lies between the places of
-    /// checking.
+    pub spline: CubicBSpline,
+    /// Largest distance of any point of the one from the other, in both directions, with a bound for the places between those
+    /// that were checked.
     pub deviation: f64,
     /// Largest angle between the tangents, rad, with such a bound.
     pub heading: f64,
@@ -68,10 +68,10 @@ pub struct Fitted {
     pub by_theory: f64,
 }
 
-/// Fits the piece of `curve` over `range`, growing parameters, as one spline.
+/// Fits the piece of `curve` over `range`, of growing parameters, as one spline.
 ///
 /// It starts and ends where the curve does, with its tangents; is nowhere farther from it than `tolerance`, in the unit of the
-/// curve, nor the curve from it; and at no place off by more than `allowed` says, for a parameter and the point there, in
+/// curve, nor the curve from it; and nowhere exceeds the errors that `allowed` gives, for a parameter and the point there, in
 /// heading (rad) and curvature (over the unit).
 ///
 /// # Errors
@@ -80,8 +80,8 @@ pub fn fit(
     curve: impl Fn(f64) -> CurvePoint,
     range: (f64, f64),
     tolerance: f64,
-    allowed: &dyn Fn(f64, &CurvePoint) -> Allowed,
-) -> Result<Fitted, FitError> {
+    allowed: &dyn Fn(f64, &CurvePoint) -> ChainTolerance,
+) -> Result<FittedSpline, FitError> {
     let samples = sample(&curve, range, tolerance, allowed)?;
     let size = samples.nodes.iter().map(|node| node.frame.point.norm()).fold(0.0, f64::max);
     let too_fine = FitError::ToleranceTooFine { tolerance };
@@ -98,7 +98,7 @@ pub fn fit(
             let certified = measure::certify(&curve, &samples.nodes, seen_from, tolerance, allowed);
             if let Some(worst) = certified {
                 if worst.share <= 1.0 {
-                    return Ok(Fitted {
+                    return Ok(FittedSpline {
                         spline: trial.spline.clone(),
                         deviation: worst.distance,
                         heading: worst.heading,
@@ -109,7 +109,7 @@ pub fn fit(
                 seen = (seen * (1.0 / worst.share).clamp(0.5, 0.999)).max(0.5 * SEEN);
             }
         }
-        // One by one where one matters, else as many as the misfits ask for, but no big step near the end.
+        // One by one where one matters, otherwise as many as the misfits require, but no large step near the end.
         let wanted = found.map_or(spans * 1.25, |trial| trial.wanted);
         let next = if spans < FEW { spans } else { (spans + 0.5 * (wanted - spans)).floor() };
         spans = next.max(spans + 1.0);
@@ -117,10 +117,10 @@ pub fn fit(
     Err(too_fine)
 }
 
-/// The best spline with so many spans.
-fn best(samples: &Samples, spans: f64, tolerance: f64) -> Option<squares::Trial> {
+/// The best spline with this many spans.
+fn best(samples: &SampledPiece, spans: f64, tolerance: f64) -> Option<squares::SplineTrial> {
     let mut densities: Vec<f64> = samples.nodes.iter().map(|node| node.density).collect();
-    let mut found: Option<squares::Trial> = None;
+    let mut found: Option<squares::SplineTrial> = None;
     let mut since = 0;
     for _ in 0..KNOT_ROUNDS {
         let knots = squares::knots(&samples.nodes, &densities, spans);

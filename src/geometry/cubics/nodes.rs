@@ -1,30 +1,30 @@
-//! A piece of curve sampled once, so many nodes to a span, and how dense the spans must be at each.
+//! A piece of curve sampled once, with a fixed number of nodes per span, and the required density of spans at each.
 
 use super::FitError;
-use crate::geometry::{Allowed, CurvePoint};
+use crate::geometry::{ChainTolerance, CurvePoint};
 
-/// Nodes per span, and how many a piece has at the least.
+/// Nodes per span, and the least number in a piece.
 const NODES_PER_SPAN: f64 = 16.0;
 const LEAST_NODES: f64 = 48.0;
-/// Share of the nodes that is spread evenly over the piece, so that straight stretches are not empty.
+/// Share of the nodes that is spread evenly over the piece, so that straight stretches have nodes.
 const EVEN_SHARE: f64 = 0.1;
-/// Cells in which the density is summed up first, how near its sums come to each other, and how often cells are divided again.
+/// Cells in which the density is integrated first, the required agreement of its sums, and how often cells are divided again.
 const FIRST_CELLS: u32 = 96;
 const AGREEMENT: f64 = 0.02;
 const MOST_ROUNDS: u32 = 5;
-/// Most nodes: memory.
+/// Most nodes, to limit memory.
 const MOST_NODES: f64 = 2e6;
-/// Of e⁗ = 1 over spans of length 1: largest distance 1/768, heading √3/216 and second derivative 1/12, see the module.
+/// For e⁗ = 1 over spans of length 1: largest distance 1/768, heading √3/216 and second derivative 1/12, see the module.
 pub(super) const DISTANCE: f64 = 768.0;
 pub(super) const HEADING: f64 = 124.707_658_144_958_9;
 pub(super) const CURVATURE: f64 = 12.0;
 
 /// A place where the curve was sampled.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Node {
+pub(super) struct SplineNode {
     pub(super) frame: CurvePoint,
     pub(super) parameter: f64,
-    pub(super) allowed: Allowed,
+    pub(super) allowed: ChainTolerance,
     /// Length of the curve up to here.
     pub(super) length: f64,
     /// Spans per length of the curve up to the next node.
@@ -33,8 +33,8 @@ pub(super) struct Node {
 
 /// A sampled piece.
 #[derive(Debug, Clone)]
-pub(super) struct Samples {
-    pub(super) nodes: Vec<Node>,
+pub(super) struct SampledPiece {
+    pub(super) nodes: Vec<SplineNode>,
     /// Number of spans to first order.
     pub(super) spans: f64,
 }
@@ -44,8 +44,8 @@ pub(super) fn sample(
     curve: &impl Fn(f64) -> CurvePoint,
     range: (f64, f64),
     tolerance: f64,
-    allowed: &dyn Fn(f64, &CurvePoint) -> Allowed,
-) -> Result<Samples, FitError> {
+    allowed: &dyn Fn(f64, &CurvePoint) -> ChainTolerance,
+) -> Result<SampledPiece, FitError> {
     let step = (range.1 - range.0) / f64::from(FIRST_CELLS);
     let inner = (1..FIRST_CELLS).map(|cell| range.0 + step * f64::from(cell));
     let mut parameters: Vec<f64> = std::iter::once(range.0).chain(inner).chain([range.1]).collect();
@@ -67,9 +67,9 @@ fn at(
     curve: &impl Fn(f64) -> CurvePoint,
     parameters: &[f64],
     tolerance: f64,
-    allowed: &dyn Fn(f64, &CurvePoint) -> Allowed,
-) -> Result<Samples, FitError> {
-    let mut nodes: Vec<Node> = Vec::with_capacity(parameters.len());
+    allowed: &dyn Fn(f64, &CurvePoint) -> ChainTolerance,
+) -> Result<SampledPiece, FitError> {
+    let mut nodes: Vec<SplineNode> = Vec::with_capacity(parameters.len());
     let mut spans = 0.0;
     for &parameter in parameters {
         let frame = curve(parameter);
@@ -78,7 +78,7 @@ fn at(
         if !(frame.speed > 0.0 && finite.iter().all(|value| value.is_finite())) {
             return Err(FitError::NotSmooth { parameter });
         }
-        let mut node = Node { frame, parameter, allowed: allowed(parameter, &frame), length: 0.0, density: 0.0 };
+        let mut node = SplineNode { frame, parameter, allowed: allowed(parameter, &frame), length: 0.0, density: 0.0 };
         if let Some(last) = nodes.last_mut() {
             let own = length(&last.frame, &frame);
             node.length = last.length + own;
@@ -87,10 +87,10 @@ fn at(
         }
         nodes.push(node);
     }
-    Ok(Samples { nodes, spans })
+    Ok(SampledPiece { nodes, spans })
 }
 
-/// Length of the curve between two near points: the chord, and what an arc of their mean curvature is longer.
+/// Length of the curve between two near points: the chord, plus the excess of an arc of their mean curvature.
 fn length(a: &CurvePoint, b: &CurvePoint) -> f64 {
     let chord = (b.point - a.point).norm();
     let turn = 0.5 * (a.curvature + b.curvature) * chord;
@@ -98,8 +98,8 @@ fn length(a: &CurvePoint, b: &CurvePoint) -> f64 {
 }
 
 /// Spans per length between two nodes. The part of the fourth derivative along the normal, by the length, is κ'' − κ³; the mean
-/// of κ'' is what κ' changes by, over the length.
-fn density(a: &Node, b: &Node, length: f64, tolerance: f64) -> f64 {
+/// of κ'' is the change of κ' over the length.
+fn density(a: &SplineNode, b: &SplineNode, length: f64, tolerance: f64) -> f64 {
     let curvature = 0.5 * (a.frame.curvature + b.frame.curvature);
     let fourth = ((b.frame.curvature_slope - a.frame.curvature_slope) / length - curvature.powi(3)).abs();
     if !fourth.is_finite() {
@@ -112,7 +112,7 @@ fn density(a: &Node, b: &Node, length: f64, tolerance: f64) -> f64 {
     by_distance.max(by_heading).max(by_curvature)
 }
 
-impl Samples {
+impl SampledPiece {
     /// Parameters of nodes of equal share, some of them spread evenly; `None` when they are too many.
     fn next(&self, range: (f64, f64)) -> Option<Vec<f64>> {
         let count = (NODES_PER_SPAN * self.spans).ceil() + LEAST_NODES;

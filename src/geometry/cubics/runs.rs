@@ -1,52 +1,52 @@
-//! The edges of a chain in as few curves as they make: cubic curves that go on smoothly are one spline.
+//! The edges of a chain as few curves: cubic curves that join smoothly become one spline.
 
-use super::Spline;
+use super::CubicBSpline;
 use crate::geometry::contour::{Contour, Cubic, Edge, Segment};
 use nalgebra::Vector2;
 
-/// Two cubic curves are one spline where their tangents are parallel to this, rad, and their second derivatives are one to this
-/// share of the legs beside: far above rounding, far below what the two sides of a break of the law differ by.
+/// Two cubic curves become one spline where their tangents are parallel to this, rad, and their second derivatives agree to this
+/// share of the adjacent legs: far above rounding, far below the difference between the two sides of a break of the law.
 const PARALLEL: f64 = 1e-9;
 const SMOOTH: f64 = 1e-9;
 
 /// A part of a chain that is one curve.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Run {
+pub enum CurveRun {
     /// An arc or a line.
     Segment(Segment),
     /// Cubic curves in a row, twice continuously differentiable.
-    Spline(Spline),
+    Spline(CubicBSpline),
 }
 
 /// The parts of a chain in order.
 #[must_use]
-pub fn runs(contour: &Contour) -> Vec<Run> {
+pub fn runs(contour: &Contour) -> Vec<CurveRun> {
     let mut found = Vec::new();
     let mut row: Vec<(Cubic, f64)> = Vec::new();
     for edge in contour.edges() {
         match edge {
             Edge::Segment(segment) => {
-                found.extend(joined(&std::mem::take(&mut row)).map(Run::Spline));
-                found.push(Run::Segment(segment));
+                found.extend(joined(&std::mem::take(&mut row)).map(CurveRun::Spline));
+                found.push(CurveRun::Segment(segment));
             }
             Edge::Cubic(cubic) => {
                 let width = row.last().and_then(|(before, width)| goes_on(before, *width, &cubic));
                 if width.is_none() {
-                    found.extend(joined(&std::mem::take(&mut row)).map(Run::Spline));
+                    found.extend(joined(&std::mem::take(&mut row)).map(CurveRun::Spline));
                 }
                 row.push((cubic, width.unwrap_or_else(|| cubic.legs().map(|leg| leg.norm()).iter().sum())));
             }
         }
     }
-    found.extend(joined(&row).map(Run::Spline));
+    found.extend(joined(&row).map(CurveRun::Spline));
     found
 }
 
-/// The width of the span that a cubic curve takes behind another of a width, where they are one spline.
+/// The width of the span of a cubic curve that follows another of a given width, where they form one spline.
 fn goes_on(before: &Cubic, width: f64, after: &Cubic) -> Option<f64> {
     let ([_, a, b], [c, d, _]) = (before.legs(), after.legs());
     let (arrives, leaves) = (b.norm(), c.norm());
-    // With one tangent and one speed.
+    // With equal tangents and equal speeds.
     let next = width * leaves / arrives;
     let parallel = b.dot(&c) > 0.0 && b.perp(&c).abs() <= PARALLEL * arrives * leaves;
     let off = (b - a) * (next / width) - (d - c) * (width / next);
@@ -55,7 +55,7 @@ fn goes_on(before: &Cubic, width: f64, after: &Cubic) -> Option<f64> {
 
 /// The spline of cubic curves with the widths of their spans: its control points are the blossoms at three knots in a row
 /// (L. Ramshaw, 1987), of which the first two bound one of the curves.
-fn joined(row: &[(Cubic, f64)]) -> Option<Spline> {
+fn joined(row: &[(Cubic, f64)]) -> Option<CubicBSpline> {
     let ((first, _), (last, _)) = (row.first()?, row.last()?);
     let mut controls: Vec<Vector2<f64>> = first.points.iter().take(2).copied().collect();
     for ((cubic, width), (_, next)) in row.iter().zip(row.iter().skip(1)) {
@@ -72,7 +72,7 @@ fn joined(row: &[(Cubic, f64)]) -> Option<Spline> {
     let mut knots = vec![0.0; 4];
     knots.extend(inner.iter().take(inner.len() - 1));
     knots.extend([end; 4]);
-    Some(Spline { knots, controls })
+    Some(CubicBSpline { knots, controls })
 }
 
 #[cfg(test)]
@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn a_spline_is_found_again() {
         let at = |x: f64, y: f64| Vector2::new(x, y);
-        let spline = Spline {
+        let spline = CubicBSpline {
             knots: vec![0.0, 0.0, 0.0, 0.0, 3.0, 5.0, 9.0, 12.0, 12.0, 12.0, 12.0],
             controls: vec![
                 at(0.0, 0.0),
@@ -104,7 +104,7 @@ mod tests {
         let contour = Contour { vertices };
         let found = runs(&contour);
         assert_eq!(found.len(), 3);
-        let Run::Spline(again) = &found[0] else { panic!("a spline: {found:?}") };
+        let CurveRun::Spline(again) = &found[0] else { panic!("a spline: {found:?}") };
         let factor = again.knots[10] / 12.0;
         for (a, b) in again.knots.iter().zip(&spline.knots) {
             assert!((a - b * factor).abs() < 1e-12, "{again:?}");

@@ -2,16 +2,16 @@
 
 use nalgebra::Vector2;
 
-/// Newton steps to the place that a point sees, and how near to it counts as there, over the size of the curve.
+/// Newton steps to the place that a point projects to, and how near to it counts as there, over the size of the curve.
 const STEPS: u32 = 12;
 const THERE: f64 = 1e-15;
 
-/// Controls that bear on one span.
+/// Control points that affect one span.
 pub(super) const ORDER: usize = 4;
 
 /// A polynomial B-spline of degree 3, twice continuously differentiable, clamped at both ends.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spline {
+pub struct CubicBSpline {
     /// The knots, the first and the last four times each; the same unit as the curve.
     pub knots: Vec<f64>,
     /// The control points.
@@ -19,26 +19,26 @@ pub struct Spline {
 }
 
 /// Point and the first three derivatives by the parameter.
-pub(super) type Derivatives = [Vector2<f64>; 4];
+pub(super) type SplineDerivatives = [Vector2<f64>; 4];
 
 /// One span as a polynomial in the distance from its first knot.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Span {
+pub(super) struct SplineSpan {
     /// Its first and last knot.
     pub(super) from: f64,
     pub(super) to: f64,
-    coefficients: Derivatives,
+    coefficients: SplineDerivatives,
 }
 
-impl Span {
-    pub(super) fn at(&self, parameter: f64) -> Derivatives {
+impl SplineSpan {
+    pub(super) fn at(&self, parameter: f64) -> SplineDerivatives {
         let x = parameter - self.from;
         let [a, b, c, d] = self.coefficients;
         [a + (b + (c + d * x) * x) * x, b + (c * 2.0 + d * (3.0 * x)) * x, c * 2.0 + d * (6.0 * x), d * 6.0]
     }
 }
 
-impl Spline {
+impl CubicBSpline {
     /// How many polynomials it consists of.
     #[must_use]
     pub fn spans(&self) -> usize {
@@ -48,13 +48,13 @@ impl Spline {
     /// Its polynomials as cubic Bézier curves: start, the two inner control points, end.
     #[must_use]
     pub fn pieces(&self) -> Vec<[Vector2<f64>; 4]> {
-        let piece = |span: Span| {
+        let piece = |span: SplineSpan| {
             let third = (span.to - span.from) / 3.0;
             let ([start, leaves, ..], [end, arrives, ..]) = (span.at(span.from), span.at(span.to));
             [start, start + leaves * third, end - arrives * third, end]
         };
         let mut pieces: Vec<[Vector2<f64>; 4]> = self.polynomials().into_iter().map(piece).collect();
-        // Where two meet they have one point, and at the ends the control points themselves.
+        // Adjacent ones share a point, and at the ends it is the control point itself.
         if let (Some(first), Some(start)) = (pieces.first_mut(), self.controls.first()) {
             first[0] = *start;
         }
@@ -68,7 +68,7 @@ impl Spline {
         pieces
     }
 
-    /// The same curve run the other way.
+    /// The spline in the opposite sense.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let (first, last) = (self.knots.first().copied().unwrap_or(0.0), self.knots.last().copied().unwrap_or(0.0));
@@ -79,14 +79,14 @@ impl Spline {
     }
 
     /// Its spans as polynomials, in order.
-    pub(super) fn polynomials(&self) -> Vec<Span> {
+    pub(super) fn polynomials(&self) -> Vec<SplineSpan> {
         (0..self.spans()).filter_map(|span| self.polynomial(span)).collect()
     }
 
-    fn polynomial(&self, span: usize) -> Option<Span> {
+    fn polynomial(&self, span: usize) -> Option<SplineSpan> {
         let from = *self.knots.get(span + ORDER - 1)?;
         let to = *self.knots.get(span + ORDER)?;
-        let basis = Basis::new(&self.knots, span, from);
+        let basis = SpanBasis::new(&self.knots, span, from);
         let mut coefficients = [Vector2::zeros(); 4];
         for (index, control) in self.controls.iter().skip(span).take(ORDER).enumerate() {
             for (sum, row) in coefficients.iter_mut().zip(&basis.derivatives) {
@@ -94,17 +94,17 @@ impl Spline {
             }
         }
         let [a, b, c, d] = coefficients;
-        Some(Span { from, to, coefficients: [a, b, c / 2.0, d / 6.0] })
+        Some(SplineSpan { from, to, coefficients: [a, b, c / 2.0, d / 6.0] })
     }
 }
 
-/// The four functions that bear on a span, at a place, with their first three derivatives.
-pub(super) struct Basis {
+/// The four functions that are not 0 on a span, at a place, with their first three derivatives.
+pub(super) struct SpanBasis {
     /// By order of the derivative, then by control point.
     pub(super) derivatives: [[f64; ORDER]; ORDER],
 }
 
-impl Basis {
+impl SpanBasis {
     /// Cox and de Boor's recursion, and the differences of the lower degrees (Piegl, Tiller, The NURBS Book, (2.5), (2.7)).
     pub(super) fn new(knots: &[f64], span: usize, x: f64) -> Self {
         // Knots t₋₂ … t₃ about the span [t₀, t₁].
@@ -140,8 +140,8 @@ impl Basis {
     }
 }
 
-/// The parameter at which the spline crosses the line through a point square to a direction, near a first guess.
-pub(super) fn hit(polynomials: &[Span], point: Vector2<f64>, tangent: Vector2<f64>, guess: f64) -> Option<f64> {
+/// The parameter at which the spline crosses the normal line at a point, near a first guess.
+pub(super) fn hit(polynomials: &[SplineSpan], point: Vector2<f64>, tangent: Vector2<f64>, guess: f64) -> Option<f64> {
     let (first, last) = (polynomials.first()?.from, polynomials.last()?.to);
     let mut parameter = guess.clamp(first, last);
     for _ in 0..STEPS {
@@ -174,7 +174,7 @@ mod tests {
         let at = |x: f64, y: f64| Vector2::new(x, y);
         let controls =
             vec![at(0.0, 0.0), at(1.0, 2.0), at(2.0, -1.0), at(4.0, 3.0), at(5.0, 1.0), at(7.0, 0.0), at(8.0, 2.0)];
-        let spline = Spline { knots, controls };
+        let spline = CubicBSpline { knots, controls };
         assert_eq!(spline.spans(), 4);
         let spans = spline.polynomials();
         for pair in spans.windows(2) {
@@ -201,7 +201,7 @@ mod tests {
         assert!((back.polynomials()[1].at(2.0)[0] - spans[2].at(3.0)[0]).norm() < 1e-13);
         // The functions add up to 1, their derivatives to 0.
         for x in [1.0, 1.2, 1.5] {
-            let basis = Basis::new(&spline.knots, 1, x);
+            let basis = SpanBasis::new(&spline.knots, 1, x);
             for (order, row) in basis.derivatives.iter().enumerate() {
                 let expected = if order == 0 { 1.0 } else { 0.0 };
                 assert!((row.iter().sum::<f64>() - expected).abs() < 1e-13);

@@ -1,40 +1,40 @@
 //! The control points of a spline on given knots by least squares of its distances from the nodes.
 
 use super::measure::difference;
-use super::nodes::{CURVATURE, DISTANCE, HEADING, Node};
-use super::spline::{Basis, ORDER, Span, Spline, hit};
-use crate::numeric::banded::Banded;
+use super::nodes::{CURVATURE, DISTANCE, HEADING, SplineNode};
+use super::spline::{CubicBSpline, ORDER, SpanBasis, SplineSpan, hit};
+use crate::numeric::banded::BandedMatrix;
 use crate::numeric::extremum::larger;
 use nalgebra::Vector2;
 
-/// Times the nodes are seen from the spline anew.
+/// How often the nodes are projected to the spline again.
 const ROUNDS: u32 = 4;
-/// Weight of the distances along the curve beside those along the normals, after the first round.
+/// Weight of the distances along the curve relative to those along the normals, after the first round.
 const ALONG: f64 = 0.02;
-/// A knot is that far from the next at the least, over an even share.
+/// Least distance between knots, over an even share.
 const LEAST_SPAN: f64 = 1e-3;
 
-/// A spline with what it misses the curve by at the nodes.
+/// A spline with its errors at the nodes.
 #[derive(Debug, Clone)]
-pub(super) struct Trial {
-    pub(super) spline: Spline,
-    pub(super) polynomials: Vec<Span>,
-    /// Parameter of the spline that each node sees along its normal.
+pub(super) struct SplineTrial {
+    pub(super) spline: CubicBSpline,
+    pub(super) polynomials: Vec<SplineSpan>,
+    /// Parameter of the spline where the normal of each node meets it.
     pub(super) seen: Vec<f64>,
-    /// Largest share of what is allowed that is used, as seen at the nodes.
+    /// Largest used share of an allowed error, at the nodes.
     pub(super) worst: f64,
-    /// How many times as many spans each node asks for.
-    asked: Vec<f64>,
-    /// How many spans are asked for together.
+    /// By which factor each node requires more spans.
+    required: Vec<f64>,
+    /// How many spans are required together.
     pub(super) wanted: f64,
 }
 
-/// Knots at equal shares of the densities, so many spans.
-pub(super) fn knots(nodes: &[Node], densities: &[f64], spans: f64) -> Vec<f64> {
+/// Knots at equal shares of the densities, for this many spans.
+pub(super) fn knots(nodes: &[SplineNode], densities: &[f64], spans: f64) -> Vec<f64> {
     let end = nodes.last().map_or(0.0, |node| node.length);
     let cells = nodes.iter().zip(nodes.iter().skip(1)).zip(densities);
     let total: f64 = cells.clone().map(|((a, b), density)| density * (b.length - a.length)).sum();
-    // Where nothing asks for a span they are laid evenly.
+    // Where no spans are required, knots are placed evenly.
     let floor = LEAST_SPAN * total.max(1.0) / end;
     let whole = total + floor * end;
     let mut knots = vec![0.0; ORDER];
@@ -52,36 +52,36 @@ pub(super) fn knots(nodes: &[Node], densities: &[f64], spans: f64) -> Vec<f64> {
     knots
 }
 
-/// Gives the densities what the nodes of a trial ask for.
-pub(super) fn shift(densities: &mut [f64], trial: &Trial, damping: f64) {
-    // Per span the most that is asked in it.
+/// Adjusts the densities to the requirements of the nodes of a trial.
+pub(super) fn shift(densities: &mut [f64], trial: &SplineTrial, damping: f64) {
+    // For each span, the largest requirement in it.
     let mut index = 0;
     let mut most = vec![0.0_f64; trial.polynomials.len()];
     let mut owners = Vec::with_capacity(trial.seen.len());
-    for (seen, asked) in trial.seen.iter().zip(&trial.asked) {
+    for (seen, required) in trial.seen.iter().zip(&trial.required) {
         while trial.polynomials.get(index).is_some_and(|span| *seen > span.to) && index + 1 < most.len() {
             index += 1;
         }
         if let Some(entry) = most.get_mut(index) {
-            *entry = entry.max(*asked);
+            *entry = entry.max(*required);
         }
         owners.push(index);
     }
     for (density, owner) in densities.iter_mut().zip(owners) {
-        let asked = most.get(owner).copied().unwrap_or(1.0).clamp(0.3, 3.0);
-        *density *= libm::pow(asked, damping);
+        let required = most.get(owner).copied().unwrap_or(1.0).clamp(0.3, 3.0);
+        *density *= libm::pow(required, damping);
     }
 }
 
-/// What a control point may do: it is `base` + `ways` · x.
+/// The freedom of a control point: it is `base` + `ways` · x.
 #[derive(Debug, Clone, Copy)]
-struct Control {
+struct ControlFreedom {
     base: Vector2<f64>,
     ways: [Vector2<f64>; 2],
 }
 
-/// Control points along the curve, with what they may do: the ends stay, and the ones beside them move along the end tangents.
-fn free(nodes: &[Node], knots: &[f64]) -> Option<Vec<Control>> {
+/// Control points along the curve, with their freedoms: the ends are fixed, and their neighbours move along the end tangents.
+fn free(nodes: &[SplineNode], knots: &[f64]) -> Option<Vec<ControlFreedom>> {
     let (first, last) = (nodes.first()?, nodes.last()?);
     let (start, end) = (first.frame, last.frame);
     let count = knots.len() - ORDER;
@@ -99,16 +99,16 @@ fn free(nodes: &[Node], knots: &[f64]) -> Option<Vec<Control>> {
         } else {
             (near(nodes, place)?, [Vector2::x(), Vector2::y()])
         };
-        Some(Control { base, ways })
+        Some(ControlFreedom { base, ways })
     };
     (0..count).map(control).collect()
 }
 
-/// The spline on these knots; `None` when there is none that runs forwards.
-pub(super) fn solve(nodes: &[Node], knots: &[f64], tolerance: f64) -> Option<Trial> {
+/// The spline on these knots; `None` when no spline runs forwards.
+pub(super) fn solve(nodes: &[SplineNode], knots: &[f64], tolerance: f64) -> Option<SplineTrial> {
     let mut controls = free(nodes, knots)?;
     let mut seen: Vec<f64> = nodes.iter().map(|node| node.length).collect();
-    let spline_of = |controls: &[Control]| Spline {
+    let spline_of = |controls: &[ControlFreedom]| CubicBSpline {
         knots: knots.to_vec(),
         controls: controls.iter().map(|control| control.base).collect(),
     };
@@ -117,7 +117,7 @@ pub(super) fn solve(nodes: &[Node], knots: &[f64], tolerance: f64) -> Option<Tri
         step(nodes, knots, &seen, &mut controls, along, tolerance);
         look(nodes, &spline_of(&controls).polynomials(), &mut seen)?;
     }
-    let forwards = |pair: Option<&[Control]>, tangent: Vector2<f64>| match pair {
+    let forwards = |pair: Option<&[ControlFreedom]>, tangent: Vector2<f64>| match pair {
         Some([a, b]) => (b.base - a.base).dot(&tangent) > 0.0,
         _ => false,
     };
@@ -129,10 +129,10 @@ pub(super) fn solve(nodes: &[Node], knots: &[f64], tolerance: f64) -> Option<Tri
     judged(nodes, spline, seen, tolerance)
 }
 
-/// What a spline misses the curve by, as the nodes see it; `None` where that is no number.
-fn judged(nodes: &[Node], spline: Spline, seen: Vec<f64>, tolerance: f64) -> Option<Trial> {
+/// The errors of a spline at the nodes; `None` where one is not a number.
+fn judged(nodes: &[SplineNode], spline: CubicBSpline, seen: Vec<f64>, tolerance: f64) -> Option<SplineTrial> {
     let polynomials = spline.polynomials();
-    let (mut worst, mut asked) = (0.0_f64, Vec::with_capacity(nodes.len()));
+    let (mut worst, mut required) = (0.0_f64, Vec::with_capacity(nodes.len()));
     let (mut index, mut wanted, mut most) = (0, 0.0, 0.0_f64);
     for (node, parameter) in nodes.iter().zip(&seen) {
         let before = index;
@@ -151,32 +151,39 @@ fn judged(nodes: &[Node], spline: Spline, seen: Vec<f64>, tolerance: f64) -> Opt
             most = 0.0;
         }
         most = most.max(own);
-        asked.push(own);
+        required.push(own);
     }
     let wanted = wanted + most;
-    worst.is_finite().then_some(Trial { spline, polynomials, seen, worst, asked, wanted })
+    worst.is_finite().then_some(SplineTrial { spline, polynomials, seen, worst, required, wanted })
 }
 
-/// The curve at a length, nearly.
-fn near(nodes: &[Node], length: f64) -> Option<Vector2<f64>> {
+/// The curve at a length, approximately.
+fn near(nodes: &[SplineNode], length: f64) -> Option<Vector2<f64>> {
     let next = nodes.partition_point(|node| node.length < length).clamp(1, nodes.len() - 1);
     let (a, b) = (nodes.get(next - 1)?, nodes.get(next)?);
     let part = (length - a.length) / (b.length - a.length);
     Some(a.frame.point + (b.frame.point - a.frame.point) * part)
 }
 
-/// The span of a parameter, from the one before on.
-pub(super) fn span_at<'a>(polynomials: &'a [Span], index: &mut usize, parameter: f64) -> Option<&'a Span> {
+/// The span of a parameter, searched from the previous one on.
+pub(super) fn span_at<'a>(polynomials: &'a [SplineSpan], index: &mut usize, parameter: f64) -> Option<&'a SplineSpan> {
     while *index + 1 < polynomials.len() && polynomials.get(*index).is_some_and(|span| parameter > span.to) {
         *index += 1;
     }
     polynomials.get(*index)
 }
 
-/// Moves the control points to the least sum of squares, for the places that the nodes see now.
-fn step(nodes: &[Node], knots: &[f64], seen: &[f64], controls: &mut [Control], along: f64, tolerance: f64) {
+/// Moves the control points to the least sum of squares, for the present places of the nodes.
+fn step(
+    nodes: &[SplineNode],
+    knots: &[f64],
+    seen: &[f64],
+    controls: &mut [ControlFreedom],
+    along: f64,
+    tolerance: f64,
+) {
     let size = 2 * controls.len();
-    let mut matrix = Banded::<8>::zero(size);
+    let mut matrix = BandedMatrix::<8>::zero(size);
     let mut right = vec![0.0; size];
     let spans = controls.len() + 1 - ORDER;
     let mut span = 0;
@@ -184,8 +191,8 @@ fn step(nodes: &[Node], knots: &[f64], seen: &[f64], controls: &mut [Control], a
         while span + 1 < spans && knots.get(span + ORDER).is_some_and(|knot| parameter > knot) {
             span += 1;
         }
-        let basis = Basis::new(knots, span, *parameter).derivatives[0];
-        let bearing: Vec<(usize, f64, Control)> = controls
+        let basis = SpanBasis::new(knots, span, *parameter).derivatives[0];
+        let bearing: Vec<(usize, f64, ControlFreedom)> = controls
             .iter()
             .enumerate()
             .skip(span)
@@ -216,7 +223,12 @@ fn step(nodes: &[Node], knots: &[f64], seen: &[f64], controls: &mut [Control], a
             }
         }
     }
-    // What cannot move stays.
+    move_controls(matrix, right, controls);
+}
+
+/// Solves the normal equations and moves the control points by the solution.
+fn move_controls(mut matrix: BandedMatrix<8>, mut right: Vec<f64>, controls: &mut [ControlFreedom]) {
+    // Fixed control points stay.
     for (index, control) in controls.iter().enumerate() {
         for (side, column) in control.ways.iter().enumerate() {
             if *column == Vector2::zeros() {
@@ -232,8 +244,8 @@ fn step(nodes: &[Node], knots: &[f64], seen: &[f64], controls: &mut [Control], a
     }
 }
 
-/// One over the distance to be expected where everything is kept.
-fn weight(node: &Node, tolerance: f64) -> f64 {
+/// One over the distance that is expected where every tolerance is kept.
+fn weight(node: &SplineNode, tolerance: f64) -> f64 {
     let width = 1.0 / node.density;
     let by_heading = HEADING / DISTANCE * node.allowed.heading * width;
     let by_curvature = CURVATURE / DISTANCE * node.allowed.curvature * width * width;
@@ -243,7 +255,7 @@ fn weight(node: &Node, tolerance: f64) -> f64 {
 }
 
 /// Finds the places of the spline on the normals of the nodes; `None` when it turns back.
-fn look(nodes: &[Node], polynomials: &[Span], seen: &mut [f64]) -> Option<()> {
+fn look(nodes: &[SplineNode], polynomials: &[SplineSpan], seen: &mut [f64]) -> Option<()> {
     let (first, last) = (polynomials.first()?.from, polynomials.last()?.to);
     let count = nodes.len();
     let mut before = first;

@@ -38,11 +38,11 @@ fn bumped(height: f64, width: f64, place: f64) -> impl Fn(f64) -> CurvePoint {
     }
 }
 
-fn any(_: f64, _: &CurvePoint) -> Allowed {
-    Allowed::ANY
+fn any(_: f64, _: &CurvePoint) -> ChainTolerance {
+    ChainTolerance::ANY
 }
 
-fn count(fitted: &Fitted) -> f64 {
+fn count(fitted: &FittedSpline) -> f64 {
     f64::from(u32::try_from(fitted.spline.spans()).expect("few"))
 }
 
@@ -51,8 +51,8 @@ fn count(fitted: &Fitted) -> f64 {
 fn scanned(
     curve: &impl Fn(f64) -> CurvePoint,
     range: (f64, f64),
-    fitted: &Fitted,
-    allowed: &dyn Fn(f64, &CurvePoint) -> Allowed,
+    fitted: &FittedSpline,
+    allowed: &dyn Fn(f64, &CurvePoint) -> ChainTolerance,
 ) -> ([f64; 3], f64) {
     let (mut worst, mut share) = ([0.0_f64; 3], 0.0_f64);
     let mut parameter = range.0;
@@ -92,10 +92,10 @@ fn scanned(
     (worst, share)
 }
 
-/// The number of spans against its theory over four decades; what is told against many places, and not far above them even
-/// where it does not matter.
+/// The number of spans compared with theory over four decades; the reported errors compared with many places, and not far above them even
+/// where they do not matter.
 #[test]
-fn the_count_stays_near_theory_and_what_is_told_is_true() {
+fn the_count_stays_near_theory_and_the_reported_errors_are_true() {
     for (a, b) in [(60.0, 40.0), (50.0, 50.0), (60.0, 2.0)] {
         let curve = ellipse(a, b);
         for decade in [-2, -4, -6] {
@@ -116,13 +116,13 @@ fn the_count_stays_near_theory_and_what_is_told_is_true() {
     }
 }
 
-/// A hundredth of the tolerance of distance asks for 100^¼ times as many spans, of heading for 100^⅓, of curvature for 10.
+/// A hundredth of the tolerance of distance requires 100^¼ times as many spans, of heading 100^⅓, of curvature 10.
 #[test]
 fn orders_are_four_three_and_two() {
     let curve = ellipse(60.0, 30.0);
     let range = (0.2, 1.9);
     let spans = |tolerance: f64, heading: f64, curvature: f64| {
-        let allowed = move |_: f64, _: &CurvePoint| Allowed { heading, curvature };
+        let allowed = move |_: f64, _: &CurvePoint| ChainTolerance::of(heading, curvature);
         let fitted = fit(&curve, range, tolerance, &allowed).expect("a spline");
         assert!(fitted.deviation <= tolerance && fitted.heading <= heading && fitted.curvature <= curvature);
         let (_, share) = scanned(&curve, range, &fitted, &allowed);
@@ -146,7 +146,7 @@ fn local_tolerances_are_kept() {
     for (a, b) in [(60.0, 40.0), (60.0, 2.0)] {
         let curve = ellipse(a, b);
         for part in [0.1, 0.01, 0.001] {
-            let allowed = |_: f64, point: &CurvePoint| Allowed { heading: 0.01, curvature: part * point.curvature };
+            let allowed = |_: f64, point: &CurvePoint| ChainTolerance::of(0.01, part * point.curvature);
             let fitted = fit(&curve, (-1.4, 1.4), 0.005, &allowed).expect("a spline");
             let (_, share) = scanned(&curve, (-1.4, 1.4), &fitted, &allowed);
             assert!(share <= 1.0, "{a} {b} {part}: {share}");
@@ -189,6 +189,6 @@ fn what_cannot_be_is_refused() {
     assert_eq!(fit(&curve, (0.0, 1.0), 1e-15, &any), Err(FitError::ToleranceTooFine { tolerance: 1e-15 }));
     let broken = |t: f64| CurvePoint { curvature: f64::NAN, ..curve(t) };
     assert!(matches!(fit(broken, (0.0, 1.0), 1e-3, &any), Err(FitError::NotSmooth { .. })));
-    let none = |_: f64, _: &CurvePoint| Allowed { heading: 0.0, curvature: 0.0 };
+    let none = |_: f64, _: &CurvePoint| ChainTolerance::of(0.0, 0.0);
     assert!(fit(&curve, (0.0, 1.0), 1e-3, &none).is_err());
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::geometry::boundary::Stretch;
+use crate::geometry::boundary::BoundaryStretch;
 use crate::geometry::contour::Vertex;
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ fn circle() -> Boundary<'static> {
             curvature_slope: 0.0,
         }
     };
-    let stretch = |i: u32| Stretch::of_curve(0, (TAU * f64::from(i) / 8.0, TAU * f64::from(i + 1) / 8.0));
+    let stretch = |i: u32| BoundaryStretch::of_curve(0, (TAU * f64::from(i) / 8.0, TAU * f64::from(i + 1) / 8.0));
     Boundary::new(Box::new(frame), &(0..8).map(stretch).collect::<Vec<_>>())
 }
 
@@ -74,7 +74,7 @@ fn the_highest_place_is_that_of_the_lower_parabola() {
 }
 
 /// A point over a circle, on its normal.
-fn over(angle: f64, off: f64) -> Node {
+fn over(angle: f64, off: f64) -> ChainFoot {
     let (sin, cos) = libm::sincos(angle);
     let foot = CurvePoint {
         point: Vector2::new(RADIUS * cos, RADIUS * sin),
@@ -84,7 +84,7 @@ fn over(angle: f64, off: f64) -> Node {
         curvature_slope: 0.0,
     };
     let point = Vector2::new((RADIUS + off) * cos, (RADIUS + off) * sin);
-    Node { length: RADIUS * angle, point, foot, parameter: angle, off, sine: 0.0 }
+    ChainFoot { length: RADIUS * angle, point, foot, parameter: angle, off, sine: 0.0 }
 }
 
 /// What d'' may be between two points on the circle itself, of an arc of its own curvature: also where the arc has left the circle by as
@@ -104,16 +104,19 @@ fn the_bend_holds_where_it_leads() {
     }
 }
 
-/// Beside a corner nothing of the outline lies beyond what is told, seen from either side of it.
+/// Near a corner nothing of the outline lies beyond the reported distance, seen from either side of it.
 #[test]
 fn a_sliver_is_seen_as_a_whole() {
     for off in [-0.2, 0.0, 1e-3, 0.2] {
         for to in [1e-4, 1e-3, 2e-3] {
             let (node, corner) = (over(0.0, off), over(to, 0.0).point);
-            let told = farthest_of_sliver(&node, corner);
+            let reported = farthest_of_sliver(&node, corner);
             let points = (0..=100).map(|i| (over(to * f64::from(i) / 100.0, 0.0).point - node.point).norm());
             let farthest = points.fold(0.0, f64::max);
-            assert!(farthest <= told && told <= farthest + 1e-3 * to * RADIUS, "{off} {to}: {told} {farthest}");
+            assert!(
+                farthest <= reported && reported <= farthest + 1e-3 * to * RADIUS,
+                "{off} {to}: {reported} {farthest}"
+            );
         }
     }
 }

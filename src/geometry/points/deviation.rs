@@ -1,60 +1,61 @@
-//! How far an interpolated curve G lies from the exact curve C, both ways: bounded between the rows, not sampled.
+//! How far an interpolated curve G lies from the exact curve C, in both directions: bounded between the rows, not sampled.
 //!
-//! G is walked from row to row, and with it the foot of its point on C: g = C(t) + d n(t). With Δ the angle from the tangent of C
+//! G is followed from row to row, together with the foot of its point on C: g = C(t) + d n(t). With Δ the angle from the tangent of C
 //! to that of G, k and κ their curvatures and s the length of G,
 //!
 //! ```text
 //! dd/ds = −sin Δ,   d²d/ds² = −cos Δ (k − κ cos Δ/(1 + κ d))
 //! ```
 //!
-//! G is cut where an interval ends, where a stretch of C ends and, if need be, between. In such a cell both curvatures lie between
-//! what their values and slopes at the two ends say, so d'' lies in an interval, and two parabolas from the ends with the exact d
-//! and d' bound d. Where the bound is not near the largest |d| found, the cell is cut where d' is 0 to first order. While
-//! cos Δ > 0 and 1 + κ d > 0, which is checked, the foot goes on without a jump: every point of C from the first row to the last
-//! is the foot of one of G, so that the bound holds for the points of C as for those of G (`following` has the same proof for
+//! G is divided where an interval ends, where a stretch of C ends and, if need be, between. In such a cell both curvatures lie in
+//! the range given by their values and slopes at the two ends, so d'' lies in an interval, and two parabolas from the ends with the exact d
+//! and d' bound d. Where the bound is not near the largest |d| found, the cell is divided where d' is 0 to first order. While
+//! cos Δ > 0 and 1 + κ d > 0, which is checked, the foot advances without a jump: every point of C from the first row to the last
+//! is the foot of a point of G, so that the bound holds for the points of C as for those of G (`following` has the corresponding proof for
 //! arcs). Corners of C are rows.
 
-use super::path::{Path, Place};
-use super::{Interpolant, PointsError};
+use super::Interpolant;
+use super::path::{ExactPath, PathPlace};
 use crate::geometry::CurvePoint;
 use crate::geometry::following::{OVERSHOOT, highest};
 use crate::numeric::{quadrature, root};
+use crate::refusal::Refusal;
 
 /// A bound is not more than this share, or this much (mm), above the largest distance.
 const SHARE: f64 = 1e-3;
 const SLACK: f64 = 1e-10;
-/// Places nearer than this are one, mm.
+/// Places nearer than this count as one, mm.
 const NEAR: f64 = 1e-9;
-/// A foot is found when the point is that near to its normal, mm.
+/// A foot is found when the point is this near to its normal, mm.
 const ON_NORMAL: f64 = 1e-11;
-/// Newton steps to a foot, and cuts of a cell.
+/// Newton steps to a foot, and divisions of a cell.
 const FOOT_STEPS: u32 = 50;
 const DEEPEST: u32 = 48;
 /// Both curves together turn in a cell by no more than this, rad.
 const LONGEST_CELL: f64 = 0.5;
-/// A cell is cut where d' is 0 if both parts keep this share of it.
+/// A cell is divided where d' is 0 if both parts keep this share of it.
 const LEAST_SHARE: f64 = 0.02;
 /// Least cos Δ and 1 + κ d.
 const LEAST_COSINE: f64 = 0.05;
 const LEAST_SHRINK: f64 = 0.05;
-/// A turn of C between two stretches within an interval beyond this is a corner without a row.
+/// A larger turn of C between two stretches within an interval is a corner without a row.
 const LEAST_CORNER: f64 = 1e-6;
-/// Rounds of the bound, which feeds on itself.
+/// Rounds of the bound, which depends on itself.
 const BOUND_ROUNDS: u32 = 4;
 
 /// Bounds of the distance between the interpolated curve and the exact one, one for each interval, mm, with the places of the
-/// rows on the exact curve as lengths from its start. What lies below `negligible` (mm) need not be told closer, and nothing is
-/// told of the intervals behind one whose bound is above `limit` (mm).
+/// rows on the exact curve as lengths from its start. Distances below `negligible` (mm) are not refined, and the intervals after one
+/// whose bound is above `limit` (mm) are left out.
 ///
 /// # Errors
-/// [`PointsError::Astray`] where the one does not follow the other.
+/// [`Refusal`] where the one does not follow the other.
 pub fn deviations(
-    path: &Path<'_>,
+    path: &ExactPath<'_>,
     curve: &Interpolant,
     places: &[f64],
     (negligible, limit): (f64, f64),
-) -> Result<Vec<f64>, PointsError> {
-    let walk = Walk { path, curve, negligible };
+) -> Result<Vec<f64>, Refusal> {
+    let walk = DeviationWalk { path, curve, negligible };
     let mut bounds = Vec::with_capacity(places.len());
     for (interval, (from, to)) in places.iter().zip(places.iter().skip(1)).enumerate() {
         let bound = walk.interval(interval, (*from, *to))?;
@@ -68,7 +69,7 @@ pub fn deviations(
 
 /// A point of G with its foot.
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct InterpolantFoot {
     /// Parameter in the interval.
     at: f64,
     point: CurvePoint,
@@ -81,15 +82,15 @@ struct Node {
     sine: f64,
 }
 
-struct Walk<'p, 'a> {
-    path: &'p Path<'a>,
+struct DeviationWalk<'p, 'a> {
+    path: &'p ExactPath<'a>,
     curve: &'p Interpolant,
     negligible: f64,
 }
 
 /// The cells of an interval over one stretch.
-struct Cells<'w, 'p, 'a> {
-    walk: &'w Walk<'p, 'a>,
+struct IntervalCells<'w, 'p, 'a> {
+    walk: &'w DeviationWalk<'p, 'a>,
     interval: usize,
     part: usize,
     /// Largest |d| found in the interval.
@@ -98,29 +99,32 @@ struct Cells<'w, 'p, 'a> {
     bound: f64,
 }
 
-fn astray(at: &CurvePoint) -> PointsError {
-    PointsError::Astray { x: at.point.x, y: at.point.y }
+fn departure(at: &CurvePoint) -> Refusal {
+    let (x, y) = (at.point.x, at.point.y);
+    Refusal::new("the interpolated curve leaves the exact one").at(format!("x {x:.6} mm, y {y:.6} mm"))
 }
 
-const NOWHERE: PointsError = PointsError::Astray { x: f64::NAN, y: f64::NAN };
+fn nowhere() -> Refusal {
+    Refusal::new("the interpolated curve has no point where the exact one has one")
+}
 
-impl Walk<'_, '_> {
-    fn point(&self, interval: usize, at: f64) -> Result<CurvePoint, PointsError> {
-        self.curve.at(interval, at).ok_or(NOWHERE)
+impl DeviationWalk<'_, '_> {
+    fn point(&self, interval: usize, at: f64) -> Result<CurvePoint, Refusal> {
+        self.curve.at(interval, at).ok_or_else(nowhere)
     }
 
-    fn foot(&self, part: usize, parameter: f64) -> Result<CurvePoint, PointsError> {
-        self.path.point(Place { part, parameter }).ok_or(NOWHERE)
+    fn foot(&self, part: usize, parameter: f64) -> Result<CurvePoint, Refusal> {
+        self.path.point(PathPlace { part, parameter }).ok_or_else(nowhere)
     }
 
     /// A bound of |d| over an interval between two places of C.
-    fn interval(&self, interval: usize, (from, to): (f64, f64)) -> Result<f64, PointsError> {
-        let (start, end) = self.curve.range(interval).ok_or(NOWHERE)?;
+    fn interval(&self, interval: usize, (from, to): (f64, f64)) -> Result<f64, Refusal> {
+        let (start, end) = self.curve.range(interval).ok_or_else(nowhere)?;
         if start == end && from == to {
             return Ok(0.0);
         }
         let place = self.path.place(from);
-        let mut cells = Cells { walk: self, interval, part: place.part, known: 0.0, bound: 0.0 };
+        let mut cells = IntervalCells { walk: self, interval, part: place.part, known: 0.0, bound: 0.0 };
         let mut parameter = place.parameter;
         let last = !self.path.is_closed() && place.part + 1 == self.path.parts();
         if self.path.end_of(place.part) - from <= NEAR && !last {
@@ -146,11 +150,11 @@ impl Walk<'_, '_> {
             let begin = self.path.range(cells.part).0;
             let next = self.foot(cells.part, begin)?;
             if !(foot.tangent.perp(&next.tangent).abs() <= LEAST_CORNER) {
-                return Err(astray(&foot));
+                return Err(departure(&foot));
             }
             a = cells.node(at, next, begin)?;
         }
-        Err(astray(&a.point))
+        Err(departure(&a.point))
     }
 
     /// Where the interval crosses the normal of a point of C, between two of its parameters.
@@ -165,30 +169,30 @@ impl Walk<'_, '_> {
     }
 }
 
-impl Cells<'_, '_, '_> {
-    fn node(&mut self, at: f64, foot: CurvePoint, parameter: f64) -> Result<Node, PointsError> {
+impl IntervalCells<'_, '_, '_> {
+    fn node(&mut self, at: f64, foot: CurvePoint, parameter: f64) -> Result<InterpolantFoot, Refusal> {
         let point = self.walk.point(self.interval, at)?;
         let away = point.point - foot.point;
         let off = away.dot(&foot.outward());
         let follows = foot.tangent.dot(&point.tangent) > LEAST_COSINE && 1.0 + foot.curvature * off > LEAST_SHRINK;
         if !follows {
-            return Err(astray(&point));
+            return Err(departure(&point));
         }
-        // A row that rounding, or somebody, moved along the curve is as far off as it is.
+        // A row that was moved along the curve, by rounding or by hand, has the distance of its move.
         let distance = if away.dot(&foot.tangent).abs() > NEAR { away.norm() } else { off.abs() };
         self.known = self.known.max(distance);
-        Ok(Node { at, point, foot, parameter, off, sine: foot.tangent.perp(&point.tangent) })
+        Ok(InterpolantFoot { at, point, foot, parameter, off, sine: foot.tangent.perp(&point.tangent) })
     }
 
     /// The point of a row, its foot near a parameter.
-    fn row(&mut self, at: f64, hint: f64) -> Result<Node, PointsError> {
+    fn row(&mut self, at: f64, hint: f64) -> Result<InterpolantFoot, Refusal> {
         let (from, to) = self.walk.path.range(self.part);
         let (foot, parameter) = self.foot_of(at, (from, to), hint)?;
         self.node(at, foot, parameter)
     }
 
     /// The foot of a point of the interval within a range of the stretch.
-    fn foot_of(&self, at: f64, (mut low, mut high): (f64, f64), hint: f64) -> Result<(CurvePoint, f64), PointsError> {
+    fn foot_of(&self, at: f64, (mut low, mut high): (f64, f64), hint: f64) -> Result<(CurvePoint, f64), Refusal> {
         let point = self.walk.point(self.interval, at)?;
         let mut parameter = hint.clamp(low, high);
         let mut foot = self.walk.foot(self.part, parameter)?;
@@ -223,7 +227,7 @@ impl Cells<'_, '_, '_> {
         Ok((foot, parameter))
     }
 
-    fn cell(&mut self, a: &Node, b: &Node, depth: u32) -> Result<(), PointsError> {
+    fn cell(&mut self, a: &InterpolantFoot, b: &InterpolantFoot, depth: u32) -> Result<(), Refusal> {
         let curve = self.walk.curve;
         let length = if curve.is_straight() {
             b.at - a.at
@@ -248,7 +252,7 @@ impl Cells<'_, '_, '_> {
         let turns = depth.is_multiple_of(2) && (LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&root);
         let at = a.at + (if turns { root } else { 0.5 }) * (b.at - a.at);
         if depth == 0 || !(a.at < at && at < b.at) || !(a.parameter < b.parameter) {
-            return Err(astray(&a.point));
+            return Err(departure(&a.point));
         }
         let share = (at - a.at) / (b.at - a.at);
         let hint = a.parameter + share * (b.parameter - a.parameter);
@@ -259,14 +263,14 @@ impl Cells<'_, '_, '_> {
     }
 }
 
-/// Between which values a curvature lies over a length, by its values and slopes at both ends.
+/// The range of a curvature over a length, from its values and slopes at both ends.
 fn curvatures(a: &CurvePoint, b: &CurvePoint, length: f64) -> (f64, f64) {
     let over = OVERSHOOT * length.abs() * (a.curvature_slope.abs() + b.curvature_slope.abs());
     (a.curvature.min(b.curvature) - over, a.curvature.max(b.curvature) + over)
 }
 
-/// The interval in which d'' lies; `None` where the ends are too far apart to tell, or Δ may reach a right angle.
-fn bend(a: &Node, b: &Node, length: f64) -> Option<(f64, f64)> {
+/// The interval of d''; `None` where the ends are too far apart for a bound, or Δ may reach a right angle.
+fn bend(a: &InterpolantFoot, b: &InterpolantFoot, length: f64) -> Option<(f64, f64)> {
     let along = 0.5 * (b.parameter - a.parameter) * (a.foot.speed + b.foot.speed);
     let (least, most) = curvatures(&a.foot, &b.foot, along);
     let (first, last) = curvatures(&a.point, &b.point, length);

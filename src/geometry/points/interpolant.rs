@@ -1,4 +1,4 @@
-//! What a control makes of a table of points: the curve between the rows, with exact derivatives.
+//! The curve that a control makes of a table of points: between the rows, with exact derivatives.
 //!
 //! | | linear | cubic |
 //! |---|---|---|
@@ -6,11 +6,11 @@
 //! | polar | the radius linear in the angle, an arc of Archimedes' spiral | the cubic spline of the radius over the angle |
 //!
 //! A cubic spline has continuous first and second derivatives. Over a closed table without double rows it is periodic. A row that
-//! stands twice is a break, at a corner or where the acceleration jumps: there one spline ends and the next begins, each with
-//! "not-a-knot" ends; so it has at the ends of a table that is open, and of one that is closed but has breaks. The first row stands
+//! occurs twice is a break, at a corner or where the acceleration jumps: there one spline ends and the next begins, each with
+//! "not-a-knot" ends; the same holds at the ends of an open table, and of a closed one with breaks. The first row occurs
 //! twice where the break is the start of a closed table.
 
-use super::{Between, Form};
+use super::{PointCoordinates, PointInterpolation};
 use crate::geometry::CurvePoint;
 use crate::geometry::contour::{Cubic, Edge, Segment};
 use crate::numeric::spline::Spline;
@@ -19,22 +19,22 @@ use std::ops::Range;
 
 /// The curve from one row to the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Interval {
+struct RowInterval {
     /// Its parameter at the two rows: the angle in rad, or the chord length in mm.
     from: f64,
     to: f64,
     /// Coefficients of the radius, or of x, by the parameter from `from` on.
     first: [f64; 4],
-    /// Those of y; zero in polar coordinates.
+    /// Coefficients of y; zero in polar coordinates.
     second: [f64; 4],
 }
 
 /// The curve through the rows of a table, an interval from each row to the next, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interpolant {
-    form: Form,
+    form: PointCoordinates,
     straight: bool,
-    intervals: Vec<Interval>,
+    intervals: Vec<RowInterval>,
 }
 
 /// Value and first three derivatives of a cubic.
@@ -43,42 +43,42 @@ fn jet([a, b, c, d]: [f64; 4], t: f64) -> [f64; 4] {
 }
 
 impl Interpolant {
-    /// Through the rows of a table (degrees and mm, or x and y in mm); `closed` where the last row is the first again.
+    /// Through the rows of a table (degrees and mm, or x and y in mm); `closed` where the last row repeats the first.
     #[must_use]
-    pub fn new(rows: &[[f64; 2]], form: Form, between: Between, closed: bool) -> Self {
+    pub fn new(rows: &[[f64; 2]], form: PointCoordinates, between: PointInterpolation, closed: bool) -> Self {
         let (mut knots, mut so_far) = (Vec::with_capacity(rows.len()), 0.0);
         let mut before: Option<&[f64; 2]> = None;
         for row in rows {
             so_far += before.map_or(0.0, |[x, y]| libm::hypot(row[0] - x, row[1] - y));
             knots.push(match form {
-                Form::Polar => row[0].to_radians(),
-                Form::Plane => so_far,
+                PointCoordinates::Polar => row[0].to_radians(),
+                PointCoordinates::Plane => so_far,
             });
             before = Some(row);
         }
         let [first, second] = match form {
-            Form::Polar => [rows.iter().map(|row| row[1]).collect(), vec![0.0; rows.len()]],
-            Form::Plane => {
+            PointCoordinates::Polar => [rows.iter().map(|row| row[1]).collect(), vec![0.0; rows.len()]],
+            PointCoordinates::Plane => {
                 [0, 1].map(|axis: usize| rows.iter().map(|row| if axis == 0 { row[0] } else { row[1] }).collect())
             }
         };
         let cubics = |values: &[f64]| match between {
-            Between::Linear => linear(&knots, values),
-            Between::Cubic => cubic(&knots, values, &runs(rows), closed),
+            PointInterpolation::Linear => linear(&knots, values),
+            PointInterpolation::Cubic => cubic(&knots, values, &runs(rows), closed),
         };
         let (first, second) = (cubics(&first), cubics(&second));
         let ranges = knots.iter().zip(knots.iter().skip(1));
         let intervals = ranges
             .zip(first.into_iter().zip(second))
-            .map(|((from, to), (first, second))| Interval { from: *from, to: *to, first, second })
+            .map(|((from, to), (first, second))| RowInterval { from: *from, to: *to, first, second })
             .collect();
-        Self { form, straight: form == Form::Plane && between == Between::Linear, intervals }
+        Self { form, straight: form == PointCoordinates::Plane && between == PointInterpolation::Linear, intervals }
     }
 
-    /// Its intervals as lines and cubic curves; `None` in polar coordinates, where they are neither.
+    /// Its intervals as lines and cubic curves; `None` in polar coordinates, where they are of another kind.
     #[must_use]
     pub fn edges(&self) -> Option<Vec<Edge>> {
-        let edge = |interval: &Interval| {
+        let edge = |interval: &RowInterval| {
             let length = interval.to - interval.from;
             let at = |t: f64| Vector2::new(jet(interval.first, t)[0], jet(interval.second, t)[0]);
             let slope = |t: f64| Vector2::new(jet(interval.first, t)[1], jet(interval.second, t)[1]) * (length / 3.0);
@@ -89,12 +89,12 @@ impl Interpolant {
                 Edge::Cubic(Cubic { points: [start, start + slope(0.0), end - slope(length), end] })
             }
         };
-        // Between the two of a double row there is nothing.
+        // The two rows of a double row have no interval between them.
         let long = || self.intervals.iter().filter(|interval| interval.from < interval.to);
-        (self.form == Form::Plane).then(|| long().map(edge).collect())
+        (self.form == PointCoordinates::Plane).then(|| long().map(edge).collect())
     }
 
-    /// How many intervals it has: one less than the table has rows.
+    /// The number of its intervals: one less than the table has rows.
     #[must_use]
     pub fn count(&self) -> usize {
         self.intervals.len()
@@ -119,13 +119,13 @@ impl Interpolant {
         let t = parameter - interval.from;
         let ([a, b, c, d], [y, y1, y2, y3]) = (jet(interval.first, t), jet(interval.second, t));
         Some(match self.form {
-            Form::Plane => CurvePoint::from_derivatives(
+            PointCoordinates::Plane => CurvePoint::from_derivatives(
                 Vector2::new(a, y),
                 Vector2::new(b, y1),
                 Vector2::new(c, y2),
                 Vector2::new(d, y3),
             ),
-            Form::Polar => {
+            PointCoordinates::Polar => {
                 let along = Vector2::new(libm::cos(parameter), libm::sin(parameter));
                 let across = Vector2::new(-along.y, along.x);
                 CurvePoint::from_derivatives(
@@ -145,8 +145,8 @@ impl Interpolant {
         let t = parameter - interval.from;
         let ([value, slope, ..], [_, other, ..]) = (jet(interval.first, t), jet(interval.second, t));
         match self.form {
-            Form::Plane => libm::hypot(slope, other),
-            Form::Polar => libm::hypot(slope, value),
+            PointCoordinates::Plane => libm::hypot(slope, other),
+            PointCoordinates::Polar => libm::hypot(slope, value),
         }
     }
 }
@@ -175,7 +175,7 @@ fn cubic(knots: &[f64], values: &[f64], runs: &[Range<usize>], closed: bool) -> 
     let mut cubics: Vec<[f64; 4]> = Vec::with_capacity(knots.len());
     for run in runs {
         let (Some(knots), Some(values)) = (knots.get(run.clone()), values.get(run.clone())) else { continue };
-        // From one of a double row to the other there is nothing.
+        // The two rows of a double row have no interval between them.
         if let Some(value) = values.first().filter(|_| run.start > 0) {
             cubics.push([*value, 0.0, 0.0, 0.0]);
         }
@@ -207,10 +207,10 @@ mod tests {
     /// Every interval starts and ends on its rows, and its derivatives belong to its points.
     #[test]
     fn intervals_join_the_rows_and_have_their_own_derivatives() {
-        for form in [Form::Polar, Form::Plane] {
-            for between in [Between::Linear, Between::Cubic] {
+        for form in [PointCoordinates::Polar, PointCoordinates::Plane] {
+            for between in [PointInterpolation::Linear, PointInterpolation::Cubic] {
                 let points = in_plane(&ROWS);
-                let rows = if form == Form::Polar { ROWS.to_vec() } else { points.clone() };
+                let rows = if form == PointCoordinates::Polar { ROWS.to_vec() } else { points.clone() };
                 for closed in [true, false] {
                     let curve = Interpolant::new(&rows, form, between, closed);
                     assert_eq!(curve.count(), rows.len() - 1);
@@ -239,8 +239,8 @@ mod tests {
     fn a_double_row_ends_a_spline() {
         let mut rows = ROWS.to_vec();
         rows.insert(3, rows[2]);
-        let broken = Interpolant::new(&rows, Form::Polar, Between::Cubic, true);
-        let alone = Interpolant::new(&rows[..3], Form::Polar, Between::Cubic, false);
+        let broken = Interpolant::new(&rows, PointCoordinates::Polar, PointInterpolation::Cubic, true);
+        let alone = Interpolant::new(&rows[..3], PointCoordinates::Polar, PointInterpolation::Cubic, false);
         assert_eq!(broken.count(), 6);
         for u in [0.1, 0.5, 1.3] {
             let interval = usize::from(u > 50.0_f64.to_radians());

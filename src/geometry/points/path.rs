@@ -1,26 +1,29 @@
-//! The exact curve that a table of points stands for, by a length that runs on from stretch to stretch.
+//! The exact curve that a table of points represents, by a length that runs on from stretch to stretch.
 
-use super::PointsError;
+use super::{Interpolant, not_around};
 use crate::geometry::CurvePoint;
 use crate::geometry::boundary::Boundary;
 use crate::numeric::{quadrature, root};
+use crate::refusal::Refusal;
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
-/// Stretches shorter than this are none, mm.
+/// Rows nearer to each other along the curve lie at one place, mm: above the rounding of their coordinates.
+const SAME_ROW: f64 = 1e-6;
+/// Stretches shorter than this are ignored, mm.
 const NO_LENGTH: f64 = 1e-12;
-/// Places in a stretch at which it must go round the shaft to be given in polar coordinates.
+/// Places in a stretch at which the direction about the shaft is checked for polar coordinates.
 const LOOKED_AT: u32 = 8;
-/// A stretch whose ends and middle keep their distance from the shaft, and whose curvature is its inverse, to this share is a
+/// A stretch whose ends and middle have equal distances from the shaft, and whose curvature is the inverse, to this share is a
 /// circle about the shaft.
 const ROUND: f64 = 1e-11;
 
-/// Curvatures that differ by more than this share of the larger jump.
+/// Curvatures that differ by more than this share of the larger count as a jump.
 const JUMP: f64 = 1e-6;
 
 /// A stretch with the length at which it starts.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct PathPart {
     /// Its number in the boundary.
     index: usize,
     /// Its parameter at either end.
@@ -35,39 +38,39 @@ struct Part {
 
 /// A place on the curve: the number of a stretch, and its parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct PathPlace {
     pub(super) part: usize,
     pub(super) parameter: f64,
 }
 
 /// The exact curve, mm, with the shaft at the origin.
 #[derive(Debug)]
-pub struct Path<'a> {
+pub struct ExactPath<'a> {
     boundary: Boundary<'a>,
-    parts: Vec<Part>,
+    parts: Vec<PathPart>,
     closed: bool,
     length: f64,
 }
 
-impl<'a> Path<'a> {
+impl<'a> ExactPath<'a> {
     /// A curve that closes, or runs from its first stretch to its last.
     #[must_use]
     pub fn new(boundary: Boundary<'a>, closed: bool) -> Self {
-        let (mut parts, mut start, mut angle): (Vec<Part>, f64, Option<f64>) = (Vec::new(), 0.0, None);
+        let (mut parts, mut start, mut angle): (Vec<PathPart>, f64, Option<f64>) = (Vec::new(), 0.0, None);
         for (index, stretch) in boundary.stretches().iter().enumerate() {
             let speed = |at: f64| boundary.at(index, at).map_or(0.0, |point| point.speed);
             let length = quadrature::integrate(speed, (stretch.from, stretch.to), 1);
             let Some([first, last]) = boundary.ends(index).filter(|_| length > NO_LENGTH) else { continue };
             let from = angle.unwrap_or_else(|| libm::atan2(first.point.y, first.point.x));
             let to = from + libm::atan2(first.point.perp(&last.point), first.point.dot(&last.point));
-            parts.push(Part { index, from: stretch.from, to: stretch.to, start, length, angles: (from, to) });
+            parts.push(PathPart { index, from: stretch.from, to: stretch.to, start, length, angles: (from, to) });
             start += length;
             angle = Some(to);
         }
         Self { boundary, parts, closed, length: start }
     }
 
-    /// Whether it closes.
+    /// Whether it is closed.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.closed
@@ -79,12 +82,12 @@ impl<'a> Path<'a> {
         self.length
     }
 
-    /// How many stretches it has.
+    /// Number of its stretches.
     pub(super) fn parts(&self) -> usize {
         self.parts.len()
     }
 
-    fn part(&self, part: usize) -> Option<&Part> {
+    fn part(&self, part: usize) -> Option<&PathPart> {
         self.parts.get(part % self.parts.len().max(1))
     }
 
@@ -93,7 +96,7 @@ impl<'a> Path<'a> {
         self.part(part).map_or((0.0, 0.0), |part| (part.from, part.to))
     }
 
-    /// The length at which a stretch, counted on round and round, ends, mm.
+    /// The length at which a stretch ends, mm; the index counts on round the curve.
     pub(super) fn end_of(&self, part: usize) -> f64 {
         let rounds = part / self.parts.len().max(1);
         #[expect(clippy::cast_precision_loss, reason = "one round or two")]
@@ -101,13 +104,13 @@ impl<'a> Path<'a> {
         self.part(part).map_or(f64::INFINITY, |part| before + part.start + part.length)
     }
 
-    /// The point at a place; a stretch is counted on round and round.
-    pub(super) fn point(&self, place: Place) -> Option<CurvePoint> {
+    /// The point at a place; the index of a stretch counts on round the curve.
+    pub(super) fn point(&self, place: PathPlace) -> Option<CurvePoint> {
         self.boundary.at(self.part(place.part)?.index, place.parameter)
     }
 
     /// The place at a length from the start, mm; beyond the end of a closed curve it goes on with the first stretch.
-    pub(super) fn place(&self, length: f64) -> Place {
+    pub(super) fn place(&self, length: f64) -> PathPlace {
         let count = self.parts.len();
         let beyond = self.closed && length >= self.length;
         let within = if beyond { length - self.length } else { length };
@@ -116,18 +119,18 @@ impl<'a> Path<'a> {
             let share = ((within - part.start) / part.length).clamp(0.0, 1.0);
             if share < 1.0 { part.from + share * (part.to - part.from) } else { part.to }
         });
-        Place { part: if beyond { found + count } else { found }, parameter }
+        PathPlace { part: if beyond { found + count } else { found }, parameter }
     }
 
     /// The length at which a place lies, mm.
-    pub(super) fn length_at(&self, place: Place) -> f64 {
+    pub(super) fn length_at(&self, place: PathPlace) -> f64 {
         self.part(place.part).map_or(f64::NAN, |part| {
             let share = (place.parameter - part.from) / (part.to - part.from);
             self.end_of(place.part) - part.length * (1.0 - share)
         })
     }
 
-    /// The lengths at which it has a corner, and those at which a circle about the shaft begins or ends or, if they are asked for,
+    /// The lengths at which it has a corner, and those at which a circle about the shaft begins or ends or, if requested,
     /// the curvature jumps, mm.
     pub(super) fn joints(&self, jumps: bool) -> (Vec<f64>, Vec<f64>) {
         let round: Vec<bool> = self.parts.iter().map(|part| self.is_round(part)).collect();
@@ -146,7 +149,7 @@ impl<'a> Path<'a> {
         (corners, changes)
     }
 
-    /// The lengths at which the curvature jumps and there is no corner, mm, with the points there.
+    /// The lengths at which the curvature jumps without a corner, mm, with the points there.
     pub(super) fn jumps(&self) -> Vec<(f64, CurvePoint)> {
         let starts = self.parts.iter().skip(usize::from(!self.closed));
         let jumps = starts.filter(|part| !self.boundary.starts_at_corner(part.index) && self.jumps_at(part.index));
@@ -161,7 +164,7 @@ impl<'a> Path<'a> {
         !before.zip(after).is_some_and(|(a, b)| (a - b).abs() <= JUMP * a.abs().max(b.abs()))
     }
 
-    fn is_round(&self, part: &Part) -> bool {
+    fn is_round(&self, part: &PathPart) -> bool {
         let middle = 0.5 * (part.from + part.to);
         let radius = |at: f64| {
             let point = self.boundary.at(part.index, at)?;
@@ -174,25 +177,64 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Refuses a curve that is not seen from the shaft in one direction once.
+    /// Refuses a curve that does not go round the shaft once in one sense.
     ///
     /// # Errors
-    /// [`PointsError::NotAround`] where it turns back, or does not go round exactly once.
-    pub(super) fn goes_round(&self) -> Result<(), PointsError> {
+    /// [`Refusal`] where it turns back, or does not go round exactly once.
+    pub(super) fn check_goes_round(&self) -> Result<(), Refusal> {
         for part in &self.parts {
             for i in 0..=LOOKED_AT {
                 let parameter = part.from + (part.to - part.from) * f64::from(i) / f64::from(LOOKED_AT);
                 let point = self.boundary.at(part.index, parameter);
                 if !point.is_some_and(|point| point.point.perp(&point.tangent) > 0.0) {
                     let polar_deg = point.map_or(f64::NAN, |p| libm::atan2(p.point.y, p.point.x).to_degrees());
-                    return Err(PointsError::NotAround { polar_deg });
+                    return Err(not_around(polar_deg));
                 }
             }
         }
         let ends = self.parts.first().zip(self.parts.last());
         let turned = ends.map_or(0.0, |(first, last)| last.angles.1 - first.angles.0);
         let once = self.closed && (turned - TAU).abs() < 1e-6;
-        if once { Ok(()) } else { Err(PointsError::NotAround { polar_deg: 0.0 }) }
+        if once { Ok(()) } else { Err(not_around(0.0)) }
+    }
+
+    /// The lengths at which the rows of an interpolated curve lie on a closed curve that goes round the shaft, each on the ray of its row, mm.
+    ///
+    /// # Errors
+    /// [`Refusal`] where the curve is open or does not go round, or the rows do not go round it once in its direction.
+    pub fn places_of(&self, curve: &Interpolant) -> Result<Vec<f64>, Refusal> {
+        if !self.closed {
+            return Err(Refusal::new("the rows of an open curve are not compared").remedy("check the DXF file"));
+        }
+        self.check_goes_round()?;
+        let row = |index: usize| {
+            let (from, to) = curve.range(index.min(curve.count().saturating_sub(1)))?;
+            let at =
+                if index < curve.count() { curve.at(index, from)? } else { curve.at(index.checked_sub(1)?, to)? };
+            self.on_ray(libm::atan2(at.point.y, at.point.x)).map(|(length, _)| length)
+        };
+        let mut places: Vec<f64> = Vec::with_capacity(curve.count() + 1);
+        for index in 0..=curve.count() {
+            let nowhere = || Refusal::new(format!("row {} does not lie beside the curve", index + 1));
+            let mut length = row(index).ok_or_else(nowhere)?;
+            if let Some(last) = places.last() {
+                // Beyond the end of the curve it goes on with its start.
+                if length + 0.5 * self.length < *last {
+                    length += self.length;
+                }
+                // Two rows at one place differ by rounding.
+                if length < *last - SAME_ROW {
+                    return Err(Refusal::new(format!("row {} lies behind the row before it", index + 1)));
+                }
+                length = length.max(*last);
+            }
+            places.push(length);
+        }
+        let round = places.last().zip(places.first()).map_or(0.0, |(last, first)| last - first);
+        if (round - self.length).abs() > SAME_ROW {
+            return Err(Refusal::new(format!("the rows cover {round:.6} mm of {:.6} mm round the cam", self.length)));
+        }
+        Ok(places)
     }
 
     /// Where the ray at a polar angle from the shaft meets a curve that goes round: the length there, mm, and the distance from
@@ -216,7 +258,7 @@ impl<'a> Path<'a> {
             let across = |at: f64| point(at).map_or(f64::NAN, |point| ray.perp(&point));
             if let Ok(parameter) = root::bracketed(across, part.from, part.to, 0.0) {
                 let away = point(parameter)?.dot(&ray);
-                return Some((self.length_at(Place { part: index, parameter }), away)).filter(|_| away > 0.0);
+                return Some((self.length_at(PathPlace { part: index, parameter }), away)).filter(|_| away > 0.0);
             }
         }
         // The ray goes through the end of a stretch, to rounding.

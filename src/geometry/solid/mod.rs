@@ -1,13 +1,12 @@
-//! The part as a solid: its face extruded, exact planes, cylinders and, over cubic curves, spline surfaces; no booleans.
+//! The part as a solid: its face extruded, with exact planes, cylinders and, over cubic curves, spline surfaces; no booleans.
 //!
 //! Every contour runs with the metal on its left, the outline counter-clockwise, holes clockwise, so that one rule makes
 //! all side faces: the outward normal lies to the right. A line sweeps a plane, a cubic curve a spline surface; an arc sweeps a cylinder, whose own
 //! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
 //! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
 
-mod closed;
-
 use super::contour::{Contour, Cubic, Edge, Segment, sweep_minus_sine};
+use crate::refusal::Refusal;
 use nalgebra::Vector2;
 use truck_modeling::{InnerSpace, Point3, Vector3};
 use truck_topology::compress::{CompressedEdge, CompressedEdgeIndex, CompressedFace, CompressedShell, CompressedSolid};
@@ -32,9 +31,9 @@ pub struct SplineSurface {
     pub controls: Vec<Vec<Point3>>,
 }
 
-/// An edge's carrier, mm.
+/// The curve that carries an edge, mm.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Curve {
+pub enum EdgeCurve {
     /// A straight line from a point along a unit vector.
     Line {
         /// A point of it.
@@ -55,7 +54,7 @@ pub enum Curve {
     Spline(SplineCurve),
 }
 
-/// A face's carrier, mm.
+/// The surface that carries a face, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FaceSurface {
     /// A plane.
@@ -78,40 +77,23 @@ pub enum FaceSurface {
     Spline(SplineSurface),
 }
 
-/// A vertex, mm: a type of its own, which a writer can say how to write.
+/// A vertex, mm: a type of its own, for which the writer can implement its format.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place(pub Point3);
+pub struct SolidVertex(pub Point3);
 
 /// The boundary of a solid: vertices, edges and faces by index, as truck exchanges them.
-pub type Boundary = CompressedSolid<Place, Curve, FaceSurface>;
+pub type TruckBoundary = CompressedSolid<SolidVertex, EdgeCurve, FaceSurface>;
 
 /// One shell of it.
-pub type Shell = CompressedShell<Place, Curve, FaceSurface>;
+pub type TruckShell = CompressedShell<SolidVertex, EdgeCurve, FaceSurface>;
 
 /// A solid that has been checked.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solid {
+pub struct CheckedSolid {
     /// Its boundary.
-    pub boundary: Boundary,
+    pub boundary: TruckBoundary,
     /// Its volume, mm³.
     pub volume: f64,
-}
-
-/// Why there is no valid solid.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SolidError {
-    /// The check of the topology.
-    #[error("the solid is not closed: {0}; please report this")]
-    NotClosed(String),
-    /// Area times thickness is not what the boundary encloses.
-    #[error("the solid encloses {found} mm³ instead of {expected} mm³; please report this")]
-    WrongVolume {
-        /// As computed from the edges of the solid.
-        found: f64,
-        /// As computed from the drawing.
-        expected: f64,
-    },
 }
 
 /// Longest sweep of one cylinder face, rad.
@@ -122,6 +104,9 @@ const LONGEST_SWEEP: f64 = std::f64::consts::PI * (1.0 + 1e-9);
 const LARGEST_RADIUS: f64 = 1e9;
 const STRAIGHT: f64 = 1e-6;
 
+/// The remedy of a fault of camgen.
+const REPORT: &str = "please report this";
+
 /// Largest relative difference of the two volumes: rounding of a few hundred terms.
 const VOLUME_TOLERANCE: f64 = 1e-11;
 
@@ -130,20 +115,51 @@ const VOLUME_TOLERANCE: f64 = 1e-11;
 /// first, counter-clockwise, holes clockwise.
 ///
 /// # Errors
-/// [`SolidError`] when a check fails; both would be faults of camgen.
-pub fn prism(contours: &[Contour], area: f64, thickness: f64) -> Result<Solid, SolidError> {
+/// [`Refusal`] when a check fails; both would be faults of camgen.
+pub fn prism(contours: &[Contour], area: f64, thickness: f64) -> Result<CheckedSolid, Refusal> {
     let boundary = extruded(contours, thickness);
-    closed::check(&boundary)?;
-    let volume = enclosed(&boundary);
-    let expected = area * thickness;
+    check_closed(&boundary)?;
+    as_drawn(boundary, area * thickness)
+}
+
+/// A boundary, if it encloses the volume of the drawing, mm³.
+fn as_drawn(boundary: TruckBoundary, expected: f64) -> Result<CheckedSolid, Refusal> {
+    let volume = enclosed_volume(&boundary);
     if !((volume / expected - 1.0).abs() <= VOLUME_TOLERANCE) {
-        return Err(SolidError::WrongVolume { found: volume, expected });
+        return Err(Refusal::new(format!("the solid encloses {volume} mm³ instead of {expected} mm³")).remedy(REPORT));
     }
-    Ok(Solid { boundary, volume })
+    Ok(CheckedSolid { boundary, volume })
+}
+
+/// A face with a groove of a depth from its upper side as a solid (mm), checked as [`prism`]. `through` bounds the part, the outermost first,
+/// `flanks` the groove, the inner one first; each runs with the metal on its left.
+///
+/// # Errors
+/// [`Refusal`] when a check fails; both would be faults of camgen.
+pub fn pocketed(
+    through: &[Contour],
+    flanks: &[Contour],
+    (thickness, depth): (f64, f64),
+) -> Result<CheckedSolid, Refusal> {
+    let area = |contours: &[Contour]| contours.iter().map(|contour| contour.area_and_centroid().0).sum::<f64>();
+    let boundary = ShellBuilder::grooved(through, flanks, (thickness, depth));
+    check_closed(&boundary)?;
+    as_drawn(boundary, area(through) * thickness + area(flanks) * depth)
+}
+
+/// Refuses a boundary that is not one closed shell by the rules of truck.
+fn check_closed(boundary: &TruckBoundary) -> Result<(), Refusal> {
+    let closed = truck_topology::Solid::extract(boundary.clone());
+    closed.map(drop).map_err(|fault| not_closed(fault.to_string().trim_end_matches('.')))
+}
+
+/// That a solid has no closed boundary.
+pub(crate) fn not_closed(why: &str) -> Refusal {
+    Refusal::new(format!("the solid is not closed: {why}")).remedy(REPORT)
 }
 
 fn at(point: Vector2<f64>, z: f64) -> Point3 {
-    // A negative zero is zero.
+    // A negative zero becomes zero.
     Point3::new(point.x + 0.0, point.y + 0.0, z)
 }
 
@@ -156,17 +172,17 @@ fn backward(index: usize) -> CompressedEdgeIndex {
 }
 
 /// A shell under construction between two planes.
-struct Walls {
-    shell: Shell,
+struct ShellBuilder {
+    shell: TruckShell,
     /// Heights of the planes.
     ends: (f64, f64),
     under: Vec<Vec<CompressedEdgeIndex>>,
     above: Vec<Vec<CompressedEdgeIndex>>,
 }
 
-impl Walls {
+impl ShellBuilder {
     fn new(ends: (f64, f64)) -> Self {
-        let shell = Shell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
+        let shell = TruckShell { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() };
         Self { shell, ends, under: Vec::new(), above: Vec::new() }
     }
 
@@ -188,11 +204,11 @@ impl Walls {
         let (mut vertices, mut edges, mut faces) = (Vec::new(), Vec::new(), Vec::new());
         for (i, edge) in sides.iter().enumerate() {
             for (top, z) in [(0, low), (1, high)] {
-                vertices.push(Place(at(edge.start(), z)));
+                vertices.push(SolidVertex(at(edge.start(), z)));
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
                 edges.push(CompressedEdge { vertices: ends, curve: carrier(edge, z) });
             }
-            let upright = Curve::Line { origin: at(edge.start(), low), direction: Vector3::unit_z() };
+            let upright = EdgeCurve::Line { origin: at(edge.start(), low), direction: Vector3::unit_z() };
             edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
             let around = [self.edge(n, i, 0), self.edge(n, i + 1, 2), self.edge(n, i, 1), self.edge(n, i, 2)];
             faces.push(side(edge, (low, high), around));
@@ -210,12 +226,12 @@ impl Walls {
                 patch.controls.iter().filter_map(|row| end(row).copied()).collect()
             };
             for (top, controls) in [(0, row(<[Point3]>::first)), (1, row(<[Point3]>::last))] {
-                vertices.extend(controls.first().copied().map(Place));
+                vertices.extend(controls.first().copied().map(SolidVertex));
                 let ends = (self.vertex(n, i, top), self.vertex(n, i + 1, top));
-                let curve = Curve::Spline(SplineCurve { knots: patch.u.clone(), controls });
+                let curve = EdgeCurve::Spline(SplineCurve { knots: patch.u.clone(), controls });
                 edges.push(CompressedEdge { vertices: ends, curve });
             }
-            let upright = Curve::Spline(SplineCurve { knots: patch.v.clone(), controls: first });
+            let upright = EdgeCurve::Spline(SplineCurve { knots: patch.v.clone(), controls: first });
             edges.push(CompressedEdge { vertices: (self.vertex(n, i, 0), self.vertex(n, i, 1)), curve: upright });
             let outward = vec![
                 forward(self.edge(n, i, 0)),
@@ -232,8 +248,8 @@ impl Walls {
     fn close(
         &mut self,
         n: usize,
-        vertices: Vec<Place>,
-        edges: Vec<CompressedEdge<Curve>>,
+        vertices: Vec<SolidVertex>,
+        edges: Vec<CompressedEdge<EdgeCurve>>,
         faces: Vec<CompressedFace<FaceSurface>>,
     ) {
         self.under.push((0..n).rev().map(|i| backward(self.edge(n, i, 0))).collect());
@@ -243,51 +259,82 @@ impl Walls {
         self.shell.faces.extend(faces);
     }
 
+    /// Adds a level face with its loops.
+    fn level(&mut self, boundaries: Vec<Vec<CompressedEdgeIndex>>, z: f64, normal: Vector3) {
+        let surface = FaceSurface::Plane { origin: Point3::new(0.0, 0.0, z), normal, along: Vector3::unit_x() };
+        self.shell.faces.push(CompressedFace { boundaries, orientation: true, surface });
+    }
+
     /// Adds the end faces.
-    fn capped(mut self) -> Boundary {
+    fn capped(mut self) -> TruckBoundary {
         let (low, high) = self.ends;
-        for (boundaries, z, normal) in [(self.under, low, -Vector3::unit_z()), (self.above, high, Vector3::unit_z())] {
-            let surface = FaceSurface::Plane { origin: Point3::new(0.0, 0.0, z), normal, along: Vector3::unit_x() };
-            self.shell.faces.push(CompressedFace { boundaries, orientation: true, surface });
-        }
+        let (under, above) = (std::mem::take(&mut self.under), std::mem::take(&mut self.above));
+        self.level(under, low, -Vector3::unit_z());
+        self.level(above, high, Vector3::unit_z());
         CompressedSolid { boundaries: vec![self.shell] }
+    }
+
+    /// A part with a groove between two flanks: its floor is a face of its own, and the upper face is one on either side of it.
+    fn grooved(through: &[Contour], flanks: &[Contour], (thickness, depth): (f64, f64)) -> TruckBoundary {
+        let mut walls = Self::new((0.0, thickness));
+        for contour in through {
+            walls.over(contour);
+        }
+        let (under, mut around) = (std::mem::take(&mut walls.under), std::mem::take(&mut walls.above));
+        walls.ends.0 = thickness - depth;
+        for contour in flanks {
+            walls.over(contour);
+        }
+        let (mut floor, mut flanks) = (std::mem::take(&mut walls.under), std::mem::take(&mut walls.above));
+        // Of the upper face the blank's edge and the outer flank bound one part, the inner flank and the holes the other.
+        let holes = around.split_off(around.len().min(1));
+        around.extend(flanks.pop());
+        flanks.extend(holes);
+        let up = Vector3::unit_z();
+        walls.level(under, 0.0, -up);
+        // Counter-clockwise round the outer flank, which comes first.
+        floor.reverse();
+        walls.level(floor, thickness - depth, up);
+        walls.level(around, thickness, up);
+        walls.level(flanks, thickness, up);
+        CompressedSolid { boundaries: vec![walls.shell] }
     }
 }
 
 /// Contours with the metal on their left, the outer one first, extruded from z = 0.
-fn extruded(contours: &[Contour], thickness: f64) -> Boundary {
-    let mut walls = Walls::new((0.0, thickness));
+fn extruded(contours: &[Contour], thickness: f64) -> TruckBoundary {
+    let mut walls = ShellBuilder::new((0.0, thickness));
     for contour in contours {
         walls.over(contour);
     }
     walls.capped()
 }
 
-/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`prism`] is; `area` is
-/// the area of the holes and `volume` what the flank encloses.
+/// A flank of spline patches with straight holes (clockwise) between two planes (mm), checked as [`prism`]; `area` is
+/// the area of the holes and `volume` the volume that the flank encloses.
 ///
 /// # Errors
-/// [`SolidError`] when the boundary is not closed.
-pub fn conical(
+/// [`Refusal`] when the boundary is not closed.
+pub fn flank_solid(
     patches: &[SplineSurface],
     holes: &[Contour],
     ends: (f64, f64),
     volume: f64,
-) -> Result<Solid, SolidError> {
-    let mut walls = Walls::new(ends);
+) -> Result<CheckedSolid, Refusal> {
+    let mut walls = ShellBuilder::new(ends);
     walls.flank(patches);
     for hole in holes {
         walls.over(hole);
     }
     let boundary = walls.capped();
-    closed::check(&boundary)?;
+    check_closed(&boundary)?;
     // Clockwise: their area is negative.
     let drilled: f64 = holes.iter().map(|hole| hole.area_and_centroid().0).sum();
-    Ok(Solid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
+    Ok(CheckedSolid { boundary, volume: volume + drilled * (ends.1 - ends.0) })
 }
 
-/// An edge as it is carried: an arc as two where it is long, as some readers cannot tell the inside of a cylinder face that is
-/// almost closed, and as a line where it differs from one by less than the solid's uncertainty and its centre would be too far
+/// An edge as it is carried: a long arc as two, as some readers cannot determine the inside of a cylinder face that is
+/// almost closed, and an arc as a line where it differs from one by less than the solid's uncertainty and its centre would be too far
 /// away.
 fn edges(edge: &Edge) -> Vec<Edge> {
     let Edge::Segment(segment) = edge else { return vec![*edge] };
@@ -304,19 +351,19 @@ fn edges(edge: &Edge) -> Vec<Edge> {
         .to_vec()
 }
 
-fn carrier(edge: &Edge, z: f64) -> Curve {
+fn carrier(edge: &Edge, z: f64) -> EdgeCurve {
     match edge {
         Edge::Segment(segment) if segment.bulge == 0.0 => {
             let direction = segment.start_tangent();
             let direction = Vector3::new(direction.x + 0.0, direction.y + 0.0, 0.0);
-            Curve::Line { origin: at(segment.start, z), direction }
+            EdgeCurve::Line { origin: at(segment.start, z), direction }
         }
-        Edge::Segment(segment) => Curve::Circle {
+        Edge::Segment(segment) => EdgeCurve::Circle {
             centre: at(segment.centre(), z),
             radius: segment.radius().abs(),
             clockwise: segment.bulge < 0.0,
         },
-        Edge::Cubic(cubic) => Curve::Spline(SplineCurve {
+        Edge::Cubic(cubic) => EdgeCurve::Spline(SplineCurve {
             knots: SPAN.to_vec(),
             controls: cubic.points.iter().map(|point| at(*point, z)).collect(),
         }),
@@ -361,7 +408,7 @@ fn side(edge: &Edge, (low, high): (f64, f64), [below, end, above, start]: [usize
 /// Volume within the boundary, mm³, by the divergence of (0, 0, z): the end faces only. Their area comes from the
 /// vertices and the edges' own circles.
 #[must_use]
-pub fn enclosed(boundary: &Boundary) -> f64 {
+pub fn enclosed_volume(boundary: &TruckBoundary) -> f64 {
     let mut volume = 0.0;
     for shell in &boundary.boundaries {
         for face in &shell.faces {
@@ -378,20 +425,21 @@ pub fn enclosed(boundary: &Boundary) -> f64 {
     volume
 }
 
-fn swept(shell: &Shell, used: CompressedEdgeIndex) -> f64 {
+fn swept(shell: &TruckShell, used: CompressedEdgeIndex) -> f64 {
     let Some(edge) = shell.edges.get(used.index) else { return f64::NAN };
-    let (Some(Place(a)), Some(Place(b))) = (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1))
+    let (Some(SolidVertex(a)), Some(SolidVertex(b))) =
+        (shell.vertices.get(edge.vertices.0), shell.vertices.get(edge.vertices.1))
     else {
         return f64::NAN;
     };
     let area = match &edge.curve {
         // A flank of several spans has a volume of its own.
-        Curve::Spline(spline) => match spline.controls.as_slice() {
+        EdgeCurve::Spline(spline) => match spline.controls.as_slice() {
             [a, b, c, d] => Cubic { points: [a, b, c, d].map(|p| Vector2::new(p.x, p.y)) }.area_and_moments().0,
             _ => return f64::NAN,
         },
-        Curve::Line { .. } => 0.5 * (a.x * b.y - a.y * b.x),
-        Curve::Circle { centre, radius, clockwise } => {
+        EdgeCurve::Line { .. } => 0.5 * (a.x * b.y - a.y * b.x),
+        EdgeCurve::Circle { centre, radius, clockwise } => {
             // Under the chord a triangle with the origin, over it R²/2 (θ − sin θ); θ from the circle's centre, seen
             // from the chord, so that a nearly straight arc keeps its digits.
             let (radius, side) = (*radius, if *clockwise { -1.0 } else { 1.0 });
@@ -408,19 +456,19 @@ fn swept(shell: &Shell, used: CompressedEdgeIndex) -> f64 {
 
 /// Largest distance of a vertex from the carriers of its edges, mm.
 #[must_use]
-pub fn largest_gap(boundary: &Boundary) -> f64 {
+pub fn largest_gap(boundary: &TruckBoundary) -> f64 {
     let mut worst = 0.0_f64;
     for shell in &boundary.boundaries {
         for edge in &shell.edges {
             for vertex in [edge.vertices.0, edge.vertices.1] {
-                let Some(Place(point)) = shell.vertices.get(vertex) else { return f64::INFINITY };
+                let Some(SolidVertex(point)) = shell.vertices.get(vertex) else { return f64::INFINITY };
                 worst = worst.max(match &edge.curve {
-                    Curve::Line { origin, direction } => (point - origin).cross(*direction).magnitude(),
-                    Curve::Spline(spline) => {
+                    EdgeCurve::Line { origin, direction } => (point - origin).cross(*direction).magnitude(),
+                    EdgeCurve::Spline(spline) => {
                         let ends = [spline.controls.first(), spline.controls.last()];
                         ends.iter().flatten().map(|end| (point - **end).magnitude()).fold(f64::INFINITY, f64::min)
                     }
-                    Curve::Circle { centre, radius, .. } => {
+                    EdgeCurve::Circle { centre, radius, .. } => {
                         let away = point - centre;
                         (away.magnitude() - radius).abs().max(away.z.abs())
                     }
@@ -432,4 +480,5 @@ pub fn largest_gap(boundary: &Boundary) -> f64 {
 }
 
 #[cfg(test)]
+#[cfg(feature = "press")]
 mod tests;

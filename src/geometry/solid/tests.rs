@@ -3,7 +3,7 @@ use crate::body::disc::Disc;
 use crate::body::{Body, Request};
 use crate::machine::Machine;
 
-fn boundary(overrides: &[&str]) -> Solid {
+fn boundary(overrides: &[&str]) -> CheckedSolid {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
     let machine = Machine::load("dpi", &overrides).expect("valid").0;
     let disc = Disc::solve(&machine, 35.0).expect("a cam");
@@ -32,7 +32,7 @@ fn cams_with_every_kind_of_hole_are_closed_solids() {
 #[test]
 fn a_broken_boundary_is_not_closed_or_not_the_volume() {
     let good = boundary(&[]);
-    let closed = |boundary: &Boundary| truck_topology::Solid::extract(boundary.clone()).is_ok();
+    let closed = |boundary: &TruckBoundary| check_closed(boundary).is_ok();
     assert!(closed(&good.boundary));
 
     let mut dropped = good.boundary.clone();
@@ -45,11 +45,11 @@ fn a_broken_boundary_is_not_closed_or_not_the_volume() {
 
     let mut sense = good.boundary.clone();
     for edge in &mut sense.boundaries[0].edges {
-        if let Curve::Circle { clockwise, .. } = &mut edge.curve {
+        if let EdgeCurve::Circle { clockwise, .. } = &mut edge.curve {
             *clockwise = true;
         }
     }
-    assert!((enclosed(&sense) / good.volume - 1.0).abs() > 0.1);
+    assert!((enclosed_volume(&sense) / good.volume - 1.0).abs() > 0.1);
 
     let mut moved = good.boundary.clone();
     moved.boundaries[0].vertices[5].0.x += 1e-6;
@@ -58,7 +58,7 @@ fn a_broken_boundary_is_not_closed_or_not_the_volume() {
 
 /// The sagitta of a chord c with a bulge b is b c/2, its radius c (1/b + b)/4.
 #[test]
-fn an_arc_is_a_line_where_nobody_could_tell() {
+fn an_arc_is_a_line_where_no_reader_sees_the_difference() {
     for (bulge, straight) in [(1e-8, true), (-1e-8, true), (2.2e-8, false), (1e-7, false), (0.01, false)] {
         let (start, end) = (Vector2::new(3.0, 4.0), Vector2::new(63.0, 84.0));
         let carried = edges(&Edge::Segment(Segment { start, end, bulge }));

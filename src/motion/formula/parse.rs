@@ -8,9 +8,9 @@
 //! atom    = number | "pi" | "e" | variable | function "(" sum ")" | "(" sum ")"
 //! ```
 
-use super::tape::{Function, Operation, Tape, Term, row_of};
-use super::{FormulaError, LONGEST};
+use super::{FormulaError, FormulaTape, LONGEST};
 use crate::document::similar;
+use crate::numeric::series::tape::{ElementaryFunction, TapeOperation, TapeTerm};
 
 /// Deepest nesting of parentheses, signs and powers.
 const DEEPEST: u32 = 100;
@@ -19,23 +19,23 @@ const MOST_OPERATIONS: usize = 3000;
 /// Largest whole exponent that is done by multiplying.
 const LARGEST_WHOLE: f64 = 1024.0;
 
-const FUNCTIONS: &[(&str, Function)] = &[
-    ("sin", Function::Sine),
-    ("cos", Function::Cosine),
-    ("tan", Function::Tangent),
-    ("asin", Function::ArcSine),
-    ("acos", Function::ArcCosine),
-    ("atan", Function::ArcTangent),
-    ("sqrt", Function::Power(0.5)),
-    ("exp", Function::Exponential),
-    ("log", Function::Logarithm),
+const FUNCTIONS: &[(&str, ElementaryFunction)] = &[
+    ("sin", ElementaryFunction::Sine),
+    ("cos", ElementaryFunction::Cosine),
+    ("tan", ElementaryFunction::Tangent),
+    ("asin", ElementaryFunction::ArcSine),
+    ("acos", ElementaryFunction::ArcCosine),
+    ("atan", ElementaryFunction::ArcTangent),
+    ("sqrt", ElementaryFunction::Power(0.5)),
+    ("exp", ElementaryFunction::Exponential),
+    ("log", ElementaryFunction::Logarithm),
 ];
 
 const CONSTANTS: &[(&str, f64)] = &[("pi", std::f64::consts::PI), ("e", std::f64::consts::E)];
 
-pub(super) fn parse(text: &str, variable: &str) -> Result<Tape, FormulaError> {
+pub(super) fn parse(text: &str, variable: &str) -> Result<FormulaTape, FormulaError> {
     let characters: Vec<char> = text.chars().take(LONGEST + 1).collect();
-    let mut parser = Parser { characters: &characters, at: 0, depth: 0, variable, tape: Tape::default() };
+    let mut parser = Parser { characters: &characters, at: 0, depth: 0, variable, text: FormulaTape::default() };
     if characters.len() > LONGEST {
         return Err(FormulaError {
             at: LONGEST + 1,
@@ -47,8 +47,8 @@ pub(super) fn parse(text: &str, variable: &str) -> Result<Tape, FormulaError> {
     if let Some(left) = parser.peek() {
         return Err(parser.unexpected(left));
     }
-    parser.tape.result = Some(value);
-    Ok(parser.tape)
+    parser.text.tape.result = Some(value);
+    Ok(parser.text)
 }
 
 struct Parser<'a> {
@@ -56,7 +56,7 @@ struct Parser<'a> {
     at: usize,
     depth: u32,
     variable: &'a str,
-    tape: Tape,
+    text: FormulaTape,
 }
 
 impl Parser<'_> {
@@ -68,7 +68,7 @@ impl Parser<'_> {
         self.characters.get(self.at).copied()
     }
 
-    /// Takes one of two signs, and tells at which character it stood.
+    /// Takes one of two signs, and gives its character.
     fn either(&mut self, signs: [char; 2]) -> Option<(char, usize)> {
         let found = self.peek().filter(|next| signs.contains(next))?;
         self.at += 1;
@@ -81,12 +81,12 @@ impl Parser<'_> {
 
     fn unexpected(&self, found: char) -> FormulaError {
         let help = match found {
-            ')' => "a parenthesis is closed that was not opened".to_owned(),
-            ',' => "decimals are written with a point, 1.5".to_owned(),
-            '=' => "the formula is the value alone, without `=`".to_owned(),
-            '(' => "write the product with `*`".to_owned(),
-            found if found.is_alphanumeric() || found == '.' => "write the product with `*`".to_owned(),
-            _ => "a formula has + - * / ^ ( ), numbers and names".to_owned(),
+            ')' => "this parenthesis was not opened".to_owned(),
+            ',' => "write decimals with a point: 1.5".to_owned(),
+            '=' => "write only the value, without `=`".to_owned(),
+            '(' => "write products with `*`".to_owned(),
+            found if found.is_alphanumeric() || found == '.' => "write products with `*`".to_owned(),
+            _ => "a formula consists of + - * / ^ ( ), numbers and names".to_owned(),
         };
         FormulaError { at: self.at + 1, message: format!("`{found}` does not belong here"), help: Some(help) }
     }
@@ -104,100 +104,103 @@ impl Parser<'_> {
     }
 
     /// An operation; one on constants is done at once.
-    fn push(&mut self, operation: Operation, at: usize) -> Result<Term, FormulaError> {
-        if self.tape.operations.len() >= MOST_OPERATIONS {
+    fn push(&mut self, operation: TapeOperation, at: usize) -> Result<TapeTerm, FormulaError> {
+        let tape = &mut self.text.tape;
+        if tape.operations.len() >= MOST_OPERATIONS {
             return self.fault(at, format!("more than {MOST_OPERATIONS} operations"), None);
         }
-        let given = |term: &Option<Term>| term.is_none_or(|term| self.tape.constant(term).is_some());
-        let known = operation.arguments().iter().all(given) && operation != Operation::Variable;
-        let term = self.tape.push(operation, at);
-        if !known || matches!(operation, Operation::Constant(_)) {
+        let given = |term: &Option<TapeTerm>| term.is_none_or(|term| tape.constant(term).is_some());
+        let known = operation.arguments().iter().all(given) && operation != TapeOperation::Abscissa;
+        let term = tape.push(operation);
+        self.text.characters.push(at);
+        if !known || matches!(operation, TapeOperation::Constant(_)) {
             return Ok(term);
         }
-        let value = row_of(&self.tape.rows(0.0, 1), term, 1).first().copied().unwrap_or(f64::NAN);
+        let value = tape.rows(0.0, 1).of(term).first().copied().unwrap_or(f64::NAN);
         if !value.is_finite() {
             return self.fault(at, "this has no finite value".into(), None);
         }
-        if let Some(last) = self.tape.operations.last_mut() {
-            last.operation = Operation::Constant(value);
+        if let Some(last) = tape.operations.last_mut() {
+            *last = TapeOperation::Constant(value);
         }
         Ok(term)
     }
 
-    fn sum(&mut self) -> Result<Term, FormulaError> {
+    fn sum(&mut self) -> Result<TapeTerm, FormulaError> {
         let mut value = self.product()?;
         while let Some((sign, at)) = self.either(['+', '-']) {
             let next = self.product()?;
-            let operation = if sign == '+' { Operation::Sum(value, next) } else { Operation::Difference(value, next) };
+            let operation =
+                if sign == '+' { TapeOperation::Sum(value, next) } else { TapeOperation::Difference(value, next) };
             value = self.push(operation, at)?;
         }
         Ok(value)
     }
 
-    fn product(&mut self) -> Result<Term, FormulaError> {
+    fn product(&mut self) -> Result<TapeTerm, FormulaError> {
         let mut value = self.signed()?;
         while let Some((sign, at)) = self.either(['*', '/']) {
             if sign == '*' && self.peek() == Some('*') {
-                return self.fault(self.at + 1, "`**` is not known".into(), Some("a power is written `^`".into()));
+                return self.fault(self.at + 1, "`**` is not an operator".into(), Some("write powers with `^`".into()));
             }
             let next = self.signed()?;
             let operation =
-                if sign == '*' { Operation::Product(value, next) } else { Operation::Quotient(value, next) };
+                if sign == '*' { TapeOperation::Product(value, next) } else { TapeOperation::Quotient(value, next) };
             value = self.push(operation, at)?;
         }
         Ok(value)
     }
 
-    fn signed(&mut self) -> Result<Term, FormulaError> {
+    fn signed(&mut self) -> Result<TapeTerm, FormulaError> {
         let Some((sign, at)) = self.either(['+', '-']) else { return self.power() };
         let value = self.deeper(Self::signed)?;
         if sign == '+' {
             return Ok(value);
         }
-        let zero = self.push(Operation::Constant(0.0), at)?;
-        self.push(Operation::Difference(zero, value), at)
+        let zero = self.push(TapeOperation::Constant(0.0), at)?;
+        self.push(TapeOperation::Difference(zero, value), at)
     }
 
-    fn power(&mut self) -> Result<Term, FormulaError> {
+    fn power(&mut self) -> Result<TapeTerm, FormulaError> {
         let base = self.atom()?;
         let Some((_, at)) = self.either(['^', '^']) else { return Ok(base) };
         let exponent = self.deeper(Self::signed)?;
-        match self.tape.constant(exponent) {
+        match self.text.tape.constant(exponent) {
             Some(whole) if whole.fract() == 0.0 && whole.abs() <= LARGEST_WHOLE => self.whole_power(base, whole, at),
-            Some(exponent) => self.push(Operation::Of(Function::Power(exponent), base), at),
+            Some(exponent) => self.push(TapeOperation::Of(ElementaryFunction::Power(exponent), base), at),
             None => {
-                let logarithm = self.push(Operation::Of(Function::Logarithm, base), at)?;
-                let product = self.push(Operation::Product(exponent, logarithm), at)?;
-                self.push(Operation::Of(Function::Exponential, product), at)
+                let logarithm = self.push(TapeOperation::Of(ElementaryFunction::Logarithm, base), at)?;
+                let product = self.push(TapeOperation::Product(exponent, logarithm), at)?;
+                self.push(TapeOperation::Of(ElementaryFunction::Exponential, product), at)
             }
         }
     }
 
     /// A whole power by squares.
-    fn whole_power(&mut self, base: Term, exponent: f64, at: usize) -> Result<Term, FormulaError> {
-        let one = self.push(Operation::Constant(1.0), at)?;
+    fn whole_power(&mut self, base: TapeTerm, exponent: f64, at: usize) -> Result<TapeTerm, FormulaError> {
+        let one = self.push(TapeOperation::Constant(1.0), at)?;
         let (mut left, mut square, mut value) = (exponent.abs(), base, None);
         while left >= 1.0 {
             if left % 2.0 == 1.0 {
                 value = Some(match value {
                     None => square,
-                    Some(value) => self.push(Operation::Product(value, square), at)?,
+                    Some(value) => self.push(TapeOperation::Product(value, square), at)?,
                 });
             }
             left = (left / 2.0).floor();
             if left >= 1.0 {
-                square = self.push(Operation::Product(square, square), at)?;
+                square = self.push(TapeOperation::Product(square, square), at)?;
             }
         }
         let value = value.unwrap_or(one);
-        if exponent < 0.0 { self.push(Operation::Quotient(one, value), at) } else { Ok(value) }
+        if exponent < 0.0 { self.push(TapeOperation::Quotient(one, value), at) } else { Ok(value) }
     }
 
-    fn atom(&mut self) -> Result<Term, FormulaError> {
+    fn atom(&mut self) -> Result<TapeTerm, FormulaError> {
         match self.peek() {
             None => {
                 let help = Some(format!("e.g. 10*(1-cos({}))", self.variable));
-                self.fault(self.at + 1, "the formula ends where a value should stand".into(), help)
+                self.fault(self.at + 1, "the formula ends where a value is expected".into(), help)
             }
             Some('(') => self.enclosed(),
             Some(next) if next.is_ascii_digit() || next == '.' => self.number(),
@@ -207,7 +210,7 @@ impl Parser<'_> {
     }
 
     /// A sum in parentheses.
-    fn enclosed(&mut self) -> Result<Term, FormulaError> {
+    fn enclosed(&mut self) -> Result<TapeTerm, FormulaError> {
         self.at += 1;
         let open = self.at;
         let value = self.deeper(Self::sum)?;
@@ -216,7 +219,7 @@ impl Parser<'_> {
                 self.at += 1;
                 Ok(value)
             }
-            None => self.fault(open, "the parenthesis that opens here is not closed".into(), Some("add `)`".into())),
+            None => self.fault(open, "the parenthesis opened here is not closed".into(), Some("add `)`".into())),
             Some(other) => Err(self.unexpected(other)),
         }
     }
@@ -230,7 +233,7 @@ impl Parser<'_> {
         taken
     }
 
-    fn number(&mut self) -> Result<Term, FormulaError> {
+    fn number(&mut self) -> Result<TapeTerm, FormulaError> {
         let from = self.at + 1;
         let mut text = self.take_while(|next| next.is_ascii_digit() || next == '.');
         // An exponent only where digits follow: `2e` is 2 times e without its `*`.
@@ -242,19 +245,19 @@ impl Parser<'_> {
             text.push_str(&self.take_while(|next| next.is_ascii_digit()));
         }
         match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => self.push(Operation::Constant(value), from),
+            Ok(value) if value.is_finite() => self.push(TapeOperation::Constant(value), from),
             _ => self.fault(from, format!("`{text}` is not a number"), None),
         }
     }
 
-    fn name(&mut self) -> Result<Term, FormulaError> {
+    fn name(&mut self) -> Result<TapeTerm, FormulaError> {
         let from = self.at + 1;
         let name = self.take_while(|next| next.is_alphanumeric() || next == '_');
         if name == self.variable {
-            return self.push(Operation::Variable, from);
+            return self.push(TapeOperation::Abscissa, from);
         }
         if let Some((_, value)) = CONSTANTS.iter().find(|(known, _)| *known == name) {
-            return self.push(Operation::Constant(*value), from);
+            return self.push(TapeOperation::Constant(*value), from);
         }
         if let Some((_, function)) = FUNCTIONS.iter().find(|(known, _)| *known == name) {
             if self.peek() != Some('(') {
@@ -262,13 +265,13 @@ impl Parser<'_> {
                 return self.fault(self.at + 1, format!("`{name}` needs its argument in parentheses"), help);
             }
             let argument = self.enclosed()?;
-            return self.push(Operation::Of(*function, argument), from);
+            return self.push(TapeOperation::Of(*function, argument), from);
         }
         let known = || FUNCTIONS.iter().map(|(known, _)| *known).chain(CONSTANTS.iter().map(|(known, _)| *known));
         let all: Vec<&str> = std::iter::once(self.variable).chain(known()).collect();
         let near = similar(&name, all.iter().copied()).map_or(String::new(), |near| format!("did you mean `{near}`? "));
         let help =
             format!("{near}the variable is `{}`; known are {}", self.variable, known().collect::<Vec<_>>().join(", "));
-        self.fault(from, format!("no name `{name}`"), Some(help))
+        self.fault(from, format!("unknown name `{name}`"), Some(help))
     }
 }

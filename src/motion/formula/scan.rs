@@ -2,13 +2,14 @@
 //!
 //! Each operation that is not defined everywhere has a guard: the denominator of a quotient, the argument of a logarithm or a root,
 //! 1 − a² of an arcsine, the cosine under a tangent. It is evaluated with its slope on a grid; where it changes its sign between two
-//! places, or comes nearest to 0 there, that place is found by bisection and looked at too.
+//! places, or comes nearest to 0 there, that place is found by bisection and evaluated as well.
 
-use super::tape::{Function, Operation, Tape, row_of};
+use super::FormulaTape;
+use crate::numeric::series::tape::{ElementaryFunction, SeriesRows, TapeOperation};
 
 /// Cells of the grid: every whole degree of a turn, and every simple share of a segment, is a place of it.
 const CELLS: u32 = 2520;
-/// Value and derivatives up to the jerk.
+/// The value and the derivatives up to the jerk.
 const ORDERS: usize = 4;
 /// A derivative of this share of its largest value is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -16,10 +17,10 @@ const ROUNDING: f64 = 1e-9;
 const BISECTIONS: u32 = 50;
 /// Most cells that are bisected, which bounds the time.
 const MOST_BISECTED: u32 = 300;
-/// A guard this much smaller than beside it is 0.
+/// A guard this much smaller than near it counts as 0.
 const NOTHING: f64 = 1e-12;
 
-/// What a scan found.
+/// The result of a scan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scan {
     /// Smallest and largest value.
@@ -30,7 +31,7 @@ pub struct Scan {
 
 /// A place without a value or derivative.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Singular {
+pub struct Singularity {
     /// The variable there.
     pub place: f64,
     /// The character of the text, from 1.
@@ -39,7 +40,7 @@ pub struct Singular {
     pub what: String,
 }
 
-/// What must not vanish, or must not be negative.
+/// A value that must not vanish, or must not be negative.
 #[derive(Debug, Clone, Copy)]
 struct Guard {
     value: f64,
@@ -49,31 +50,38 @@ struct Guard {
 }
 
 /// A place with the series of all operations.
-struct Evaluated {
+struct Evaluation<'t> {
+    text: &'t FormulaTape,
     place: f64,
-    rows: Vec<f64>,
+    rows: SeriesRows<'t>,
 }
 
-impl Evaluated {
-    fn new(tape: &Tape, place: f64) -> Self {
-        Self { place, rows: tape.rows(place, ORDERS) }
+impl<'t> Evaluation<'t> {
+    fn new(text: &'t FormulaTape, place: f64) -> Self {
+        Self { text, place, rows: text.tape.rows(place, ORDERS) }
+    }
+
+    /// The value of the argument of an operation.
+    fn argument(&self, operation: TapeOperation) -> Option<f64> {
+        let term = operation.arguments().into_iter().flatten().last()?;
+        self.rows.of(term).first().copied()
     }
 
     /// The guard of an operation, where it has one.
-    fn guard(&self, operation: Operation) -> Option<Guard> {
-        let of = |term| match row_of(&self.rows, term, ORDERS) {
+    fn guard(&self, operation: TapeOperation) -> Option<Guard> {
+        let of = |term| match self.rows.of(term) {
             [value, slope, ..] => (*value, *slope),
             _ => (0.0, 0.0),
         };
         let guard = |(value, slope): (f64, f64), signed: bool| Some(Guard { value, slope, signed });
         match operation {
-            Operation::Quotient(_, b) => guard(of(b), true),
-            Operation::Of(Function::Logarithm | Function::Power(_), a) => guard(of(a), false),
-            Operation::Of(Function::ArcSine | Function::ArcCosine, a) => {
+            TapeOperation::Quotient(_, b) => guard(of(b), true),
+            TapeOperation::Of(ElementaryFunction::Logarithm | ElementaryFunction::Power(_), a) => guard(of(a), false),
+            TapeOperation::Of(ElementaryFunction::ArcSine | ElementaryFunction::ArcCosine, a) => {
                 let (a, slope) = of(a);
                 guard(((1.0 - a) * (1.0 + a), -2.0 * a * slope), false)
             }
-            Operation::Of(Function::Tangent, a) => {
+            TapeOperation::Of(ElementaryFunction::Tangent, a) => {
                 let (a, slope) = of(a);
                 let (sine, cosine) = libm::sincos(a);
                 guard((cosine, -sine * slope), true)
@@ -82,49 +90,48 @@ impl Evaluated {
         }
     }
 
-    /// The first operation without a value or a derivative here.
-    fn fault(&self, tape: &Tape) -> Option<Singular> {
-        let rows = self.rows.chunks(ORDERS);
-        let (placed, row) =
-            tape.operations.iter().zip(rows).find(|(_, row)| row.iter().any(|value| !value.is_finite()))?;
+    /// The first operation without a value or derivative here.
+    fn fault(&self) -> Option<Singularity> {
+        let placed = self.text.tape.operations.iter().zip(&self.text.characters);
+        let ((operation, at), row) =
+            placed.zip(self.rows.iter()).find(|(_, row)| row.iter().any(|value| !value.is_finite()))?;
         let valued = row.first().is_some_and(|value| value.is_finite());
-        let argument = placed.operation.arguments().into_iter().flatten().last();
-        let argument = argument.and_then(|term| row_of(&self.rows, term, ORDERS).first()).copied().unwrap_or(f64::NAN);
-        Some(Singular { place: self.place, at: placed.at, what: told(placed.operation, argument, valued) })
+        let argument = self.argument(*operation).unwrap_or(f64::NAN);
+        Some(Singularity { place: self.place, at: *at, what: describe(*operation, argument, valued) })
     }
 }
 
 /// What is wrong with an operation of an argument, which may have a value without derivatives.
-fn told(operation: Operation, argument: f64, valued: bool) -> String {
+fn describe(operation: TapeOperation, argument: f64, valued: bool) -> String {
     let name = match operation {
-        Operation::Quotient(..) => return "a division by 0".into(),
-        Operation::Of(Function::Logarithm, _) => "the logarithm",
-        Operation::Of(Function::Power(0.5), _) => "the square root",
-        Operation::Of(Function::Power(_), _) => "the power, which is not whole,",
-        Operation::Of(Function::ArcSine, _) => "the arcsine",
-        Operation::Of(Function::ArcCosine, _) => "the arccosine",
-        Operation::Of(Function::Tangent, _) => "the tangent",
-        _ => return "the value or a derivative up to the third is beyond all bounds".into(),
+        TapeOperation::Quotient(..) => return "a division by 0".into(),
+        TapeOperation::Of(ElementaryFunction::Logarithm, _) => "the logarithm",
+        TapeOperation::Of(ElementaryFunction::Power(0.5), _) => "the square root",
+        TapeOperation::Of(ElementaryFunction::Power(_), _) => "the power, which is not whole,",
+        TapeOperation::Of(ElementaryFunction::ArcSine, _) => "the arcsine",
+        TapeOperation::Of(ElementaryFunction::ArcCosine, _) => "the arccosine",
+        TapeOperation::Of(ElementaryFunction::Tangent, _) => "the tangent",
+        _ => return "the value or a derivative up to the third is infinite".into(),
     };
     let without = if valued { "has no finite derivative up to the third" } else { "has no value" };
     format!("{name} of {argument} {without}")
 }
 
-pub(super) fn scan(tape: &Tape, low: f64, high: f64) -> Result<Scan, Singular> {
+pub(super) fn scan(text: &FormulaTape, low: f64, high: f64) -> Result<Scan, Singularity> {
     let mut found = Scan { range: (f64::INFINITY, f64::NEG_INFINITY), turns: 0 };
     let mut derivatives: [Vec<f64>; ORDERS - 1] = Default::default();
     let mut bisected = 0;
-    let mut before: Option<Evaluated> = None;
+    let mut before: Option<Evaluation> = None;
     for cell in 0..=CELLS {
         let place = if cell == CELLS { high } else { low + (high - low) * (f64::from(cell) / f64::from(CELLS)) };
-        let here = Evaluated::new(tape, place);
+        let here = Evaluation::new(text, place);
         if let Some(before) = &before {
-            between(tape, before, &here, &mut bisected)?;
+            between(before, &here, &mut bisected)?;
         }
-        if let Some(singular) = here.fault(tape) {
+        if let Some(singular) = here.fault() {
             return Err(singular);
         }
-        let row = tape.result(&here.rows, ORDERS);
+        let row = here.rows.result();
         let value = row.first().copied().unwrap_or(0.0);
         found.range = (found.range.0.min(value), found.range.1.max(value));
         for (all, derivative) in derivatives.iter_mut().zip(row.iter().skip(1)) {
@@ -136,7 +143,7 @@ pub(super) fn scan(tape: &Tape, low: f64, high: f64) -> Result<Scan, Singular> {
     Ok(found)
 }
 
-/// How many of the shortest way between two changes of sign fill the grid, rounding left out; 1 where there is one change, 0 without.
+/// How many of the shortest distance between two changes of sign fit into the grid, ignoring rounding; 1 with one change, 0 without.
 fn turns(values: &[f64]) -> u32 {
     let least = ROUNDING * values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let mut last: Option<(u32, f64)> = None;
@@ -158,9 +165,10 @@ fn turns(values: &[f64]) -> u32 {
 }
 
 /// Looks for a guard that vanishes between two places.
-fn between(tape: &Tape, left: &Evaluated, right: &Evaluated, bisected: &mut u32) -> Result<(), Singular> {
-    for placed in &tape.operations {
-        let guard = |at: &Evaluated| at.guard(placed.operation);
+fn between(left: &Evaluation, right: &Evaluation, bisected: &mut u32) -> Result<(), Singularity> {
+    let text = left.text;
+    for (operation, at) in text.tape.operations.iter().zip(&text.characters) {
+        let guard = |at: &Evaluation| at.guard(*operation);
         let (Some(a), Some(b)) = (guard(left), guard(right)) else { continue };
         let crosses = a.value * b.value < 0.0;
         let dips = a.value * a.slope < 0.0 && b.value * b.slope > 0.0;
@@ -172,25 +180,19 @@ fn between(tape: &Tape, left: &Evaluated, right: &Evaluated, bisected: &mut u32)
         let (mut low, mut high) = (left.place, right.place);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
-            let ahead = guard(&Evaluated::new(tape, middle)).is_some_and(|found| towards(&found));
+            let ahead = guard(&Evaluation::new(text, middle)).is_some_and(|found| towards(&found));
             if ahead { low = middle } else { high = middle }
         }
-        let here = Evaluated::new(tape, high);
+        let here = Evaluation::new(text, high);
         let least = guard(&here).map_or(0.0, |found| found.value);
         let vanishes = if a.signed { least.abs() } else { least } <= NOTHING * a.value.abs().min(b.value.abs());
         // Where the argument of a root crosses 0 the next place of the grid has no value.
-        if crosses || vanishes || here.fault(tape).is_some() {
+        if crosses || vanishes || here.fault().is_some() {
             let outside = if a.signed { 0.0 } else { least.min(0.0) };
-            let what = told(placed.operation, argument(&here, placed.operation).unwrap_or(outside), false);
-            let fault = here.fault(tape).map_or(what, |fault| fault.what);
-            return Err(Singular { place: here.place, at: placed.at, what: fault });
+            let what = describe(*operation, here.argument(*operation).unwrap_or(outside), false);
+            let fault = here.fault().map_or(what, |fault| fault.what);
+            return Err(Singularity { place: here.place, at: *at, what: fault });
         }
     }
     Ok(())
-}
-
-/// The value of the argument of an operation.
-fn argument(at: &Evaluated, operation: Operation) -> Option<f64> {
-    let term = operation.arguments().into_iter().flatten().last()?;
-    row_of(&at.rows, term, ORDERS).first().copied()
 }

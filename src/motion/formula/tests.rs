@@ -84,10 +84,10 @@ fn what_does_not_read_is_told_at_its_character() {
         ("2*x)", 4, "`)` does not belong"),
         ("2 x", 3, "`x` does not belong"),
         ("1,5", 2, "`,` does not belong"),
-        ("sen(x)", 1, "no name `sen`"),
-        ("2*theta", 3, "no name `theta`"),
+        ("sen(x)", 1, "unknown name `sen`"),
+        ("2*theta", 3, "unknown name `theta`"),
         ("sin x", 5, "needs its argument in parentheses"),
-        ("2**x", 3, "`**` is not known"),
+        ("2**x", 3, "`**` is not an operator"),
         ("1..5", 1, "is not a number"),
         ("2e", 2, "`e` does not belong"),
         ("1/(1-1)", 2, "no finite value"),
@@ -118,7 +118,7 @@ fn places_without_a_value_are_found() {
         ("asin(2*x)", 0.5, "arcsine of"),
         ("acos(x/3)", 3.0, "arccosine of"),
         ("tan(x)", PI / 2.0, "tangent of"),
-        ("exp(exp(x*2))", 3.269, "beyond all bounds"),
+        ("exp(exp(x*2))", 3.269, "is infinite"),
         ("x^2.5", 0.0, "no finite derivative"),
     ] {
         let singular = formula(text).scanned(0.0, TAU).expect_err(text);
@@ -136,9 +136,9 @@ fn places_without_a_value_are_found() {
 }
 
 /// A generator of numbers that are the same on every run (Marsaglia, "Xorshift RNGs", 2003).
-struct Random(u64);
+struct FormulaRandom(u64);
 
-impl Random {
+impl FormulaRandom {
     fn below(&mut self, count: usize) -> usize {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -186,7 +186,7 @@ fn any_text_is_read_or_refused() {
         "^2",
         "\n",
     ];
-    let (mut random, mut read) = (Random(0x2545_F491_4F6C_DD1D), 0);
+    let (mut random, mut read) = (FormulaRandom(0x2545_F491_4F6C_DD1D), 0);
     for _ in 0..20_000 {
         let text: String = (0..random.below(14)).map(|_| words[random.below(words.len())]).collect();
         match Formula::parse(&text, "x") {

@@ -3,16 +3,16 @@
 //! In Bernstein form a polynomial of given derivatives at both ends needs no system of equations, a rest is a row of zeros, and
 //! no power of x cancels another: G. Farin, "Curves and surfaces for CAGD", 5th ed. (2002), chapters 4 and 5.
 
-use super::curve::Values;
+use super::values::Values;
 
 /// A sum of coefficients times x^k (1 − x)^(n−k).
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Form {
+struct ScaledBernstein {
     /// k = 0 first; the binomials are in them.
     scaled: Vec<f64>,
 }
 
-impl Form {
+impl ScaledBernstein {
     fn of(coefficients: &[f64]) -> Self {
         let degree = count(coefficients.len().saturating_sub(1));
         let mut binomial = 1.0;
@@ -46,9 +46,9 @@ pub(super) struct Bernstein {
     end: f64,
     /// Coefficients of s − s(0).
     from_start: Vec<f64>,
-    above_start: Form,
-    below_end: Form,
-    derivatives: [Form; 3],
+    above_start: ScaledBernstein,
+    below_end: ScaledBernstein,
+    derivatives: [ScaledBernstein; 3],
 }
 
 /// A length, which is small.
@@ -66,8 +66,8 @@ fn differences(row: &[f64]) -> Vec<f64> {
     row.iter().zip(row.iter().skip(1)).map(|(a, b)| b - a).collect()
 }
 
-/// The coefficients next to an end, counted from it and less the end's own, from the derivatives there, the value first.
-fn beside_end(derivatives: &[f64], degree: u32) -> Vec<f64> {
+/// The coefficients next to an end, counted from it and less that of the end itself, from the derivatives there, the value first.
+fn next_to_end(derivatives: &[f64], degree: u32) -> Vec<f64> {
     // The differences at the end, Δ^k b = s^(k) (n − k)!/n!, are summed up: each row of the triangle is the running sum of
     // the one before.
     let mut row: Vec<f64> = (0..).zip(derivatives).map(|(k, s)| s / falling(degree, k)).collect();
@@ -89,7 +89,7 @@ impl Bernstein {
         let (start, end) = (from.first().copied().unwrap_or(0.0), to.first().copied().unwrap_or(0.0));
         // Seen from the end the odd derivatives change their signs.
         let turned: Vec<f64> = to.iter().enumerate().map(|(k, s)| if k % 2 == 1 { -s } else { *s }).collect();
-        let (near_start, near_end) = (beside_end(from, degree), beside_end(&turned, degree));
+        let (near_start, near_end) = (next_to_end(from, degree), next_to_end(&turned, degree));
         let travel = end - start;
         let from_start: Vec<f64> =
             near_start.iter().copied().chain(near_end.iter().rev().map(|b| travel + b)).collect();
@@ -98,9 +98,16 @@ impl Bernstein {
         let derivatives = [1, 2, 3].map(|order| {
             row = differences(&row);
             let factor = falling(degree, order);
-            Form::of(&row.iter().map(|b| factor * b).collect::<Vec<_>>())
+            ScaledBernstein::of(&row.iter().map(|b| factor * b).collect::<Vec<_>>())
         });
-        Self { start, end, above_start: Form::of(&from_start), below_end: Form::of(&below), from_start, derivatives }
+        Self {
+            start,
+            end,
+            above_start: ScaledBernstein::of(&from_start),
+            below_end: ScaledBernstein::of(&below),
+            from_start,
+            derivatives,
+        }
     }
 
     /// Value and three derivatives.
@@ -123,6 +130,6 @@ impl Bernstein {
         }
         let row = (0..order).fold(self.from_start.clone(), |row, _| differences(&row));
         let degree = count(self.from_start.len().saturating_sub(1));
-        Form::of(&row).at(x, 1.0 - x) * falling(degree, order)
+        ScaledBernstein::of(&row).at(x, 1.0 - x) * falling(degree, order)
     }
 }

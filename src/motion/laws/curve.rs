@@ -1,32 +1,30 @@
 //! A solved law: the shape s(x) of a segment with all its derivatives.
 //!
 //! Between joints a curve is one analytic function. It may be written in two ways, from either side, that meet without a jump
-//! ([`Part`]): near an end only the distance from that end keeps its digits.
+//! ([`CurvePart`]): near an end only the distance from that end keeps its digits.
 
 use super::bernstein::Bernstein;
-use super::expressed::Expressed;
-use super::harmonics::Harmonics;
-use super::local::Local;
-use super::rests::Rests;
+use super::formula_shape::FormulaShape;
+use super::harmonics::HarmonicSeries;
+use super::local::LocalPiece;
+use super::rest_to_rest::RestToRest;
+use super::values::Values;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// s, s', s'', s''' at x.
-pub type Values = [f64; 4];
-
 /// One analytic function between two joints.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Part {
+pub(super) enum CurvePart {
     /// A polynomial.
     Polynomial(Bernstein),
-    /// Waves and a polynomial of low degree, written from the start up to `split` and from the end behind it.
+    /// Waves and a polynomial of low degree, written from the start up to `split` and from the end after it.
     Waves {
         /// Where the one form takes over from the other.
         split: f64,
         /// s by x.
-        early: Local,
+        early: LocalPiece,
         /// 1 − s by 1 − x.
-        late: Local,
+        late: LocalPiece,
     },
     /// A polynomial over a stretch of the segment, by the share of the stretch.
     Stretch {
@@ -35,25 +33,25 @@ pub(super) enum Part {
         polynomial: Bernstein,
     },
     /// Harmonics of the segment.
-    Harmonics(Arc<Harmonics>),
+    Harmonics(Arc<HarmonicSeries>),
     /// A formula.
-    Expressed(Arc<Expressed>),
-    /// What the cam does for a load to move as a part.
-    Loaded(Arc<Loaded>),
+    Formula(Arc<FormulaShape>),
+    /// The motion of a cam whose elastic load moves as another part.
+    Polydyne(Arc<PolydyneShape>),
     /// A polynomial from rest to rest by its jerk.
-    Rests(Arc<Rests>),
+    RestToRest(Arc<RestToRest>),
 }
 
 /// s + first s' + second s'': the motion of a cam under which an elastic load moves as s, a polydyne cam (D. A. Stoddart, "Polydyne cam
 /// design", Machine Design, 1953).
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Loaded {
-    pub(super) load: Part,
+pub(super) struct PolydyneShape {
+    pub(super) load: CurvePart,
     pub(super) first: f64,
     pub(super) second: f64,
 }
 
-impl Loaded {
+impl PolydyneShape {
     /// Value and three derivatives.
     pub(super) fn at(&self, x: f64) -> Values {
         let [s, v, a, j] = self.load.at(x);
@@ -69,53 +67,53 @@ impl Loaded {
     }
 }
 
-impl Part {
+impl CurvePart {
     /// A part that needs only the form from the start.
-    pub(super) fn early(local: Local) -> Self {
-        Part::Waves { split: f64::INFINITY, early: local, late: Local::default() }
+    pub(super) fn early(local: LocalPiece) -> Self {
+        CurvePart::Waves { split: f64::INFINITY, early: local, late: LocalPiece::default() }
     }
 
     /// A part that needs only the form from the end.
-    pub(super) fn late(local: Local) -> Self {
-        Part::Waves { split: f64::NEG_INFINITY, early: Local::default(), late: local }
+    pub(super) fn late(local: LocalPiece) -> Self {
+        CurvePart::Waves { split: f64::NEG_INFINITY, early: LocalPiece::default(), late: local }
     }
 
     #[inline]
     pub(super) fn at(&self, x: f64) -> Values {
         match self {
-            Part::Polynomial(polynomial) => polynomial.at(x),
-            Part::Waves { split, early, .. } if x <= *split => early.at(x),
-            Part::Waves { late, .. } => {
+            CurvePart::Polynomial(polynomial) => polynomial.at(x),
+            CurvePart::Waves { split, early, .. } if x <= *split => early.at(x),
+            CurvePart::Waves { late, .. } => {
                 let [value, first, second, third] = late.at(1.0 - x);
                 [1.0 - value, first, -second, third]
             }
-            Part::Stretch { range: (from, width), polynomial } => {
+            CurvePart::Stretch { range: (from, width), polynomial } => {
                 let [value, first, second, third] = polynomial.at((x - from) / width);
                 [value, first / width, second / width / width, third / width / width / width]
             }
-            Part::Harmonics(harmonics) => [0, 1, 2, 3].map(|order| harmonics.derivative(x, order)),
-            Part::Expressed(formula) => formula.at(x),
-            Part::Loaded(loaded) => loaded.at(x),
-            Part::Rests(rests) => rests.at(x),
+            CurvePart::Harmonics(harmonics) => [0, 1, 2, 3].map(|order| harmonics.derivative(x, order)),
+            CurvePart::Formula(formula) => formula.at(x),
+            CurvePart::Polydyne(loaded) => loaded.at(x),
+            CurvePart::RestToRest(polynomial) => polynomial.at(x),
         }
     }
 
-    /// In how many cells its extremes are told apart: the derivatives of five waves over a segment have twenty, those of a cubic
+    /// Cells in which its extremes are separated: the derivatives of five waves over a segment have twenty, those of a cubic
     /// acceleration two.
     pub(super) fn cells(&self) -> u32 {
         match self {
-            Part::Polynomial(_) | Part::Waves { .. } | Part::Rests(_) => 64,
-            Part::Stretch { .. } => 4,
-            Part::Harmonics(_) | Part::Expressed(_) => 32,
-            Part::Loaded(loaded) => loaded.load.cells(),
+            CurvePart::Polynomial(_) | CurvePart::Waves { .. } | CurvePart::RestToRest(_) => 64,
+            CurvePart::Stretch { .. } => 4,
+            CurvePart::Harmonics(_) | CurvePart::Formula(_) => 32,
+            CurvePart::Polydyne(loaded) => loaded.load.cells(),
         }
     }
 
     pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
         match self {
-            Part::Polynomial(polynomial) => polynomial.derivative(x, order),
-            Part::Waves { split, early, .. } if x <= *split => early.derivative(x, order),
-            Part::Waves { late, .. } => {
+            CurvePart::Polynomial(polynomial) => polynomial.derivative(x, order),
+            CurvePart::Waves { split, early, .. } if x <= *split => early.derivative(x, order),
+            CurvePart::Waves { late, .. } => {
                 let from_end = late.derivative(1.0 - x, order);
                 match order {
                     0 => 1.0 - from_end,
@@ -123,13 +121,13 @@ impl Part {
                     _ => from_end,
                 }
             }
-            Part::Stretch { range: (from, width), polynomial } => {
+            CurvePart::Stretch { range: (from, width), polynomial } => {
                 (0..order).fold(polynomial.derivative((x - from) / width, order), |product, _| product / width)
             }
-            Part::Harmonics(harmonics) => harmonics.derivative(x, order),
-            Part::Expressed(formula) => formula.derivative(x, order),
-            Part::Loaded(loaded) => loaded.derivative(x, order),
-            Part::Rests(rests) => rests.derivative(x, order),
+            CurvePart::Harmonics(harmonics) => harmonics.derivative(x, order),
+            CurvePart::Formula(formula) => formula.derivative(x, order),
+            CurvePart::Polydyne(loaded) => loaded.derivative(x, order),
+            CurvePart::RestToRest(polynomial) => polynomial.derivative(x, order),
         }
     }
 }
@@ -139,29 +137,29 @@ impl Part {
 /// s runs from 0 to 1, but for a polynomial of given ends ([`super::polynomial::hermite`]). Between its joints every derivative
 /// is exact.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
+pub struct LawCurve {
     joints: Vec<f64>,
-    parts: Vec<Part>,
+    parts: Vec<CurvePart>,
     inflection: Option<f64>,
     humps: bool,
-    /// Most parts that are looked at as one.
+    /// Largest number of parts that are treated as one.
     together: usize,
 }
 
-impl Curve {
+impl LawCurve {
     /// A curve without joints.
-    pub(super) fn smooth(part: Part) -> Self {
+    pub(super) fn smooth(part: CurvePart) -> Self {
         Self::of_many(Vec::new(), vec![part], usize::MAX)
     }
 
-    /// A curve of parts that meet at joints, of which at most so many are looked at as one: what has many extremes is searched
+    /// A curve of parts that meet at joints, of which at most so many are treated as one: a curve with many extremes is searched
     /// stretch by stretch.
-    pub(super) fn of_many(joints: Vec<f64>, parts: Vec<Part>, together: usize) -> Self {
+    pub(super) fn of_many(joints: Vec<f64>, parts: Vec<CurvePart>, together: usize) -> Self {
         Self { joints, parts, inflection: None, humps: false, together: together.max(1) }
     }
 
     /// A part that holds for the whole segment, cut into equal stretches.
-    pub(super) fn cut(part: &Part, stretches: u32) -> Self {
+    pub(super) fn cut(part: &CurvePart, stretches: u32) -> Self {
         let count = stretches.max(1);
         let joints = (1..count).map(|joint| f64::from(joint) / f64::from(count)).collect();
         Self::of_many(joints, (0..count).map(|_| part.clone()).collect(), 1)
@@ -170,18 +168,18 @@ impl Curve {
     /// The straight line s = x.
     #[must_use]
     pub fn line() -> Self {
-        let line = Local::polynomial(0.0, [0.0, 1.0, 0.0, 0.0]);
-        Self::smooth(Part::Waves { split: 0.5, early: line.clone(), late: line })
+        let line = LocalPiece::polynomial(0.0, [0.0, 1.0, 0.0, 0.0]);
+        Self::smooth(CurvePart::Waves { split: 0.5, early: line.clone(), late: line })
     }
 
     /// A curve of parts that meet at joints, one joint fewer than parts; with the place of its inflection, and whether its
     /// acceleration has two humps.
-    pub(super) fn of_parts(joints: Vec<f64>, parts: Vec<Part>, inflection: f64, humps: bool) -> Self {
+    pub(super) fn of_parts(joints: Vec<f64>, parts: Vec<CurvePart>, inflection: f64, humps: bool) -> Self {
         Self { inflection: Some(inflection), humps, ..Self::of_many(joints, parts, usize::MAX) }
     }
 
-    /// The same curve of other parts.
-    pub(super) fn with_parts(&self, part: impl Fn(&Part) -> Part) -> Self {
+    /// The curve with other parts.
+    pub(super) fn with_parts(&self, part: impl Fn(&CurvePart) -> CurvePart) -> Self {
         Self { parts: self.parts.iter().map(part).collect(), ..self.clone() }
     }
 
@@ -192,7 +190,7 @@ impl Curve {
         &self.joints
     }
 
-    /// Where the acceleration was made to change its sign, of a law that has such a place to choose.
+    /// Where the acceleration changes its sign, for a law whose inflection can be chosen.
     #[must_use]
     pub fn inflection(&self) -> Option<f64> {
         self.inflection
@@ -219,7 +217,7 @@ impl Curve {
     }
 
     /// How a part is written.
-    pub(super) fn part(&self, part: usize) -> Option<&Part> {
+    pub(super) fn part(&self, part: usize) -> Option<&CurvePart> {
         self.parts.get(part)
     }
 
@@ -246,10 +244,14 @@ impl Curve {
     #[must_use]
     pub fn smooth_to(&self, order: u32) -> Vec<Range<usize>> {
         let sizes: Vec<(u32, f64)> = (0..=order).map(|order| (order, self.size(order))).collect();
+        let own = sizes.first().map_or(0.0, |size| size.1);
         let mut breaks: Vec<usize> = vec![0];
         for part in 1..self.parts() {
             let full = breaks.last().is_some_and(|first| part - first >= self.together);
-            if full || sizes.iter().any(|(order, size)| self.jumps_by(part, *order) > ROUNDING * size) {
+            let jumps = |(order, size): &(u32, f64)| {
+                self.jumps_by(part, *order) > ROUNDING * size + self.rounding_at(part, *order, own)
+            };
+            if full || sizes.iter().any(jumps) {
                 breaks.push(part);
             }
         }
@@ -263,15 +265,26 @@ impl Curve {
         (1..self.parts()).find(|part| self.jumps_by(*part, order) > ROUNDING * size)
     }
 
-    /// In how many cells the extremes of a part are told apart.
+    /// Cells in which the extremes of a part are separated.
     pub(crate) fn cells(&self, part: usize) -> u32 {
-        self.parts.get(part).map_or(1, Part::cells)
+        self.parts.get(part).map_or(1, CurvePart::cells)
     }
 
-    /// By how much a derivative jumps between a part and the one before it.
+    /// The size of the jump of a derivative between a part and the one before it.
     pub(super) fn jumps_by(&self, part: usize, order: u32) -> f64 {
         let Some(joint) = part.checked_sub(1).and_then(|before| self.joints.get(before)) else { return 0.0 };
         (self.derivative(part - 1, *joint, order) - self.derivative(part, *joint, order)).abs()
+    }
+
+    /// What rounding of a value of this size leaves of a derivative between a part and the one before it: a spline of many knots is as smooth
+    /// as one of few.
+    fn rounding_at(&self, part: usize, order: u32, size: f64) -> f64 {
+        let width = |part: usize| {
+            let (low, high) = self.range_of(part);
+            high - low
+        };
+        let width = width(part).min(width(part.saturating_sub(1)));
+        (0..order).fold(OF_VALUES * size, |rounding, _| rounding / width)
     }
 
     /// The size of a derivative, at the ends and the middles of the parts.
@@ -283,6 +296,9 @@ impl Curve {
         sizes.fold(0.0, f64::max)
     }
 }
+
+/// Rounding of the values of a spline, as a share of them, with what its equations add.
+const OF_VALUES: f64 = 256.0 * f64::EPSILON;
 
 /// A jump smaller than this share of a derivative's size is rounding: that is 1e-14, and what jumps by so little does not
 /// matter to a cam.

@@ -1,7 +1,7 @@
 //! Laws of two halves, each from an end of the segment to the inflection, where the acceleration is 0 on both sides.
 //!
-//! A half tells how the velocity runs from 0 to 1, φ(y) over y ∈ [0, 1] from its outer end; F = ∫φ and m = F(1). Before the
-//! inflection λ the velocity is v0 + (vm − v0) φ1(x/λ), behind it v1 + (vm − v1) φ2((1 − x)/(1 − λ)): whatever λ and the end
+//! A half describes how the velocity runs from 0 to 1, φ(y) over y ∈ [0, 1] from its outer end; F = ∫φ and m = F(1). Before the
+//! inflection λ the velocity is v0 + (vm − v0) φ1(x/λ), after it v1 + (vm − v1) φ2((1 − x)/(1 − λ)): for any λ and end
 //! velocities, value, velocity and acceleration are continuous there. That the travel is 1,
 //!
 //! ```text
@@ -11,31 +11,15 @@
 //! gives vm, the velocity at the inflection. The laws and their constants: Neklutin, "Mechanisms and cams for automatic
 //! machines" (1969); Norton, "Cam design and manufacturing handbook", chapter 3; VDI 2143, part 1.
 
-use super::curve::{Curve, Part};
-use super::local::{Local, Wave};
-use super::task::{End, Inflection, LawError, Parameters, Task};
-use super::{Law, Shape};
+use super::curve::{CurvePart, LawCurve};
+use super::law::{Half, Law, LawFamily, Ramp};
+use super::local::{LocalPiece, LocalWave};
+use super::task::{Inflection, LawError, LawTask, Parameters, SegmentEnd};
 use std::f64::consts::PI;
 
-/// How the acceleration grows and falls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Ramp {
-    /// As a quarter of a sine.
-    Sine,
-    /// In proportion.
-    Straight,
-}
-
-/// A half: the acceleration grows over a, is constant over b, falls over c and is 0 over d, a + b + c + d = 1.
+/// The phase of the acceleration in a piece of a half.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Half {
-    pub(super) ramp: Ramp,
-    pub(super) fractions: [f64; 4],
-}
-
-/// What the acceleration does in a piece of a half.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+enum AccelerationPhase {
     Grows,
     /// Grows and falls as one sine.
     Swells,
@@ -46,8 +30,8 @@ enum Kind {
 
 /// A piece of a half from y on.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
-    kind: Kind,
+struct HalfPiece {
+    kind: AccelerationPhase,
     y: f64,
     width: f64,
     /// φ and F where it begins.
@@ -107,14 +91,24 @@ impl Half {
     }
 
     /// The pieces that have a width, from the outer end, and m = F(1).
-    fn stretches(self) -> (Vec<Stretch>, f64) {
+    fn stretches(self) -> (Vec<HalfPiece>, f64) {
         let [a, b, c, d] = self.fractions;
         let (peak, (area, moment)) = (self.peak(), self.ramp_area());
         let swells = self.ramp == Ramp::Sine && b == 0.0 && a == c;
         let kinds = if swells {
-            [(Kind::Swells, a + c), (Kind::Stays, 0.0), (Kind::Falls, 0.0), (Kind::Rests, d)]
+            [
+                (AccelerationPhase::Swells, a + c),
+                (AccelerationPhase::Stays, 0.0),
+                (AccelerationPhase::Falls, 0.0),
+                (AccelerationPhase::Rests, d),
+            ]
         } else {
-            [(Kind::Grows, a), (Kind::Stays, b), (Kind::Falls, c), (Kind::Rests, d)]
+            [
+                (AccelerationPhase::Grows, a),
+                (AccelerationPhase::Stays, b),
+                (AccelerationPhase::Falls, c),
+                (AccelerationPhase::Rests, d),
+            ]
         };
         let mut stretches = Vec::with_capacity(4);
         let (mut y, mut velocity, mut travel) = (0.0, 0.0, 0.0);
@@ -122,14 +116,14 @@ impl Half {
             if width == 0.0 {
                 continue;
             }
-            stretches.push(Stretch { kind, y, width, velocity, travel });
-            // Growth of φ, and of F beside the φ it began with.
+            stretches.push(HalfPiece { kind, y, width, velocity, travel });
+            // Growth of φ, and of F in addition to the initial φ.
             let (gained, moved) = match kind {
-                Kind::Grows => (area, moment),
-                Kind::Swells => (area, 0.5 * area),
-                Kind::Stays => (1.0, 0.5),
-                Kind::Falls => (area, area - moment),
-                Kind::Rests => (0.0, 0.0),
+                AccelerationPhase::Grows => (area, moment),
+                AccelerationPhase::Swells => (area, 0.5 * area),
+                AccelerationPhase::Stays => (1.0, 0.5),
+                AccelerationPhase::Falls => (area, area - moment),
+                AccelerationPhase::Rests => (0.0, 0.0),
             };
             travel += width * velocity + peak * width * width * moved;
             velocity += peak * width * gained;
@@ -145,29 +139,29 @@ impl Half {
 
     /// The pieces by the distance from the outer end, with their beginnings: of a half of this width, from end velocity to
     /// that of the inflection.
-    fn pieces(self, width: f64, end: f64, inflection: f64) -> Vec<(f64, Local)> {
+    fn pieces(self, width: f64, end: f64, inflection: f64) -> Vec<(f64, LocalPiece)> {
         let gain = inflection - end;
         // Largest acceleration.
         let peak = gain * self.peak() / width;
-        let piece = |stretch: Stretch| {
+        let piece = |stretch: HalfPiece| {
             let (from, over) = (width * stretch.y, width * stretch.width);
             let value = end * from + gain * width * stretch.travel;
             let velocity = end + gain * stretch.velocity;
             let quarter = 0.5 * PI / over;
             let wave = |pace: f64, turn: f64, rise: f64| {
                 let square = pace * pace;
-                let wave = Wave { harmonic: 1, turn: turn * peak / square, rise: rise * peak / square };
-                Local::waves(from, [value, velocity, 0.0, 0.0], pace, &[wave])
+                let wave = LocalWave { harmonic: 1, turn: turn * peak / square, rise: rise * peak / square };
+                LocalPiece::waves(from, [value, velocity, 0.0, 0.0], pace, &[wave])
             };
-            let cubic = |second: f64, third: f64| Local::polynomial(from, [value, velocity, second, third]);
+            let cubic = |second: f64, third: f64| LocalPiece::polynomial(from, [value, velocity, second, third]);
             let local = match (stretch.kind, self.ramp) {
-                (Kind::Grows, Ramp::Sine) => wave(quarter, 1.0, 0.0),
-                (Kind::Falls, Ramp::Sine) => wave(quarter, 0.0, 1.0),
-                (Kind::Swells, _) => wave(2.0 * quarter, 1.0, 0.0),
-                (Kind::Grows, Ramp::Straight) => cubic(0.0, peak / (6.0 * over)),
-                (Kind::Falls, Ramp::Straight) => cubic(0.5 * peak, -peak / (6.0 * over)),
-                (Kind::Stays, _) => cubic(0.5 * peak, 0.0),
-                (Kind::Rests, _) => cubic(0.0, 0.0),
+                (AccelerationPhase::Grows, Ramp::Sine) => wave(quarter, 1.0, 0.0),
+                (AccelerationPhase::Falls, Ramp::Sine) => wave(quarter, 0.0, 1.0),
+                (AccelerationPhase::Swells, _) => wave(2.0 * quarter, 1.0, 0.0),
+                (AccelerationPhase::Grows, Ramp::Straight) => cubic(0.0, peak / (6.0 * over)),
+                (AccelerationPhase::Falls, Ramp::Straight) => cubic(0.5 * peak, -peak / (6.0 * over)),
+                (AccelerationPhase::Stays, _) => cubic(0.5 * peak, 0.0),
+                (AccelerationPhase::Rests, _) => cubic(0.0, 0.0),
             };
             (from, local)
         };
@@ -194,11 +188,16 @@ fn smooth(first: Half, second: Half) -> f64 {
 /// Seen from the turn, the acceleration is g = p vm/ν with ν the width of the turn's half, p its φ' at the turn, v and m the
 /// velocity and F(1) of the half at the other end, M that of the turn's. With vm = (1 − (1 − ν) v (1 − m))/((1 − ν) m + ν M)
 /// that is g ν ((1 − ν) m + ν M) = p (1 − (1 − ν) v (1 − m)).
-fn matching(law: &'static str, task: &Task, (first, second): (Half, Half), wanted: f64) -> Result<f64, LawError> {
+fn matching(law: &'static str, task: &LawTask, (first, second): (Half, Half), wanted: f64) -> Result<f64, LawError> {
     let (turn, other, velocity, g) = match (task.from, task.to) {
-        (from, End::Turn) => (second, first, from.velocity(), -wanted),
-        (End::Turn, to) => (first, second, to.velocity(), wanted),
-        _ => return Err(LawError::NoTurn),
+        (from, SegmentEnd::Turn) => (second, first, from.velocity(), -wanted),
+        (SegmentEnd::Turn, to) => (first, second, to.velocity(), wanted),
+        _ => {
+            return Err(LawError::new(
+                "inflection",
+                "an inflection that matches an acceleration needs a turn at one end",
+            ));
+        }
     };
     let (p, m, big) = (turn.at_outer_end(), other.travel(), turn.travel());
     let lost = velocity * (1.0 - m);
@@ -207,21 +206,27 @@ fn matching(law: &'static str, task: &Task, (first, second): (Half, Half), wante
     // Without cancellation: the one root from the sum of like signs, the other from the product of both.
     let sum = -0.5 * (linear + if linear < 0.0 { -root } else { root });
     let inside = [sum / square, constant / sum].into_iter().filter(|width| 0.0 < *width && *width < 1.0);
-    // Of two the one nearer to half-way.
+    // Of two roots, the one nearer to half-way.
     let width = inside.min_by(|a, b| (a - 0.5).abs().total_cmp(&(b - 0.5).abs()));
-    let width = width.ok_or(LawError::NoMatch { law, acceleration: wanted })?;
-    Ok(if task.to == End::Turn { 1.0 - width } else { width })
+    let width = width.ok_or_else(|| {
+        let unit = "(in travel over width squared)";
+        let what = format!("no inflection of {law} gives an acceleration of {wanted} at the turn {unit}");
+        LawError::new("inflection", what)
+    })?;
+    Ok(if task.to == SegmentEnd::Turn { 1.0 - width } else { width })
 }
 
-/// The curve of a half and its like at both ends.
-pub(super) fn solve(law: &'static str, half: Half, task: &Task) -> Result<Curve, LawError> {
-    let of = |end: End| if end == End::Turn { half.at_turn() } else { half };
+/// The curve with the same half at both ends.
+pub(super) fn solve(law: &'static str, half: Half, task: &LawTask) -> Result<LawCurve, LawError> {
+    let of = |end: SegmentEnd| if end == SegmentEnd::Turn { half.at_turn() } else { half };
     let (first, second) = (of(task.from), of(task.to));
     let (v0, v1) = (task.from.velocity(), task.to.velocity());
     let inflection = match task.inflection {
         Inflection::Smooth => smooth(first, second),
         Inflection::At(found) if (LEAST..=1.0 - LEAST).contains(&found) => found,
-        Inflection::At(found) => return Err(LawError::Inflection { found }),
+        Inflection::At(found) => {
+            return Err(LawError::parameter("inflection", "at least 0.000001 and at most 0.999999", found));
+        }
         Inflection::Match { acceleration } => matching(law, task, (first, second), acceleration)?,
     };
     let rest = 1.0 - inflection;
@@ -230,39 +235,39 @@ pub(super) fn solve(law: &'static str, half: Half, task: &Task) -> Result<Curve,
     let upper = second.pieces(rest, v1, middle);
     let joined = is_one_function((first, inflection, middle - v0), (second, rest, middle - v1));
     let (joints, parts) = joined_parts(lower, upper, inflection, joined);
-    Ok(Curve::of_parts(joints, parts, inflection, (middle - v0) * (middle - v1) < 0.0))
+    Ok(LawCurve::of_parts(joints, parts, inflection, (middle - v0) * (middle - v1) < 0.0))
 }
 
 /// The pieces of both halves in order of x, with the inflection a joint or not.
 fn joined_parts(
-    mut lower: Vec<(f64, Local)>,
-    mut upper: Vec<(f64, Local)>,
+    mut lower: Vec<(f64, LocalPiece)>,
+    mut upper: Vec<(f64, LocalPiece)>,
     inflection: f64,
     joined: bool,
-) -> (Vec<f64>, Vec<Part>) {
+) -> (Vec<f64>, Vec<CurvePart>) {
     let (before, behind) = (lower.pop(), upper.pop());
     let mut joints: Vec<f64> = lower.iter().skip(1).map(|(from, _)| *from).collect();
-    let mut parts: Vec<Part> = lower.into_iter().map(|(_, local)| Part::early(local)).collect();
+    let mut parts: Vec<CurvePart> = lower.into_iter().map(|(_, local)| CurvePart::early(local)).collect();
     if let (Some((from, early)), Some((until, late))) = (before, behind) {
         // A piece's beginning is a joint unless it is the end of the segment.
         joints.extend((from > 0.0).then_some(from));
         if joined {
-            parts.push(Part::Waves { split: inflection, early, late });
+            parts.push(CurvePart::Waves { split: inflection, early, late });
         } else {
             joints.push(inflection);
-            parts.extend([Part::early(early), Part::late(late)]);
+            parts.extend([CurvePart::early(early), CurvePart::late(late)]);
         }
         joints.extend((until > 0.0).then_some(1.0 - until));
     }
     for (from, local) in upper.into_iter().rev() {
         joints.extend((from > 0.0).then_some(1.0 - from));
-        parts.push(Part::late(local));
+        parts.push(CurvePart::late(local));
     }
     (joints, parts)
 }
 
 /// Whether two halves, each of a width and a gain of velocity, pass the inflection as one function: two straight lines, or
-/// falls of the same width and height, whose sines or lines are then the same.
+/// falls of the same width and height, which then are one sine or line.
 fn is_one_function(first: (Half, f64, f64), second: (Half, f64, f64)) -> bool {
     let like = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
     let [_, _, c1, d1] = first.0.fractions;
@@ -276,15 +281,15 @@ fn is_one_function(first: (Half, f64, f64), second: (Half, f64, f64)) -> bool {
             && like(height(first), height(second))
 }
 
-/// Two numbers that differ by less are the same number with its rounding.
+/// Two numbers that differ by less are equal up to rounding.
 const SAME: f64 = 8.0 * f64::EPSILON;
 
 const MODIFIED_TRAPEZOID_HALF: Half = Half::sine([0.25, 0.5, 0.25, 0.0]);
 
-/// The least share of a half or a segment that is not 0: a millionth of a segment is no angle of a cam.
+/// The least share of a half or a segment that is not 0: less than a millionth of a segment is not a real angle of a cam.
 pub(super) const LEAST: f64 = 1e-6;
 
-/// A half of one's own: of scca.
+/// The half given by the parameters of scca.
 fn scca_half(parameters: &Parameters) -> Result<Half, LawError> {
     let fractions = parameters.fractions.unwrap_or([0.25; 4]);
     let [a, b, c, _] = fractions;
@@ -292,11 +297,11 @@ fn scca_half(parameters: &Parameters) -> Result<Half, LawError> {
     if whole && fractions.iter().all(|fraction| *fraction == 0.0 || *fraction >= LEAST) && a + b + c > 0.0 {
         return Ok(Half::sine(fractions));
     }
-    let expected = "four numbers of sum 1, each 0 or at least 0.000001, the last below 1";
-    Err(LawError::Parameter { name: "fractions", expected, found: format!("{fractions:?}") })
+    let expected = "four numbers with the sum 1, each 0 or at least 0.000001, the last below 1";
+    Err(LawError::parameter("fractions", expected, format_args!("{fractions:?}")))
 }
 
-/// By how much the sum of typed fractions may differ from 1.
+/// Largest difference of the sum of typed fractions from 1.
 const WHOLE: f64 = 1e-12;
 
 /// The share of a half that is a straight line.
@@ -305,7 +310,7 @@ fn line(parameters: &Parameters) -> Result<f64, LawError> {
     if (0.0..=1.0 - LEAST).contains(&line) {
         return Ok(line);
     }
-    Err(LawError::Parameter { name: "line", expected: "at least 0 and at most 0.999999", found: line.to_string() })
+    Err(LawError::parameter("line", "at least 0 and at most 0.999999", line))
 }
 
 const fn law(
@@ -315,7 +320,7 @@ const fn law(
     continuity: u32,
     half: fn(&Parameters) -> Result<Half, LawError>,
 ) -> Law {
-    Law { name, aliases, formula, continuity, shape: Shape::Halves(half) }
+    Law { name, aliases, formula, continuity, shape: LawFamily::Halves(half) }
 }
 
 pub(super) const PARABOLA: Law =

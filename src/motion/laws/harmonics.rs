@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 
 /// Σ aₖ cos 2πkx + bₖ sin 2πkx, k from 1, less its value at x = 0.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Harmonics {
+pub(super) struct HarmonicSeries {
     /// aₖ and bₖ.
     pub(super) amplitudes: Vec<[f64; 2]>,
     /// Σ aₖ.
     pub(super) first: f64,
 }
 
-impl Harmonics {
+impl HarmonicSeries {
     /// The derivative of an order.
     pub(super) fn derivative(&self, x: f64, order: u32) -> f64 {
         let of = |(k, [a, b]): (u32, &[f64; 2])| {

@@ -1,10 +1,10 @@
 //! A polynomial of low degree plus waves, in the distance from where a piece of a law begins.
 
-use super::curve::Values;
+use super::values::Values;
 
 /// turn·(τ − sin τ) + rise·(1 − cos τ) with τ = harmonic · pace · t.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Wave {
+pub(super) struct LocalWave {
     /// Its number of the pace.
     pub(super) harmonic: u32,
     /// Of τ − sin τ.
@@ -14,7 +14,7 @@ pub(super) struct Wave {
 }
 
 /// Up to this angle of the fastest wave s is summed as a power series: beyond, the closed form has lost 3 bits of one wave, and
-/// of waves whose lowest powers cancel no more than a law's use asks for.
+/// of waves whose lowest powers cancel no more than the use of a law requires.
 const SERIES_LIMIT: f64 = 1.0;
 /// Even and odd coefficients of the power series, in pairs: the first one left out is 1/22!, 1e-21, of the limit's power.
 const PAIRS: u32 = 11;
@@ -23,27 +23,27 @@ const CANCELLED: f64 = 16.0 * f64::EPSILON;
 
 /// A piece of a law by the distance t from its own beginning.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Local {
+pub(super) struct LocalPiece {
     /// Where t = 0.
     from: f64,
     polynomial: [f64; 4],
     /// Angular speed of the first harmonic.
     pace: f64,
-    /// By growing harmonic.
-    waves: Vec<Wave>,
+    /// In order of increasing harmonic.
+    waves: Vec<LocalWave>,
     /// The power series serves up to here.
     near: f64,
     series: Vec<[f64; 2]>,
 }
 
-impl Local {
+impl LocalPiece {
     /// A polynomial by t = x − from.
     pub(super) fn polynomial(from: f64, polynomial: [f64; 4]) -> Self {
         Self { from, polynomial, ..Self::default() }
     }
 
     /// A polynomial and waves of growing harmonics of a pace.
-    pub(super) fn waves(from: f64, polynomial: [f64; 4], pace: f64, waves: &[Wave]) -> Self {
+    pub(super) fn waves(from: f64, polynomial: [f64; 4], pace: f64, waves: &[LocalWave]) -> Self {
         let mut local = Self { from, polynomial, pace, waves: waves.to_vec(), ..Self::default() };
         // A single 1 − cos τ = 2 sin²(τ/2) keeps its digits, and inside a law s is not small.
         if from == 0.0 && (waves.len() > 1 || waves.iter().any(|wave| wave.turn != 0.0)) {
@@ -138,7 +138,7 @@ impl Local {
         if let Some(known) = usize::try_from(order).ok().and_then(|order| self.at(x).get(order).copied()) {
             return known;
         }
-        let of_wave = |wave: &Wave| {
+        let of_wave = |wave: &LocalWave| {
             let pace = f64::from(wave.harmonic) * self.pace;
             let (sin, cos) = libm::sincos(pace * (x - self.from));
             // The derivatives of −sin τ and of −cos τ.

@@ -1,8 +1,8 @@
-//! Polynomials from rest to rest that make something least: the peak of the acceleration or of the jerk, ∫ a², or the peak of the
+//! Polynomials from rest to rest that minimise something: the peak of the acceleration or of the jerk, ∫ a², or the peak of the
 //! acceleration without residual vibration.
 //!
 //! All of it is convex and does not change when the motion is reversed, so that a symmetric motion is among the best ones, and an even degree
-//! is no better than the odd one below. The unknowns are the Legendre coefficients of the jerk (`Rests`), of which everything here is
+//! is no better than the odd one below. The unknowns are the Legendre coefficients of the jerk (`RestToRest`), of which everything here is
 //! linear:
 //!
 //! ```text
@@ -11,9 +11,10 @@
 //!
 //! with the spherical Bessel functions j_n (integrated by parts, the acceleration is 0 at the ends).
 
-use super::curve::{Curve, Part};
-use super::rests::{FIRST, Rests, terms};
-use crate::numeric::least_peak::Problem;
+use super::curve::{CurvePart, LawCurve};
+use super::rest_to_rest::{FIRST, RestToRest, terms};
+use super::task::LawError;
+use crate::numeric::least_peak::LeastPeakProblem;
 use crate::numeric::legendre::spherical_bessel;
 use crate::numeric::linear::solutions;
 use std::f64::consts::PI;
@@ -27,12 +28,12 @@ pub const HIGHEST: u32 = 15;
 pub const ROBUST: u32 = 9;
 /// A peak acceleration above this, in travel over width squared, is of no use: 4 is the least possible.
 const USELESS: f64 = 1000.0;
-/// In so many cells extremes are told apart: a half of the motion has six at the most.
+/// Cells in which extremes are separated: a half of the motion has at most six.
 const CELLS: u32 = 48;
 
-/// What is made least.
+/// What is minimised.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Least {
+pub enum Objective {
     /// The largest acceleration.
     PeakAcceleration,
     /// The largest jerk.
@@ -48,7 +49,7 @@ pub enum Least {
     },
 }
 
-impl Least {
+impl Objective {
     /// As a file names it.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -66,42 +67,8 @@ impl Least {
 pub struct Optimum {
     /// Highest degree of the position, 7 to 15.
     pub degree: u32,
-    /// What it makes least.
-    pub least: Least,
-}
-
-/// Why there is no such polynomial.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum OptimumError {
-    /// The degree is none that is searched.
-    #[error("the degree of an optimum is a whole number from {LOWEST} to {HIGHEST}, not {found}")]
-    Degree {
-        /// As given.
-        found: u32,
-    },
-    /// Two conditions need two coefficients.
-    #[error("degree {found} has too few coefficients for `robust`: it needs {ROBUST} or more")]
-    TooFew {
-        /// As given.
-        found: u32,
-    },
-    /// No useful polynomial is without the vibration.
-    #[error(
-        "no polynomial of degree {degree} is free of vibration at the ratio {ratio} with a peak acceleration below {USELESS} times travel over width squared"
-    )]
-    Vibrates {
-        /// The degree.
-        degree: u32,
-        /// As given.
-        ratio: f64,
-    },
-    /// The search did not end: not met by any test.
-    #[error("no optimum of degree {degree} was found")]
-    NotFound {
-        /// The degree.
-        degree: u32,
-    },
+    /// What it minimises.
+    pub least: Objective,
 }
 
 /// Equations between the unknowns: their coefficients, and the right side.
@@ -111,35 +78,44 @@ impl Optimum {
     /// The curve.
     ///
     /// # Errors
-    /// [`OptimumError`].
-    pub fn solve(&self) -> Result<Curve, OptimumError> {
+    /// [`LawError`].
+    pub fn solve(&self) -> Result<LawCurve, LawError> {
         let Self { degree, least } = *self;
         if !(LOWEST..=HIGHEST).contains(&degree) {
-            return Err(OptimumError::Degree { found: degree });
+            let expected = format!("a whole number from {LOWEST} to {HIGHEST}");
+            return Err(LawError::parameter("degree", &expected, degree));
         }
-        let robust = matches!(least, Least::Residual { robust: true, .. });
+        let robust = matches!(least, Objective::Residual { robust: true, .. });
         if robust && degree < ROBUST {
-            return Err(OptimumError::TooFew { found: degree });
+            let what = format!("degree {degree} has too few coefficients for `robust`: it needs {ROBUST} or more");
+            return Err(LawError::new("degree", what).remedy("raise `degree`, or remove `robust`"));
         }
         // g_4 to g_(degree − 3).
         let count = usize::try_from((degree - 5) / 2).unwrap_or(0);
-        let not_found = OptimumError::NotFound { degree };
+        // No test reaches this.
+        let not_found = || LawError::new("degree", format!("no optimal polynomial of degree {degree} was found"));
         let jerk = match least {
-            Least::PeakAcceleration => least_peak(2, &[], count).ok_or(not_found)?.0,
-            Least::PeakJerk => least_peak(3, &[], count).ok_or(not_found)?.0,
-            Least::RmsAcceleration => least_square(count).ok_or(not_found)?,
-            Least::Residual { ratio, robust } => {
+            Objective::PeakAcceleration => least_peak(2, &[], count).ok_or_else(not_found)?.0,
+            Objective::PeakJerk => least_peak(3, &[], count).ok_or_else(not_found)?.0,
+            Objective::RmsAcceleration => least_square(count).ok_or_else(not_found)?,
+            Objective::Residual { ratio, robust } => {
                 let found = least_peak(2, &calm(ratio, robust, count), count);
-                let (jerk, _) =
-                    found.filter(|(_, peak)| *peak < USELESS).ok_or(OptimumError::Vibrates { degree, ratio })?;
-                jerk
+                let vibrates = || {
+                    let what = format!(
+                        "no polynomial of degree {degree} is free of vibration at the ratio {ratio} with a peak \
+                         acceleration below \
+                         {USELESS} times travel over width squared"
+                    );
+                    LawError::new("ratio", what).remedy("raise `degree`, or give the segment a longer angle")
+                };
+                found.filter(|(_, peak)| *peak < USELESS).ok_or_else(vibrates)?.0
             }
         };
-        Ok(Curve::smooth(Part::Rests(Arc::new(Rests { jerk }))))
+        Ok(LawCurve::smooth(CurvePart::RestToRest(Arc::new(RestToRest { jerk }))))
     }
 }
 
-/// What the sum of the first term and these must keep: no vibration.
+/// The conditions on the sum of the first term and these: no vibration.
 fn calm(ratio: f64, robust: bool, count: usize) -> Equations {
     let z = PI * ratio;
     let bessel = spherical_bessel(z, 2 * count + 4);
@@ -157,9 +133,9 @@ fn calm(ratio: f64, robust: bool, count: usize) -> Equations {
     all
 }
 
-/// The coefficients of least peak of a derivative among those that keep equations, and that peak.
-fn least_peak(order: u32, kept: &[(Vec<f64>, f64)], count: usize) -> Option<(Vec<f64>, f64)> {
-    let family = solutions(kept, count)?;
+/// The coefficients of least peak of a derivative among those that satisfy equations, and that peak.
+fn least_peak(order: u32, equations: &[(Vec<f64>, f64)], count: usize) -> Option<(Vec<f64>, f64)> {
+    let family = solutions(equations, count)?;
     let sum = |of: &[f64], weights: &[f64]| -> f64 { of.iter().zip(weights).map(|(term, weight)| term * weight).sum() };
     let functions = |x: f64, further: u32| {
         let mut terms = terms(x, order + further);
@@ -168,11 +144,12 @@ fn least_peak(order: u32, kept: &[(Vec<f64>, f64)], count: usize) -> Option<(Vec
         let others = family.directions.iter().map(|direction| sum(&own, direction));
         std::iter::once(first + sum(&own, &family.particular)).chain(others).collect()
     };
-    // The other half of the motion is the same.
-    let found = Problem { functions, others: family.directions.len(), range: (0.0, 0.5), cells: CELLS }.solve()?;
+    // The other half of the motion is symmetric.
+    let found =
+        LeastPeakProblem { functions, others: family.directions.len(), range: (0.0, 0.5), cells: CELLS }.solve()?;
     let jerk = family.particular.iter().enumerate().map(|(index, own)| {
-        let ways = family.directions.iter().zip(&found.weights);
-        own + ways.map(|(way, weight)| way.get(index).copied().unwrap_or(0.0) * weight).sum::<f64>()
+        let directions = family.directions.iter().zip(&found.weights);
+        own + directions.map(|(direction, weight)| direction.get(index).copied().unwrap_or(0.0) * weight).sum::<f64>()
     });
     Some((jerk.collect(), found.peak))
 }
@@ -182,10 +159,10 @@ fn least_peak(order: u32, kept: &[(Vec<f64>, f64)], count: usize) -> Option<(Vec
 fn least_square(count: usize) -> Option<Vec<f64>> {
     let number = |half: usize| 2.0 * f64::from(u32::try_from(half).unwrap_or(u32::MAX));
     let own = |n: f64| (1.0 / (2.0 * n + 3.0) + 1.0 / (2.0 * n - 1.0)) / (4.0 * (2.0 * n + 1.0) * (2.0 * n + 1.0));
-    let beside = |n: f64| -1.0 / ((2.0 * n + 3.0) * 4.0 * (2.0 * n + 1.0) * (2.0 * n + 5.0));
+    let adjacent = |n: f64| -1.0 / ((2.0 * n + 3.0) * 4.0 * (2.0 * n + 1.0) * (2.0 * n + 5.0));
     let entry = |row: usize, column: usize| match row.abs_diff(column) {
         0 => own(number(row)),
-        1 => beside(number(row.min(column))),
+        1 => adjacent(number(row.min(column))),
         _ => 0.0,
     };
     let equation = |row: usize| ((2..count + 2).map(|column| entry(row, column)).collect(), -FIRST * entry(row, 1));
@@ -197,7 +174,7 @@ mod tests {
     use super::*;
     use crate::numeric::quadrature;
 
-    fn curve(degree: u32, least: Least) -> Curve {
+    fn curve(degree: u32, least: Objective) -> LawCurve {
         Optimum { degree, least }.solve().unwrap_or_else(|error| panic!("{degree}: {error}"))
     }
 
@@ -208,11 +185,11 @@ mod tests {
         (1.0 - t * t) * (1.0 - t * t) * sum
     }
 
-    const ALL: [Least; 4] = [
-        Least::PeakAcceleration,
-        Least::PeakJerk,
-        Least::RmsAcceleration,
-        Least::Residual { ratio: 2.5, robust: false },
+    const ALL: [Objective; 4] = [
+        Objective::PeakAcceleration,
+        Objective::PeakJerk,
+        Objective::RmsAcceleration,
+        Objective::Residual { ratio: 2.5, robust: false },
     ];
 
     #[test]
@@ -221,7 +198,7 @@ mod tests {
             (7, &[85.0 / 48.0, 35.0 / 48.0][..], 5.611_317_177_496_947),
             (9, &[1.851_834_132_924_175, -1.058_405_468_403_028, 3.661_699_613_801_406], 4.657_472_844_813_795),
         ] {
-            let curve = curve(degree, Least::PeakAcceleration);
+            let curve = curve(degree, Objective::PeakAcceleration);
             for i in 0..=100 {
                 let x = f64::from(i) / 100.0;
                 let (found, known) = (curve.at(0, x)[1], velocity(x, coefficients));
@@ -231,14 +208,14 @@ mod tests {
             assert!((found - peak).abs() < 1e-14, "degree {degree}: {found}");
         }
         for (degree, peak) in [(11, 4.6269), (13, 4.3530)] {
-            let found = curve(degree, Least::PeakAcceleration).peaks().acceleration.value;
+            let found = curve(degree, Objective::PeakAcceleration).peaks().acceleration.value;
             assert!((found - peak).abs() < 5e-5, "degree {degree}: {found}");
         }
     }
 
     #[test]
     fn no_vibration_is_left_where_none_is_wanted() {
-        let found = curve(7, Least::Residual { ratio: 2.5, robust: false });
+        let found = curve(7, Objective::Residual { ratio: 2.5, robust: false });
         for i in 0..=100 {
             let x = f64::from(i) / 100.0;
             let known = velocity(x, &[2.872_381_208_946_259, -6.981_668_462_623_811]);
@@ -247,7 +224,7 @@ mod tests {
         for ratio in [0.8, 1.0, 1.3, 2.0, 2.5, 3.7, 5.0, 8.4, 12.0, 31.0] {
             for degree in LOWEST..=HIGHEST {
                 for robust in [false, true] {
-                    let Ok(curve) = (Optimum { degree, least: Least::Residual { ratio, robust } }).solve() else {
+                    let Ok(curve) = (Optimum { degree, least: Objective::Residual { ratio, robust } }).solve() else {
                         assert!(degree < 9 || (ratio < 2.0 && degree < 11), "degree {degree} at {ratio}, {robust}");
                         continue;
                     };
@@ -269,8 +246,8 @@ mod tests {
             for degree in LOWEST..=HIGHEST {
                 let peaks = curve(degree, least).peaks();
                 let (found, bound) = match least {
-                    Least::PeakJerk => (peaks.jerk.value, 32.0),
-                    Least::RmsAcceleration => (peaks.square, 12.0),
+                    Objective::PeakJerk => (peaks.jerk.value, 32.0),
+                    Objective::RmsAcceleration => (peaks.square, 12.0),
                     _ => (peaks.acceleration.value, 4.0),
                 };
                 assert!(found <= before * (1.0 + 1e-13) && found > bound, "{least:?} {degree}: {found} {before}");
@@ -279,7 +256,7 @@ mod tests {
         }
     }
 
-    /// Other coefficients that keep what must be kept are no better.
+    /// Other coefficients that satisfy the equations are no better.
     #[test]
     fn no_other_coefficients_are_better() {
         let mut seed = 1_u64;
@@ -290,24 +267,25 @@ mod tests {
         for (least, order) in ALL.into_iter().zip([2, 3, 2, 2]) {
             for degree in [7, 9, 11, 13, 15] {
                 let best = curve(degree, least);
-                let Some(Part::Rests(rests)) = best.part(0) else { panic!("a polynomial") };
-                let measure = |curve: &Curve| match (least, order) {
-                    (Least::RmsAcceleration, _) => curve.peaks().square,
+                let Some(CurvePart::RestToRest(polynomial)) = best.part(0) else { panic!("a polynomial") };
+                let measure = |curve: &LawCurve| match (least, order) {
+                    (Objective::RmsAcceleration, _) => curve.peaks().square,
                     (_, 3) => curve.peaks().jerk.value,
                     _ => curve.peaks().acceleration.value,
                 };
                 let known = measure(&best);
-                let count = rests.jerk.len();
-                let kept = if let Least::Residual { ratio, .. } = least { calm(ratio, false, count) } else { vec![] };
-                let ways = solutions(&kept, count).expect("a family").directions;
+                let count = polynomial.jerk.len();
+                let equations =
+                    if let Objective::Residual { ratio, .. } = least { calm(ratio, false, count) } else { vec![] };
+                let directions = solutions(&equations, count).expect("a family").directions;
                 for size in [1e-6, 1e-4, 1e-2, 1.0, 30.0] {
                     for _ in 0..20 {
-                        let mut jerk = rests.jerk.clone();
-                        for way in &ways {
+                        let mut jerk = polynomial.jerk.clone();
+                        for direction in &directions {
                             let by = size * random();
-                            jerk.iter_mut().zip(way).for_each(|(own, way)| *own += by * way);
+                            jerk.iter_mut().zip(direction).for_each(|(own, part)| *own += by * part);
                         }
-                        let found = measure(&Curve::smooth(Part::Rests(Arc::new(Rests { jerk }))));
+                        let found = measure(&LawCurve::smooth(CurvePart::RestToRest(Arc::new(RestToRest { jerk }))));
                         assert!(found >= known * (1.0 - 4e-15), "{least:?} {degree} {size}: {found} {known}");
                     }
                 }
@@ -346,9 +324,9 @@ mod tests {
     #[test]
     fn what_is_not_found_is_told() {
         let of = |degree, least| Optimum { degree, least }.solve().expect_err("none").to_string();
-        assert!(of(6, Least::PeakJerk).contains("from 7 to 15, not 6"));
-        assert!(of(16, Least::PeakJerk).contains("not 16"));
-        assert!(of(8, Least::Residual { ratio: 2.5, robust: true }).contains("needs 9 or more"));
-        assert!(of(7, Least::Residual { ratio: 0.1, robust: false }).contains("at the ratio 0.1"));
+        assert!(of(6, Objective::PeakJerk).contains("from 7 to 15, not 6"));
+        assert!(of(16, Objective::PeakJerk).contains("not 16"));
+        assert!(of(8, Objective::Residual { ratio: 2.5, robust: true }).contains("needs 9 or more"));
+        assert!(of(7, Objective::Residual { ratio: 0.1, robust: false }).contains("at the ratio 0.1"));
     }
 }

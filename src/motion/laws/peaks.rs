@@ -1,7 +1,7 @@
 //! The largest velocity, acceleration, jerk and torque of a curve, and how near it comes to what is possible.
 
-use super::curve::Curve;
-use crate::numeric::extremum::{self, Extremum, Place};
+use super::curve::LawCurve;
+use crate::numeric::extremum::{self, Extremum, ValueAndSlope};
 use crate::numeric::quadrature;
 
 /// Panels of a part over which the square is integrated: 1e-16 of ten half waves.
@@ -10,41 +10,41 @@ const PANELS: u32 = 8;
 const ROUNDING: f64 = 1e-9;
 
 /// Value and slope of something by s, s', …, s⁗.
-type OfCurve = fn(&[f64; 5]) -> (f64, f64);
+type CurveQuantity = fn(&[f64; 5]) -> (f64, f64);
 
-const VELOCITY: OfCurve = |s| (s[1], s[2]);
-const ACCELERATION: OfCurve = |s| (s[2], s[3]);
-const JERK: OfCurve = |s| (s[3], s[4]);
+const VELOCITY: CurveQuantity = |s| (s[1], s[2]);
+const ACCELERATION: CurveQuantity = |s| (s[2], s[3]);
+const JERK: CurveQuantity = |s| (s[3], s[4]);
 
 /// The peaks of a curve, as sizes, each with its place x; in units of travel and width of the segment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peaks {
+pub struct LawPeaks {
     /// max |s'|: Cv.
     pub velocity: Extremum,
     /// max |s''|: Ca.
     pub acceleration: Extremum,
-    /// max |s'''|: Cj; infinite where s'' jumps inside. What s'' does at the ends depends on the neighbours.
+    /// max |s'''|: Cj; infinite where s'' jumps inside. A jump of s'' at the ends depends on the neighbours.
     pub jerk: Extremum,
-    /// max |s' s''|: the torque of inertia by the cam's own travel, C(va).
+    /// max |s' s''|: the torque of inertia, C(va).
     pub torque: Extremum,
     /// ∫ s''² dx: the heat in a drive.
     pub square: f64,
 }
 
-impl Curve {
+impl LawCurve {
     /// The peaks, to rounding.
     #[must_use]
-    pub fn peaks(&self) -> Peaks {
+    pub fn peaks(&self) -> LawPeaks {
         let squares = (0..self.parts()).map(|part| {
             let square = |x: f64| self.derivative(part, x, 2) * self.derivative(part, x, 2);
             quadrature::integrate(square, self.range_of(part), PANELS)
         });
-        let torque: OfCurve = |s| (s[1] * s[2], s[2] * s[2] + s[1] * s[3]);
+        let torque: CurveQuantity = |s| (s[1] * s[2], s[2] * s[2] + s[1] * s[3]);
         let [velocity, acceleration, jerk, torque] = self.largest([VELOCITY, ACCELERATION, JERK, torque]);
-        Peaks { velocity, acceleration, jerk: self.or_jump(jerk), torque, square: squares.sum() }
+        LawPeaks { velocity, acceleration, jerk: self.or_jump(jerk), torque, square: squares.sum() }
     }
 
-    /// Of these the peaks of velocity, acceleration and jerk.
+    /// The peaks of velocity, acceleration and jerk only.
     #[must_use]
     pub fn peak_rates(&self) -> [Extremum; 3] {
         let [velocity, acceleration, jerk] = self.largest([VELOCITY, ACCELERATION, JERK]);
@@ -67,9 +67,9 @@ impl Curve {
         self.efficiency_of(&self.peaks())
     }
 
-    /// The same with its peaks.
+    /// The efficiency of a curve whose peaks are known.
     #[must_use]
-    pub fn efficiency_of(&self, peaks: &Peaks) -> Option<f64> {
+    pub fn efficiency_of(&self, peaks: &LawPeaks) -> Option<f64> {
         let last = self.parts().saturating_sub(1);
         let ends = [self.at(0, 0.0), self.at(last, 1.0)];
         let moves = |order: usize, peak: f64| {
@@ -86,7 +86,7 @@ impl Curve {
     }
 
     /// The largest sizes of functions of s, s', …, s⁗, which give their values and slopes.
-    fn largest<const N: usize>(&self, of: [OfCurve; N]) -> [Extremum; N] {
+    fn largest<const N: usize>(&self, of: [CurveQuantity; N]) -> [Extremum; N] {
         let all = |part: usize, x: f64| {
             let [s, first, second, third] = self.at(part, x);
             [s, first, second, third, self.derivative(part, x, 4)]
@@ -100,12 +100,12 @@ impl Curve {
         of.map(|f| {
             let place = |(at, s): &(f64, [f64; 5])| {
                 let (value, slope) = f(s);
-                Place { at: *at, value, slope }
+                ValueAndSlope { at: *at, value, slope }
             };
             let nothing = Extremum { at: 0.0, value: f64::NEG_INFINITY };
-            let rising: Vec<Vec<Place>> = parts.iter().map(|part| part.iter().map(place).collect()).collect();
-            let negative = |part: &Vec<Place>| part.iter().map(|place| place.negative()).collect();
-            let falling: Vec<Vec<Place>> = rising.iter().map(negative).collect();
+            let rising: Vec<Vec<ValueAndSlope>> = parts.iter().map(|part| part.iter().map(place).collect()).collect();
+            let negative = |part: &Vec<ValueAndSlope>| part.iter().map(|place| place.negative()).collect();
+            let falling: Vec<Vec<ValueAndSlope>> = rising.iter().map(negative).collect();
             let known = rising
                 .iter()
                 .zip(&falling)

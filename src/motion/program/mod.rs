@@ -1,25 +1,31 @@
 //! A motion program: segments that follow each other over one turn of the cam, or a lobe of it, each with its law.
 //!
-//! A segment begins in the state in which the one before ended, the first in that of the last. What its two ends are (VDI 2143: at rest,
-//! moving, turning back) follows from these states; its law is solved for them.
+//! A segment begins in the state in which the one before ended, the first in that of the last. The kinds of its two ends (VDI 2143: at rest,
+//! moving, turning back) follow from these states; its law is solved for them.
 
+mod context;
+mod fault_reported;
 mod forms;
 mod joined;
 pub(crate) mod keys;
 mod optimum;
 mod polydyne;
 pub(crate) mod read;
+pub mod rows;
+mod solved;
 mod spectrum;
-mod told;
+mod summary;
 mod with_law;
 
+pub use super::jump::Jump;
+pub(crate) use context::FollowerMovement;
 pub use polydyne::Polydyne;
-pub use spectrum::{Harmonics, Movement};
-pub use told::{Class, Jump, SegmentTold};
+pub use spectrum::{Harmonics, ProgramMovement};
+pub use summary::{EndClass, SegmentSummary};
 
 use super::laws::optimum::Optimum;
-use super::laws::{self, Curve, End, Inflection, Law, LawError, Parameters, Task, polynomial};
-use super::{CELLS as CELLS_OF_MOVEMENT, Jet, Motion, Piece, Quantity};
+use super::laws::{Inflection, Law, LawCurve, LawError, LawTask, Parameters, SegmentEnd};
+use super::{CELLS as CELLS_OF_MOVEMENT, Jet, Motion, NamedStretch, Piece, Quantity};
 use crate::numeric::extremum;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -33,181 +39,155 @@ const LEAST_CELLS: u32 = 8;
 /// The lift, the velocity, the acceleration and the jerk are continuous on a piece.
 const SMOOTH: u32 = 3;
 
-/// A travel of less than this share of all positions is none: a law has nothing to scale.
-const NO_TRAVEL: f64 = 1e-12;
-
-/// A rate of less than this share of its peak is 0 and its rounding.
+/// A rate below this share of its peak is 0 with rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Rates by the cam angle at the end of a segment: m or rad per rad, per rad² and per rad³.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct State {
-    /// Of the position.
+pub struct EndState {
+    /// Velocity of the position.
     pub velocity: f64,
     /// Free at a turn.
     pub acceleration: f64,
-    /// Where it is asked for.
+    /// Where it is given.
     pub jerk: Option<f64>,
     /// The motion turns back: velocity 0, any acceleration.
     pub turns: bool,
-    /// Velocity and acceleration are found: those of least jerk over the polynomials and splines that meet there.
+    /// The acceleration at a turn, once a segment beside it determines it.
+    pub turning: Option<f64>,
+    /// Velocity and acceleration are to be found: those of least jerk over the polynomials and splines that meet there.
     pub free: [bool; 2],
 }
 
-impl State {
+impl EndState {
     /// Velocity and acceleration 0.
     #[must_use]
     pub fn rests(&self) -> bool {
         self.velocity == 0.0 && self.acceleration == 0.0 && !self.turns
     }
 
-    /// As an end of a law for a segment of a travel and a width (rad); `None` where it is accelerated.
-    fn end(&self, travel: f64, width: f64) -> Option<End> {
+    /// Whether velocity or acceleration is to be found.
+    fn is_found(&self) -> bool {
+        self.free.contains(&true)
+    }
+
+    /// The state as an end of a law, for a segment of a travel and a width (rad); `None` where it is accelerated.
+    fn end(&self, travel: f64, width: f64) -> Option<SegmentEnd> {
         if self.turns {
-            return Some(End::Turn);
+            return Some(SegmentEnd::Turn);
         }
-        let end =
-            if self.velocity == 0.0 { End::Rest } else { End::Moving { velocity: self.velocity * width / travel } };
+        let end = if self.velocity == 0.0 {
+            SegmentEnd::Rest
+        } else {
+            SegmentEnd::Moving { velocity: self.velocity * width / travel }
+        };
         (self.acceleration == 0.0).then_some(end)
     }
 
-    /// As conditions of a polynomial over a width (rad): the derivatives that are not free.
+    /// The state as conditions of a polynomial over a width (rad): the derivatives that are not free.
     fn conditions(&self, position: f64, width: f64) -> Vec<f64> {
         let mut all = vec![position, self.velocity * width];
-        if !self.turns {
+        if self.turns {
+            all.extend(self.turning.map(|acceleration| acceleration * width * width));
+        } else {
             all.push(self.acceleration * width * width);
             all.extend(self.jerk.map(|jerk| jerk * width * width * width));
         }
         all
     }
+
+    /// The state without its acceleration, as a segment begins whose acceleration there is free.
+    fn without_acceleration(self) -> Self {
+        Self { turns: true, turning: None, ..self }
+    }
 }
 
-/// What moves a segment.
+/// How a segment moves.
 #[derive(Debug, Clone)]
 pub enum Mover {
-    /// Nothing: a dwell.
+    /// Not at all: a dwell.
     Dwell,
-    /// A law, with the place of its inflection and its own numbers.
-    Law(&'static Law, Inflection, Parameters),
+    /// A law, with the place of its inflection, where one is given, and its parameters.
+    Law(&'static Law, Option<Inflection>, Parameters),
     /// The inflection is where the acceleration at the turn is that of the neighbour.
     Matching(&'static Law, Parameters),
     /// The polynomial of the states at both ends.
     Polynomial,
-    /// A spline of least jerk through inner points: angle behind the start of the segment, rad, and position.
-    Spline(Vec<[f64; 2]>),
-    /// A curve of its own from 0 to 1, and what its law is called.
-    Own(&'static str, Curve),
-    /// The polynomial from rest to rest that makes something least.
-    Optimum(Optimum, Curve),
+    /// A spline of least jerk through inner points, or near them.
+    Spline(rows::SplineRows),
+    /// A curve of its own from 0 to 1, and the name of its law; where it goes through rows, their figures in shares.
+    Own(&'static str, LawCurve, Option<Box<rows::RowFigures>>),
+    /// An optimal polynomial from rest to rest.
+    Optimum(Optimum, LawCurve),
 }
 
 impl Mover {
-    /// What its law is called.
+    /// The name of its law.
     fn name(&self) -> &'static str {
         match self {
             Mover::Dwell => keys::DWELL,
             Mover::Law(law, ..) | Mover::Matching(law, _) => law.name,
             Mover::Polynomial | Mover::Optimum(..) => keys::POLYNOMIAL,
             Mover::Spline(_) => keys::SPLINE,
-            Mover::Own(name, _) => name,
+            Mover::Own(name, ..) => name,
         }
     }
 
-    /// What its curve makes least.
+    /// The optimum of its curve, where it has one.
     fn optimum(&self) -> Option<Optimum> {
         if let Mover::Optimum(optimum, _) = self { Some(*optimum) } else { None }
     }
 }
 
-/// A segment as it is asked for.
+/// A segment as it is specified.
 #[derive(Debug, Clone)]
-pub struct Step {
-    /// What moves it.
+pub struct SegmentSpec {
+    /// How it moves.
     pub mover: Mover,
     /// Cam angle it takes, rad; the last takes the rest.
     pub over: f64,
     /// Position at its end, m or rad.
     pub to: f64,
     /// State at its end.
-    pub end: State,
-}
-
-/// Why a segment cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// The law does not serve its ends.
-    #[error(transparent)]
-    Law(#[from] LawError),
-    /// An end is accelerated.
-    #[error(
-        "{law} cannot begin or end with an acceleration; law = \"polynomial\" can, or end = \"turn\" with velocity 0"
-    )]
-    Accelerated {
-        /// The law.
-        law: &'static str,
-    },
-    /// Nothing to scale a law by.
-    #[error("the segment ends where it begins: {law} needs a travel; law = \"dwell\" or \"polynomial\" does not")]
-    NoTravel {
-        /// The law.
-        law: &'static str,
-    },
-    /// There is no neighbour to match.
-    #[error(
-        "inflection = \"match\" takes the acceleration at a turn from the neighbour on its other side, which is solved before"
-    )]
-    NothingToMatch,
-    /// An end is to be found, and there is no spline to find it by.
-    #[error(
-        "\"auto\" finds the state of least jerk between two polynomials or splines, and {law} is none: give the state"
-    )]
-    NothingToJoin {
-        /// The law beside the end.
-        law: &'static str,
-    },
-    /// A jerk is given where a spline has its own.
-    #[error("beside a spline or a state that is \"auto\" the jerk follows: leave `jerk` out")]
-    JerkOfSpline,
-    /// An end of an optimum moves.
-    #[error("an optimum leads from rest to rest; an end of this one has a velocity, an acceleration, a jerk or a turn")]
-    OptimumMoves,
+    pub end: EndState,
+    /// A polynomial or spline does not begin with the acceleration with which the segment before it ends.
+    pub free_start: bool,
 }
 
 /// A segment between two positions.
 #[derive(Debug, Clone)]
-struct Segment {
-    /// `None` rests.
-    curve: Option<Curve>,
-    /// What its law is called.
+struct ProgramSegment {
+    /// `None` for a dwell.
+    curve: Option<LawCurve>,
+    /// The name of its law.
     name: &'static str,
     /// First angle and width, rad.
     start: f64,
     width: f64,
     from: f64,
-    /// By what its curve is multiplied.
+    /// The factor of its curve.
     travel: f64,
     /// Where it ends.
     to: f64,
-    ends: [State; 2],
-    /// It is the whole motion, given in one.
+    ends: [EndState; 2],
+    /// It is the whole motion, given without segments.
     whole: bool,
-    /// What its curve makes least.
+    /// The optimum of its curve, where it has one.
     optimum: Option<Optimum>,
 }
 
-/// What a piece of the motion is: parts of the curve of a segment.
+/// The source of a piece of the motion: parts of the curve of a segment.
 #[derive(Debug, Clone)]
-struct Source {
+struct PieceSource {
     segment: usize,
     parts: Range<usize>,
 }
 
-/// The curve of a law from rest to rest; of a law that has none, one from rest to a turn or, last, its straight line: the
+/// The curve of a law from rest to rest; for a law without one, the curve from rest to a turn or, failing that, the straight line: the
 /// motion then jumps as such a law does.
-fn curve(law: &Law) -> Curve {
-    let tasks = [Task::default(), Task::between(End::Rest, End::Turn)];
-    tasks.iter().find_map(|task| law.solve(task).ok()).unwrap_or_else(Curve::line)
+fn curve(law: &Law) -> LawCurve {
+    let tasks = [LawTask::default(), LawTask::between(SegmentEnd::Rest, SegmentEnd::Turn)];
+    tasks.iter().find_map(|task| law.solve(task).ok()).unwrap_or_else(LawCurve::line)
 }
 
 /// A motion of segments over one turn, or one lobe of it.
@@ -217,20 +197,33 @@ pub struct Program {
     rpm: Option<f64>,
     lobes: u32,
     pieces: Vec<Piece>,
-    /// Of the pieces of the first lobe.
-    sources: Vec<Source>,
-    segments: Vec<Segment>,
+    /// The sources of the pieces of the first lobe.
+    sources: Vec<PieceSource>,
+    segments: Vec<ProgramSegment>,
     lowest: f64,
     /// The load for which it is the motion of the cam.
     load: Option<Polydyne>,
-    /// What is told of the segments, once it is asked for.
-    told: OnceLock<Vec<SegmentTold>>,
+    /// Figures of its curves through rows.
+    rows: Vec<rows::RowFigures>,
+    /// The summaries of the segments, once they are needed.
+    summaries: OnceLock<Vec<SegmentSummary>>,
 }
 
 impl Program {
     /// Segments of law (`None` rests), cam angle (rad) and end position (m, or rad of a swing), from a position on.
     ///
-    /// Each law leads from rest to rest; one that cannot ([`Law::serves_rests`]) leaves a jump where it begins or ends.
+    /// The last segment takes what is left of the turn, whatever angle it has. Each law leads from rest to rest; one that cannot ([`Law::serves_rests`]) leaves a jump where it begins or ends.
+    ///
+    /// ```
+    /// use camgen::{Motion, Program, Quantity, law};
+    /// use std::f64::consts::PI;
+    ///
+    /// let up = law("modified-sine");
+    /// let program = Program::new(Quantity::Length, 0.0, &[(up, PI, 0.030), (up, PI, 0.0)]);
+    /// // Half of the travel at half of the angle.
+    /// let (piece, angle) = program.locate(PI / 2.0);
+    /// assert!((program.jet(piece, angle).s - 0.015).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Self {
         let mut program = Self::empty(quantity, 1);
@@ -238,74 +231,93 @@ impl Program {
         for (index, (law, over, to)) in segments.iter().enumerate() {
             let end = if index + 1 == segments.len() { TAU } else { angle + over };
             let to = if law.is_some() { *to } else { position };
-            let (width, travel, ends) = (end - angle, to - position, [State::default(); 2]);
+            let (width, travel, ends) = (end - angle, to - position, [EndState::default(); 2]);
             let (curve, name) = (law.map(curve), law.map_or(keys::DWELL, |law| law.name));
             let (whole, optimum) = (false, None);
             let segment =
-                Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
+                ProgramSegment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
             program.add(segment, end);
             (angle, position) = (end, to);
         }
-        program.finished()
+        program.with_lowest()
     }
 
-    /// Segments from a position and a cam angle (rad) on, in so many equal lobes.
+    /// Segments from a position and a cam angle (rad) on, in a number of equal lobes.
     ///
     /// # Errors
     /// The first segment that cannot be made, and why.
     pub fn of_steps(
         quantity: Quantity,
         (at, start, lobes): (f64, f64, u32),
-        steps: &[Step],
-    ) -> Result<Self, (usize, StepError)> {
+        steps: &[SegmentSpec],
+    ) -> Result<Self, (usize, LawError)> {
         let mut program = Self::empty(quantity, lobes.max(1));
         let whole = TAU / f64::from(lobes.max(1));
-        optimum::check(steps)?;
-        let (steps, joined) = joined::solved(start, steps)?;
-        let curves = solved(start, &steps, joined)?;
+        let solved::SolvedSegments { steps, curves, rows } = solved::solve(start, steps)?;
         let (mut angle, mut position) = (at, start);
-        let mut before = steps.last().map_or_else(State::default, |step| step.end);
-        for (index, (step, (curve, travel))) in steps.iter().zip(curves).enumerate() {
+        let mut before = steps.last().map_or_else(EndState::default, |step| step.end);
+        for (index, ((step, (curve, travel)), of_spline)) in steps.iter().zip(curves).zip(rows).enumerate() {
             let end = if index + 1 == steps.len() { at + whole } else { angle + step.over };
             let ends = [before, step.end];
             let (name, width, to) = (step.mover.name(), end - angle, step.to);
             let (whole, optimum) = (false, step.mover.optimum());
+            let figures = match &step.mover {
+                Mover::Own(_, _, Some(figures)) => Some(rows::RowFigures::clone(figures)),
+                _ => of_spline,
+            };
+            program.rows.extend(figures.map(|figures| figures.of_segment(index, (angle, width), travel.abs())));
             let segment =
-                Segment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
+                ProgramSegment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
             program.add(segment, end);
             (angle, position, before) = (end, step.to, step.end);
         }
         program.repeat(whole);
-        Ok(program.finished())
+        Ok(program.with_lowest())
     }
 
-    /// One curve over a turn, or over each of so many equal lobes of it, from a cam angle (rad) on: positions above a first one, m or rad,
+    /// One curve over a turn, or over each of a number of equal lobes, from a cam angle (rad) on: positions above a first one, m or rad,
     /// by the share of the turn or lobe.
-    fn of_curve(quantity: Quantity, (at, lobes): (f64, u32), from: f64, (name, curve): (&'static str, Curve)) -> Self {
+    fn of_curve(
+        quantity: Quantity,
+        (at, lobes): (f64, u32),
+        from: f64,
+        (name, curve): (&'static str, LawCurve),
+    ) -> Self {
         let mut program = Self::empty(quantity, lobes.max(1));
         let width = TAU / f64::from(lobes.max(1));
         let ([_, velocity, acceleration, _], peaks) = (curve.at(0, 0.0), curve.peaks());
         let exact = |value: f64, peak: f64| if value.abs() > ROUNDING * peak { value } else { 0.0 };
-        let state = State {
+        let state = EndState {
             velocity: exact(velocity, peaks.velocity.value) / width,
             acceleration: exact(acceleration, peaks.acceleration.value) / (width * width),
-            ..State::default()
+            ..EndState::default()
         };
         let (curve, ends) = (Some(curve), [state; 2]);
         let (travel, to, whole, optimum) = (1.0, from, true, None);
-        let segment = Segment { curve, name, start: at, width, from, travel, to, ends, whole, optimum };
+        let segment = ProgramSegment { curve, name, start: at, width, from, travel, to, ends, whole, optimum };
         program.add(segment, at + width);
         program.repeat(width);
-        program.finished()
+        program.with_lowest()
     }
 
     fn empty(quantity: Quantity, lobes: u32) -> Self {
         let (pieces, sources, segments) = (Vec::new(), Vec::new(), Vec::new());
-        Self { quantity, rpm: None, lobes, pieces, sources, segments, lowest: 0.0, load: None, told: OnceLock::new() }
+        Self {
+            quantity,
+            rpm: None,
+            lobes,
+            pieces,
+            sources,
+            segments,
+            lowest: 0.0,
+            load: None,
+            rows: Vec::new(),
+            summaries: OnceLock::new(),
+        }
     }
 
-    /// With its lowest place.
-    fn finished(mut self) -> Self {
+    /// The program with its lowest position.
+    fn with_lowest(mut self) -> Self {
         let least = self.pieces.iter().zip(&self.sources).enumerate().map(|(index, (piece, source))| {
             let all = |at: f64| {
                 let position = self.position(index, at);
@@ -313,7 +325,7 @@ impl Program {
             };
             let curve = self.segments.get(source.segment).and_then(|segment| segment.curve.as_ref());
             let cells = curve.map_or(1, |curve| source.parts.clone().map(|part| curve.cells(part).min(CELLS)).sum());
-            -extremum::both_ways_with_bend(all, (piece.start, piece.end), cells)[1].value
+            -extremum::largest_of_both_signs(all, (piece.start, piece.end), cells)[1].value
         });
         self.lowest = least.fold(f64::INFINITY, f64::min);
         self
@@ -346,8 +358,20 @@ impl Program {
         self.load
     }
 
+    /// Number of its segments.
+    #[must_use]
+    pub fn segment_count(&self) -> usize {
+        self.segments.len()
+    }
+
+    /// Figures of its curves through rows: of the whole motion, or of each segment that is such a curve.
+    #[must_use]
+    pub fn rows(&self) -> &[rows::RowFigures] {
+        &self.rows
+    }
+
     /// A segment to its last angle, in pieces that end where a derivative up to the jerk jumps.
-    fn add(&mut self, segment: Segment, end: f64) {
+    fn add(&mut self, segment: ProgramSegment, end: f64) {
         let (index, dwell) = (self.segments.len(), segment.curve.is_none());
         let groups =
             segment.curve.as_ref().map_or_else(|| std::iter::once(0..1).collect(), |curve| curve.smooth_to(SMOOTH));
@@ -355,15 +379,15 @@ impl Program {
         for parts in groups {
             let joint = segment.curve.as_ref().map(|curve| curve.range_of(parts.end.saturating_sub(1)).1);
             let until = joint.filter(|joint| *joint < 1.0).map_or(end, |joint| segment.start + segment.width * joint);
-            // A stretch too short for two angles is none.
+            // A stretch too short for two angles is left out.
             if start < until || parts.start == 0 {
                 self.pieces.push(Piece { start, end: until, dwell });
-                self.sources.push(Source { segment: index, parts });
+                self.sources.push(PieceSource { segment: index, parts });
                 start = until;
             }
         }
         self.segments.push(segment);
-        self.told = OnceLock::new();
+        self.summaries = OnceLock::new();
     }
 
     /// The position in the program, with its derivatives.
@@ -385,92 +409,6 @@ impl Program {
         let shape = Jet { s, ds, dds, ddds }.by_angle_times(segment.width).scaled(segment.travel);
         Jet { s: segment.from + shape.s, ..shape }
     }
-}
-
-/// A curve, none of a dwell, and by what it is multiplied.
-type Made = (Option<Curve>, f64);
-
-/// The curve of every segment: those that match a neighbour at a turn after the others.
-fn solved(start: f64, steps: &[Step], joined: Vec<Option<Curve>>) -> Result<Vec<Made>, (usize, StepError)> {
-    let size = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);
-    let before = |index: usize| if index == 0 { steps.last() } else { steps.get(index - 1) };
-    let of = |index: usize, step: &Step, acceleration: Option<[Option<f64>; 2]>| {
-        let from = if index == 0 { start } else { before(index).map_or(start, |step| step.to) };
-        let begin = before(index).map_or_else(State::default, |step| step.end);
-        one(step, (from, begin), size, acceleration)
-    };
-    let mut all = Vec::with_capacity(steps.len());
-    for ((index, step), joined) in steps.iter().enumerate().zip(joined) {
-        if joined.is_some() {
-            all.push(Some((joined, 1.0)));
-            continue;
-        }
-        let waits = matches!(step.mover, Mover::Matching(..));
-        all.push(if waits { None } else { Some(of(index, step, None).map_err(|error| (index, error))?) });
-    }
-    let known: Vec<Option<[f64; 2]>> = all
-        .iter()
-        .zip(steps)
-        .map(|(made, step)| made.as_ref().map(|(curve, travel)| accelerations(curve.as_ref(), *travel, step.over)))
-        .collect();
-    let count = steps.len();
-    for (index, step) in steps.iter().enumerate() {
-        if matches!(step.mover, Mover::Matching(..)) {
-            let neighbour = |at: usize| known.get(at % count.max(1)).copied().flatten();
-            let (before, after) = (neighbour(index + count - 1), neighbour(index + 1));
-            let beside = [before.map(|[_, last]| last), after.map(|[first, _]| first)];
-            let made = of(index, step, Some(beside)).map_err(|error| (index, error))?;
-            if let Some(place) = all.get_mut(index) {
-                *place = Some(made);
-            }
-        }
-    }
-    Ok(all.into_iter().flatten().collect())
-}
-
-/// Accelerations of a curve at both ends, by the cam angle.
-fn accelerations(curve: Option<&Curve>, travel: f64, width: f64) -> [f64; 2] {
-    let Some(curve) = curve else { return [0.0; 2] };
-    let scale = travel / (width * width);
-    [curve.derivative(0, 0.0, 2) * scale, curve.derivative(curve.parts().saturating_sub(1), 1.0, 2) * scale]
-}
-
-/// The curve of a segment from a position and a state on, and by what it is multiplied; with the accelerations of the neighbours at its
-/// ends where it is to match one.
-fn one(
-    step: &Step,
-    (from, begin): (f64, State),
-    size: f64,
-    beside: Option<[Option<f64>; 2]>,
-) -> Result<Made, StepError> {
-    let (travel, width) = (step.to - from, step.over);
-    if !matches!(step.mover, Mover::Dwell | Mover::Polynomial | Mover::Spline(_)) && !(travel.abs() > NO_TRAVEL * size)
-    {
-        let law = if step.mover.optimum().is_some() { "an optimum" } else { step.mover.name() };
-        return Err(StepError::NoTravel { law });
-    }
-    let (law, inflection, parameters) = match &step.mover {
-        Mover::Dwell => return Ok((None, 0.0)),
-        Mover::Own(_, curve) | Mover::Optimum(_, curve) => return Ok((Some(curve.clone()), travel)),
-        Mover::Polynomial | Mover::Spline(_) => {
-            let (first, last) = (begin.conditions(0.0, width), step.end.conditions(travel, width));
-            return Ok((Some(polynomial::hermite(&first, &last)), 1.0));
-        }
-        Mover::Law(law, inflection, parameters) => (*law, *inflection, *parameters),
-        Mover::Matching(law, parameters) => {
-            let [before, after] = beside.unwrap_or_default();
-            let wanted = if step.end.turns { after } else { before.filter(|_| begin.turns) };
-            let acceleration = wanted.ok_or(StepError::NothingToMatch)? * width * width / travel;
-            (*law, Inflection::Match { acceleration }, *parameters)
-        }
-    };
-    if law.name == laws::LINE {
-        // Whatever came before: a jump of the velocity is told of the whole program.
-        return Ok((Some(Curve::line()), travel));
-    }
-    let ends = begin.end(travel, width).zip(step.end.end(travel, width));
-    let (from, to) = ends.ok_or(StepError::Accelerated { law: law.name })?;
-    Ok((Some(law.solve(&Task { from, to, inflection, parameters })?), travel))
 }
 
 impl Motion for Program {
@@ -495,11 +433,30 @@ impl Motion for Program {
         self.lobes
     }
 
+    /// Its segments, by their laws.
+    fn named_stretches(&self) -> Vec<NamedStretch> {
+        let own = self.sources.len().max(1);
+        let mut stretches: Vec<NamedStretch> = Vec::new();
+        let mut last = None;
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let Some(source) = self.sources.get(index % own) else { continue };
+            let segment = (index / own, source.segment);
+            if let Some(stretch) = stretches.last_mut().filter(|_| last == Some(segment)) {
+                stretch.to = piece.end;
+            } else {
+                let name = self.segments.get(source.segment).map_or(keys::DWELL, |segment| segment.name);
+                stretches.push(NamedStretch { from: piece.start, to: piece.end, name: name.into() });
+            }
+            last = Some(segment);
+        }
+        stretches
+    }
+
     fn program(&self) -> Option<&Program> {
         Some(self)
     }
 
-    /// Of a segment of several pieces each takes its share of the cells, but some for every part of its curve.
+    /// Each piece of a segment takes its share of the cells, but at least a few for every part of its curve.
     fn cells(&self, piece: usize) -> u32 {
         let own = self.pieces.get(piece).filter(|piece| !piece.dwell);
         let source = self.sources.get(piece % self.sources.len().max(1));
@@ -517,6 +474,7 @@ impl Motion for Program {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::laws;
 
     /// Up by a law in a radian and down by another in two.
     fn program(up: &str, down: &str) -> Program {
@@ -525,7 +483,7 @@ mod tests {
         Program::new(Quantity::Length, 0.0, &segments)
     }
 
-    /// Where only the fourth derivative jumps a piece goes on; where a lower one does it ends, and each piece has its own side.
+    /// A piece continues where only the fourth derivative jumps; it ends where a lower one does, and each piece has its own side.
     #[test]
     fn a_piece_ends_where_a_derivative_up_to_the_jerk_jumps() {
         let ends = |motion: &Program| motion.pieces().iter().map(|piece| piece.end).collect::<Vec<_>>();

@@ -1,79 +1,72 @@
-//! Segments by polynomials that make something least.
+//! Segments by optimal polynomials.
 
-use super::keys::{Goal, MINIMISE, OF_OPTIMUM, POLYNOMIAL, RATIO, ROBUST};
-use super::{Mover, Step, StepError};
-use crate::document::Table;
-use crate::motion::laws::optimum::{Least, Optimum, OptimumError};
+use super::keys::{MINIMISE, OF_OPTIMUM, ObjectiveWord, POLYNOMIAL, RATIO, ROBUST};
+use super::{Mover, SegmentSpec};
+use crate::document::TableReader;
+use crate::motion::laws::LawError;
+use crate::motion::laws::optimum::{Objective, Optimum};
 
-/// Whether a segment asks for one.
-pub(super) fn is_asked(segment: &Table<'_>) -> bool {
+/// Whether a segment has a goal to minimise.
+pub(super) fn has_goal(segment: &TableReader<'_>) -> bool {
     segment.has(&MINIMISE)
 }
 
-/// A segment that asks for none has none of its keys; `None` at a fault.
-pub(super) fn without(segment: &Table<'_>) -> Option<()> {
+/// Refuses the keys of an optimum in a segment without one; `None` at a fault.
+pub(super) fn refuse_keys(segment: &TableReader<'_>) -> Option<()> {
     if segment.has(&OF_OPTIMUM) {
-        let help = "add minimise, or leave it out: without, the states at both ends give the polynomial";
-        segment.fail(&OF_OPTIMUM, "`degree` is of a polynomial with `minimise`".into(), Some(help.into()));
+        let help = "add `minimise`, or remove `degree`: without `minimise` the states at both ends give the polynomial";
+        segment.fail(&OF_OPTIMUM, "`degree` applies only to a polynomial with `minimise`".into(), Some(help.into()));
         return None;
     }
-    lone(segment)
+    refuse_residual_keys(segment)
 }
 
-/// The optimum that a segment asks for; `None` at a fault.
-pub(super) fn read(segment: &Table<'_>, law: &str) -> Option<Mover> {
+/// The optimum of a segment; `None` at a fault.
+pub(super) fn read(segment: &TableReader<'_>, law: &str) -> Option<Mover> {
     if !law.eq_ignore_ascii_case(POLYNOMIAL) {
-        let message = format!("`minimise` is of law = \"{POLYNOMIAL}\", not of {law}");
-        segment.fail(&MINIMISE, message, Some(format!("give law = \"{POLYNOMIAL}\", or leave `minimise` out")));
+        let message = format!("`minimise` applies only to law = \"{POLYNOMIAL}\", not to {law}");
+        segment.fail(&MINIMISE, message, Some(format!("give law = \"{POLYNOMIAL}\", or remove `minimise`")));
         return None;
     }
     let goal = segment.get(&MINIMISE)?;
     let least = match goal {
-        Goal::PeakAcceleration => Least::PeakAcceleration,
-        Goal::PeakJerk => Least::PeakJerk,
-        Goal::RmsAcceleration => Least::RmsAcceleration,
-        Goal::Residual if !segment.has(&RATIO) => {
-            let help = "the natural periods of the load that the segment takes, e.g. ratio = 2.5";
+        ObjectiveWord::PeakAcceleration => Objective::PeakAcceleration,
+        ObjectiveWord::PeakJerk => Objective::PeakJerk,
+        ObjectiveWord::RmsAcceleration => Objective::RmsAcceleration,
+        ObjectiveWord::Residual if !segment.has(&RATIO) => {
+            let help = "it is the duration of the segment in natural periods of the load, e.g. ratio = 2.5";
             segment.fail(&RATIO, "minimise = \"residual\" needs `ratio`".into(), Some(help.into()));
             return None;
         }
-        Goal::Residual => Least::Residual { ratio: segment.get(&RATIO)?, robust: segment.get(&ROBUST)? },
+        ObjectiveWord::Residual => Objective::Residual { ratio: segment.get(&RATIO)?, robust: segment.get(&ROBUST)? },
     };
-    if goal != Goal::Residual {
-        lone(segment)?;
+    if goal != ObjectiveWord::Residual {
+        refuse_residual_keys(segment)?;
     }
     let optimum = Optimum { degree: degree(segment)?, least };
     match optimum.solve() {
         Ok(curve) => Some(Mover::Optimum(optimum, curve)),
         Err(error) => {
-            let told = error.to_string();
-            match error {
-                OptimumError::TooFew { .. } => {
-                    segment.fail(&OF_OPTIMUM, told, Some("raise `degree`, or leave `robust` out".into()));
-                }
-                OptimumError::Vibrates { .. } => {
-                    segment.fail(&RATIO, told, Some("raise `degree`, or give the segment a longer angle".into()));
-                }
-                _ => segment.fail(&OF_OPTIMUM, told, None),
-            }
+            let key = if error.input == "ratio" { &RATIO } else { &OF_OPTIMUM };
+            segment.fail(key, error.refusal.what, error.refusal.remedy);
             None
         }
     }
 }
 
-/// Without vibration to avoid there is no ratio.
-fn lone(segment: &Table<'_>) -> Option<()> {
+/// Refuses `ratio` and `robust` where no vibration is to be avoided.
+fn refuse_residual_keys(segment: &TableReader<'_>) -> Option<()> {
     let (ratio, robust) = (segment.has(&RATIO), segment.has(&ROBUST));
-    let help = Some("leave it out, or give minimise = \"residual\"".to_owned());
+    let help = Some("remove it, or give minimise = \"residual\"".to_owned());
     if ratio {
-        segment.fail(&RATIO, "`ratio` is of minimise = \"residual\"".into(), help);
+        segment.fail(&RATIO, "`ratio` applies only to minimise = \"residual\"".into(), help);
     } else if robust {
-        segment.fail(&ROBUST, "`robust` is of minimise = \"residual\"".into(), help);
+        segment.fail(&ROBUST, "`robust` applies only to minimise = \"residual\"".into(), help);
     }
     (!ratio && !robust).then_some(())
 }
 
-fn degree(segment: &Table<'_>) -> Option<u32> {
+fn degree(segment: &TableReader<'_>) -> Option<u32> {
     if !segment.has(&OF_OPTIMUM) {
         let help = "a whole number from 7 to 15, e.g. degree = 9";
         segment.fail(&OF_OPTIMUM, "`minimise` needs `degree`".into(), Some(help.into()));
@@ -89,14 +82,17 @@ fn degree(segment: &Table<'_>) -> Option<u32> {
     Some(typed as u32)
 }
 
-/// An optimum has no end that moves.
-pub(super) fn check(steps: &[Step]) -> Result<(), (usize, StepError)> {
+/// An optimum starts and ends at rest.
+pub(super) fn check(steps: &[SegmentSpec]) -> Result<(), (usize, LawError)> {
     let before = steps.last().into_iter().chain(steps);
     for (index, (step, before)) in steps.iter().zip(before).enumerate() {
-        let rests = |step: &Step| step.end.rests() && step.end.free == [false; 2];
+        let rests = |step: &SegmentSpec| step.end.rests() && step.end.free == [false; 2];
         let moves = !rests(before) || !rests(step) || step.end.jerk.is_some();
         if moves && matches!(step.mover, Mover::Optimum(..)) {
-            return Err((index, StepError::OptimumMoves));
+            let what = "a polynomial with `minimise` runs from rest to rest; an end of this one has a velocity, an \
+                        acceleration, a jerk or a turn";
+            let remedy = "remove the states, or `minimise`: without it a polynomial takes the states at its ends";
+            return Err((index, LawError::new("minimise", what).remedy(remedy)));
         }
     }
     Ok(())

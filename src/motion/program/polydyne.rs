@@ -4,9 +4,9 @@
 //! y = s + 2ζq s' + q² s'' with q = Ω/ω_n, by exact derivatives; it has two continuous derivatives less than s.
 
 use super::keys::{DAMPING, NATURAL_FREQUENCY, OWN_RPM, POLYDYNE};
-use super::{Jump, Program, ROUNDING, Segment, State};
+use super::{EndState, Jump, Program, ProgramSegment, ROUNDING};
 use crate::document::Reader;
-use crate::motion::laws::Curve;
+use crate::motion::laws::LawCurve;
 use std::f64::consts::TAU;
 
 /// An elastic load at the end of a follower.
@@ -33,7 +33,7 @@ pub(super) fn read(reader: &Reader<'_>, program: Program) -> Option<Program> {
         Err(jump) => {
             let what = ["velocity", "acceleration"].get(jump.order as usize - 1).unwrap_or(&"jerk");
             let message = format!(
-                "the {what} of the load jumps at {:.6} deg: the cam would need an impact to move it so",
+                "the {what} of the load jumps at {:.6} deg: no cam can move it this way without an impact",
                 jump.at.to_degrees()
             );
             let help = "a polydyne cam needs a motion with continuous jerk: 4-5-6-7, 5-6-7-8-9, polynomials with jerk = 0 at their ends, or one formula";
@@ -52,7 +52,8 @@ impl Program {
         if let Some(jump) = self.jump() {
             return Err(jump);
         }
-        let mut program = Self { rpm: self.rpm, load: Some(load), ..Self::empty(self.quantity, self.lobes) };
+        let mut program =
+            Self { rpm: self.rpm, load: Some(load), rows: self.rows.clone(), ..Self::empty(self.quantity, self.lobes) };
         let whole = TAU / f64::from(self.lobes);
         let first = self.segments.first().map_or(0.0, |segment| segment.start);
         let ends = self.segments.iter().skip(1).map(|segment| segment.start).chain([first + whole]);
@@ -60,28 +61,28 @@ impl Program {
             program.add(loaded(segment, load), end);
         }
         program.repeat(whole);
-        Ok(program.finished())
+        Ok(program.with_lowest())
     }
 }
 
 /// A segment of the cam's motion.
-fn loaded(segment: &Segment, load: Polydyne) -> Segment {
+fn loaded(segment: &ProgramSegment, load: Polydyne) -> ProgramSegment {
     let (width, ratio) = (segment.width, load.ratio);
-    let by_share = |curve: &Curve| curve.loaded(2.0 * load.damping * ratio / width, ratio * ratio / (width * width));
+    let by_share = |curve: &LawCurve| curve.loaded(2.0 * load.damping * ratio / width, ratio * ratio / (width * width));
     let Some(curve) = segment.curve.as_ref().map(by_share) else { return segment.clone() };
     let (peaks, last) = (curve.peaks(), curve.parts().saturating_sub(1));
     let ends = [(0, 0.0), (last, 1.0)].map(|(part, x)| {
         let [_, velocity, acceleration, _] = curve.at(part, x);
         let exact = |value: f64, peak: f64| if value.abs() > ROUNDING * peak { value * segment.travel } else { 0.0 };
-        State {
+        EndState {
             velocity: exact(velocity, peaks.velocity.value) / width,
             acceleration: exact(acceleration, peaks.acceleration.value) / (width * width),
-            ..State::default()
+            ..EndState::default()
         }
     });
     let to = segment.from + segment.travel * curve.at(last, 1.0)[0];
     let to = if segment.whole { segment.from } else { to };
-    Segment { curve: Some(curve), ends, to, ..segment.clone() }
+    ProgramSegment { curve: Some(curve), ends, to, ..segment.clone() }
 }
 
 #[cfg(test)]

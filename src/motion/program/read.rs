@@ -1,52 +1,46 @@
 //! The tables `[motion]` and `[[motion.segment]]`.
 
+use super::context::{FollowerMovement, ProgramContext, arc, report_mismatch, value_of};
+use super::fault_reported::FaultReported;
 use super::keys::{
-    ACCELERATION, AMPLITUDES, AT, BY, DWELL, END, EXPRESSED, EndOf, FRACTIONS, INFLECTION, JERK, LAW, LINE, MINIMISE,
-    OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO, UNTIL, USUAL, VELOCITY,
+    ACCELERATION, AMPLITUDES, AT, BEGINS, BETWEEN_ROWS, BY, DWELL, END, EXPRESSED, EndWord, FRACTIONS, INFLECTION,
+    JERK, LAW, LINE, MINIMISE, OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO,
+    UNTIL, USUAL, VELOCITY,
 };
-use super::{Mover, Program, State, Step, StepError};
-use super::{forms, optimum, polydyne};
+use super::{EndState, Mover, Program, SegmentSpec};
+use super::{forms, optimum, polydyne, rows};
 use crate::document::similar;
-use crate::document::{Field, LengthOrAngle, Reader, Table};
+use crate::document::{Field, LengthOrAngle, Reader, TableReader};
 use crate::motion::Quantity;
 use crate::motion::laws::{self, Inflection, LAWS, Law, LawError, Parameters};
+use crate::refusal::Refusal;
 use crate::units;
 use std::f64::consts::{PI, TAU};
 
-/// By how much the sum of the segments may differ from a whole turn, rad: rounding of typed angles. No segment is as short.
+/// Largest difference between the sum of the segments and a whole turn, rad: rounding of typed angles. Every segment is longer.
 const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
-/// By how much the last position may miss the first, over the largest: rounding of sums.
+/// Most segments: each of them would be cut in some arcs.
+const MOST_SEGMENTS: usize = 2000;
+/// Largest distance of the last position from the first, over the largest: rounding of sums.
 const SAME_PLACE: f64 = 1e-12;
 
-pub(super) fn value_of(position: LengthOrAngle) -> (Quantity, f64) {
-    match position {
-        LengthOrAngle::Length(value) => (Quantity::Length, value),
-        LengthOrAngle::Angle(value) => (Quantity::Angle, value),
-    }
-}
-
-/// What holds for the whole program.
-#[derive(Clone, Copy)]
-pub(super) struct Whole {
-    pub(super) quantity: Quantity,
-    /// Angular speed of the cam, rad/s.
-    speed: Option<f64>,
-    /// First cam angle, and the angle the segments fill, rad.
-    pub(super) at: f64,
-    pub(super) fill: f64,
-}
-
-/// The program of a file, when there is one without fault.
-pub(crate) fn read(reader: &Reader<'_>) -> Option<Program> {
-    polydyne::read(reader, as_given(reader)?)
+/// The program of a file for its follower, where that has no fault, when there is one without fault.
+pub(crate) fn read(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<Program> {
+    polydyne::read(reader, as_given(reader, follower)?)
 }
 
 /// The motion that the file gives.
-fn as_given(reader: &Reader<'_>) -> Option<Program> {
+fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<Program> {
     let table = reader.find(&SECTION)?;
     let start = table.get(&START);
-    let segments: Vec<Table<'_>> = reader.elements(&SEGMENT).collect();
-    let form = forms::Form::find(reader, &table, !segments.is_empty()).ok()?;
+    let segments: Vec<TableReader<'_>> = reader.elements(&SEGMENT).collect();
+    if segments.len() > MOST_SEGMENTS {
+        let message =
+            format!("the motion has {} segments; the largest possible number is {MOST_SEGMENTS}", segments.len());
+        table.fail(&START, message, Some("give it as a table of positions, motion.table".into()));
+        return None;
+    }
+    let form = forms::MotionForm::find(reader, &table, !segments.is_empty()).ok()?;
     if segments.is_empty() && form.is_none() {
         if !reader.is_explained(&SEGMENT) {
             let help =
@@ -56,10 +50,16 @@ fn as_given(reader: &Reader<'_>) -> Option<Program> {
         return None;
     }
     let lobes = lobes(&table);
-    let (quantity, start) = value_of(start?);
+    let arc = arc(&table, follower);
+    let (quantity, start) = value_of(start?, arc);
+    if let Some(follower) = follower.filter(|follower| follower.quantity != quantity) {
+        report_mismatch(&table, (quantity, follower), &lengths(&segments, start));
+    }
     let rpm = table.get(&RPM);
     let (at, lobes) = (table.get(&AT)?, lobes?);
-    let whole = Whole { quantity, speed: rpm.map(|rpm| rpm * TAU / 60.0), at, fill: TAU / f64::from(lobes) };
+    let speed = rpm.map(|rpm| rpm * TAU / 60.0);
+    let arm = follower.and_then(|follower| follower.arm);
+    let whole = ProgramContext { quantity, arc, arm, speed, at, fill: TAU / f64::from(lobes) };
     if let Some(form) = form {
         return Some(Program { rpm, ..form.program(&table, whole, (start, lobes))? });
     }
@@ -76,38 +76,41 @@ fn as_given(reader: &Reader<'_>) -> Option<Program> {
     match Program::of_steps(quantity, (at, start, lobes), &steps) {
         Ok(program) => Some(Program { rpm, ..program }),
         Err((index, error)) => {
-            tell(segments.get(index)?, &error);
+            report_error(segments.get(index)?, error);
             None
         }
     }
 }
 
-/// Why a segment cannot be made, at the key that it has to do with.
-fn tell(segment: &Table<'_>, error: &StepError) {
-    let told = error.to_string();
-    match error {
-        StepError::NothingToMatch
-        | StepError::Law(LawError::NoInflection { .. } | LawError::Inflection { .. } | LawError::NoMatch { .. }) => {
-            segment.fail(&INFLECTION, told, None);
-        }
-        StepError::NothingToJoin { .. } => segment.fail(&VELOCITY, told, None),
-        StepError::JerkOfSpline => segment.fail(&JERK, told, None),
-        StepError::OptimumMoves => {
-            let help = "take the states away, or `minimise`: a polynomial without it takes the states at its ends";
-            segment.fail(&MINIMISE, told, Some(help.into()));
-        }
-        StepError::Law(LawError::Parameter { name: "fractions", .. }) => segment.fail(&FRACTIONS, told, None),
-        StepError::Law(LawError::Parameter { name: "amplitudes", .. }) => segment.fail(&AMPLITUDES, told, None),
-        StepError::Law(LawError::Parameter { name: "line", .. }) => segment.fail(&LINE, told, None),
-        StepError::Law(LawError::Parameter { name: "ramp", .. }) => segment.fail(&RAMP, told, None),
-        _ => segment.fail(&LAW, told, None),
+/// The positions that are given as lengths, m.
+fn lengths(segments: &[TableReader<'_>], start: f64) -> Vec<f64> {
+    let given = segments.iter().flat_map(|segment| [segment.get(&TO), segment.get(&BY)]);
+    let length = |position| if let LengthOrAngle::Length(length) = position { Some(length) } else { None };
+    std::iter::once(start).chain(given.flatten().filter_map(length)).collect()
+}
+
+/// Reports why a segment cannot be made, at the key that is responsible.
+fn report_error(segment: &TableReader<'_>, error: LawError) {
+    let Refusal { what, remedy, .. } = error.refusal;
+    match error.input {
+        "inflection" => segment.fail(&INFLECTION, what, remedy),
+        "velocity" => segment.fail(&VELOCITY, what, remedy),
+        "start" => segment.fail(&BEGINS, what, remedy),
+        "jerk" => segment.fail(&JERK, what, remedy),
+        "minimise" => segment.fail(&MINIMISE, what, remedy),
+        "fractions" => segment.fail(&FRACTIONS, what, remedy),
+        "amplitudes" => segment.fail(&AMPLITUDES, what, remedy),
+        "line" => segment.fail(&LINE, what, remedy),
+        "ramp" => segment.fail(&RAMP, what, remedy),
+        "shape" => segment.fail(&BETWEEN_ROWS, what, remedy),
+        _ => segment.fail(&LAW, what, remedy),
     }
 }
 
-fn lobes(table: &Table<'_>) -> Option<u32> {
+fn lobes(table: &TableReader<'_>) -> Option<u32> {
     let typed = table.get(&REPEAT)?;
     if typed.fract() != 0.0 {
-        table.fail(&REPEAT, format!("repeat must be a whole number: {typed}"), None);
+        table.fail(&REPEAT, format!("`repeat` must be a whole number, not {typed}"), None);
         return None;
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 1 to 100")]
@@ -115,7 +118,7 @@ fn lobes(table: &Table<'_>) -> Option<u32> {
 }
 
 /// Every segment as a step, one after the other.
-fn steps(segments: &[Table<'_>], whole: Whole, start: f64) -> Option<Vec<Step>> {
+fn steps(segments: &[TableReader<'_>], whole: ProgramContext, start: f64) -> Option<Vec<SegmentSpec>> {
     let (mut all, mut position, mut sum) = (Vec::with_capacity(segments.len()), start, 0.0);
     let mut missing = false;
     for (index, segment) in segments.iter().enumerate() {
@@ -125,7 +128,7 @@ fn steps(segments: &[Table<'_>], whole: Whole, start: f64) -> Option<Vec<Step>> 
                 (position, sum) = (step.to, sum + step.over);
                 all.push(step);
             }
-            // What follows from a segment that is not known is not told.
+            // What follows from an unknown segment is not reported.
             None if segment.has(&OVER) || segment.has(&UNTIL) || last => missing = true,
             None => return None,
         }
@@ -143,12 +146,17 @@ fn steps(segments: &[Table<'_>], whole: Whole, start: f64) -> Option<Vec<Step>> 
     Some(all)
 }
 
-/// A segment from a position on, behind segments that take a sum of angles, rad.
-fn step(segment: &Table<'_>, whole: Whole, (position, sum, last): (f64, f64, bool)) -> Option<Step> {
-    let mover = mover(segment, whole);
+/// A segment that starts at a position, after segments with a sum of angles, rad.
+fn step(
+    segment: &TableReader<'_>,
+    whole: ProgramContext,
+    (position, sum, last): (f64, f64, bool),
+) -> Option<SegmentSpec> {
+    let target = target(segment, whole, position).ok();
+    let mover = mover(segment, whole, target.flatten().map(|to| to - position));
     let end = state(segment, whole);
-    let target = target(segment, whole.quantity, position).ok();
     let (mut mover, mut end, target) = (mover?, end?, target?);
+    let free_start = free_start(segment, &mover)?;
     let line = matches!(mover, Mover::Law(law, ..) if law.name == laws::LINE);
     let dwell = matches!(mover, Mover::Dwell);
     if dwell && (target.is_some() || !(end.rests() && end.free == [false; 2])) {
@@ -157,13 +165,13 @@ fn step(segment: &Table<'_>, whole: Whole, (position, sum, last): (f64, f64, boo
         segment.fail(key, "a dwell keeps its position and has no `to`".into(), Some(help.into()));
         return None;
     }
-    // Of a straight line two of angle, travel and velocity give the third.
+    // For a straight line, two of angle, travel and velocity give the third.
     let by_velocity = line && end.velocity != 0.0;
     let over = match (width(segment, whole, sum, last && !by_velocity).ok()?, target) {
         (Some(over), _) => over,
         (None, Some(to)) if by_velocity && (to - position) / end.velocity > 0.0 => (to - position) / end.velocity,
         (None, Some(_)) if by_velocity => {
-            segment.fail(&VELOCITY, "the velocity leads away from `to`".into(), Some("turn its sign".into()));
+            segment.fail(&VELOCITY, "the velocity points away from `to`".into(), Some("change its sign".into()));
             return None;
         }
         (None, _) if last && sum < whole.fill - WHOLE_TURN => whole.fill - sum,
@@ -184,83 +192,94 @@ fn step(segment: &Table<'_>, whole: Whole, (position, sum, last): (f64, f64, boo
         }
     };
     if line {
-        let velocity = (to - position) / over;
-        if by_velocity && (velocity - end.velocity).abs() > SAME_PLACE.sqrt() * velocity.abs() {
-            let message = "over, to and velocity of a straight line do not fit each other".to_owned();
-            segment.fail(&VELOCITY, message, Some("two of them give the third: leave one out".into()));
-            return None;
-        }
-        end = State { velocity, ..State::default() };
+        end = line_end(segment, (to - position) / over, by_velocity.then_some(end.velocity))?;
     }
     match &mut mover {
-        Mover::Own(_, curve) => {
+        Mover::Own(_, curve, _) => {
             let (sized, slope) = (own_end(curve), (to - position) / over);
-            end = State { velocity: sized[0] * slope, acceleration: sized[1] * slope / over, ..State::default() };
+            end = EndState { velocity: sized[0] * slope, acceleration: sized[1] * slope / over, ..EndState::default() };
         }
-        Mover::Spline(points) => forms::behind(segment, points, (whole.at + sum, over))?,
+        Mover::Spline(rows) => forms::measure_from_start(segment, &mut rows.points, (whole.at + sum, over))?,
         _ => {}
     }
-    Some(Step { mover, over, to, end })
+    Some(SegmentSpec { mover, over, to, end, free_start })
+}
+
+/// Whether the acceleration where a segment starts is free; only polynomials and splines can choose.
+fn free_start(segment: &TableReader<'_>, mover: &Mover) -> Option<bool> {
+    if segment.has(&BEGINS) && !matches!(mover, Mover::Polynomial | Mover::Spline(_)) {
+        let message = format!("`start` applies only to polynomials and splines, not to {}", mover.name());
+        segment.fail(&BEGINS, message, Some("remove it".into()));
+        return None;
+    }
+    segment.get(&BEGINS)
+}
+
+/// The state of a straight line with this velocity, from which a given one must not differ.
+fn line_end(segment: &TableReader<'_>, velocity: f64, given: Option<f64>) -> Option<EndState> {
+    if given.is_some_and(|given| (velocity - given).abs() > SAME_PLACE.sqrt() * velocity.abs()) {
+        let message = "over, to and velocity of a straight line contradict each other".to_owned();
+        segment.fail(&VELOCITY, message, Some("two of them determine the third: remove one".into()));
+        return None;
+    }
+    Some(EndState { velocity, ..EndState::default() })
 }
 
 /// Velocity and acceleration at the end of a curve, without rounding.
-fn own_end(curve: &laws::Curve) -> [f64; 2] {
+fn own_end(curve: &laws::LawCurve) -> [f64; 2] {
     let (last, peaks) = (curve.at(curve.parts().saturating_sub(1), 1.0), curve.peaks());
     let sizes = [(last[1], peaks.velocity.value), (last[2], peaks.acceleration.value)];
-    // Of a straight line even the peak of the acceleration is rounding.
+    // For a straight line even the peak of the acceleration is rounding.
     sizes.map(|(value, size)| if value.abs() > super::ROUNDING * size.max(1.0) { value } else { 0.0 })
 }
 
-/// A fault that the user has been told.
-struct Told;
-
 /// The cam angle of a segment, where it is given.
-fn width(segment: &Table<'_>, whole: Whole, sum: f64, rest: bool) -> Result<Option<f64>, Told> {
+fn width(segment: &TableReader<'_>, whole: ProgramContext, sum: f64, rest: bool) -> Result<Option<f64>, FaultReported> {
     if segment.has(&OVER) && segment.has(&UNTIL) {
-        segment.fail(&UNTIL, "a segment has `over` or `until`, not both".into(), Some("leave one of them out".into()));
-        return Err(Told);
+        segment.fail(&UNTIL, "give `over` or `until`, not both".into(), Some("remove one of them".into()));
+        return Err(FaultReported);
     }
     if segment.has(&UNTIL) {
-        let until = segment.get(&UNTIL).ok_or(Told)?;
+        let until = segment.get(&UNTIL).ok_or(FaultReported)?;
         let over = until - (whole.at + sum);
         if !(over > WHOLE_TURN && over <= TAU + WHOLE_TURN) {
             let from = (whole.at + sum).to_degrees();
-            let message = format!("`until` must be behind the start of the segment, {from:.6} deg");
+            let message = format!("`until` must come after the start of the segment, {from:.6} deg");
             segment.fail(&UNTIL, message, None);
-            return Err(Told);
+            return Err(FaultReported);
         }
         return Ok(Some(over));
     }
     if segment.has(&OVER) {
-        let over = segment.get(&OVER).ok_or(Told)?;
+        let over = segment.get(&OVER).ok_or(FaultReported)?;
         if over <= WHOLE_TURN {
-            let message = "a segment must take more than 1e-9 deg";
-            segment.fail(&OVER, message.into(), Some("make it longer, or leave it out".into()));
-            return Err(Told);
+            let message = "a segment must be longer than 1e-9 deg";
+            segment.fail(&OVER, message.into(), Some("make it longer, or remove it".into()));
+            return Err(FaultReported);
         }
         return Ok(Some(over));
     }
     if rest && sum >= whole.fill - WHOLE_TURN {
         let message = format!("the segments before the last already cover {:.6} deg", sum.to_degrees());
         segment.fail(&OVER, message, Some("make them shorter, or remove the last".into()));
-        return Err(Told);
+        return Err(FaultReported);
     }
     Ok(None)
 }
 
 /// The position at the end of a segment, where it is given.
-fn target(segment: &Table<'_>, quantity: Quantity, position: f64) -> Result<Option<f64>, Told> {
+fn target(segment: &TableReader<'_>, whole: ProgramContext, position: f64) -> Result<Option<f64>, FaultReported> {
     if segment.has(&TO) && segment.has(&BY) {
-        segment.fail(&BY, "a segment has `to` or `by`, not both".into(), Some("leave one of them out".into()));
-        return Err(Told);
+        segment.fail(&BY, "give `to` or `by`, not both".into(), Some("remove one of them".into()));
+        return Err(FaultReported);
     }
     for (key, from, name) in [(&TO, 0.0, "to"), (&BY, position, "by")] {
         if segment.has(key) {
-            let (found, value) = value_of(segment.get(key).ok_or(Told)?);
-            if found != quantity {
-                let message = format!("`{name}` is {}, but motion.start is {}", found.words(), quantity.words());
-                segment.fail(key, message, Some("give both in the same kind of unit".into()));
-                return Err(Told);
+            let (found, value) = whole.value_of(segment.get(key).ok_or(FaultReported)?);
+            if found != whole.quantity {
+                let message = format!("`{name}` is {}, but motion.start is {}", found.words(), whole.quantity.words());
+                segment.fail(key, message, Some(whole.remedy(value)));
+                return Err(FaultReported);
             }
             return Ok(Some(from + value));
         }
@@ -268,45 +287,54 @@ fn target(segment: &Table<'_>, quantity: Quantity, position: f64) -> Result<Opti
     Ok(None)
 }
 
-/// A rate at the end of a segment by the cam angle, where it is given.
-fn rate(segment: &Table<'_>, key: &Field<String>, order: u32, whole: Whole) -> Result<Option<f64>, Told> {
+/// A rate at the end of a segment per cam angle, where it is given.
+fn rate(
+    segment: &TableReader<'_>,
+    key: &Field<String>,
+    order: u32,
+    whole: ProgramContext,
+) -> Result<Option<f64>, FaultReported> {
     if !segment.has(key) || is_auto(segment, key) {
         return Ok(None);
     }
-    let text = segment.get(key).ok_or(Told)?;
+    let text = segment.get(key).ok_or(FaultReported)?;
     let swings = whole.quantity == Quantity::Angle;
     let fits = if swings { "deg/deg, rad/rad or deg/s" } else { "mm/deg, mm/rad, mm/s or m/s" };
-    let powers = if order > 1 { format!(", with {order} behind the second unit") } else { String::new() };
+    let powers = if order > 1 { format!(", with {order} after the second unit") } else { String::new() };
     let fail = |message: String, help: String| {
         segment.fail(key, message, Some(help));
-        Err(Told)
+        Err(FaultReported)
     };
     let name = key.key.name;
     match units::parse_rate(&text, order) {
         Err(error) => fail(format!("`{name}`: {error}"), format!("a number and one of {fits}{powers}")),
-        Ok(rate) if rate.swing != swings => {
+        Ok(rate) if rate.swing != swings && (rate.swing || whole.arc.is_none()) => {
             let (found, wanted) = if swings { ("a length", "an angle") } else { ("an angle", "a length") };
-            fail(format!("`{name}` is of {found}, but motion.start is {wanted}"), format!("one of {fits}{powers}"))
+            fail(format!("`{name}` is that of {found}, but motion.start is {wanted}"), format!("one of {fits}{powers}"))
         }
-        Ok(rate) if !rate.by_time => Ok(Some(rate.value)),
-        Ok(rate) => match whole.speed {
-            Some(speed) => Ok(Some((0..order).fold(rate.value, |value, _| value / speed))),
-            None => {
-                fail(format!("`{name}` by the time needs motion.rpm"), "add it, or give the rate by the angle".into())
+        Ok(rate) => {
+            let value = if rate.swing { rate.value } else { rate.value / whole.arc.unwrap_or(1.0) };
+            match whole.speed {
+                _ if !rate.by_time => Ok(Some(value)),
+                Some(speed) => Ok(Some((0..order).fold(value, |value, _| value / speed))),
+                None => fail(
+                    format!("`{name}` per second needs motion.rpm"),
+                    "add motion.rpm, or give the rate per angle".into(),
+                ),
             }
-        },
+        }
     }
 }
 
-/// Whether a rate is to be found.
-fn is_auto(segment: &Table<'_>, key: &Field<String>) -> bool {
+/// Whether a rate is "auto".
+fn is_auto(segment: &TableReader<'_>, key: &Field<String>) -> bool {
     segment.get(key).is_some_and(|text| text.trim().eq_ignore_ascii_case(AUTO))
 }
 
 const AUTO: &str = "auto";
 
 /// The state at the end of a segment.
-fn state(segment: &Table<'_>, whole: Whole) -> Option<State> {
+fn state(segment: &TableReader<'_>, whole: ProgramContext) -> Option<EndState> {
     let said = if segment.has(&END) { Some(segment.get(&END)?) } else { None };
     let velocity = rate(segment, &VELOCITY, 1, whole).ok()?;
     let acceleration = rate(segment, &ACCELERATION, 2, whole).ok()?;
@@ -316,28 +344,34 @@ fn state(segment: &Table<'_>, whole: Whole) -> Option<State> {
     let free = [auto[0], auto[1] || (auto[0] && acceleration.is_none())];
     let moving = velocity.unwrap_or(0.0) != 0.0 || acceleration.unwrap_or(0.0) != 0.0 || free != [false; 2];
     let fault = match said {
-        Some(EndOf::Turn) if moving => Some("a turn has the velocity 0 and any acceleration"),
-        Some(EndOf::Rest) if moving => Some("at rest velocity and acceleration are 0"),
-        Some(EndOf::Moving) if velocity.is_none() && acceleration.is_none() && free == [false; 2] => {
+        Some(EndWord::Turn) if moving => {
+            Some("at a turn the velocity is 0 and the acceleration is free: neither can be given")
+        }
+        Some(EndWord::Rest) if moving => Some("at rest velocity and acceleration are 0: no others can be given"),
+        Some(EndWord::Moving) if velocity.is_none() && acceleration.is_none() && free == [false; 2] => {
             Some("a moving end needs a velocity")
         }
         _ => None,
     };
     if let Some(message) = fault {
-        segment.fail(&END, message.into(), Some("leave `end` out where a velocity or acceleration is given".into()));
+        segment.fail(&END, message.into(), Some("remove `end` where a velocity or acceleration is given".into()));
         return None;
     }
-    let turns = said == Some(EndOf::Turn);
-    Some(State { velocity: velocity.unwrap_or(0.0), acceleration: acceleration.unwrap_or(0.0), jerk, turns, free })
+    let turns = said == Some(EndWord::Turn);
+    let (velocity, acceleration) = (velocity.unwrap_or(0.0), acceleration.unwrap_or(0.0));
+    Some(EndState { velocity, acceleration, jerk, turns, turning: None, free })
 }
 
-/// What moves a segment.
-fn mover(segment: &Table<'_>, whole: Whole) -> Option<Mover> {
+/// How a segment moves, of a travel where that is known.
+fn mover(segment: &TableReader<'_>, whole: ProgramContext, travel: Option<f64>) -> Option<Mover> {
     let name = if segment.has(&LAW) { segment.get(&LAW)? } else { USUAL.to_owned() };
-    if optimum::is_asked(segment) {
+    if ![SPLINE, TABULATED].iter().any(|of_rows| name.eq_ignore_ascii_case(of_rows)) {
+        rows::segment::refuse_keys(segment, &name)?;
+    }
+    if optimum::has_goal(segment) {
         return optimum::read(segment, &name);
     }
-    optimum::without(segment)?;
+    optimum::refuse_keys(segment)?;
     if name.eq_ignore_ascii_case(DWELL) {
         return Some(Mover::Dwell);
     }
@@ -345,21 +379,23 @@ fn mover(segment: &Table<'_>, whole: Whole) -> Option<Mover> {
         return Some(Mover::Polynomial);
     }
     if name.eq_ignore_ascii_case(SPLINE) {
-        return forms::inner(segment, whole.quantity).map(Mover::Spline);
+        return forms::inner_points(segment, whole).map(Mover::Spline);
     }
-    for (own, curve) in [(EXPRESSED, forms::shape as fn(&Table<'_>) -> _), (TABULATED, forms::shares)] {
-        if name.eq_ignore_ascii_case(own) {
-            return forms::without_state(segment, own)
-                .and_then(|()| curve(segment))
-                .map(|curve| Mover::Own(own, curve));
-        }
+    if name.eq_ignore_ascii_case(EXPRESSED) {
+        forms::refuse_states(segment, EXPRESSED)?;
+        return forms::formula_curve(segment).map(|curve| Mover::Own(EXPRESSED, curve, None));
+    }
+    if name.eq_ignore_ascii_case(TABULATED) {
+        forms::refuse_states(segment, TABULATED)?;
+        let (curve, figures) = forms::table_curve(segment, whole, travel)?;
+        return Some(Mover::Own(TABULATED, curve, Some(Box::new(figures))));
     }
     let Some(law) = laws::named(&name) else {
         let all = LAWS.iter().map(|law| law.name);
         let known: Vec<&str> = [DWELL, POLYNOMIAL, SPLINE, EXPRESSED, TABULATED].into_iter().chain(all).collect();
         let near = similar(&name, known.iter().copied());
         let near = near.map_or(String::new(), |law| format!("did you mean \"{law}\"? It is "));
-        segment.fail(&LAW, format!("no law \"{name}\""), Some(format!("{near}one of {}", known.join(", "))));
+        segment.fail(&LAW, format!("there is no law \"{name}\""), Some(format!("{near}one of {}", known.join(", "))));
         return None;
     };
     let parameters = parameters(segment)?;
@@ -367,28 +403,31 @@ fn mover(segment: &Table<'_>, whole: Whole) -> Option<Mover> {
 }
 
 /// A law with the place of its inflection.
-fn inflected(segment: &Table<'_>, law: &'static Law, parameters: Parameters) -> Option<Mover> {
+fn inflected(segment: &TableReader<'_>, law: &'static Law, parameters: Parameters) -> Option<Mover> {
+    if !segment.has(&INFLECTION) {
+        return Some(Mover::Law(law, None, parameters));
+    }
     let typed = segment.get(&INFLECTION)?;
     match typed.trim() {
-        text if text.eq_ignore_ascii_case("smooth") => Some(Mover::Law(law, Inflection::Smooth, parameters)),
+        text if text.eq_ignore_ascii_case("smooth") => Some(Mover::Law(law, Some(Inflection::Smooth), parameters)),
         text if text.eq_ignore_ascii_case("match") => Some(Mover::Matching(law, parameters)),
         text => {
             if let Ok(share) = units::parse_bare(text) {
-                return Some(Mover::Law(law, Inflection::At(share), parameters));
+                return Some(Mover::Law(law, Some(Inflection::At(share)), parameters));
             }
-            let help = "\"smooth\", \"match\", or a share of the segment as \"0.4\"";
+            let help = "use \"smooth\", \"match\", or a share of the segment such as \"0.4\"";
             segment.fail(&INFLECTION, format!("`inflection` cannot be \"{text}\""), Some(help.into()));
             None
         }
     }
 }
 
-/// The numbers of a law's own.
-fn parameters(segment: &Table<'_>) -> Option<Parameters> {
+/// The parameters of a law.
+fn parameters(segment: &TableReader<'_>) -> Option<Parameters> {
     let list = |key: &Field<Vec<f64>>, count: usize| {
         let found = segment.get(key).filter(|_| segment.has(key));
         if let Some(found) = found.as_ref().filter(|found| found.len() != count) {
-            segment.fail(key, format!("`{}` has {count} numbers, not {}", key.key.name, found.len()), None);
+            segment.fail(key, format!("`{}` needs {count} numbers, not {}", key.key.name, found.len()), None);
             return None;
         }
         Some(found)

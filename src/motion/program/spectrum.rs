@@ -1,11 +1,11 @@
-//! Harmonics of a program, and what its movements leave behind of vibration.
+//! Harmonics of a program, and the residual vibration of its movements.
 //!
 //! Both are Fourier integrals of the acceleration, ∫ s'' e^{iκθ} dθ with the jumps of the velocity: over a turn and by parts twice those of the
 //! position are −1/κ² times as large; over a movement from rest to rest, with κ = ω_n/Ω, a load on an undamped spring of the natural
-//! frequency ω_n swings by |∫|/κ behind it.
+//! frequency ω_n swings by |∫|/κ after it.
 
-use super::{Program, Segment};
-use crate::motion::laws::{Spectrum, residual_peak};
+use super::{Program, ProgramSegment};
+use crate::motion::laws::{AccelerationSpectrum, residual_peak};
 use crate::numeric::extremum::Extremum;
 use crate::numeric::quadrature;
 use nalgebra::Complex;
@@ -27,14 +27,14 @@ pub struct Harmonics {
 #[derive(Debug, Clone)]
 struct Accelerations {
     /// First angle, width, travel and shape of each segment that moves.
-    moves: Vec<(f64, f64, f64, Spectrum)>,
+    moves: Vec<(f64, f64, f64, AccelerationSpectrum)>,
     /// Jumps of the velocity and their angles.
     jumps: Vec<(f64, f64)>,
 }
 
 impl Accelerations {
-    /// Of segments in their order, each with the angle by which it is shifted; they begin and end with these velocities.
-    fn of<'s>(segments: impl Iterator<Item = (&'s Segment, f64)>, before: f64, behind: f64) -> Self {
+    /// The accelerations of segments in their order, each with the angle by which it is shifted; they begin and end with these velocities.
+    fn of<'s>(segments: impl Iterator<Item = (&'s ProgramSegment, f64)>, before: f64, behind: f64) -> Self {
         let (mut moves, mut jumps, mut velocity, mut end) = (Vec::new(), Vec::new(), before, 0.0);
         for (segment, shift) in segments {
             let start = segment.start + shift;
@@ -65,7 +65,7 @@ impl Accelerations {
 }
 
 /// Velocities of a segment at both ends, by the angle.
-fn end_velocities(segment: &Segment) -> [f64; 2] {
+fn end_velocities(segment: &ProgramSegment) -> [f64; 2] {
     let Some(curve) = &segment.curve else { return [0.0; 2] };
     let scale = segment.travel / segment.width;
     [(0, 0.0), (curve.parts().saturating_sub(1), 1.0)].map(|(part, x)| {
@@ -76,7 +76,7 @@ fn end_velocities(segment: &Segment) -> [f64; 2] {
 
 /// A movement of a program: segments from one rest to the next.
 #[derive(Debug, Clone)]
-pub struct Movement {
+pub struct ProgramMovement {
     /// First and last cam angle, rad.
     pub angles: (f64, f64),
     /// Largest less least position, m or rad.
@@ -84,15 +84,15 @@ pub struct Movement {
     accelerations: Accelerations,
 }
 
-impl Movement {
-    /// Amplitude of what a load on an undamped spring swings by behind it, over its travel, when the natural frequency is so many times that
-    /// of the cam.
+impl ProgramMovement {
+    /// Amplitude of the residual vibration of a load on an undamped spring, over the travel, when the natural frequency is this multiple of
+    /// the speed of the cam.
     #[must_use]
     pub fn residual(&self, frequency: f64) -> f64 {
         self.accelerations.transform(frequency).norm() / (frequency * self.travel)
     }
 
-    /// The largest of these over a range of frequencies, and where.
+    /// The largest residual vibration over a range of frequencies, and where.
     #[must_use]
     pub fn largest_residual(&self, frequencies: (f64, f64)) -> Extremum {
         residual_peak(|frequency| self.residual(frequency), frequencies, self.periods(frequencies.1))
@@ -106,7 +106,7 @@ impl Movement {
 }
 
 impl Program {
-    /// Its lift by waves over the turn, so many of them.
+    /// Its lift as a number of waves over the turn.
     #[must_use]
     pub fn harmonics(&self, count: u32) -> Harmonics {
         let last = self.segments.last().map_or(0.0, |segment| end_velocities(segment)[1]);
@@ -125,7 +125,7 @@ impl Program {
 
     /// Mean position.
     fn mean(&self) -> f64 {
-        let of = |segment: &Segment| {
+        let of = |segment: &ProgramSegment| {
             let Some(curve) = &segment.curve else { return segment.width * segment.from };
             let part = |index: usize| quadrature::integrate(|x| curve.at(index, x)[0], curve.range_of(index), PANELS);
             segment.width * (segment.from + segment.travel * (0..curve.parts()).map(part).sum::<f64>())
@@ -133,27 +133,27 @@ impl Program {
         self.segments.iter().map(of).sum::<f64>() * f64::from(self.lobes) / TAU
     }
 
-    /// Its movements from rest to rest, of the first lobe; none of a program that never rests. What goes on over the end of the lobe begins
-    /// before its end.
+    /// Its movements from rest to rest in the first lobe; empty for a program that never rests. A movement across the end of the lobe starts
+    /// before that end.
     #[must_use]
-    pub fn movements(&self) -> Vec<Movement> {
+    pub fn movements(&self) -> Vec<ProgramMovement> {
         let count = self.segments.len();
         let whole = TAU / f64::from(self.lobes);
-        let rests = |segment: &&Segment| segment.curve.is_none();
+        let rests = |segment: &&ProgramSegment| segment.curve.is_none();
         let Some(first) = self.segments.iter().position(|segment| rests(&segment)) else { return Vec::new() };
-        // From behind a rest on, round to it.
+        // From the end of a rest, around to it.
         let round = self.segments.iter().map(|segment| (segment, 0.0)).chain(self.segments.iter().map(|s| (s, whole)));
-        let all: Vec<(&Segment, f64)> = round.skip(first + 1).take(count).collect();
+        let all: Vec<(&ProgramSegment, f64)> = round.skip(first + 1).take(count).collect();
         let moving = all.split(|(segment, _)| segment.curve.is_none()).filter(|run| !run.is_empty());
-        let mut movements: Vec<Movement> = moving
+        let mut movements: Vec<ProgramMovement> = moving
             .filter_map(|run| {
                 let ((begin, shift), (end, last_shift)) = (run.first()?, run.last()?);
                 let accelerations = Accelerations::of(run.iter().map(|(s, by)| (*s, by - shift)), 0.0, 0.0);
                 let angles = (begin.start, end.start + end.width + (last_shift - shift));
-                let ranges = run.iter().map(|(segment, _)| super::told::range(segment));
+                let ranges = run.iter().map(|(segment, _)| super::summary::range(segment));
                 let join = |(low, top): (f64, f64), (l, t): (f64, f64)| (low.min(l), top.max(t));
                 let (low, top) = ranges.fold((f64::INFINITY, f64::NEG_INFINITY), join);
-                (top > low).then_some(Movement { angles, travel: top - low, accelerations })
+                (top > low).then_some(ProgramMovement { angles, travel: top - low, accelerations })
             })
             .collect();
         movements.sort_by(|a, b| a.angles.0.total_cmp(&b.angles.0));
@@ -164,7 +164,7 @@ impl Program {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::laws::{Inflection, Parameters, Task, named};
+    use crate::motion::laws::{LawTask, Parameters, named};
     use crate::motion::{Motion, Quantity};
 
     /// Rise 30 mm modified-sine 120°, dwell 30°, return 3-4-5 150°, dwell 60°.
@@ -198,17 +198,24 @@ mod tests {
     #[test]
     fn harmonics_add_up_to_the_lift() {
         let steps = |lobes: f64| {
-            let rest = super::super::State::default();
+            let rest = super::super::EndState::default();
             let law = |name: &str| {
                 let law = named(name).expect("a law");
-                super::super::Mover::Law(law, Inflection::Smooth, Parameters::default())
+                super::super::Mover::Law(law, None, Parameters::default())
             };
             let deg = |degrees: f64| degrees.to_radians() / lobes;
+            let step = |mover, degrees, to| super::super::SegmentSpec {
+                mover,
+                over: deg(degrees),
+                to,
+                end: rest,
+                free_start: false,
+            };
             [
-                super::super::Step { mover: law("3-4-5"), over: deg(100.0), to: 0.02, end: rest },
-                super::super::Step { mover: super::super::Mover::Dwell, over: deg(50.0), to: 0.02, end: rest },
-                super::super::Step { mover: law("line"), over: deg(80.0), to: 0.005, end: rest },
-                super::super::Step { mover: law("gutman-1-3"), over: deg(130.0), to: 0.0, end: rest },
+                step(law("3-4-5"), 100.0, 0.02),
+                step(super::super::Mover::Dwell, 50.0, 0.02),
+                step(law("line"), 80.0, 0.005),
+                step(law("gutman-1-3"), 130.0, 0.0),
             ]
         };
         for lobes in [1_u32, 3] {
@@ -225,7 +232,7 @@ mod tests {
         }
     }
 
-    /// What is left behind each movement, by Duhamel's integral of the moving cam: z'' + κ² z = −s'' from rest.
+    /// The residual vibration after each movement, by Duhamel's integral of the moving cam: z'' + κ² z = −s'' from rest.
     #[test]
     fn residuals_are_those_of_the_moving_load() {
         let program = known();
@@ -249,7 +256,7 @@ mod tests {
                 assert!((found - known).abs() < 1e-12, "{frequency}: {found} {known}");
             }
         }
-        let rise = named("modified-sine").and_then(|law| law.solve(&Task::default()).ok()).expect("a law");
+        let rise = named("modified-sine").and_then(|law| law.solve(&LawTask::default()).ok()).expect("a law");
         assert!((movements[0].periods(7.5) - 2.5).abs() < 1e-15);
         assert!((movements[0].residual(7.5) - rise.residual(2.5)).abs() < 1e-15);
     }

@@ -1,14 +1,14 @@
 //! A program with another law.
 
 use super::Program;
-use crate::motion::laws::{Law, Task};
+use crate::motion::laws::{Law, LawTask};
 
 impl Program {
-    /// The program with a law, as it is without numbers of its own, on every segment that leads from rest to rest; the segments that
-    /// have this law stay as they are. `None` where there is no such segment, or the law does not lead from rest to rest.
+    /// The program with a law, with its default parameters, on every segment from rest to rest; segments that
+    /// already have this law stay as they are. `None` where there is no such segment, or the law does not lead from rest to rest.
     #[must_use]
     pub fn with_law(&self, law: &'static Law) -> Option<Self> {
-        let curve = law.serves_rests().then(|| law.solve(&Task::default()).ok()).flatten()?;
+        let curve = law.serves_rests().then(|| law.solve(&LawTask::default()).ok()).flatten()?;
         let mut other = Self::empty(self.quantity, self.lobes);
         other.rpm = self.rpm;
         let last = self.sources.len().checked_sub(1).and_then(|last| self.pieces.get(last))?.end;
@@ -16,7 +16,7 @@ impl Program {
         let mut changed = false;
         for (segment, end) in self.segments.iter().zip(starts.chain([last])) {
             let mut segment = segment.clone();
-            let (travel, rests) = (segment.to - segment.from, segment.ends.iter().all(super::State::rests));
+            let (travel, rests) = (segment.to - segment.from, segment.ends.iter().all(super::EndState::rests));
             if segment.curve.is_some() && rests && travel != 0.0 {
                 changed = true;
                 if segment.name != law.name {
@@ -28,13 +28,13 @@ impl Program {
         }
         let whole = std::f64::consts::TAU / f64::from(self.lobes);
         other.repeat(whole);
-        changed.then(|| other.finished())
+        changed.then(|| other.with_lowest())
     }
 
-    /// Travel (m or rad) and cam angle (rad) of the segment from rest to rest with the largest travel; `None` where there is none.
+    /// Travel (m or rad) and cam angle (rad) of the segment from rest to rest with the largest travel; `None` without such a segment.
     #[must_use]
     pub fn largest_rise(&self) -> Option<(f64, f64)> {
-        let rests = self.segments.iter().filter(|segment| segment.ends.iter().all(super::State::rests));
+        let rests = self.segments.iter().filter(|segment| segment.ends.iter().all(super::EndState::rests));
         let moves = rests.map(|segment| ((segment.to - segment.from).abs(), segment.width));
         moves.filter(|(travel, _)| *travel > 0.0).reduce(|best, next| if next.0 > best.0 { next } else { best })
     }

@@ -8,7 +8,7 @@ use crate::profile::extremes::{self, Corner};
 
 /// Cells of a piece: its sharpness has a handful of extrema.
 const CELLS: u32 = 256;
-/// What κ d is at the most where no fold can hide beside the sharpest place found.
+/// Largest κ d at which no fold can be missed next to the sharpest place found.
 const CLEARLY: f64 = 0.75;
 
 /// The corners at which the curve steps backwards.
@@ -36,7 +36,7 @@ pub(super) fn folds(parallel: Parallel<'_>) -> Vec<(f64, f64)> {
             _ => merged.push(fold),
         }
     }
-    // One that reaches over the end of the period is one.
+    // A fold that extends over the end of the period is one fold.
     if let (Some(period), [first, .., last]) = (motion.period(), merged.as_mut_slice())
         && (first.0, last.1) == motion.range()
     {
@@ -46,7 +46,7 @@ pub(super) fn folds(parallel: Parallel<'_>) -> Vec<(f64, f64)> {
     merged
 }
 
-/// Whether the sharpest convex place of a roller's curve is so far from the distance that no cell needs to be looked at.
+/// Whether the sharpest convex place of a roller's curve is so far from the distance that no cell needs to be examined.
 fn clearly_forward(parallel: Parallel<'_>) -> bool {
     let of_roller = matches!(parallel.curves.element(), Element::Roller { .. });
     of_roller && parallel.distance >= 0.0 && {

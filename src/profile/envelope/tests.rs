@@ -78,8 +78,8 @@ fn a_slight_undercut_under_a_face_has_an_outline() {
     use crate::motion::{Jet, Motion, Piece};
     /// Lift a (1 − cos 3θ): ρ = R + a + 8 a cos 3θ, least R − 7 a at cos 3θ = −1.
     #[derive(Debug)]
-    struct Wave(f64);
-    impl Motion for Wave {
+    struct ThreeLobes(f64);
+    impl Motion for ThreeLobes {
         fn pieces(&self) -> &[Piece] {
             const WHOLE: [Piece; 1] = [Piece { start: 0.0, end: std::f64::consts::TAU, dwell: false }];
             &WHOLE
@@ -92,11 +92,11 @@ fn a_slight_undercut_under_a_face_has_an_outline() {
     }
     let a = 0.003;
     for below in [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3] {
-        let curves = Curves { motion: &Wave(a), follower: &FlatFace::new(7.0 * a - below) };
+        let curves = Curves { motion: &ThreeLobes(a), follower: &FlatFace::new(7.0 * a - below) };
         let losses = losses(curves).unwrap_or_else(|error| panic!("{below}: {error}"));
         assert_eq!(losses.len(), 3, "{below}: {losses:?}");
         for loss in &losses {
-            // Symmetric about the third of a turn, where the face stands at the height R + 2 a over the shaft; the edge lies on
+            // Symmetric about the third of a turn, where the face is at the height R + 2 a over the shaft; the edge lies on
             // that line at p cos τ − p' sin τ with p' cos τ + p sin τ = 0: bisected for τ in (0, 60°).
             let support = |t: f64| (7.0 * a - below + a * (1.0 + libm::cos(3.0 * t)), -3.0 * a * libm::sin(3.0 * t));
             let across = |t: f64| support(t).0 * libm::sin(t) + support(t).1 * libm::cos(t);

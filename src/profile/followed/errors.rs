@@ -1,39 +1,42 @@
-//! The largest errors of what a follower does on a chain.
+//! The largest errors of a follower's motion on a chain.
 
-use super::{Followed, Lift, Stretch};
+use super::{ContactStretch, FollowerOnChain, LiftAtPlace};
 use crate::numeric::{extremum, root};
 use crate::profile::Worst;
 
-/// Least parts into which a stretch is cut to find its largest error, and cells of the motion that a part may span.
+/// Least parts into which a stretch is divided to find its largest error, and cells of the motion that a part may span.
 const LEAST_PARTS: f64 = 2.0;
 const CELLS_OF_PART: f64 = 2.0;
 /// Places on most stretches.
 const PLACES: usize = 3;
-/// The error of the acceleration is straight within this share of its size; where it bends, the parts are cut in halves.
+/// The error of the acceleration counts as straight within this share of its size; elsewhere the parts are halved.
 const NEARLY_STRAIGHT: f64 = 0.1;
 /// An error that changes by less than this share of itself at a joint is continuous there.
 const CONTINUOUS: f64 = 1e-3;
 /// Golden sections where an error is largest within a stretch.
 const SECTIONS: u32 = 22;
-/// How exactly the place of the largest velocity error is found, in parts: its value is right to the square.
+/// Accuracy of the place of the largest velocity error, in parts: its value is accurate to the square.
 const ROOT: f64 = 1e-5;
-/// Only places that come that near to the largest error are looked at closer.
+/// Only places whose error is this near to the largest one are refined.
 const NEAR: f64 = 0.7;
 
-/// The largest errors of what the follower does on a chain, by the angle of the shaft: m or rad per rad, and per rad².
+/// The largest errors of a follower's motion on a chain, by the angle of the shaft: m or rad per rad, and per rad².
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Errors {
-    /// Of the velocity.
+pub struct ErrorsOnChain {
+    /// Largest error of the velocity.
     pub velocity: Worst,
-    /// Of the acceleration.
+    /// Largest error of the acceleration.
     pub acceleration: Worst,
     /// The largest step of the acceleration as cut.
     pub step: Worst,
+    /// The largest step of the velocity as cut, at a kink of the chain.
+    pub velocity_step: Worst,
 }
 
-impl Errors {
+impl ErrorsOnChain {
     /// No error at all.
-    pub const NONE: Self = Self { velocity: Worst::NONE, acceleration: Worst::NONE, step: Worst::NONE };
+    pub const NONE: Self =
+        Self { velocity: Worst::NONE, acceleration: Worst::NONE, step: Worst::NONE, velocity_step: Worst::NONE };
 
     /// The larger of each.
     #[must_use]
@@ -42,25 +45,26 @@ impl Errors {
             velocity: self.velocity.or_larger(next.velocity),
             acceleration: self.acceleration.or_larger(next.acceleration),
             step: self.step.or_larger(next.step),
+            velocity_step: self.velocity_step.or_larger(next.velocity_step),
         }
     }
 }
 
-/// What is off at a place of the motion, by the angle of the shaft.
+/// The errors at a place of the motion, by the angle of the shaft.
 #[derive(Debug, Clone, Copy)]
-struct Off {
+struct PlaceErrors {
     at: f64,
     velocity: f64,
     acceleration: f64,
     /// The acceleration as cut.
     cut: f64,
-    /// The jerk of the motion, in place of that of the error, from which it differs by what hardly changes along an arc; by the
-    /// parameter.
+    /// The jerk of the motion, by the parameter, used in place of the derivative of the error, from which it differs by a quantity that
+    /// hardly changes along an arc.
     jerk: f64,
 }
 
-/// How high the size of the error of the acceleration is on the parabola through three even places, where it is highest between them.
-fn top([left, middle, right]: [&Off; 3]) -> Option<f64> {
+/// The largest size of the acceleration error on the parabola through three evenly spaced places, if it is highest between them.
+fn top([left, middle, right]: [&PlaceErrors; 3]) -> Option<f64> {
     let (slope, bend) = (
         0.5 * (right.acceleration - left.acceleration),
         left.acceleration - 2.0 * middle.acceleration + right.acceleration,
@@ -69,13 +73,13 @@ fn top([left, middle, right]: [&Off; 3]) -> Option<f64> {
     (slope.abs() < bend.abs() && top * bend < 0.0).then_some(top.abs())
 }
 
-impl Followed<'_> {
-    /// What is off at a place of a stretch, and the lift of the motion there, which may be known.
-    fn off(&self, stretch: &Stretch, at: f64, known: Option<Lift>) -> Option<(Off, Lift)> {
+impl FollowerOnChain<'_> {
+    /// The errors at a place of a stretch, and the lift of the motion there, which may be known.
+    fn off(&self, stretch: &ContactStretch, at: f64, known: Option<LiftAtPlace>) -> Option<(PlaceErrors, LiftAtPlace)> {
         let inside = at + stretch.shift;
         let (first, second) = self.curves.motion.pace(inside);
-        let (cut, law) = self.cut_beside(stretch, at, known)?;
-        let off = Off {
+        let (cut, law) = self.cut_at_known_lift(stretch, at, known)?;
+        let off = PlaceErrors {
             at,
             velocity: (cut.ds - law.ds) * first,
             acceleration: (cut.dds - law.dds) * first * first + (cut.ds - law.ds) * second,
@@ -85,9 +89,9 @@ impl Followed<'_> {
         Some((off, ((stretch.piece, inside), law)))
     }
 
-    /// What is off at places of a stretch that are as near to each other as the motion asks, and nearer where the error of the
-    /// acceleration bends; at none where the follower does not run. `known` is the lift at the start, and then that at the end.
-    fn places_off(&self, stretch: &Stretch, known: &mut Option<Lift>) -> Vec<Off> {
+    /// The errors at places of a stretch, as near to each other as the motion requires, and nearer where the error of the acceleration
+    /// curves; none where the follower does not run. `known` is the lift at the start, and on return that at the end.
+    fn places_off(&self, stretch: &ContactStretch, known: &mut Option<LiftAtPlace>) -> Vec<PlaceErrors> {
         let places = self.evenly(stretch, known).unwrap_or_default();
         let largest = places.iter().map(|off| off.acceleration.abs()).fold(0.0, f64::max);
         let is_bent = places.windows(3).any(|three| {
@@ -95,7 +99,7 @@ impl Followed<'_> {
             let straight = 0.5 * (left.acceleration + right.acceleration);
             (middle.acceleration - straight).abs() > NEARLY_STRAIGHT * largest
         });
-        // Three places of a wave may lie on a line, but then the slopes there tell it: of a cubic the chord is off by an eighth.
+        // Three places of a wave may lie on a line, but then their slopes show it: the chord of a cubic deviates by an eighth.
         let swings = places.windows(2).any(|two| {
             let [left, right] = two else { return false };
             0.125 * ((right.jerk - left.jerk) * (right.at - left.at)).abs() > NEARLY_STRAIGHT * largest
@@ -112,7 +116,7 @@ impl Followed<'_> {
         halved
     }
 
-    fn evenly(&self, stretch: &Stretch, known: &mut Option<Lift>) -> Option<Vec<Off>> {
+    fn evenly(&self, stretch: &ContactStretch, known: &mut Option<LiftAtPlace>) -> Option<Vec<PlaceErrors>> {
         let last = known.take();
         if !self.is_rolled(stretch) {
             return None;
@@ -139,11 +143,11 @@ impl Followed<'_> {
     ///
     /// Along a segment the error of the velocity is largest where that of the acceleration, its derivative, is 0, or at an end.
     #[must_use]
-    pub fn errors(&self) -> Errors {
+    pub fn errors(&self) -> ErrorsOnChain {
         let mut known = None;
         let places = |stretch| (stretch, self.places_off(stretch, &mut known));
-        let all: Vec<(&Stretch, Vec<Off>)> = self.stretches.iter().map(places).collect();
-        let mut errors = Errors::NONE;
+        let all: Vec<(&ContactStretch, Vec<PlaceErrors>)> = self.stretches.iter().map(places).collect();
+        let mut errors = ErrorsOnChain::NONE;
         for (stretch, places) in &all {
             for off in places {
                 errors.velocity = errors.velocity.or_larger(worst(stretch, off.at, off.velocity));
@@ -168,7 +172,9 @@ impl Followed<'_> {
         for ((before, left), (after, right)) in all.iter().zip(next) {
             let ([.., low, last], [first, high, ..]) = (left.as_slice(), right.as_slice()) else { continue };
             errors.step = errors.step.or_larger(worst(before, last.at, first.cut - last.cut));
-            // A smooth course over the joint may be highest on either side of it.
+            let step = worst(before, last.at, first.velocity - last.velocity);
+            errors.velocity_step = errors.velocity_step.or_larger(step);
+            // A smooth curve over the joint may be highest on either side of it.
             let size = last.acceleration.abs();
             if (first.acceleration - last.acceleration).abs() < CONTINUOUS * size
                 && size > NEAR * errors.acceleration.value
@@ -183,17 +189,22 @@ impl Followed<'_> {
         errors
     }
 
-    fn value(&self, stretch: &Stretch, at: f64, of: impl Fn(&Off) -> f64) -> f64 {
+    fn value(&self, stretch: &ContactStretch, at: f64, of: impl Fn(&PlaceErrors) -> f64) -> f64 {
         self.off(stretch, at, None).map_or(0.0, |(off, _)| of(&off))
     }
 
-    /// The error of the velocity where that of the acceleration is 0 between two places, if it may come near to the largest one.
-    fn largest_velocity(&self, stretch: &Stretch, (low, high): (&Off, &Off), largest: Worst) -> Worst {
+    /// The velocity error where the acceleration error is 0 between two places, if it may come near to the largest one.
+    fn largest_velocity(
+        &self,
+        stretch: &ContactStretch,
+        (low, high): (&PlaceErrors, &PlaceErrors),
+        largest: Worst,
+    ) -> Worst {
         let (left, right) = (low.acceleration, high.acceleration);
         if !(left * right < 0.0) {
             return Worst::NONE;
         }
-        // Where the acceleration goes straight from one to the other the velocity is off by so much between them.
+        // Where the acceleration error is linear between two places, this is the largest error of the velocity between them.
         let way = left / (left - right) * (high.at - low.at) / self.curves.motion.pace(low.at + stretch.shift).0;
         if (low.velocity + 0.5 * left * way).abs() <= NEAR * largest.value {
             return Worst::NONE;
@@ -203,14 +214,14 @@ impl Followed<'_> {
         found.map_or(Worst::NONE, |at| worst(stretch, at, self.value(stretch, at, |off| off.velocity)))
     }
 
-    /// The largest error of the acceleration within a range that has one top.
-    fn largest_acceleration(&self, stretch: &Stretch, range: (f64, f64)) -> Worst {
+    /// The largest error of the acceleration within a range with one maximum.
+    fn largest_acceleration(&self, stretch: &ContactStretch, range: (f64, f64)) -> Worst {
         let size = |at: f64| self.value(stretch, at, |off| off.acceleration).abs();
         let found = extremum::largest_without_slope(size, range, 2, SECTIONS);
         worst(stretch, found.at, found.value)
     }
 }
 
-fn worst(stretch: &Stretch, at: f64, value: f64) -> Worst {
+fn worst(stretch: &ContactStretch, at: f64, value: f64) -> Worst {
     Worst { value: value.abs(), at: at + stretch.shift, z: 0.0 }
 }

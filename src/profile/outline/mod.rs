@@ -4,14 +4,16 @@
 
 mod laying;
 
-use laying::Strips;
-pub(crate) use laying::allowed;
+use crate::document::NamedChoice;
+use crate::refusal::Refusal;
+use laying::OutlineStrips;
+pub(crate) use laying::{allowed, too_many_arcs};
 
-use super::envelope::{Approach, Loop, NoEnvelope, Parallel};
+use super::envelope::{BreakSide, NoEnvelope, Parallel, ParallelLoop};
 use super::{Curves, extremes};
 use crate::follower::Element;
 use crate::geometry::arcs::FitError;
-use crate::geometry::contour::{Contour, Vertex};
+use crate::geometry::contour::{Contour, Segment, Vertex};
 use crate::geometry::{CurvePoint, MILLIMETRES};
 use crate::motion::Piece;
 use std::f64::consts::PI;
@@ -19,18 +21,20 @@ use std::f64::consts::PI;
 /// A piece that turns by more than a half circle is fitted in two, so that no arc ends where it starts.
 const LONGEST_PIECE: f64 = PI * (1.0 + 1e-12);
 
-/// A dwell is one arc up to here; beyond, its ends come so close that readers cannot tell its centre.
+/// A dwell is one arc up to here; beyond, its ends are so close that readers cannot determine its centre.
 const LONGEST_DWELL: f64 = 1.9 * PI;
 
 /// Largest coordinate a drawing may have, mm: readers treat larger ones as mistakes.
 pub const LARGEST_COORDINATE: f64 = 1e6;
-/// Places of a piece at which its size is looked at first.
+/// Places of a piece at which its size is examined first.
 const LOOKS: u32 = 8;
+/// Most edges of an outline: some ten times as many as a busy cam has; a control reads some thousand blocks a second.
+const MOST_EDGES: u32 = 20_000;
 
 /// Tolerance of the pitch curve on a sheet, which is for viewing only: a fifth of a thin pen, m.
 const PITCH_TOLERANCE: f64 = 0.05e-3;
 
-/// An arc about an edge is left out when it is shorter, mm: the ends it would join are then one to a reader.
+/// A shorter arc about an edge is left out, mm: a reader would take its ends for one point.
 const SHORTEST_ARC: f64 = 1e-5;
 
 /// A gap may lie a turn before or after a piece.
@@ -42,10 +46,15 @@ pub enum Side {
     /// On either side.
     #[default]
     Both,
-    /// Within the metal of the exact cam: never metal in the way.
+    /// Within the metal of the exact cam: no excess metal.
     Inside,
     /// Outside it: never cut too deep.
     Outside,
+}
+
+impl NamedChoice for Side {
+    const ALL: &'static [(&'static str, Self)] =
+        &[("both", Self::Both), ("inside", Self::Inside), ("outside", Self::Outside)];
 }
 
 /// Largest errors of the follower's motion as cut, by the angle of the shaft that gives the time, m or rad per rad and rad²;
@@ -59,40 +68,59 @@ pub struct MotionTolerance {
 }
 
 impl MotionTolerance {
-    /// Nothing but the distance matters.
+    /// Only the distance matters.
     pub const ANY: Self = Self { velocity: f64::INFINITY, acceleration: f64::INFINITY };
 }
 
-/// What the curved pieces of an outline are laid of; dwells are true arcs, or lines of a plate, either way.
+/// The kind of segments of the curved pieces of an outline; dwells are true arcs, or lines on a plate, with either kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Laid {
+pub enum SegmentKind {
     /// Tangent arcs.
     #[default]
     Arcs,
-    /// Cubic splines, one for each piece, without a jump of the curvature within.
+    /// Cubic splines, one for each piece, without a jump of the curvature inside.
     Splines,
 }
 
-/// How near an outline keeps to the exact curve.
+impl NamedChoice for SegmentKind {
+    const ALL: &'static [(&'static str, Self)] = &[("arcs", Self::Arcs), ("spline", Self::Splines)];
+}
+
+/// The tolerances of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
     /// Largest distance, m.
     pub tolerance: f64,
-    /// On which side.
+    /// The side of the exact curve on which it lies.
     pub side: Side,
-    /// What the follower may feel.
+    /// Largest errors of the follower's motion.
     pub motion: MotionTolerance,
-    /// Of what it is laid.
-    pub laid: Laid,
+    /// The kind of its segments.
+    pub laid: SegmentKind,
 }
 
 impl From<f64> for Fit {
     fn from(tolerance: f64) -> Self {
-        Self { tolerance, side: Side::Both, motion: MotionTolerance::ANY, laid: Laid::default() }
+        Self { tolerance, side: Side::Both, motion: MotionTolerance::ANY, laid: SegmentKind::default() }
     }
 }
 
 impl Fit {
+    /// Without the tolerances of the motion; `None` where it has none.
+    fn by_distance(&self) -> Option<Self> {
+        (self.motion != MotionTolerance::ANY).then_some(Self { motion: MotionTolerance::ANY, ..*self })
+    }
+
+    /// As it is on a curve with the metal around it: what lies within the metal lies outside of the curve.
+    fn on_side_of(self, curves: Curves<'_>) -> Self {
+        let side = match self.side {
+            Side::Inside if curves.metal_side() < 0.0 => Side::Outside,
+            Side::Outside if curves.metal_side() < 0.0 => Side::Inside,
+            side => side,
+        };
+        Self { side, ..self }
+    }
+
     /// How far inwards the middle of the band lies, and half its width, m. A band on one side is as wide as the tolerance,
     /// one on both sides twice that.
     pub(crate) fn band(&self) -> (f64, f64) {
@@ -104,83 +132,60 @@ impl Fit {
     }
 }
 
-/// A closed outline with its proof.
+/// A closed outline with the measures of its accuracy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
-    /// The chain, counter-clockwise, starting on a dwell when there is one.
+    /// The chain, counter-clockwise.
     pub contour: Contour,
     /// Largest distance from the exact curve, mm.
     pub deviation: f64,
     /// Best possible number of arcs N*, or the number of spans of splines by theory; dwells not counted.
     pub best_possible: f64,
-    /// The same for the velocity and the acceleration alone; 0 where they do not matter.
+    /// Best possible numbers of arcs for the velocity and for the acceleration alone; 0 where they do not matter.
     pub best_for: [f64; 2],
+    /// The way of the tool to the start of the chain, mm, when it was requested.
+    pub lead_in: Option<Segment>,
 }
 
 /// Why there is no outline.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutlineError {
-    /// The profile folds over itself beyond repair.
+    /// The profile folds over itself, and no envelope exists.
     #[error(transparent)]
     Undercut(#[from] NoEnvelope),
-    /// A cutter has no smooth path along the profile.
-    #[error("the cutter cannot follow the profile at {cam_deg:.3} deg: a concave part is sharper than it")]
-    CutterPath {
-        /// Cam angle, degrees.
-        cam_deg: f64,
-    },
-    /// The cam is too large to draw.
-    #[error(
-        "the cam would reach {radius_mm:.0} mm from its shaft, more than a drawing holds (1e6 mm); give a smaller \
-             cam.base_radius, or relax the limits that make an automatic one so large"
-    )]
-    TooLarge {
-        /// Largest radius, mm.
-        radius_mm: f64,
-    },
-    /// The flanks of a plate cross.
-    #[error(
-        "the plate would be {thinnest_mm:.3} mm high at x = {x_mm:.3} mm; translating.plate_height must exceed \
-         {least_mm:.3} mm"
-    )]
-    Thin {
-        /// Height where it is thinnest, mm.
-        thinnest_mm: f64,
-        /// Where, mm of overrun.
-        x_mm: f64,
-        /// Least height of the plate, mm.
-        least_mm: f64,
-    },
-    /// A section of a conoid has a corner.
-    #[error(
-        "the sections of a conoid have a corner at {cam_deg:.3} deg: a crowned roller needs a smooth surface; use \
-         transition.kind = \"run-up\" or \"blend\", and no buffer.lead"
-    )]
-    Corner {
-        /// Cam angle, degrees.
-        cam_deg: f64,
-    },
     /// A part of a turning cam is not smooth, or the tolerance cannot be kept there.
     #[error(
-        "no edges follow the outline between {from_deg:.3} and {to_deg:.3} deg of the cam: {error}. Where the motion is too \
-         steep for any, give it more cam angle or a larger cam.base_radius"
+        "no arcs or splines fit the outline between {from_deg:.3} and {to_deg:.3} deg of the cam: {error}. Where the motion is too \
+         steep, give it more cam angle or a larger cam.base_radius"
     )]
     Part {
         /// First cam angle, degrees.
         from_deg: f64,
         /// Last cam angle, degrees.
         to_deg: f64,
-        /// What is the matter.
+        /// The cause.
         error: FitError,
     },
     /// The curve is not smooth, or the tolerance cannot be kept.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// Of any other cause: the cam is too large to draw, a cutter does not get into a concave part.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
+
+impl From<OutlineError> for Refusal {
+    fn from(error: OutlineError) -> Self {
+        match error {
+            OutlineError::Refused(refusal) => refusal,
+            other => Self::of(other),
+        }
+    }
 }
 
 impl OutlineError {
-    /// With the range of cam angles it is about, where there is one.
+    /// With the range of cam angles that it concerns, if there is one.
     fn between(self, (from, to): (f64, f64), period: Option<f64>) -> Self {
         match self {
             Self::Fit(error) if period.is_some() => {
@@ -192,19 +197,20 @@ impl OutlineError {
 }
 
 impl Outline {
-    /// An outline without a segment yet.
+    /// An outline that has no segment yet.
     pub(crate) fn empty() -> Self {
-        Self { contour: Contour { vertices: Vec::new() }, deviation: 0.0, best_possible: 0.0, best_for: [0.0; 2] }
+        let contour = Contour { vertices: Vec::new() };
+        Self { contour, deviation: 0.0, best_possible: 0.0, best_for: [0.0; 2], lead_in: None }
     }
 
-    /// With the deviation counted from the exact curve, where the chain was fitted to one `shift` (m) beside it.
-    pub(crate) fn counted_from_exact(self, shift: f64) -> Self {
+    /// With the deviation measured from the exact curve, where the chain was fitted to a curve at the distance `shift` (m) from it.
+    pub(crate) fn measured_from_exact(self, shift: f64) -> Self {
         let deviation = self.deviation + MILLIMETRES * shift.abs();
         Self { deviation, ..self }
     }
 }
 
-/// The profile as an outline. Where it is undercut the loops are left out: what can be cut is drawn, with a sharp edge
+/// The profile as an outline. Where it is undercut, the loops are left out: what can be cut is drawn, with a sharp edge
 /// where the loop was.
 ///
 /// # Errors
@@ -213,46 +219,52 @@ pub fn profile(curves: Curves<'_>, fit: impl Into<Fit>) -> Result<Outline, Outli
     Ok(profile_within(curves, fit.into())?.0)
 }
 
-/// The profile as an outline, and how far inwards of the exact one the middle of its band lies, m.
+/// The profile as an outline, and how far inwards of the exact profile the middle of its band lies, m.
 pub(crate) fn profile_within(curves: Curves<'_>, fit: Fit) -> Result<(Outline, f64), OutlineError> {
-    // Half the radius is left where a parallel has the smaller one, so that it stays smooth as the profile is.
-    let room = match fit.side {
-        Side::Both => f64::INFINITY,
-        Side::Inside => 0.5 * convex_radius(curves),
-        Side::Outside => 0.5 * concave_radius(curves),
+    let fit = fit.on_side_of(curves);
+    // Half the radius is kept where a parallel has the smaller one, so that it stays as smooth as the profile.
+    let room = match (fit.side, curves.metal_side() > 0.0) {
+        (Side::Both, _) => f64::INFINITY,
+        (Side::Inside, true) | (Side::Outside, false) => 0.5 * convex_radius(curves),
+        (Side::Outside, true) | (Side::Inside, false) => 0.5 * concave_radius(curves),
     };
-    beside(curves, curves.offset(), fit, room)
+    parallel_outline(curves, curves.offset(), fit, room)
 }
 
 /// The path of the centre of a cutter (radius in m) along the profile: parallel to the follower's curve at the difference of the
-/// radii, and as far off it, on the same side, as the metal it leaves may be off the profile.
+/// radii, and at the distance from it, on the same side, that the cut may have from the profile.
 ///
 /// # Errors
 /// [`OutlineError`] as for [`profile`]; also when the cutter does not get into a concave part.
 pub fn cutter_path(curves: Curves<'_>, cutter_radius: f64, fit: impl Into<Fit>) -> Result<Outline, OutlineError> {
-    gets_in(curves, cutter_radius)?;
-    // What a cutter leaves along arcs and lines are arcs and lines, which the proof follows.
-    let fit = Fit { laid: Laid::Arcs, ..fit.into() };
-    Ok(beside(curves, curves.offset() - cutter_radius, fit, f64::INFINITY)?.0)
+    check_cutter_fits(curves, cutter_radius)?;
+    // A cutter along arcs and lines cuts arcs and lines, which the proof follows.
+    let fit = Fit { laid: SegmentKind::Arcs, ..fit.into().on_side_of(curves) };
+    let distance = curves.offset() - curves.metal_side() * cutter_radius;
+    Ok(parallel_outline(curves, distance, fit, f64::INFINITY)?.0)
 }
 
 /// Refuses a cutter (radius in m) that does not get into a concave part.
-pub(super) fn gets_in(curves: Curves<'_>, cutter_radius: f64) -> Result<(), OutlineError> {
+pub(super) fn check_cutter_fits(curves: Curves<'_>, cutter_radius: f64) -> Result<(), Refusal> {
+    let refusal = |at: f64| {
+        Refusal::new("the cutter cannot follow the profile, whose concave radius is smaller than that of the cutter")
+            .at(format!("{:.3} deg", at.to_degrees()))
+    };
     let corner = extremes::corners(curves).into_iter().find(|corner| corner.turn < 0.0);
     if let Some(corner) = corner.filter(|_| cutter_radius > curves.offset()) {
-        return Err(OutlineError::CutterPath { cam_deg: corner.at.to_degrees() });
+        return Err(refusal(corner.at));
     }
     let concave = extremes::concave_profile_curvature(curves);
     if concave.value * cutter_radius >= 1.0 {
-        return Err(OutlineError::CutterPath { cam_deg: concave.at.to_degrees() });
+        return Err(refusal(concave.at));
     }
     Ok(())
 }
 
-/// Least convex radius of the profile, m; infinite where a sharp edge is left of it anyway.
+/// Least convex radius of the profile, m; infinite where a sharp edge remains of it anyway.
 fn convex_radius(curves: Curves<'_>) -> f64 {
     let radius = match curves.element() {
-        Element::Roller { radius } => 1.0 / extremes::convex_curvature(curves).value.max(0.0) - radius,
+        Element::Roller { radius } => 1.0 / extremes::convex_curvature(curves).value.max(0.0) - radius.abs(),
         Element::Face => extremes::least_radius(curves).value,
     };
     if radius > 0.0 && extremes::corners(curves).iter().all(|corner| corner.turn < 0.0) {
@@ -264,46 +276,46 @@ fn convex_radius(curves: Curves<'_>) -> f64 {
 
 /// Least concave radius of the profile, m.
 fn concave_radius(curves: Curves<'_>) -> f64 {
-    if extremes::corners(curves).iter().any(|corner| corner.turn < 0.0) {
-        return curves.offset();
+    if extremes::corners(curves).iter().any(|corner| curves.metal_side() * corner.turn < 0.0) {
+        return curves.offset().abs();
     }
     1.0 / extremes::concave_profile_curvature(curves).value.max(0.0)
 }
 
-/// A parallel of the follower's curve at a distance inwards (m) as an outline within a band, whose middle lies no more than
-/// `room` (m) beside it; with how far inwards it does.
-fn beside(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Outline, f64), OutlineError> {
+/// A parallel of the follower's curve at a distance inwards (m) as an outline within a band, whose middle is no more than
+/// `room` (m) away from it; with how far inwards the middle is.
+fn parallel_outline(curves: Curves<'_>, distance: f64, fit: Fit, room: f64) -> Result<(Outline, f64), OutlineError> {
     let (shift, half) = fit.band();
     if shift == 0.0 {
         let within = Fit { tolerance: half, ..fit };
-        return Ok((parallel(curves, (distance, distance), &within, &left_out(curves, distance)?)?, shift));
+        return Ok((parallel(curves, (distance, distance), &within, &undrawn_stretches(curves, distance)?)?, shift));
     }
     let shift = shift.clamp(-room, room);
-    // From an edge of turn τ the edge of a parallel is 1/cos(τ/2) times as far as the curves beside it.
-    let sharp = left_out(curves, distance + shift)?.iter().map(|gap| gap.edge).fold(0.0, f64::max);
+    // From an edge of turn τ the edge of a parallel is 1/cos(τ/2) times as far as the adjacent curves.
+    let sharp = undrawn_stretches(curves, distance + shift)?.iter().map(|gap| gap.edge).fold(0.0, f64::max);
     let closer = libm::cos(0.5 * sharp);
     let shift = shift * closer;
-    let gaps = left_out(curves, distance + shift)?;
+    let gaps = undrawn_stretches(curves, distance + shift)?;
     let within = Fit { tolerance: shift.abs(), ..fit };
     let outline = parallel(curves, (distance + shift, distance), &within, &gaps)?;
-    let outline = outline.counted_from_exact(shift);
+    let outline = outline.measured_from_exact(shift);
     let deviation = outline.deviation.max(MILLIMETRES * shift.abs() / closer);
     Ok((Outline { deviation, ..outline }, shift))
 }
 
 /// A stretch of a parallel curve that is not drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Gap {
+pub(crate) struct UndrawnStretch {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// Turn of the sharp edge that is left, rad.
+    /// Turn of the sharp edge that remains, rad.
     edge: f64,
-    /// Turn of the arc about an edge of the profile, rad: what lies outside an edge is parallel to a point.
+    /// Turn of the arc about an edge of the profile, rad: outside an edge the parallel is that of a point.
     pub(super) arc: f64,
 }
 
-/// What is left out of a parallel of the follower's curve at a distance inwards, m.
-pub(super) fn left_out(curves: Curves<'_>, distance: f64) -> Result<Vec<Gap>, NoEnvelope> {
+/// The gaps of a parallel of the follower's curve at a distance inwards, m.
+pub(super) fn undrawn_stretches(curves: Curves<'_>, distance: f64) -> Result<Vec<UndrawnStretch>, NoEnvelope> {
     let loops_at = |distance: f64| Parallel { curves, distance }.loops();
     let (mut edges, mut sharp) = (Vec::new(), Vec::new());
     if distance < curves.offset() {
@@ -312,14 +324,16 @@ pub(super) fn left_out(curves: Curves<'_>, distance: f64) -> Result<Vec<Gap>, No
     if distance < 0.0 || distance >= curves.offset() {
         sharp = loops_at(distance)?;
     }
-    let turn = |found: &Loop| {
+    let turn = |found: &ParallelLoop| {
         let tangent = |at, side| Parallel { curves, distance }.at(at, side).tangent;
-        let (before, after) = (tangent(found.from, Approach::Before), tangent(found.to, Approach::After));
+        let (before, after) = (tangent(found.from, BreakSide::Before), tangent(found.to, BreakSide::After));
         libm::atan2(before.perp(&after), before.dot(&after))
     };
-    let rounded = edges.iter().map(|found| Gap { from: found.from, to: found.to, edge: 0.0, arc: turn(found) });
-    let kept = sharp.iter().map(|found| Gap { from: found.from, to: found.to, edge: turn(found).abs(), arc: 0.0 });
-    let mut gaps: Vec<Gap> = rounded.chain(kept).collect();
+    let rounded =
+        edges.iter().map(|found| UndrawnStretch { from: found.from, to: found.to, edge: 0.0, arc: turn(found) });
+    let kept =
+        sharp.iter().map(|found| UndrawnStretch { from: found.from, to: found.to, edge: turn(found).abs(), arc: 0.0 });
+    let mut gaps: Vec<UndrawnStretch> = rounded.chain(kept).collect();
     gaps.sort_by(|a, b| a.from.total_cmp(&b.from));
     Ok(gaps)
 }
@@ -341,34 +355,41 @@ pub fn pitch_within(curves: Curves<'_>, tolerance: f64) -> Result<Outline, Outli
 }
 
 /// Refuses a curve too large for a drawing; `frame` gives its points in millimetres.
-pub(crate) fn fits_a_drawing(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), OutlineError> {
+pub(crate) fn check_drawing_size(pieces: &[Piece], frame: impl Fn(usize, f64) -> CurvePoint) -> Result<(), Refusal> {
     let place = |piece: &Piece, part: u32| piece.start + (piece.end - piece.start) * f64::from(part) / f64::from(LOOKS);
     let radius = |(index, piece): (usize, &Piece)| {
         (0..LOOKS).map(|part| frame(index, place(piece, part)).point.norm()).fold(0.0, f64::max)
     };
     let radius_mm = pieces.iter().enumerate().map(radius).fold(0.0, f64::max);
-    if radius_mm <= LARGEST_COORDINATE { Ok(()) } else { Err(OutlineError::TooLarge { radius_mm }) }
+    if radius_mm <= LARGEST_COORDINATE {
+        return Ok(());
+    }
+    Err(Refusal::new(format!(
+        "the cam would reach {radius_mm:.0} mm from its shaft, more than the largest coordinate of a drawing (1e6 mm)"
+    ))
+    .remedy("give a smaller cam.base_radius, or relax the limits that make an automatic one so large"))
 }
 
-/// The parallel of the follower's curve at a distance inwards (m), within the tolerances of a fit, without the gaps; what the
-/// follower feels of it is that of a parallel at another distance, which it stands for.
+/// The parallel of the follower's curve at a distance inwards (m), within the tolerances of a fit, without the gaps; the errors of the
+/// motion are those on a parallel at another distance, which this one represents.
 fn parallel(
     curves: Curves<'_>,
     (distance, stands_for): (f64, f64),
     fit: &Fit,
-    gaps: &[Gap],
+    gaps: &[UndrawnStretch],
 ) -> Result<Outline, OutlineError> {
     let period = curves.motion.period();
     let pieces = curves.motion.pieces();
     let frame = |piece: usize, angle: f64| -> CurvePoint {
         curves.touch(piece, angle).curve.offset_inward(distance).scaled(MILLIMETRES)
     };
-    fits_a_drawing(pieces, frame)?;
+    check_drawing_size(pieces, frame)?;
+    let fit = &laying::within_reach(curves, fit);
     let corners = extremes::corners(curves);
     let spans: Vec<(f64, f64)> = gaps.iter().map(|gap| (gap.from, gap.to)).collect();
-    // A closed outline starts on a dwell.
+    // A closed chain that starts on a dwell has a repetition behind what it repeats.
     let first = period.and_then(|_| pieces.iter().position(|piece| piece.dwell)).unwrap_or(0);
-    let (mut outline, mut strips) = (Outline::empty(), Strips::default());
+    let (mut outline, mut strips) = (Outline::empty(), OutlineStrips::default());
     let in_turn = pieces.iter().enumerate().cycle().skip(first).take(pieces.len());
     for (index, piece) in in_turn {
         let ranges = parts(piece, &spans, period);
@@ -378,11 +399,16 @@ fn parallel(
                 let bulge = period.map_or(0.0, |_| libm::tan(0.25 * (range.1 - range.0)));
                 outline.contour.vertices.push(Vertex::new(frame(index, range.0).point, bulge));
             } else {
-                let laid = outline.lay_felt(&mut strips, curves, (index, distance, stands_for), range, fit);
-                laid.map_err(|error| error.between(range, period))?;
+                let fitted =
+                    outline.add_repeatable_piece(&mut strips, curves, (index, distance, stands_for), range, fit);
+                fitted.map_err(|error| error.between(range, period))?;
+                if outline.contour.vertices.len() > MOST_EDGES as usize {
+                    let by_distance = fit.by_distance().ok_or_else(too_many_edges)?;
+                    return parallel(curves, (distance, stands_for), &by_distance, gaps);
+                }
             }
-            // Readers drop a shorter arc.
-            let long = |gap: &Gap| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
+            // Readers drop shorter arcs.
+            let long = |gap: &UndrawnStretch| MILLIMETRES * gap.arc.abs() * (curves.offset() - distance) > SHORTEST_ARC;
             if let Some(gap) = gaps.iter().find(|gap| long(gap) && starts_at(gap, range.1, period)) {
                 let bulge = libm::tan(0.25 * gap.arc);
                 outline.contour.vertices.push(Vertex::new(frame(index, range.1).point, bulge));
@@ -404,8 +430,16 @@ fn parallel(
     Ok(outline)
 }
 
-/// Whether the contact under a flat face moves on along it at the end of a piece, because the velocity grows there at once: between both
-/// places the profile is straight.
+/// That an outline has more arcs than are of use.
+fn too_many_edges() -> Refusal {
+    Refusal::new(format!(
+        "the outline needs more than {MOST_EDGES} arcs, more than a control should be given: the motion has too many waves or segments for these tolerances"
+    ))
+    .remedy("give a coarser --tolerance, or a motion with fewer waves")
+}
+
+/// Whether the contact under a flat face moves on along it at the end of a piece, because the velocity increases there abruptly: between the
+/// two places the profile is straight.
 fn steps_forward(curves: Curves<'_>, index: usize) -> bool {
     let pieces = curves.motion.pieces();
     let next = (index + 1) % pieces.len();
@@ -418,11 +452,11 @@ fn steps_forward(curves: Curves<'_>, index: usize) -> bool {
 }
 
 /// Whether a gap starts at a parameter, by whole turns.
-pub(super) fn starts_at(gap: &Gap, parameter: f64, period: Option<f64>) -> bool {
+pub(super) fn starts_at(gap: &UndrawnStretch, parameter: f64, period: Option<f64>) -> bool {
     TURNS.iter().any(|turns| gap.from + turns * period.unwrap_or(0.0) == parameter)
 }
 
-/// What is left of a piece without the gaps, halved where it is longer than one arc or one fit may be.
+/// The rest of a piece without the gaps, halved where it is longer than one arc or one fit may be.
 pub(crate) fn parts(piece: &Piece, gaps: &[(f64, f64)], period: Option<f64>) -> Vec<(f64, f64)> {
     let mut left = vec![(piece.start, piece.end)];
     for gap in gaps {
@@ -446,4 +480,5 @@ pub(crate) fn parts(piece: &Piece, gaps: &[(f64, f64)], period: Option<f64>) -> 
 }
 
 #[cfg(test)]
+#[cfg(feature = "press")]
 mod tests;

@@ -65,7 +65,7 @@ fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
         assert_eq!(edges.len(), 2, "{overrides:?}: {edges:?}");
         assert!(edges.iter().all(|turn| *turn > 0.0), "{edges:?}");
         let losses = envelope::losses(cam.curves()).expect("loops");
-        let rolled = rolling::roll(&cam, cam.curves(), &outline.contour, 0.005);
+        let rolled = rolling::roll(&cam, (cam.curves(), &[false]), &outline.contour, 0.005);
         assert!((rolled.gap_mm - 1e3 * losses[0].lost).abs() < 0.3 * rolled.gap_mm, "{rolled:?} {losses:?}");
         let lift = rolled.lift_error_max_mm.expect("it touches");
         let lost = losses.iter().map(|l| 1e3 * l.lost).fold(0.0, f64::max);
@@ -74,13 +74,14 @@ fn a_concave_corner_is_an_arc_of_the_roller_and_a_convex_one_undercut() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_told() {
-    // A face on a cam smaller than what its law asks for turns back over half of it.
+fn what_cannot_be_drawn_is_refused() {
+    // A face on a cam smaller than its law requires turns back over half of it.
     let wave = EccentricCircle::new(0.1, 0.01);
     let swallowed = Curves { motion: &wave, follower: &FlatFace::new(1e-3) };
     assert!(matches!(profile(swallowed, 0.005), Err(OutlineError::Undercut(_))), "{:?}", profile(swallowed, 0.005));
     let huge = rotary(&["cam.base_radius=1000m"]);
-    assert!(matches!(profile(huge.curves(), 0.005), Err(OutlineError::TooLarge { .. })));
+    let error = profile(huge.curves(), 0.005).expect_err("too large").to_string();
+    assert!(error.starts_with("the cam would reach 1000") && error.contains("the largest coordinate"), "{error}");
     let cam = rotary(&[]);
     assert!(matches!(profile(cam.curves(), 1e-16), Err(OutlineError::Part { .. })));
 }
@@ -92,7 +93,7 @@ fn a_roller_in_a_corner_of_its_own_radius_touches_it() {
     for (offset, lead) in [(-28.9924, 7.0), (-28.9924, 3.0), (11.37, 7.0), (0.0, 1.234), (25.0, 12.5)] {
         let cam = rotary(&[&format!("follower.roller.offset={offset}mm"), &format!("buffer.lead={lead}mm")]);
         let outline = profile(cam.curves(), 5e-10).expect("an outline");
-        let rolled = rolling::roll(&cam, cam.curves(), &outline.contour, 5e-7);
+        let rolled = rolling::roll(&cam, (cam.curves(), &[false]), &outline.contour, 5e-7);
         assert!(rolled.gap_mm.abs() <= 5e-7, "{offset} {lead}: {rolled:?}");
     }
 }

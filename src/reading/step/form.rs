@@ -1,112 +1,122 @@
-//! What a boundary amounts to: a shell that closes, two level end faces with their contours, and upright walls between them; of a
+//! Recognises a boundary as a cam: a shell that closes, two level end faces with their contours, and upright walls between them; for a
 //! conoid, a flank of spline patches.
 
-use super::runs::{Loop, apart, arcs, bent, sweep};
-use super::upright::{Level, Upright, WORK, straightened};
-use super::{Boundary, Curve, Edge, Face, Surface};
+use super::runs::{FaceLoop, arcs, cubic_vertices, end_difference, sweep};
+use super::upright::{LevelEdge, SweptSurface, WORK, with_lines_for_splines};
+use super::{StepBoundary, StepCurve, StepEdge, StepFace, StepSurface};
 use crate::geometry::contour::{Contour, Vertex};
 use crate::geometry::nurbs;
 use nalgebra::Vector3;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-/// What a face is.
+/// The role of a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Role {
+enum FaceRole {
     /// Level, its normal down.
     Under,
     /// Level, its normal up.
     Above,
+    /// Level, its normal up, below the upper end.
+    Floor,
     /// Upright.
     Wall,
     /// A spline patch.
     Patch,
-    /// Nothing that a cam has.
+    /// A face that a cam does not have.
     Strange,
 }
 
-/// What spline faces and edges are.
+/// The expected kind of spline faces and edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Flank {
-    /// Upright walls, on cubic curves; anything else is strange.
+pub enum FlankShape {
+    /// Upright walls, on cubic curves.
     Upright,
     /// Patches of a flank that is not upright.
     Patches,
 }
 
-/// What a boundary amounts to.
+/// A boundary, recognised as a cam.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Form {
-    /// Where the shell does not close, or edges leave their vertices and faces, a sentence each.
+pub struct SolidForm {
+    /// Where the shell does not close, or edges do not lie on their vertices and faces, a sentence each.
     pub open: Vec<String>,
-    /// Faces that are neither ends nor upright walls nor patches, or are turned inside out, a sentence each.
+    /// Faces that are not ends, upright walls or patches, or are turned inside out, a sentence each.
     pub strange: Vec<String>,
     /// Heights of the end faces below, mm.
     pub low: Vec<f64>,
     /// Heights of the end faces above, mm.
     pub high: Vec<f64>,
-    /// Runs round the end faces below.
-    pub under: Vec<Loop>,
-    /// Runs round the end faces above.
-    pub above: Vec<Loop>,
+    /// Closed runs of edges of the end faces below.
+    pub under: Vec<FaceLoop>,
+    /// Closed runs of edges of the end faces above.
+    pub above: Vec<FaceLoop>,
+    /// Height of the floor of a pocket, mm, where there is one level face up below the upper end.
+    pub floor: Option<f64>,
     /// Spline patches, each with whether its normal points out of the metal.
-    pub patches: Vec<(nurbs::Surface, bool)>,
-    /// How far the walls' contours above and below are apart at most, mm.
-    pub apart: f64,
-    /// Volume by the walls and the end faces, mm³, of a solid without patches.
-    pub volume: f64,
+    pub patches: Vec<(nurbs::NurbsSurface, bool)>,
+    /// Largest distance between the walls' contours above and below, mm.
+    pub end_difference: f64,
+    /// Volume by the walls and the end faces, mm³, of a solid without patches; `None` where a face or an edge was not read.
+    pub volume: Option<f64>,
 }
 
-/// Sentences of one kind that are told; more say no more.
-const MOST_TOLD: usize = 20;
-/// Least cosine between the normal of a wall and the outside of its contour: they are one or opposite.
+/// Most sentences of one kind.
+const MOST_REPORTED: usize = 20;
+/// Least cosine between the normal of a wall and the outside of its contour: they are equal or opposite.
 const SAME_SIDE: f64 = 0.9;
 
-struct Former<'a> {
-    boundary: &'a Boundary,
-    flank: Flank,
-    /// Within this, mm, places are one.
+struct FormRecognizer<'a> {
+    boundary: &'a StepBoundary,
+    flank: FlankShape,
+    /// Places nearer than this count as one, mm.
     reach: f64,
     /// How far the boundary reaches from the axis and along it, mm.
     size: f64,
-    /// Of each spline edge of an upright flank what it is, or why it is no such edge.
-    levels: Vec<Option<Result<Level, &'static str>>>,
-    /// Of each face that a curve sweeps upwards the surface.
-    uprights: Vec<Option<Upright>>,
-    /// What may yet be spent on edges of upright walls.
+    /// For each spline edge of an upright flank its curve, or why it cannot be such an edge.
+    levels: Vec<Option<Result<LevelEdge, &'static str>>>,
+    /// The surface of each face that is swept upwards from a curve.
+    uprights: Vec<Option<SweptSurface>>,
+    /// Remaining work for edges of upright walls.
     work: Cell<usize>,
-    roles: Vec<Role>,
-    /// Who uses each edge: face and sense.
+    roles: Vec<FaceRole>,
+    /// The users of each edge: face and sense.
     uses: Vec<Vec<(usize, bool)>>,
-    form: Form,
+    form: SolidForm,
 }
 
-/// What a boundary amounts to; places within `reach` (mm) are one.
+/// Recognises a boundary; places within `reach` (mm) count as one.
 #[must_use]
-pub fn form(boundary: &Boundary, flank: Flank, reach: f64) -> Form {
-    let straight = (flank == Flank::Upright).then(|| straightened(boundary, reach));
+pub fn form(boundary: &StepBoundary, flank: FlankShape, reach: f64) -> SolidForm {
+    let straight = (flank == FlankShape::Upright).then(|| with_lines_for_splines(boundary, reach));
     let boundary = straight.as_ref().unwrap_or(boundary);
     let size = boundary.vertices.iter().map(Vector3::norm).fold(0.0, f64::max);
     let uses = vec![Vec::new(); boundary.edges.len()];
-    let (levels, uprights, roles, form) = (Vec::new(), Vec::new(), Vec::new(), Form::default());
+    let (levels, uprights, roles, form) = (Vec::new(), Vec::new(), Vec::new(), SolidForm::default());
     let work = Cell::new(WORK);
-    let mut former = Former { boundary, flank, reach, size, levels, uprights, work, roles, uses, form };
-    if flank == Flank::Upright {
+    let mut former = FormRecognizer { boundary, flank, reach, size, levels, uprights, work, roles, uses, form };
+    if flank == FlankShape::Upright {
         former.levels = boundary.edges.iter().map(|edge| former.level(edge)).collect();
-        former.uprights = boundary.faces.iter().map(|face| Upright::of(&face.surface, reach, size)).collect();
+        former.uprights = boundary.faces.iter().map(|face| SweptSurface::of(&face.surface, reach, size)).collect();
     }
     former.roles = (0..boundary.faces.len()).map(|index| former.role(index)).collect();
+    former.floor();
     former.use_edges();
     former.close();
     former.edges_lie_on_their_vertices();
     former.edges_lie_on_their_faces();
     former.faces();
-    former.form.under = former.loops(Role::Under);
-    former.form.above = former.loops(Role::Above);
-    former.form.apart = apart(&former.form.under, &former.form.above);
-    former.form.volume = former.volume();
-    former.form.open.truncate(MOST_TOLD);
-    former.form.strange.truncate(MOST_TOLD);
+    former.form.under = former.loops(FaceRole::Under);
+    former.form.above = former.loops(FaceRole::Above);
+    let pocket: Vec<FaceLoop> = former.loops(FaceRole::Floor).iter().map(FaceLoop::reversed).collect();
+    // The walls of a pocket reach from its floor to the upper end, the others from end to end.
+    let below: Vec<FaceLoop> = former.form.under.iter().chain(&pocket).cloned().collect();
+    former.form.end_difference = end_difference(&below, &former.form.above);
+    let strange = former.roles.contains(&FaceRole::Strange);
+    let unread = (0..boundary.edges.len()).any(|edge| former.is_unread(edge));
+    former.form.volume = (!strange && !unread).then(|| former.volume());
+    former.form.open.truncate(MOST_REPORTED);
+    former.form.strange.truncate(MOST_REPORTED);
     former.form
 }
 
@@ -115,50 +125,81 @@ fn off_line(point: Vector3<f64>, origin: Vector3<f64>, direction: Vector3<f64>) 
     (point - origin).cross(&direction).norm()
 }
 
-impl Former<'_> {
+impl FormRecognizer<'_> {
     fn place(&self, vertex: usize) -> Vector3<f64> {
         self.boundary.vertices.get(vertex).copied().unwrap_or_else(|| Vector3::repeat(f64::NAN))
     }
 
-    /// First and last place of an edge as it is run.
+    /// First and last place of an edge in the sense in which it is run.
     fn ends(&self, (edge, forward): (usize, bool)) -> [Vector3<f64>; 2] {
         let Some(edge) = self.boundary.edges.get(edge) else { return [Vector3::repeat(f64::NAN); 2] };
         let (start, end) = (self.place(edge.start), self.place(edge.end));
         if forward { [start, end] } else { [end, start] }
     }
 
-    fn level(&self, edge: &Edge) -> Option<Result<Level, &'static str>> {
-        let is_spline = matches!(edge.curve, Curve::Spline(_));
-        is_spline.then(|| Level::of(edge, [self.place(edge.start), self.place(edge.end)], self.reach))
+    fn level(&self, edge: &StepEdge) -> Option<Result<LevelEdge, &'static str>> {
+        let is_spline = matches!(edge.curve, StepCurve::Spline(_));
+        is_spline.then(|| LevelEdge::of(edge, [self.place(edge.start), self.place(edge.end)], self.reach))
     }
 
     /// The spline edge of an upright flank, where it is one.
-    fn level_of(&self, edge: usize) -> Option<&Level> {
+    fn level_of(&self, edge: usize) -> Option<&LevelEdge> {
         self.levels.get(edge)?.as_ref()?.as_ref().ok()
     }
 
-    /// The surface of a face that a curve sweeps upwards.
-    fn upright_of(&self, face: usize) -> Option<&Upright> {
+    /// Whether it is a spline edge of an upright flank that cannot be one.
+    fn is_unread(&self, edge: usize) -> bool {
+        matches!(self.levels.get(edge), Some(Some(Err(_))))
+    }
+
+    /// The surface of a face that is swept upwards from a curve.
+    fn upright_of(&self, face: usize) -> Option<&SweptSurface> {
         self.uprights.get(face)?.as_ref()
     }
 
-    fn role(&self, index: usize) -> Role {
-        let Some(face) = self.boundary.faces.get(index) else { return Role::Strange };
+    fn role(&self, index: usize) -> FaceRole {
+        let Some(face) = self.boundary.faces.get(index) else { return FaceRole::Strange };
         // A tilt counts by how far it lifts the rim.
         let level = |tilt: f64| tilt * self.size <= self.reach;
         match &face.surface {
-            Surface::Plane { normal, .. } if level(normal.xy().norm()) => {
+            StepSurface::Plane { normal, .. } if level(normal.xy().norm()) => {
                 if (normal.z > 0.0) == face.same_sense {
-                    Role::Above
+                    FaceRole::Above
                 } else {
-                    Role::Under
+                    FaceRole::Under
                 }
             }
-            Surface::Plane { normal, .. } if level(normal.z.abs()) => Role::Wall,
-            Surface::Cylinder { axis, .. } if level(axis.xy().norm()) => Role::Wall,
-            _ if self.upright_of(index).is_some() => Role::Wall,
-            Surface::Spline(_) if self.flank == Flank::Patches => Role::Patch,
-            _ => Role::Strange,
+            StepSurface::Plane { normal, .. } if level(normal.z.abs()) => FaceRole::Wall,
+            StepSurface::Cylinder { axis, .. } if level(axis.xy().norm()) => FaceRole::Wall,
+            _ if self.upright_of(index).is_some() => FaceRole::Wall,
+            StepSurface::Spline(_) if self.flank == FlankShape::Patches => FaceRole::Patch,
+            _ => FaceRole::Strange,
+        }
+    }
+
+    /// Level faces of one height below that of the others are the floor of a pocket.
+    fn floor(&mut self) {
+        let high = |index: usize| match self.boundary.faces.get(index).map(|face| &face.surface) {
+            Some(StepSurface::Plane { origin, normal }) => origin.dot(normal) / normal.z,
+            _ => f64::NAN,
+        };
+        let above: Vec<usize> = self
+            .roles
+            .iter()
+            .enumerate()
+            .filter(|(_, role)| **role == FaceRole::Above)
+            .map(|(index, _)| index)
+            .collect();
+        let top = above.iter().map(|index| high(*index)).fold(f64::NEG_INFINITY, f64::max);
+        let lower: Vec<usize> = above.into_iter().filter(|index| high(*index) < top - 2.0 * self.reach).collect();
+        let Some(floor) = lower.first().map(|index| high(*index)) else { return };
+        if lower.iter().all(|index| (high(*index) - floor).abs() <= 2.0 * self.reach) {
+            self.form.floor = Some(floor);
+            for index in lower {
+                if let Some(role) = self.roles.get_mut(index) {
+                    *role = FaceRole::Floor;
+                }
+            }
         }
     }
 
@@ -178,7 +219,7 @@ impl Former<'_> {
         for (edge, uses) in self.boundary.edges.iter().zip(&self.uses) {
             match uses.as_slice() {
                 [(_, a), (_, b)] if a != b => {}
-                [_, _] => open.push(format!("the edge of line {} is run twice in one sense", edge.line)),
+                [_, _] => open.push(format!("the edge of line {} is used twice in the same sense", edge.line)),
                 other => open.push(format!("the edge of line {} has {} faces, not two", edge.line, other.len())),
             }
         }
@@ -190,7 +231,7 @@ impl Former<'_> {
                     !(gap <= self.reach)
                 };
                 if run.is_empty() || run.iter().zip(next).any(broken) {
-                    open.push(format!("a run of edges round the face of line {} does not close", face.line));
+                    open.push(format!("a bound of the face of line {} is not closed", face.line));
                 }
             }
         }
@@ -201,7 +242,7 @@ impl Former<'_> {
         self.form.open.extend(open);
     }
 
-    /// How many sets of faces hang together by their edges.
+    /// The number of groups of faces that are connected by their edges.
     fn pieces(&self) -> usize {
         let mut parents: Vec<usize> = (0..self.boundary.faces.len()).collect();
         for uses in &self.uses {
@@ -222,18 +263,18 @@ impl Former<'_> {
             let ends = [self.place(edge.start), self.place(edge.end)];
             let [start, end] = if edge.forward { ends } else { [ends[1], ends[0]] };
             let (off, along) = match &edge.curve {
-                Curve::Line { origin, direction } => {
+                StepCurve::Line { origin, direction } => {
                     let off = ends.map(|end| off_line(end, *origin, *direction));
                     (off[0].max(off[1]), (end - start).dot(direction) > 0.0)
                 }
-                Curve::Circle { centre, axis, radius } => {
+                StepCurve::Circle { centre, axis, radius } => {
                     let off = ends.map(|end| {
                         let (away, height) = (end - centre, (end - centre).dot(axis));
                         ((away - axis * height).norm() - radius).abs().max(height.abs())
                     });
                     (off[0].max(off[1]), true)
                 }
-                Curve::Spline(_) if self.flank == Flank::Upright => match self.levels.get(index) {
+                StepCurve::Spline(_) if self.flank == FlankShape::Upright => match self.levels.get(index) {
                     Some(Some(Ok(level))) => (level.off, true),
                     Some(Some(Err(why))) => {
                         open.push(format!("the spline edge of line {} is {why}", edge.line));
@@ -241,12 +282,12 @@ impl Former<'_> {
                     }
                     _ => (f64::INFINITY, true),
                 },
-                Curve::Spline(curve) => {
+                StepCurve::Spline(curve) => {
                     let (first, last) = curve.knots.range();
                     ((curve.at(first).0 - start).norm().max((curve.at(last).0 - end).norm()), true)
                 }
-                Curve::Other(what) => {
-                    open.push(format!("{what} is no edge that a cam has"));
+                StepCurve::Other(what) => {
+                    open.push(format!("{what} is not a kind of edge that a cam has"));
                     continue;
                 }
             };
@@ -266,11 +307,18 @@ impl Former<'_> {
                 let Some(face) = self.boundary.faces.get(*index) else { continue };
                 let off = match self.upright_of(*index) {
                     Some(upright) => self.off_upright((number, edge), upright),
+                    // Why a spline is not a level edge is reported elsewhere.
+                    None if self.is_unread(number) => 0.0,
                     None => self.off(edge, &face.surface),
                 };
-                if !(off <= self.reach) {
+                if off.is_finite() && off > self.reach {
                     open.push(format!(
                         "the edge of line {} leaves the face of line {} by {off:.6} mm",
+                        edge.line, face.line
+                    ));
+                } else if !(off <= self.reach) {
+                    open.push(format!(
+                        "the edge of line {} is not of a kind that can lie on the face of line {}",
                         edge.line, face.line
                     ));
                 }
@@ -279,78 +327,84 @@ impl Former<'_> {
         self.form.open.extend(open);
     }
 
-    /// How far an edge leaves an upright surface over a spline at most, mm, or a bound for it.
-    fn off_upright(&self, (number, edge): (usize, &Edge), upright: &Upright) -> f64 {
+    /// Largest distance of an edge from an upright surface over a spline, mm, or a bound for it.
+    fn off_upright(&self, (number, edge): (usize, &StepEdge), upright: &SweptSurface) -> f64 {
         let ends = [self.place(edge.start), self.place(edge.end)];
         match (&edge.curve, self.level_of(number)) {
-            (Curve::Line { .. }, _) => upright.off_line(ends),
+            (StepCurve::Line { .. }, _) => upright.off_line(ends),
             (_, Some(level)) => upright.off_level(level, ends, self.reach, &self.work),
-            // What a spline is no level edge for, is told elsewhere.
-            (Curve::Spline(_) | Curve::Other(_), None) => 0.0,
-            (Curve::Circle { .. }, None) => f64::INFINITY,
+            // Why a spline is not a level edge is reported elsewhere.
+            (StepCurve::Spline(_) | StepCurve::Other(_), None) => 0.0,
+            (StepCurve::Circle { .. }, None) => f64::INFINITY,
         }
     }
 
-    /// How far an edge leaves a surface at most, mm, or a bound for it.
-    fn off(&self, edge: &Edge, surface: &Surface) -> f64 {
+    /// Largest distance of an edge from a surface, mm, or a bound for it.
+    fn off(&self, edge: &StepEdge, surface: &StepSurface) -> f64 {
         let ends = [self.place(edge.start), self.place(edge.end)];
         let largest =
             |values: &[f64]| values.iter().copied().fold(0.0, |most, next| if next <= most { most } else { next });
         match (surface, &edge.curve) {
-            (Surface::Plane { origin, normal }, Curve::Line { .. }) => {
+            (StepSurface::Plane { origin, normal }, StepCurve::Line { .. }) => {
                 largest(&ends.map(|end| (end - origin).dot(normal).abs()))
             }
-            (Surface::Plane { origin, normal }, Curve::Circle { centre, axis, radius }) => {
+            (StepSurface::Plane { origin, normal }, StepCurve::Circle { centre, axis, radius }) => {
                 (centre - origin).dot(normal).abs() + radius * axis.cross(normal).norm()
             }
             // A spline lies within the hull of its control points.
-            (Surface::Plane { origin, normal }, Curve::Spline(curve)) => {
+            (StepSurface::Plane { origin, normal }, StepCurve::Spline(curve)) => {
                 let off = |control: &nalgebra::Vector4<f64>| (control.xyz() / control.w - origin).dot(normal).abs();
                 largest(&curve.controls.iter().map(off).collect::<Vec<_>>())
             }
-            (Surface::Cylinder { origin, axis, radius }, Curve::Line { .. }) => {
+            (StepSurface::Cylinder { origin, axis, radius }, StepCurve::Line { .. }) => {
                 let off = |place: Vector3<f64>| (off_line(place, *origin, *axis) - radius).abs();
                 largest(&[off(ends[0]), off(ends[1]), off((ends[0] + ends[1]) * 0.5)])
             }
-            (Surface::Cylinder { origin, axis, radius }, Curve::Circle { centre, axis: own, radius: of_edge }) => {
-                off_line(*centre, *origin, *axis) + (of_edge - radius).abs() + of_edge * axis.cross(own).norm()
-            }
-            (Surface::Spline(patch), Curve::Spline(curve)) if self.flank == Flank::Patches => {
+            (
+                StepSurface::Cylinder { origin, axis, radius },
+                StepCurve::Circle { centre, axis: own, radius: of_edge },
+            ) => off_line(*centre, *origin, *axis) + (of_edge - radius).abs() + of_edge * axis.cross(own).norm(),
+            (StepSurface::Spline(patch), StepCurve::Spline(curve)) if self.flank == FlankShape::Patches => {
                 let along = if edge.forward { curve.clone() } else { curve.reversed() };
                 let sides = patch.boundary().into_iter().flatten();
-                let off = |side: nurbs::Curve| side.farthest(&along).min(side.farthest(&along.reversed()));
+                let off = |side: nurbs::NurbsCurve| side.farthest(&along).min(side.farthest(&along.reversed()));
                 sides.map(off).fold(f64::INFINITY, f64::min)
             }
-            (Surface::Spline(_), _) if self.flank == Flank::Patches => f64::INFINITY,
-            // What a face of no known kind is, is told elsewhere.
-            (Surface::Other(_) | Surface::Spline(_) | Surface::Swept { .. }, _) | (_, Curve::Other(_)) => 0.0,
+            (StepSurface::Spline(_), _) if self.flank == FlankShape::Patches => f64::INFINITY,
+            // A face of an unknown kind is reported elsewhere.
+            (StepSurface::Other(_) | StepSurface::Spline(_) | StepSurface::Swept { .. }, _)
+            | (_, StepCurve::Other(_)) => 0.0,
             _ => f64::INFINITY,
         }
     }
 
-    /// Heights of the ends, strange faces, walls on the right side.
+    /// Heights of the ends, unexpected faces, orientation of the walls.
     fn faces(&mut self) {
         let mut strange = Vec::new();
         for (index, (face, role)) in self.boundary.faces.iter().zip(&self.roles).enumerate() {
             match (role, &face.surface) {
-                (Role::Under, Surface::Plane { origin, normal }) => self.form.low.push(origin.dot(normal) / normal.z),
-                (Role::Above, Surface::Plane { origin, normal }) => self.form.high.push(origin.dot(normal) / normal.z),
-                (Role::Patch, Surface::Spline(patch)) => {
+                (FaceRole::Under, StepSurface::Plane { origin, normal }) => {
+                    self.form.low.push(origin.dot(normal) / normal.z);
+                }
+                (FaceRole::Above, StepSurface::Plane { origin, normal }) => {
+                    self.form.high.push(origin.dot(normal) / normal.z);
+                }
+                (FaceRole::Floor, _) => {}
+                (FaceRole::Patch, StepSurface::Spline(patch)) => {
                     if !self.is_whole(face, patch) {
                         strange.push(format!("the patch of line {} is not bounded by its own four edges", face.line));
                     }
                     self.form.patches.push((patch.clone(), face.same_sense));
                 }
-                (Role::Wall, _) => {
-                    if face.loops.iter().flatten().any(|run| !(self.outward(index, *run) >= SAME_SIDE)) {
+                (FaceRole::Wall, _) => {
+                    let mut read = face.loops.iter().flatten().filter(|run| !self.is_unread(run.0));
+                    if read.any(|run| !(self.outward(index, *run) >= SAME_SIDE)) {
                         strange.push(format!("the wall of line {} is turned inside out", face.line));
                     }
                 }
-                (_, Surface::Other(what)) => strange.push(format!("{what} is no face that a cam has")),
-                (_, Surface::Spline(_) | Surface::Swept { .. }) => strange.push(format!(
-                    "the spline face of line {} is not an upright one over a curve without weights",
-                    face.line
-                )),
+                (_, StepSurface::Other(what)) => strange.push(format!("{what} is not a kind of face that a cam has")),
+                (_, StepSurface::Spline(_) | StepSurface::Swept { .. }) => strange
+                    .push(format!("the spline face of line {} is not upright over a curve without weights", face.line)),
                 _ => strange.push(format!("the face of line {} is neither level nor upright", face.line)),
             }
         }
@@ -358,11 +412,11 @@ impl Former<'_> {
     }
 
     /// Whether the edges of a patch are its own sides in their order.
-    fn is_whole(&self, face: &Face, patch: &nurbs::Surface) -> bool {
+    fn is_whole(&self, face: &StepFace, patch: &nurbs::NurbsSurface) -> bool {
         let (Some(sides), [run]) = (patch.boundary(), face.loops.as_slice()) else { return false };
         let side_of = |used: &(usize, bool)| {
             let [start, end] = self.ends(*used);
-            let fits = |side: &nurbs::Curve| {
+            let fits = |side: &nurbs::NurbsCurve| {
                 let (first, last) = side.knots.range();
                 let ends = [side.at(first).0, side.at(last).0];
                 let [a, b] = if face.same_sense { ends } else { [ends[1], ends[0]] };
@@ -378,14 +432,14 @@ impl Former<'_> {
         })
     }
 
-    /// The cosine between a wall's normal and the outside of a level edge that it runs: above the edge the metal's skin goes on
+    /// The cosine between a wall's normal and the outside of one of its level edges: above the edge the skin of the metal goes on
     /// downwards, below it upwards. 1 for an upright edge.
     fn outward(&self, face: usize, run: (usize, bool)) -> f64 {
         let Some((_, tangent, normal)) = self.middle(face, run) else { return f64::NAN };
         if tangent.z.abs() > 0.5 {
             return 1.0;
         }
-        // The skin lies to the left of its edge, seen from outside.
+        // Seen from outside, the skin lies to the left of its edge.
         let inside = normal.cross(&tangent).z;
         let [a, b] = self.ends(run).map(|place| place.z);
         let (low, high) = self.heights();
@@ -411,8 +465,8 @@ impl Former<'_> {
         let (face, edge) = (self.boundary.faces.get(face)?, self.boundary.edges.get(run.0)?);
         let [start, end] = self.ends(run);
         let (place, tangent) = match &edge.curve {
-            Curve::Line { .. } => ((start + end) * 0.5, (end - start).normalize()),
-            Curve::Circle { centre, axis, radius } => {
+            StepCurve::Line { .. } => ((start + end) * 0.5, (end - start).normalize()),
+            StepCurve::Circle { centre, axis, radius } => {
                 let counter = edge.forward == run.1;
                 let (from, to) = (start - centre, end - centre);
                 let half = 0.5 * sweep(from, to, if counter { *axis } else { -axis });
@@ -428,8 +482,8 @@ impl Former<'_> {
         };
         let normal = match &face.surface {
             _ if upright.is_some() => upright?.normal(place.xy())?,
-            Surface::Plane { normal, .. } => *normal,
-            Surface::Cylinder { origin, axis, .. } => {
+            StepSurface::Plane { normal, .. } => *normal,
+            StepSurface::Cylinder { origin, axis, .. } => {
                 let away = place - origin;
                 (away - axis * away.dot(axis)).normalize()
             }
@@ -438,15 +492,15 @@ impl Former<'_> {
         Some((place, tangent, if face.same_sense { normal } else { -normal }))
     }
 
-    /// The runs round all end faces of a role together: edges between two of them are within.
-    fn loops(&mut self, role: Role) -> Vec<Loop> {
+    /// The closed runs round all end faces of a role together: edges between two of these faces are inner edges.
+    fn loops(&mut self, role: FaceRole) -> Vec<FaceLoop> {
         let is = |face: usize| self.roles.get(face) == Some(&role);
         let mut next: BTreeMap<usize, Vec<(usize, bool)>> = BTreeMap::new();
         let mut rim = Vec::new();
         for (edge, uses) in self.uses.iter().enumerate() {
             let [mine] = uses.iter().filter(|(face, _)| is(*face)).collect::<Vec<_>>()[..] else { continue };
-            // Seen from above an end below is run the other way round.
-            let run = (edge, mine.1 == (role == Role::Above));
+            // Seen from above, a lower end is run in the opposite sense.
+            let run = (edge, mine.1 == (role != FaceRole::Under));
             next.entry(self.vertices(run).0).or_default().push(run);
             rim.push(run);
         }
@@ -456,7 +510,7 @@ impl Former<'_> {
             let mut run = Vec::new();
             let mut at = self.vertices(start).0;
             while let Some(edge) = next.get_mut(&at).and_then(Vec::pop) {
-                // Where two runs touch, which goes on is a guess.
+                // Where two runs touch, it is not known which edge follows.
                 broken |= next.get(&at).is_some_and(|others| !others.is_empty());
                 run.push(edge);
                 at = self.vertices(edge).1;
@@ -467,7 +521,7 @@ impl Former<'_> {
             }
         }
         if broken {
-            self.form.open.push("the rim of an end face is not one run of edges after another".into());
+            self.form.open.push("the rim of an end face does not consist of closed runs of edges".into());
         }
         loops
     }
@@ -477,35 +531,35 @@ impl Former<'_> {
         if forward { ends } else { (ends.1, ends.0) }
     }
 
-    fn contour(&self, run: &[(usize, bool)]) -> Option<Loop> {
+    fn contour(&self, run: &[(usize, bool)]) -> Option<FaceLoop> {
         let mut vertices = Vec::new();
         let mut splines = 0;
         for used in run {
             let [start, end] = self.ends(*used).map(|place| place.xy());
             let edge = self.boundary.edges.get(used.0)?;
             match &edge.curve {
-                Curve::Circle { centre, axis, .. } => {
+                StepCurve::Circle { centre, axis, .. } => {
                     let counter = (edge.forward == used.1) == (axis.z > 0.0);
                     arcs(start, end, centre.xy(), counter, edge.start == edge.end, &mut vertices);
                 }
-                Curve::Spline(_) => match self.level_of(used.0) {
-                    Some(level) => vertices.extend(bent(start, &level.run(used.1))),
+                StepCurve::Spline(_) => match self.level_of(used.0) {
+                    Some(level) => vertices.extend(cubic_vertices(start, &level.run(used.1))),
                     None => splines += 1,
                 },
                 _ => vertices.push(Vertex::new(start, 0.0)),
             }
         }
-        Some(if splines > 0 { Loop::Splines(splines) } else { Loop::Contour(Contour { vertices }) })
+        Some(if splines > 0 { FaceLoop::Splines(splines) } else { FaceLoop::Contour(Contour { vertices }) })
     }
 
-    /// Gauss' ∮ (x, y, 0)/2 · n over the walls, mm³: of each its height times the area that its edges sweep about the axis. An
-    /// edge above is run against the contour, with the skin to its left.
+    /// Gauss' ∮ (x, y, 0)/2 · n over the walls, mm³: for each wall its height times the area that its edges sweep about the axis. An
+    /// upper edge is run against the contour, with the skin to its left.
     fn volume(&self) -> f64 {
         let mut volume = 0.0;
         for (face, role) in self.boundary.faces.iter().zip(&self.roles) {
-            for run in face.loops.iter().flatten().filter(|_| *role == Role::Wall) {
+            for run in face.loops.iter().flatten().filter(|_| *role == FaceRole::Wall) {
                 let [start, end] = self.ends(*run);
-                let Some(Loop::Contour(piece)) = self.contour(&[*run]) else { continue };
+                let Some(FaceLoop::Contour(piece)) = self.contour(&[*run]) else { continue };
                 let ends = piece.vertices.iter().skip(1).map(|vertex| vertex.point).chain([end.xy()]);
                 let segments = piece.vertices.iter().zip(ends);
                 let swept = segments.map(|(vertex, end)| {
@@ -519,7 +573,7 @@ impl Former<'_> {
     }
 }
 
-/// The face that stands for all that hang together with this one; the way to it is halved.
+/// The face that represents all faces connected with this one; the chain to it is shortened.
 fn root(parents: &mut [usize], mut at: usize) -> usize {
     while let Some(parent) = parents.get(at).copied().filter(|parent| *parent != at) {
         let above = parents.get(parent).copied().unwrap_or(parent);

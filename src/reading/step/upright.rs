@@ -1,58 +1,60 @@
 //! Walls over splines: edges that are level cubic curves, and surfaces that such curves sweep upwards.
 //!
-//! An edge lies on a wall where each of its polynomials is beside a part of the wall's: the part between the places nearest to its
-//! ends. Two Bézier curves are nowhere farther apart than their control points. Where the two are not parametrised alike, or
-//! meet their knots at other places, the edge is divided until they are near enough or a place of it is seen to be too far.
+//! An edge lies on a wall where each of its polynomials is close to a part of the wall's curve: the part between the places nearest to
+//! its ends. Two Bézier curves are nowhere farther apart than their control points. Where the two are parametrised differently, or
+//! have their knots at different places, the edge is divided until they are close enough or a place of it is found to be too far.
 
-use super::{Boundary, Curve, Edge, Surface};
+use super::{StepBoundary, StepCurve, StepEdge, StepSurface};
 use crate::geometry::contour::{self, Cubic};
+use crate::geometry::edge_tree::EdgeTree;
 use crate::geometry::nurbs;
-use crate::geometry::track::Track;
 use nalgebra::{Vector2, Vector3, Vector4};
 use std::cell::Cell;
 
-/// Polynomials of walls that parts of edges are compared with at the most, in a whole solid: thousands of times what a cam has, and
+/// Most polynomials of walls that parts of edges are compared with, in a whole solid: thousands of times what a cam has, and
 /// a matter of seconds.
 pub(super) const WORK: usize = 20_000_000;
-/// Splines of a higher degree than 3, which programs write where they have cut a wall, are followed by cubic curves within this
-/// share of the reach; others are cubic curves.
+/// Splines of a degree above 3, which programs write where they have cut a wall, are approximated by cubic curves within this
+/// share of the reach; others are cubic curves already.
 const CUBIC_SHARE: f64 = 0.01;
-/// A part is not divided nearer to its ends than by this share of its parameter.
+/// A part is not divided nearer to its ends than this share of its parameter.
 const INSIDE: f64 = 1e-6;
 
-/// A boundary whose upright spline edges are lines: so programs write where they have cut a wall. Their control points are above one
-/// another within `reach` (mm), and only rise or only fall.
-pub(super) fn straightened(boundary: &Boundary, reach: f64) -> Boundary {
+/// A boundary in which upright spline edges are replaced by lines: programs write such edges where they have cut a wall. Their control
+/// points are above one another within `reach` (mm), and only rise or only fall.
+pub(super) fn with_lines_for_splines(boundary: &StepBoundary, reach: f64) -> StepBoundary {
     let mut straight = boundary.clone();
     for edge in &mut straight.edges {
-        let Curve::Spline(curve) = &edge.curve else { continue };
+        let StepCurve::Spline(curve) = &edge.curve else { continue };
         let places: Vec<Vector3<f64>> = curve.controls.iter().map(|control| control.xyz() / control.w).collect();
         let (Some(first), Some(last)) = (places.first(), places.last()) else { continue };
         let up = last.z - first.z;
         let goes_on = |pair: &[Vector3<f64>]| matches!(pair, [a, b] if (b.z - a.z) * up >= 0.0);
         let stands = places.iter().all(|place| (place.xy() - first.xy()).norm() <= reach);
         if stands && up.abs() > reach && places.windows(2).all(goes_on) {
-            edge.curve = Curve::Line { origin: *first, direction: Vector3::z() * up.signum() };
+            edge.curve = StepCurve::Line { origin: *first, direction: Vector3::z() * up.signum() };
         }
     }
     straight
 }
 
 /// A level edge, from its first vertex to its last.
-pub(super) struct Level {
+pub(super) struct LevelEdge {
     /// Its polynomials, seen from above.
     pub(super) cubics: Vec<Cubic>,
-    /// Largest distance of its ends from the vertices, and of its height from theirs, mm.
+    /// Largest distance of its ends from the vertices, mm.
     pub(super) off: f64,
 }
 
-impl Level {
-    /// A spline edge between the places of its vertices, which may lie within it; places within `reach` (mm) are one.
-    pub(super) fn of(edge: &Edge, [start, end]: [Vector3<f64>; 2], reach: f64) -> Result<Self, &'static str> {
-        let Curve::Spline(curve) = &edge.curve else { return Err("no spline") };
+impl LevelEdge {
+    /// A spline edge between the places of its vertices, which may lie within it; places within `reach` (mm) count as one.
+    pub(super) fn of(edge: &StepEdge, [start, end]: [Vector3<f64>; 2], reach: f64) -> Result<Self, &'static str> {
+        let StepCurve::Spline(curve) = &edge.curve else { return Err("not a spline") };
         let cubics = curve.cubics(CUBIC_SHARE * reach).ok_or("rational, or too rough")?;
         let heights = || cubics.iter().flatten().flat_map(|point| [point.z - start.z, point.z - end.z]);
-        let lifted = heights().fold(0.0, |most, off| if off.abs() <= most { most } else { off.abs() });
+        if !heights().all(|off| off.abs() <= reach) {
+            return Err("not level");
+        }
         let flat = cubics.iter().map(|points| Cubic { points: points.map(|point| point.xy()) });
         let mut cubics: Vec<Cubic> = flat.collect();
         if !cubics.iter().all(|cubic| contour::Edge::Cubic(*cubic).is_finite()) {
@@ -62,17 +64,17 @@ impl Level {
             cubics = cubics.iter().rev().map(Cubic::reversed).collect();
         }
         let (cubics, missed) = trimmed(&cubics, start.xy(), end.xy(), reach).ok_or("run against its vertices")?;
-        Ok(Self { cubics, off: if lifted <= missed { missed } else { lifted } })
+        Ok(Self { cubics, off: missed })
     }
 
-    /// The same edge in the sense in which it is run.
+    /// The edge in the sense in which it is run.
     pub(super) fn run(&self, forward: bool) -> Vec<Cubic> {
         if forward { self.cubics.clone() } else { self.cubics.iter().rev().map(Cubic::reversed).collect() }
     }
 }
 
-/// A chain between the places nearest to two points, and how far these are from it at most; `None` where they come the other way
-/// round. An end of the chain that is within `reach` of its point is one with it.
+/// A chain between the places nearest to two points, and the largest distance of these from it; `None` where they come in the opposite
+/// order. An end of the chain that is within `reach` of its point coincides with it.
 fn trimmed(cubics: &[Cubic], start: Vector2<f64>, end: Vector2<f64>, reach: f64) -> Option<(Vec<Cubic>, f64)> {
     let near = |index: usize, t: f64, point: Vector2<f64>| {
         cubics.get(index).map_or(f64::INFINITY, |cubic| (cubic.derivatives(t)[0] - point).norm())
@@ -100,40 +102,43 @@ fn trimmed(cubics: &[Cubic], start: Vector2<f64>, end: Vector2<f64>, reach: f64)
 }
 
 /// A surface that a level curve sweeps upwards.
-pub(super) struct Upright {
-    curve: Track,
+pub(super) struct SweptSurface {
+    curve: EdgeTree,
     /// 1 where the surface's own normal is to the right of the curve, −1 where it is to the left.
     side: f64,
-    /// How far down and up it reaches, mm.
+    /// Its lower and upper end, mm.
     heights: (f64, f64),
 }
 
-impl Upright {
-    /// The surface, where it is one within `reach` (mm) as far as `size` (mm) from the origin.
-    pub(super) fn of(surface: &Surface, reach: f64, size: f64) -> Option<Self> {
+impl SweptSurface {
+    /// The surface, where it is such a surface within `reach` (mm) as far as `size` (mm) from the origin.
+    pub(super) fn of(surface: &StepSurface, reach: f64, size: f64) -> Option<Self> {
         match surface {
-            Surface::Spline(patch) => {
-                let turned =
-                    || nurbs::Surface { u: patch.v.clone(), v: patch.u.clone(), controls: transposed(&patch.controls) };
+            StepSurface::Spline(patch) => {
+                let turned = || nurbs::NurbsSurface {
+                    u: patch.v.clone(),
+                    v: patch.u.clone(),
+                    controls: transposed(&patch.controls),
+                };
                 // Upwards along its second parameter, or along its first.
                 Self::up(patch, 1.0, reach).or_else(|| Self::up(&turned(), -1.0, reach))
             }
-            Surface::Swept { curve, direction } if direction.xy().norm() * size <= reach => {
+            StepSurface::Swept { curve, direction } if direction.xy().norm() * size <= reach => {
                 Self::over(curve, CUBIC_SHARE * reach, direction.z.signum(), (f64::NEG_INFINITY, f64::INFINITY))
             }
             _ => None,
         }
     }
 
-    fn over(curve: &nurbs::Curve, within: f64, side: f64, heights: (f64, f64)) -> Option<Self> {
+    fn over(curve: &nurbs::NurbsCurve, within: f64, side: f64, heights: (f64, f64)) -> Option<Self> {
         let flat = curve.cubics(within)?.into_iter().map(|points| Cubic { points: points.map(|point| point.xy()) });
         let edges: Vec<contour::Edge> = flat.map(contour::Edge::Cubic).collect();
-        edges.iter().all(contour::Edge::is_finite).then(|| Self { curve: Track::along(edges), side, heights })
+        edges.iter().all(contour::Edge::is_finite).then(|| Self { curve: EdgeTree::along(edges), side, heights })
     }
 
-    /// A patch whose control points stand above one another along its second parameter, in level rows that only rise or only fall.
-    /// Whatever its knots, it is then the curve of the first of each row, at heights that only rise or fall.
-    fn up(patch: &nurbs::Surface, side: f64, reach: f64) -> Option<Self> {
+    /// A patch whose control points are above one another along its second parameter, in level rows that only rise or only fall.
+    /// Whatever its knots, it is then the curve of the first control point of each row, at heights that only rise or fall.
+    fn up(patch: &nurbs::NurbsSurface, side: f64, reach: f64) -> Option<Self> {
         let weight = patch.controls.first()?.first()?.w;
         let places: Vec<Vec<Vector3<f64>>> =
             patch.controls.iter().map(|row| row.iter().map(|control| control.xyz() / control.w).collect()).collect();
@@ -151,7 +156,7 @@ impl Upright {
         let ((first, _), (from, to)) = (patch.u.range(), patch.v.range());
         let (from, to) = (patch.at(first, from)[0].z, patch.at(first, to)[0].z);
         let controls = patch.controls.iter().filter_map(|row| row.first().copied()).collect();
-        let curve = nurbs::Curve { knots: patch.u.clone(), controls };
+        let curve = nurbs::NurbsCurve { knots: patch.u.clone(), controls };
         ((to - from).abs() > reach).then_some(())?;
         Self::over(&curve, CUBIC_SHARE * reach, side * (to - from).signum(), (from.min(to), from.max(to)))
     }
@@ -161,19 +166,19 @@ impl Upright {
         heights.map(|z| (self.heights.0 - z).max(z - self.heights.1)).into_iter().fold(0.0, f64::max)
     }
 
-    /// How far a straight edge may be from it, mm: only upright ones lie on it.
+    /// Largest distance of a straight edge from it, mm: only upright ones lie on it.
     pub(super) fn off_line(&self, [start, end]: [Vector3<f64>; 2]) -> f64 {
         let near = self.curve.nearest_segment(start.xy()).map_or(f64::INFINITY, |(_, nearest)| nearest.left.abs());
         near + (end.xy() - start.xy()).norm() + self.beyond([start.z, end.z])
     }
 
-    /// How far a level edge may be from it, mm: within `within`, or as far as it was seen to be and infinite where that is not
-    /// known; `work` is what may yet be spent on it.
-    pub(super) fn off_level(&self, edge: &Level, ends: [Vector3<f64>; 2], within: f64, work: &Cell<usize>) -> f64 {
+    /// Largest distance of a level edge from it, mm: within `within`, or as far as was found, and infinite where that is unknown;
+    /// `work` is the remaining work that may be spent on it.
+    pub(super) fn off_level(&self, edge: &LevelEdge, ends: [Vector3<f64>; 2], within: f64, work: &Cell<usize>) -> f64 {
         let mut most = self.beyond(ends.map(|end| end.z));
         let mut open = edge.cubics.clone();
         while let Some(part) = open.pop() {
-            // In the worst case, where all lie over one another, the search looks at each.
+            // In the worst case, where all lie over one another, the search examines each.
             let Some(left) = work.get().checked_sub(self.curve.edges().len()) else { return f64::INFINITY };
             work.set(left);
             let middle = part.derivatives(0.5)[0];
@@ -184,7 +189,7 @@ impl Upright {
                 return away;
             }
             let hull = part.points.iter().map(|point| (point - middle).norm()).fold(0.0, f64::max);
-            let bound = beside(&part, own).min(away + hull);
+            let bound = distance_bound(&part, own).min(away + hull);
             if bound <= within {
                 most = most.max(bound);
             } else {
@@ -195,7 +200,7 @@ impl Upright {
         most
     }
 
-    /// Its normal where it is nearest to a place.
+    /// Its normal at the place nearest to a point.
     pub(super) fn normal(&self, place: Vector2<f64>) -> Option<Vector3<f64>> {
         let (_, nearest) = self.curve.nearest_segment(place)?;
         Some(Vector3::new(nearest.tangent.y, -nearest.tangent.x, 0.0) * self.side)
@@ -208,7 +213,7 @@ fn transposed(rows: &[Vec<Vector4<f64>>]) -> Vec<Vec<Vector4<f64>>> {
 }
 
 /// A bound for the distance of a curve from the part of another between the places nearest to its ends.
-fn beside(part: &Cubic, own: &Cubic) -> f64 {
+fn distance_bound(part: &Cubic, own: &Cubic) -> f64 {
     let [start, .., end] = part.points;
     let other = own.part(own.nearest_parameter(start), own.nearest_parameter(end));
     part.points.iter().zip(other.points).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)

@@ -1,14 +1,14 @@
 //! The title block, with the data fields of ISO 7200.
 
-use super::paper::{Paper, rectangle};
-use super::{Facts, Group, Shape, TextAnchor, font, rounded, words};
+use super::paper::{PaperSize, rectangle};
+use super::{ShapeGroup, SheetShape, TextAnchor, TitleFacts, font, rounded, words};
 use crate::geometry::contour::Extents;
 use crate::report::{Report, Verdict};
 use nalgebra::Vector2;
 
 /// Width and height over the lettering of an A4, mm (ISO 7200: 180 mm).
-pub(super) const WIDTH: f64 = 180.0;
-pub(super) const HEIGHT: f64 = 54.0;
+pub(in crate::report) const WIDTH: f64 = 180.0;
+pub(in crate::report) const HEIGHT: f64 = 63.5;
 /// Sizes of the names of the fields, of values and of the title.
 const NAME: f64 = 2.1;
 const VALUE: f64 = 3.2;
@@ -17,57 +17,84 @@ const TITLE: f64 = 4.5;
 const INSET: f64 = 1.1;
 
 /// A field: its name, its value, and its share of the row.
-struct Cell {
+struct TitleField {
     name: &'static str,
     value: String,
     width: f64,
     size: f64,
 }
 
-fn cell(name: &'static str, value: impl Into<String>, width: f64) -> Cell {
-    Cell { name, value: value.into(), width, size: VALUE }
+fn cell(name: &'static str, value: impl Into<String>, width: f64) -> TitleField {
+    TitleField { name, value: value.into(), width, size: VALUE }
 }
 
-/// What the block tells.
-pub(super) struct Block<'a> {
-    pub(super) facts: &'a Facts,
-    pub(super) report: &'a Report,
-    pub(super) paper: &'a Paper,
+fn given(text: Option<&String>) -> String {
+    text.cloned().unwrap_or_default()
+}
+
+/// The contents of the block.
+pub(in crate::report) struct TitleBlock<'a> {
+    pub(in crate::report) facts: &'a TitleFacts,
+    pub(in crate::report) report: &'a Report,
+    pub(in crate::report) paper: &'a PaperSize,
     /// "1:2".
-    pub(super) scale: String,
-    /// The tolerance of the profile, in words.
-    pub(super) profile_tolerance: String,
+    pub(in crate::report) scale: String,
+    /// What the sheet is: "review sheet".
+    pub(in crate::report) document: &'static str,
+    /// Which sheet of how many it is: "1/1".
+    pub(in crate::report) number: &'static str,
+    /// How far the profile of the file lies from the exact one, in words.
+    pub(in crate::report) file_deviates: String,
 }
 
-impl Block<'_> {
-    fn rows(&self) -> Vec<(f64, Vec<Cell>)> {
+impl TitleBlock<'_> {
+    /// Heights of the rows and their fields.
+    fn rows(&self) -> Vec<(f64, Vec<TitleField>)> {
+        let [of_drawing, of_part] = [self.of_drawing(), self.of_part()];
+        let last = vec![
+            cell("Scale", self.scale.clone(), 24.0),
+            cell("Size", self.paper.name, 18.0),
+            cell("Sheet", self.number, 18.0),
+            cell("Checks", self.verdict(), 30.0),
+            cell("Inputs", self.report.inputs_hash(), 52.0),
+            cell("Made by camgen", env!("CARGO_PKG_VERSION"), 38.0),
+        ];
+        of_drawing.into_iter().chain(of_part).chain([(10.0, last)]).collect()
+    }
+
+    fn of_drawing(&self) -> Vec<(f64, Vec<TitleField>)> {
         let title = &self.facts.title;
-        let given = |text: &Option<String>| text.clone().unwrap_or_default();
-        let length = |value: Option<f64>| value.map_or(String::new(), |value| format!("{} mm", rounded(value)));
-        let mass = self.facts.mass_kg.map_or(String::new(), |mass| format!("{mass:.3} kg"));
-        let document = format!("{}, review sheet", self.report.noun);
+        let document = format!("{}, {}", self.report.noun, self.document);
         vec![
             (
                 10.0,
                 vec![
-                    cell("Legal owner", given(&title.owner), 60.0),
+                    cell("Legal owner", given(title.owner.as_ref()), 60.0),
                     cell("Document type", document, 60.0),
-                    cell("Identification number", given(&title.part_number), 60.0),
+                    cell("Identification number", given(title.part_number.as_ref()), 60.0),
                 ],
             ),
             (
                 15.0,
                 vec![
-                    Cell { size: TITLE, ..cell("Title", self.report.title(), 125.0) },
-                    cell("Rev.", given(&title.revision), 20.0),
-                    cell("Date of issue", given(&title.date), 35.0),
+                    TitleField { size: TITLE, ..cell("Title", self.report.title(), 125.0) },
+                    cell("Rev.", given(title.revision.as_ref()), 20.0),
+                    cell("Date of issue", given(title.date.as_ref()), 35.0),
                 ],
             ),
+        ]
+    }
+
+    fn of_part(&self) -> Vec<(f64, Vec<TitleField>)> {
+        let title = &self.facts.title;
+        let length = |value: Option<f64>| value.map_or(String::new(), |value| format!("{} mm", rounded(value)));
+        let mass = self.facts.mass_kg.map_or(String::new(), |mass| format!("{mass:.3} kg"));
+        vec![
             (
                 9.5,
                 vec![
-                    cell("Creator", given(&title.designer), 50.0),
-                    cell("Approval person", given(&title.approved), 50.0),
+                    cell("Creator", given(title.designer.as_ref()), 50.0),
+                    cell("Approval person", given(title.approved.as_ref()), 50.0),
                     cell("Material", self.facts.material.clone().unwrap_or_default(), 40.0),
                     cell("Thickness", length(self.facts.thickness_mm), 40.0),
                 ],
@@ -75,21 +102,19 @@ impl Block<'_> {
             (
                 9.5,
                 vec![
-                    cell("Profile tolerance", self.profile_tolerance.clone(), 62.0),
-                    cell("General tolerance", given(&title.general_tolerance), 48.0),
-                    cell("Surface roughness", given(&title.surface_roughness), 40.0),
+                    cell("File deviates from the exact profile", self.file_deviates.clone(), 62.0),
+                    cell("General tolerance", given(title.general_tolerance.as_ref()), 48.0),
+                    cell("Surface roughness of the profile", given(title.surface_roughness.as_ref()), 40.0),
                     cell("Mass", mass, 30.0),
                 ],
             ),
             (
-                10.0,
+                9.5,
                 vec![
-                    cell("Scale", self.scale.clone(), 24.0),
-                    cell("Size", self.paper.name, 18.0),
-                    cell("Sheet", "1/1", 18.0),
-                    cell("Checks", self.verdict(), 30.0),
-                    cell("Inputs", self.report.inputs_hash(), 52.0),
-                    cell("Made by camgen", env!("CARGO_PKG_VERSION"), 38.0),
+                    cell("Hardness", given(title.hardness.as_ref()), 40.0),
+                    cell("Depth of case", given(title.case_depth.as_ref()), 40.0),
+                    cell("Heat treatment", given(title.heat_treatment.as_ref()), 65.0),
+                    cell("Edges", given(title.edges.as_ref()), 35.0),
                 ],
             ),
         ]
@@ -105,19 +130,19 @@ impl Block<'_> {
     }
 
     /// The block with its lower right corner at a place.
-    pub(super) fn groups(&self, corner: Vector2<f64>, k: f64) -> Vec<Group> {
+    pub(in crate::report) fn groups(&self, corner: Vector2<f64>, k: f64) -> Vec<ShapeGroup> {
         let field =
             Extents { least: corner - Vector2::new(WIDTH * k, 0.0), largest: corner + Vector2::new(0.0, HEIGHT * k) };
         let (mut lines, mut names, mut values) = (rectangle(&field), Vec::new(), Vec::new());
         let mut top = field.largest.y;
         for (height, cells) in self.rows() {
             let bottom = top - height * k;
-            lines.push(Shape::Line(Vector2::new(field.least.x, bottom), Vector2::new(field.largest.x, bottom)));
+            lines.push(SheetShape::Line(Vector2::new(field.least.x, bottom), Vector2::new(field.largest.x, bottom)));
             let mut left = field.least.x;
             for cell in cells {
                 let right = left + cell.width * k;
                 if left > field.least.x {
-                    lines.push(Shape::Line(Vector2::new(left, bottom), Vector2::new(left, top)));
+                    lines.push(SheetShape::Line(Vector2::new(left, bottom), Vector2::new(left, top)));
                 }
                 let x = left + INSET * k;
                 let room = (cell.width - 2.0 * INSET) * k;
@@ -135,9 +160,9 @@ impl Block<'_> {
             top = bottom;
         }
         vec![
-            Group::new("title-block", "title block", lines),
-            Group::new("title-names", "names of the title block", names),
-            Group::new("title-values", "title block", values),
+            ShapeGroup::new("title-block", "title block", lines),
+            ShapeGroup::new("title-names", "names of the title block", names),
+            ShapeGroup::new("title-values", "title block", values),
         ]
     }
 }

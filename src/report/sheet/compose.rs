@@ -1,14 +1,14 @@
 //! A sheet from what a body shows: the smallest standard sheet at true size that holds it all, else a reduction.
 
-use super::block::{self, Block};
+use super::block::{self, TitleBlock};
 use super::marks::Marker;
-use super::panels::{self, Panel, Writer};
-use super::paper::{PAPERS, Paper, REDUCTIONS, furniture, rectangle};
-use super::placing::Taken;
-use super::{Facts, Group, Mark, STROKE, Shape, Sheet, TextAnchor, View, font, words};
+use super::panels::{self, PanelWriter, SheetPanel};
+use super::paper::{ENLARGEMENTS, PAPERS, PaperSize, REDUCTIONS, frame_and_grid, rectangle};
+use super::placing::OccupiedPaper;
+use super::{Mark, STROKE, ShapeGroup, Sheet, SheetShape, SheetView, TextAnchor, TitleFacts, font, words};
 use crate::geometry::contour::Extents;
 use crate::report::trace::{self, Trace};
-use crate::report::{Report, failed};
+use crate::report::{Finding, Report, failed};
 use nalgebra::Vector2;
 use std::borrow::Cow;
 
@@ -19,19 +19,27 @@ const DIMENSION_ROOM: f64 = 7.0;
 const DIAGRAM: f64 = 50.0;
 const STAMP: f64 = 17.0;
 const PAD: f64 = 3.0;
+/// What covers less than this at true size, mm, is too small to be read.
+const SMALL: f64 = 60.0;
 
-/// What a sheet tells besides view and report.
+/// Contents of a sheet other than view and report.
 #[derive(Debug, Clone, Copy)]
-pub struct Extras<'a> {
-    /// The tolerance of the profile, in words.
-    pub profile_tolerance: &'a str,
+pub struct SheetExtras<'a> {
+    /// How far the profile of the file lies from the exact one, in words.
+    pub file_deviates: &'a str,
+    /// Which sheet of how many it is: "1/1".
+    pub number: &'static str,
     /// A diagram below the view.
     pub traces: &'a [Trace],
+    /// The checks that a reader of paper needs.
+    pub checks: &'a [Finding],
+    /// How many checks of the written files passed that are not listed.
+    pub passed_otherwise: usize,
 }
 
 /// The regions of a sheet, millimetres of paper; the origin is that of the drawing.
-struct Layout<'a> {
-    paper: &'a Paper,
+struct Layout {
+    paper: &'static PaperSize,
     scale: f64,
     k: f64,
     /// Lower left corner of the page.
@@ -40,26 +48,43 @@ struct Layout<'a> {
     diagram: Option<Extents>,
     stamp: Option<Extents>,
     /// Panels with their upper left corners.
-    panels: Vec<(Vector2<f64>, Panel)>,
+    panels: Vec<(Vector2<f64>, SheetPanel)>,
 }
 
 /// The sheet of a view.
 #[must_use]
-pub fn compose(view: &View, report: &Report, extras: &Extras<'_>) -> Sheet {
+pub fn compose(view: &SheetView, report: &Report, extras: &SheetExtras<'_>) -> Sheet {
     let view = &with_missing_letters(view, report);
-    let covered = view.extents();
+    let covered = super::extents_of(&view.groups);
     let covered = if covered.size().iter().all(|size| size.is_finite() && *size >= 0.0) {
         covered
     } else {
         Extents { least: Vector2::zeros(), largest: Vector2::zeros() }
     };
+    let attempt = |scale: f64, paper: &'static PaperSize, k: f64| LayoutAttempt {
+        view,
+        report,
+        extras,
+        covered,
+        paper,
+        scale,
+        k,
+    };
     let fitting = |partly: bool| {
         let scales = REDUCTIONS.iter().map(|reduction| 1.0 / reduction);
         let sheets = scales.flat_map(|scale| PAPERS.iter().map(move |paper| (scale, paper)));
-        let tried = sheets.flat_map(|(scale, paper)| {
-            paper.lettering.iter().map(move |k| Tried { view, report, extras, covered, paper, scale, k: *k })
+        let tried = sheets.flat_map(|(scale, paper)| paper.lettering.iter().map(move |k| attempt(scale, paper, *k)));
+        let fits = tried.into_iter().find_map(|tried| tried.layout(partly))?;
+        // A small cam is enlarged as far as its sheet allows, a very small one on the next larger sheet.
+        let is_small = covered.size().max() < SMALL;
+        let from = PAPERS.iter().position(|paper| paper.name == fits.paper.name).unwrap_or(0);
+        let papers = PAPERS.iter().skip(from).take(if is_small { 2 } else { 1 });
+        let enlarged = papers.flat_map(|paper| ENLARGEMENTS.iter().map(move |scale| (paper, scale)));
+        let mut attempts = enlarged.filter(|_| fits.scale >= 1.0).map(|(paper, scale)| {
+            let k = if paper.name == fits.paper.name { Some(fits.k) } else { paper.lettering.first().copied() };
+            attempt(*scale, paper, k.unwrap_or(fits.k)).layout(partly)
         });
-        tried.into_iter().find_map(|tried| tried.layout(partly))
+        attempts.find_map(|found| found).or(Some(fits))
     };
     // Where no sheet holds every panel, those that do not fit are left out: the report has them.
     match fitting(false).or_else(|| fitting(true)) {
@@ -69,30 +94,30 @@ pub fn compose(view: &View, report: &Report, extras: &Extras<'_>) -> Sheet {
 }
 
 /// The view with a note of the letters that would be boxes.
-fn with_missing_letters<'a>(view: &'a View, report: &Report) -> Cow<'a, View> {
+fn with_missing_letters<'a>(view: &'a SheetView, report: &Report) -> Cow<'a, SheetView> {
     let missing = font::missing(&(report.title() + &view.facts.title.all().concat()));
     if missing.is_empty() {
         return Cow::Borrowed(view);
     }
     let codes: Vec<String> = missing.iter().map(|letter| format!("U+{:04X}", u32::from(*letter))).collect();
     let mut view = view.clone();
-    view.notes.push(format!("letters that the font of this sheet does not have: {}", codes.join(", ")));
+    view.notes.push(format!("letters that are missing in the font of this sheet: {}", codes.join(", ")));
     Cow::Owned(view)
 }
 
-struct Tried<'a> {
-    view: &'a View,
+struct LayoutAttempt<'a> {
+    view: &'a SheetView,
     report: &'a Report,
-    extras: &'a Extras<'a>,
+    extras: &'a SheetExtras<'a>,
     covered: Extents,
-    paper: &'a Paper,
+    paper: &'static PaperSize,
     scale: f64,
     k: f64,
 }
 
-impl<'a> Tried<'a> {
-    /// Where all stands, or nothing where it does not fit; `partly`: without the panels that do not fit.
-    fn layout(&self, partly: bool) -> Option<Layout<'a>> {
+impl LayoutAttempt<'_> {
+    /// The layout, or `None` where it does not fit; `partly`: without the panels that do not fit.
+    fn layout(&self, partly: bool) -> Option<Layout> {
         let k = self.k;
         let frame = self.paper.frame(Vector2::zeros()).size();
         let upright = self.paper.size.x < self.paper.size.y;
@@ -112,7 +137,7 @@ impl<'a> Tried<'a> {
             return None;
         }
         let panels = self.panels(&stacks, partly)?;
-        Some(self.placed(panels, diagram, stamp, upright))
+        Some(self.arrange(panels, diagram, stamp, upright))
     }
 
     /// Room for the dimension lines to the left and below, mm of paper.
@@ -124,17 +149,17 @@ impl<'a> Tried<'a> {
         room.sum()
     }
 
-    /// Every panel with its column and its way down, the tables of places as fine as there is room for.
-    fn panels(&self, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
+    /// Every panel with its column and its distance from the top, the tables of places as fine as there is room for.
+    fn panels(&self, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, SheetPanel)>> {
         let choices = self.view.tables.iter().map(Some).chain(self.view.tables.is_empty().then_some(None));
         let tried = choices.map(|table| flow(self.list(stacks.first()?.0, table), stacks, partly));
         tried.flatten().next()
     }
 
-    fn list(&self, width: f64, table: Option<&super::PlaceTable>) -> Vec<Panel> {
-        let writer = || Writer::new(self.k, width);
+    fn list(&self, width: f64, table: Option<&super::PlaceTable>) -> Vec<SheetPanel> {
+        let writer = || PanelWriter::new(self.k, width);
         let mut list = vec![
-            panels::checks(writer(), self.report),
+            panels::checks(writer(), self.extras.checks, self.extras.passed_otherwise),
             panels::figures(writer(), self.report),
             panels::legend(writer(), self.view),
         ];
@@ -146,12 +171,12 @@ impl<'a> Tried<'a> {
     }
 
     /// The regions, once it is known that all fits.
-    fn placed(&self, panels: Vec<(usize, f64, Panel)>, diagram: f64, stamp: f64, upright: bool) -> Layout<'a> {
+    fn arrange(&self, panels: Vec<(usize, f64, SheetPanel)>, diagram: f64, stamp: f64, upright: bool) -> Layout {
         let (k, covered) = (self.k, self.covered);
         let frame = self.paper.frame(Vector2::zeros());
         let block = Vector2::new(block::WIDTH, block::HEIGHT) * k;
         let deepest = panels.iter().map(|(_, down, panel)| down + panel.height).fold(0.0, f64::max);
-        // Upright, the panels stand on the title block; else they hang beside the view.
+        // On an upright sheet the panels are above the title block, otherwise to the right of the view.
         let low = if upright { frame.least.y + block.y + deepest + PAD * k } else { frame.least.y };
         let right = if upright { frame.largest.x } else { frame.largest.x - block.x };
         let region = Extents { least: Vector2::new(frame.least.x, low), largest: Vector2::new(right, frame.largest.y) };
@@ -159,7 +184,7 @@ impl<'a> Tried<'a> {
             least: region.least + Vector2::new(0.0, diagram),
             largest: region.largest - Vector2::new(0.0, stamp),
         };
-        // The dimensions stand to the left and below: the lines themselves are moved to the other side by half of that.
+        // The dimensions are to the left and below: the lines themselves are moved to the other side by half of that.
         let middle = 0.5 * (covered.least + covered.largest) * self.scale - 0.5 * self.dimensions();
         // The origin of the drawing stays where it is; the page moves about it.
         let corner = middle - 0.5 * (view.least + view.largest);
@@ -191,7 +216,7 @@ impl<'a> Tried<'a> {
 }
 
 /// The diagrams in equal parts of a field.
-fn beside_each_other(field: &Extents, traces: &[Trace], k: f64) -> Vec<Group> {
+fn in_a_row(field: &Extents, traces: &[Trace], k: f64) -> Vec<ShapeGroup> {
     #[expect(clippy::cast_precision_loss, reason = "a few diagrams")]
     let each = field.size().x / traces.len().max(1) as f64;
     let mut left = field.least.x;
@@ -206,7 +231,7 @@ fn beside_each_other(field: &Extents, traces: &[Trace], k: f64) -> Vec<Group> {
 }
 
 /// Puts panels into stacks one below the other; `None` where they do not fit.
-fn flow(list: Vec<Panel>, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, Panel)>> {
+fn flow(list: Vec<SheetPanel>, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(usize, f64, SheetPanel)>> {
     let (mut column, mut down, mut placed) = (0, 0.0, Vec::new());
     for panel in list {
         while down + panel.height > stacks.get(column).map_or(f64::INFINITY, |(_, height)| *height) {
@@ -222,40 +247,42 @@ fn flow(list: Vec<Panel>, stacks: &[(f64, f64)], partly: bool) -> Option<Vec<(us
     Some(placed)
 }
 
-impl Layout<'_> {
-    fn sheet(self, view: &View, report: &Report, extras: &Extras<'_>, covered: Extents) -> Sheet {
+impl Layout {
+    fn sheet(self, view: &SheetView, report: &Report, extras: &SheetExtras<'_>, covered: Extents) -> Sheet {
         let (k, scale) = (self.k, self.scale);
-        let mut groups = furniture(self.paper, self.corner);
+        let mut groups = frame_and_grid(self.paper, self.corner);
         let frame = self.paper.frame(self.corner);
-        let mut taken = Taken::none(self.view);
+        let mut taken = OccupiedPaper::none(self.view);
         for group in &view.groups {
-            let shapes: Vec<Shape> = group.shapes.iter().map(|shape| shape.scaled(scale)).collect();
+            let shapes: Vec<SheetShape> = group.shapes.iter().map(|shape| shape.scaled(scale)).collect();
             for shape in &shapes {
                 taken.put(shape);
             }
             let (id, label, colour) = (group.id.clone(), group.label.clone(), group.colour.clone());
-            groups.push(Group { id, label, colour, shapes, ..*group });
+            groups.push(ShapeGroup { id, label, colour, shapes, ..*group });
         }
         let ruler = ruler(&self.view, k);
         for shape in &ruler {
             taken.put(shape);
         }
-        groups.push(Group::new("scale", "ruler of the paper", ruler));
+        groups.push(ShapeGroup::new("scale", "ruler of the paper", ruler));
         groups.extend(self.marks(view, covered, &mut taken));
-        groups.extend(self.diagram.iter().flat_map(|field| beside_each_other(field, extras.traces, k)));
+        groups.extend(self.diagram.iter().flat_map(|field| in_a_row(field, extras.traces, k)));
         if let Some(field) = self.stamp {
             groups.extend(stamp(&field, k, report));
         }
-        groups.push(Group::new("rule", "rules", rules(&self.view, self.diagram.as_ref(), &frame, k)));
+        groups.push(ShapeGroup::new("rule", "rules", rules(&self.view, self.diagram.as_ref(), &frame, k)));
         for (corner, panel) in self.panels {
             groups.extend(panel.at(corner));
         }
-        let block = Block {
+        let block = TitleBlock {
             facts: &view.facts,
             report,
             paper: self.paper,
-            scale: if scale < 1.0 { format!("1:{}", (1.0 / scale).round()) } else { "1:1".into() },
-            profile_tolerance: extras.profile_tolerance.into(),
+            scale: if scale < 1.0 { format!("1:{}", (1.0 / scale).round()) } else { format!("{scale}:1") },
+            document: "review sheet",
+            number: extras.number,
+            file_deviates: extras.file_deviates.into(),
         };
         groups.extend(block.groups(Vector2::new(frame.largest.x, frame.least.y), k));
         Sheet {
@@ -263,23 +290,34 @@ impl Layout<'_> {
             extents: Extents { least: self.corner, largest: self.corner + self.paper.size },
             stroke: STROKE * k.min(1.4),
             scale,
-            groups: named(groups),
+            groups: with_unique_ids(groups),
         }
     }
 
-    fn marks(&self, view: &View, covered: Extents, taken: &mut Taken) -> Vec<Group> {
+    fn marks(&self, view: &SheetView, covered: Extents, taken: &mut OccupiedPaper) -> Vec<ShapeGroup> {
         let scale = self.scale;
         let covered = Extents { least: covered.least * scale, largest: covered.largest * scale };
-        let mut marker = Marker { lettering: self.k, taken, covered, lines: [0.0; 2] };
-        // What has a fixed place comes first; the labels take what is left.
-        let (free, fixed): (Vec<&Mark>, Vec<&Mark>) =
-            view.marks.iter().partition(|mark| matches!(mark, Mark::Label { .. }));
-        fixed.into_iter().chain(free).flat_map(|mark| marker.groups(&mark.scaled(scale))).collect()
+        let mut marker = Marker { lettering: self.k, taken, covered, lines: [0.0; 2], texts: Vec::new() };
+        // Dimension lines come first, then what has a fixed place, datums and their texts; the labels take the rest.
+        let is_label =
+            |mark: &&Mark| matches!(mark, Mark::Label { .. } | Mark::Tolerance { .. } | Mark::Roughness { .. });
+        let (labels, mut fixed): (Vec<&Mark>, Vec<&Mark>) = view.marks.iter().partition(is_label);
+        fixed.sort_by_key(|mark| match mark {
+            Mark::Distance { .. } => 0,
+            Mark::Datum { .. } => 2,
+            _ => 1,
+        });
+        let mut groups: Vec<ShapeGroup> = fixed.iter().flat_map(|mark| marker.groups(&mark.scaled(scale))).collect();
+        for text in std::mem::take(&mut marker.texts) {
+            groups.extend(marker.groups(&text));
+        }
+        groups.extend(labels.iter().flat_map(|mark| marker.groups(&mark.scaled(scale))));
+        groups
     }
 }
 
-/// A name stands once in a file; groups of one style that have none get one.
-fn named(mut groups: Vec<Group>) -> Vec<Group> {
+/// A name occurs once in a file; groups without a name get one.
+fn with_unique_ids(mut groups: Vec<ShapeGroup>) -> Vec<ShapeGroup> {
     let mut used = std::collections::BTreeMap::new();
     for group in &mut groups {
         let wanted = if group.id.is_empty() { group.class.to_owned() } else { group.id.clone() };
@@ -291,16 +329,16 @@ fn named(mut groups: Vec<Group>) -> Vec<Group> {
 }
 
 /// The line between view and diagram.
-fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents, k: f64) -> Vec<Shape> {
+fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents, k: f64) -> Vec<SheetShape> {
     let mut lines = Vec::new();
     if view.largest.x < frame.largest.x - k {
-        lines.push(Shape::Line(
+        lines.push(SheetShape::Line(
             Vector2::new(view.largest.x, frame.least.y),
             Vector2::new(view.largest.x, frame.largest.y),
         ));
     }
     lines.extend(diagram.map(|field| {
-        Shape::Line(Vector2::new(field.least.x, field.largest.y), Vector2::new(field.largest.x, field.largest.y))
+        SheetShape::Line(Vector2::new(field.least.x, field.largest.y), Vector2::new(field.largest.x, field.largest.y))
     }));
     lines
 }
@@ -309,22 +347,22 @@ fn rules(view: &Extents, diagram: Option<&Extents>, frame: &Extents, k: f64) -> 
 const RULER: f64 = 100.0;
 
 /// A ruler in the lower left corner of the view, by which a print is measured.
-fn ruler(view: &Extents, k: f64) -> Vec<Shape> {
+fn ruler(view: &Extents, k: f64) -> Vec<SheetShape> {
     let start = view.least + Vector2::new(3.0, 2.0) * k;
     let tick = 1.5 * k;
-    let mut shapes = vec![Shape::Line(start, start + Vector2::new(RULER, 0.0))];
+    let mut shapes = vec![SheetShape::Line(start, start + Vector2::new(RULER, 0.0))];
     for tenth in 0..=10 {
         let foot = start + Vector2::new(RULER * f64::from(tenth) / 10.0, 0.0);
         let long = if tenth % 5 == 0 { 1.6 } else { 1.0 };
-        shapes.push(Shape::Line(foot, foot + Vector2::new(0.0, long * tick)));
+        shapes.push(SheetShape::Line(foot, foot + Vector2::new(0.0, long * tick)));
     }
     let end = start + Vector2::new(RULER + 2.0 * k, 0.0);
     shapes.push(words(end, 2.6 * k, TextAnchor::Start, format!("{RULER} mm on paper")));
     shapes
 }
 
-/// What nobody can overlook on the sheet of a cam that breaks a limit.
-fn stamp(field: &Extents, k: f64, report: &Report) -> Vec<Group> {
+/// The stamp on the sheet of a cam that breaks a limit.
+fn stamp(field: &Extents, k: f64, report: &Report) -> Vec<ShapeGroup> {
     let inner = Extents { least: field.least.add_scalar(2.0 * k), largest: field.largest.add_scalar(-2.0 * k) };
     let failed = failed(&report.checks);
     let room = inner.size().x - 4.0 * k;
@@ -341,7 +379,7 @@ fn stamp(field: &Extents, k: f64, report: &Report) -> Vec<Group> {
     let (text, small) = font::fitted_in_one(&text, 3.5 * k, room);
     let base = inner.least.y + 1.0 * k + font::DESCENT * small;
     shapes.push(words(Vector2::new(middle, base), small, TextAnchor::Middle, text));
-    vec![Group::new("stamp", "stamp", shapes)]
+    vec![ShapeGroup::new("stamp", "stamp", shapes)]
 }
 
 impl Mark {
@@ -349,7 +387,12 @@ impl Mark {
     fn scaled(&self, scale: f64) -> Self {
         let mut mark = self.clone();
         match &mut mark {
-            Mark::Label { at, .. } => *at *= scale,
+            Mark::Label { at, .. } | Mark::Datum { at, .. } | Mark::Start { at, .. } => *at *= scale,
+            Mark::Tolerance { places, .. } | Mark::Roughness { places, .. } => {
+                for (at, _) in places.iter_mut() {
+                    *at *= scale;
+                }
+            }
             Mark::Distance { from, to, .. } => {
                 *from *= scale;
                 *to *= scale;
@@ -368,13 +411,13 @@ impl Mark {
     }
 }
 
-impl Facts {
-    /// The facts with what a title block can tell of a machine.
+impl TitleFacts {
+    /// The facts about a machine.
     #[must_use]
     pub fn of(machine: &crate::machine::Machine, mass_kg: Option<f64>) -> Self {
         Self {
             title: machine.title.clone(),
-            material: machine.cam.material.map(|material| material.name().to_owned()),
+            material: machine.material_name().map(str::to_owned),
             thickness_mm: machine.cam.thickness.map(|thickness| 1e3 * thickness),
             mass_kg,
         }

@@ -1,7 +1,7 @@
 //! The width of texts, by the metrics of the font that the sheets are set in.
 //!
-//! The font is Liberation Sans. Its widths are those of Arial and Helvetica, so that a viewer that has one of the three shows a
-//! sheet as it was laid out, and the PDF carries the font itself.
+//! The font is Liberation Sans. Its widths are those of Arial and Helvetica, so a viewer with one of the three shows a
+//! sheet as it was laid out; the PDF contains the font itself.
 
 use std::sync::OnceLock;
 use ttf_parser::Face;
@@ -27,35 +27,17 @@ fn advance(letter: char) -> f64 {
     glyph.map_or(UNKNOWN, |advance| f64::from(advance) / f64::from(face.units_per_em()))
 }
 
-/// Widths of the letters of ASCII from the space to the tilde, of which most texts are, in parts of the size: to look them up in the tables
-/// of the font takes longer than to set a sheet.
-const PARTS: f64 = 2048.0;
-#[rustfmt::skip]
-const ADVANCES: [u16; 95] = [
-    569, 569, 727, 1139, 1139, 1821, 1366, 391, 682, 682, 797, 1196, 569, 682, 569, 569, 1139, 1139, 1139, 1139,
-    1139, 1139, 1139, 1139, 1139, 1139, 569, 569, 1196, 1196, 1196, 1139, 2079, 1366, 1366, 1479, 1479, 1366, 1251,
-    1593, 1479, 569, 1024, 1366, 1139, 1706, 1479, 1593, 1366, 1593, 1479, 1366, 1251, 1479, 1366, 1933, 1366, 1366,
-    1251, 569, 569, 569, 961, 1139, 682, 1139, 1139, 1024, 1139, 1139, 569, 1139, 1139, 455, 455, 1024, 455, 1706,
-    1139, 1139, 1139, 1139, 682, 1024, 569, 1139, 1024, 1479, 1024, 1024, 1024, 684, 532, 684, 1196,
-];
-
-/// The place of a letter in that table.
-fn place(letter: char) -> Option<usize> {
-    (letter as usize).checked_sub(' ' as usize).filter(|place| *place < ADVANCES.len())
-}
-
 /// Width of a text of a size, in the unit of the size.
 #[must_use]
 pub fn width(text: &str, size: f64) -> f64 {
-    let known = |letter: char| ADVANCES.get(place(letter)?).map(|advance| f64::from(*advance) / PARTS);
-    size * text.chars().map(|letter| known(letter).unwrap_or_else(|| advance(letter))).sum::<f64>()
+    size * text.chars().map(advance).sum::<f64>()
 }
 
 /// Letters of a text that the font does not have, each once.
 #[must_use]
 pub fn missing(text: &str) -> Vec<char> {
     let in_face = |letter: char| face().is_none_or(|face| face.glyph_index(letter).is_some());
-    let has = |letter: char| place(letter).is_some() || letter.is_whitespace() || in_face(letter);
+    let has = |letter: char| letter.is_whitespace() || in_face(letter);
     let mut missing: Vec<char> = text.chars().filter(|letter| !has(*letter)).collect();
     missing.sort_unstable();
     missing.dedup();
@@ -130,14 +112,6 @@ mod tests {
         assert!((width("0", 2048.0) - 1139.0).abs() < 1e-9);
         assert!((width("A 0", 2048.0) - (1366.0 + 569.0 + 1139.0)).abs() < 1e-9);
         assert!(width("Пресс ДПИ", 3.0) > 0.0 && width("θφα°±⌀µ²", 3.0) < 8.0 * 3.0);
-    }
-
-    #[test]
-    fn letters_of_ascii_are_as_wide_as_in_the_font() {
-        for letter in ' '..='~' {
-            assert!(face().is_some_and(|face| face.glyph_index(letter).is_some()), "{letter}");
-            assert_eq!(width(&letter.to_string(), 1.0), advance(letter), "{letter}");
-        }
     }
 
     #[test]

@@ -1,10 +1,10 @@
-//! The review sheet: what a person looks at before the metal is cut. A body says what is seen ([`View`], true size); [`fn@compose`]
+//! The review sheet, for a person to check before the metal is cut. A body says what is shown ([`SheetView`], true size); [`fn@compose`]
 //! chooses paper and scale, and places everything on it.
 //!
-//! All lengths on a sheet are millimetres of paper, y upwards; the origin is that of the drawing. Every text is measured with the
-//! font it is set in, and set where it meets no line, no other text and no frame.
+//! All lengths on a sheet are millimetres of paper, y upwards; the origin is that of the drawing. Every text is measured with its
+//! font, and placed where it touches no line, no other text and no frame.
 
-mod block;
+pub(super) mod block;
 mod compose;
 pub mod font;
 pub(super) mod marks;
@@ -14,11 +14,13 @@ pub(super) mod placing;
 pub(super) mod scheme;
 mod view;
 
-pub use compose::{Extras, compose};
-pub use view::{Facts, Mark, PlaceTable, View};
+pub use compose::{SheetExtras, compose};
+pub(crate) use view::extents_of;
+pub use view::{Mark, PlaceTable, ProfileTolerance, SheetView, TitleFacts};
 
 use crate::geometry::Entity;
-use crate::geometry::contour::{Bend, Contour, Extents, Vertex};
+use crate::geometry::contour::{Bend, Contour, Extents, Segment, Vertex};
+use crate::report::shown;
 use nalgebra::Vector2;
 
 /// Which part of a text is at its place.
@@ -34,8 +36,8 @@ pub enum TextAnchor {
 
 /// A thing on the sheet.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
-    /// Something closed.
+pub enum SheetShape {
+    /// Something that is cut.
     Entity(Entity),
     /// A straight line.
     Line(Vector2<f64>, Vector2<f64>),
@@ -60,7 +62,7 @@ pub enum Shape {
 
 /// Shapes that belong together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Group {
+pub struct ShapeGroup {
     /// Name for programs, ASCII without spaces.
     pub id: String,
     /// The class that gives its style.
@@ -70,21 +72,21 @@ pub struct Group {
     /// Colour of its lines, where the colour carries information.
     pub colour: Option<String>,
     /// What is in it.
-    pub shapes: Vec<Shape>,
-    /// It has a line in the legend.
+    pub shapes: Vec<SheetShape>,
+    /// Whether it has a line in the legend.
     pub in_legend: bool,
 }
 
-impl Group {
+impl ShapeGroup {
     /// A group whose style class is its name.
     #[must_use]
-    pub fn new(id: &'static str, label: &str, shapes: Vec<Shape>) -> Self {
+    pub fn new(id: &'static str, label: &str, shapes: Vec<SheetShape>) -> Self {
         Self { id: id.into(), class: id, label: label.into(), colour: None, shapes, in_legend: false }
     }
 
-    /// The same, told in the legend by its label.
+    /// The group with a line of its own in the legend.
     #[must_use]
-    pub fn told(self) -> Self {
+    pub fn with_legend(self) -> Self {
         Self { in_legend: true, ..self }
     }
 }
@@ -101,35 +103,40 @@ pub struct Sheet {
     /// Length on the sheet of a millimetre: 1 at true size, 0.5 at 1:2.
     pub scale: f64,
     /// The groups, from the back to the front.
-    pub groups: Vec<Group>,
+    pub groups: Vec<ShapeGroup>,
 }
 
 /// Thickness of a thin line over the size of the lettering of an A4, mm (ISO 128: a thick one is twice as thick).
 pub(crate) const STROKE: f64 = 0.25;
 
-impl Shape {
+impl SheetShape {
     /// The shape at another scale about the origin.
     #[must_use]
     fn scaled(&self, scale: f64) -> Self {
         match self {
-            Shape::Entity(Entity::Circle(centre, radius)) => {
-                Shape::Entity(Entity::Circle(centre * scale, radius * scale))
+            SheetShape::Entity(Entity::Circle(centre, radius)) => {
+                SheetShape::Entity(Entity::Circle(centre * scale, radius * scale))
             }
-            Shape::Entity(Entity::Polyline(contour)) => Shape::Entity(Entity::Polyline(scaled(contour, scale))),
-            Shape::Line(a, b) => Shape::Line(a * scale, b * scale),
-            Shape::Path(points) => Shape::Path(points.iter().map(|point| point * scale).collect()),
-            Shape::Arc(a, b, bulge) => Shape::Arc(a * scale, b * scale, *bulge),
-            Shape::Triangle(corners) => Shape::Triangle(corners.map(|corner| corner * scale)),
-            Shape::Text { at, height, anchor, text } => {
-                Shape::Text { at: at * scale, height: height * scale, anchor: *anchor, text: text.clone() }
+            SheetShape::Entity(Entity::Polyline(contour)) => {
+                SheetShape::Entity(Entity::Polyline(scaled(contour, scale)))
+            }
+            SheetShape::Entity(Entity::Segment(Segment { start, end, bulge })) => {
+                SheetShape::Entity(Entity::Segment(Segment { start: start * scale, end: end * scale, bulge: *bulge }))
+            }
+            SheetShape::Line(a, b) => SheetShape::Line(a * scale, b * scale),
+            SheetShape::Path(points) => SheetShape::Path(points.iter().map(|point| point * scale).collect()),
+            SheetShape::Arc(a, b, bulge) => SheetShape::Arc(a * scale, b * scale, *bulge),
+            SheetShape::Triangle(corners) => SheetShape::Triangle(corners.map(|corner| corner * scale)),
+            SheetShape::Text { at, height, anchor, text } => {
+                SheetShape::Text { at: at * scale, height: height * scale, anchor: *anchor, text: text.clone() }
             }
         }
     }
 
-    /// The field that a text takes, with the metrics of its font; `None` of what is no text.
+    /// The field that a text takes, with the metrics of its font; `None` for other shapes.
     #[must_use]
     pub fn text_field(&self) -> Option<Extents> {
-        let Shape::Text { at, height, anchor, text } = self else { return None };
+        let SheetShape::Text { at, height, anchor, text } = self else { return None };
         let width = font::width(text, *height);
         let left = match anchor {
             TextAnchor::Start => at.x,
@@ -155,15 +162,15 @@ fn scaled(contour: &Contour, scale: f64) -> Contour {
 }
 
 /// A text on the sheet.
-pub(crate) fn words(at: Vector2<f64>, height: f64, anchor: TextAnchor, text: impl Into<String>) -> Shape {
-    Shape::Text { at, height, anchor, text: text.into() }
+pub(crate) fn words(at: Vector2<f64>, height: f64, anchor: TextAnchor, text: impl Into<String>) -> SheetShape {
+    SheetShape::Text { at, height, anchor, text: text.into() }
 }
 
-/// A number for a person: three decimals at the most, no trailing zeros.
+/// A number for a person: at most three decimals, no trailing zeros.
 pub(crate) fn rounded(value: f64) -> String {
     if !value.is_finite() {
         return "none".into();
     }
     let rounded = (value * 1e3).round() / 1e3 + 0.0;
-    if rounded == 0.0 && value != 0.0 { format!("{value:.1e}") } else { rounded.to_string() }
+    if rounded == 0.0 { shown(value) } else { rounded.to_string() }
 }

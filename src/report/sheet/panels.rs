@@ -1,6 +1,6 @@
-//! What stands beside the drawing: verdicts, figures, legend, tables. Each panel is set in a width and tells its height.
+//! The panels next to the drawing: verdicts, figures, legend, tables. Each panel is laid out in a width and reports its height.
 
-use super::{Group, PlaceTable, Shape, TextAnchor, View, font, words};
+use super::{PlaceTable, ShapeGroup, SheetShape, SheetView, TextAnchor, font, words};
 use crate::report::{Finding, Place, Report, Verdict};
 use nalgebra::Vector2;
 
@@ -20,43 +20,43 @@ const MOST_NOTES: usize = 12;
 
 /// A panel, its upper left corner at the origin, downwards.
 #[derive(Debug, Clone)]
-pub(super) struct Panel {
+pub(super) struct SheetPanel {
     pub(super) height: f64,
-    pub(super) groups: Vec<Group>,
+    pub(super) groups: Vec<ShapeGroup>,
 }
 
-impl Panel {
+impl SheetPanel {
     /// Its groups with the corner at a place.
-    pub(super) fn at(self, corner: Vector2<f64>) -> impl Iterator<Item = Group> {
-        let moved = move |shape: Shape| match shape {
-            Shape::Text { at, height, anchor, text } => Shape::Text { at: at + corner, height, anchor, text },
-            Shape::Line(a, b) => Shape::Line(a + corner, b + corner),
+    pub(super) fn at(self, corner: Vector2<f64>) -> impl Iterator<Item = ShapeGroup> {
+        let moved = move |shape: SheetShape| match shape {
+            SheetShape::Text { at, height, anchor, text } => SheetShape::Text { at: at + corner, height, anchor, text },
+            SheetShape::Line(a, b) => SheetShape::Line(a + corner, b + corner),
             other => other,
         };
         self.groups.into_iter().map(move |group| {
             let shapes = group.shapes.into_iter().map(&moved).collect();
-            Group { shapes, ..group }
+            ShapeGroup { shapes, ..group }
         })
     }
 }
 
 /// A pen that writes a panel from its top to its bottom.
-pub(super) struct Writer {
+pub(super) struct PanelWriter {
     k: f64,
     width: f64,
     down: f64,
-    groups: Vec<Group>,
+    groups: Vec<ShapeGroup>,
 }
 
-impl Writer {
+impl PanelWriter {
     pub(super) fn new(lettering: f64, width: f64) -> Self {
         Self { k: lettering, width: width / lettering, down: 0.0, groups: Vec::new() }
     }
 
-    fn push(&mut self, class: &'static str, shape: Shape) {
+    fn push(&mut self, class: &'static str, shape: SheetShape) {
         match self.groups.iter_mut().find(|group| group.class == class) {
             Some(group) => group.shapes.push(shape),
-            None => self.groups.push(Group::new(class, class, vec![shape])),
+            None => self.groups.push(ShapeGroup::new(class, class, vec![shape])),
         }
     }
 
@@ -75,11 +75,15 @@ impl Writer {
     }
 
     fn heading(&mut self, text: &str) {
-        self.down += HEADING;
-        self.text("facts", 0.0, HEADING, TextAnchor::Start, text);
+        for line in font::wrapped(text, HEADING, self.width) {
+            self.down += HEADING;
+            self.text("facts", 0.0, HEADING, TextAnchor::Start, line);
+            self.down += 0.2 * HEADING;
+        }
+        self.down -= 0.2 * HEADING;
         self.down += 0.35 * HEADING;
         let (y, width) = (-self.down * self.k, self.width * self.k);
-        self.push("rule", Shape::Line(Vector2::new(0.0, y), Vector2::new(width, y)));
+        self.push("rule", SheetShape::Line(Vector2::new(0.0, y), Vector2::new(width, y)));
         self.down += 0.3 * HEADING;
     }
 
@@ -90,8 +94,8 @@ impl Writer {
         }
     }
 
-    fn done(self) -> Panel {
-        Panel { height: (self.down + GAP) * self.k, groups: self.groups }
+    fn done(self) -> SheetPanel {
+        SheetPanel { height: (self.down + GAP) * self.k, groups: self.groups }
     }
 }
 
@@ -104,24 +108,27 @@ fn class_of(verdict: Verdict) -> &'static str {
     }
 }
 
-/// The checks, a row each.
-pub(super) fn checks(mut writer: Writer, report: &Report) -> Panel {
+/// The checks, a row each, and how many others passed.
+pub(super) fn checks(mut writer: PanelWriter, checks: &[Finding], passed_otherwise: usize) -> SheetPanel {
     writer.heading("Checks");
     let wide = writer.width >= NARROW;
     let columns: &[f64] = if wide { &[0.0, 11.0, 52.0, 96.0, 146.0] } else { &[0.0, 9.0, 39.0, 65.0] };
     let ends = columns.iter().skip(1).chain([&writer.width]).copied();
     let rooms: Vec<(f64, f64)> = columns.iter().copied().zip(ends).map(|(x, end)| (x, end - x - 1.5)).collect();
-    for finding in &report.checks {
+    for finding in checks {
         writer.down += LINE;
         let class = class_of(finding.verdict);
         for (index, ((x, room), text)) in rooms.iter().zip(cells(finding)).enumerate() {
             writer.cell(if index == 0 { class } else { "facts" }, *x, *room, &text);
         }
     }
+    if passed_otherwise > 0 {
+        writer.paragraph("facts", &format!("and {passed_otherwise} checks of the written files, all passed"));
+    }
     writer.done()
 }
 
-/// With this the note of a check begins whose keys are absent.
+/// The start of the note of a check whose keys are absent.
 const NOT_RUN: &str = "not run";
 
 fn cells(finding: &Finding) -> [String; 5] {
@@ -129,11 +136,11 @@ fn cells(finding: &Finding) -> [String; 5] {
     let place = if finding.place == Place::default() { String::new() } else { format!("at {}", finding.place) };
     let run = finding.note.as_ref().is_none_or(|note| !note.starts_with(NOT_RUN));
     let value = if run { finding.value_words() } else { NOT_RUN.into() };
-    [finding.verdict.word().into(), finding.check.to_string(), value, limit, place]
+    [finding.verdict.word().into(), finding.check.replace('_', " "), value, limit, place]
 }
 
-/// What the report's sections say in a few figures.
-pub(super) fn figures(mut writer: Writer, report: &Report) -> Panel {
+/// The main figures of the report's sections.
+pub(super) fn figures(mut writer: PanelWriter, report: &Report) -> SheetPanel {
     writer.heading("Figures");
     for figure in report.figures() {
         writer.paragraph("facts", &figure);
@@ -142,23 +149,23 @@ pub(super) fn figures(mut writer: Writer, report: &Report) -> Panel {
 }
 
 /// A line for each kind of line of the drawing.
-pub(super) fn legend(mut writer: Writer, view: &View) -> Panel {
+pub(super) fn legend(mut writer: PanelWriter, view: &SheetView) -> SheetPanel {
     writer.heading("Lines");
-    let told: Vec<&Group> = view.groups.iter().filter(|group| group.in_legend).collect();
-    let longest = told.iter().map(|group| font::width(&group.label, TEXT)).fold(0.0, f64::max);
+    let listed: Vec<&ShapeGroup> = view.groups.iter().filter(|group| group.in_legend).collect();
+    let longest = listed.iter().map(|group| font::width(&group.label, TEXT)).fold(0.0, f64::max);
     let each = SAMPLE + 2.0 + longest + 4.0;
     let fits = (writer.width / each).floor().clamp(1.0, 3.0);
     let mut column = 0.0;
-    for (index, group) in told.iter().enumerate() {
+    for (index, group) in listed.iter().enumerate() {
         if column == 0.0 {
             writer.down += LINE;
         }
         let x = column * writer.width / fits;
         let y = -(writer.down - 0.35 * TEXT) * writer.k;
-        let sample = Shape::Line(Vector2::new(x * writer.k, y), Vector2::new((x + SAMPLE) * writer.k, y));
+        let sample = SheetShape::Line(Vector2::new(x * writer.k, y), Vector2::new((x + SAMPLE) * writer.k, y));
         let colour = group.colour.clone();
         let id = format!("legend-{index}");
-        writer.groups.push(Group { id, colour, ..Group::new(group.class, &group.label, vec![sample]) });
+        writer.groups.push(ShapeGroup { id, colour, ..ShapeGroup::new(group.class, &group.label, vec![sample]) });
         let room = writer.width / fits - SAMPLE - 3.0;
         let (_, size) = font::fitted_in_one(&group.label, TEXT, room);
         writer.text("facts", x + SAMPLE + 2.0, size, TextAnchor::Start, group.label.clone());
@@ -167,8 +174,8 @@ pub(super) fn legend(mut writer: Writer, view: &View) -> Panel {
     writer.done()
 }
 
-/// What must be said besides.
-pub(super) fn notes(mut writer: Writer, view: &View, report: &Report) -> Panel {
+/// The notes.
+pub(super) fn notes(mut writer: PanelWriter, view: &SheetView, report: &Report) -> SheetPanel {
     writer.heading("Notes");
     for lost in &view.lost {
         writer.paragraph("fail", lost);
@@ -184,7 +191,7 @@ pub(super) fn notes(mut writer: Writer, view: &View, report: &Report) -> Panel {
 }
 
 /// A table of places in as many blocks side by side as fit.
-pub(super) fn places(mut writer: Writer, table: &PlaceTable) -> Panel {
+pub(super) fn places(mut writer: PanelWriter, table: &PlaceTable) -> SheetPanel {
     writer.heading(&table.title);
     #[expect(clippy::cast_precision_loss, reason = "a few columns")]
     let block = PLACE_COLUMN * table.heads.len() as f64 + 3.0;

@@ -1,28 +1,31 @@
 //! Sheets of ISO 5457 and scales of ISO 5455.
 
-use super::{Group, Shape, TextAnchor};
+use super::{ShapeGroup, SheetShape, TextAnchor};
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
 /// A sheet of paper, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Paper {
+pub struct PaperSize {
     /// "A4".
     pub name: &'static str,
     /// Width and height, mm: A4 upright, the others lengthwise (ISO 5457).
     pub size: Vector2<f64>,
-    /// Sizes of the lettering, the largest first: over that of an A4. A larger sheet is looked at from farther away, and at a width
+    /// Sizes of the lettering, the largest first: over that of an A4. A larger sheet is viewed from farther away, and at a width
     /// of a screen.
     pub lettering: &'static [f64],
 }
 
 /// The sheets, the smallest first.
-pub const PAPERS: &[Paper] = &[
-    Paper { name: "A4", size: Vector2::new(210.0, 297.0), lettering: &[1.0] },
-    Paper { name: "A3", size: Vector2::new(420.0, 297.0), lettering: &[1.0] },
-    Paper { name: "A2", size: Vector2::new(594.0, 420.0), lettering: &[1.4, 1.2] },
-    Paper { name: "A1", size: Vector2::new(841.0, 594.0), lettering: &[2.0, 1.8, 1.6, 1.4, 1.2, 1.0] },
+pub const PAPERS: &[PaperSize] = &[
+    PaperSize { name: "A4", size: Vector2::new(210.0, 297.0), lettering: &[1.0] },
+    PaperSize { name: "A3", size: Vector2::new(420.0, 297.0), lettering: &[1.0] },
+    PaperSize { name: "A2", size: Vector2::new(594.0, 420.0), lettering: &[1.4, 1.2] },
+    PaperSize { name: "A1", size: Vector2::new(841.0, 594.0), lettering: &[2.0, 1.8, 1.6, 1.4, 1.2, 1.0] },
 ];
+
+/// Enlargements of ISO 5455, the largest first: a length on the sheet is this many true lengths.
+pub const ENLARGEMENTS: &[f64] = &[10.0, 5.0, 2.0];
 
 /// Reductions of ISO 5455: a length on the sheet is a true length over this.
 pub const REDUCTIONS: &[f64] =
@@ -37,7 +40,7 @@ const BORDER: f64 = 5.0;
 const FIELD: f64 = 50.0;
 const LETTER: f64 = 3.5;
 
-impl Paper {
+impl PaperSize {
     /// The frame within a page whose lower left corner lies at a place.
     #[must_use]
     pub fn frame(&self, corner: Vector2<f64>) -> Extents {
@@ -49,22 +52,22 @@ impl Paper {
 }
 
 /// The four sides of a rectangle.
-pub(super) fn rectangle(rect: &Extents) -> Vec<Shape> {
+pub(in crate::report) fn rectangle(rect: &Extents) -> Vec<SheetShape> {
     let [a, c] = [rect.least, rect.largest];
     let [b, d] = [Vector2::new(c.x, a.y), Vector2::new(a.x, c.y)];
-    vec![Shape::Line(a, b), Shape::Line(b, c), Shape::Line(c, d), Shape::Line(d, a)]
+    vec![SheetShape::Line(a, b), SheetShape::Line(b, c), SheetShape::Line(c, d), SheetShape::Line(d, a)]
 }
 
 /// Frame, border with the grid reference, and centring marks.
-pub(in crate::report) fn furniture(paper: &Paper, corner: Vector2<f64>) -> Vec<Group> {
+pub(in crate::report) fn frame_and_grid(paper: &PaperSize, corner: Vector2<f64>) -> Vec<ShapeGroup> {
     let frame = paper.frame(corner);
     let outer = Extents { least: frame.least.add_scalar(-BORDER), largest: frame.largest.add_scalar(BORDER) };
     let middle = 0.5 * (frame.least + frame.largest);
     let mut marks = vec![
-        Shape::Line(Vector2::new(middle.x, outer.least.y), Vector2::new(middle.x, frame.least.y)),
-        Shape::Line(Vector2::new(middle.x, frame.largest.y), Vector2::new(middle.x, outer.largest.y)),
-        Shape::Line(Vector2::new(outer.least.x, middle.y), Vector2::new(frame.least.x, middle.y)),
-        Shape::Line(Vector2::new(frame.largest.x, middle.y), Vector2::new(outer.largest.x, middle.y)),
+        SheetShape::Line(Vector2::new(middle.x, outer.least.y), Vector2::new(middle.x, frame.least.y)),
+        SheetShape::Line(Vector2::new(middle.x, frame.largest.y), Vector2::new(middle.x, outer.largest.y)),
+        SheetShape::Line(Vector2::new(outer.least.x, middle.y), Vector2::new(frame.least.x, middle.y)),
+        SheetShape::Line(Vector2::new(frame.largest.x, middle.y), Vector2::new(outer.largest.x, middle.y)),
     ];
     marks.extend(rectangle(&frame));
     let mut grid = rectangle(&outer);
@@ -88,16 +91,16 @@ pub(in crate::report) fn furniture(paper: &Paper, corner: Vector2<f64>) -> Vec<G
         for (from, to) in strips {
             let point = |a: f64, b: f64| if along == 0 { Vector2::new(a, b) } else { Vector2::new(b, a) };
             let inner = edges.get(1..count).unwrap_or_default();
-            grid.extend(inner.iter().map(|edge| Shape::Line(point(*edge, from), point(*edge, to))));
+            grid.extend(inner.iter().map(|edge| SheetShape::Line(point(*edge, from), point(*edge, to))));
             for (index, (a, b)) in edges.iter().zip(edges.iter().skip(1)).enumerate() {
                 let at = point(0.5 * (a + b), 0.5 * (from + to)) - Vector2::new(0.0, 0.36 * LETTER);
                 // Numbers from the left, letters from the top.
                 let text = if along == 0 { (index + 1).to_string() } else { letter(count - 1 - index) };
-                grid.push(Shape::Text { at, height: LETTER, anchor: TextAnchor::Middle, text });
+                grid.push(SheetShape::Text { at, height: LETTER, anchor: TextAnchor::Middle, text });
             }
         }
     }
-    vec![Group::new("grid-reference", "grid reference", grid), Group::new("frame", "frame", marks)]
+    vec![ShapeGroup::new("grid-reference", "grid reference", grid), ShapeGroup::new("frame", "frame", marks)]
 }
 
 /// Letters of the grid reference, without I and O.

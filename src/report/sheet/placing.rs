@@ -1,21 +1,26 @@
-//! Where on the paper there is nothing yet: a map of cells, so that a text finds its place in a few microseconds.
+//! The free parts of the paper: a map of cells, so that a place for a text is found in a few microseconds.
 
-use super::{Shape, TextAnchor, font, words};
+use super::{SheetShape, TextAnchor, font, words};
 use crate::geometry::contour::{Edge, Extents, Segment};
 use nalgebra::Vector2;
 
 /// Side of a cell, mm.
 const CELL: f64 = 0.8;
-/// Distance of two points of a line that tell in which cells it is, mm.
+/// Distance of the points of a line by which its cells are found, mm.
 const NEAR: f64 = 0.5 * CELL;
-/// Most points of a curve: one far larger than any paper is not followed closer.
+/// Most points of a curve: a curve far larger than any paper is followed coarsely.
 const MOST: f64 = 4000.0;
 
-/// How soon the corner of a text, not its side, looks back at its place.
+/// How soon the corner of a text, not its side, is nearest to its place.
 const LEAN: f64 = 1.6;
 
 /// The field of a text of these half sides, so far from a place in a direction (a unit vector).
-pub(in crate::report) fn beside(at: Vector2<f64>, along: Vector2<f64>, distance: f64, half: Vector2<f64>) -> Extents {
+pub(in crate::report) fn field_near(
+    at: Vector2<f64>,
+    along: Vector2<f64>,
+    distance: f64,
+    half: Vector2<f64>,
+) -> Extents {
     let lean = (along * LEAN).map(|part| part.clamp(-1.0, 1.0)).component_mul(&half);
     let middle = at + along * distance + lean;
     Extents { least: middle - half, largest: middle + half }
@@ -27,14 +32,14 @@ pub(in crate::report) fn half_field(text: &str, size: f64) -> Vector2<f64> {
 }
 
 /// A text that fills a field.
-pub(in crate::report) fn filling(field: &Extents, size: f64, text: &str) -> Shape {
+pub(in crate::report) fn filling(field: &Extents, size: f64, text: &str) -> SheetShape {
     let base = Vector2::new(0.5 * (field.least.x + field.largest.x), field.least.y + font::DESCENT * size);
     words(base, size, TextAnchor::Middle, text)
 }
 
-/// What already stands in a region of the paper.
+/// The occupied cells of a region of the paper.
 #[derive(Debug)]
-pub(in crate::report) struct Taken {
+pub(in crate::report) struct OccupiedPaper {
     region: Extents,
     across: usize,
     rows: usize,
@@ -42,8 +47,8 @@ pub(in crate::report) struct Taken {
     texts: Vec<bool>,
 }
 
-impl Taken {
-    /// Nothing stands there.
+impl OccupiedPaper {
+    /// A region that is free.
     pub(in crate::report) fn none(region: Extents) -> Self {
         let count = |length: f64| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a sheet of paper")]
@@ -78,22 +83,26 @@ impl Taken {
             .all(|point| self.cell(point).is_none_or(|cell| !self.texts.get(cell).copied().unwrap_or(false)))
     }
 
-    /// A shape stands there.
-    pub(in crate::report) fn put(&mut self, shape: &Shape) {
+    /// Marks the cells of a shape as occupied.
+    pub(in crate::report) fn put(&mut self, shape: &SheetShape) {
         if let Some(field) = shape.text_field() {
             self.fill(&field);
         }
         match shape {
-            Shape::Entity(entity) => entity.contour().edges().for_each(|edge| self.put_edge(&edge)),
-            Shape::Line(a, b) => self.put_line(*a, *b),
-            Shape::Path(points) => {
+            SheetShape::Entity(entity) => entity.contour().edges().for_each(|edge| self.put_edge(&edge)),
+            SheetShape::Line(a, b) => self.put_line(*a, *b),
+            SheetShape::Path(points) => {
                 points.iter().zip(points.iter().skip(1)).for_each(|(a, b)| self.put_line(*a, *b));
             }
-            Shape::Arc(start, end, bulge) => {
+            SheetShape::Arc(start, end, bulge) => {
                 self.put_edge(&Edge::Segment(Segment { start: *start, end: *end, bulge: *bulge }));
             }
-            Shape::Triangle([a, b, c]) => [(a, b), (b, c), (c, a)].iter().for_each(|(a, b)| self.put_line(**a, **b)),
-            Shape::Text { .. } => {}
+            SheetShape::Triangle([a, b, c]) => {
+                for (start, end) in [(a, b), (b, c), (c, a)] {
+                    self.put_line(*start, *end);
+                }
+            }
+            SheetShape::Text { .. } => {}
         }
     }
 
@@ -129,7 +138,7 @@ impl Taken {
         }
     }
 
-    /// The cells that a field touches, a hair wider on every side.
+    /// The cells that a field touches, slightly widened on every side.
     fn cells(&self, field: &Extents) -> impl Iterator<Item = usize> + use<> {
         let at = |value: f64, most: usize| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
@@ -152,7 +161,7 @@ impl Taken {
         }
     }
 
-    /// Whether a field lies in the region and nothing stands in it.
+    /// Whether a field lies in the region and is free.
     pub(in crate::report) fn free(&self, field: &Extents) -> bool {
         let inside = field.least.x >= self.region.least.x
             && field.least.y >= self.region.least.y

@@ -1,26 +1,31 @@
-//! A directory by its path, where the system gives no handle to look names up in.
+//! A directory by its path, on systems without a handle to look names up in.
 
-use super::{Stamp, Standing};
+use super::{FileStamp, NameState};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Whose a file is: nothing is known of that.
+/// The owner of a file, which is unknown here.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::write) struct Owned {
-    stamp: Stamp,
+pub(in crate::write) struct FileOwner {
+    stamp: FileStamp,
 }
 
-impl Owned {
-    pub(in crate::write) fn stamp(&self) -> &Stamp {
+impl FileOwner {
+    pub(in crate::write) fn stamp(&self) -> &FileStamp {
         &self.stamp
+    }
+
+    /// Owners are not known: whoever may write here may replace every file.
+    pub(in crate::write) fn is_own(&self) -> bool {
+        true
     }
 }
 
 #[derive(Debug)]
-pub(super) struct Held(PathBuf);
+pub(super) struct DirectoryHandle(PathBuf);
 
-impl Held {
+impl DirectoryHandle {
     pub(super) fn open(path: &Path) -> io::Result<Self> {
         fs::read_dir(path).map(|_| Self(path.to_owned()))
     }
@@ -33,20 +38,21 @@ impl Held {
         Ok(self.0 == path)
     }
 
-    pub(super) fn standing(&self, name: &str) -> io::Result<Standing> {
+    pub(super) fn state_of(&self, name: &str) -> io::Result<NameState> {
         let data = match fs::symlink_metadata(self.0.join(name)) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Standing::Nothing),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(NameState::Nothing),
             data => data?,
         };
         let kind = data.file_type();
+        let owner = || FileOwner { stamp: FileStamp(format!("{} {:?}", data.len(), data.modified().ok())) };
         Ok(if kind.is_file() {
-            Standing::File(Owned { stamp: Stamp(format!("{} {:?}", data.len(), data.modified().ok())) })
+            NameState::File(owner())
         } else if kind.is_dir() {
-            Standing::Directory
+            NameState::Directory
         } else if kind.is_symlink() {
-            Standing::Link
+            NameState::Link(owner())
         } else {
-            Standing::Other
+            NameState::Other
         })
     }
 
@@ -73,7 +79,11 @@ impl Held {
             .collect()
     }
 
-    pub(super) fn guards(&self, _: &str, _: &Owned) -> io::Result<bool> {
+    pub(super) fn is_protected(&self, _: &str, _: &FileOwner) -> io::Result<bool> {
+        Ok(false)
+    }
+
+    pub(super) fn is_sticky(&self) -> io::Result<bool> {
         Ok(false)
     }
 
@@ -82,12 +92,12 @@ impl Held {
     }
 }
 
-/// There are no locks of directories.
+/// There are no locks on directories.
 pub(super) fn has_no_locks(_: &io::Error) -> bool {
     true
 }
 
-/// Nothing is known of owners.
-pub(in crate::write) fn give(_: &File, _: &Owned) -> io::Result<()> {
+/// Nothing is known about owners.
+pub(in crate::write) fn give(_: &File, _: &FileOwner) -> io::Result<()> {
     Ok(())
 }

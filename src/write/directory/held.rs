@@ -1,6 +1,6 @@
 //! A directory by its handle: every name is looked up in the directory that was opened.
 
-use super::{Stamp, Standing};
+use super::{FileStamp, NameState};
 use rustix::fs::{AtFlags, Dir, FileType, Gid, Mode, OFlags, Stat, Uid};
 use rustix::io::Errno;
 use std::fs::{self, File, TryLockError};
@@ -8,41 +8,46 @@ use std::io;
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
-/// Who may read and write a file that gets its permissions from the one it replaces, until it has them.
+/// Permissions of a file until it gets those of the file it replaces.
 const PRIVATE: Mode = Mode::RUSR.union(Mode::WUSR);
-/// Who may read and write a new file, less what the user's mask takes.
+/// Permissions of a new file, before the user's mask is applied.
 const NEW: Mode = Mode::RUSR.union(Mode::WUSR).union(Mode::RGRP).union(Mode::WGRP).union(Mode::ROTH).union(Mode::WOTH);
-/// Of a mode, what says who may read, write and execute.
+/// The permission bits of a mode.
 const PERMISSIONS: Mode = Mode::RWXU.union(Mode::RWXG).union(Mode::RWXO);
 
-/// Whose a file is, and who may do what with it.
+/// The owner of a file, and its permissions.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::write) struct Owned {
+pub(in crate::write) struct FileOwner {
     mode: Mode,
     user: Uid,
     group: Gid,
-    stamp: Stamp,
+    stamp: FileStamp,
 }
 
-impl Owned {
+impl FileOwner {
     fn of(stat: &Stat) -> Self {
         Self {
             mode: Mode::from_raw_mode(stat.st_mode) & PERMISSIONS,
             user: Uid::from_raw(stat.st_uid),
             group: Gid::from_raw(stat.st_gid),
-            stamp: Stamp(format!("{} {}.{}", stat.st_size, stat.st_mtime, stat.st_mtime_nsec)),
+            stamp: FileStamp(format!("{} {}.{}", stat.st_size, stat.st_mtime, stat.st_mtime_nsec)),
         }
     }
 
-    pub(in crate::write) fn stamp(&self) -> &Stamp {
+    pub(in crate::write) fn stamp(&self) -> &FileStamp {
         &self.stamp
+    }
+
+    /// Whether it belongs to the user who runs.
+    pub(in crate::write) fn is_own(&self) -> bool {
+        self.user == rustix::process::geteuid()
     }
 }
 
 #[derive(Debug)]
-pub(super) struct Held(File);
+pub(super) struct DirectoryHandle(File);
 
-impl Held {
+impl DirectoryHandle {
     pub(super) fn open(path: &Path) -> io::Result<Self> {
         let flags = OFlags::RDONLY | OFlags::DIRECTORY | OFlags::CLOEXEC;
         Ok(Self(File::from(rustix::fs::open(path, flags, Mode::empty())?)))
@@ -61,16 +66,16 @@ impl Held {
         }
     }
 
-    pub(super) fn standing(&self, name: &str) -> io::Result<Standing> {
+    pub(super) fn state_of(&self, name: &str) -> io::Result<NameState> {
         let stat = match rustix::fs::statat(&self.0, name, AtFlags::SYMLINK_NOFOLLOW) {
-            Err(Errno::NOENT) => return Ok(Standing::Nothing),
+            Err(Errno::NOENT) => return Ok(NameState::Nothing),
             stat => stat?,
         };
         Ok(match FileType::from_raw_mode(stat.st_mode) {
-            FileType::RegularFile => Standing::File(Owned::of(&stat)),
-            FileType::Directory => Standing::Directory,
-            FileType::Symlink => Standing::Link,
-            _ => Standing::Other,
+            FileType::RegularFile => NameState::File(FileOwner::of(&stat)),
+            FileType::Directory => NameState::Directory,
+            FileType::Symlink => NameState::Link(FileOwner::of(&stat)),
+            _ => NameState::Other,
         })
     }
 
@@ -81,7 +86,7 @@ impl Held {
     }
 
     pub(super) fn file(&self, name: &str) -> io::Result<File> {
-        // A pipe that was put there in the meantime is not waited for.
+        // Opening does not wait for a pipe that was put there in the meantime.
         let flags = OFlags::RDONLY | OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC;
         Ok(File::from(rustix::fs::openat(&self.0, name, flags, Mode::empty())?))
     }
@@ -99,12 +104,16 @@ impl Held {
         names.filter_map(Result::transpose).collect()
     }
 
-    /// Whether a file cannot be replaced by one who may write here: the sticky bit, or a file that the system keeps.
-    pub(super) fn guards(&self, name: &str, owned: &Owned) -> io::Result<bool> {
+    /// Whether a file cannot be replaced by a user who may write here: because of the sticky bit, or because the system protects it.
+    pub(super) fn is_protected(&self, name: &str, owned: &FileOwner) -> io::Result<bool> {
         let own = rustix::fs::fstat(&self.0)?;
         let user = rustix::process::geteuid();
         let may = user == Uid::ROOT || user == owned.user || user == Uid::from_raw(own.st_uid);
         Ok(!may && Mode::from_raw_mode(own.st_mode).contains(Mode::SVTX) || is_kept(&self.0, name))
+    }
+
+    pub(super) fn is_sticky(&self) -> io::Result<bool> {
+        Ok(Mode::from_raw_mode(rustix::fs::fstat(&self.0)?.st_mode).contains(Mode::SVTX))
     }
 
     pub(super) fn sync(&self) -> io::Result<()> {
@@ -112,12 +121,12 @@ impl Held {
     }
 }
 
-/// Whether the system lets nobody replace a file: it is immutable, or something is mounted on it.
+/// Whether the system lets nobody replace a file: it is immutable, or a mount point.
 #[cfg(target_os = "linux")]
 fn is_kept(directory: &File, name: &str) -> bool {
     use rustix::fs::{StatxAttributes, StatxFlags, statx};
     let kept = StatxAttributes::IMMUTABLE | StatxAttributes::APPEND | StatxAttributes::MOUNT_ROOT;
-    // What cannot be asked is tried.
+    // Where the system cannot say, the replacement is tried.
     let stat = statx(directory, name, AtFlags::SYMLINK_NOFOLLOW, StatxFlags::empty());
     stat.is_ok_and(|stat| stat.stx_attributes.intersects(kept))
 }
@@ -127,16 +136,16 @@ fn is_kept(_: &File, _: &str) -> bool {
     false
 }
 
-/// Whether an error says that the file system has no locks, or none of directories.
+/// Whether an error says that the file system has no locks, or no locks on directories.
 pub(super) fn has_no_locks(error: &io::Error) -> bool {
     let none = [Errno::NOLCK, Errno::NOSYS, Errno::OPNOTSUPP, Errno::BADF, Errno::INVAL];
     none.iter().any(|errno| error.raw_os_error() == Some(errno.raw_os_error()))
 }
 
-/// Makes a file belong to whom another belonged, with its permissions. Only the superuser can give files away: where that is refused the
+/// Gives a file the owner and the permissions of another. Only the superuser can give files away: where that is refused the
 /// file is the user's own.
-pub(in crate::write) fn give(file: &File, owned: &Owned) -> io::Result<()> {
-    let own = Owned::of(&rustix::fs::fstat(file)?);
+pub(in crate::write) fn give(file: &File, owned: &FileOwner) -> io::Result<()> {
+    let own = FileOwner::of(&rustix::fs::fstat(file)?);
     if (own.user, own.group) != (owned.user, owned.group) {
         let _ = rustix::fs::fchown(file, Some(owned.user), Some(owned.group));
     }

@@ -8,20 +8,20 @@ mod objects;
 mod tables;
 mod tags;
 
-use super::{Format, When, fits_all, of_parts};
+use super::{Format, FormatSelection, fits_all, of_outlines, of_parts};
 use crate::body::Layer;
-use crate::geometry::Entity;
 use crate::geometry::contour::{Contour, Extents};
-use crate::geometry::cubics::{Run, runs};
+use crate::geometry::cubics::{CurveRun, runs};
+use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::outline::{Outline, OutlineError};
-use crate::report::warning;
+use crate::report::{shown, warning};
 use nalgebra::Vector2;
-use tags::{Tags, handle};
+use tags::{DxfTags, handle};
 
-/// The cut files, as they were proved: one for each section; those of a cam that breaks a limit say so at their head.
+/// The cut files, as they were proved: one for each section; the files of a cam that breaks a limit say so in their first line.
 pub const FORMAT: Format = Format {
     name: "dxf",
-    when: When::Usual,
+    when: FormatSelection::Usual,
     flank: false,
     unfit: fits_all,
     endings: |drawn| of_parts(drawn, ".dxf"),
@@ -35,24 +35,35 @@ pub const FORMAT: Format = Format {
 /// The path of a cutter's centre.
 pub const CUTTER_PATH: Format = Format {
     name: "cutter path",
-    when: When::Drawn,
+    when: FormatSelection::Drawn,
     flank: false,
     unfit: fits_all,
-    endings: |drawn| drawn.cutter_path.iter().map(|_| "-cutter.dxf".into()).collect(),
+    endings: |drawn| match drawn.cutter_paths().count() {
+        0 => Vec::new(),
+        1 => vec!["-cutter.dxf".into()],
+        _ => of_outlines(drawn, "-cutter.dxf"),
+    },
     write: |cam| {
         let path = |outline: &Result<Outline, OutlineError>| match outline {
-            Ok(outline) => Ok(marked(cutter_path(&outline.contour, cam.dxf_version), &cam.report.mark())),
-            Err(error) => Err((*error).into()),
+            Ok(outline) => {
+                let diameter = cam.cutter_radius.map_or(f64::NAN, |radius| 2.0 * MILLIMETRES * radius);
+                let comment =
+                    format!("{}; path of the centre of a cutter of diameter {} mm", cam.report.mark(), shown(diameter));
+                Ok(marked(cutter_path(outline, cam.dxf_version), &comment))
+            }
+            Err(error) => Err(error.clone().into()),
         };
-        cam.drawn.cutter_path.iter().map(path).collect()
+        cam.drawn.cutter_paths().map(path).collect()
     },
     of_analysis: None,
 };
 
 /// The file of a cutter's path.
 #[must_use]
-pub fn cutter_path(path: &Contour, version: Version) -> Vec<u8> {
-    write(&[(Layer::CutterPath, Entity::Polyline(path.clone()))], version)
+pub fn cutter_path(path: &Outline, version: Version) -> Vec<u8> {
+    let lead_in = path.lead_in.map(|segment| (Layer::LeadIn, Entity::Segment(segment)));
+    let chain = (Layer::CutterPath, Entity::Polyline(path.contour.clone()));
+    write(&std::iter::once(chain).chain(lead_in).collect::<Vec<_>>(), version)
 }
 
 /// Version of a DXF file.
@@ -97,7 +108,7 @@ pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
     layers.sort_unstable();
     layers.dedup();
     // The header holds the first free handle, which is known only at the end: it is written last, put first.
-    let mut body = Tags { text: Vec::with_capacity(ROOM), version, next_handle: handle::FIRST_FREE };
+    let mut body = DxfTags { text: Vec::with_capacity(ROOM), version, next_handle: handle::FIRST_FREE };
     if body.modern() {
         body.section("CLASSES", |_| {});
     }
@@ -114,13 +125,13 @@ pub fn write(entities: &[(Layer, Entity)], version: Version) -> Vec<u8> {
         body.section("OBJECTS", |tags| objects::objects(tags, &extents));
     }
     body.text(0, "EOF");
-    let mut head = Tags { text: Vec::with_capacity(ROOM), version, next_handle: body.next_handle };
+    let mut head = DxfTags { text: Vec::with_capacity(ROOM), version, next_handle: body.next_handle };
     header(&mut head, &extents);
     head.text.extend_from_slice(&body.text);
     head.text
 }
 
-/// The file with a comment at its head, where every reader passes over it.
+/// The file with a comment as its first line, which every reader skips.
 #[must_use]
 pub fn marked(file: Vec<u8>, comment: &str) -> Vec<u8> {
     // A line feed would end the comment, and begin a group.
@@ -128,7 +139,7 @@ pub fn marked(file: Vec<u8>, comment: &str) -> Vec<u8> {
     if comment.is_empty() { file } else { [format!("999\n{comment}\n").into_bytes(), file].concat() }
 }
 
-fn header(tags: &mut Tags, extents: &Extents) {
+fn header(tags: &mut DxfTags, extents: &Extents) {
     let next_handle = tags.next_handle;
     tags.section("HEADER", |tags| {
         tags.text(9, "$ACADVER");
@@ -149,7 +160,7 @@ fn header(tags: &mut Tags, extents: &Extents) {
         tags.point(10, extents.largest);
         tags.text(9, "$CLAYER");
         tags.text(8, "0");
-        // Decimal lengths; millimetres twice, because readers look at one or the other.
+        // Decimal lengths; millimetres are stated twice, because some readers look at one, some at the other.
         tags.text(9, "$LUNITS");
         tags.integer(70, 2);
         if tags.modern() {
@@ -163,7 +174,7 @@ fn header(tags: &mut Tags, extents: &Extents) {
     });
 }
 
-fn blocks(tags: &mut Tags) {
+fn blocks(tags: &mut DxfTags) {
     for (name, record, begin, end) in [
         ("*Model_Space", handle::MODEL_SPACE, handle::MODEL_SPACE_BEGIN, handle::MODEL_SPACE_END),
         ("*Paper_Space", handle::PAPER_SPACE, handle::PAPER_SPACE_BEGIN, handle::PAPER_SPACE_END),
@@ -189,7 +200,7 @@ fn blocks(tags: &mut Tags) {
 }
 
 /// Handle, owner and layer of an entity in model space.
-fn begin_entity(tags: &mut Tags, kind: &str, layer: Layer, subclass: &str) -> u32 {
+fn begin_entity(tags: &mut DxfTags, kind: &str, layer: Layer, subclass: &str) -> u32 {
     let own = tags.new_handle();
     tags.record(kind, 5, own, handle::MODEL_SPACE, &["AcDbEntity"]);
     tags.text(8, layer.name());
@@ -199,7 +210,7 @@ fn begin_entity(tags: &mut Tags, kind: &str, layer: Layer, subclass: &str) -> u3
     own
 }
 
-fn write_entity(tags: &mut Tags, layer: Layer, entity: &Entity) {
+fn write_entity(tags: &mut DxfTags, layer: Layer, entity: &Entity) {
     match entity {
         // A polyline has arcs and lines.
         Entity::Polyline(contour) if contour.cubics() > 0 => {
@@ -214,18 +225,19 @@ fn write_entity(tags: &mut Tags, layer: Layer, entity: &Entity) {
             tags.point_3d(10, *centre);
             tags.real(40, *radius);
         }
+        Entity::Segment(segment) => curve(tags, layer, &CurveRun::Segment(*segment)),
     }
 }
 
 /// One curve of an outline with splines.
-fn curve(tags: &mut Tags, layer: Layer, run: &Run) {
+fn curve(tags: &mut DxfTags, layer: Layer, run: &CurveRun) {
     match run {
-        Run::Segment(segment) if segment.bulge == 0.0 => {
+        CurveRun::Segment(segment) if segment.bulge == 0.0 => {
             begin_entity(tags, "LINE", layer, "AcDbLine");
             tags.point_3d(10, segment.start);
             tags.point_3d(11, segment.end);
         }
-        Run::Segment(segment) => {
+        CurveRun::Segment(segment) => {
             begin_entity(tags, "ARC", layer, "AcDbCircle");
             tags.point_3d(10, segment.centre());
             tags.real(40, segment.radius().abs());
@@ -236,7 +248,7 @@ fn curve(tags: &mut Tags, layer: Layer, run: &Run) {
             tags.real(50, from);
             tags.real(51, to);
         }
-        Run::Spline(spline) => {
+        CurveRun::Spline(spline) => {
             begin_entity(tags, "SPLINE", layer, "AcDbSpline");
             // It lies in a plane, whose normal points up.
             for (code, value) in [(210, 0.0), (220, 0.0), (230, 1.0)] {
@@ -247,7 +259,7 @@ fn curve(tags: &mut Tags, layer: Layer, run: &Run) {
             tags.text(72, &spline.knots.len().to_string());
             tags.text(73, &spline.controls.len().to_string());
             tags.integer(74, 0);
-            // How near two knots, control or fit points are one: as AutoCAD writes it.
+            // How near two knots, control or fit points count as one: as AutoCAD writes it.
             for (code, value) in [(42, 1e-9), (43, 1e-10), (44, 1e-10)] {
                 tags.real(code, value);
             }
@@ -260,7 +272,7 @@ fn curve(tags: &mut Tags, layer: Layer, run: &Run) {
 /// Flag of a SPLINE that lies in a plane.
 const PLANAR: i64 = 8;
 
-fn lightweight_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
+fn lightweight_polyline(tags: &mut DxfTags, layer: Layer, contour: &Contour) {
     begin_entity(tags, "LWPOLYLINE", layer, "AcDbPolyline");
     tags.text(90, &contour.vertices.len().to_string());
     tags.integer(70, 1);
@@ -271,7 +283,7 @@ fn lightweight_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
     }
 }
 
-fn old_polyline(tags: &mut Tags, layer: Layer, contour: &Contour) {
+fn old_polyline(tags: &mut DxfTags, layer: Layer, contour: &Contour) {
     begin_entity(tags, "POLYLINE", layer, "");
     tags.integer(66, 1);
     tags.point_3d(10, Vector2::zeros());

@@ -1,10 +1,10 @@
-//! The objects later versions ask for: the root dictionary, plot styles and layouts.
+//! The objects that later versions require: the root dictionary, plot styles and layouts.
 
-use super::tags::{Tags, handle};
+use super::tags::{DxfTags, handle};
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
-fn dictionary(tags: &mut Tags, own: u32, owner: u32, entries: &[(&str, u32)]) {
+fn dictionary(tags: &mut DxfTags, own: u32, owner: u32, entries: &[(&str, u32)]) {
     tags.record("DICTIONARY", 5, own, owner, &["AcDbDictionary"]);
     tags.integer(281, 1);
     for (name, entry) in entries {
@@ -13,7 +13,7 @@ fn dictionary(tags: &mut Tags, own: u32, owner: u32, entries: &[(&str, u32)]) {
     }
 }
 
-pub(super) fn objects(tags: &mut Tags, extents: &Extents) {
+pub(super) fn objects(tags: &mut DxfTags, extents: &Extents) {
     dictionary(
         tags,
         handle::ROOT,
@@ -42,7 +42,7 @@ pub(super) fn objects(tags: &mut Tags, extents: &Extents) {
     layout(tags, "Model", handle::LAYOUT_MODEL, handle::MODEL_SPACE, 0, extents);
 }
 
-fn layout(tags: &mut Tags, name: &str, own: u32, block: u32, tab: i64, extents: &Extents) {
+fn layout(tags: &mut DxfTags, name: &str, own: u32, block: u32, tab: i64, extents: &Extents) {
     tags.record("LAYOUT", 5, own, handle::LAYOUTS, &["AcDbPlotSettings"]);
     tags.text(1, "");
     tags.text(2, "none_device");

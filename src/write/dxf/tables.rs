@@ -1,11 +1,11 @@
 //! The symbol tables: line types, layers, styles, the view a program opens with.
 
-use super::tags::{Tags, handle};
+use super::tags::{DxfTags, handle};
 use crate::body::Layer;
 use crate::geometry::contour::Extents;
 use nalgebra::Vector2;
 
-pub(super) fn tables(tags: &mut Tags, layers: &[Layer], extents: &Extents) {
+pub(super) fn tables(tags: &mut DxfTags, layers: &[Layer], extents: &Extents) {
     tags.table("VPORT", handle::VIEWPORTS, 1, |tags| viewport(tags, extents));
     linetypes(tags);
     tags.table("LAYER", handle::LAYERS, layers.len() + 1, |tags| {
@@ -13,9 +13,11 @@ pub(super) fn tables(tags: &mut Tags, layers: &[Layer], extents: &Extents) {
         for layer in layers {
             let own = tags.new_handle();
             let colour = match layer {
-                Layer::CamProfile => 7,
+                Layer::CamProfile | Layer::GrooveInner | Layer::GrooveOuter => 7,
                 Layer::Bore => 1,
+                Layer::Blank => 8,
                 Layer::CutterPath => 3,
+                Layer::LeadIn => 5,
             };
             layer_record(tags, own, layer.name(), colour);
         }
@@ -46,7 +48,7 @@ pub(super) fn tables(tags: &mut Tags, layers: &[Layer], extents: &Extents) {
     }
 }
 
-fn linetypes(tags: &mut Tags) {
+fn linetypes(tags: &mut DxfTags) {
     let linetypes: &[(&str, u32, &str)] = if tags.modern() {
         &[
             ("ByBlock", handle::LINETYPE_BY_BLOCK, ""),
@@ -68,7 +70,7 @@ fn linetypes(tags: &mut Tags) {
     });
 }
 
-fn text_style(tags: &mut Tags) {
+fn text_style(tags: &mut DxfTags) {
     tags.table("STYLE", handle::STYLES, 1, |tags| {
         let name = if tags.modern() { "Standard" } else { "STANDARD" };
         tags.named("STYLE", handle::STYLE_STANDARD, handle::STYLES, "AcDbTextStyleTableRecord", name);
@@ -83,8 +85,8 @@ fn text_style(tags: &mut Tags) {
     });
 }
 
-/// The view a program opens with: the whole part with a little air.
-fn viewport(tags: &mut Tags, extents: &Extents) {
+/// The view a program opens with: the whole part with a small margin.
+fn viewport(tags: &mut DxfTags, extents: &Extents) {
     const AIR: f64 = 1.1;
     let name = if tags.modern() { "*Active" } else { "*ACTIVE" };
     tags.named("VPORT", handle::VIEWPORT_ACTIVE, handle::VIEWPORTS, "AcDbViewportTableRecord", name);
@@ -110,7 +112,7 @@ fn viewport(tags: &mut Tags, extents: &Extents) {
     }
 }
 
-fn layer_record(tags: &mut Tags, own: u32, name: &str, colour: i64) {
+fn layer_record(tags: &mut DxfTags, own: u32, name: &str, colour: i64) {
     tags.named("LAYER", own, handle::LAYERS, "AcDbLayerTableRecord", name);
     tags.integer(70, 0);
     tags.integer(62, colour);

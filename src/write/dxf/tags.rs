@@ -1,14 +1,14 @@
 //! Group codes and values, handles and owners: the grammar of the file.
 
 use super::Version;
-use crate::write::number::push_plain;
+use crate::write::number::plain;
 use nalgebra::Vector2;
 
 /// Decimals of coordinates and bulges: 1e-12 mm lies in the rounding of a metre; a bulge cut to six decimals would move
 /// a long arc by 0.06 µm.
 const DECIMALS: usize = 12;
 
-/// Handles of what every file has; entities and layers take those after them.
+/// Handles of the objects that every file has; entities and layers take those after them.
 pub(super) mod handle {
     pub(in crate::write::dxf) const BLOCK_RECORDS: u32 = 0x1;
     pub(in crate::write::dxf) const LAYERS: u32 = 0x2;
@@ -44,25 +44,16 @@ pub(super) mod handle {
 }
 
 /// A growing file of group codes and values.
-pub(super) struct Tags {
+pub(super) struct DxfTags {
     pub(super) text: Vec<u8>,
     pub(super) version: Version,
     pub(super) next_handle: u32,
 }
 
-impl Tags {
-    /// A code stands in three places.
-    fn code(&mut self, code: u16) {
-        let digit = |of: u16| b'0' + (code / of % 10) as u8;
-        let hundreds = if code < 100 { b' ' } else { digit(100) };
-        let tens = if code < 10 { b' ' } else { digit(10) };
-        self.text.extend_from_slice(&[hundreds, tens, digit(1), b'\n']);
-    }
-
+impl DxfTags {
+    /// A code is right-aligned in three columns.
     pub(super) fn text(&mut self, code: u16, value: &str) {
-        self.code(code);
-        self.text.extend_from_slice(value.as_bytes());
-        self.text.push(b'\n');
+        self.text.extend_from_slice(format!("{code:>3}\n{value}\n").as_bytes());
     }
 
     pub(super) fn integer(&mut self, code: u16, value: impl Into<i64>) {
@@ -70,18 +61,15 @@ impl Tags {
     }
 
     pub(super) fn real(&mut self, code: u16, value: f64) {
-        self.code(code);
-        push_plain(&mut self.text, value, DECIMALS);
-        self.text.push(b'\n');
+        self.text(code, &plain(value, DECIMALS));
     }
 
-    /// The bulge of a vertex, of an arc only: FreeCAD's importer drops an edge of bulge 0 as a degenerate arc, and a line is what
-    /// every reader takes a vertex without the group for.
+    /// The bulge of a vertex, of an arc only: FreeCAD's importer drops an edge of bulge 0 as a degenerate arc, and every reader
+    /// takes a vertex without the group for the start of a line.
     pub(super) fn bulge(&mut self, value: f64) {
-        let before = self.text.len();
-        self.real(42, value);
-        if self.text.ends_with(b"\n0.0\n") {
-            self.text.truncate(before);
+        let value = plain(value, DECIMALS);
+        if value != "0.0" {
+            self.text(42, &value);
         }
     }
 

@@ -1,14 +1,15 @@
-//! What the page shows of a cam, as JSON: numbers rounded to what can be seen, everything else as the report has it.
+//! What the page shows of a cam, as JSON: numbers rounded to what can be seen, everything else as in the report.
 
 use super::super::csv;
 use super::super::path_data::PathData;
-use super::super::{Account, Rendering};
+use super::super::{AnalysisRendering, Rendering};
 use super::{panels, units};
 use crate::analysis::Analysis;
-use crate::report::mechanism::{Mechanism, Rigid, Solid, Track, View};
+use crate::body::Part;
+use crate::report::diagram::Diagram;
+use crate::report::mechanism::{CoordinateTrack, MechanismView, MovingMechanism, RigidPart, RingSolid};
 use crate::report::{Bound, Finding, Place, Report, Section, Verdict, shown, worst_first};
 use crate::table::Table;
-use crate::verify::CHECKS;
 use serde_json::{Map, Value, json};
 
 /// Most steps of a turn, and most rows of the table over all sections.
@@ -16,15 +17,15 @@ const STEPS: u32 = 720;
 const ROWS: u32 = 1800;
 /// Fewest rows of a section.
 const FEWEST: u32 = 120;
-/// Digits of a number of the table.
+/// Digits of a number in the table.
 const DIGITS: usize = 7;
-/// Shapes, to a tenth of a micrometre.
+/// Shapes, in steps of a tenth of a micrometre.
 const DATA: PathData = PathData { decimals: 4 };
 /// Decimals of a place, mm, and of an angle, degrees.
 const PLACES: f64 = 1e4;
 const ANGLES: f64 = 1e5;
 
-/// A number, whole ones without a point; what is not finite is null.
+/// A number, whole numbers without a point; what is not finite is null.
 fn number(value: f64) -> Value {
     #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
     if value.is_finite() && value == value.trunc() && value.abs() < 1e15 {
@@ -43,47 +44,52 @@ fn rounded(values: &[f64], scale: f64) -> Value {
     values.iter().map(|value| number((value * scale).round() / scale)).collect()
 }
 
-/// All that the page shows of a cam.
+/// Everything that the page shows of a cam.
 pub(super) fn of(cam: &Rendering<'_>) -> Value {
     let (body, report) = (cam.body, cam.report);
     // The outlines are those read back from the cut files.
     let mut drawn = cam.drawn.clone();
-    for (part, outline) in drawn.parts.iter_mut().zip(cam.outlines) {
-        part.outline.contour = outline.contour.clone();
+    let drawn_contours = drawn.parts.iter_mut().flat_map(Part::outlines_mut).map(|outline| &mut outline.contour);
+    for (contour, outline) in drawn_contours.zip(cam.outlines) {
+        contour.clone_from(&outline.contour);
     }
     let sections = u32::try_from(drawn.parts.len()).unwrap_or(1).max(1);
     let steps = cam.samples.clamp(1, STEPS).min((ROWS / sections).max(FEWEST));
     let mechanism = body.mechanism(&drawn, steps);
-    let table = csv::table(body, cam.second.map(|(body, _)| body), cam.outlines, steps);
-    let roller = body.roller_radius().map(|radius| radius * crate::geometry::MILLIMETRES);
-    let mut page = told(report);
-    page["notModelled"] = json!(body.not_modelled());
+    let table = csv::table(body, cam.other_cams.first().map(|(body, _)| *body), cam.outlines, steps);
+    let roller = crate::body::points::radius_of_roller(body).map(|radius| radius * crate::geometry::MILLIMETRES);
+    let mut page = report_page(report);
     page["pictureNotes"] = json!(mechanism.notes);
-    page["views"] = json!(views(panels::OF_A_CAM, &mechanism, &table, (&report.checks, roller)));
+    page["views"] =
+        json!(views(&panels::OF_A_CAM.iter().collect::<Vec<_>>(), &mechanism, &table, (&report.checks, roller)));
     page["solid"] = mechanism.solid.as_ref().map_or(Value::Null, solid);
     page
 }
 
-/// All that the page shows of an analysis: its curves are views, without a mechanism where nothing moves.
-pub(super) fn of_analysis(account: &Account<'_>) -> Value {
+/// The diagrams of an analysis: its own first.
+fn of_an_analysis(analysis: &Analysis) -> Vec<&'static Diagram> {
+    analysis.diagrams.iter().chain(panels::OF_AN_ANALYSIS).collect()
+}
+
+/// Everything that the page shows of an analysis: its curves are views, without a mechanism where nothing moves.
+pub(super) fn of_analysis(account: &AnalysisRendering<'_>) -> Value {
     let (analysis, report) = (account.analysis, account.report);
     let views = analysis.tables.last().map_or_else(Vec::new, |(_, table)| match &analysis.mechanism {
         Some(mechanism) => {
             let table = growing(table, analysis.along);
-            views(panels::OF_AN_ANALYSIS, mechanism, &table, (&report.checks, None))
+            views(&of_an_analysis(analysis), mechanism, &table, (&report.checks, None))
         }
         None => curves(analysis, table, &report.checks),
     });
     let notes = analysis.mechanism.as_ref().map(|mechanism| &mechanism.notes);
-    let mut page = told(report);
-    page["notModelled"] = json!(analysis.not_modelled);
+    let mut page = report_page(report);
     page["pictureNotes"] = json!(notes.map_or_else(Vec::new, Vec::clone));
     page["views"] = json!(views);
     page["solid"] = Value::Null;
     page
 }
 
-/// A table whose rows follow each other as the values of a column grow, as the page looks places up.
+/// A table whose rows are in the order of growing values of a column, as the page needs to look places up.
 fn growing(table: &Table, along: &str) -> Table {
     let column = table.columns.iter().position(|name| *name == along).unwrap_or(0);
     let place = |row: Option<&Vec<f64>>| row.and_then(|row| row.get(column)).copied();
@@ -94,7 +100,7 @@ fn growing(table: &Table, along: &str) -> Table {
     table
 }
 
-/// A view of each of the curves that the first value of a row tells apart.
+/// A view of each of the curves that are distinguished by the first value of a row.
 fn curves(analysis: &Analysis, table: &Table, checks: &[Finding]) -> Vec<Value> {
     let apart = analysis.by.len();
     let first = |row: &Vec<f64>| row.iter().take(apart).map(|value| value.to_bits()).collect::<Vec<u64>>();
@@ -116,38 +122,45 @@ fn curves(analysis: &Analysis, table: &Table, checks: &[Finding]) -> Vec<Value> 
         view["turn"] = rounded(&at, ANGLES);
         view["box"] = json!([0, 0, 1, 1]);
         view["parts"] = json!([]);
-        view["panels"] =
-            json!(panels::of(&valued(names, &rows), panels::OF_AN_ANALYSIS, analysis.along, (checks, None)));
+        view["panels"] = match table.words {
+            None => json!(panels::of(&valued(names, &rows), &of_an_analysis(analysis), analysis.along, (checks, None))),
+            // Rows that are named are a list, not a curve.
+            Some(_) => json!([]),
+        };
+        view["words"] = json!(table.words);
         view
     };
+    if table.words.is_some() {
+        return vec![of(&table.rows)];
+    }
     table.rows.chunk_by(|a, b| first(a) == first(b)).map(of).collect()
 }
 
-/// What the page tells of any report.
-fn told(report: &Report) -> Value {
+/// What the page shows of any report.
+fn report_page(report: &Report) -> Value {
     json!({
         "title": report.title(),
         "machine": report.machine,
         "noun": report.noun,
         "command": report.command,
-        "speeds": report.rpm.to_string().trim(),
+        "speeds": report.speeds().trim(),
         "passed": report.passed(),
         "inputs": report.inputs,
         "checks": worst_first(report.checks.clone()).iter().map(check).collect::<Vec<Value>>(),
         "sections": report.sections.iter().map(section).collect::<Vec<Value>>(),
         "notes": report.notes,
+        "notModelled": report.not_modelled,
         "files": report.files.iter().filter_map(|file| file.rsplit(['/', '\\']).next()).collect::<Vec<&str>>(),
         "notRun": not_run(report),
     })
 }
 
 fn check(finding: &Finding) -> Value {
-    let about = CHECKS.iter().find(|check| check.name == finding.check).map(|check| check.about);
     let place = (finding.place != Place::default()).then(|| finding.place.to_string());
     json!({
         "check": finding.check,
-        "about": about,
-        "value": digits(finding.value),
+        "about": finding.about,
+        "value": digits(finding.readable()),
         "limit": finding.limit.map(digits),
         "side": finding.bound.map(Bound::words),
         "unit": units::shown(&finding.unit),
@@ -159,7 +172,7 @@ fn check(finding: &Finding) -> Value {
     })
 }
 
-/// Checks that had nothing to go by, and what they lack.
+/// Checks that could not be judged, and what they need.
 fn not_run(report: &Report) -> Vec<Value> {
     let silent = report.checks.iter().filter(|finding| finding.verdict == Verdict::Info && !finding.value.is_finite());
     silent.filter_map(|finding| Some(json!([finding.check, finding.note.as_ref()?]))).collect()
@@ -178,9 +191,9 @@ fn section(section: &Section) -> Value {
         other => other.clone(),
     };
     flatten(&section.key, &value, &mut values);
-    // A line in columns is the table's own.
+    // A line in columns belongs to the table.
     let words: Vec<&String> = section.words.iter().filter(|line| !line.contains("   ")).collect();
-    json!({"key": section.key, "words": words, "values": values, "tables": tables})
+    json!({"key": section.key, "title": units::words(&section.key), "words": words, "values": values, "tables": tables})
 }
 
 /// Whether a value is a list of objects of plain values: a table.
@@ -232,19 +245,19 @@ fn flatten(name: &str, value: &Value, found: &mut Vec<Value>) {
 }
 
 /// The checks whose limits are drawn, and the radius of the roller, mm.
-type Held<'a> = (&'a [Finding], Option<f64>);
+type PlottedLimits<'a> = (&'a [Finding], Option<f64>);
 
-fn views(known: &[panels::Panel], mechanism: &Mechanism, table: &Table, held: Held<'_>) -> Vec<Value> {
+fn views(known: &[&Diagram], mechanism: &MovingMechanism, table: &Table, held: PlottedLimits<'_>) -> Vec<Value> {
     let each = table.rows.len() / mechanism.views.len().max(1);
-    let of = |(view, rows): (&View, &[Vec<f64>])| view_of(known, view, (&table.columns, rows), held);
+    let of = |(view, rows): (&MechanismView, &[Vec<f64>])| view_of(known, view, (&table.columns, rows), held);
     mechanism.views.iter().zip(table.rows.chunks(each.max(1))).map(of).collect()
 }
 
 fn view_of(
-    known: &[panels::Panel],
-    view: &View,
+    known: &[&Diagram],
+    view: &MechanismView,
     (names, rows): (&[&'static str], &[Vec<f64>]),
-    held: Held<'_>,
+    held: PlottedLimits<'_>,
 ) -> Value {
     let extents = view.extents;
     let size = extents.size();
@@ -268,7 +281,7 @@ fn valued(names: &[&'static str], rows: &[Vec<f64>]) -> Vec<&'static str> {
     names.iter().enumerate().filter(|(index, _)| has(*index)).map(|(_, name)| *name).collect()
 }
 
-/// The values of a table by their names, and what each is.
+/// The values of a table by their names, and the label and unit of each.
 fn columns(names: &[&'static str], rows: &[Vec<f64>]) -> Value {
     let column = |index: usize| -> Vec<Value> {
         rows.iter().map(|row| digits(row.get(index).copied().unwrap_or(f64::NAN))).collect()
@@ -283,16 +296,16 @@ fn columns(names: &[&'static str], rows: &[Vec<f64>]) -> Value {
     json!({"columns": columns, "kinds": kinds})
 }
 
-fn track(track: &Track, scale: f64) -> Value {
+fn track(track: &CoordinateTrack, scale: f64) -> Value {
     match track {
-        Track::Still(value) => number((value * scale).round() / scale),
-        Track::Moving(values) => rounded(values, scale),
+        CoordinateTrack::Still(value) => number((value * scale).round() / scale),
+        CoordinateTrack::Moving(values) => rounded(values, scale),
     }
 }
 
-fn rigid(part: &Rigid) -> Value {
+fn rigid(part: &RigidPart) -> Value {
     let name = part.name.as_ref().map(|(name, at)| json!([name, number(at.x), number(-at.y)]));
-    let mut told = json!({
+    let mut moving_part = json!({
         "role": part.role,
         "name": name,
         "path": part.shapes.iter().map(|shape| DATA.shape(shape)).collect::<String>(),
@@ -302,16 +315,16 @@ fn rigid(part: &Rigid) -> Value {
         "stretch": track(&part.stretch, PLACES),
         "pressure": part.pressure_bar.as_ref().map(|pressure| track(pressure, ANGLES)),
     });
-    if part.height != Track::Still(1.0) {
-        told["height"] = track(&part.height, PLACES);
+    if part.height != CoordinateTrack::Still(1.0) {
+        moving_part["height"] = track(&part.height, PLACES);
     }
-    told
+    moving_part
 }
 
-/// Decimals of the surface, mm: it is looked at.
+/// Decimals of the surface, mm: it is only looked at.
 const SURFACE: f64 = 1e2;
 
-fn solid(solid: &Solid) -> Value {
+fn solid(solid: &RingSolid) -> Value {
     let ring = |(z, points): &(f64, Vec<nalgebra::Vector2<f64>>)| {
         let flat: Vec<f64> = points.iter().flat_map(|point| [point.x, point.y]).collect();
         json!({"z": number((z * SURFACE).round() / SURFACE), "points": rounded(&flat, SURFACE)})

@@ -1,4 +1,4 @@
-//! The moving report: one HTML file with everything in it, for a browser without a network. Verdicts, the mechanism as it moves, the
+//! The interactive report: one HTML file with everything in it, for a browser without a network. Verdicts, the mechanism in motion, the
 //! curves, the tables, and what is not modelled.
 //!
 //! The page is a template with its style and script and the chart library uPlot, all in `templates/`; the cam is put into it as JSON.
@@ -8,18 +8,19 @@ mod data;
 mod panels;
 mod units;
 
-use super::{Format, FormatError, OfAnalysis, Rendering, When, fits_all};
+use super::{AnalysisFormat, Format, FormatSelection, Rendering, fits_all};
+use crate::refusal::Refusal;
 use serde_json::{Value, json};
 
-/// The moving report.
+/// The interactive report.
 pub const FORMAT: Format = Format {
     name: "html",
-    when: When::Asked,
+    when: FormatSelection::Asked,
     flank: false,
     unfit: fits_all,
     endings: |_| vec![".html".into()],
     write: |cam| Ok(vec![page(&cam.report.title(), &[data::of(cam)])?]),
-    of_analysis: Some(OfAnalysis {
+    of_analysis: Some(AnalysisFormat {
         endings: |_| vec![".html".into()],
         write: |account| Ok(vec![page(&account.report.title(), &[data::of_analysis(account)])?]),
     }),
@@ -37,23 +38,23 @@ const CHARTS: &str = include_str!("../../../templates/vendor/uplot/uPlot.iife.mi
 const CHARTS_STYLE: &str = include_str!("../../../templates/vendor/uplot/uPlot.min.css");
 const CHARTS_LICENCE: &str = include_str!("../../../templates/vendor/uplot/LICENSE");
 
-/// Two cams beside each other.
+/// Two cams next to each other.
 ///
 /// # Errors
 /// Only what `serde_json` cannot write, which a report is not.
-pub fn side_by_side(first: &Rendering<'_>, second: &Rendering<'_>) -> Result<Vec<u8>, FormatError> {
+pub fn side_by_side(first: &Rendering<'_>, second: &Rendering<'_>) -> Result<Vec<u8>, Refusal> {
     let title = format!("{} | {}", first.report.title(), second.report.title());
     page(&title, &[data::of(first), data::of(second)])
 }
 
-/// Fills the template: each placeholder stands once, and what is put in is not searched again.
-fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, FormatError> {
-    let data = serde_json::to_string(&json!({"schema": 1, "cams": cams}))?;
+/// Fills the template: each placeholder occurs once, and inserted text is not searched again.
+fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, Refusal> {
+    let data = serde_json::to_string(&json!({"schema": 1, "cams": cams})).map_err(Refusal::of)?;
     let scripts = SCRIPTS.concat();
     let lookup = |name: &str| match name {
         "title" => text(title),
         "style" => format!("{CHARTS_STYLE}\n{STYLE}"),
-        // No tag can begin within the JSON: `<` stands in texts only.
+        // No tag can begin within the JSON: `<` occurs in texts only.
         "data" => data.replace('<', "\\u003c"),
         "licence" => text(CHARTS_LICENCE),
         "charts" => CHARTS.to_owned(),
@@ -72,7 +73,7 @@ fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, FormatError> {
     Ok(page.into_bytes())
 }
 
-/// Text as it may stand in HTML.
+/// Text escaped for HTML.
 fn text(text: &str) -> String {
     let printable: String = text.chars().filter(|c| !c.is_control() || *c == '\n').collect();
     printable.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")

@@ -1,1 +1,0 @@
-//! The report of the embedded brakes against the numbers of the specification.

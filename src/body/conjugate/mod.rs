@@ -1,0 +1,110 @@
+//! Conjugate discs: a pair on one shaft whose two rollers, on one follower, hold each other on their discs.
+//!
+//! The counter disc is that of the same kind of follower with the lift h − s. On a straight path its roller lies on the other side of the shaft, so
+//! that its motion is half a turn later: u₂ = distance − u with the offset −ε. On an arm it is turned by the included angle Γ about the same pivot:
+//! ψ₂ = Γ − ψ, on the other side. Both discs are drawn in one frame, with one keyway.
+
+mod closure;
+mod motion;
+
+pub use closure::{CHECK, Closure};
+
+use super::disc::{Disc, Hold};
+use super::{Body, Kind, ProgramCams};
+use crate::document::cams;
+use crate::follower::{Follower, FollowerPlacement, SwingingRoller, TranslatingRoller};
+use crate::geometry::MILLIMETRES;
+use crate::machine::{CounterData, FollowerData, Machine};
+use crate::motion::Motion;
+use crate::profile::lifts;
+use crate::refusal::Refusal;
+use motion::CounterMotion;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// The main disc of a pair.
+pub const MAIN: Kind = Kind { command: cams::MAKE, noun: "conjugate cam", keys: cams::CONJUGATE };
+/// The counter disc, whose files are named by its command.
+pub const COUNTER: Kind = Kind { command: "counter", noun: "counter cam", keys: cams::CONJUGATE };
+/// What the names of the files of the main disc have after the stem.
+pub const MAIN_NAME: &str = "main";
+
+/// The main disc of a motion, at a speed of the cam (rpm) where it is known.
+///
+/// # Errors
+/// [`Refusal`] when motion and follower do not fit each other, or no radius keeps the limits.
+pub fn main(machine: &Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Result<Disc, Refusal> {
+    let hold = Hold::Pair { preload: machine.cam.track.counter.preload, counter: None };
+    Disc::held(machine, motion, rpm, (&MAIN, hold))
+}
+
+/// Both discs of a motion.
+///
+/// # Errors
+/// As [`main`] and [`counter`].
+pub(super) fn pair(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
+    let first = main(machine, Arc::clone(motion), rpm)?;
+    let counter: Arc<dyn Body> = Arc::new(counter(&first, machine, motion, rpm)?);
+    Ok(ProgramCams { first: (MAIN_NAME, Arc::new(first)), others: vec![(COUNTER.command, counter)] })
+}
+
+/// The counter disc of a main one.
+///
+/// # Errors
+/// [`Refusal`] when its roller would not reach it.
+pub fn counter(main: &Disc, machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Disc, Refusal> {
+    let data = machine.cam.track.counter;
+    let top = lifts(&**motion).1;
+    let (shape, prime_radius, turn) = follower(main, &data, top)?;
+    let base = prime_radius - shape.element().offset();
+    if !(base > 0.0) || shape.sized(prime_radius).is_none() {
+        let what = format!("the counter disc would have a base radius of {:.3} mm", MILLIMETRES * base);
+        return Err(Refusal::new(what).remedy("give a larger cam.counter.distance or cam.counter.included_angle"));
+    }
+    let place: Option<FollowerPlacement> = None;
+    let own = FollowerData { shape, place, ..machine.follower.clone() };
+    let own = machine.with_follower(own).with_base_radius(base);
+    let counter = Arc::new(CounterMotion::new(Arc::clone(motion), top, turn));
+    Disc::held(&own, counter, rpm, (&COUNTER, Hold::Pair { preload: data.preload, counter: Some(top) }))
+}
+
+/// The roller of the counter disc, its prime radius, m, and by how much its motion is later, rad.
+fn follower(main: &Disc, data: &CounterData, top: f64) -> Result<(Arc<dyn Follower>, f64, f64), Refusal> {
+    let shape = main.follower();
+    let unknown =
+        || Refusal::new("conjugate discs need rollers").remedy("give [follower.roller] or [follower.swinging-roller]");
+    let (place, prime) = shape.place().zip(shape.prime_radius()).ok_or_else(unknown)?;
+    match place {
+        FollowerPlacement::Offset { radius } => {
+            let offset = place.of(&**shape);
+            let height = ((prime - offset) * (prime + offset)).sqrt();
+            let distance = data.distance.unwrap_or(2.0 * height + top);
+            let own = distance - height - top;
+            if !(own > 0.0) {
+                let what = "the two rollers are nearer to each other than the shaft permits";
+                let least = format!("cam.counter.distance must exceed {:.3} mm", MILLIMETRES * (height + top));
+                return Err(Refusal::new(what).remedy(least));
+            }
+            let own_prime = libm::hypot(own, offset);
+            let roller = TranslatingRoller::new(own_prime, -offset, data.radius.unwrap_or(radius));
+            Ok((Arc::new(roller), own_prime, PI))
+        }
+        FollowerPlacement::Pivot { arm, radius, side } => {
+            let pivot = place.of(&**shape);
+            let angle = |length: f64, prime: f64| {
+                libm::acos((pivot * pivot + length * length - prime * prime) / (2.0 * pivot * length))
+            };
+            let start = angle(arm, prime);
+            let included = data.included_angle.unwrap_or(2.0 * start + top);
+            let (own, own_arm) = (included - start - top, data.arm.unwrap_or(arm));
+            if !(own > 0.0 && own < PI) {
+                let what = "the arm of the counter roller would lie on the line of shaft and pivot";
+                let range = format!("{:.3} deg", (start + top).to_degrees());
+                return Err(Refusal::new(what).remedy(format!("cam.counter.included_angle must exceed {range}")));
+            }
+            let own_prime = (pivot * pivot + own_arm * own_arm - 2.0 * pivot * own_arm * libm::cos(own)).sqrt();
+            let roller = SwingingRoller::new(own_arm, pivot, data.radius.unwrap_or(radius), -side);
+            Ok((Arc::new(roller), own_prime, 0.0))
+        }
+    }
+}

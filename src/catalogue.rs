@@ -1,0 +1,101 @@
+//! Everything that the core and the domains bring, in one catalogue: tables of keys, machine files, kinds of cam and of analysis, checks.
+
+use crate::analysis::{laws, size};
+use crate::body::{self, Kind};
+use crate::check::Check;
+use crate::document::{KeySection, Tables, cams};
+use crate::domains::DOMAINS;
+#[cfg(feature = "press")]
+use crate::domains::press::machine::DriveMachine;
+#[cfg(feature = "shaft")]
+use crate::domains::shaft::machine::ShaftMachine;
+use crate::machine::{self, Catalogue, Machine, MachineError};
+use crate::trade;
+use crate::verify::CHECKS;
+use std::sync::LazyLock;
+
+/// What machine files may contain, and those in the binary.
+///
+/// ```
+/// let catalogue = camgen::catalogue::catalogue();
+/// assert!(catalogue.names().contains(&"feeder") && catalogue.checks.contains(&"pressure_angle"));
+/// ```
+#[must_use]
+pub fn catalogue() -> &'static Catalogue {
+    static CATALOGUE: LazyLock<Catalogue> = LazyLock::new(|| {
+        let kinds = cams::KINDS.iter().chain(DOMAINS.iter().flat_map(|domain| domain.cams)).copied().collect();
+        let embedded = DOMAINS.iter().flat_map(|domain| domain.embedded).chain(machine::EMBEDDED);
+        Catalogue {
+            keys: Tables { sections: sections(), kinds },
+            embedded: embedded.copied().collect(),
+            parts: DOMAINS.iter().filter_map(|domain| domain.read).collect(),
+            checks: checks().map(|check| check.name).collect(),
+        }
+    });
+    &CATALOGUE
+}
+
+/// Every table of a machine file.
+fn sections() -> Vec<&'static KeySection> {
+    let mut all = machine::sections();
+    for added in DOMAINS.iter().flat_map(|domain| domain.sections) {
+        added.put_into(&mut all, |section| section.path);
+    }
+    all
+}
+
+/// Every check, in the order of reports.
+pub fn checks() -> impl Iterator<Item = &'static Check> {
+    let mut all: Vec<&'static Check> = CHECKS.iter().map(|check| &**check).collect();
+    for added in DOMAINS.iter().flat_map(|domain| domain.checks) {
+        added.put_into(&mut all, |check| check.name);
+    }
+    all.into_iter()
+}
+
+/// Every kind of cam.
+pub fn kinds() -> impl Iterator<Item = &'static Kind> {
+    let of_domains = DOMAINS.iter().flat_map(|domain| domain.kinds);
+    body::BODIES.iter().map(|body| &body.kind).chain(body::MADE_WITH).chain(of_domains).copied()
+}
+
+/// The analyses of any machine.
+const ANALYSES: &[&Kind] = &[&size::KIND, &laws::KIND, &trade::KIND];
+
+/// Every kind of analysis.
+pub fn analyses() -> impl Iterator<Item = &'static Kind> {
+    ANALYSES.iter().chain(DOMAINS.iter().flat_map(|domain| domain.analyses)).copied()
+}
+
+/// How a machine of each sort is read: by name or path, or from a text.
+macro_rules! read {
+    ($($machine:ident),*) => {$(
+        impl $machine {
+            /// Reads an embedded machine by its name, or a file. Returns the machine and the word that names its files.
+            ///
+            /// # Errors
+            /// All faults found; a file that cannot be read is one of them.
+            pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
+                catalogue().load(name_or_path, |source| Self::read(source, overrides))
+            }
+
+            /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
+            ///
+            /// # Errors
+            /// All faults found, each with its place.
+            pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
+                Self::read(&$crate::machine::MachineText::of_user(catalogue(), source, text), overrides)
+            }
+        }
+    )*};
+}
+
+read!(Machine);
+#[cfg(feature = "press")]
+read!(DriveMachine);
+#[cfg(feature = "shaft")]
+read!(ShaftMachine);
+
+#[cfg(test)]
+#[cfg(all(feature = "press", feature = "linkage", feature = "shaft", feature = "brake"))]
+mod tests;

@@ -1,0 +1,27 @@
+//! The size of the part: what can be cut and built in.
+
+use super::{AsWritten, Check, CheckExplanation, CheckScope, Measure, Subject};
+use crate::report::Bound;
+
+/// The check.
+pub const CHECK: Check = Check {
+    name: "size",
+    on: CheckScope::Cam,
+    unit: "mm",
+    about: "The largest length or width of the cam. A cam of metres is mostly an input in another unit, or a motion that asks for too much.",
+    explained: CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "the longer side of the upright rectangle about the outline as written",
+        usual: "2 m: what the machine tools of a shop take; `limits.size` where it is given",
+        change: "the motion: a lower lift, a longer rise or a smoother law; in a press a shorter column or run-up; or `limits.size` for a cam that is meant to be so large",
+    },
+};
+
+/// Measure of the size of what is written; `None` where nothing is.
+#[must_use]
+pub fn measure(written: &AsWritten<'_>, subject: &Subject<'_>) -> Option<Measure> {
+    let limits = subject.machine.limits;
+    let limit = 1e3 * limits.largest_size();
+    let note = limits.size.is_none().then(|| "the customary limit".to_owned());
+    Some(CHECK.measure(written.size_mm?, Some(limit)).noted(note))
+}

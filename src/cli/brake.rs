@@ -1,0 +1,53 @@
+//! `camgen brake`: the belt brake of a paper roll, and the disc that holds its tension.
+
+use super::analyses::{judge_and_write, write_judged};
+use super::args::BrakeArgs;
+use super::progress::Progress;
+use super::{Failure, Outcome};
+use camgen::catalogue::catalogue;
+use camgen::domains::brake::{self, BrakeDisc, BrakeMachine, BrakeOutput, analysis};
+use camgen::pipeline::{Judged, ProvenAssembly, Spec};
+use std::sync::Arc;
+
+/// The brake of a file, with its disc.
+pub(super) fn with_disc(name: &str, set: &[String]) -> Result<BrakeMachine, Failure> {
+    BrakeMachine::load(catalogue(), name, set, BrakeOutput::Disc).map(|(machine, _)| machine).map_err(Failure::new)
+}
+
+/// The specification of the disc of a brake, and its motion.
+pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>), Failure> {
+    let disc = Arc::new(machine.brake_disc().map_err(Failure::new)?);
+    let spec = brake::spec(machine, Arc::clone(&disc));
+    spec.map(|spec| (spec, disc)).ok_or_else(|| Failure("the file describes no disc on the shaft of the frame".into()))
+}
+
+pub(super) fn run(args: &BrakeArgs) -> Result<Outcome, Failure> {
+    let wanted = match (args.cam, args.synthesize) {
+        (true, _) => BrakeOutput::Disc,
+        (false, Some(_)) => BrakeOutput::Frame,
+        (false, None) => BrakeOutput::Figures,
+    };
+    let (machine, name) =
+        BrakeMachine::load(catalogue(), &args.machine, &args.analysis.set, wanted).map_err(Failure::new)?;
+    let request = analysis::BrakeRequest { steps: args.samples, goal: args.synthesize, seed: args.seed };
+    if !args.cam {
+        return judge_and_write(
+            analysis::analysis(&machine, &request, None).map_err(Failure::new)?,
+            &args.analysis,
+            &name,
+        );
+    }
+    let progress = Progress::of_stages(args.analysis.report.shows_progress());
+    progress.stage("solving");
+    let (spec, disc) = of_brake(&machine)?;
+    let cam = spec.solve().map_err(Failure::new)?;
+    progress.stage("drawing");
+    let drawing = cam.draw(args.outline.request(&args.accuracy)?).map_err(Failure::new)?;
+    progress.stage("proving");
+    let proven = drawing.prove_as(args.outline.dxf_version).map_err(Failure::new)?;
+    drop(progress);
+    let as_cut = brake::as_written(&disc, &proven);
+    let held = analysis::TensionDisc { disc: &disc, as_cut: as_cut.as_ref() };
+    let analysis = analysis::analysis(&machine, &request, Some(&held)).map_err(Failure::new)?;
+    write_judged(&ProvenAssembly::from(proven).with_analysis(Judged::new(analysis)), &args.analysis, &name)
+}

@@ -1,0 +1,56 @@
+//! Files that a machine file names: where they may lie, and which ones were read.
+//!
+//! A machine file may be somebody else's, and what it names is read and in part shown. So a file must lie in the folder of the machine file or
+//! below it, links resolved, unless the user names another folder, or the file itself. What is allowed and what was read is one for
+//! the process, as the files are.
+
+use super::fault::Misfit;
+use crate::refusal::Refusal;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError, RwLock};
+
+static ALLOWED: RwLock<Vec<PathBuf>> = RwLock::new(Vec::new());
+static READ: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Lets machine files name files in these folders and below them, from now on.
+///
+/// # Errors
+/// [`Refusal`] where one of them is not a folder.
+pub fn allow(folders: &[PathBuf]) -> Result<(), Refusal> {
+    let resolved = |folder: &PathBuf| match fs::canonicalize(folder) {
+        Ok(found) if found.is_dir() => Ok(found),
+        Ok(_) => Err(Refusal::new(format!("`{}` is not a folder", folder.display()))),
+        Err(error) => Err(Refusal::new(format!("cannot open the folder `{}`: {error}", folder.display()))),
+    };
+    let folders = folders.iter().map(resolved).collect::<Result<Vec<_>, _>>()?;
+    ALLOWED.write().unwrap_or_else(PoisonError::into_inner).extend(folders);
+    Ok(())
+}
+
+/// The files that machine files have named, whether they could be read or not.
+#[must_use]
+pub fn read() -> Vec<PathBuf> {
+    READ.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
+}
+
+/// The path of a file that a machine file in a folder names under a key. The user may name any.
+pub(super) fn path_of(folder: &Path, name: &str, key: &str, by_user: bool) -> Result<PathBuf, Misfit> {
+    let path = folder.join(name);
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    READ.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone());
+    // Where a path cannot be followed, reading it says why.
+    let (false, Ok(file), Ok(root)) = (by_user, fs::canonicalize(&path), fs::canonicalize(folder)) else {
+        return Ok(path);
+    };
+    let allowed = ALLOWED.read().unwrap_or_else(PoisonError::into_inner);
+    if allowed.iter().chain([&root]).any(|folder| file.starts_with(folder)) {
+        return Ok(file);
+    }
+    let of_file = file.parent().unwrap_or(&file);
+    Err(Misfit {
+        message: format!("`{key}`: `{name}` lies outside of the folder of the machine file, `{}`", root.display()),
+        help: Some(format!("put it there, or allow its folder with --allow-path \"{}\"", of_file.display())),
+    })
+}

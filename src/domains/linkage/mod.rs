@@ -1,0 +1,43 @@
+//! The linkages that move the bed of a press: a crank and slider, or a drag link before it. What they do, and how they are found.
+
+pub mod analysis;
+mod builder;
+pub mod checks;
+mod dual;
+pub mod machine;
+pub mod synthesis;
+
+use crate::document::cams::CamKind;
+use crate::domain::{Added, Domain};
+use crate::domains::press::cams::OF_BED_MOTION;
+use crate::machine::Embedded;
+
+/// The linkage that moves a bed, as keys name it.
+pub const LINKAGE: &str = "linkage";
+
+/// Linkages.
+pub const DOMAIN: Domain = Domain {
+    sections: &[
+        Added { after: "bed", entries: &[&machine::SECTION] },
+        Added { after: "limits", entries: &[&machine::limits::SECTION] },
+    ],
+    read: Some(machine::read),
+    cams: &[CamKind::classed_analysis(LINKAGE, OF_BED_MOTION)],
+    kinds: &[],
+    analyses: &[&analysis::KIND],
+    checks: &[Added {
+        after: "closing",
+        entries: &[
+            &checks::GRASHOF,
+            &checks::LINK_RATIO,
+            &checks::TRANSMISSION_ANGLE,
+            &checks::ROD_ANGLE,
+            &checks::DEAD_POINTS,
+            &checks::REVERSALS,
+        ],
+    }],
+    embedded: &[
+        Embedded { name: "dpi-crank-slider", toml: include_str!("../../../profiles/dpi-crank-slider.toml") },
+        Embedded { name: "dpi-six-bar", toml: include_str!("../../../profiles/dpi-six-bar.toml") },
+    ],
+};

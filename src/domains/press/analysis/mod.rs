@@ -1,0 +1,6 @@
+//! The analyses of a press.
+
+pub mod drive;
+pub mod regimes;
+pub mod spring;
+pub mod trade;

@@ -1,0 +1,17 @@
+//! Whether the volume of equation (15) can be added.
+
+use crate::check::{Check, CheckExplanation};
+use crate::report::Bound;
+
+/// The check.
+pub const CHECK: Check = Check::on_analysis(
+    "added_volume",
+    "mm3",
+    "The volume that is added to the cylinders for a slower speed; none can be taken away for a faster one.",
+    CheckExplanation {
+        bound: Bound::AtLeast,
+        formula: "V = (L_p − L) 2F, equation (15); the least over the speeds",
+        usual: "0: the cylinders are open to the air before the reversal",
+        change: "the screw of the bottom: the column of (14) for that speed; or cut the cam for the fastest speed",
+    },
+);

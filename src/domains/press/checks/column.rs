@@ -1,0 +1,48 @@
+//! The length of the air column, against what a press has room for.
+
+use crate::check::{Check, CheckExplanation, CheckScope, Measure};
+use crate::domains::press::machine::{Press, PressCams};
+use crate::machine::Machine;
+use crate::numeric::digits::three_digits_up;
+use crate::numeric::root;
+use crate::report::Bound;
+
+/// The check.
+pub const CHECK: Check = Check {
+    name: "column",
+    on: CheckScope::Cam,
+    unit: "mm",
+    about: "The length of the air column between piston and bottom where the reversal begins. It grows with the inverse square of the speed: at a few \
+            revolutions a minute no press has room for it.",
+    explained: CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "L = k/A of the matched column, or by (14); the longest over the speeds",
+        usual: "2 m: the room behind the bed of a flat-bed press; `limits.column` where it is given",
+        change: "a higher --rpm, a given `buffer.column`, or `limits.column` for a press with more room",
+    },
+};
+
+/// Customary largest column, m.
+const CUSTOMARY: f64 = 2.0;
+/// A speed so many times as high is looked at.
+const FASTEST: f64 = 1e4;
+
+/// Measure of the longest of columns (m), each with its speed of the main shaft, rpm; `None` without one.
+#[must_use]
+pub fn measure(columns: &[(f64, f64)], machine: &Machine) -> Option<Measure> {
+    let (longest, rpm) = columns.iter().copied().reduce(|best, next| if next.0 > best.0 { next } else { best })?;
+    let given = PressCams::of(machine).largest_column;
+    let limit = given.unwrap_or(CUSTOMARY);
+    let faster = || {
+        let press = machine.part::<Press>()?;
+        let over = |rpm: f64| press.bottom_law(rpm).column() - limit;
+        let found = root::bracketed(over, rpm, FASTEST * rpm, 0.0).ok()?;
+        let found = three_digits_up(found);
+        (over(found) <= 0.0).then(|| format!("at {found} rpm and more it would be shorter"))
+    };
+    let customary = given.is_none().then(|| "the customary limit".to_owned());
+    let remedy = if longest > limit { faster() } else { None };
+    let note: Vec<String> = customary.into_iter().chain(remedy).collect();
+    let measure = CHECK.measure(1e3 * longest, Some(1e3 * limit));
+    Some(measure.noted((!note.is_empty()).then(|| note.join("; "))))
+}

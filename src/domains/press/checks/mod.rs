@@ -1,0 +1,25 @@
+//! The checks of a press.
+
+pub mod added_volume;
+pub mod air;
+pub(super) mod balanced;
+pub mod closing;
+pub mod column;
+pub mod compensator;
+pub mod residual;
+pub mod run_up;
+
+use super::conoid::{between_sections, cylinder_contact, shift};
+use super::wedge::roller_clearance;
+use crate::check::Check;
+use crate::domain::Added;
+
+/// All of them, in the order of reports.
+pub(super) const CHECKS: &[Added<&Check>] = &[
+    Added { after: "pressure_angle", entries: &[&shift::AXIAL_FORCE] },
+    Added { after: "wall", entries: &[&roller_clearance::CHECK] },
+    Added { after: "flank", entries: &[&shift::AXIAL_REACH, &cylinder_contact::CHECK] },
+    Added { after: "vibration", entries: &[&residual::CHECK, &air::CHECK, &run_up::CHECK] },
+    Added { after: "acceleration", entries: &[&between_sections::CHECK] },
+    Added { after: "balance", entries: &[&compensator::CHECK, &added_volume::CHECK, &column::CHECK, &closing::CHECK] },
+];

@@ -1,0 +1,149 @@
+//! The keys of a machine file for the cams of a press.
+
+use super::compensator::{self, CompensatorData};
+use super::conoid::{self, ConoidData};
+use super::settings::{self, RegimesData};
+use super::transition;
+use super::translating::{self, TranslatingData};
+use crate::document::Presence::{Default, Optional};
+use crate::document::range::{LARGEST_NUMBER, LONGEST};
+use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above};
+use crate::domains::press::cams::{CONOID, OF_A_COLUMN, OF_A_PRESS, REGIMES, ROTARY};
+use crate::domains::press::motion::Transition;
+use crate::machine::Machine;
+use crate::units::Dimension::Length;
+
+/// The cams of a press.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PressCams {
+    /// Equal lobes, which is also the crank's turns for one turn of the cam: so it is in position at every reversal.
+    pub lobes: u32,
+    /// Roller travel per bottom travel.
+    pub lever: f64,
+    /// Transition between dwell and reversal.
+    pub transition: Transition,
+    /// The wedge on the bed, when described.
+    pub translating: Option<TranslatingData>,
+    /// The conoid, when described.
+    pub conoid: Option<ConoidData>,
+    /// The compensating cam, when described.
+    pub compensator: Option<CompensatorData>,
+    /// Other speeds.
+    pub regimes: RegimesData,
+    /// Stiffness of springs under the bottoms, N/m.
+    pub spring_stiffness: Option<f64>,
+    /// Largest residual force over the largest inertia force; where it is absent it must stay below a fixed bottom's.
+    pub residual_share: Option<f64>,
+    /// Longest air column, m; where it is absent the customary one holds.
+    pub largest_column: Option<f64>,
+}
+
+/// The cams of a machine that was made without reading a press.
+static WITHOUT_PRESS: PressCams = PressCams {
+    lobes: 1,
+    lever: 1.0,
+    transition: Transition::None,
+    translating: None,
+    conoid: None,
+    compensator: None,
+    regimes: RegimesData { speeds: Vec::new(), reset: None },
+    spring_stiffness: None,
+    residual_share: None,
+    largest_column: None,
+};
+
+impl PressCams {
+    /// The cams of a machine; every machine that was read has them, with defaults.
+    #[must_use]
+    pub fn of(machine: &Machine) -> &Self {
+        machine.part().unwrap_or(&WITHOUT_PRESS)
+    }
+}
+
+const TURNS: Field<f64> = Field::number(
+    "cam_turns_per_crank_turn",
+    "turns of the cam per turn of the crank: 1, or 1/n for n lobes",
+    Default("1"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(&[ROTARY, CONOID, REGIMES]);
+const LEVER: Field<f64> = Field::number(
+    "lever",
+    "roller travel per travel of the cylinder's bottom",
+    Default("1"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(&[ROTARY, CONOID]);
+const RESIDUAL_SHARE: Field<f64> = Field::number(
+    "residual_share",
+    "largest residual force over the largest inertia; when absent, less than a fixed bottom leaves",
+    Optional("0.01"),
+    above(0.0, LARGEST_NUMBER),
+)
+.only(OF_A_PRESS);
+
+const COLUMN: Field<f64> = Field::quantity(
+    "column",
+    "longest air column; 2 m when absent, the room behind the bed of a flat-bed press",
+    Optional("1 m"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(OF_A_COLUMN);
+
+/// The keys that are added to `[cam]`.
+pub(super) const CAM: KeySection =
+    KeySection { path: "cam", about: "", occurs: Occurrence::Once, cams: &[], keys: &[TURNS.key, LEVER.key] };
+
+/// The keys that are added to `[limits]`.
+pub(super) const LIMITS: KeySection = KeySection {
+    path: "limits",
+    about: "",
+    occurs: Occurrence::Once,
+    cams: &[],
+    keys: &[RESIDUAL_SHARE.key, COLUMN.key],
+};
+
+/// The cams, whose wedge has a roller of this radius (m) unless its table gives one.
+pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<PressCams> {
+    let table = reader.table(&CAM);
+    let (regimes, spring_stiffness) = settings::read(reader);
+    let lobes = read_lobes(&table);
+    let (translating, conoid) = (translating::read(reader, roller_radius), conoid::read(reader));
+    Some(PressCams {
+        lobes: lobes?,
+        lever: table.get(&LEVER)?,
+        transition: transition::read(reader)?,
+        translating,
+        conoid,
+        compensator: compensator::read(reader),
+        regimes,
+        spring_stiffness,
+        residual_share: reader.table(&LIMITS).get(&RESIDUAL_SHARE),
+        largest_column: reader.table(&LIMITS).get(&COLUMN),
+    })
+}
+
+/// Most lobes: more would be teeth.
+const MOST_LOBES: f64 = 100.0;
+/// How far a ratio may be from 1/n to be taken for it, as a share: 0.3333 means a third, since gears are exact. Slightly
+/// more, for the rounding of that number.
+const RATIO_ROUNDING: f64 = 1e-4 * (1.0 + 1e-9);
+
+/// The lobes of a cam of 1/n turns for one of the crank.
+fn read_lobes(table: &TableReader<'_>) -> Option<u32> {
+    let turns = table.get(&TURNS)?;
+    let lobes = (1.0 / turns).round().clamp(1.0, MOST_LOBES);
+    if (turns * lobes - 1.0).abs() > RATIO_ROUNDING {
+        let typed = table.typed(&TURNS);
+        let message = format!(
+            "with {typed} turns of the cam for one turn of the crank the cam would be in the wrong position at the next reversal; \
+             1, or 1/n with n equal lobes (0.5, 0.3333, 0.25, … 0.01), is in the right position at each"
+        );
+        let nearest = (1e6 / lobes).round() / 1e6;
+        table.fail(&TURNS, message, Some(format!("the nearest of these is {nearest}")));
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 1 to 100")]
+    Some(lobes as u32)
+}

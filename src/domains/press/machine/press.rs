@@ -1,0 +1,126 @@
+//! The press: the motion of its cams and the forces on them.
+
+use crate::domains::press::bed_motion::{End, Linkage, StrokeEnd};
+use crate::domains::press::buffer::bottom_law::{BottomLaw, ColumnRule};
+use crate::domains::press::buffer::crank_law::{self, CrankLaw, LinkageLaw};
+use crate::domains::press::buffer::{Bed, Cylinder, camshaft};
+use crate::refusal::Refusal;
+
+/// The tables that describe a press together.
+pub(super) const PRESS: &[&str] = &["bed", "buffer", "design"];
+/// The table of a drive, which has no end pressure.
+pub(super) const DRIVE: &str = "drive";
+
+/// The linkage of a machine file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkageData {
+    /// The linkage, its links over their cranks.
+    pub linkage: Linkage,
+    /// Driving crank O1A of a six-bar, m: for drawings and lengths.
+    pub driving_crank: Option<f64>,
+    /// Angle of the base O1O2 from the line of the slider, rad.
+    pub base_angle: f64,
+}
+
+impl LinkageData {
+    /// The angle of the driving crank from the line of the slider, rad, where it is at θ from its base.
+    #[must_use]
+    pub fn to_line(&self, theta: f64) -> f64 {
+        if matches!(self.linkage, Linkage::SixBar(..)) { theta + self.base_angle } else { theta }
+    }
+
+    /// An end of the stroke of a bed; `None` under a yoke, and where no buffer can balance it.
+    pub(in crate::domains) fn stroke_end(&self, bed: &Bed, end: End) -> Option<StrokeEnd> {
+        match self.linkage {
+            Linkage::Yoke => None,
+            linkage => StrokeEnd::new(linkage, bed.crank_radius, end),
+        }
+    }
+}
+
+/// How the air column of a press is chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AirColumn {
+    /// By the law of the bottom, or given.
+    Of(ColumnRule),
+    /// With the least largest torque on the camshaft.
+    LeastTorque,
+}
+
+/// A flat-bed press with air buffers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Press {
+    /// Bed and crank.
+    pub bed: Bed,
+    /// What moves the bed, where a linkage is described.
+    pub linkage: Option<LinkageData>,
+    /// The end of the stroke at which the buffers are, where a linkage other than a yoke moves the bed.
+    pub stroke_end: Option<StrokeEnd>,
+    /// Polytropic exponent k.
+    pub polytropic_exponent: f64,
+    /// Ambient pressure, Pa, absolute.
+    pub ambient_pressure: f64,
+    /// End pressure at the design speed, Pa, absolute.
+    pub end_pressure: f64,
+    /// Air column.
+    pub column: AirColumn,
+    /// Lead e, m.
+    pub lead: f64,
+    /// Design speed of the main shaft, rpm.
+    pub design_rpm: f64,
+}
+
+/// That what there is for a yoke only, with its verb, cannot be had under a linkage, with the reason.
+pub(in crate::domains::press) fn only_under_a_yoke(what: &str, why: &str) -> Refusal {
+    Refusal::new(format!(
+        "the bed of this machine is moved by a linkage, and {what} for a yoke only, x = r sin φ: under a linkage {why}"
+    ))
+    .remedy("use a machine without [linkage], or linkage.kind = \"yoke\"")
+}
+
+impl Press {
+    /// The pair of cylinders, sized at the design speed.
+    #[must_use]
+    pub fn cylinder(&self) -> Cylinder {
+        let (k, p0, end) = (self.polytropic_exponent, self.ambient_pressure, self.end_pressure);
+        Cylinder::sized_for(&self.bed, self.largest_deceleration(), (self.design_rpm, k), (p0, end))
+    }
+
+    /// Largest deceleration of the bed over the square of the crank speed, m: r under a yoke.
+    #[must_use]
+    pub fn largest_deceleration(&self) -> f64 {
+        self.stroke_end.map_or(self.bed.crank_radius, |end| end.largest_deceleration().value)
+    }
+
+    /// Largest inertia force of the bed at a speed of the main shaft (rpm), N.
+    #[must_use]
+    pub fn largest_inertia(&self, rpm: f64) -> f64 {
+        self.bed.inertia(rpm, self.largest_deceleration())
+    }
+
+    /// The law of the bottom at a speed of the main shaft, rpm.
+    #[must_use]
+    pub fn bottom_law(&self, rpm: f64) -> CrankLaw {
+        let column = match (self.column, &self.stroke_end) {
+            (AirColumn::Of(column), _) => column,
+            (AirColumn::LeastTorque, end) => {
+                let (loading, k) = (self.cylinder().loading(rpm), self.polytropic_exponent);
+                ColumnRule::Length(match end {
+                    None => camshaft::least_torque_column(loading, k, self.bed.crank_radius),
+                    Some(end) => crank_law::least_torque_column(loading, k, end),
+                })
+            }
+        };
+        self.with_column(rpm, column)
+    }
+
+    /// The law with another air column.
+    #[must_use]
+    pub fn with_column(&self, rpm: f64, column: ColumnRule) -> CrankLaw {
+        let (loading, k) = (self.cylinder().loading(rpm), self.polytropic_exponent);
+        match self.stroke_end {
+            None => BottomLaw::new(loading, k, self.bed.crank_radius, column, self.lead).into(),
+            Some(end) => CrankLaw::Linkage(LinkageLaw::new(loading, k, end, column, self.lead)),
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! A disc that is cut higher, so that its follower keeps the law on a shaft that deflects.
+//!
+//! Under load the follower is to be where the law has it; there the force Φ is that of the law, independent of the shaft. So the cam
+//! is cut higher by
+//!
+//! ```text
+//! z = Φ [C (1 + tan² α) + s'²/k_t]
+//! ```
+//!
+//! with pressure angle α and slope s' of the cam as it is cut, z and all: a fixed point, found at the points of a Chebyshev series
+//! over the reversal. Before and after it the transitions meet that shape.
+
+use super::motion::RaiseSeries;
+use crate::body::ShaftCompliance;
+use crate::body::disc::Disc;
+use crate::geometry::MILLIMETRES;
+use crate::numeric::chebyshev_series::ChebyshevSeries;
+use crate::refusal::Refusal;
+use crate::report::Section;
+use serde_json::json;
+use std::sync::Arc;
+
+/// Terms of the series, and the share of its largest below which one is rounding.
+const TERMS: u32 = 40;
+const ROUNDING: f64 = 1e-15;
+/// Fixed points are tried so often; they agree to a hundredth of a nanometre.
+const ROUNDS: usize = 24;
+const AGREED: f64 = 1e-11;
+
+/// The compliance of the shaft of a machine at its cam, where the cam is to be cut for that; or why it is not known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutForShaft(pub Result<ShaftCompliance, String>);
+
+/// The disc that keeps a law over a crank angle (rad) on a shaft with this compliance, from the one that is cut for a rigid shaft: `cut`
+/// makes it from what the bottom is raised by.
+///
+/// # Errors
+/// [`Refusal`] where the shaft deflects too much.
+pub(super) fn cut_for(
+    of_law: &Disc,
+    (angle, lever): (f64, f64),
+    shaft: &ShaftCompliance,
+    cut: impl Fn(Arc<RaiseSeries>) -> Result<Disc, Refusal>,
+) -> Result<Arc<RaiseSeries>, Refusal> {
+    let range = (0.0, angle);
+    let points = ChebyshevSeries::points(range, TERMS);
+    let (mut shape, mut before) = (of_law.clone(), vec![0.0; points.len()]);
+    for _ in 0..ROUNDS {
+        let heights: Vec<f64> = points.iter().map(|crank| height(of_law, &shape, *crank, shaft) / lever).collect();
+        let apart = heights.iter().zip(&before).map(|(new, old)| (new - old).abs()).fold(0.0, f64::max);
+        let raise = Arc::new(RaiseSeries::new(&ChebyshevSeries::through(range, &heights, ROUNDING)));
+        if apart * lever < AGREED {
+            return Ok(raise);
+        }
+        shape = cut(raise)?;
+        before = heights;
+    }
+    Err(Refusal::new(
+        "the cam cannot be cut for its shaft (shaft.compensate): what bending and twist take off the lift grows \
+         faster than it can be put on",
+    )
+    .remedy("make the shaft thicker, or put the drive (shaft.drive_at) nearer to the cam"))
+}
+
+/// How much higher a cam must be cut at a crank angle of its first reversal, m of lift, by the shape of the one that is cut.
+fn height(of_law: &Disc, cut: &Disc, crank: f64, shaft: &ShaftCompliance) -> f64 {
+    let (motion, shape) = (of_law.curves().motion, cut.curves());
+    let angle = crank / f64::from(motion.lobes());
+    let (piece, inside) = motion.locate(angle);
+    let force = of_law.path_force(piece, inside).unwrap_or(0.0).max(0.0);
+    let (piece, inside) = shape.motion.locate(angle);
+    let contact = shape.contact(piece, inside);
+    let lean = libm::tan(contact.pressure_angle);
+    force * (shaft.compliance * (1.0 + lean * lean) + shaft.twist * contact.lift.ds * contact.lift.ds)
+}
+
+/// The section of the report on how much higher than its law a disc is cut.
+pub(super) fn section(disc: &Disc) -> Section {
+    let highest = disc.largest_force(|piece, angle| disc.added_lift(piece, angle));
+    let mm = MILLIMETRES * highest.value;
+    let value = json!({"raised_max_mm": mm, "raised_cam_deg": highest.at.to_degrees()});
+    let words = format!(
+        "cut up to {mm:.4} mm higher, at {:.3}°, for the shaft of the file (shaft.compensate): its follower keeps the law under load \
+         at this speed, and would be that much too high on a rigid shaft; forces are those under load",
+        highest.at.to_degrees()
+    );
+    let figure = format!("cut up to {mm:.4} mm higher for its shaft");
+    Section::new("cut_for_shaft", &value).with_words(vec![words]).with_figures(vec![figure])
+}

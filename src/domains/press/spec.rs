@@ -1,0 +1,179 @@
+//! The cams of a press, as specifications.
+
+use super::bed_motion::End;
+use super::checks;
+use super::compensator::{CompensatorFigures, TorqueAtSpeed};
+use super::conoid::{Conoid, between};
+use super::motion::equation_18::{ExactOn, Solver};
+use super::report::{Compensation, PreloadAtSpeed};
+use super::rotary::rotary;
+use super::wedge::Wedge;
+use crate::body::disc::Disc;
+use crate::body::{Body, curves, torque};
+use crate::check::Measure;
+use crate::document::{Input, NamedChoice};
+use crate::geometry::MILLIMETRES;
+use crate::machine::Machine;
+use crate::pipeline::{Alternative, AssemblyReport, Proven, SolvedBodies, Spec, WantedCams};
+use crate::profile::lifts;
+use crate::refusal::Refusal;
+use crate::report::Section;
+use crate::verify::WrittenOutline;
+
+impl Spec {
+    /// The disc cam of a press for a speed of its main shaft, rpm. Its assembly has the compensating cam too, where the machine file describes
+    /// one ([`Spec::assemble`]).
+    ///
+    /// ```
+    /// use camgen::{Machine, Spec, Writing};
+    ///
+    /// let (machine, name) = Machine::load("dpi", &[])?;
+    /// let proven = Spec::rotary(machine, 35.0).solve()?.draw(5e-6)?.prove()?;
+    /// let files = proven.files(&Writing::to("output", name).formats(&["dxf"]))?;
+    /// assert!(files.bytes(".dxf").is_some());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn rotary(machine: Machine, rpm: f64) -> Self {
+        let solve = move |machine: &Machine, wanted| -> Result<SolvedBodies, Refusal> {
+            let cam = rotary(machine, rpm)?;
+            if wanted == WantedCams::Alone || machine.compensator().is_none() {
+                return Ok(SolvedBodies::alone(cam.disc));
+            }
+            let second = cam.compensating_disc()?;
+            let by_law = cam.compensated_by(&second)?;
+            Ok(SolvedBodies::alone(cam.disc).with(second, by_law))
+        };
+        Self::of_several(machine, solve)
+            .for_other_speeds(Disc::solve, other_ends)
+            .with_inputs(vec![Input::number("rpm", rpm)])
+    }
+
+    /// The wedge cam of a press (a linear cam, the plate on the bed) for a speed of its main shaft, rpm.
+    ///
+    /// ```
+    /// use camgen::{ExactOn, Machine, Solver, Spec};
+    ///
+    /// let (machine, _) = Machine::load("dpi", &[])?;
+    /// let cam = Spec::translating(machine, 35.0, Solver::Ode { tolerance: 1e-9 }, ExactOn::Braking).solve()?;
+    /// assert!(cam.draw(20e-6)?.prove()?.passed());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn translating(machine: Machine, rpm: f64, solver: Solver, exact_on: ExactOn) -> Self {
+        let solve = move |machine: &Machine, rpm| Wedge::solve(machine, rpm, solver, exact_on);
+        let mut inputs = of_wedge(solver, exact_on);
+        inputs.push(Input::number("rpm", rpm));
+        Self::new(machine, move |machine| solve(machine, rpm)).for_other_speeds(solve, other_ends).with_inputs(inputs)
+    }
+
+    /// The conoid of a press (a three-dimensional cam) for several speeds, rpm, with a limit for the residual force
+    /// between them, N.
+    ///
+    /// ```
+    /// use camgen::{Machine, Spec};
+    ///
+    /// let (machine, _) = Machine::load("dpi", &[])?;
+    /// let cam = Spec::conoid(machine, vec![25.0, 30.0, 35.0], None).solve()?;
+    /// let proven = cam.draw(50e-6)?.prove()?;
+    /// // A file for each section; another program may have edited one of them.
+    /// assert!(cam.check_section(&proven.cut_files()[0], 25.0, 60e-6)?.passed());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn conoid(machine: Machine, speeds: Vec<f64>, residual_limit: Option<f64>) -> Self {
+        let mut inputs = vec![Input::numbers("rpm", &speeds)];
+        inputs.extend(residual_limit.map(|limit| Input::quantity("residual", limit, ("N", 1.0))));
+        let solve = move |machine: &Machine| Conoid::solve(machine, &speeds);
+        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(residual_limit)))
+            .with_inputs(inputs)
+    }
+
+    /// The conoid with the fewest sections between two speeds, rpm, that leaves no more than a residual force between them, N.
+    #[must_use]
+    pub fn conoid_within(machine: Machine, speeds: (f64, f64), residual_limit: f64) -> Self {
+        let solve = move |machine: &Machine| between::fewest(machine, speeds, residual_limit);
+        let (from, to) = speeds;
+        let inputs =
+            vec![Input::word("rpm", format!("{from}..{to}")), Input::quantity("residual", residual_limit, ("N", 1.0))];
+        Self::new(machine, move |machine| solve(machine).map(|conoid| conoid.with_residual_limit(Some(residual_limit))))
+            .with_inputs(inputs)
+    }
+
+    /// The compensating cam of a press for a speed of its main shaft, rpm: the disc that takes the torque of the rotary cam, as the
+    /// machine file describes it.
+    #[must_use]
+    pub fn compensator(machine: Machine, rpm: f64) -> Self {
+        let solve = |machine: &Machine, rpm| -> Result<Disc, Refusal> { rotary(machine, rpm)?.compensating_disc() };
+        Self::new(machine, move |machine| solve(machine, rpm))
+            .for_other_speeds(solve, other_ends)
+            .with_inputs(vec![Input::number("rpm", rpm)])
+    }
+}
+
+/// The cam of the other end of the bed's stroke.
+fn other_ends(machine: &Machine) -> Vec<Alternative> {
+    let other = machine.end().map(End::other).and_then(|end| Some((machine.clone().at_end(end).ok()?, end)));
+    let alternative = |(machine, end): (Machine, End)| Alternative {
+        cause: "end",
+        words: format!("for the {} end of the stroke (--end {})", end.word(), end.word()),
+        machine,
+    };
+    other.into_iter().map(alternative).collect()
+}
+
+/// The inputs of a wedge, except its speed.
+fn of_wedge(solver: Solver, exact_on: ExactOn) -> Vec<Input> {
+    let solver = match solver {
+        Solver::Ode { tolerance } => Input::new("solver", format!("ode {tolerance}"), "ode"),
+        Solver::Paper { stations } => Input::word("solver", format!("paper, {stations} stations")),
+    };
+    vec![solver, Input::word("balance", exact_on.word())]
+}
+
+impl AssemblyReport for CompensatorFigures {
+    fn measures(&self, _: (&dyn Body, &[WrittenOutline]), others: &[(String, Proven)]) -> Vec<Measure> {
+        others.iter().map(|(_, second)| checks::compensator::measure(second.findings())).collect()
+    }
+
+    fn sections(&self, first: &Proven, others: &[(String, Proven)]) -> Vec<Section> {
+        let second = others.first().and_then(|(_, second)| compensation(first, second, self));
+        second.map(|compensation| compensation.section()).into_iter().collect()
+    }
+}
+
+/// The section on the two discs, with the figures of the second by its law.
+fn compensation(first: &Proven, second: &Proven, by_law: &CompensatorFigures) -> Option<Compensation> {
+    let (body, machine) = (second.body(), first.body().machine());
+    let (curves, data) = (curves(body)?, machine.compensator()?);
+    let both = first.outlines().first().zip(second.outlines().first());
+    let part = second.drawn().and_then(|drawn| drawn.parts.first());
+    let prime_radius_mm = MILLIMETRES * curves.follower.prime_radius()?;
+    Some(Compensation {
+        lift_max_mm: MILLIMETRES * lifts(curves.motion).1,
+        prime_radius_mm,
+        base_radius_mm: prime_radius_mm - MILLIMETRES * data.roller_radius,
+        roller_radius_mm: MILLIMETRES * data.roller_radius,
+        angle_deg: data.angle.to_degrees(),
+        work_j: by_law.work,
+        spring_force_max_n: by_law.spring_force,
+        torque_before_max_nm: by_law.before,
+        torque_after_max_nm: by_law.after,
+        torque_as_cut_max_nm: both
+            .and_then(|(one, two)| torque::remaining_torque((first.body(), &one.contour), (body, &two.contour))),
+        preload_by_rpm: by_law.by_speed.iter().map(preload_at).collect(),
+        outline: part.map(|part| part.measures(first.tolerance_mm(), |_| false)),
+        rolling: second.rolled().cloned(),
+        checks: second.findings().to_vec(),
+    })
+}
+
+fn preload_at(at: &TorqueAtSpeed) -> PreloadAtSpeed {
+    PreloadAtSpeed {
+        rpm: at.rpm,
+        preload_n: at.preload,
+        torque_before_max_nm: at.before,
+        torque_unchanged_max_nm: at.unchanged,
+        torque_after_max_nm: at.after,
+    }
+}

@@ -1,0 +1,98 @@
+//! What the verdicts on a plate rest on: air, run-up, and changes that would make it worth while on the return.
+
+use super::Wedge;
+use crate::body::ROUNDING_OF_BALANCE;
+use crate::domains::press::load::RunUp;
+use crate::domains::press::motion::equation_18::{BedDirection, ExactOn, Mechanism};
+use crate::domains::press::motion::{Transition, WedgeMotion};
+use crate::profile::{Worst, extremes};
+
+/// Steps in which friction angle (rad), efficiency and roller arm (m) are reported.
+const ANGLE_STEP: f64 = 0.1;
+const EFFICIENCY_STEPS: f64 = 100.0;
+const ARM_STEP_MM: f64 = 10.0;
+/// A roller arm so many times as long is looked at.
+const LONGEST_ARM: f64 = 4.0;
+
+impl Wedge {
+    /// The direction of the bed in which the forces are not to balance; `None` where they are in both.
+    pub(super) fn other_direction(&self) -> Option<BedDirection> {
+        match self.mechanism().exact_on {
+            ExactOn::Braking => Some(BedDirection::Return),
+            ExactOn::Return => Some(BedDirection::Braking),
+            ExactOn::Mean => None,
+        }
+    }
+
+    /// Least air: as [`ForceBalanced::least_air`](crate::domains::press::load::Balanced::least_air). Before the reversal x comes from below 0.
+    pub(super) fn air(&self) -> Worst {
+        let column = self.mechanism().bottom_law.column();
+        let used = |piece: usize, x: f64| x + self.motion.bottom(piece, x).s - column;
+        let least = extremes::largest_of_motion(&self.motion, (&self.acting(), 0.0), used);
+        Worst { value: -least.value, at: least.at, z: 0.0 }
+    }
+
+    /// The run-up before the reversal.
+    pub(super) fn ramp(&self) -> Option<RunUp> {
+        let Transition::RunUp { width } = self.machine.transition() else { return None };
+        let (stroke, [_, slope, second, _]) = (self.stroke(), self.motion.motion().at(0.0, false));
+        let bed = &self.mechanism().bottom_law;
+        if bed.in_line().is_none() {
+            return Some(RunUp::new(stroke, width, [slope * stroke, second * stroke * stroke]));
+        }
+        // The quintic runs along the travel of the bed.
+        Some(RunUp::along(stroke, width, |width| {
+            let way = -bed.overrun(-width);
+            (0.4 * slope * way - second * way * way / 20.0).abs()
+        }))
+    }
+
+    /// Friction angle, efficiency and roller arm, each of which alone brings the residual force in the direction in which the forces
+    /// are not to balance below what a fixed bottom leaves.
+    pub(super) fn worth_while(&self) -> Vec<String> {
+        let data = self.data;
+        let Some(way) = self.other_direction() else { return Vec::new() };
+        let (unit, limit) = (self.cylinder.unit_force(), self.residual_fixed_bottom());
+        // The law alone is solved: the outline does not change what it leaves.
+        let with = |change: &dyn Fn(&mut Mechanism)| {
+            let mut mechanism = *self.mechanism();
+            change(&mut mechanism);
+            let Ok(motion) =
+                WedgeMotion::new(mechanism, self.solver, self.machine.transition(), self.data.roller_radius)
+            else {
+                return false;
+            };
+            let negligible = ROUNDING_OF_BALANCE * self.inertia_max();
+            let left = |piece: usize, x: f64| unit * motion.residual(piece, x, way);
+            extremes::largest_size_of_motion(&motion, (&self.acting(), negligible), left).value < limit
+        };
+        let degrees = |steps: f64| (steps * ANGLE_STEP * 1e6).round() / 1e6;
+        let friction = |steps: f64| with(&|mechanism| mechanism.friction_angle = degrees(steps).to_radians());
+        let efficiency = |steps: f64| with(&|mechanism| mechanism.efficiency = steps / EFFICIENCY_STEPS);
+        let arm =
+            |steps: f64| with(&|mechanism| mechanism.arm_ratio = data.bottom_arm / (1e-3 * (steps * ARM_STEP_MM)));
+        let angle = first_passing(0.0, (data.friction_angle.to_degrees() / ANGLE_STEP).ceil(), friction);
+        let share = first_passing(EFFICIENCY_STEPS, (data.efficiency * EFFICIENCY_STEPS).floor(), efficiency);
+        let from = (1e3 * data.roller_arm / ARM_STEP_MM).floor();
+        let longer = first_passing((LONGEST_ARM * from).ceil(), from, arm);
+        let remedies = [
+            angle.map(|steps| format!("translating.friction_angle = \"{} deg\"", degrees(steps))),
+            share.map(|steps| format!("translating.efficiency = {}", steps / EFFICIENCY_STEPS)),
+            longer.map(|steps| format!("translating.roller_arm = \"{} mm\"", steps * ARM_STEP_MM)),
+        ];
+        remedies.into_iter().flatten().collect()
+    }
+}
+
+/// The whole number nearest to `failing` that passes, if `best` does.
+fn first_passing(best: f64, mut failing: f64, passes: impl Fn(f64) -> bool) -> Option<f64> {
+    let mut passing = best;
+    if passing == failing || !passes(passing) {
+        return None;
+    }
+    while (passing - failing).abs() > 1.0 {
+        let middle = (0.5 * (passing + failing)).floor();
+        *(if passes(middle) { &mut passing } else { &mut failing }) = middle;
+    }
+    Some(passing)
+}

@@ -1,0 +1,167 @@
+//! Speed against accuracy of the first critical speed: stations of the paper's method, and orders of the exact one.
+
+use crate::analysis::{Analysis, Picture};
+use crate::body::Kind;
+use crate::document::Input;
+use crate::domains::shaft::machine::ShaftMachine;
+use crate::domains::shaft::mechanics::{Beam, MOST_ORDER, Shaft, Whirl, exact, paper};
+use crate::refusal::Refusal;
+use crate::report::chart::{self, Chart, ChartPanel, ChartPoint};
+use crate::report::{Section, Speeds, shown};
+use crate::table::Table;
+use crate::trade::COMMAND;
+use crate::trade::measure::{TradeClock, quantile, timed};
+use serde::Serialize;
+use std::f64::consts::PI;
+use std::time::Duration;
+
+/// The first critical speed.
+pub const KIND: Kind =
+    Kind { command: COMMAND, noun: "time and accuracy of the first critical speed", keys: super::KIND.keys };
+
+/// Stations and orders that are tried.
+const STATIONS: [usize; 6] = [9, 18, 36, 180, 1800, 18_000];
+const ORDERS: [usize; 5] = [3, 4, 5, 8, 10];
+/// Rounds over all settings; their median is reported.
+const ROUNDS: usize = 15;
+/// Largest error that the advice keeps by default, as a share.
+const SHARE: f64 = 1e-3;
+/// A setting, measured.
+#[derive(Debug, Clone, Serialize)]
+struct ShaftTradeRow {
+    setting: String,
+    n1_rpm: f64,
+    /// Of the first critical speed, relative.
+    error: f64,
+    time_us: f64,
+}
+
+/// How one setting finds the first critical speed, rad/s.
+enum ShaftTradeSetting {
+    Paper(usize),
+    Exact(Option<usize>),
+}
+
+impl ShaftTradeSetting {
+    fn name(&self) -> String {
+        match self {
+            Self::Paper(stations) => format!("paper {stations}"),
+            Self::Exact(Some(order)) => format!("exact {order}"),
+            Self::Exact(None) => "exact auto".into(),
+        }
+    }
+
+    fn solve(&self, shaft: &Shaft) -> Result<f64, Refusal> {
+        match self {
+            Self::Paper(stations) => Ok(paper::first_critical(shaft, *stations).map_err(Refusal::of)?.speed),
+            Self::Exact(order) => {
+                let modes = exact::modes(shaft, Whirl::Planar, 1, *order).map_err(Refusal::of)?;
+                Ok(modes.modes.first().map_or(f64::NAN, |mode| mode.speed))
+            }
+        }
+    }
+}
+
+/// Every setting for the shaft of a machine, by a clock that tells the time since any fixed moment.
+///
+/// # Errors
+/// [`Refusal`] when the shaft has no critical speed.
+pub fn analysis(machine: &ShaftMachine, clock: &dyn Fn() -> Duration) -> Result<Analysis, Refusal> {
+    // The model of the paper, so that only the effect of its stations is measured.
+    let own = machine.shaft();
+    let shaft = Shaft::new(own.segments().to_vec(), own.supports().to_vec(), own.discs().to_vec(), Beam::Euler)
+        .map_err(Refusal::of)?;
+    let (truth, rows) = measure(&shaft, clock)?;
+    let title = format!("{}: time against the error of the first critical speed", machine.name());
+    let mut inputs = machine.inputs().to_vec();
+    inputs.push(Input::word("command", "trade shaft"));
+    let advice = advice(&rows);
+    let names = rows.iter().map(|row| row.setting.clone()).collect();
+    let columns: [crate::table::ListedColumn<ShaftTradeRow>; 3] =
+        [("n1_rpm", |row| row.n1_rpm), ("error", |row| row.error), ("time_us", |row| row.time_us)];
+    Ok(Analysis {
+        kind: &KIND,
+        machine: machine.name().to_owned(),
+        speeds: Speeds::Any(()),
+        inputs,
+        sections: vec![
+            Section::new("n1_rpm", &truth),
+            Section::new("rows", &rows).with_words(words(truth, &rows, &advice)),
+            Section::new("advice", &advice),
+        ],
+        measures: Vec::new(),
+        notes: Vec::new(),
+        tables: vec![("", Table { words: Some(("setting", names)), ..Table::listed(&columns, &rows) })],
+        by: &[],
+        along: "time_us",
+        picture: Picture::Chart(chart_of(&rows, title)),
+        mechanism: None,
+        document: None,
+        diagrams: &[],
+        not_modelled: Vec::new(),
+    })
+}
+
+/// The first critical speed to rounding, rpm, and every setting.
+fn measure(shaft: &Shaft, clock: TradeClock<'_>) -> Result<(f64, Vec<ShaftTradeRow>), Refusal> {
+    let paper = shaft.supports().len() == 2;
+    let settings: Vec<ShaftTradeSetting> = STATIONS
+        .iter()
+        .filter(|_| paper)
+        .map(|stations| ShaftTradeSetting::Paper(*stations))
+        .chain(ORDERS.iter().map(|order| ShaftTradeSetting::Exact(Some(*order))))
+        .chain([ShaftTradeSetting::Exact(None)])
+        .collect();
+    let truth = ShaftTradeSetting::Exact(Some(MOST_ORDER)).solve(shaft)?;
+    let mut times: Vec<Vec<f64>> = vec![Vec::new(); settings.len()];
+    let mut speeds = vec![f64::NAN; settings.len()];
+    for _ in 0..ROUNDS {
+        for ((setting, times), speed) in settings.iter().zip(&mut times).zip(&mut speeds) {
+            let (time, found) = timed(clock, || setting.solve(shaft))?;
+            times.push(time);
+            *speed = found;
+        }
+    }
+    let row = |((setting, times), speed): ((&ShaftTradeSetting, &Vec<f64>), &f64)| ShaftTradeRow {
+        setting: setting.name(),
+        n1_rpm: 30.0 / PI * speed,
+        error: (speed / truth - 1.0).abs(),
+        time_us: quantile(times.iter().copied(), 0.5),
+    };
+    Ok((30.0 / PI * truth, settings.iter().zip(&times).zip(&speeds).map(row).collect()))
+}
+
+fn advice(rows: &[ShaftTradeRow]) -> String {
+    let of = |limit: f64| {
+        let keep = rows.iter().filter(|row| row.error <= limit);
+        keep.min_by(|a, b| a.time_us.total_cmp(&b.time_us))
+    };
+    let words =
+        |row: &ShaftTradeRow| format!("{} is off by {} in {:.0} µs", row.setting, shown(row.error), row.time_us);
+    match (of(SHARE), of(1e-9)) {
+        (Some(rough), Some(fine)) => {
+            format!("cheapest within {} %: {}; to nine digits: {}", shown(100.0 * SHARE), words(rough), words(fine))
+        }
+        (Some(rough), None) => format!("cheapest within {} %: {}", shown(100.0 * SHARE), words(rough)),
+        _ => format!("no setting is within {} %", shown(100.0 * SHARE)),
+    }
+}
+
+fn words(truth: f64, rows: &[ShaftTradeRow], advice: &str) -> Vec<String> {
+    let first = format!("first critical speed {} rpm (Euler beam, planar); median of {ROUNDS} rounds", shown(truth));
+    let head = format!("{:<14} {:>16} {:>10} {:>10}", "setting", "n1/rpm", "error", "time/µs");
+    let row = |row: &ShaftTradeRow| {
+        format!("{:<14} {:>16} {:>10} {:>10.1}", row.setting, shown(row.n1_rpm), shown(row.error), row.time_us)
+    };
+    [first, head].into_iter().chain(rows.iter().map(row)).chain([advice.to_owned()]).collect()
+}
+
+/// Time against error; what is exact to rounding cannot be shown on its scale.
+fn chart_of(rows: &[ShaftTradeRow], title: String) -> Chart {
+    let point =
+        |row: &ShaftTradeRow| ChartPoint { x: row.time_us, y: row.error, label: row.setting.clone(), best: false };
+    let mut points: Vec<ChartPoint> = rows.iter().map(point).collect();
+    chart::mark_front(&mut points);
+    let panels = vec![ChartPanel { y_name: "error of the first critical speed", points }];
+    Chart { title, x_name: "time, µs", panels }
+}

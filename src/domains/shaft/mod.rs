@@ -1,0 +1,39 @@
+//! The shaft under a cam: critical speeds, deflection, twist, unbalance, and the loss of lift.
+
+pub mod analysis;
+mod builder;
+pub mod checks;
+pub mod machine;
+pub mod mechanics;
+
+pub use machine::{ShaftData, ShaftLimits, ShaftMachine};
+
+use crate::document::cams::CamKind;
+use crate::domain::{Added, Domain};
+use crate::machine::Embedded;
+
+/// The shaft under a cam, as keys name it.
+pub const SHAFT: &str = "shaft";
+
+/// Shafts.
+pub const DOMAIN: Domain = Domain {
+    sections: &[
+        Added {
+            after: "compensator",
+            entries: &[&machine::SECTION, &machine::SEGMENT, &machine::SUPPORT, &machine::DISC],
+        },
+        Added { after: "limits", entries: &[&machine::limits::SECTION] },
+    ],
+    read: Some(machine::read),
+    cams: &[CamKind::analysis(SHAFT)],
+    kinds: &[],
+    analyses: &[&analysis::KIND, &analysis::trade::KIND],
+    checks: &[Added {
+        after: "reversals",
+        entries: &[&checks::CRITICAL_SPEED, &checks::LIFT_ERROR, &checks::SUPPORT_SLOPE, &checks::UNBALANCE],
+    }],
+    embedded: &[
+        Embedded { name: "dpi-shaft", toml: include_str!("../../../profiles/dpi-shaft.toml") },
+        Embedded { name: "press-cylinder", toml: include_str!("../../../profiles/press-cylinder.toml") },
+    ],
+};

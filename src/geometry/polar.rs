@@ -1,0 +1,87 @@
+//! Where a curve crosses a ray from the origin.
+
+use super::contour::{Contour, Edge};
+use nalgebra::Vector2;
+
+/// Parts of an edge that are looked at one by one.
+const PARTS: u32 = 8;
+/// Halvings of a part: below the resolution of its parameter.
+const HALVINGS: u32 = 52;
+
+/// The parameter between `a` and `b` at which a curve crosses the ray of a direction (a unit vector), where its two ends lie on either side of
+/// the line through that ray.
+pub fn crossing(
+    point: impl Fn(f64) -> Vector2<f64>,
+    [a, b]: [f64; 2],
+    [at_a, at_b]: [Vector2<f64>; 2],
+    direction: Vector2<f64>,
+) -> Option<f64> {
+    let left = |point: Vector2<f64>| direction.perp(&point) >= 0.0;
+    if left(at_a) == left(at_b) || direction.dot(&(at_a + at_b)) <= 0.0 {
+        return None;
+    }
+    let (mut from, mut to) = (a, b);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (from + to);
+        if left(point(middle)) == left(at_a) {
+            from = middle;
+        } else {
+            to = middle;
+        }
+    }
+    Some(0.5 * (from + to))
+}
+
+/// Distance from the origin, mm, at which a contour is crossed last by the ray of each direction (unit vectors); `None` where it is not.
+#[must_use]
+pub fn outermost(contour: &Contour, directions: &[Vector2<f64>]) -> Vec<Option<f64>> {
+    let edges: Vec<(Edge, f64)> = contour.edges().map(|edge| (edge, edge.length())).collect();
+    let along = |direction: &Vector2<f64>| {
+        // An edge does not reach farther from its start than its length.
+        let near = edges.iter().filter(|(edge, length)| direction.perp(&edge.start()).abs() <= *length);
+        near.filter_map(|(edge, _)| of_edge(edge, *direction)).reduce(f64::max)
+    };
+    directions.iter().map(along).collect()
+}
+
+fn of_edge(edge: &Edge, direction: Vector2<f64>) -> Option<f64> {
+    let at = |share: f64| edge.at(share).0;
+    // The ends of neighbours are the same to the last digit: a ray through a vertex crosses one of them.
+    let end = |index: u32| match index {
+        0 => edge.start(),
+        PARTS => edge.end(),
+        _ => at(f64::from(index) / f64::from(PARTS)),
+    };
+    let part = |index: u32| {
+        let shares = [index, index + 1].map(|end| f64::from(end) / f64::from(PARTS));
+        crossing(at, shares, [end(index), end(index + 1)], direction).map(|share| direction.dot(&at(share)))
+    };
+    (0..PARTS).filter_map(part).reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A circle off the origin: R = e cos ψ + √(r² − e² sin² ψ) in closed form; one that does not hold the origin is met only ahead of it.
+    #[test]
+    fn a_circle_is_crossed_where_the_closed_form_says() {
+        let (centre, radius) = (7.0, 30.0);
+        let circle = Contour::circle(Vector2::new(centre, 0.0), radius);
+        let angles: Vec<f64> = (0..72).map(|index| f64::from(5 * index).to_radians()).collect();
+        let rays: Vec<Vector2<f64>> = angles.iter().map(|a| Vector2::new(libm::cos(*a), libm::sin(*a))).collect();
+        for (angle, found) in angles.iter().zip(outermost(&circle, &rays)) {
+            let (sin, cos) = libm::sincos(*angle);
+            let known = centre * cos + (radius * radius - centre * centre * sin * sin).sqrt();
+            let found = found.expect("the ray leaves the circle");
+            assert!((found - known).abs() < 1e-11, "{angle}: {found} {known}");
+        }
+        // Through the vertices of a circle of two half arcs.
+        let ends = outermost(&Contour::circle(Vector2::zeros(), radius), &[Vector2::x(), -Vector2::x()]);
+        assert!(ends.iter().all(|end| (end.expect("through a vertex") - radius).abs() < 1e-11), "{ends:?}");
+        let ahead = Contour::circle(Vector2::new(50.0, 0.0), 10.0);
+        let found = outermost(&ahead, &[Vector2::x(), -Vector2::x(), Vector2::y()]);
+        assert!((found[0].expect("ahead") - 60.0).abs() < 1e-11);
+        assert_eq!((found[1], found[2]), (None, None));
+    }
+}

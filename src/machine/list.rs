@@ -1,0 +1,31 @@
+//! The tables of a machine file.
+
+use super::{ROOT, disc, dynamics, limits, title, track};
+use crate::document::KeySection;
+use crate::follower::FOLLOWERS;
+use crate::motion::program;
+
+/// The tables of a machine file before those of the followers, in the order of the template.
+const MOTION_TABLES: &[&KeySection] =
+    &[&ROOT, &program::keys::SECTION, &program::keys::FOURIER, &program::keys::POLYDYNE, &program::keys::SEGMENT];
+
+/// The tables after those of the followers.
+const BODY_TABLES: &[&KeySection] = &[
+    &dynamics::SPRING,
+    &dynamics::GUIDE,
+    &dynamics::VIBRATION,
+    &dynamics::FLYWHEEL,
+    &disc::SECTION,
+    &track::SECTION,
+    &disc::KEYWAY,
+    &track::COUNTER,
+    &limits::SECTION,
+    &title::SECTION,
+];
+
+/// The tables of a machine file, and one for each kind of follower.
+#[must_use]
+pub fn sections() -> Vec<&'static KeySection> {
+    let followers = FOLLOWERS.iter().map(|kind| kind.section);
+    MOTION_TABLES.iter().copied().chain(followers).chain(BODY_TABLES.iter().copied()).collect()
+}

@@ -1,0 +1,123 @@
+//! Machine files and those in the binary, read against a catalogue of tables.
+
+use super::embedded::Embedded;
+use super::other_files::instead_of_machine;
+use super::{CamData, FollowerData, MachineError, MachineParts, stem};
+use crate::document::file;
+use crate::document::{FileFault, Reader, Tables, similar};
+use std::path::Path;
+
+/// Largest machine file, bytes.
+const LARGEST_FILE: u64 = 1 << 20;
+
+/// What machine files may contain, and those in the binary.
+#[derive(Debug)]
+pub struct Catalogue {
+    /// Their tables.
+    pub keys: Tables,
+    /// The machine files in the binary; the first is the default.
+    pub embedded: Vec<Embedded>,
+    /// How each domain reads its part of a machine.
+    pub parts: Vec<ReadParts>,
+    /// The names of all checks, in the order of reports.
+    pub checks: Vec<&'static str>,
+}
+
+/// Reads what a domain finds in a machine file, with the cam and the follower where they have no fault.
+pub type ReadParts = fn(&Reader<'_>, (Option<&CamData>, Option<&FollowerData>), &mut MachineParts);
+
+/// The text of a machine file.
+pub(crate) struct MachineText<'a> {
+    /// What it is read against.
+    pub(crate) catalogue: &'static Catalogue,
+    /// What messages call it.
+    name: &'a str,
+    text: &'a str,
+    /// The user wrote it.
+    pub(super) by_user: bool,
+    /// The folder of its file.
+    folder: Option<&'a Path>,
+}
+
+impl<'a> MachineText<'a> {
+    /// A text of the user that is not in a folder.
+    pub(crate) fn of_user(catalogue: &'static Catalogue, name: &'a str, text: &'a str) -> Self {
+        Self { catalogue, name, text, by_user: true, folder: None }
+    }
+
+    /// The result of `parts` for this text.
+    pub(crate) fn read<T>(
+        &self,
+        overrides: &[String],
+        parts: impl FnOnce(&Reader<'_>) -> Option<T>,
+    ) -> Result<T, MachineError> {
+        let reader = Reader::in_folder(self.folder, self.name, self.text, overrides, &self.catalogue.keys.sections);
+        let made = parts(&reader);
+        reader.finish().map_err(|faults| MachineError { faults })?;
+        // A part is missing only after a fault, so `finish` has returned before.
+        made.ok_or(MachineError { faults: Vec::new() })
+    }
+}
+
+impl Catalogue {
+    /// The result of `read` for an embedded machine by its name, or for a file, and the stem of its files.
+    pub(crate) fn load<T>(
+        &'static self,
+        name_or_path: &str,
+        read: impl FnOnce(&MachineText<'_>) -> Result<T, MachineError>,
+    ) -> Result<(T, String), MachineError> {
+        let path = Path::new(name_or_path);
+        let exact = |machine: &&Embedded| machine.name == name_or_path;
+        let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
+        let named = self.embedded.iter().find(exact).or_else(|| self.embedded.iter().find(in_any_case));
+        if let Some(embedded) = named {
+            let name = format!("{} (embedded)", embedded.name);
+            let source =
+                MachineText { catalogue: self, name: &name, text: embedded.toml, by_user: false, folder: None };
+            return Ok((read(&source)?, embedded.name.to_owned()));
+        }
+        let text = file::text_of(path, LARGEST_FILE).map_err(|why| MachineError {
+            faults: vec![FileFault {
+                message: format!("cannot read the machine file `{name_or_path}`: {why}"),
+                help: Some(format!(
+                    "{}give a path to a TOML file or an embedded machine: {}",
+                    self.meant(path)
+                        .filter(|near| near != name_or_path)
+                        .map_or(String::new(), |near| format!("did you mean `{near}`? Else ")),
+                    self.names().join(", ")
+                )),
+                place: None,
+            }],
+        })?;
+        if let Some((kind, help)) = instead_of_machine(name_or_path, text.as_bytes()) {
+            let message = format!("`{name_or_path}` is {kind}, not a machine file");
+            return Err(MachineError { faults: vec![FileFault { message, help: Some(help), place: None }] });
+        }
+        let stem = stem::fitting(&path.file_stem().unwrap_or_default().to_string_lossy());
+        let source = MachineText { folder: path.parent(), ..MachineText::of_user(self, name_or_path, &text) };
+        Ok((read(&source)?, stem))
+    }
+
+    /// The names of the machine files in the binary.
+    #[must_use]
+    pub fn names(&self) -> Vec<&'static str> {
+        self.embedded.iter().map(|machine| machine.name).collect()
+    }
+
+    /// The embedded machine, or the TOML file in the same directory, whose name is nearest to that of a file that cannot be read.
+    fn meant(&self, path: &Path) -> Option<String> {
+        let name = path.file_name()?.to_str()?;
+        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        let nearby = std::fs::read_dir(parent.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
+        let mut files: Vec<String> = nearby.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+        files.retain(|file| Path::new(file).extension().is_some_and(|ending| ending == "toml"));
+        files.sort();
+        let embedded = self.names().into_iter().filter(|_| parent.is_none());
+        let near = similar(name, embedded.chain(files.iter().map(String::as_str)))?;
+        Some(
+            parent
+                .filter(|_| files.iter().any(|file| file == near))
+                .map_or_else(|| near.to_owned(), |parent| parent.join(near).display().to_string()),
+        )
+    }
+}

@@ -1,0 +1,233 @@
+//! Which body is cut for a motion program, and the measures of one whose roller runs within it.
+
+use crate::document::Presence::{Default, Optional};
+use crate::document::cams::{BODIES, BODY_KINDS, CONJUGATE, GROOVE, MAKE, RING};
+use crate::document::range::{LARGEST_FORCE, LONGEST};
+use crate::document::{Field, Input, Key, KeySection, Occurrence, Reader, TableReader, above, within};
+use crate::follower::{Element, FollowerData};
+use crate::units::Dimension::{Angle, Force, Length};
+use std::f64::consts::PI;
+
+/// The body of a motion program with what only one within which a roller runs has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackData {
+    /// The body, by the name that keys give it: [`MAKE`] for a disc.
+    pub body: &'static str,
+    /// Radius of the outside of a ring, m; `None` is `auto`.
+    pub outer_radius: Option<f64>,
+    /// Radius of the blank of a groove, m; `None` is `auto`.
+    pub blank_radius: Option<f64>,
+    /// Width of a groove less the diameter of its roller, m.
+    pub clearance: f64,
+    /// Share of the clearance on the inner flank.
+    pub clearance_share: f64,
+    /// Depth of a groove, m.
+    pub groove_depth: Option<f64>,
+    /// The counter disc of a pair.
+    pub counter: CounterData,
+}
+
+/// The counter disc of a pair of conjugate discs; what is absent is that of the main one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CounterData {
+    /// Radius of its roller, m.
+    pub radius: Option<f64>,
+    /// Arm of its roller, m.
+    pub arm: Option<f64>,
+    /// Between the centres of two rollers on a straight path, m.
+    pub distance: Option<f64>,
+    /// Between the arms of two rollers, rad.
+    pub included_angle: Option<f64>,
+    /// Force along the normal with which both rollers are pressed on at rest, N.
+    pub preload: f64,
+}
+
+const BODY: Field<&'static str> = Field::words(
+    "body",
+    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower",
+    Default("disc"),
+    BODIES,
+    BODY_KINDS,
+)
+.also(&["kind", "type"]);
+const OUTER_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
+    "outer_radius",
+    "radius of the outside of a ring; \"auto\": the smallest that leaves the wall, in whole millimetres",
+    Default("auto"),
+    (&["auto"], &[None]),
+    (Length, above(0.0, LONGEST), Some),
+)
+.only(&[RING]);
+const BLANK_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
+    "blank_radius",
+    "radius of the blank that a groove is cut into; \"auto\": the smallest that leaves the wall, in whole millimetres",
+    Default("auto"),
+    (&["auto"], &[None]),
+    (Length, above(0.0, LONGEST), Some),
+)
+.only(&[GROOVE])
+.also(&["outer"]);
+const CLEARANCE: Field<f64> = Field::quantity(
+    "clearance",
+    "width of a groove less the diameter of its roller",
+    Default("0 mm"),
+    Length,
+    within(0.0, LONGEST),
+)
+.only(&[GROOVE])
+.also(&["play", "gap"]);
+const CLEARANCE_SHARE: Field<f64> = Field::number(
+    "clearance_share",
+    "share of the clearance on the inner flank, 0 to 1; with 0 the motion is exact where the roller runs on that flank",
+    Default("0"),
+    within(0.0, 1.0),
+)
+.only(&[GROOVE]);
+const GROOVE_DEPTH: Field<f64> = Field::quantity(
+    "groove_depth",
+    "depth of a groove, below the thickness",
+    Optional("10 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(&[GROOVE])
+.also(&["depth"]);
+
+const COUNTER_RADIUS: Field<f64> = Field::quantity(
+    "radius",
+    "radius of its roller; that of the other one when absent",
+    Optional("18 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+const COUNTER_DIAMETER: Key =
+    COUNTER_RADIUS.diameter("diameter", "diameter of its roller, in the place of its radius", "36 mm");
+const COUNTER_ARM: Field<f64> = Field::quantity(
+    "arm",
+    "arm from the pivot to its roller; that of the other one when absent",
+    Optional("100 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+const DISTANCE: Field<f64> = Field::quantity(
+    "distance",
+    "between the centres of two rollers on a straight path, along it; that of two discs of one prime radius when absent",
+    Optional("180 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+const INCLUDED_ANGLE: Field<f64> = Field::quantity(
+    "included_angle",
+    "between the arms of the two rollers; that with which both begin at the same angle when absent",
+    Optional("85 deg"),
+    Angle,
+    above(0.0, PI),
+);
+const PRELOAD: Field<f64> = Field::quantity(
+    "preload",
+    "force along the normal with which both rollers are pressed on at rest",
+    Default("0 N"),
+    Force,
+    within(0.0, LARGEST_FORCE),
+);
+
+/// `[cam.counter]`.
+pub(super) const COUNTER: KeySection = KeySection {
+    path: "cam.counter",
+    about: "the counter disc of a pair of conjugate discs, on the same shaft",
+    occurs: Occurrence::Optional,
+    cams: &[CONJUGATE],
+    keys: &[COUNTER_RADIUS.key, COUNTER_DIAMETER, COUNTER_ARM.key, DISTANCE.key, INCLUDED_ANGLE.key, PRELOAD.key],
+};
+
+/// The counter disc, as far as it is described.
+pub(super) fn read_counter(reader: &Reader<'_>, follower: &FollowerData) -> CounterData {
+    let Some(table) = reader.find(&COUNTER) else { return CounterData::default() };
+    let swings = follower.arm.is_some();
+    let other = [(&DISTANCE, swings), (&INCLUDED_ANGLE, !swings), (&COUNTER_ARM, !swings)];
+    for (field, _) in other.into_iter().filter(|(field, idle)| *idle && table.has(field)) {
+        let moves = if swings { "swings on an arm" } else { "moves on a straight path" };
+        table.fail(field, format!("the follower {moves}: `{}` has no meaning", field.key.name), None);
+    }
+    CounterData {
+        radius: table.get(&COUNTER_RADIUS),
+        arm: table.get(&COUNTER_ARM),
+        distance: table.get(&DISTANCE),
+        included_angle: table.get(&INCLUDED_ANGLE),
+        preload: table.get(&PRELOAD).unwrap_or(0.0),
+    }
+}
+
+/// The keys of `[cam]` that say which body is cut.
+pub(super) const SECTION: KeySection = KeySection {
+    path: "cam",
+    about: "",
+    occurs: Occurrence::Once,
+    cams: &[MAKE],
+    keys: &[BODY.key, OUTER_RADIUS.key, BLANK_RADIUS.key, CLEARANCE.key, CLEARANCE_SHARE.key, GROOVE_DEPTH.key],
+};
+
+impl TrackData {
+    /// Radius of the edge of a ring or of the blank of a groove, m; `None` is `auto`.
+    #[must_use]
+    pub fn edge_radius(&self) -> Option<f64> {
+        if self.is_ring() { self.outer_radius } else { self.blank_radius }
+    }
+
+    /// Whether the metal lies around the roller only.
+    #[must_use]
+    pub fn is_ring(&self) -> bool {
+        self.body == RING
+    }
+}
+
+pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool) -> Option<TrackData> {
+    let body = table.get(&BODY)?;
+    let (blank_radius, outer_radius) = (table.get(&BLANK_RADIUS)?, table.get(&OUTER_RADIUS)?);
+    let groove_depth = table.get(&GROOVE_DEPTH);
+    if body == GROOVE
+        && let Some(thickness) = thickness
+    {
+        let help = || Some("it must be above 0 and below cam.thickness".to_owned());
+        match groove_depth {
+            None => table.fail(&GROOVE_DEPTH, "a groove in a disc of a thickness needs a depth".into(), help()),
+            Some(depth) if depth >= thickness => {
+                let message = format!("the groove of {} goes through the disc", table.typed(&GROOVE_DEPTH));
+                table.fail(&GROOVE_DEPTH, message, help());
+            }
+            Some(_) => {}
+        }
+    }
+    if body == RING && bored {
+        table.fail(
+            &BODY,
+            "a ring has no bore: its roller runs inside of it".into(),
+            Some("leave cam.bore_radius out".into()),
+        );
+    }
+    Some(TrackData {
+        body,
+        outer_radius,
+        blank_radius,
+        clearance: table.get(&CLEARANCE)?,
+        clearance_share: table.get(&CLEARANCE_SHARE)?,
+        groove_depth,
+        counter: CounterData::default(),
+    })
+}
+
+/// A roller runs in a ring or a groove.
+pub(super) fn rolled_by(reader: &Reader<'_>, track: &TrackData, follower: &FollowerData) {
+    let rolls = matches!(follower.shape.element(), Element::Roller { radius } if radius != 0.0);
+    if track.body != MAKE && !rolls {
+        let message = format!("a {} needs a roller, and the follower is that of [{}]", track.body, follower.path);
+        let help = "give [follower.roller] or [follower.swinging-roller], or cam.body = \"disc\"";
+        reader.table(&SECTION).fail(&BODY, message, Some(help.into()));
+    }
+}
+
+/// The inputs of a file without the body where it is a disc: the files of a disc keep the hash that they had before there were others.
+pub(super) fn without_disc(inputs: Vec<Input>) -> Vec<Input> {
+    let body = SECTION.path_of(&BODY.key);
+    inputs.into_iter().filter(|input| input.key != body || input.value != BODIES[0]).collect()
+}

@@ -1,0 +1,154 @@
+//! What applies to a whole program, however its motion is given.
+
+use super::keys::{MEASURED_AT, MeasuredAt, OUTPUT_ARM, START};
+use crate::document::{LengthOrAngle, TableReader};
+use crate::motion::Quantity;
+use crate::units::{self, Dimension};
+
+/// How the follower of a file moves, which its motion must fit.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FollowerMovement {
+    /// The path of its table.
+    pub(crate) table: &'static str,
+    pub(crate) quantity: Quantity,
+    /// The arm of its roller, m.
+    pub(crate) arm: Option<f64>,
+}
+
+/// What applies to the whole program.
+#[derive(Clone, Copy)]
+pub(super) struct ProgramContext {
+    pub(super) quantity: Quantity,
+    /// The radius of the arc along which lengths of a swinging follower are measured, m.
+    pub(super) arc: Option<f64>,
+    /// The arm of the roller, m, for messages.
+    pub(super) arm: Option<f64>,
+    /// Angular speed of the cam, rad/s.
+    pub(super) speed: Option<f64>,
+    /// First cam angle, and the angle the segments fill, rad.
+    pub(super) at: f64,
+    pub(super) fill: f64,
+}
+
+impl ProgramContext {
+    /// A position as typed.
+    pub(super) fn value_of(&self, position: LengthOrAngle) -> (Quantity, f64) {
+        value_of(position, self.arc)
+    }
+
+    /// In which quantity bare numbers of positions are typed, and by what they are divided: the arc (m) along which lengths of a
+    /// swinging follower are measured.
+    pub(super) fn typed(&self, table: &TableReader<'_>) -> (Quantity, f64) {
+        let lengths = || units::parse(&table.typed(&START), Dimension::Length).is_ok();
+        match self.arc {
+            Some(arc) if lengths() => (Quantity::Length, arc),
+            _ => (self.quantity, 1.0),
+        }
+    }
+
+    /// What to write in the place of a position of the wrong kind.
+    pub(super) fn remedy(&self, position: f64) -> String {
+        match self.arm {
+            Some(arm) if self.quantity == Quantity::Angle => conversion(position, arm) + WITH_LENGTHS,
+            _ => "give both as lengths, or both as angles".to_owned(),
+        }
+    }
+}
+
+/// What keeps lengths for a swinging follower.
+const WITH_LENGTHS: &str = "; or keep lengths and add measured_at = \"roller\", or output_arm, to [motion]";
+
+/// A position as typed; a length along an arc of this radius (m) as the angle that it is.
+pub(super) fn value_of(position: LengthOrAngle, arc: Option<f64>) -> (Quantity, f64) {
+    match (position, arc) {
+        (LengthOrAngle::Length(value), Some(arc)) => (Quantity::Angle, value / arc),
+        (LengthOrAngle::Length(value), None) => (Quantity::Length, value),
+        (LengthOrAngle::Angle(value), _) => (Quantity::Angle, value),
+    }
+}
+
+/// A length (m) along the arc of a roller at the end of an arm (m), as an angle.
+fn conversion(length: f64, arm: f64) -> String {
+    let angle = (length / arm).to_degrees();
+    let (length, arm) = (1e3 * length, 1e3 * arm);
+    let rounded = |value: f64, digits: f64| (value * digits).round() / digits;
+    format!(
+        "{} mm along the arc of the roller (arm {} mm) is \"{} deg\"",
+        rounded(length, 1e6),
+        rounded(arm, 1e6),
+        rounded(angle, 1e4)
+    )
+}
+
+/// The radius of the arc along which positions are measured, m; a fault where keys or follower do not fit. Without a follower only its own
+/// fault is reported.
+pub(super) fn arc(table: &TableReader<'_>, follower: Option<FollowerMovement>) -> Option<f64> {
+    let follower = follower?;
+    let word = table.has(&MEASURED_AT).then(|| table.get(&MEASURED_AT)).flatten();
+    let path = follower.table;
+    if follower.quantity == Quantity::Length {
+        for (given, name) in [(table.has(&MEASURED_AT), "measured_at"), (table.has(&OUTPUT_ARM), "output_arm")] {
+            if given {
+                let message = format!("`{name}` is for a swinging follower, but [{path}] moves along a straight path");
+                let help = Some("remove it: positions are lengths along that path".to_owned());
+                if name == "measured_at" {
+                    table.fail(&MEASURED_AT, message, help);
+                } else {
+                    table.fail(&OUTPUT_ARM, message, help);
+                }
+            }
+        }
+        return None;
+    }
+    match word {
+        Some(MeasuredAt::Pivot) => None,
+        Some(MeasuredAt::Roller) => {
+            if follower.arm.is_none() {
+                let message = format!("[{path}] has no roller along whose arc positions could be measured");
+                table.fail(&MEASURED_AT, message, Some("give output_arm in its place, or angles".into()));
+            }
+            follower.arm
+        }
+        Some(MeasuredAt::Output) if !table.has(&OUTPUT_ARM) => {
+            let help = Some("add output_arm = \"150 mm\", the arm at whose end they are measured".into());
+            table.fail(&MEASURED_AT, "positions at the output need its arm".into(), help);
+            None
+        }
+        Some(MeasuredAt::Output) | None => table.get(&OUTPUT_ARM),
+    }
+}
+
+/// Reports positions that are not of the kind that the follower moves by; `lengths` are those of the file, m.
+pub(super) fn report_mismatch(
+    table: &TableReader<'_>,
+    (quantity, follower): (Quantity, FollowerMovement),
+    lengths: &[f64],
+) {
+    let path = follower.table;
+    if quantity == Quantity::Angle {
+        let message = format!("motion.start is an angle, but [{path}] moves along a straight path");
+        table.fail(&START, message, Some("give lengths, start = \"0 mm\"; or a swinging follower".into()));
+        return;
+    }
+    let message = format!("motion.start is a length, but [{path}] swings: its positions are angles");
+    let mut told: Vec<f64> = Vec::new();
+    for length in lengths.iter().copied().filter(|length| *length != 0.0) {
+        if !told.contains(&length) && told.len() < MOST_CONVERTED {
+            told.push(length);
+        }
+    }
+    let help = match follower.arm {
+        Some(arm) if !told.is_empty() => {
+            let all: Vec<String> = told.iter().map(|length| conversion(*length, arm)).collect();
+            format!("give angles: {}{WITH_LENGTHS}", all.join(", "))
+        }
+        Some(_) => format!("give angles{WITH_LENGTHS}"),
+        None => {
+            "give angles; or keep lengths and add output_arm to [motion], the arm at whose end they are measured".into()
+        }
+    };
+    table.fail(&START, message, Some(help));
+}
+
+/// Most positions that a message converts.
+const MOST_CONVERTED: usize = 4;

@@ -1,0 +1,287 @@
+//! The nodes of a curve through rows, or near them, and the figures of it; of a whole turn and of a segment alike.
+
+use super::{RowFigures, RowShape, RowWishes, Smoothing};
+use crate::motion::laws::spline;
+use crate::numeric::bounded_jerk::{self, Given, NotMonotonic, STAYS};
+use crate::numeric::extremum;
+use crate::numeric::least_jerk::{NodeConstraint, NodeInterval, least_jerk};
+
+/// Cells in which the extremes of a quintic are separated.
+const CELLS: u32 = 8;
+/// Fewest rows in which rounding is looked for.
+const FEWEST_OF_ROUNDED: usize = 24;
+/// A step above this share of the lift is a choice of numbers, not rounding.
+const MOST_OF_ROUNDED: f64 = 0.02;
+/// Rounding by half a step makes the second difference of rows wrong by up to two steps; below this share of the largest acceleration
+/// nothing is compared.
+const MATTERS: f64 = 0.05;
+/// A rise that begins with a continuous acceleration grows with the third power of the angle: it is this many steps high at twice the
+/// angle at which it is one.
+const CUBED: f64 = 8.0;
+
+/// Rows on shares of a turn or a segment, from 0 to 1.
+pub(super) struct RowRun<'a> {
+    pub(super) knots: &'a [f64],
+    /// Positions, as many as knots.
+    pub(super) values: &'a [f64],
+    /// Whether an interval rests, one fewer than knots.
+    pub(super) dwells: Vec<bool>,
+    /// Velocity and acceleration at both ends of a segment, where they are given; `None` of a turn, whose last row is its first.
+    pub(super) ends: Option<[NodeConstraint; 2]>,
+    /// The usual interval, a share.
+    pub(super) spacing: f64,
+}
+
+/// Value, velocity and acceleration at the nodes, by the share.
+#[derive(Debug, Clone)]
+pub(super) struct Nodes {
+    pub(super) values: Vec<f64>,
+    /// As many as values.
+    pub(super) states: Vec<[f64; 2]>,
+    pub(super) dwells: Vec<bool>,
+}
+
+impl Nodes {
+    pub(super) fn largest_acceleration(&self) -> f64 {
+        self.states.iter().map(|state| state[1].abs()).fold(0.0, f64::max)
+    }
+
+    /// Value, velocity and acceleration of each.
+    pub(super) fn jets(&self) -> Vec<[f64; 3]> {
+        self.values.iter().zip(&self.states).map(|(value, [v, a])| [*value, *v, *a]).collect()
+    }
+}
+
+impl RowRun<'_> {
+    /// The nodes through or near the rows.
+    ///
+    /// # Errors
+    /// The interval on which no monotonic curve has the state that is given at an end.
+    pub(super) fn nodes(&self, shape: RowShape, smooth: f64) -> Result<Nodes, NotMonotonic> {
+        let (mut values, mut dwells) = (self.values.to_vec(), self.dwells.clone());
+        if smooth > 0.0 {
+            self.pin(smooth, &mut dwells);
+        }
+        let ring = self.intervals(&values);
+        let mut given = self.given(&dwells);
+        let mut states: Vec<[f64; 2]> = if smooth > 0.0 {
+            let found = bounded_jerk::smoothed(&ring, &given, smooth);
+            for (value, [off, ..]) in values.iter_mut().zip(found.iter().chain(found.first())) {
+                *value += off;
+            }
+            found.iter().map(|[_, v, a]| [*v, *a]).collect()
+        } else if shape == RowShape::Natural {
+            let given: Vec<NodeConstraint> = given.iter().map(|[_, v, a]| [*v, *a]).collect();
+            least_jerk(&ring, &given)
+        } else {
+            Vec::new()
+        };
+        if shape == RowShape::Monotonic {
+            let ring = self.intervals(&values);
+            for given in &mut given {
+                given[0] = STAYS;
+            }
+            states = bounded_jerk::monotonic(&ring, &given)?;
+            for (dwell, interval) in dwells.iter_mut().zip(&ring) {
+                *dwell |= interval.is_some_and(|(_, rise)| rise == 0.0);
+            }
+        }
+        if self.ends.is_none() {
+            states.extend(states.first().copied());
+        }
+        Ok(Nodes { values, states, dwells })
+    }
+
+    /// From node to node of a ring; the last node of a segment is not joined to its first.
+    fn intervals(&self, values: &[f64]) -> Vec<NodeInterval> {
+        let pairs = self.knots.iter().zip(self.knots.iter().skip(1)).zip(values.iter().zip(values.iter().skip(1)));
+        let joined = pairs.map(|((x0, x1), (y0, y1))| Some((x1 - x0, y1 - y0)));
+        joined.chain(self.ends.map(|_| None)).collect()
+    }
+
+    /// What is given of each node: those at either end of an interval that rests do so, and the ends of a segment stay.
+    fn given(&self, dwells: &[bool]) -> Vec<Given> {
+        let rest = |rests: bool| if rests { [STAYS, Some(0.0), Some(0.0)] } else { [None; 3] };
+        let Some([first, last]) = self.ends else {
+            let before = dwells.last().copied().into_iter().chain(dwells.iter().copied());
+            return before.zip(dwells).map(|(before, after)| rest(before || *after)).collect();
+        };
+        let before = std::iter::once(false).chain(dwells.iter().copied());
+        let after = dwells.iter().copied().chain([false]);
+        let mut given: Vec<Given> = before.zip(after).map(|(before, after)| rest(before || after)).collect();
+        let end = given.len().saturating_sub(1);
+        for (node, [v, a]) in [(0, first), (end, last)] {
+            if let Some(given) = given.get_mut(node) {
+                *given = [STAYS, v, a];
+            }
+        }
+        given
+    }
+
+    /// Rows of one rounded value rest, but for what rounding hides of the motion at either end.
+    ///
+    /// What is hidden follows from where the motion has left the value by one step and by eight: as it grows with the third power, it began
+    /// as far before the first of these places as the second lies behind it. A segment that begins or ends at rest does so behind its end.
+    fn pin(&self, smooth: f64, dwells: &mut [bool]) {
+        let (count, closed) = (dwells.len(), self.ends.is_none());
+        let size = self.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let turn = |at: usize| if closed { (at / count, at % count) } else { (0, at) };
+        let value = |at: usize| self.values.get(turn(at).1).copied().unwrap_or(0.0);
+        let place = |at: usize| {
+            let (turns, at) = turn(at);
+            self.knots.get(at).copied().unwrap_or(0.0) + f64::from(u32::try_from(turns).unwrap_or(0))
+        };
+        let flat: Vec<bool> = (0..count).map(|at| (value(at + 1) - value(at)).abs() <= 1e-12 * size).collect();
+        let is_flat = |at: usize| flat.get(at % count).copied().unwrap_or(false);
+        let first = if closed { (0..count).find(|at| !is_flat(*at)) } else { Some(0) };
+        let Some(first) = first else { return };
+        let rests = self.ends.map(|ends| ends.map(|end| end == [Some(0.0); 2]));
+        let mut at = first;
+        while at < first + count {
+            if !is_flat(at) {
+                at += 1;
+                continue;
+            }
+            let end = (at..first + count).find(|at| !is_flat(*at)).unwrap_or(first + count);
+            // Outwards from either end of the run, how far behind it the motion begins; before it where that is negative.
+            let begins = |outward: &dyn Fn(usize) -> Option<usize>, own: f64| {
+                let steps = (1..count).map_while(|by| {
+                    outward(by).map(|node| ((place(node) - own).abs(), (value(node) - value(at)).abs()))
+                });
+                hidden(steps, smooth)
+            };
+            let after = match rests {
+                Some([_, rests]) if end == count => rests.then_some(0.0),
+                Some(_) => begins(&|by| Some(end + by).filter(|node| *node <= count), place(end)),
+                None => begins(&|by| Some(end + by), place(end)),
+            };
+            let before = match rests {
+                Some([rests, _]) if at == 0 => rests.then_some(0.0),
+                Some(_) => begins(&|by| at.checked_sub(by), place(at)),
+                None => begins(&|by| (at + count).checked_sub(by), place(at + count)),
+            };
+            if let Some((before, after)) = before.zip(after) {
+                let (from, to) = (place(at) + (-before).max(0.0), place(end) - (-after).max(0.0));
+                for interval in at..end {
+                    if let Some(dwell) = dwells.get_mut(interval % count)
+                        && place(interval) >= from - 1e-12
+                        && place(interval + 1) <= to + 1e-12
+                    {
+                        *dwell = true;
+                    }
+                }
+            }
+            at = end;
+        }
+    }
+
+    /// Figures of the curve of some nodes, by the share.
+    pub(super) fn figures(&self, found: &Nodes, rounding: f64, wishes: RowWishes, told: &[String]) -> RowFigures {
+        let count = if self.ends.is_none() { self.dwells.len() } else { self.knots.len() };
+        let gaps = || self.knots.iter().zip(self.knots.iter().skip(1)).zip(&found.dwells);
+        let widest = gaps()
+            .filter(|(_, dwell)| !**dwell)
+            .map(|((from, to), _)| (*from, *to))
+            .max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
+        let mut dwells: Vec<(f64, f64)> = Vec::new();
+        for ((from, to), _) in gaps().filter(|(_, dwell)| **dwell) {
+            match dwells.last_mut().filter(|(_, end)| end == from) {
+                Some((_, end)) => *end = *to,
+                None => dwells.push((*from, *to)),
+            }
+        }
+        let smoothing = wishes.smooth.map(|bound| {
+            let off: Vec<f64> =
+                found.values.iter().zip(self.values).take(count).map(|(new, old)| (new - old).abs()).collect();
+            let squares: f64 = off.iter().map(|off| off * off).sum();
+            let rms = (squares / f64::from(u32::try_from(count.max(1)).unwrap_or(u32::MAX))).sqrt();
+            Smoothing { bound, largest: off.iter().copied().fold(0.0, f64::max), rms }
+        });
+        RowFigures {
+            segment: None,
+            count,
+            spacing: self.spacing,
+            widest: widest.unwrap_or((0.0, 0.0)),
+            dwells,
+            overshoot: overshoot(self.knots, found),
+            rounding,
+            smoothing,
+            noise: self.noise(found, rounding, wishes),
+            told: told.to_vec(),
+        }
+    }
+
+    /// Largest accelerations as it is and with the rounding smoothed, by the share, where that may matter.
+    fn noise(&self, found: &Nodes, rounding: f64, wishes: RowWishes) -> Option<(f64, f64)> {
+        let range = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
+        let (low, high) = self.values.iter().fold((0.0_f64, 0.0_f64), range);
+        let now = found.largest_acceleration();
+        let looks = rounding > 0.0
+            && rounding <= MOST_OF_ROUNDED * (high - low)
+            && self.dwells.len() >= FEWEST_OF_ROUNDED
+            && 2.0 * rounding / (self.spacing * self.spacing) > MATTERS * now;
+        if wishes.smooth.is_some() || wishes.cubic || !looks {
+            return None;
+        }
+        let smooth = self.nodes(wishes.shape, 0.5 * rounding).ok()?.largest_acceleration();
+        Some((now, smooth))
+    }
+}
+
+/// How far behind the end of a run the motion begins: steps outwards are how far and how much off.
+fn hidden(steps: impl Iterator<Item = (f64, f64)>, smooth: f64) -> Option<f64> {
+    let mut before = (0.0, 0.0);
+    let (mut one, mut eight) = (None, None);
+    for (far, off) in steps {
+        let reached = |level: f64| {
+            (off >= level && off > before.1)
+                .then(|| before.0 + (far - before.0) * (level - before.1).max(0.0) / (off - before.1))
+        };
+        one = one.or_else(|| reached(2.0 * smooth));
+        eight = eight.or_else(|| reached(2.0 * CUBED * smooth));
+        if eight.is_some() {
+            break;
+        }
+        before = (far, off);
+    }
+    one.zip(eight).map(|(one, eight)| 2.0 * one - eight)
+}
+
+/// By how much the curve leaves the values at both ends of an interval, and at which share of it.
+fn beyond(width: f64, (from, to): ([f64; 3], [f64; 3])) -> (f64, f64) {
+    let ([y0, v0, a0], [y1, v1, a1]) = (from, to);
+    let (h, square) = (width, width * width);
+    let (low, high) = (y0.min(y1), y0.max(y1));
+    // The Bernstein coefficients enclose the curve.
+    let inner = [
+        y0 + v0 * h / 5.0,
+        y0 + 0.4 * v0 * h + a0 * square / 20.0,
+        y1 - 0.4 * v1 * h + a1 * square / 20.0,
+        y1 - v1 * h / 5.0,
+    ];
+    if inner.iter().all(|value| (low..=high).contains(value)) {
+        return (0.0, 0.0);
+    }
+    let curve = spline::chain(&[0.0, 1.0], &[[y0, v0 * h, a0 * square], [y1, v1 * h, a1 * square]]);
+    let all = |x: f64| {
+        let [value, slope, bend, _] = curve.at(0, x);
+        [value, slope, bend]
+    };
+    let [top, bottom] = extremum::largest_of_both_signs(all, (0.0, 1.0), CELLS);
+    let (above, below) = (top.value - high, low + bottom.value);
+    if above >= below { (above.max(0.0), top.at) } else { (below.max(0.0), bottom.at) }
+}
+
+/// The largest of the curve through nodes, and the share where.
+fn overshoot(knots: &[f64], nodes: &Nodes) -> (f64, f64) {
+    let node = |at: usize| {
+        let (value, [v, a]) = (nodes.values.get(at)?, nodes.states.get(at)?);
+        Some([*value, *v, *a])
+    };
+    let pairs = knots.iter().zip(knots.iter().skip(1)).enumerate();
+    let all = pairs.filter_map(|(at, (from, to))| {
+        let (by, share) = beyond(to - from, (node(at)?, node(at + 1)?));
+        Some((by, from + share * (to - from)))
+    });
+    all.fold((0.0, 0.0), |worst, found| if found.0 > worst.0 { found } else { worst })
+}

@@ -1,0 +1,119 @@
+//! To what the numbers of rows are rounded.
+
+/// Most decimals that are looked for.
+const MOST_DECIMALS: i32 = 12;
+/// Rounding of decimals in binary, and of their sums and conversions, as a share of the last decimal.
+const BINARY: f64 = 1e-4;
+/// A coarser step than that of the decimals is believed where chance would make all values its multiples less often than this.
+const CHANCE: f64 = 1e-6;
+/// As many of so many steps of a straight line are equal at least.
+const MOST_EQUAL: (usize, usize) = (3, 4);
+/// Largest divisor of the smallest difference that is tried as the step.
+const MOST_PARTS: u32 = 12;
+/// Share of the last decimal by which rounding of the written numbers moves a multiple of a coarser step.
+const HALF: f64 = 0.51;
+
+/// The step of which all values are multiples: that of their decimals, or a coarser one (thousandths of an inch, written in millimetres with
+/// four decimals). 0 where they have too many decimals to be rounded.
+#[must_use]
+pub fn step(values: &[f64]) -> f64 {
+    let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let fits = |decimals: &i32| {
+        let power = libm::pow(10.0, f64::from(*decimals));
+        let noise = BINARY.max(8.0 * f64::EPSILON * largest * power);
+        noise < HALF && values.iter().all(|value| (value * power - (value * power).round()).abs() <= noise)
+    };
+    let Some(decimals) = (0..=MOST_DECIMALS).find(fits) else { return 0.0 };
+    let fine = libm::pow(10.0, f64::from(-decimals));
+    if is_ramp(values, fine) { fine } else { coarser(values, fine).unwrap_or(fine) }
+}
+
+/// Whether values go from the lowest to the highest one in steps of which most are equal: these are then those of a straight line, some of whose
+/// rows may be left out. Rounding to such a step would show some of the values between them twice.
+fn is_ramp(values: &[f64], fine: f64) -> bool {
+    let range = |(low, high): (f64, f64), value: &f64| (low.min(*value), high.max(*value));
+    let (low, high) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
+    let moves = |(a, b): &(&f64, &f64)| (*b - *a).abs() > 0.5 * fine;
+    let (moving, resting): (Vec<_>, Vec<_>) = values.iter().zip(values.iter().skip(1)).partition(moves);
+    let sizes: Vec<f64> = moving.iter().map(|(a, b)| (*b - *a).abs()).collect();
+    let least = sizes.iter().copied().fold(f64::INFINITY, f64::min);
+    let equal = sizes.iter().filter(|size| **size - least <= 2.0 * (1.0 + BINARY) * fine).count();
+    let inner = |value: f64| value > low + 0.5 * fine && value < high - 0.5 * fine;
+    MOST_EQUAL.1 * equal >= MOST_EQUAL.0 * sizes.len() && !resting.iter().any(|(a, _)| inner(**a))
+}
+
+/// A step above that of the decimals of which all values are multiples, as far as the last decimal tells.
+fn coarser(values: &[f64], fine: f64) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup();
+    sorted.retain(|value| *value > 0.5 * fine);
+    let pairs = sorted.iter().zip(sorted.iter().skip(1)).map(|(a, b)| b - a);
+    let least = pairs.chain(sorted.first().copied()).fold(f64::INFINITY, f64::min);
+    (1..=MOST_PARTS).map(|parts| least / f64::from(parts)).find_map(|step| {
+        if step < 1.5 * fine {
+            return None;
+        }
+        // The step is known the better the more of them a value is.
+        let (mut step, mut known, mut chance) = (step, HALF * fine, 1.0);
+        for value in &sorted {
+            let count = (value / step).round().max(1.0);
+            let within = HALF * fine + count * known;
+            if (value - count * step).abs() > within {
+                return None;
+            }
+            chance *= (2.0 * within / step).min(1.0);
+            if HALF * fine / count < known {
+                (step, known) = (value / count, HALF * fine / count);
+            }
+        }
+        (chance < CHANCE).then_some(step)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rounded(step: f64, decimals: u32) -> Vec<f64> {
+        let power = 10_f64.powi(i32::try_from(decimals).expect("few"));
+        (0..360)
+            .map(|i| 4.5 - 4.5 * f64::from(i).to_radians().cos())
+            .map(|value| ((value / step).round() * step * power).round() / power)
+            .collect()
+    }
+
+    #[test]
+    fn the_rounding_of_rows_is_found() {
+        for (step_of, decimals) in
+            [(0.001, 3), (0.0254, 4), (0.0254, 5), (0.01, 2), (0.01, 5), (0.005, 3), (0.1, 1), (1e-4, 4)]
+        {
+            let found = step(&rounded(step_of, decimals));
+            assert!((found / step_of - 1.0).abs() < 1e-2, "{step_of} in {decimals}: {found}");
+        }
+        // A few values of many decimals are multiples of nothing else.
+        for count in [8, 12, 20] {
+            let few: Vec<f64> = rounded(1e-3, 3).into_iter().step_by(360 / count).collect();
+            assert!((step(&few) / 1e-3 - 1.0).abs() < 1e-9, "{count}: {}", step(&few));
+        }
+        // A ramp between two rests, and one without them, is not rounded to its own steps.
+        for slope in [0.164_304_3, 0.0777] {
+            let ramp = |rests: i32| -> Vec<f64> {
+                let clamped = (-rests..23 + rests).map(|i| f64::from(i.clamp(0, 22)));
+                clamped.map(|i| (slope * i * 1e3).round() / 1e3).collect()
+            };
+            let without: Vec<f64> = ramp(8)
+                .into_iter()
+                .enumerate()
+                .filter(|(at, _)| ![12, 13, 20].contains(at))
+                .map(|(_, row)| row)
+                .collect();
+            assert!((step(&without) - 1e-3).abs() < 1e-9, "{slope}");
+            assert!((step(&ramp(0)) - 1e-3).abs() < 1e-9 && (step(&ramp(8)) - 1e-3).abs() < 1e-9, "{slope}");
+        }
+        // All digits: no rounding that matters.
+        let exact: Vec<f64> = (0..90).map(|i| 4.5 * f64::from(i).to_radians().sin()).collect();
+        assert!(step(&exact) < 1e-11);
+        assert_eq!(step(&[0.0, 20.0, 5.0]), 1.0);
+    }
+}

@@ -1,0 +1,298 @@
+//! What rows cover of a turn: their order, the row that closes it, a half that is mirrored, a part that rests.
+
+use super::file::looks_like_radians;
+use super::{Origin, RestOfTurn, RowPlace, Rows, degrees, median};
+use crate::document::TableReader;
+use crate::motion::program::context::ProgramContext;
+use crate::motion::program::keys::MIRROR;
+use std::f64::consts::TAU;
+
+/// Typed angles that differ by less are equal, rad.
+const SAME_ANGLE: f64 = 1e-12;
+/// Positions that differ by less than this share of the largest are equal.
+const SAME_PLACE: f64 = 1e-9;
+/// Fewest rows of a turn.
+const FEWEST: usize = 3;
+/// Spacings that differ by less are equal.
+const EVEN: f64 = 1.2;
+/// Uneven rows may leave a gap of so many of their widest spacing.
+const OF_UNEVEN: f64 = 1.5;
+/// Rounding of the angles moves the row that closes the turn by at most this share of the least spacing.
+const CLOSING: f64 = 0.2;
+/// Equal neighbours this many usual spacings apart are a dwell.
+const OF_DWELL: f64 = 1.5;
+
+/// Rows that cover a turn or lobe: knots as shares of it from the first row on, the last one closing it.
+pub(super) struct Turn {
+    /// Cam angle of the first row, rad.
+    pub(super) at: f64,
+    /// Shares, from 0 to 1, one more than rows.
+    pub(super) knots: Vec<f64>,
+    /// Positions, the last that of the first row.
+    pub(super) values: Vec<f64>,
+    /// Whether an interval rests, one fewer than knots.
+    pub(super) dwells: Vec<bool>,
+    /// The usual interval, rad.
+    pub(super) spacing: f64,
+}
+
+impl Turn {
+    pub(super) fn of(
+        table: &TableReader<'_>,
+        whole: ProgramContext,
+        rows: &mut Rows,
+        (mirrored, rest): (bool, Option<RestOfTurn>),
+    ) -> Option<Self> {
+        ordered(table, rows, whole.fill)?;
+        let fewest = if mirrored { 2 } else { FEWEST };
+        if rows.points.len() < fewest {
+            let (what, one) = rows.words();
+            let message = format!("{what} needs at least {fewest} {one}, not {}", rows.points.len());
+            rows.fail(table, rows.points.len().saturating_sub(1), message, format!("add {one}"));
+            return None;
+        }
+        if mirrored {
+            mirror(table, rows, whole.fill)?;
+        }
+        // Rounding of the angles moves the row that closes the turn.
+        let least = pairs(&rows.points).map(|(a, b)| b.at - a.at).fold(f64::INFINITY, f64::min);
+        let same = SAME_ANGLE.max((1.01 * rows.rounding_of_angles).min(CLOSING * least));
+        let closes = closed(table, rows, whole.fill, same)?;
+        let (first, last) = (*rows.points.first()?, *rows.points.last()?);
+        let open = whole.fill - (last.at - first.at);
+        let size = rows.points.iter().map(|row| row.position.abs()).fold(0.0, f64::max);
+        let equal = |a: f64, b: f64| (a - b).abs() <= SAME_PLACE * size;
+        let widths: Vec<f64> = pairs(&rows.points).map(|(a, b)| b.at - a.at).collect();
+        let rests = mirrored || rest == Some(RestOfTurn::Dwell);
+        let covered = closes || open <= widest_allowed(rows, &equal) + same;
+        if !covered && !rests {
+            uncovered(table, rows, whole, open, equal(first.position, last.position));
+            return None;
+        }
+        if !covered && !equal(first.position, last.position) {
+            cannot_rest(table, rows, (&first, &last), open);
+            return None;
+        }
+        if rows.points.len() < FEWEST {
+            too_few_behind_the_first(table, rows);
+            return None;
+        }
+        let spacing = median(&widths);
+        let ends = pairs(&rows.points).map(|(a, b)| (a.position, b.position, b.at - a.at));
+        let ends = ends.chain([(last.position, first.position, open)]);
+        let mut dwells: Vec<bool> =
+            ends.map(|(from, to, width)| equal(from, to) && width > OF_DWELL * spacing).collect();
+        // Asked for, or the rest of a mirrored lobe.
+        let asked = rest.is_some() && open > same && equal(first.position, last.position);
+        if let Some(last) = dwells.last_mut().filter(|_| !covered || asked) {
+            *last = true;
+        }
+        let knots = rows.points.iter().map(|row| (row.at - first.at) / whole.fill).chain([1.0]).collect();
+        let values = rows.points.iter().map(|row| row.position).chain([first.position]).collect();
+        // Within a turn of 0, so that the angles of reports are those of a turn.
+        let at = if first.at.abs() >= TAU { libm::fmod(first.at, TAU) } else { first.at };
+        Some(Self { at, knots, values, dwells, spacing })
+    }
+}
+
+/// The ends of rows are at different positions, so that nothing can rest between them.
+fn cannot_rest(table: &TableReader<'_>, rows: &Rows, (first, last): (&RowPlace, &RowPlace), open: f64) {
+    let message = format!(
+        "the rows end at {} deg and begin at {} deg with different positions, so that the uncovered {} deg cannot rest",
+        degrees(last.at),
+        degrees(first.at),
+        degrees(open)
+    );
+    rows.fail(table, last.row, message, "add rows up to equal positions at both ends".into());
+}
+
+/// Rows of which the last repeats the first are too few.
+fn too_few_behind_the_first(table: &TableReader<'_>, rows: &Rows) {
+    let (what, one) = rows.words();
+    let (single, count) = (one.trim_end_matches('s'), rows.points.len());
+    let message = format!(
+        "{what} needs at least {FEWEST} {one}, not {count}: {single} {} repeats the first, and the spline closes by itself",
+        count + 1
+    );
+    rows.fail(table, 0, message, format!("add {one}"));
+}
+
+fn pairs(points: &[RowPlace]) -> impl Iterator<Item = (&RowPlace, &RowPlace)> {
+    points.iter().zip(points.iter().skip(1))
+}
+
+/// The widest gap in which the curve may close the turn by itself: one spacing, rests left out.
+fn widest_allowed(rows: &Rows, equal: &impl Fn(f64, f64) -> bool) -> f64 {
+    let all = || pairs(&rows.points);
+    let moving: Vec<f64> = all().filter(|(a, b)| !equal(a.position, b.position)).map(|(a, b)| b.at - a.at).collect();
+    let widths = if moving.is_empty() { all().map(|(a, b)| b.at - a.at).collect() } else { moving };
+    let (least, most) =
+        widths.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), width| (least.min(*width), most.max(*width)));
+    if most <= EVEN * least { most * (1.0 + 1e-6) } else { OF_UNEVEN * most }
+}
+
+/// The rows in the order of growing angles: a table may also fall all along, or go over the end of the turn once.
+fn ordered(table: &TableReader<'_>, rows: &mut Rows, fill: f64) -> Option<()> {
+    if rows.points.len() > 2 && pairs(&rows.points).all(|(a, b)| b.at < a.at) {
+        rows.points.reverse();
+    }
+    let descents: Vec<usize> =
+        (1..).zip(pairs(&rows.points)).filter(|(_, (a, b))| b.at - a.at <= SAME_ANGLE).map(|(at, _)| at).collect();
+    if let ([at], Some(first), Some(last)) =
+        (descents.as_slice(), rows.points.first().copied(), rows.points.last().copied())
+    {
+        let before = at.checked_sub(1).and_then(|before| rows.points.get(before)).map_or(0.0, |row| row.at);
+        let next = rows.points.get(*at).map_or(0.0, |row| row.at);
+        if before - next > 0.5 * fill && last.at < first.at + SAME_ANGLE {
+            for row in rows.points.iter_mut().skip(*at) {
+                row.at += fill;
+            }
+            rows.told.push(format!("the rows go over the end of the turn behind {} deg", degrees(before)));
+            return Some(());
+        }
+    }
+    let Some(at) = descents.first() else { return Some(()) };
+    let (Some(row), Some(before)) = (rows.points.get(*at), at.checked_sub(1).and_then(|at| rows.points.get(at))) else {
+        return Some(());
+    };
+    let (here, before) = (degrees(row.at), degrees(before.at));
+    if rows.origin == Origin::Points {
+        let message = format!(
+            "point {} at {:.6} deg does not come after point {at} at {:.6} deg",
+            at + 1,
+            row.at.to_degrees(),
+            before
+        );
+        rows.fail(table, *at, message, "give the points in order of increasing angle, each angle once".into());
+    } else {
+        let message = format!("{here} does not come after {before}: rows {at} and {} in degrees of the cam", at + 1);
+        rows.fail(table, row.row, message, "sort the rows by their angle, each angle once".into());
+    }
+    None
+}
+
+/// The other half of rows that are one, mirrored at its higher end.
+fn mirror(table: &TableReader<'_>, rows: &mut Rows, fill: f64) -> Option<()> {
+    let (first, last) = (*rows.points.first()?, *rows.points.last()?);
+    if last.at - first.at > 0.5 * fill * (1.0 + 1e-9) {
+        let message = format!(
+            "`mirror` takes rows of half a lobe, at most {} deg, but they cover {} deg",
+            degrees(0.5 * fill),
+            degrees(last.at - first.at)
+        );
+        table.fail(&MIRROR, message, Some("remove `mirror`, or the rows of the other half".into()));
+        return None;
+    }
+    let at_last = last.position >= first.position;
+    let nose = if at_last { last } else { first };
+    let other = |row: &RowPlace| RowPlace { at: 2.0 * nose.at - row.at, ..*row };
+    let mut mirrored: Vec<RowPlace> = rows.points.iter().rev().map(other).collect();
+    if at_last {
+        rows.points.extend(mirrored.into_iter().skip(1));
+    } else {
+        mirrored.pop();
+        mirrored.append(&mut rows.points);
+        rows.points = mirrored;
+    }
+    rows.told.push(format!("mirrored at {} deg", degrees(nose.at)));
+    Some(())
+}
+
+/// Takes away rows that repeat others a turn before: the one that closes it, and what a list has beyond it; whether there are such.
+fn closed(table: &TableReader<'_>, rows: &mut Rows, fill: f64, same: f64) -> Option<bool> {
+    let first = *rows.points.first()?;
+    let size = rows.points.iter().map(|row| row.position.abs()).fold(0.0, f64::max);
+    let kept = rows.points.iter().take_while(|row| row.at - first.at < fill - same).count();
+    let beyond: Vec<RowPlace> = rows.points.iter().skip(kept).copied().collect();
+    for row in &beyond {
+        let back = row.at - fill;
+        let twin = rows.points.iter().find(|other| (other.at - back).abs() <= same);
+        match twin {
+            Some(twin) if (twin.position - row.position).abs() <= SAME_PLACE * size => {}
+            Some(twin) if twin.row == first.row && beyond.len() == 1 => {
+                let message = format!(
+                    "the {} does not end where it begins: row {} is {} deg after row {} and has another position",
+                    rows.name(),
+                    row.row + 1,
+                    degrees(fill),
+                    first.row + 1
+                );
+                rows.fail(table, row.row, message, "make both positions equal, or remove the last row".into());
+                return None;
+            }
+            _ => {
+                let span = rows.points.last().map_or(0.0, |last| last.at - first.at);
+                outside(table, rows, row, (span, fill));
+                return None;
+            }
+        }
+    }
+    rows.points.truncate(kept);
+    Some(!beyond.is_empty())
+}
+
+/// Reports a row beyond the turn that does not repeat another.
+fn outside(table: &TableReader<'_>, rows: &Rows, row: &RowPlace, (span, fill): (f64, f64)) {
+    if rows.origin == Origin::Points {
+        let first = rows.points.first().map_or(0.0, |first| first.at);
+        let message = format!("point {} at {:.6} deg is outside the turn or lobe", row.row + 1, row.at.to_degrees());
+        let (low, high) = (first.to_degrees(), (first + fill).to_degrees());
+        let help = format!("angles must be at least {low:.6} deg and below {high:.6} deg; the spline closes by itself");
+        return rows.fail(table, row.row, message, help);
+    }
+    let message = format!(
+        "row {} at {} deg is outside the turn or lobe: the rows cover {} deg, more than {} deg",
+        row.row + 1,
+        degrees(row.at),
+        degrees(span),
+        degrees(fill)
+    );
+    let turns = span / fill;
+    let help = if (1.9..2.01).contains(&turns) {
+        "ratio = 2 takes them as crank degrees of a four-stroke engine, two turns for one of the cam".to_owned()
+    } else if turns > 40.0 && turns < 58.5 {
+        "are these degrees under a heading or `unit` that says rad?".to_owned()
+    } else {
+        format!("angles must span at most {} deg; `ratio`, `unit` or `over` say what else they are", degrees(fill))
+    };
+    rows.fail(table, row.row, message, help);
+}
+
+/// Reports a part of the turn without rows, with what would complete it.
+fn uncovered(table: &TableReader<'_>, rows: &Rows, whole: ProgramContext, open: f64, equal: bool) {
+    let (row, span) = (rows.points.last().map_or(0, |last| last.row), whole.fill - open);
+    let what = format!("{} deg of the turn are without rows", degrees(open));
+    let what = if (whole.fill - TAU).abs() > SAME_ANGLE { what.replace("turn", "lobe") } else { what };
+    let complete = || {
+        let mut ways = Vec::new();
+        if span <= 0.5 * whole.fill * (1.0 + 1e-9) && !equal {
+            ways.push("mirror = true makes a whole lobe of one half");
+        }
+        if equal {
+            ways.push("rest = \"dwell\" keeps the position there");
+        }
+        ways.push("or add rows");
+        ways.join(", ")
+    };
+    if let Origin::File { in_degrees: true, span } = rows.origin {
+        if looks_like_radians(span) {
+            let message = format!("{what}: are these radians?");
+            return rows.fail(
+                table,
+                row,
+                message,
+                "unit = \"rad\" or a heading such as \"angle (rad)\" says so".into(),
+            );
+        }
+        if (span - 1.0).abs() < 0.05 {
+            let help = "over = \"360 deg\" says so; lift = \"8 mm\" makes shares of the positions";
+            return rows.fail(table, row, format!("{what}: are these shares of the turn?"), help.into());
+        }
+    }
+    rows.fail(
+        table,
+        row,
+        format!("{what}: they end at {} deg", degrees(rows.points.last().map_or(0.0, |last| last.at))),
+        complete(),
+    );
+}

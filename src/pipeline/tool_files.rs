@@ -1,0 +1,167 @@
+//! The proof of a cutter's path and of a table of points that were edited or written by another program.
+
+use super::check::CutSection;
+use super::{Cam, Error, ExpectedFile, report};
+use crate::body::points::{PointCurve, PointErrors, PointTable, radius_of_roller, traced};
+use crate::body::{Layer, Request};
+use crate::geometry::MILLIMETRES;
+use crate::geometry::points::{Interpolant, PointRows, PointTableSpec};
+use crate::reading::{self, Chain};
+use crate::refusal::Refusal;
+use crate::report::{Finding, Inputs, Report, Section, Verdict};
+use crate::verify::{self, Evidence, WrittenPath, WrittenPoints, join_reach};
+use crate::write::points;
+
+impl Cam {
+    /// Whether a DXF file holds the path of a cutter of this cam.
+    pub(super) fn check_cutter_path(
+        &self,
+        bytes: &[u8],
+        expected: &ExpectedFile<'_>,
+        request: &Request,
+    ) -> Result<Report, Error> {
+        let radius = expected.cutter.or(request.cutter_radius).ok_or_else(|| {
+            let refusal = Refusal::new("the file holds the path of a cutter and does not give its radius");
+            Error::Cutter(refusal.remedy("give the radius of the cutter"))
+        })?;
+        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let layer = Layer::CutterPath.name();
+        let reading = reading::read_with_outline(bytes, join_reach(tolerance_mm), Some(layer)).map_err(Error::Read)?;
+        let (lead_ins, others): (Vec<Chain>, Vec<Chain>) = reading.others.iter().cloned().partition(verify::is_lead_in);
+        let contour = match (reading.chains.as_slice(), others.as_slice()) {
+            (_, [other, ..]) => Err(format!("{} would be cut and is no part of the path", other.names())),
+            ([chain], []) if chain.closed => Ok(chain.counter_clockwise()),
+            _ => Err("the path is not one closed contour".to_owned()),
+        };
+        let (middle, _) = request.fit.band();
+        let foreign = [reading];
+        let judged = |cut: usize| -> Result<Vec<Finding>, Error> {
+            let (radius, middle, lead_ins) = (MILLIMETRES * radius, MILLIMETRES * middle, lead_ins.clone());
+            let path = [WrittenPath { cut, radius, middle, contour: contour.clone(), lead_ins }];
+            let evidence = self.nothing_written(tolerance_mm, request)?;
+            Ok(verify::run(&Evidence { foreign: &foreign, cutter_paths: &path, ..evidence }))
+        };
+        let checks = self.best_of_cuts(expected, judged)?;
+        Ok(self.report_on("path of a cutter", request, checks))
+    }
+
+    /// Whether a table of points is one of this cam.
+    pub(super) fn check_points(
+        &self,
+        bytes: &[u8],
+        expected: &ExpectedFile<'_>,
+        request: &Request,
+    ) -> Result<Report, Error> {
+        let not_a_table = |why: String| Error::Read(Refusal::new(format!("not a table of points: {why}")));
+        let read = points::read(bytes).map_err(not_a_table)?;
+        let stated = points::stated(bytes);
+        let cutter = expected.cutter.or(request.cutter_radius).or(stated.cutter);
+        let section = self.section(expected.section)?;
+        let judged = |cut: usize| self.judged_points((cut, section), (&read, stated, cutter), request);
+        let checks = match section {
+            Some(section) => judged(section.cut)?,
+            None => self.best_of_cuts(expected, judged)?,
+        };
+        Ok(self.report_on("table of points", request, checks))
+    }
+
+    /// The findings on the cut of this name, or the first that a file fits, of a part with several flanks.
+    fn best_of_cuts(
+        &self,
+        expected: &ExpectedFile<'_>,
+        judged: impl Fn(usize) -> Result<Vec<Finding>, Error>,
+    ) -> Result<Vec<Finding>, Error> {
+        let cuts = self.body().cuts();
+        let named = expected.cut.and_then(|name| cuts.iter().position(|cut| cut.name == name));
+        let wanted = named.map_or(0..cuts.len(), |named| named..named + 1);
+        let failed = |checks: &[Finding]| checks.iter().any(|finding| finding.verdict == Verdict::Fail);
+        let first = judged(wanted.start)?;
+        for cut in wanted.skip(1).filter(|_| failed(&first)) {
+            let next = judged(cut)?;
+            if !failed(&next) {
+                return Ok(next);
+            }
+        }
+        Ok(first)
+    }
+
+    /// The findings on a table of points of a cut.
+    fn judged_points(
+        &self,
+        (cut_index, section): (usize, Option<CutSection>),
+        (read, stated, cutter): (&points::ReadPoints, points::StatedCurve, Option<f64>),
+        request: &Request,
+    ) -> Result<Vec<Finding>, Error> {
+        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let evidence = self.nothing_written(tolerance_mm, request)?;
+        let cuts = self.body().cuts();
+        let cut = cuts.get(cut_index);
+        let placed = |rows: &[[f64; 2]]| -> Result<(Vec<f64>, bool), String> {
+            let cut = cut.ok_or("the cam has no such cut")?;
+            let path = traced(self.body(), cut, stated.curve, cutter).map_err(|error| error.to_string())?;
+            let curve = Interpolant::new(rows, read.form, read.between, read.closed);
+            path.places_of(&curve).map(|places| (places, path.is_closed())).map_err(|error| error.to_string())
+        };
+        let flipped = cut.is_some_and(|cut| cut.mirrored == [true]);
+        let mut table = PointTable {
+            rpm: section.map(|section| section.rpm),
+            cut: cut_index,
+            curve: stated.curve,
+            radius: match stated.curve {
+                PointCurve::Profile => None,
+                PointCurve::Centre => radius_of_roller(self.body()),
+                PointCurve::Cutter => cutter,
+            },
+            wish: PointTableSpec { form: read.form, step: stated.step, between: read.between, tolerance: tolerance_mm },
+            allowed: [evidence.motion.velocity, evidence.motion.acceleration],
+            errors: PointErrors::Known([0.0; 2]),
+            closed: read.closed,
+            flipped,
+            rows: PointRows {
+                rows: read.rows.clone(),
+                places: Vec::new(),
+                corners: 0,
+                jumps: 0,
+                intervals: read.rows.len().saturating_sub(1),
+                error: 0.0,
+            },
+        };
+        let rows = table.turned(&read.rows);
+        let tables = placed(&rows).and_then(|(places, closed)| {
+            if closed != read.closed {
+                return Err("the table does not say that its last row is the first point again".to_owned());
+            }
+            table.rows.places = places;
+            let curve = Ok(Interpolant::new(&rows, read.form, read.between, read.closed));
+            Ok(vec![WrittenPoints { table, cutter, curve }])
+        });
+        Ok(verify::run(&Evidence { points: Some(&tables), ..evidence }))
+    }
+
+    /// The evidence of a file without an outline.
+    fn nothing_written(&self, tolerance_mm: f64, request: &Request) -> Result<Evidence<'_>, Error> {
+        Ok(Evidence {
+            body: self.body(),
+            drawn: None,
+            outlines: &[],
+            rolled: &[],
+            foreign: &[],
+            cutter_paths: &[],
+            points: None,
+            of_others: &[],
+            solid: None,
+            tolerance_mm,
+            motion: request.resolved(self.body()).map_err(Error::Draw)?.fit.motion,
+            strict: request.strict,
+        })
+    }
+
+    /// The report on a file that is not the outline itself.
+    fn report_on(&self, what: &str, request: &Request, checks: Vec<Finding>) -> Report {
+        let of_file: Vec<_> = checks.into_iter().filter(|finding| verify::is_of_file(&finding.check)).collect();
+        let sections = vec![Section::new("cam", &self.body().kind().noun)];
+        let whole = report(self.body(), Inputs::of(&self.inputs_for(request)), sections, of_file);
+        let noun = format!("{what} of a {}", whole.noun).into();
+        Report { command: "check".into(), noun, not_modelled: Vec::new(), ..whole }
+    }
+}

@@ -1,0 +1,111 @@
+//! Speed against accuracy: every setting of an outline, a table of points or a law, made and measured on this computer.
+
+pub(crate) mod measure;
+mod report;
+mod settings;
+
+pub use measure::TradeRun;
+pub(crate) use measure::{TradeLaw, TradeLimits, TradeProduct, TradeSetting};
+pub(crate) use settings::{SettingLadder, ladder, of_disc};
+
+use crate::analysis::{Analysis, Picture};
+use crate::body::Kind;
+use crate::document::{Input, cams};
+use crate::machine::Machine;
+use crate::pipeline::Spec;
+use crate::refusal::Refusal;
+use crate::report::{Section, Speeds};
+use crate::write::number::shortest;
+
+/// The command.
+pub(crate) const COMMAND: &str = "trade";
+
+/// The disc cam of a motion program.
+pub const KIND: Kind = Kind { command: COMMAND, noun: "time and accuracy of a disc cam", keys: cams::MAKE };
+
+/// Largest error of the acceleration of a motion program by default, as a share: that of `--accuracy standard`.
+const ACCELERATION: f64 = 0.05;
+
+/// What is measured, and the limits that the advice keeps.
+pub(crate) struct TradeTask<'a> {
+    pub(crate) kind: &'static Kind,
+    /// The kind of cam, as the command line names it.
+    pub(crate) cam: &'static str,
+    pub(crate) machine: &'a Machine,
+    pub(crate) rpm: Option<f64>,
+    pub(crate) settings: SettingLadder,
+    pub(crate) limits: TradeLimits,
+}
+
+/// The disc cam of a motion program over all settings: times of every stage, sizes, and errors of distance, velocity and acceleration. The
+/// advice is the fastest setting whose acceleration is off by no more than a share of its largest, 5 % where none is given.
+///
+/// ```no_run
+/// use camgen::Machine;
+/// use camgen::trade::{self, TradeRun};
+///
+/// let (machine, _) = Machine::load("feeder", &[])?;
+/// let start = std::time::Instant::now();
+/// let run = TradeRun { clock: &|| start.elapsed(), progress: &mut |done, of| println!("{done} of {of}") };
+/// let measured = trade::of_program(&machine, None, Some(0.02), run)?;
+/// println!("{}", measured.sections.iter().find(|section| section.key == "advice").ok_or("advice")?.value);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Refusal`] when the machine has no motion, or a setting cannot be made.
+pub fn of_program(
+    machine: &Machine,
+    rpm: Option<f64>,
+    acceleration: Option<f64>,
+    run: TradeRun<'_>,
+) -> Result<Analysis, Refusal> {
+    let (own, of_file) = (machine.clone(), machine.motion().and_then(|(_, rpm)| rpm));
+    let no_motion = || {
+        Refusal::new("the machine file has no motion")
+            .remedy("`camgen trade make` needs the tables [motion] and [[motion.segment]]")
+    };
+    let settings = of_disc(move || Spec::of_program(own.clone(), rpm).ok_or_else(no_motion))?;
+    let limits = TradeLimits { residual: None, acceleration: Some(acceleration.unwrap_or(ACCELERATION)) };
+    analysis(&TradeTask { kind: &KIND, cam: "make", machine, rpm: rpm.or(of_file), settings, limits }, run)
+}
+
+/// Measures a task.
+pub(crate) fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analysis, Refusal> {
+    let (laws, settings) = &task.settings;
+    let limits = task.limits;
+    let measured = measure::measure(laws, settings, limits, run)?;
+    let advice = report::advice(&measured.rows, limits, measured.stable);
+    let against = if limits.residual.is_some() { "force" } else { "gap" };
+    let speed = task.rpm.map_or(String::new(), |rpm| format!(" at {} rpm", shortest(rpm)));
+    let (machine, cam) = (task.machine.name(), if task.cam == "make" { "disc" } else { task.cam });
+    let title = format!("{machine}: time against {against} and acceleration of a {cam} cam{speed}");
+    let mut inputs = task.machine.inputs(task.cam);
+    inputs.push(Input::word("command", format!("{COMMAND} {}", task.cam)));
+    inputs.extend(task.rpm.map(|rpm| Input::number("rpm", rpm)));
+    let limit = |key, limit: Option<f64>| limit.map(|limit| Section::new(key, &limit));
+    let mut sections = vec![Section::new("cam", &task.cam)];
+    sections.extend(limit("residual_limit_n", limits.residual));
+    sections.extend(limit("acceleration_limit", limits.acceleration));
+    sections.push(Section::new("rounds", &measured.rounds));
+    sections.push(Section::new("ranking_stable", &measured.stable));
+    sections.push(Section::new("rows", &measured.rows).with_words(report::words(&measured, &advice)));
+    sections.push(Section::new("advice", &advice));
+    Ok(Analysis {
+        kind: task.kind,
+        machine: machine.to_owned(),
+        speeds: task.rpm.map_or(Speeds::Any(()), Speeds::One),
+        inputs,
+        sections,
+        measures: Vec::new(),
+        notes: Vec::new(),
+        tables: vec![("", report::table(&measured.rows))],
+        by: &[],
+        along: "total_us",
+        picture: Picture::Chart(report::chart_of(&measured.rows, limits, title)),
+        mechanism: None,
+        document: None,
+        diagrams: &[],
+        not_modelled: Vec::new(),
+    })
+}

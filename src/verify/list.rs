@@ -1,0 +1,61 @@
+//! The list of checks, in the order of reports.
+
+use super::check::CheckEntry::{self, Figure, File};
+use super::{
+    balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, outline, plate_ends, points, rolling, solid,
+    sphere, tangency,
+};
+use crate::body::conjugate;
+use crate::body::disc::residual_vibration;
+use crate::body::groove::switches;
+use crate::check::{
+    contact_stress, continuity, curvature, cutter_radius, face_width, force_closure, guide, jump_speed, noise,
+    overshoot, pivot_clearance, pressure_angle, size, wall,
+};
+
+/// Every check of the core, in the order of the report.
+pub const CHECKS: &[CheckEntry] = &[
+    File(&file::LAYER),
+    File(&file::UNITS),
+    File(&file::READABLE),
+    File(&file::DUPLICATES),
+    File(&file::CONTOURS),
+    File(&file::CLOSED),
+    File(&solid::SOLIDS),
+    File(&solid::SHELL),
+    File(&solid::WALLS),
+    File(&solid::THICKNESS),
+    File(&solid::VOLUME),
+    File(&solid::HOLES),
+    Figure(&continuity::CHECK),
+    Figure(&overshoot::CHECK),
+    Figure(&noise::CHECK),
+    Figure(&pressure_angle::CHECK),
+    Figure(&curvature::UNDERCUT),
+    Figure(&curvature::MIN_CONVEX_RADIUS),
+    Figure(&face_width::CHECK),
+    Figure(&cutter_radius::CHECK),
+    File(&cutter_path::CHECK),
+    File(&points::CHECK),
+    Figure(&wall::CHECK),
+    Figure(&size::CHECK),
+    Figure(&pivot_clearance::CHECK),
+    File(&plate_ends::ENDS),
+    File(&tangency::CHECK),
+    File(&outline::CHECK),
+    File(&rolling::CHECK),
+    File(&groove_width::CHECK),
+    File(&bore::CHECK),
+    File(&lead_in::CHECK),
+    File(&sphere::ROLLING_FLANK),
+    File(&flank::CHECK),
+    Figure(&force_closure::CHECK),
+    Figure(&jump_speed::CHECK),
+    Figure(&switches::CHECK),
+    Figure(&conjugate::CHECK),
+    Figure(&guide::CHECK),
+    Figure(&contact_stress::CHECK),
+    Figure(&residual_vibration::CHECK),
+    File(&felt::CHECK),
+    File(&balance::CHECK),
+];

@@ -1,0 +1,345 @@
+//! The house stands as ARCHITECTURE.md draws it: a room knows only the rooms before it.
+
+use crate::common::source::{Token, closing, code, sources, src, tokens, used};
+use std::path::{Path, PathBuf};
+
+const ROOMS: [&str; 23] = [
+    "refusal",
+    "units",
+    "numeric",
+    "document",
+    "geometry",
+    "motion",
+    "follower",
+    "machine",
+    "profile",
+    "report",
+    "table",
+    "load",
+    "check",
+    "body",
+    "analysis",
+    "reading",
+    "verify",
+    "write",
+    "pipeline",
+    "trade",
+    "domain",
+    "domains",
+    "catalogue",
+];
+
+/// Longest function, in lines from its name to its closing brace.
+const LONGEST_FUNCTION: usize = 60;
+
+fn files_of(room: &str) -> Vec<PathBuf> {
+    let file = src().join(format!("{room}.rs"));
+    sources(&if file.exists() { file } else { src().join(room) })
+}
+
+/// Its path below src, for a message.
+fn name(path: &Path) -> String {
+    path.strip_prefix(src()).expect("below src").display().to_string()
+}
+
+/// The modules a file is in: `body/disc/sheet.rs` is body, disc, sheet.
+fn module_of(path: &str) -> Vec<String> {
+    let path = path.trim_end_matches(".rs").trim_end_matches("/mod");
+    path.split('/').map(str::to_owned).collect()
+}
+
+/// Every path from the root of the library that the code of a module names, by `use` or in place, with its line.
+fn paths(all: &[Token], module: &[String]) -> Vec<(Vec<String>, usize)> {
+    let mut found = Vec::new();
+    for (at, token) in all.iter().enumerate() {
+        let follows = |text: &str| all.get(at + 1).is_some_and(|next| next.text == text);
+        if token.text == "use" {
+            found.extend(used(all, at + 1).into_iter().map(|used| (used.path, token.line)));
+        } else if matches!(token.text.as_str(), "crate" | "super" | "self") && follows(":") {
+            // The head of a path in place; a path inside one that has begun is not a head.
+            if at > 1 && all[at - 1].text == ":" && all[at - 2].text == ":" {
+                continue;
+            }
+            let mut path = vec![token.text.clone()];
+            let mut next = at + 1;
+            while all.len() > next + 2 && all[next].text == ":" && all[next + 1].text == ":" {
+                path.push(all[next + 2].text.clone());
+                next += 3;
+            }
+            found.push((path, token.line));
+        }
+    }
+    found.into_iter().filter_map(|(path, line)| Some((from_root(&path, module)?, line))).collect()
+}
+
+/// A path from the root of the library; `None` for one into another library or to something in scope.
+fn from_root(path: &[String], module: &[String]) -> Option<Vec<String>> {
+    let mut base = match path.first()?.as_str() {
+        "crate" => Vec::new(),
+        "self" | "super" => module.to_vec(),
+        _ => return None,
+    };
+    let mut rest = path;
+    while let [head, tail @ ..] = rest {
+        match head.as_str() {
+            "super" => drop(base.pop()),
+            "self" | "crate" => {}
+            _ => break,
+        }
+        rest = tail;
+    }
+    base.extend(rest.iter().cloned());
+    Some(base)
+}
+
+/// What a file of a room knows of later rooms, a line each.
+fn knows_later(path: &str, text: &str) -> Vec<String> {
+    let (all, module) = (tokens(text), module_of(path));
+    let own = ROOMS.iter().position(|room| *room == module[0]).expect("a file of a room");
+    let mut told = Vec::new();
+    for (found, line) in paths(&all, &module) {
+        match found.first().map(String::as_str) {
+            None | Some("*") => told.push(format!("{path}:{line} names the whole library")),
+            Some(room) if ROOMS.iter().position(|other| *other == room).is_some_and(|index| index > own) => {
+                told.push(format!("{path}:{line} knows {}", found.join("::")));
+            }
+            Some(_) => {}
+        }
+    }
+    told.sort();
+    told.dedup();
+    told
+}
+
+/// Where a struct is made by a literal: not where it is declared or named as a type.
+fn made(all: &[Token], what: &str) -> Vec<usize> {
+    let is_made = |(at, token): (usize, &Token)| {
+        let before = at.checked_sub(1).map_or("", |before| all[before].text.as_str());
+        let opens = all.get(at + 1).is_some_and(|next| next.text == "{");
+        // `-> Check {`, `-> &Check {` and `-> &'static Check {` begin the body of a function.
+        let as_type = ["struct", "impl", "for", "enum", "union", ">", "&", "static", "dyn"].contains(&before);
+        (token.text == what && opens && !as_type).then_some(token.line)
+    };
+    all.iter().enumerate().filter_map(is_made).collect()
+}
+
+/// Functions longer than they may be, each with its line and length.
+fn long_functions(text: &str) -> Vec<(String, usize, usize)> {
+    let all = tokens(text);
+    let mut found = Vec::new();
+    for at in (0..all.len()).filter(|at| all[*at].text == "fn") {
+        // `fn(f64) -> f64` is a type.
+        let Some(name) = all.get(at + 1).filter(|next| next.text != "(") else { continue };
+        let mut open = at;
+        while all.get(open).is_some_and(|token| !["{", ";"].contains(&token.text.as_str())) {
+            open = if ["(", "["].contains(&all[open].text.as_str()) { closing(&all, open) + 1 } else { open + 1 };
+        }
+        if all.get(open).is_some_and(|token| token.text == "{") {
+            let lines = all[closing(&all, open)].line - all[at].line + 1;
+            if lines > LONGEST_FUNCTION {
+                found.push((name.text.clone(), all[at].line, lines));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn the_rooms_are_those_of_the_library_in_its_order() {
+    let lib = tokens(&code(&src().join("lib.rs")));
+    let declared: Vec<&str> =
+        lib.windows(2).filter(|pair| pair[0].text == "mod").map(|pair| pair[1].text.as_str()).collect();
+    assert_eq!(declared, ROOMS);
+    for room in ROOMS {
+        assert!(!files_of(room).is_empty(), "{room} has no files");
+    }
+}
+
+#[test]
+fn a_room_knows_only_the_rooms_before_it() {
+    let told: Vec<String> =
+        ROOMS.iter().flat_map(|room| files_of(room)).flat_map(|path| knows_later(&name(&path), &code(&path))).collect();
+    assert!(told.is_empty(), "\n{}\n", told.join("\n"));
+}
+
+/// The domains in the order of their list.
+fn domains() -> Vec<String> {
+    let all = tokens(&code(&src().join("domains/mod.rs")));
+    let listed = all.windows(4).filter(|four| four[1].text == ":" && four[3].text == "DOMAIN");
+    listed.map(|four| four[0].text.clone()).collect()
+}
+
+/// What a file of a domain knows of domains after its own, a line each.
+fn knows_later_domains(path: &str, text: &str, domains: &[String]) -> Vec<String> {
+    let module = module_of(path);
+    let rank = |name: &str| domains.iter().position(|domain| domain == name);
+    let own = module.get(1).and_then(|name| rank(name));
+    let later = |found: &[String]| match found {
+        [room, domain, ..] if room == "domains" => rank(domain) > own,
+        _ => false,
+    };
+    let found = paths(&tokens(text), &module).into_iter().filter(|(found, _)| own.is_some() && later(found));
+    found.map(|(found, line)| format!("{path}:{line} knows {}", found.join("::"))).collect()
+}
+
+#[test]
+fn a_domain_knows_only_the_domains_before_it() {
+    let domains = domains();
+    let told: Vec<String> =
+        files_of("domains").iter().flat_map(|path| knows_later_domains(&name(path), &code(path), &domains)).collect();
+    assert!(told.is_empty(), "\n{}\n", told.join("\n"));
+    let two = ["press".to_owned(), "brake".to_owned()];
+    let later = |path: &str| !knows_later_domains(path, "use crate::domains::brake::machine;", &two).is_empty();
+    assert!(later("domains/press/keys.rs") && !later("domains/brake/keys.rs"));
+}
+
+/// The core is the same whatever domains there are; only its tests may take an embedded machine of one.
+#[test]
+fn no_room_of_the_core_names_a_domain() {
+    let domains = domains();
+    assert_eq!(domains, ["press", "linkage", "shaft", "brake"]);
+    let core = ROOMS.iter().take_while(|room| **room != "domains");
+    for path in core.flat_map(|room| files_of(room)) {
+        let code = code(&path);
+        assert!(tokens(&code).iter().all(|token| token.text != "domains"), "{} names a domain", name(&path));
+        for line in code.lines().filter(|line| domains.iter().any(|domain| line.contains(&format!("\"{domain}\"")))) {
+            let for_tests = line.contains("cfg(all(test,") && line.contains("feature = ");
+            assert!(for_tests || !line.contains("feature = "), "{} asks for a domain: {line}", name(&path));
+        }
+    }
+}
+
+/// Imports in every dress are seen, and what only looks like one is not.
+#[test]
+fn planted_imports_are_seen() {
+    for planted in [
+        "use crate::verify;",
+        "use crate::verify::rolling;",
+        "use crate::{units, verify::{self, rolling}};",
+        "use crate::{\n    units::{self, Dimension},\n    pipeline::Spec,\n};",
+        "use super::super::write::json;",
+        "use super::super::{verify, write};",
+        "use self::super::super::pipeline;",
+        "pub use crate::write as out;",
+        "fn f() { crate::pipeline::Spec::builder(\"x\"); }",
+        "fn f(found: super::super::verify::Check) {}",
+        "use crate as camgen;",
+        "use crate::*;",
+    ] {
+        assert!(!knows_later("body/disc/mod.rs", planted).is_empty(), "{planted}");
+    }
+    for harmless in [
+        "use crate::profile::Curves;",
+        "use super::super::part::Part;",
+        "use super::{verify, write};",
+        "use std::fmt::{self, Write as _};",
+        "// use crate::verify;\nfn f() -> &'static str { \"crate::verify::x\" }",
+        "/// [`crate::verify::run`]\npub(super) fn verify() {}",
+        "fn f(self: &Self) { self::verify::x(); }",
+    ] {
+        assert_eq!(knows_later("body/disc/mod.rs", harmless), Vec::<String>::new(), "{harmless}");
+    }
+}
+
+/// A format and a column each stand in one list; nobody else makes one. A body may bring checks of its own.
+#[test]
+fn what_is_in_a_list_is_made_in_its_room() {
+    let mut told = Vec::new();
+    for path in sources(&src()) {
+        let (file, all) = (name(&path), tokens(&code(&path)));
+        for (room, what) in [("verify", "FileCheck"), ("write", "Format")] {
+            // One of the same name that a file keeps for itself is another.
+            let has_own = all.windows(2).any(|pair| pair[0].text == "struct" && pair[1].text == what);
+            if !file.starts_with(room) && !has_own {
+                told.extend(made(&all, what).iter().map(|line| format!("{file}:{line} makes a {what}")));
+            }
+        }
+        if !file.starts_with("table") {
+            let of_table = |path: &[String]| match path {
+                [room, item, ..] => room == "table" && ["Column", "COLUMNS"].contains(&item.as_str()),
+                _ => false,
+            };
+            let module = module_of(&file);
+            let columns = paths(&all, &module).into_iter().filter(|(path, _)| of_table(path));
+            told.extend(columns.map(|(path, line)| format!("{file}:{line} lists columns: {}", path.join("::"))));
+            // A table with columns of its own: `Table { columns: .. }`.
+            let own = all.windows(3).filter(|three| {
+                three[1].text == "columns" && three[2].text == ":" && ["{", ","].contains(&three[0].text.as_str())
+            });
+            told.extend(own.map(|three| format!("{file}:{} has columns of its own", three[1].line)));
+        }
+    }
+    assert!(told.is_empty(), "\n{}\n", told.join("\n"));
+}
+
+#[test]
+fn what_is_made_is_told_from_what_is_named() {
+    let lines = |text: &str| made(&tokens(text), "Check");
+    assert_eq!(lines("const A: Check = Check { name };\nlet b =\n    Check { name };"), [1, 3]);
+    assert_eq!(lines("vec![Check {}, verify::Check {}]"), [1, 1]);
+    let named =
+        "struct Check {}\nimpl Check {}\nimpl Debug for Check {}\nfn f() -> Check {}\nfn g() -> &'static Check {}";
+    assert_eq!(lines(named), Vec::<usize>::new());
+}
+
+/// Writers only format; the library neither prints nor exits nor looks at a clock.
+#[test]
+fn what_is_absent_stays_absent() {
+    for path in files_of("write") {
+        for word in ["libm::", "atan2", ".sin()", ".cos()", "offset_inward"] {
+            assert!(!code(&path).contains(word), "{} has {word}", name(&path));
+        }
+    }
+    for room in ROOMS {
+        for path in files_of(room) {
+            let program = without_comments(&code(&path));
+            for word in
+                ["println!", "eprintln!", "process::exit", "SystemTime", "Instant::now", "HashMap", ".sin()", ".powf("]
+            {
+                assert!(!program.contains(word), "{} has {word}", name(&path));
+            }
+        }
+    }
+}
+
+/// An example in a comment may print.
+fn without_comments(text: &str) -> String {
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn no_function_is_longer_than_a_page() {
+    let told: Vec<String> = sources(&src())
+        .iter()
+        .flat_map(|path| {
+            let file = name(path);
+            long_functions(&code(path))
+                .into_iter()
+                .map(move |(function, line, lines)| format!("{file}:{line} {function} has {lines} lines"))
+        })
+        .collect();
+    assert!(told.is_empty(), "more than {LONGEST_FUNCTION} lines:\n{}\n", told.join("\n"));
+}
+
+#[test]
+fn lines_of_a_function_are_counted_to_its_brace() {
+    let of = |lines: usize| {
+        format!("trait T {{ fn t(&self); }}\nfn f(g: fn() -> [u8; 2]) {{\n{}}}\n", "    '{';\n".repeat(lines))
+    };
+    assert_eq!(long_functions(&of(LONGEST_FUNCTION - 2)), []);
+    assert_eq!(long_functions(&of(LONGEST_FUNCTION - 1)), [("f".to_owned(), 2, LONGEST_FUNCTION + 1)]);
+}
+
+/// A file that no `mod` names, or that stands beside the one program of tests, would never run.
+#[test]
+fn every_file_of_tests_is_a_module() {
+    let folder = src().with_file_name("tests");
+    for path in sources(&folder).iter().filter(|path| path.extension().is_some_and(|end| end == "rs")) {
+        let root = path.with_file_name("main.rs");
+        let root = if root.exists() { root } else { path.with_file_name("mod.rs") };
+        let stem = path.file_stem().expect("a name").to_string_lossy();
+        let all = if root.exists() { tokens(&code(&root)) } else { Vec::new() };
+        let is_named = all.windows(2).any(|pair| pair[0].text == "mod" && pair[1].text == stem);
+        assert!(is_named || *path == root, "{} is in no module", path.display());
+    }
+}

@@ -1,0 +1,97 @@
+//! The comparison of laws and the smallest cam, as their reader sees them.
+
+use camgen::analysis::laws::{self, LawsOptions};
+use camgen::analysis::{Analysis, Picture, size};
+use camgen::report::plot::Plot;
+use camgen::{Machine, law};
+
+fn machine(name: &str) -> Machine {
+    Machine::load(name, &[]).expect("valid").0
+}
+
+fn plot(analysis: &Analysis) -> &Plot {
+    let Picture::Curves(plot) = &analysis.picture else { panic!("curves") };
+    plot
+}
+
+/// Laws whose acceleration jumps come after all others, and each group begins with the least peak acceleration.
+#[test]
+fn laws_whose_acceleration_jumps_come_last() {
+    for machine in [None, Some(machine("feeder"))] {
+        let all = laws::analysis(machine.as_ref(), &LawsOptions::default()).expect("laws");
+        let (_, table) = &all.tables[0];
+        let column = |name: &str| table.columns.iter().position(|column| *column == name).expect("a column");
+        let (ca, cj) = (column("ca"), column("cj"));
+        let rows: Vec<(bool, f64)> = table.rows.iter().map(|row| (row[cj].is_infinite(), row[ca])).collect();
+        assert!(rows.is_sorted(), "{rows:?}");
+        assert!(rows.iter().filter(|(jumps, _)| *jumps).count() > 3);
+        // A column that is asked for is the only order.
+        let sorted = LawsOptions { sort: Some("cv".into()), ..LawsOptions::default() };
+        let by_velocity = laws::analysis(machine.as_ref(), &sorted).expect("laws");
+        let cv: Vec<f64> = by_velocity.tables[0].1.rows.iter().map(|row| row[column("cv")]).collect();
+        assert!(cv.is_sorted(), "{cv:?}");
+    }
+}
+
+/// Only the laws that are asked for are compared and drawn, lift to jerk, each rate over its own scale.
+#[test]
+fn laws_can_be_chosen() {
+    let chosen = ["modified-sine", "cycloidal", "parabola"];
+    let laws = chosen.iter().filter_map(|name| law(name)).collect();
+    let options = LawsOptions { laws, ..LawsOptions::default() };
+    let analysis = laws::analysis(Some(&machine("feeder")), &options).expect("laws");
+    let (_, table) = &analysis.tables[0];
+    assert_eq!(table.words.as_ref().expect("names").1, chosen);
+    let plot = plot(&analysis);
+    assert_eq!(plot.title, "Feeder: 3 laws");
+    assert_eq!(plot.panels.len(), 4);
+    let peak = |panel: usize, curve: usize| {
+        let points = &plot.panels[panel].curves[curve].points;
+        points.iter().map(|[_, value]| value.abs()).fold(0.0, f64::max)
+    };
+    let column = |name: &str| table.columns.iter().position(|column| *column == name).expect("a column");
+    for (curve, row) in table.rows.iter().enumerate() {
+        assert!((peak(0, curve) - 1.0).abs() < 1e-12);
+        for (panel, name) in [(1, "cv"), (2, "ca")] {
+            let (drawn, told) = (peak(panel, curve), row[column(name)]);
+            assert!((drawn / told - 1.0).abs() < 1e-3 && drawn <= told * (1.0 + 1e-12), "{name}: {drawn} {told}");
+        }
+    }
+}
+
+/// Each heading of the table in the text has a line that says what it is.
+#[test]
+fn every_column_is_explained() {
+    for machine in [None, Some(machine("feeder"))] {
+        let analysis = laws::analysis(machine.as_ref(), &LawsOptions::default()).expect("laws");
+        let words = &analysis.sections[0].words;
+        let heads = words.iter().find(|line| line.starts_with("law ")).expect("headings");
+        for head in heads.split_whitespace().skip(1) {
+            let explained =
+                |line: &&String| line.split_whitespace().next() == Some(head) && line.len() > head.len() + 10;
+            assert_eq!(words.iter().filter(explained).count(), 1, "{head}: {words:#?}");
+        }
+    }
+}
+
+/// The plot of sizes has the limits and a mark at the chosen cam.
+#[test]
+fn the_plot_of_sizes_has_limits_and_the_chosen_cam() {
+    let analysis = size::analysis(&machine("feeder"), &[], None).expect("a size");
+    let plot = plot(&analysis);
+    let angle = &plot.panels[0];
+    let limit = angle.curves.iter().find(|curve| curve.name == "limit").expect("a limit");
+    assert!(limit.points.len() == 2 && limit.points.iter().all(|[_, value]| (value - 30.0).abs() < 1e-9), "{limit:?}");
+    for (_, panel) in
+        plot.panels.iter().map(|panel| ("", panel)).chain(plot.own.iter().map(|(at, panel)| (&**at, panel)))
+    {
+        let mark = panel.curves.iter().find(|curve| curve.points.len() == 1).expect("a mark");
+        let [at, value] = mark.points[0];
+        assert!(panel.name.contains("circle: the chosen cam"), "{}", panel.name);
+        // It lies on the curve, but for the steps of the table.
+        let curve = panel.curves.iter().rfind(|curve| curve.points.len() > 2).expect("a curve");
+        let near = curve.points.windows(2).find(|two| two[0][0] <= at && at <= two[1][0]).expect("in the table");
+        let [low, high] = [near[0][1].min(near[1][1]), near[0][1].max(near[1][1])];
+        assert!(value >= low - 0.6 && value <= high + 0.6, "{value} {near:?}");
+    }
+}

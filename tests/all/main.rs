@@ -1,0 +1,74 @@
+//! The library and the program from outside: one program of tests, a module each.
+
+#![allow(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::indexing_slicing,
+    missing_docs,
+    reason = "a test fails loudly, and its tables are printed"
+)]
+
+mod common;
+
+mod analyses;
+mod architecture;
+mod arcs;
+mod bounds;
+#[cfg(feature = "brake")]
+mod brake;
+mod check_kinds;
+mod circles;
+mod cli;
+mod cli_kinds;
+mod conjugate;
+mod diagnosis;
+mod diagram;
+mod examples;
+mod faults;
+mod felt;
+mod following;
+mod forces;
+mod groove;
+mod groove_cam;
+mod html;
+mod inputs;
+mod laws;
+mod linkage_cams;
+mod lobes;
+mod mistakes;
+mod mutations;
+mod oracle;
+mod pipeline;
+mod points;
+mod programs;
+mod properties;
+mod readback;
+mod reading;
+// The book describes every domain and format.
+#[cfg(all(feature = "brake", feature = "html", feature = "pdf"))]
+mod readme;
+mod remedies;
+mod rows;
+// What is stored is made by every domain and format.
+#[cfg(all(feature = "brake", feature = "html", feature = "pdf"))]
+mod same_bytes;
+mod shaft;
+mod sheets;
+mod shop;
+mod size;
+mod solids;
+mod spline;
+mod spline_solids;
+mod stability;
+mod starts;
+mod step;
+mod supply;
+mod surface;
+mod tables;
+mod terminal;
+mod translating;
+mod two_sided;
+mod verdicts;
+mod walls;
+mod words;
