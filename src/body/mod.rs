@@ -4,6 +4,7 @@
 //! A new body is a folder here with `impl Body` and a line in [`BODIES`].
 
 pub mod balancing;
+pub mod closure;
 pub mod conjugate;
 mod cut;
 pub mod disc;
@@ -17,6 +18,7 @@ pub mod motion_diagram;
 pub(crate) mod part;
 pub(crate) mod picture;
 pub mod points;
+pub mod rib;
 pub(crate) mod sheet;
 mod sizing;
 pub(crate) mod start;
@@ -24,6 +26,7 @@ pub(crate) mod stress;
 pub mod surface;
 pub mod torque;
 mod worst_places;
+pub mod yoke;
 
 pub use cut::Cut;
 pub use figures::Figures;
@@ -118,6 +121,14 @@ pub const BODIES: &[ProgramBody] = &[
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::between_flanks(machine, motion, rpm)?)),
     },
     ProgramBody { kind: &conjugate::MAIN, solve: conjugate::pair },
+    ProgramBody {
+        kind: &rib::RIB,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(rib::Rib::of(machine, motion, rpm)?)),
+    },
+    ProgramBody {
+        kind: &yoke::YOKE,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(yoke::Yoke::of(machine, motion, rpm)?)),
+    },
 ];
 
 /// Kinds that are made with one of these.
@@ -205,7 +216,7 @@ pub struct Request {
     pub points: Option<points::Points>,
     /// The cam angle at which the cut starts, rad; `None` for the middle of the longest dwell at the lowest lift, or the flattest joint.
     pub start: Option<f64>,
-    /// The way of the tool to that start, where one is drawn.
+    /// The path of the tool to that start, where one is drawn.
     pub lead_in: Option<LeadIn>,
 }
 

@@ -28,13 +28,17 @@ pub enum Layer {
     GrooveInner,
     /// The flank of a groove around the roller.
     GrooveOuter,
+    /// The flank of a rib on which its outer roller runs.
+    RibOuter,
+    /// The flank of a rib on which its inner roller runs.
+    RibInner,
     /// The edge of a part whose roller runs within it.
     Blank,
     /// Bore and holes.
     Bore,
     /// The path of a cutter's centre, in a file of its own.
     CutterPath,
-    /// The way on which the tool comes to the start of the outline, or of the path of the cutter.
+    /// The path on which the tool comes to the start of the outline, or of the path of the cutter.
     LeadIn,
 }
 
@@ -46,6 +50,8 @@ impl Layer {
             Layer::CamProfile => "CAM_PROFILE",
             Layer::GrooveInner => "GROOVE_INNER",
             Layer::GrooveOuter => "GROOVE_OUTER",
+            Layer::RibOuter => "RIB_OUTER",
+            Layer::RibInner => "RIB_INNER",
             Layer::Blank => "BLANK",
             Layer::Bore => "BORE",
             Layer::CutterPath => "CUTTER_PATH",
@@ -57,8 +63,8 @@ impl Layer {
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
-            Layer::GrooveInner => "inner",
-            Layer::GrooveOuter => "outer",
+            Layer::GrooveInner | Layer::RibInner => "inner",
+            Layer::GrooveOuter | Layer::RibOuter => "outer",
             _ => "",
         }
     }
@@ -82,8 +88,8 @@ pub struct Track {
     pub first: (Layer, bool),
     /// The other flanks.
     pub others: Vec<PartFlank>,
-    /// Radius of the blank, mm.
-    pub blank: f64,
+    /// Radius of the blank, mm, of a part whose edge is not a flank.
+    pub blank: Option<f64>,
     /// How deep the flanks reach below the upper face, mm; `None` of flanks that go through.
     pub depth: Option<f64>,
 }
@@ -182,8 +188,7 @@ impl Part {
         let depth = track.and_then(|track| track.depth);
         let others = track.map_or(&[][..], |track| track.others.as_slice());
         let others = others.iter().map(|flank| Rim::of(flank.layer, &flank.outline, flank.hollow, depth));
-        let blank = track.map(|track| Entity::Circle(Vector2::zeros(), track.blank));
-        let blank = blank.map(|curve| Rim { layer: Layer::Blank, curve, depth: None });
+        let blank = self.blank().map(|curve| Rim { layer: Layer::Blank, curve, depth: None });
         let holes = self.holes().into_iter().map(|hole| match hole {
             Entity::Polyline(contour) => Entity::Polyline(contour.reversed()),
             other => other,
@@ -209,15 +214,19 @@ impl Part {
     /// Extents of the part, mm.
     #[must_use]
     pub fn extents(&self) -> Extents {
-        let blank = self.track.as_ref().map(|track| Entity::Circle(Vector2::zeros(), track.blank).extents());
-        blank.unwrap_or_else(|| self.outline.contour.extents())
+        self.blank().map_or_else(|| self.outline.contour.extents(), |blank| blank.extents())
+    }
+
+    /// The edge of its blank.
+    fn blank(&self) -> Option<Entity> {
+        let radius = self.track.as_ref()?.blank?;
+        Some(Entity::Circle(Vector2::zeros(), radius))
     }
 
     /// What is cut in addition to its outlines, counter-clockwise: bore, balance holes, and the edge of its blank.
     #[must_use]
     pub fn beside_outlines(&self) -> Vec<Entity> {
-        let blank = self.track.iter().map(|track| Entity::Circle(Vector2::zeros(), track.blank));
-        self.holes().into_iter().chain(blank).collect()
+        self.holes().into_iter().chain(self.blank()).collect()
     }
 
     /// Bore and balance holes, counter-clockwise.
@@ -281,8 +290,8 @@ impl Part {
         let of_track = |track: &Track| {
             let flanks = track.others.iter();
             let flanks = flanks.map(|flank| (flank.outline.contour.clone(), sign(flank.hollow), track.depth));
-            let blank = (Contour::circle(Vector2::zeros(), track.blank), 1.0, None);
-            flanks.chain([blank]).collect::<Vec<_>>()
+            let blank = track.blank.map(|radius| (Contour::circle(Vector2::zeros(), radius), 1.0, None));
+            flanks.chain(blank).collect::<Vec<_>>()
         };
         let (hollow, depth) = self.track.as_ref().map_or((false, None), |track| (track.first.1, track.depth));
         let first = (self.outline.contour.clone(), sign(hollow), depth);

@@ -1,4 +1,4 @@
-//! Where the outline of a turning cam starts, and the way of the tool to there.
+//! Where the outline of a turning cam starts, and the path of the tool to there.
 
 use super::{Body, Cut, Drawn, Part, Request};
 use crate::geometry::contour::Edge;

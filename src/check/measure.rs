@@ -107,8 +107,8 @@ impl Subject<'_> {
 pub struct AsWritten<'a> {
     /// What rolling on the written outline has shown.
     pub rolled: Option<&'a Rolled>,
-    /// The outline that it was rolled on, mm.
-    pub outline: Option<&'a Contour>,
+    /// The outlines, in the order of the cuts of the body, mm.
+    pub outlines: &'a [&'a Contour],
     /// Whether somebody else may have written it.
     pub foreign: bool,
     /// Tolerance of the outline, mm.

@@ -62,20 +62,57 @@ pub const GROOVE: &str = "groove";
 /// A pair of discs for two rollers of one follower, of any motion.
 pub const CONJUGATE: &str = "conjugate";
 
-/// The bodies of a motion program as a file names them, and as keys do: all of them belong to the class [`MAKE`].
-pub const BODIES: &[&str] = &["disc", RING, GROOVE, CONJUGATE];
-/// The same bodies, as keys name them.
-pub const BODY_KINDS: &[&str] = &[MAKE, RING, GROOVE, CONJUGATE];
+/// A wall between two rollers of one follower, of any motion.
+pub const RIB: &str = "rib";
+/// A disc between two faces or rollers of one follower, of a motion whose second half turn is the first one upside down.
+pub const YOKE: &str = "yoke";
+
+/// What a file calls the body of a motion program that is a disc.
+pub const DISC_BODY: &str = "disc";
 
 /// The classes of a disc of a motion program.
 const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS];
 /// The classes of a body within which a roller runs.
 const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS];
 
-/// The kinds of cam of the core.
-pub const KINDS: &[CamKind] = &[
-    CamKind::cam(MAKE, OF_A_PROGRAM),
-    CamKind::cam(RING, OF_A_TRACK),
-    CamKind::cam(GROOVE, OF_A_TRACK),
-    CamKind::cam(CONJUGATE, OF_A_PROGRAM),
+/// The bodies of a motion program, which all belong to the class [`MAKE`]: what a file calls each, and its kind of cam. The first is
+/// the usual one.
+const PROGRAM_BODIES: [(&str, CamKind); 6] = [
+    (DISC_BODY, CamKind::cam(MAKE, OF_A_PROGRAM)),
+    (RING, CamKind::cam(RING, OF_A_TRACK)),
+    (GROOVE, CamKind::cam(GROOVE, OF_A_TRACK)),
+    (CONJUGATE, CamKind::cam(CONJUGATE, OF_A_PROGRAM)),
+    (RIB, CamKind::cam(RIB, OF_A_TRACK)),
+    (YOKE, CamKind::cam(YOKE, OF_A_PROGRAM)),
 ];
+
+/// The bodies of a motion program as a file names them.
+pub const BODIES: &[&str] = &{
+    let mut names = [""; PROGRAM_BODIES.len()];
+    let mut index = 0;
+    while index < PROGRAM_BODIES.len() {
+        names[index] = PROGRAM_BODIES[index].0;
+        index += 1;
+    }
+    names
+};
+/// The same bodies, as keys name them.
+pub const BODY_KINDS: &[&str] = &{
+    let mut names = [""; PROGRAM_BODIES.len()];
+    let mut index = 0;
+    while index < PROGRAM_BODIES.len() {
+        names[index] = PROGRAM_BODIES[index].1.name;
+        index += 1;
+    }
+    names
+};
+/// The kinds of cam of the core.
+pub const KINDS: &[CamKind] = &{
+    let mut kinds = [PROGRAM_BODIES[0].1; PROGRAM_BODIES.len()];
+    let mut index = 0;
+    while index < PROGRAM_BODIES.len() {
+        kinds[index] = PROGRAM_BODIES[index].1;
+        index += 1;
+    }
+    kinds
+};

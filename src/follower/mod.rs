@@ -313,6 +313,11 @@ pub trait Follower: std::fmt::Debug + Send + Sync {
         1.0
     }
 
+    /// Derivatives by the parameter, at a lift, of the speed of its curve, and of the rate at which its drive turns; `None` where they are not known.
+    fn speed_slopes(&self, _lift: &Jet) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Whether it is symmetric, so that the mirrored motion gives the mirrored curve.
     fn is_symmetric(&self) -> bool {
         false

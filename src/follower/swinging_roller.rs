@@ -159,6 +159,16 @@ impl Follower for SwingingRoller {
         Some(FollowerPlacement::Pivot { arm: self.arm, radius: self.radius, side: self.side })
     }
 
+    /// |C'|² = a² + l² k² − 2 a l k cos ψ, k = 1 + τψ' the rate at which the arm turns on the cam.
+    fn speed_slopes(&self, lift: &Jet) -> Option<[f64; 2]> {
+        let (a, l) = (self.pivot_distance, self.arm);
+        let (turn, turn_slope) = (1.0 + self.side * lift.ds, self.side * lift.dds);
+        let (sine, cosine) = libm::sincos(self.start + lift.s);
+        let square = a * a + l * l * turn * turn - 2.0 * a * l * turn * cosine;
+        let half_slope = l * l * turn * turn_slope - a * l * (turn_slope * cosine - turn * sine * lift.ds);
+        Some([half_slope / square.sqrt(), turn_slope])
+    }
+
     fn sized(&self, prime_radius: f64) -> Option<Box<dyn Follower>> {
         let (least, largest) = self.prime_radii();
         if !(least..=largest).contains(&prime_radius) {

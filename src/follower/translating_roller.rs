@@ -161,6 +161,12 @@ impl Follower for TranslatingRoller {
         Some(FollowerPlacement::Offset { radius: self.roller_radius })
     }
 
+    /// |C'|² = (s' − ε)² + u², u = √(R_p² − ε²) + s; the drive turns with the cam.
+    fn speed_slopes(&self, lift: &Jet) -> Option<[f64; 2]> {
+        let (across, along) = (lift.ds - self.offset, self.height + lift.s);
+        Some([(across * lift.dds + along * lift.ds) / libm::hypot(across, along), 0.0])
+    }
+
     fn sized(&self, prime_radius: f64) -> Option<Box<dyn Follower>> {
         (self.offset.abs() < prime_radius)
             .then(|| Box::new(Self::new(prime_radius, self.offset, self.roller_radius)) as Box<dyn Follower>)

@@ -1,4 +1,4 @@
-//! The way on which a tool comes to the start of an outline: tangent to it there, so that it leaves no mark, and clear of the metal.
+//! The path on which a tool comes to the start of an outline: tangent to it there, so that it leaves no mark, and clear of the metal.
 
 use super::contour::Contour;
 use super::edge::Edge;

@@ -1,5 +1,6 @@
 //! The keys for forces, vibration and drive of a motion program: spring, guide, elastic train, speed fluctuation.
 
+use super::bearing::{self, BearingData};
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::MAKE;
 use crate::document::range::{LARGEST_FORCE, LONGEST, STIFFEST};
@@ -54,6 +55,8 @@ pub struct Dynamics {
     pub vibration: Option<VibrationData>,
     /// Coefficient of speed fluctuation that a flywheel on the shaft is to keep.
     pub fluctuation: Option<f64>,
+    /// The bearing of its roller.
+    pub bearing: Option<BearingData>,
 }
 
 impl Dynamics {
@@ -63,6 +66,7 @@ impl Dynamics {
             guide: guide(reader, follower),
             vibration: vibration(reader),
             fluctuation: fluctuation(reader),
+            bearing: bearing::read(reader, follower),
         }
     }
 }

@@ -53,6 +53,8 @@ pub fn stress_at_rest(material: &CamMaterial) -> Option<f64> {
 const CUSTOMARY_WALL: (f64, f64) = (3e-3, 0.15);
 /// A curve that leaves its rows by ten times the lift has nothing to do with them.
 const LARGEST_SHARE: f64 = 10.0;
+/// Longest life that is asked for, h: a thousand years.
+const LARGEST_HOURS: f64 = 1e7;
 /// Customary largest size of a cam, m: what a machining centre or a plate cutter of a shop takes.
 const CUSTOMARY_SIZE: f64 = 2.0;
 
@@ -95,6 +97,8 @@ pub struct Limits {
     pub jump_margin: f64,
     /// How far a curve through rows may leave them; where it is absent a hundredth of the lift, at least the tolerance.
     pub overshoot: Option<OvershootLimit>,
+    /// Least life of the roller's bearing, h; where it is absent the life is only reported.
+    pub roller_life: Option<f64>,
     /// Largest residual vibration over the travel; where it is absent the vibration is only reported.
     pub residual: Option<f64>,
 }
@@ -216,6 +220,13 @@ const JUMP_MARGIN: Field<f64> = Field::number(
     above(0.0, LARGEST_NUMBER),
 )
 .only(&[MAKE]);
+const ROLLER_LIFE: Field<f64> = Field::number(
+    "roller_life",
+    "least life L10 of the bearing of the roller, in hours; only reported when absent",
+    Optional("20000"),
+    above(0.0, LARGEST_HOURS),
+)
+.only(&[MAKE]);
 const RESIDUAL: Field<f64> = Field::number(
     "residual",
     "largest residual vibration after a movement of a motion program, over its travel; only reported when absent",
@@ -254,6 +265,7 @@ pub(super) const SECTION: KeySection = KeySection {
         CONTINUITY.key,
         JUMP_MARGIN.key,
         RESIDUAL.key,
+        ROLLER_LIFE.key,
         OVERSHOOT.key,
     ],
 };
@@ -320,6 +332,7 @@ pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limit
         continuity: table.get(&CONTINUITY)?,
         jump_margin: table.get(&JUMP_MARGIN)?,
         residual: table.get(&RESIDUAL),
+        roller_life: table.get(&ROLLER_LIFE),
         overshoot: overshoot(reader, follower),
     })
 }

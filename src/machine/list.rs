@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, disc, dynamics, limits, title, track};
+use super::{ROOT, bearing, disc, dynamics, limits, title, track};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -11,6 +11,8 @@ const MOTION_TABLES: &[&KeySection] =
 
 /// The tables after those of the followers.
 const BODY_TABLES: &[&KeySection] = &[
+    &bearing::OF_ROLLER,
+    &bearing::OF_SWINGING_ROLLER,
     &dynamics::SPRING,
     &dynamics::GUIDE,
     &dynamics::VIBRATION,

@@ -5,6 +5,7 @@
 //! Each part of the machine has a file with its data, its table of keys and its reading. `list` gathers the
 //! tables; a key is one constant in its table and one line in its reading.
 
+mod bearing;
 mod disc;
 mod dynamics;
 mod embedded;
@@ -23,6 +24,7 @@ mod track;
 
 pub use crate::document::{Excerpt, FileFault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
+pub use bearing::BearingData;
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};
@@ -38,6 +40,7 @@ pub use title::Title;
 pub use track::{CounterData, TrackData};
 
 use crate::document::Presence::Required;
+use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, TURNS_FORWARD};
 use crate::document::{Field, Input, KeySection, Occurrence, Reader};
 use crate::follower::{self, FollowerPlacement};
@@ -152,7 +155,8 @@ impl Machine {
             quantity: shape.quantity(),
             arm: *arm,
         });
-        let motion = program::read::read(reader, moves);
+        let of_yoke = cam.as_ref().is_some_and(|cam| cam.track.body == cams::YOKE);
+        let motion = program::read::read(reader, moves, of_yoke);
         let mut parts = MachineParts::default();
         for read in &source.catalogue.parts {
             read(reader, (cam.as_ref(), follower.as_ref()), &mut parts);
@@ -271,6 +275,12 @@ impl Machine {
     #[must_use]
     pub fn guide(&self) -> Option<GuideData> {
         self.dynamics.guide
+    }
+
+    /// The bearing of the roller of a motion program, when the file describes one.
+    #[must_use]
+    pub fn bearing(&self) -> Option<BearingData> {
+        self.dynamics.bearing
     }
 
     /// The elastic train behind the follower of a motion program, when the file describes one.

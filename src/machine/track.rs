@@ -1,10 +1,11 @@
 //! Which body is cut for a motion program, and the measures of one whose roller runs within it.
 
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BODIES, BODY_KINDS, CONJUGATE, GROOVE, MAKE, RING};
+use crate::document::cams::{BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GROOVE, MAKE, RIB, RING, YOKE};
 use crate::document::range::{LARGEST_FORCE, LONGEST};
 use crate::document::{Field, Input, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::{Element, FollowerData};
+use crate::motion::Quantity;
 use crate::units::Dimension::{Angle, Force, Length};
 use std::f64::consts::PI;
 
@@ -23,6 +24,10 @@ pub struct TrackData {
     pub clearance_share: f64,
     /// Depth of a groove, m.
     pub groove_depth: Option<f64>,
+    /// Between the centres of the two rollers of a rib, along their path, m.
+    pub roller_distance: Option<f64>,
+    /// Between the two faces, or the near sides of the two rollers, of a yoke, m.
+    pub breadth: Option<f64>,
     /// The counter disc of a pair.
     pub counter: CounterData,
 }
@@ -44,8 +49,8 @@ pub struct CounterData {
 
 const BODY: Field<&'static str> = Field::words(
     "body",
-    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower",
-    Default("disc"),
+    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers",
+    Default(DISC_BODY),
     BODIES,
     BODY_KINDS,
 )
@@ -92,6 +97,24 @@ const GROOVE_DEPTH: Field<f64> = Field::quantity(
 )
 .only(&[GROOVE])
 .also(&["depth"]);
+
+const ROLLER_DISTANCE: Field<f64> = Field::quantity(
+    "roller_distance",
+    "between the centres of the two rollers of a rib, along their path; above the sum of their radii by the thickness of the wall",
+    Optional("40 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(&[RIB]);
+const BREADTH: Field<f64> = Field::quantity(
+    "breadth",
+    "between the two faces of a yoke, or the near sides of its two rollers, in the place of base_radius",
+    Optional("120 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(&[YOKE])
+.also(&["width"]);
 
 const COUNTER_RADIUS: Field<f64> = Field::quantity(
     "radius",
@@ -164,7 +187,16 @@ pub(super) const SECTION: KeySection = KeySection {
     about: "",
     occurs: Occurrence::Once,
     cams: &[MAKE],
-    keys: &[BODY.key, OUTER_RADIUS.key, BLANK_RADIUS.key, CLEARANCE.key, CLEARANCE_SHARE.key, GROOVE_DEPTH.key],
+    keys: &[
+        BODY.key,
+        OUTER_RADIUS.key,
+        BLANK_RADIUS.key,
+        CLEARANCE.key,
+        CLEARANCE_SHARE.key,
+        GROOVE_DEPTH.key,
+        ROLLER_DISTANCE.key,
+        BREADTH.key,
+    ],
 };
 
 impl TrackData {
@@ -198,12 +230,13 @@ pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool)
             Some(_) => {}
         }
     }
-    if body == RING && bored {
-        table.fail(
-            &BODY,
-            "a ring has no bore: its roller runs inside of it".into(),
-            Some("leave cam.bore_radius out".into()),
-        );
+    if (body == RING || body == RIB) && bored {
+        let message = format!("a {body} has no bore: a roller runs inside of it");
+        table.fail(&BODY, message, Some("leave cam.bore_radius out".into()));
+    }
+    if body == RIB && !table.has(&ROLLER_DISTANCE) {
+        let help = "e.g. cam.roller_distance = \"40 mm\", the diameter of a roller and the thickness of the wall";
+        table.fail(&BODY, "a rib needs the distance of its two rollers".into(), Some(help.into()));
     }
     Some(TrackData {
         body,
@@ -212,17 +245,44 @@ pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool)
         clearance: table.get(&CLEARANCE)?,
         clearance_share: table.get(&CLEARANCE_SHARE)?,
         groove_depth,
+        roller_distance: table.get(&ROLLER_DISTANCE),
+        breadth: table.get(&BREADTH),
         counter: CounterData::default(),
     })
 }
 
-/// A roller runs in a ring or a groove.
+/// A roller runs in a ring or a groove, on either side of a rib, and a yoke moves along a straight line.
 pub(super) fn rolled_by(reader: &Reader<'_>, track: &TrackData, follower: &FollowerData) {
-    let rolls = matches!(follower.shape.element(), Element::Roller { radius } if radius != 0.0);
-    if track.body != MAKE && !rolls {
+    let table = reader.table(&SECTION);
+    let radius = match follower.shape.element() {
+        Element::Roller { radius } => Some(radius).filter(|radius| *radius != 0.0),
+        Element::Face => None,
+    };
+    if track.body == YOKE {
+        on_a_line(&table, follower, radius);
+    } else if track.body != MAKE && radius.is_none() {
         let message = format!("a {} needs a roller, and the follower is that of [{}]", track.body, follower.path);
         let help = "give [follower.roller] or [follower.swinging-roller], or cam.body = \"disc\"";
-        reader.table(&SECTION).fail(&BODY, message, Some(help.into()));
+        table.fail(&BODY, message, Some(help.into()));
+    }
+    if let (RIB, Some(distance), Some(radius)) = (track.body, track.roller_distance, radius)
+        && distance <= 2.0 * radius
+    {
+        let message = format!("two rollers at {} leave no wall between them", table.typed(&ROLLER_DISTANCE));
+        let help = format!("it must exceed the diameter of a roller, {} mm", 2e3 * radius);
+        table.fail(&ROLLER_DISTANCE, message, Some(help));
+    }
+}
+
+/// The two faces or rollers of a yoke are opposite to each other, on a line through the shaft.
+fn on_a_line(table: &TableReader<'_>, follower: &FollowerData, radius: Option<f64>) {
+    if follower.shape.quantity() == Quantity::Angle || (radius.is_none() && follower.face.is_none()) {
+        let message = format!("a yoke moves along a straight line, and the follower is that of [{}]", follower.path);
+        let help = "give [follower.flat] or [follower.roller]; two rollers on one arm need cam.body = \"conjugate\"";
+        table.fail(&BODY, message, Some(help.into()));
+    } else if follower.place.is_some() || follower.roller.is_some_and(|roller| roller.offset != 0.0) {
+        let message = "the two rollers of a yoke lie on a line through the shaft: its roller has no offset".to_owned();
+        table.fail(&BODY, message, Some("leave follower.roller.offset out".into()));
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::{AssemblyReport, Error, Proven};
 use crate::body::Body;
-use crate::body::conjugate::{Closure, MAIN_NAME};
+use crate::body::closure::{Closure, Pairing};
+use crate::body::conjugate::{self, MAIN_NAME};
 use crate::check::Measure;
 use crate::geometry::MILLIMETRES;
 use crate::report::Section;
@@ -19,7 +20,7 @@ pub(super) struct PairReport;
 fn closure(first: (&dyn Body, &[WrittenOutline]), others: &[(String, Proven)]) -> Option<Closure> {
     let (_, counter) = others.first()?;
     let second = (counter.body(), &counter.outlines().first()?.contour);
-    Closure::of((first.0, &first.1.first()?.contour), second, counter.tolerance_mm())
+    Closure::of((first.0, &first.1.first()?.contour), second, (Pairing::Opposite, counter.tolerance_mm()))
 }
 
 impl AssemblyReport for PairReport {
@@ -30,7 +31,7 @@ impl AssemblyReport for PairReport {
     fn sections(&self, first: &Proven, others: &[(String, Proven)]) -> Vec<Section> {
         let counter = others.first().map(|(_, counter)| counter.body());
         let found = closure((first.body(), first.outlines()), others).zip(counter);
-        found.map(|(found, counter)| found.section(counter)).into_iter().collect()
+        found.map(|(found, counter)| conjugate::section(&found, counter)).into_iter().collect()
     }
 
     fn file_names(&self, first: &Proven, formats: &[&str]) -> Vec<&'static str> {

@@ -37,7 +37,7 @@ pub struct WrittenPath {
     pub middle: f64,
     /// The path, counter-clockwise, mm, or why there is no path.
     pub contour: Result<Contour, String>,
-    /// The ways to its start, as read.
+    /// The lead-ins to its start, as read.
     pub lead_ins: Vec<Chain>,
 }
 

@@ -4,6 +4,7 @@
 //! places that are looked at the width changes by what the arcs of the flanks are off, which `rolling` finds exactly on each.
 
 use super::check::{Evidence, FileCheck};
+use crate::body::Layer;
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::contour::Contour;
 use crate::geometry::edge_tree::EdgeTree;
@@ -44,7 +45,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         let contour = if mirrored { outline.contour.mirrored_about_x() } else { outline.contour.clone() };
         Some((cut.curves?, contour))
     };
-    if cuts.len() < 2 {
+    if !cuts.iter().any(|cut| cut.layer == Layer::GrooveOuter) {
         return None;
     }
     let ((inner, inside), (outer, outside)) = (written(false)?, written(true)?);

@@ -1,4 +1,4 @@
-//! The way of the tool to the start of an outline touches the cam only there.
+//! The path of the tool to the start of an outline touches the cam only there.
 
 use super::check::{Evidence, FileCheck, place};
 use crate::body::Layer;

@@ -5,8 +5,8 @@ use super::{
     balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, outline, plate_ends, points, rolling, solid,
     sphere, tangency,
 };
-use crate::body::conjugate;
-use crate::body::disc::residual_vibration;
+use crate::body::closure;
+use crate::body::disc::{residual_vibration, roller_life};
 use crate::body::groove::switches;
 use crate::check::{
     contact_stress, continuity, curvature, cutter_radius, face_width, force_closure, guide, jump_speed, noise,
@@ -52,9 +52,12 @@ pub const CHECKS: &[CheckEntry] = &[
     Figure(&force_closure::CHECK),
     Figure(&jump_speed::CHECK),
     Figure(&switches::CHECK),
-    Figure(&conjugate::CHECK),
+    Figure(&closure::CHECK),
     Figure(&guide::CHECK),
     Figure(&contact_stress::CHECK),
+    Figure(&roller_life::LIFE),
+    Figure(&roller_life::SPEED),
+    Figure(&roller_life::SLIP),
     Figure(&residual_vibration::CHECK),
     File(&felt::CHECK),
     File(&balance::CHECK),

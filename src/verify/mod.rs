@@ -30,6 +30,7 @@ pub use list::CHECKS;
 pub use solid::shell_reach;
 
 use crate::check::{AsWritten, Check, CheckScope, Measure, Measures, Walls, wall};
+use crate::geometry::contour::Contour;
 use crate::report::{Finding, worst_first};
 
 /// Runs every check that applies: failures first, then warnings, then the rest, each in the order of the catalogue. Checks that are not in
@@ -45,12 +46,12 @@ pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
         CheckScope::Analysis => false,
     };
     let foreign = !evidence.foreign.is_empty();
-    let outline = evidence.outlines.first().map(|outline| &outline.contour);
+    let outlines: Vec<&Contour> = evidence.outlines.iter().map(|outline| &outline.contour).collect();
     let walls = if applies(&wall::CHECK) { walls::of(evidence) } else { Walls::default() };
     let sizes = evidence.outlines.iter().map(|outline| outline.contour.extents().size().max());
     let written = AsWritten {
         rolled: evidence.rolled.first(),
-        outline,
+        outlines: &outlines,
         foreign,
         tolerance_mm: evidence.tolerance_mm,
         walls,

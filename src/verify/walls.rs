@@ -21,7 +21,20 @@ pub(super) fn of(evidence: &Evidence<'_>) -> Walls {
         bores = thinner(bores, bore);
         others = thinner(others, holes);
     }
-    Walls { about_bore: wall(bores), about_holes: wall(others) }
+    Walls { about_bore: wall(thinner(bores, between_flanks(evidence))), about_holes: wall(others) }
+}
+
+/// Between the two flanks of a wall that goes through.
+fn between_flanks(evidence: &Evidence<'_>) -> Option<Clearance> {
+    let cuts = evidence.body.cuts();
+    let flank = |hollow: bool| {
+        let is = |outline: &&WrittenOutline| cuts.get(outline.cut).is_some_and(|cut| cut.is_hollow() == hollow);
+        evidence.outlines.iter().find(is).map(|outline| &outline.contour)
+    };
+    let (outer, inner) = flank(false).zip(flank(true))?;
+    // Of a groove the hollow flank is the outer one, and there is no metal between them.
+    let is_wall = outer.area_and_centroid().0 > inner.area_and_centroid().0;
+    if is_wall { clearance::around(outer, inner) } else { None }
 }
 
 fn thinner(one: Option<Clearance>, other: Option<Clearance>) -> Option<Clearance> {

@@ -43,7 +43,7 @@ pub const LATEST: u64 = 253_402_300_799;
 
 /// The time stamp of FILE_NAME, by ISO 8601; without a time, or after [`LATEST`], the empty text, which the schema allows
 /// and which means that no time is known.
-pub(super) fn time_stamp(created: Option<u64>) -> String {
+fn time_stamp(created: Option<u64>) -> String {
     let seconds = created.filter(|seconds| *seconds <= LATEST).and_then(|seconds| i64::try_from(seconds).ok());
     let date = seconds.and_then(|seconds| DateTime::from_timestamp(seconds, 0));
     date.map_or_else(String::new, |date| date.to_rfc3339_opts(SecondsFormat::Secs, false))
@@ -264,6 +264,19 @@ pub fn write_marked(solid: &CheckedSolid, product: &str, created: Option<u64>, r
     let (data, count) = solid_entities(solid, SOLID);
     let category = SOLID + count;
     let name = escaped(product);
+    let shape = format!("ADVANCED_BREP_SHAPE_REPRESENTATION('{name}', (#16), #11)");
+    let data = format!("{data}#{category} = PRODUCT_RELATED_PRODUCT_CATEGORY('part', '', (#7));\n");
+    exchange_file((product, created, remark), &shape, &data)
+}
+
+/// A file of one product: with the time of its making where known and a remark in the description of the file, with the representation of its shape
+/// and with the entities from number 16 on, a line each.
+pub(super) fn exchange_file(
+    (product, created, remark): (&str, Option<u64>, &str),
+    shape: &str,
+    entities: &str,
+) -> Vec<u8> {
+    let name = escaped(product);
     let remark = if remark.is_empty() { String::new() } else { format!(", '{}'", escaped(remark)) };
     let (version, time) = (env!("CARGO_PKG_VERSION"), time_stamp(created));
     format!(
@@ -283,14 +296,13 @@ DATA;
 #7 = PRODUCT('{name}', '{name}', '', (#8));
 #8 = PRODUCT_CONTEXT('', #2, 'mechanical');
 #9 = PRODUCT_DEFINITION_CONTEXT('part definition', #2, 'design');
-#10 = ADVANCED_BREP_SHAPE_REPRESENTATION('{name}', (#16), #11);
+#10 = {shape};
 #11 = (GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#15)) GLOBAL_UNIT_ASSIGNED_CONTEXT((#12, #13, #14)) REPRESENTATION_CONTEXT('', '3D'));
 #12 = (LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI., .METRE.));
 #13 = (NAMED_UNIT(*) PLANE_ANGLE_UNIT() SI_UNIT($, .RADIAN.));
 #14 = (NAMED_UNIT(*) SI_UNIT($, .STERADIAN.) SOLID_ANGLE_UNIT());
 #15 = UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06), #12, 'distance_accuracy_value', 'confusion accuracy');
-{data}#{category} = PRODUCT_RELATED_PRODUCT_CATEGORY('part', '', (#7));
-ENDSEC;
+{entities}ENDSEC;
 END-ISO-10303-21;
 "
     )

@@ -1,6 +1,6 @@
 //! Several solids as one STEP file: an assembly of named products, each at its place along the axis.
 
-use super::step::{escaped, real, solid_entities, time_stamp};
+use super::step::{escaped, exchange_file, real, solid_entities};
 use crate::geometry::solid::CheckedSolid;
 
 /// A solid of an assembly: its name, and how far it is moved along the axis, mm.
@@ -20,8 +20,6 @@ const FRAME: usize = 21;
 /// The solids under a product name, with the time of making where known, and a remark in the description of the file.
 #[must_use]
 pub fn write(solids: &[PlacedSolid], product: &str, created: Option<u64>, remark: &str) -> Vec<u8> {
-    let (name, time, version) = (escaped(product), time_stamp(created), env!("CARGO_PKG_VERSION"));
-    let remark = if remark.is_empty() { String::new() } else { format!(", '{}'", escaped(remark)) };
     let mut next = FRAME;
     let (mut parts, mut places) = (String::new(), Vec::new());
     for placed in solids {
@@ -31,39 +29,14 @@ pub fn write(solids: &[PlacedSolid], product: &str, created: Option<u64>, remark
         next = after;
     }
     let items = std::iter::once("#16".to_owned()).chain(places).collect::<Vec<_>>().join(", ");
-    format!(
-        "ISO-10303-21;
-HEADER;
-FILE_DESCRIPTION(('{name}'{remark}), '2;1');
-FILE_NAME('{name}', '{time}', (''), (''), 'camgen {version}', 'camgen', '');
-FILE_SCHEMA(('AUTOMOTIVE_DESIGN {{ 1 0 10303 214 1 1 1 1 }}'));
-ENDSEC;
-DATA;
-#1 = APPLICATION_PROTOCOL_DEFINITION('international standard', 'automotive_design', 2000, #2);
-#2 = APPLICATION_CONTEXT('core data for automotive mechanical design processes');
-#3 = SHAPE_DEFINITION_REPRESENTATION(#4, #10);
-#4 = PRODUCT_DEFINITION_SHAPE('', '', #5);
-#5 = PRODUCT_DEFINITION('design', '', #6, #9);
-#6 = PRODUCT_DEFINITION_FORMATION('', '', #7);
-#7 = PRODUCT('{name}', '{name}', '', (#8));
-#8 = PRODUCT_CONTEXT('', #2, 'mechanical');
-#9 = PRODUCT_DEFINITION_CONTEXT('part definition', #2, 'design');
-#10 = SHAPE_REPRESENTATION('{name}', ({items}), #11);
-#11 = (GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#15)) GLOBAL_UNIT_ASSIGNED_CONTEXT((#12, #13, #14)) REPRESENTATION_CONTEXT('', '3D'));
-#12 = (LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI., .METRE.));
-#13 = (NAMED_UNIT(*) PLANE_ANGLE_UNIT() SI_UNIT($, .RADIAN.));
-#14 = (NAMED_UNIT(*) SI_UNIT($, .STERADIAN.) SOLID_ANGLE_UNIT());
-#15 = UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-06), #12, 'distance_accuracy_value', 'confusion accuracy');
-#16 = AXIS2_PLACEMENT_3D('', #17, #18, #19);
+    let shape = format!("SHAPE_REPRESENTATION('{}', ({items}), #11)", escaped(product));
+    let frame = "#16 = AXIS2_PLACEMENT_3D('', #17, #18, #19);
 #17 = CARTESIAN_POINT('', (0., 0., 0.));
 #18 = DIRECTION('', (0., 0., 1.));
 #19 = DIRECTION('', (1., 0., 0.));
 #20 = PRODUCT_RELATED_PRODUCT_CATEGORY('assembly', '', (#7));
-{parts}ENDSEC;
-END-ISO-10303-21;
-"
-    )
-    .into_bytes()
+";
+    exchange_file((product, created, remark), &shape, &format!("{frame}{parts}"))
 }
 
 /// The entities of a part from a number on, the number after them, and that of its place in the assembly.

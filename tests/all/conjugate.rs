@@ -113,13 +113,16 @@ fn a_pair_closes_within_both_tolerances_as_it_is_written() {
 /// A counter disc that belongs to another distance of the rollers does not close with the main one.
 #[test]
 fn a_wrong_counter_disc_does_not_close() {
-    use camgen::body::conjugate::Closure;
+    use camgen::body::closure::{Closure, Pairing};
     let (right, wrong) = (pair(TRANSLATING, &[]), pair(TRANSLATING, &["cam.counter.distance=180.02 mm"]));
     let proven = |pair: &Assembly| pair.draw(TOLERANCE).expect("drawn").prove().expect("proved");
     let (right, wrong) = (proven(&right), proven(&wrong));
     let outline = |cam: &camgen::Proven| cam.outlines()[0].contour.clone();
     let (main, counter) = (right.first(), &right.others()[0].1);
-    let of = |written| Closure::of((main.body(), &outline(main)), (counter.body(), &written), 5e-3).expect("touching");
+    let of = |written| {
+        let paired = (Pairing::Opposite, 5e-3);
+        Closure::of((main.body(), &outline(main)), (counter.body(), &written), paired).expect("touching")
+    };
     assert!(Closure::measure(Some(&of(outline(counter))), main.body()).finding().verdict == Verdict::Pass);
     let found = Closure::measure(Some(&of(outline(&wrong.others()[0].1))), main.body()).finding();
     assert!(found.verdict == Verdict::Fail && (found.value - 0.02).abs() < 0.012, "{found:?}");

@@ -161,6 +161,11 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
             .ok()
             .map(|(machine, _)| machine);
     }
+    if let Some(own) = section.path.strip_suffix(".bearing") {
+        let of = if own == "follower.roller" { "feeder" } else { "lever" };
+        let all: Vec<String> = examples.chain(sets.iter().cloned()).collect();
+        return Machine::load(of, &all).ok().map(|(machine, _)| machine);
+    }
     if section.path.starts_with("follower.") && section.path != "follower.roller" {
         let (head, _) = LIFTER.split_once("[follower.roller]").expect("a follower");
         let keys: Vec<String> =

@@ -49,6 +49,7 @@ mod reading;
 #[cfg(all(feature = "brake", feature = "html", feature = "pdf"))]
 mod readme;
 mod remedies;
+mod rib_and_yoke;
 mod rows;
 // What is stored is made by every domain and format.
 #[cfg(all(feature = "brake", feature = "html", feature = "pdf"))]

@@ -60,9 +60,13 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
                 "groove" => &["cam.body=groove", "cam.groove_depth=6mm", "cam.clearance=0.05mm"],
                 "ring" => &["cam.body=ring", "follower.roller.preload=100N"],
                 "conjugate" => &["cam.body=conjugate"],
+                "rib" => &["cam.body=rib", "cam.roller_distance=30mm"],
+                "yoke" => &["cam.body=yoke"],
                 _ => &[],
             };
-            lifter(LIFTER, &[own, overrides].concat())
+            // The second half turn of a yoke follows from the first.
+            let first_half = LIFTER.replace("[[motion.segment]]\nto = \"0 mm\"\n", "");
+            lifter(if kind.keys == "yoke" { &first_half } else { LIFTER }, &[own, overrides].concat())
         }
         #[cfg(feature = "brake")]
         "brake-cam" => {
@@ -352,6 +356,8 @@ fn every_check_is_run_for_some_cam() {
         "guide.friction=0.1",
         "guide.span=60mm",
         "vibration.natural_frequency=40Hz",
+        "follower.roller.bearing.dynamic_rating=20kN",
+        "follower.roller.bearing.inertia=0.00002kg*m2",
     ];
     let moving = lifter(LIFTER, &dynamics).solve().expect("a cam");
     reports.push(("lifter with spring, guide and train".into(), report_of(&moving)));

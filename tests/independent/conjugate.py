@@ -8,25 +8,19 @@ usage: conjugate.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
 """
 import argparse
 import json
-import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
+from form_closed import FAULTS, ROUNDING, TOLERANCE, failed, make, plant, program, rise_and_return, volumes
 from laws import motion
 from outline import Chain, polyline
-
-LAWS = ["modified-sine", "3-4-5", "4-5-6-7", "cycloidal"]
-TOLERANCE = 5e-3
-ROUNDING = 2e-8
 
 
 def design(random):
     swings = random.random() < 0.5
-    rise, rest, back = random.uniform(90, 140), random.uniform(5, 40), random.uniform(90, 140)
     stroke = random.uniform(6, 18) if swings else random.uniform(8, 28)
-    segments = [(random.choice(LAWS), rise, stroke), ("dwell", rest, stroke), (random.choice(LAWS), back, 0.0)]
-    segments.append(("dwell", 360 - rise - rest - back, 0.0))
+    segments = rise_and_return(random, stroke)
     found = dict(swings=swings, segments=segments, stroke=stroke, ccw=random.random() < 0.3, radius=random.uniform(8, 16))
     found["other"] = random.uniform(8, 16)
     if swings:
@@ -43,10 +37,7 @@ def design(random):
 
 def toml(found):
     unit = "deg" if found["swings"] else "mm"
-    lines = ['name = "random"', "[motion]", "rpm = 150", f'start = "0 {unit}"']
-    for law, over, to in found["segments"]:
-        lines += ["[[motion.segment]]", f'law = "{law}"', f'over = "{over!r} deg"']
-        lines += [] if law == "dwell" else [f'to = "{to!r} {unit}"']
+    lines = program(found["segments"], unit)
     mm = lambda key, name: f'{name} = "{found[key]!r} mm"'
     if found["swings"]:
         lines += ["[follower.swinging-roller]", mm("arm", "arm"), mm("pivot", "pivot_distance"), f'side = "{found["side"]}"', 'inertia = "0.01 kg*m2"']
@@ -101,47 +92,16 @@ def closure(chains, found, theta):
     return leverage * (travels[0] - travels[1])
 
 
-def faults(binary, found, folder):
-    import ezdxf
-
-    for name, change in [("shifted by 1.3 tolerances", lambda z: z + 1.3 * TOLERANCE), ("turned by 0.1 deg", lambda z: z * np.exp(0.1j * np.pi / 180))]:
-        for file in ["main", "counter"]:
-            document = ezdxf.readfile(folder / f"cam-{file}.dxf")
-            (line,) = [entity for entity in document.modelspace() if entity.dxf.layer == "CAM_PROFILE"]
-            moved = [(change(complex(x, y)), bulge) for x, y, bulge in line.get_points("xyb")]
-            line.set_points([(z.real, z.imag, bulge) for z, bulge in moved], format="xyb")
-            document.saveas(folder / f"cam-{file}-planted.dxf")
-            command = [binary, "check", str(folder / f"cam-{file}-planted.dxf"), "--json"]
-            done = subprocess.run(command, capture_output=True, text=True)
-            assert done.stdout, (file, name, done.stderr)
-            failed = {check["check"] for check in json.loads(done.stdout)["checks"] if check["verdict"] == "fail"}
-            assert done.returncode == 1 and failed & {"rolling", "outline"}, (file, name, failed)
+def faults(binary, folder):
+    for name, change in FAULTS:
+        for file in ["cam-main.dxf", "cam-counter.dxf"]:
+            refused = plant(binary, folder, file, "CAM_PROFILE", change)
+            assert refused & {"rolling", "outline"}, (file, name, refused)
 
 
 def solids(folder):
-    from OCP.BRepCheck import BRepCheck_Analyzer
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-    from OCP.STEPControl import STEPControl_Reader
-    from OCP.TopAbs import TopAbs_SOLID
-    from OCP.TopExp import TopExp_Explorer
-
-    def volumes(name):
-        reader = STEPControl_Reader()
-        assert reader.ReadFile(str(folder / name)) == 1, name
-        reader.TransferRoots()
-        shape = reader.OneShape()
-        assert BRepCheck_Analyzer(shape).IsValid(), name
-        explorer, found = TopExp_Explorer(shape, TopAbs_SOLID), []
-        while explorer.More():
-            properties = GProp_GProps()
-            BRepGProp.VolumeProperties_s(explorer.Current(), properties)
-            found.append(properties.Mass())
-            explorer.Next()
-        return found
-
-    alone = volumes("cam-main.step") + volumes("cam-counter.step")
-    pair = volumes("cam-pair.step")
+    alone = volumes(folder / "cam-main.step") + volumes(folder / "cam-counter.step")
+    pair = volumes(folder / "cam-pair.step")
     assert len(pair) == 2 and np.allclose(alone, pair, rtol=1e-9), (alone, pair)
 
 
@@ -159,12 +119,10 @@ def main():
     worst, open_by, made = 0.0, 0.0, 0
     for index in range(asked.count):
         found = design(random)
-        (folder / "design.toml").write_text(toml(found))
-        command = [asked.binary, "make", str(folder / "design.toml"), "--out", str(folder), "--name", "cam", "--json", "--format", "dxf,step"]
-        done = subprocess.run(command + ["--overwrite", "--tolerance-acceleration", "none"], capture_output=True, text=True)
+        done = make(asked.binary, folder, toml(found))
         if done.returncode != 0:
-            failed = {check["check"] for check in json.loads(done.stdout)["checks"] if check["verdict"] == "fail"} if done.stdout else set()
-            assert not failed & {"rolling", "outline", "closure", "bore", "tangency"}, (index, failed, toml(found))
+            broken = failed(done)
+            assert not broken & {"rolling", "outline", "closure", "bore", "tangency"}, (index, broken, toml(found))
             continue
         made += 1
         chains = [Chain(polyline(folder / f"cam-{file}.dxf")[1]) for file in ["main", "counter"]]
@@ -177,7 +135,7 @@ def main():
         worst, open_by = max(worst, error), max(open_by, np.abs(total).max())
         solids(folder)
         if index % 5 == 0:
-            faults(asked.binary, found, folder)
+            faults(asked.binary, folder)
     assert made > asked.count // 2, made
     print(f"{made} of {asked.count} pairs: rollers within {1e3 * worst:.4f} um of their discs, closed within {1e3 * open_by:.4f} um, planted faults refused")
 

@@ -9,20 +9,14 @@ with its clearance. Faults are planted in the files, and `camgen check` must ref
 usage: groove.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
 """
 import argparse
-import json
-import subprocess
 import sys
 from pathlib import Path
 
 import ezdxf
 import numpy as np
+from form_closed import FAULTS, LAWS, ROUNDING, TOLERANCE, failed, make, plant, program, volumes
 from laws import motion
 from outline import Chain
-
-LAWS = ["modified-sine", "3-4-5", "4-5-6-7", "cycloidal"]
-TOLERANCE = 5e-3
-# Rounding of twelve decimals and of the integration above.
-ROUNDING = 2e-8
 
 
 def design(random):
@@ -47,10 +41,7 @@ def design(random):
 
 def toml(found):
     unit = "deg" if found["swings"] else "mm"
-    lines = ['name = "random"', "[motion]", "rpm = 150", f'start = "0 {unit}"']
-    for law, over, to in found["segments"]:
-        lines += ["[[motion.segment]]", f'law = "{law}"', f'over = "{over!r} deg"']
-        lines += [] if law == "dwell" else [f'to = "{to!r} {unit}"']
+    lines = program(found["segments"], unit)
     lines += ["[follower.swinging-roller]" if found["swings"] else "[follower.roller]", f'radius = "{found["radius"]!r} mm"']
     for key, value in found["place"].items():
         lines.append(f'{key} = "{value}"' if key == "side" else f'{key} = "{value!r} mm"')
@@ -101,13 +92,6 @@ def radius_of_circle(document, layer):
     return circle.dxf.radius
 
 
-def run(binary, folder, text, *rest):
-    (folder / "design.toml").write_text(text)
-    command = [binary, "make", str(folder / "design.toml"), "--out", str(folder), "--name", "cam", "--json", "--format", "dxf,step", *rest]
-    done = subprocess.run(command, capture_output=True, text=True)
-    return done, (json.loads(done.stdout) if done.stdout.strip() else None)
-
-
 def proved(found, folder, theta):
     """Largest errors of the flanks, mm."""
     document = ezdxf.readfile(folder / "cam.dxf")
@@ -127,18 +111,7 @@ def proved(found, folder, theta):
 
 def volume(found, folder):
     """The solid as OpenCASCADE reads it: closed, valid, with the volume of the drawing."""
-    from OCP.BRepCheck import BRepCheck_Analyzer
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-    from OCP.STEPControl import STEPControl_Reader
-
-    reader = STEPControl_Reader()
-    assert reader.ReadFile(str(folder / "cam.step")) == 1
-    reader.TransferRoots()
-    shape = reader.OneShape()
-    assert BRepCheck_Analyzer(shape).IsValid()
-    properties = GProp_GProps()
-    BRepGProp.VolumeProperties_s(shape, properties)
+    (found_volume,) = volumes(folder / "cam.step")
     document = ezdxf.readfile(folder / "cam.dxf")
     blank = np.pi * radius_of_circle(document, "BLANK") ** 2
     if found["body"] == "ring":
@@ -146,28 +119,19 @@ def volume(found, folder):
     else:
         groove = abs(flank(document, "GROOVE_OUTER").area()) - abs(flank(document, "GROOVE_INNER").area())
         expected = 20 * (blank - np.pi * 10**2) - 12 * groove
-    assert abs(properties.Mass() / expected - 1) < 1e-6, (properties.Mass(), expected)
+    assert abs(found_volume / expected - 1) < 1e-6, (found_volume, expected)
 
 
 def faults(binary, found, folder):
     """Files with a planted fault, each refused by its check."""
-    planted = []
     for layer in ["GROOVE_INNER", "GROOVE_OUTER"] if found["body"] == "groove" else ["CAM_PROFILE"]:
-        planted.append((f"{layer} shifted by 1.3 tolerances", layer, lambda z: z + 1.3 * TOLERANCE, {"rolling", "outline"}))
-        planted.append((f"{layer} turned by 0.1 deg", layer, lambda z: z * np.exp(0.1j * np.pi / 180), {"rolling", "outline"}))
+        for name, change in FAULTS:
+            refused = plant(binary, folder, "cam.dxf", layer, change, "--design", str(folder / "design.toml"))
+            assert refused & {"rolling", "outline"}, (layer, name, refused)
     if found["body"] == "groove":
         narrower = 1 - found["clearance"] / (found["prime"] + found["radius"])
-        planted.append(("the outer flank without its clearance", "GROOVE_OUTER", lambda z: z * narrower, {"groove_width"}))
-    for name, layer, change, checks in planted:
-        document = ezdxf.readfile(folder / "cam.dxf")
-        (line,) = [entity for entity in document.modelspace() if entity.dxf.layer == layer]
-        moved = [(change(complex(x, y)), bulge) for x, y, bulge in line.get_points("xyb")]
-        line.set_points([(z.real, z.imag, bulge) for z, bulge in moved], format="xyb")
-        document.saveas(folder / "planted.dxf")
-        command = [binary, "check", str(folder / "planted.dxf"), "--design", str(folder / "design.toml"), "--json"]
-        done = subprocess.run(command, capture_output=True, text=True)
-        failed = {check["check"] for check in json.loads(done.stdout)["checks"] if check["verdict"] == "fail"}
-        assert done.returncode == 1 and failed & checks, (name, failed, done.stderr)
+        refused = plant(binary, folder, "cam.dxf", "GROOVE_OUTER", lambda z: z * narrower, "--design", str(folder / "design.toml"))
+        assert "groove_width" in refused, ("the outer flank without its clearance", refused)
 
 
 def main():
@@ -184,15 +148,15 @@ def main():
     worst, made, refused = 0.0, 0, 0
     for index in range(asked.count):
         found = design(random)
-        done, report = run(asked.binary, folder, toml(found), "--overwrite", "--tolerance-acceleration", "none")
+        done = make(asked.binary, folder, toml(found))
         if done.returncode != 0:
-            failed = {check["check"] for check in report["checks"] if check["verdict"] == "fail"} if report else {done.stderr}
             # A random cam may be too small for its motion, or lack the force of a ring; never may a flank be wrong.
-            assert report and not failed & {"rolling", "outline", "groove_width", "bore", "tangency"}, (index, failed, toml(found))
+            broken = failed(done)
+            assert broken and not broken & {"rolling", "outline", "groove_width", "bore", "tangency"}, (index, broken, done.stderr, toml(found))
             refused += 1
-            if failed - {"force_closure"} or report["checks"] is None:
+            if broken - {"force_closure"}:
                 continue
-            done, report = run(asked.binary, folder, toml(found), "--overwrite", "--force", "--tolerance-acceleration", "none")
+            done = make(asked.binary, folder, toml(found), "dxf,step", "--force")
             assert done.returncode == 1, done.stderr
         made += 1
         error = proved(found, folder, theta)

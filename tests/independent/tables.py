@@ -400,7 +400,9 @@ def run(binary, directory, name, design, samples=SAMPLES):
     path.write_text(design)
     out = directory / name
     words = ["make", str(path), "--json", "--out", str(out), "--name", "cam", "--format", "csv", "--samples", str(samples), "--force", "--overwrite"]
-    done = subprocess.run([binary, *words], capture_output=True, text=True, timeout=120)
+    # A limit of processor time does not depend on what else the machine does.
+    limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (120, 120))
+    done = subprocess.run([binary, *words], capture_output=True, text=True, timeout=1800, preexec_fn=limit)
     table = out / "cam.csv"
     rows = list(csv.DictReader(io.StringIO(table.read_text()))) if table.exists() else []
     if table.exists():

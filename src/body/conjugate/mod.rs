@@ -4,10 +4,8 @@
 //! that its motion is half a turn later: u₂ = distance − u with the offset −ε. On an arm it is turned by the included angle Γ about the same pivot:
 //! ψ₂ = Γ − ψ, on the other side. Both discs are drawn in one frame, with one keyway.
 
-mod closure;
 mod motion;
-
-pub use closure::{CHECK, Closure};
+mod report;
 
 use super::disc::{Disc, Hold};
 use super::{Body, Kind, ProgramCams};
@@ -18,7 +16,8 @@ use crate::machine::{CounterData, FollowerData, Machine};
 use crate::motion::Motion;
 use crate::profile::lifts;
 use crate::refusal::Refusal;
-use motion::CounterMotion;
+pub(in crate::body) use motion::CounterMotion;
+pub(crate) use report::section;
 use std::f64::consts::PI;
 use std::sync::Arc;
 

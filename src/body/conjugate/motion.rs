@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// The lift h − s(θ − turn).
 #[derive(Debug)]
-pub(super) struct CounterMotion {
+pub(in crate::body) struct CounterMotion {
     main: Arc<dyn Motion>,
     pieces: Vec<Piece>,
     /// Largest lift h, m or rad.
@@ -15,7 +15,7 @@ pub(super) struct CounterMotion {
 }
 
 impl CounterMotion {
-    pub(super) fn new(main: Arc<dyn Motion>, top: f64, turn: f64) -> Self {
+    pub(in crate::body) fn new(main: Arc<dyn Motion>, top: f64, turn: f64) -> Self {
         // A turn begins within one turn about 0.
         let turn = if main.range().0 + turn < TAU { turn } else { turn - TAU };
         let turned = |piece: &Piece| Piece { start: piece.start + turn, end: piece.end + turn, ..*piece };

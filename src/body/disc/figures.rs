@@ -111,6 +111,7 @@ impl Disc {
             self.jump().map(|jump| jump_speed::measure(jump, holding, subject))
         });
         of.add(&guide::CHECK, |_| self.least_guide_share().map(|least| guide::measure(&least, subject)));
+        self.measured_in_bearing(of, subject);
         of.add(&residual_vibration::CHECK, |_| residual_vibration::measure(self, subject));
         if let Some(duty) = &self.duty {
             duty.measures(self, of, subject);

@@ -4,6 +4,7 @@ use super::Disc;
 use crate::body::picture::{FollowerPose, RIGID, Scene};
 use crate::body::{Body, Drawn};
 use crate::follower::Carrier;
+use crate::profile::Curves;
 use crate::report::mechanism::MovingMechanism;
 use crate::table::turned;
 
@@ -20,17 +21,23 @@ const AT_REST: &[&str] = &["Inertia and damping: without motion.rpm or --rpm the
 const WITHOUT_MASS: &[&str] = &["Inertia: the file gives no mass or inertia of the follower."];
 const WITHOUT_VIBRATION: &[&str] = &["Vibration behind the follower: the file has no table [vibration]."];
 
-/// The mechanism of a disc as it moves.
-pub(super) fn of(disc: &Disc, drawn: &Drawn, samples: u32) -> MovingMechanism {
+/// The mechanism of a disc as it moves; with a second disc that turns with it, a cam angle (rad) later, the roller or face on that as well.
+pub(super) fn of(disc: &Disc, second: Option<(&Disc, f64)>, drawn: &Drawn, samples: u32) -> MovingMechanism {
     let Some(part) = drawn.parts.first() else { return MovingMechanism::default() };
     let curves = disc.curves();
     let lobes = disc.motion.lobes();
     let place = |index: u32| {
         let (at, wrapped) = (turned(index, samples, lobes), index >= samples);
         let cam_deg = if wrapped { 360.0 } else { at.cam_deg };
-        let (piece, angle) = curves.motion.locate(if wrapped { 0.0 } else { at.angle });
-        let touch = curves.touch(piece, angle);
-        FollowerPose { angle, cam_deg, curve: touch.curve.point, outward: touch.curve.outward() }
+        (if wrapped { 0.0 } else { at.angle }, cam_deg)
+    };
+    let places = |curves: Curves<'_>, later: f64| {
+        let pose = |(angle, cam_deg): (f64, f64)| {
+            let (piece, there) = curves.motion.locate(angle + later);
+            let touch = curves.touch(piece, there);
+            FollowerPose { angle: there - later, cam_deg, curve: touch.curve.point, outward: touch.curve.outward() }
+        };
+        (0..=samples).map(place).map(pose).collect()
     };
     let carrier = disc.follower.carrier();
     let on_an_arm = matches!(carrier, Carrier::Arm { .. });
@@ -43,7 +50,8 @@ pub(super) fn of(disc: &Disc, drawn: &Drawn, samples: u32) -> MovingMechanism {
         element: curves.element(),
         carrier,
         part,
-        places: (0..=samples).map(place).collect(),
+        places: places(curves, 0.0),
+        second: second.map_or_else(Vec::new, |(disc, later)| places(disc.curves(), later)),
         behind,
         shaft_speed: disc.shaft_speed(),
         rpm: None,

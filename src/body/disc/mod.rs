@@ -1,5 +1,6 @@
 //! The disc cam: one section for one speed, under any follower.
 
+pub(in crate::body) mod delegate;
 mod duty;
 mod dynamics;
 mod figures;
@@ -10,6 +11,7 @@ mod loaded;
 mod mechanism;
 mod program;
 pub mod residual_vibration;
+pub mod roller_life;
 mod size;
 mod size_figures;
 mod steady_vibration;
@@ -17,6 +19,7 @@ mod stress_remedies;
 mod vibration;
 pub use duty::{Duty, Purpose};
 pub use dynamics::{ShaftTorque, Spin};
+pub use roller_life::RollerDuty;
 pub use vibration::{Movement, Resonance, Vibration};
 mod sheet;
 mod shop_views;
@@ -27,8 +30,8 @@ pub use size_figures::{BestPlace, SizeFigures};
 use super::figures::with_subject;
 use super::part::{Part, point_as_turned};
 use super::{
-    Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, LoadAsCut, ROUNDING_OF_BALANCE, Request, WorstPlaces,
-    plane,
+    Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, LoadAsCut, ROUNDING_OF_BALANCE, Request,
+    WorstPlaces, plane,
 };
 use crate::check::Measures;
 use crate::document::cams;
@@ -133,6 +136,16 @@ impl Disc {
     /// What the sheet shows of the disc under the same roller, where the flanks of a drawing lie beside the roller.
     pub(in crate::body) fn view_within(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
         sheet::view(self, drawn)
+    }
+
+    /// Its cut as one of several of a part.
+    pub(in crate::body) fn cut_as(&self, name: &'static str, layer: Layer, mirrored: &'static [bool]) -> Cut<'_> {
+        Cut { name, layer, ..Cut::plane(self.curves(), mirrored, &self.worst) }
+    }
+
+    /// How its mechanism moves with the follower on a second disc that turns with it, a cam angle (rad) later.
+    pub(in crate::body) fn mechanism_with(&self, second: (&Self, f64), drawn: &Drawn, samples: u32) -> MovingMechanism {
+        mechanism::of(self, Some(second), drawn, samples)
     }
 
     fn unsized_of(machine: &Machine, motion: Arc<dyn Motion>) -> Self {
@@ -374,12 +387,13 @@ impl Body for Disc {
         sections.push(Section::new("rolling", &found.rolled.first()));
         sections.extend(duty.and_then(|duty| duty.forces(self, found.rolled.first())));
         sections.extend(self.dynamics());
+        sections.extend(self.bearing_section());
         sections.extend(self.vibration_sections());
         sections
     }
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, drawn, samples)
+        mechanism::of(self, None, drawn, samples)
     }
 
     fn not_modelled(&self) -> Vec<&'static str> {

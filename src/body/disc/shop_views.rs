@@ -75,7 +75,7 @@ pub(super) fn tolerance(disc: &Disc, outline: &Outline) -> Option<ProfileToleran
     profile_tolerance(&disc.machine, permitted, disc.pressure_angle().value.abs(), outline)
 }
 
-/// The way of the tool to the start of the cut, where one is drawn.
+/// The path of the tool to the start of the cut, where one is drawn.
 pub(super) fn lead_in(part: &Part) -> Option<ShapeGroup> {
     let shape = SheetShape::Entity(Entity::Segment(part.outline.lead_in?));
     Some(ShapeGroup::new("lead-in", "lead-in", vec![shape]).with_legend())

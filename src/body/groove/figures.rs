@@ -1,12 +1,14 @@
 //! The figures of a groove or a ring that checks judge: those of the disc under the same roller, and those of the outer flank.
 
 use super::{Groove, RING, switches};
+use crate::body::disc::delegate::figures_of_its_disc;
 use crate::body::{Body, Figures, stress};
-use crate::check::contact_stress::ContactKind;
 use crate::check::{Measures, Subject, curvature};
 use crate::profile::{Contact, Worst};
 
 impl Figures for Groove {
+    figures_of_its_disc!(disc);
+
     fn pressure_angles(&self) -> [Worst; 2] {
         self.disc.pressure_angles()
     }
@@ -25,10 +27,6 @@ impl Figures for Groove {
         let hollow = flanks.filter_map(|flank| flank.worst.min_concave_radius(self.curves_of(flank)));
         let half = self.width().map(|width| Worst { value: 0.5 * width, at: 0.0, z: 0.0 });
         hollow.chain(half).min_by(|a, b| a.value.total_cmp(&b.value))
-    }
-
-    fn roller_radius(&self) -> Option<f64> {
-        self.disc.roller_radius()
     }
 
     /// About the bore, and outside of the outer flank.
@@ -54,32 +52,8 @@ impl Figures for Groove {
         [(0, 1.0), (1, -1.0)].into_iter().filter_map(of).reduce(Worst::or_larger)
     }
 
-    fn touching(&self) -> ContactKind {
-        self.disc.touching()
-    }
-
-    fn stress_remedies(&self, largest: f64, limit: f64) -> Vec<String> {
-        self.disc.stress_remedies(largest, limit)
-    }
-
-    fn largest_lifting_force(&self) -> Worst {
-        self.disc.largest_lifting_force()
-    }
-
     fn is_form_closed(&self) -> bool {
         *self.kind != RING
-    }
-
-    fn least_closing_force(&self) -> Option<Worst> {
-        self.disc.least_closing_force()
-    }
-
-    fn preload_that_holds(&self, speed: f64) -> Option<String> {
-        self.disc.preload_that_holds(speed)
-    }
-
-    fn remedy(&self) -> Option<String> {
-        self.disc.remedy()
     }
 }
 

@@ -9,12 +9,11 @@ mod report;
 mod sheet;
 pub mod switches;
 
+use super::disc::delegate::body_of_its_disc;
 use super::disc::{self, Disc, Hold};
 use super::figures::with_subject;
 use super::part::{PartFlank, Track, as_turned};
-use super::{
-    Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, LoadAsCut, Part, Request, WorstPlaces, largest,
-};
+use super::{Body, Cut, DrawError, DrawingEvidence, Drawn, Figures, Kind, Layer, Part, Request, WorstPlaces, largest};
 use crate::check::Measures;
 use crate::document::cams;
 use crate::follower::Follower;
@@ -25,9 +24,9 @@ use crate::motion::Motion;
 use crate::profile::outline::{self, Outline, OutlineError};
 use crate::profile::{Curves, extremes, size};
 use crate::refusal::Refusal;
+use crate::report::Section;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
-use crate::report::{Section, Shaft, Speeds};
 use crate::table::{AddedColumn, Row};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -182,13 +181,7 @@ impl Body for Groove {
         self.kind
     }
 
-    fn machine(&self) -> &Machine {
-        self.disc.machine()
-    }
-
-    fn speeds(&self) -> Speeds {
-        self.disc.speeds()
-    }
+    body_of_its_disc!(disc);
 
     fn cuts(&self) -> Vec<Cut<'_>> {
         let clockwise = self.machine().cam.rotation == Rotation::Clockwise;
@@ -206,28 +199,12 @@ impl Body for Groove {
         super::part::bore(self.machine()).into_iter().chain([blank]).collect()
     }
 
-    fn shaft_speed(&self) -> Option<f64> {
-        self.disc.shaft_speed()
-    }
-
-    fn shaft(&self) -> Option<Shaft> {
-        self.disc.shaft()
-    }
-
-    fn parameter_at(&self, point: Vector2<f64>) -> f64 {
-        self.disc.parameter_at(point)
-    }
-
     fn measures(&self, of: &mut Measures<'_>) {
         with_subject(self, |subject| {
             self.measured(of, subject);
             self.measured_outside(of, subject);
             self.disc.measured_in_motion(of, subject);
         });
-    }
-
-    fn load(&self) -> Option<&dyn LoadAsCut> {
-        Some(&self.disc)
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
@@ -244,7 +221,7 @@ impl Body for Groove {
         let track = Track {
             first: self.flanks.first().map_or((Layer::CamProfile, false), |flank| (flank.layer, hollow(flank))),
             others: self.flanks.iter().skip(1).zip(outlines).map(of).collect(),
-            blank: MILLIMETRES * self.blank_radius,
+            blank: Some(MILLIMETRES * self.blank_radius),
             depth: self.depth().map(|depth| MILLIMETRES * depth),
         };
         let part = Part { track: Some(track), bore: super::part::bore(machine), ..Part::solid_plate(first) };
@@ -262,10 +239,6 @@ impl Body for Groove {
         self.disc.row_on(piece, parameter).map(|row| self.with_flanks(row))
     }
 
-    fn smooth_stretches(&self) -> Vec<(usize, (f64, f64))> {
-        self.disc.smooth_stretches()
-    }
-
     fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
         let mut sections = self.disc.sections(found);
         let place = sections.iter().position(|section| section.key == "outline").unwrap_or(sections.len());
@@ -275,10 +248,6 @@ impl Body for Groove {
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
         self.disc.mechanism(drawn, samples)
-    }
-
-    fn not_modelled(&self) -> Vec<&'static str> {
-        self.disc.not_modelled()
     }
 
     fn view(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {

@@ -75,6 +75,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) carrier: Carrier,
     pub(crate) part: &'a Part,
     pub(crate) places: Vec<FollowerPose>,
+    /// A second roller or face of the same follower, at the same angles; empty where there is none.
+    pub(crate) second: Vec<FollowerPose>,
     /// The mechanism that the follower drives; its path then lies along +x.
     pub(crate) behind: Option<Box<dyn DrivenMechanism>>,
     pub(crate) shaft_speed: Option<f64>,
@@ -132,7 +134,11 @@ impl Scene<'_> {
 
     /// The points of the follower's curve in the follower's frame, mm.
     fn locals(&self) -> Vec<Vector2<f64>> {
-        self.places.iter().map(|placed| Self::local(placed, placed.curve) * MILLIMETRES).collect()
+        Self::locals_of(&self.places)
+    }
+
+    fn locals_of(places: &[FollowerPose]) -> Vec<Vector2<f64>> {
+        places.iter().map(|placed| Self::local(placed, placed.curve) * MILLIMETRES).collect()
     }
 
     /// The tracks of points of the follower's frame.
@@ -149,7 +155,12 @@ impl Scene<'_> {
         more(&mut parts, &mut cover);
         parts.extend(self.follower(&mut cover));
         parts.extend(self.cam());
-        parts.extend(self.touching());
+        parts.extend(self.touching(&self.places));
+        if !self.second.is_empty() {
+            parts.extend(self.touching(&self.second));
+            parts.extend(self.second_face());
+            self.add_second(&mut cover);
+        }
         let size = cover.0.largest - cover.0.least;
         MechanismView {
             rpm: self.rpm,
@@ -167,7 +178,7 @@ impl Scene<'_> {
     fn largest_radius(&self) -> f64 {
         let offset = self.element.offset();
         let of = |placed: &FollowerPose| MILLIMETRES * (placed.curve - placed.outward * offset).norm();
-        let blank = self.part.track.as_ref().map_or(0.0, |track| track.blank);
+        let blank = self.part.track.as_ref().and_then(|track| track.blank).unwrap_or(0.0);
         self.places.iter().map(of).fold(blank, f64::max)
     }
 
@@ -204,18 +215,44 @@ impl Scene<'_> {
         ]
     }
 
-    /// The roller or the contact on a face, with the normal there.
-    fn touching(&self) -> Vec<RigidPart> {
-        let locals = self.locals();
-        let (x, y) = self.tracks(&locals);
-        let normal: Vec<f64> = self
-            .places
+    /// With the second roller or face.
+    fn add_second(&self, cover: &mut Cover) {
+        let margin = self.roller();
+        for at in Self::locals_of(&self.second).iter().map(|p| self.shown(*p)) {
+            cover.add((at.x - margin, at.x + margin), (at.y - margin, at.y + margin));
+        }
+    }
+
+    /// The second face, which is parallel to the first.
+    fn second_face(&self) -> Option<RigidPart> {
+        if self.element != Element::Face {
+            return None;
+        }
+        let (x, y) = self.tracks(&Self::locals_of(&self.second));
+        let half = 0.6 * self.largest_radius();
+        Some(
+            RigidPart::new("follower", vec![line((0.0, -half), (0.0, half))])
+                .at(x, y)
+                .turned(self.normals(&self.second)),
+        )
+    }
+
+    /// The directions of the normals at some places, degrees.
+    fn normals(&self, places: &[FollowerPose]) -> Vec<f64> {
+        places
             .iter()
             .map(|placed| {
                 let normal = Self::local(placed, placed.outward);
                 self.path_deg() + self.sense() * libm::atan2(normal.y, normal.x).to_degrees()
             })
-            .collect();
+            .collect()
+    }
+
+    /// The roller or the contact on a face, with the normal there.
+    fn touching(&self, places: &[FollowerPose]) -> Vec<RigidPart> {
+        let locals = Self::locals_of(places);
+        let (x, y) = self.tracks(&locals);
+        let normal = self.normals(places);
         match self.element {
             Element::Roller { radius: 0.0 } => {
                 let reach = 2.0 * self.roller();

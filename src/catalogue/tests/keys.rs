@@ -93,6 +93,18 @@ const OTHERS: &[(&str, &str)] = &[
     ("follower.swinging-roller.crown_radius", "400 mm"),
     ("follower.swinging-roller.diameter", "40 mm"),
     ("follower.swinging-roller.crown_diameter", "800 mm"),
+    ("follower.roller.bearing.dynamic_rating", "21 kN"),
+    ("follower.roller.bearing.static_rating", "23 kN"),
+    ("follower.roller.bearing.exponent", "3"),
+    ("follower.roller.bearing.limiting_speed", "5000"),
+    ("follower.roller.bearing.inertia", "0.00003 kg*m2"),
+    ("follower.roller.bearing.friction", "0.05"),
+    ("follower.swinging-roller.bearing.dynamic_rating", "21 kN"),
+    ("follower.swinging-roller.bearing.static_rating", "23 kN"),
+    ("follower.swinging-roller.bearing.exponent", "3"),
+    ("follower.swinging-roller.bearing.limiting_speed", "5000"),
+    ("follower.swinging-roller.bearing.inertia", "0.00003 kg*m2"),
+    ("follower.swinging-roller.bearing.friction", "0.05"),
     ("follower.flat.tilt", "10 deg"),
     ("follower.flat.offset", "5 mm"),
     ("follower.flat.width", "50 mm"),
@@ -133,6 +145,8 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.clearance", "0.1 mm"),
     ("cam.clearance_share", "0.5"),
     ("cam.groove_depth", "8 mm"),
+    ("cam.roller_distance", "50 mm"),
+    ("cam.breadth", "150 mm"),
     ("cam.counter.radius", "19 mm"),
     ("cam.counter.diameter", "37 mm"),
     ("cam.counter.arm", "90 mm"),
@@ -209,6 +223,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("limits.continuity", "2"),
     ("limits.jump_margin", "1.5"),
     ("limits.residual", "0.005"),
+    ("limits.roller_life", "30000"),
     ("limits.overshoot", "0.2 mm"),
     ("limits.transmission_angle", "40 deg"),
     ("limits.rod_angle", "25 deg"),
@@ -283,12 +298,18 @@ fn file_for(path: &str) -> String {
         press
     };
     let shaft = if path.starts_with("shaft.") { SHAFT } else { "" };
+    let bearing = path
+        .rsplit_once(".bearing.")
+        .map_or(String::new(), |(own, _)| format!("[{own}.bearing]\ndynamic_rating = \"20 kN\"\n"));
     let dynamics = if path.starts_with("follower.") || of_arc || of_arms { "" } else { DYNAMICS };
     let motion = match FOLLOWERS.iter().find(|kind| kind.section.path == section.path) {
         Some(kind) if kind.swings() && !of_arc => motion_for(path).replace(" mm\"", " deg\""),
         _ => motion_for(path),
     };
-    format!("{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{motion}{dynamics}{shaft}", section.path)
+    format!(
+        "{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{bearing}{motion}{dynamics}{shaft}",
+        section.path
+    )
 }
 
 /// A motion program in which a key of a segment means something.
@@ -427,8 +448,9 @@ fn every_word_of_a_key_reads() {
                         .replace("\"0 mm\"\n", "\"0 deg\"\n"),
                     "groove" => file_for(&path).replace("\n[cam]\n", "\n[cam]\ngroove_depth = \"5 mm\"\n"),
                     // Its roller runs where a bore would be.
-                    "ring" => {
+                    "ring" | "rib" => {
                         let text = without(&file_for(&path), "cam.keyway");
+                        let text = text.replace("\n[cam]\n", "\n[cam]\nroller_distance = \"90 mm\"\n");
                         text.lines().filter(|line| !line.starts_with("bore_")).collect::<Vec<_>>().join("\n")
                     }
                     "moving" => file_for(&path).replace("over =", "velocity = \"1 mm/deg\"\nover ="),

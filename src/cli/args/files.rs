@@ -67,7 +67,7 @@ pub(in crate::cli) struct OutlineArgs {
     #[arg(long, value_name = "ANGLE", value_parser = start, allow_hyphen_values = true)]
     pub(in crate::cli) start: Option<f64>,
 
-    /// Also draw the way of the tool to the start, on layer `LEAD_IN`: a straight line, tangent LENGTH, or a quarter of a circle, arc RADIUS
+    /// Also draw the path of the tool to the start, on layer `LEAD_IN`: a straight line, tangent LENGTH, or a quarter of a circle, arc RADIUS
     /// [default of the size: 5mm]
     #[arg(long, num_args = 1..=2, value_names = ["FORM", "SIZE"])]
     pub(in crate::cli) lead_in: Option<Vec<String>>,

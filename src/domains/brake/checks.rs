@@ -99,8 +99,10 @@ pub fn tension_as_cut(
     written.rolled?;
     let mirrored = is_mirrored(subject.machine);
     let (holding, limit) = (disc.holding(), Some(spread));
-    let Some(cut) =
-        subject.curves.zip(written.outline).and_then(|(curves, outline)| as_cut(disc, (curves, mirrored), outline))
+    let Some(cut) = subject
+        .curves
+        .zip(written.outlines.first())
+        .and_then(|(curves, outline)| as_cut(disc, (curves, mirrored), outline))
     else {
         let note = "the follower leaves this outline: the tension is not known".to_owned();
         return Some(TENSION.measure(f64::NAN, limit).noted(note));

@@ -4,6 +4,10 @@ use super::keys::{MEASURED_AT, MeasuredAt, OUTPUT_ARM, START};
 use crate::document::{LengthOrAngle, TableReader};
 use crate::motion::Quantity;
 use crate::units::{self, Dimension};
+use std::f64::consts::PI;
+
+/// Largest difference between the sum of the segments and a whole turn, rad: rounding of typed angles. Every segment is longer.
+pub(super) const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 
 /// How the follower of a file moves, which its motion must fit.
 #[derive(Debug, Clone, Copy)]

@@ -6,6 +6,7 @@
 mod context;
 mod fault_reported;
 mod forms;
+mod half_turn;
 mod joined;
 pub(crate) mod keys;
 mod optimum;

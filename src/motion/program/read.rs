@@ -1,7 +1,8 @@
 //! The tables `[motion]` and `[[motion.segment]]`.
 
-use super::context::{FollowerMovement, ProgramContext, arc, report_mismatch, value_of};
+use super::context::{FollowerMovement, ProgramContext, WHOLE_TURN, arc, report_mismatch, value_of};
 use super::fault_reported::FaultReported;
+use super::half_turn;
 use super::keys::{
     ACCELERATION, AMPLITUDES, AT, BEGINS, BETWEEN_ROWS, BY, DWELL, END, EXPRESSED, EndWord, FRACTIONS, INFLECTION,
     JERK, LAW, LINE, MINIMISE, OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO,
@@ -15,22 +16,21 @@ use crate::motion::Quantity;
 use crate::motion::laws::{self, Inflection, LAWS, Law, LawError, Parameters};
 use crate::refusal::Refusal;
 use crate::units;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-/// Largest difference between the sum of the segments and a whole turn, rad: rounding of typed angles. Every segment is longer.
-const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 /// Most segments: each of them would be cut in some arcs.
 const MOST_SEGMENTS: usize = 2000;
 /// Largest distance of the last position from the first, over the largest: rounding of sums.
 const SAME_PLACE: f64 = 1e-12;
 
-/// The program of a file for its follower, where that has no fault, when there is one without fault.
-pub(crate) fn read(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<Program> {
-    polydyne::read(reader, as_given(reader, follower)?)
+/// The program of a file for its follower, where that has no fault, when there is one without fault. That of a yoke may be one half of a
+/// turn, or of a lobe: the other half is the first one upside down.
+pub(crate) fn read(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bool) -> Option<Program> {
+    polydyne::read(reader, as_given(reader, follower, of_yoke)?)
 }
 
 /// The motion that the file gives.
-fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<Program> {
+fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bool) -> Option<Program> {
     let table = reader.find(&SECTION)?;
     let start = table.get(&START);
     let segments: Vec<TableReader<'_>> = reader.elements(&SEGMENT).collect();
@@ -57,13 +57,22 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<P
     }
     let rpm = table.get(&RPM);
     let (at, lobes) = (table.get(&AT)?, lobes?);
+    if of_yoke {
+        half_turn::refuse_even(&table, lobes);
+    }
     let speed = rpm.map(|rpm| rpm * TAU / 60.0);
     let arm = follower.and_then(|follower| follower.arm);
-    let whole = ProgramContext { quantity, arc, arm, speed, at, fill: TAU / f64::from(lobes) };
+    let fill = TAU / f64::from(lobes);
+    let halved = of_yoke && half_turn::is_covered(&segments, at, 0.5 * fill);
+    let fill = if halved { 0.5 * fill } else { fill };
+    let whole = ProgramContext { quantity, arc, arm, speed, at, fill };
     if let Some(form) = form {
         return Some(Program { rpm, ..form.program(&table, whole, (start, lobes))? });
     }
     let mut steps = steps(&segments, whole, start)?;
+    if halved {
+        half_turn::completed(&mut steps, start);
+    }
     let largest = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);
     let last = steps.last_mut()?;
     if (last.to - start).abs() > SAME_PLACE * largest {
@@ -76,7 +85,7 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<P
     match Program::of_steps(quantity, (at, start, lobes), &steps) {
         Ok(program) => Some(Program { rpm, ..program }),
         Err((index, error)) => {
-            report_error(segments.get(index)?, error);
+            report_error(segments.get(index % segments.len())?, error);
             None
         }
     }

@@ -143,7 +143,7 @@ pub struct Outline {
     pub best_possible: f64,
     /// Best possible numbers of arcs for the velocity and for the acceleration alone; 0 where they do not matter.
     pub best_for: [f64; 2],
-    /// The way of the tool to the start of the chain, mm, when it was requested.
+    /// The path of the tool to the start of the chain, mm, when it was requested.
     pub lead_in: Option<Segment>,
 }
 

@@ -13,7 +13,7 @@ pub(super) fn tables(tags: &mut DxfTags, layers: &[Layer], extents: &Extents) {
         for layer in layers {
             let own = tags.new_handle();
             let colour = match layer {
-                Layer::CamProfile | Layer::GrooveInner | Layer::GrooveOuter => 7,
+                Layer::CamProfile | Layer::GrooveInner | Layer::GrooveOuter | Layer::RibInner | Layer::RibOuter => 7,
                 Layer::Bore => 1,
                 Layer::Blank => 8,
                 Layer::CutterPath => 3,

@@ -1,30 +1,29 @@
-//! How the two discs of a pair close on their rollers, as they are in their files.
+//! How the two outlines between which a rigid follower is held close on it, as they are in the file.
 //!
-//! At each cam angle the lifts that the two outlines really give are added up. The rollers of a rigid follower leave the largest lift for both: a
-//! sum above it is metal that pinches them, a sum below it is play.
+//! At each cam angle the lifts that the two outlines really give are added up, each counted outwards from the metal. What the rigid follower
+//! leaves for both is their sum: more of it is metal that pinches the follower, less of it is play.
 
 use crate::body::torque::followed;
 use crate::body::{Body, curves};
 use crate::check::{Check, CheckExplanation, CheckScope, Measure};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
-use crate::motion::Quantity;
 use crate::numeric::extremum;
 use crate::profile::{Worst, extremes, lifts};
-use crate::report::{Bound, Section, shown};
+use crate::report::{Bound, shown};
 use serde::Serialize;
 
 /// The check.
 pub const CHECK: Check = Check {
     name: "closure",
-    on: CheckScope::Cam,
+    on: CheckScope::Motion,
     unit: "mm",
-    about: "The largest difference between the lifts that the two discs of a pair give together, as they are in their files, and the largest lift: the \
-            rollers are pinched by it or have play.",
+    about: "The largest difference between the lifts that the two flanks of a form-closed cam (conjugate discs, rib, yoke) give together, as they \
+            are in the file, and what a rigid follower leaves for both: it is pinched by it or has play.",
     explained: CheckExplanation {
         bound: Bound::AtMost,
-        formula: "max |s₁ + s₂ − h| over the turn, along the path of the first roller, of the lifts that the written outlines give",
-        usual: "two tolerances over the cosine of the largest pressure angle, one for each disc",
+        formula: "max |s₁ + s₂ − h| over the turn, along the path of the first roller, of the lifts that the written outlines give; of a rib |s₁ − s₂|",
+        usual: "two tolerances over the cosine of the largest pressure angle, one for each flank",
         change: "a finer --tolerance; `--side inside` leaves play and never pinches",
     },
 };
@@ -34,7 +33,16 @@ const PLACES: u32 = 240;
 const HILLS: usize = 4;
 const SECTIONS: u32 = 40;
 
-/// The sum of the lifts of a pair less the largest lift, along the path of the first roller.
+/// How the lifts on two outlines belong together.
+#[derive(Debug, Clone, Copy)]
+pub enum Pairing {
+    /// Either follower goes up as the other goes down: s₁ + s₂ is the largest lift.
+    Opposite,
+    /// Both go together, on either side of a wall: s₁ − s₂ is 0.
+    Together,
+}
+
+/// The sum of the lifts less what a rigid follower leaves for both, along the path of the first roller.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Closure {
     /// The largest: the rollers are pinched by it, mm.
@@ -50,18 +58,25 @@ pub struct Closure {
 }
 
 impl Closure {
-    /// Of two discs with their written outlines (mm), each drawn within a tolerance, mm; `None` where a roller does not touch.
+    /// Of two discs with their written outlines (mm), each drawn within a tolerance, mm; `None` where a follower does not touch.
     #[must_use]
-    pub fn of(main: (&dyn Body, &Contour), counter: (&dyn Body, &Contour), tolerance_mm: f64) -> Option<Self> {
+    pub fn of(
+        main: (&dyn Body, &Contour),
+        counter: (&dyn Body, &Contour),
+        (pairing, tolerance_mm): (Pairing, f64),
+    ) -> Option<Self> {
         let (first, second) = (curves(main.0)?, curves(counter.0)?);
         let (on_first, on_second) = (followed(main)?, followed(counter)?);
-        let top = lifts(first.motion).1;
-        // On a straight path the second roller is on the other side of the shaft.
+        let (sign, top) = match pairing {
+            Pairing::Opposite => (1.0, lifts(first.motion).1),
+            Pairing::Together => (-1.0, 0.0),
+        };
+        // On a straight path the second roller of a pair is on the other side of the shaft.
         let later = second.motion.range().0 - first.motion.range().0;
         let scale = |piece: usize, at: f64| MILLIMETRES * first.follower.leverage(&first.motion.jet(piece, at));
         let sum = |piece: usize, at: f64| {
             let lifts = on_first.at(at).zip(on_second.at(at + later));
-            lifts.map_or(f64::NAN, |(one, two)| scale(piece, at) * (one.s + two.s - top))
+            lifts.map_or(f64::NAN, |(one, two)| scale(piece, at) * (one.s + sign * two.s - top))
         };
         let most = |sign: f64| {
             let of = |(index, piece): (usize, &crate::motion::Piece)| {
@@ -92,7 +107,7 @@ impl Closure {
     /// Measure of it; unknown where a roller does not touch.
     #[must_use]
     pub fn measure(found: Option<&Self>, main: &dyn Body) -> Measure {
-        let Some(found) = found else { return CHECK.unknown("a roller does not touch along its path") };
+        let Some(found) = found else { return CHECK.unknown("the follower does not touch along its path") };
         let pinches = found.pinch_mm >= -found.play_mm;
         let (value, at) =
             if pinches { (found.pinch_mm, found.pinch_at_deg) } else { (-found.play_mm, found.play_at_deg) };
@@ -100,35 +115,7 @@ impl Closure {
         let [most, least] = [found.pinch_mm, found.play_mm].map(|sum| format!("{} {} mm", word(sum), shown(sum.abs())));
         let worst = Worst { value, at: at.to_radians(), z: 0.0 };
         let note =
-            format!("the rollers are {most} at {:.3}°, {least} at {:.3}°", found.pinch_at_deg, found.play_at_deg);
+            format!("the follower is {most} at {:.3}°, {least} at {:.3}°", found.pinch_at_deg, found.play_at_deg);
         CHECK.measure(value, Some(found.permitted_mm)).placed(main.place(worst.at)).noted(note)
-    }
-
-    /// The section of the report on a pair.
-    #[must_use]
-    pub fn section(&self, counter: &dyn Body) -> Section {
-        let of = curves(counter).map(|curves| (curves, curves.follower.prime_radius().unwrap_or(f64::NAN)));
-        let (roller, prime) = of.map_or((f64::NAN, f64::NAN), |(curves, prime)| (curves.offset(), prime));
-        let [roller, prime] = [roller, prime].map(|length| MILLIMETRES * length);
-        let value = serde_json::json!({
-            "counter_prime_radius_mm": prime,
-            "counter_base_radius_mm": prime - roller,
-            "counter_roller_radius_mm": roller,
-            "closure": self,
-        });
-        let size = format!(
-            "counter disc: base radius {} mm, roller Ø{} mm, prime radius {} mm",
-            shown(prime - roller),
-            shown(2.0 * roller),
-            shown(prime)
-        );
-        let swings = curves(counter).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
-        let along = if swings { "along the arc of the first roller" } else { "along the path" };
-        let sum = format!(
-            "both lifts as written add up to the largest within {} to {} mm {along}",
-            shown(self.play_mm),
-            shown(self.pinch_mm)
-        );
-        Section::new("conjugate", &value).with_words(vec![size, sum])
     }
 }
