@@ -115,7 +115,7 @@ def main():
     random = __import__("random").Random(asked.seed)
     folder = asked.directory / "conjugate"
     folder.mkdir(parents=True, exist_ok=True)
-    theta = np.linspace(0, 2 * np.pi, 1441)
+    theta = np.linspace(0, 2 * np.pi, 1440, endpoint=False)
     worst, open_by, made = 0.0, 0.0, 0
     for index in range(asked.count):
         found = design(random)

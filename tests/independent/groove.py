@@ -144,7 +144,7 @@ def main():
     random = __import__("random").Random(asked.seed)
     folder = asked.directory / "groove"
     folder.mkdir(parents=True, exist_ok=True)
-    theta = np.linspace(0, 2 * np.pi, 2881)
+    theta = np.linspace(0, 2 * np.pi, 2880, endpoint=False)
     worst, made, refused = 0.0, 0, 0
     for index in range(asked.count):
         found = design(random)
