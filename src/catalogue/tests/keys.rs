@@ -604,7 +604,9 @@ fn template_and_profiles_have_every_key() {
         let stands = |kind: &&FollowerKind| text.contains(&format!("[{}]", kind.section.path));
         for kind in FOLLOWERS.iter().filter(stands) {
             let others = FOLLOWERS.iter().filter(|other| other.section.path != kind.section.path);
-            let text = others.fold(text.clone(), |text, other| without(&text, other.section.path));
+            let text = others.fold(text.clone(), |text, other| {
+                without(&without(&text, other.section.path), &format!("{}.bearing", other.section.path))
+            });
             read_with(&text).unwrap_or_else(|error| panic!("[{}]: {error}", kind.section.path));
         }
     }
