@@ -133,7 +133,7 @@ impl Disc {
         self.hold != Hold::Force
     }
 
-    /// What the sheet shows of the disc under the same roller, where the flanks of a drawing lie beside the roller.
+    /// What the sheet shows of the disc under the same roller, for a drawing of the flanks next to that roller.
     pub(in crate::body) fn view_within(&self, drawn: &Drawn) -> Result<SheetView, OutlineError> {
         sheet::view(self, drawn)
     }

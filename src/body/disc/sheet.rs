@@ -100,7 +100,7 @@ const SMOOTH: f64 = 1e-6;
 /// The follower's curve in the drawing: of an outline of tangent arcs and lines, arcs and lines about the same centres, else
 /// fitted anew.
 fn pitch_curve(disc: &Disc, part: Option<&Part>, radius: f64) -> Result<Contour, OutlineError> {
-    // Flanks beside a roller may lie elsewhere than at its radius.
+    // The flanks of a groove may be farther from the roller's centre than its radius.
     match part
         .filter(|part| part.track.is_none() && part.outline.deviation <= SHOWN)
         .and_then(|part| offset_outline(&part.outline.contour, radius))

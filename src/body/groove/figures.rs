@@ -43,7 +43,7 @@ impl Figures for Groove {
         }
         let crown = self.machine().follower.crown_radius;
         let of = |(flank, sign): (usize, f64)| {
-            // The same path and the same pressure angle, whatever the distance of the flank.
+            // Both flanks have the path and the pressure angle of the roller.
             let force = move |at: (usize, f64), contact: &Contact| {
                 self.disc.signed_normal_force(at, contact).map(|force| (sign * force).max(0.0))
             };

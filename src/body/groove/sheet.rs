@@ -55,7 +55,7 @@ fn roller(groove: &Groove) -> f64 {
     2.0 * MILLIMETRES * groove.disc.curves().roller_radius().unwrap_or(f64::NAN)
 }
 
-/// The section through the axis at θ = 0, beside the front view: how deep the groove is, and where its flanks are.
+/// The section through the axis at θ = 0, next to the front view: how deep the groove is, and where its flanks are.
 fn section(groove: &Groove, front: &Extents, view: &mut SheetView) {
     let machine = groove.machine();
     let Some(thickness) = machine.cam.thickness.map(|thickness| MILLIMETRES * thickness) else { return };

@@ -87,7 +87,7 @@ impl Rib {
             let own = machine.with_follower(own).with_base_radius(base);
             Disc::held(&own, Arc::clone(motion), rpm, (&disc::GENERAL, Hold::Pair { preload: 0.0, counter }))
         };
-        // The inner roller bears what would lift the outer one off.
+        // The inner roller carries the force that would lift the outer one off.
         let (outer, inner) = (flank(1.0, None)?, flank(-1.0, Some(0.0))?);
         Ok(Self { outer, inner, base_radius: middle.base_radius(), distance })
     }

@@ -46,7 +46,7 @@ const SECTIONS: u32 = 40;
 pub struct Yoke {
     /// Under the first face or roller.
     disc: Disc,
-    /// The same disc under the opposite one: with the lift h − s, half a turn later.
+    /// The disc under the opposite face or roller, with the lift h − s half a turn later.
     opposite: Disc,
     /// Between the faces, or the near sides of the rollers, m.
     breadth: f64,
