@@ -169,17 +169,12 @@ impl SizeProblem<'_> {
     /// By how much the curve of a roller is too sharp.
     fn too_sharp(&self, curves: Curves<'_>, roller: f64) -> f64 {
         let motion = curves.motion;
-        let excess = self.sharpest_rolled(curves).value * self.required.convex_radius - 1.0;
+        let excess = sharpest_rolled(curves).value * self.required.convex_radius - 1.0;
         if motion.is_rolled_throughout() {
             return excess;
         }
         let closing = extremes::convex_curvature_on(curves, |piece| !motion.is_rolled(piece)).value;
         worse(excess, closing * CLOSING_OVER_ROLLER * roller - 1.0)
-    }
-
-    /// Where the curve of a roller is sharpest while the follower runs.
-    fn sharpest_rolled(&self, curves: Curves<'_>) -> Extremum {
-        extremes::convex_curvature_on(curves, |piece| curves.motion.is_rolled(piece))
     }
 
     /// A radius from `low` on, below which the curve of a roller is too sharp. The sharpest place of a disc asks for a larger disc, which is
@@ -192,7 +187,7 @@ impl SizeProblem<'_> {
             else {
                 break;
             };
-            let sharpest = self.sharpest_rolled(Curves { motion: self.motion, follower: &*follower });
+            let sharpest = sharpest_rolled(Curves { motion: self.motion, follower: &*follower });
             let (piece, at) = self.motion.locate(sharpest.at);
             let there = |curves: Curves<'_>| {
                 curves.metal_side() * curves.touch(piece, at).curve.curvature * self.required.convex_radius - 1.0
@@ -260,6 +255,11 @@ impl SizeProblem<'_> {
         let height = limits.map(least_height).reduce(f64::max)?;
         Some(libm::hypot(height, offset)).filter(|radius| radius.is_finite())
     }
+}
+
+/// Where the curve of a roller is sharpest while the follower runs.
+fn sharpest_rolled(curves: Curves<'_>) -> Extremum {
+    extremes::convex_curvature_on(curves, |piece| curves.motion.is_rolled(piece))
 }
 
 /// The larger of two excesses; NaN where one is NaN.
