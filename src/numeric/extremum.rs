@@ -1,6 +1,6 @@
 //! Largest value of a smooth function on an interval, from its exact derivative.
 
-use super::root;
+use super::{parallel, root};
 
 /// An argument and the value there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -210,32 +210,58 @@ pub fn largest_without_slope(value: impl FnMut(f64) -> f64, range: (f64, f64), c
 /// The largest value, refined near each of the `hills` best of these points that are not lower than their neighbours.
 pub fn largest_of_hills(
     mut value: impl FnMut(f64) -> f64,
-    (low, high): (f64, f64),
+    range: (f64, f64),
     (cells, hills): (u32, usize),
     sections: u32,
 ) -> Extremum {
-    let at = |cell: u32| low + (high - low) * (f64::from(cell.min(cells)) / f64::from(cells));
-    let points: Vec<Extremum> = (0..=cells).map(|cell| Extremum { at: at(cell), value: value(at(cell)) }).collect();
-    let height = |cell: Option<u32>| {
-        let point = cell.and_then(|cell| points.get(usize::try_from(cell).ok()?));
-        point.map_or(f64::NEG_INFINITY, |point| point.value)
+    let points: Vec<Extremum> =
+        cell_ends(range, cells).into_iter().map(|at| Extremum { at, value: value(at) }).collect();
+    let refined: Vec<Extremum> = highest_hills(&points, hills)
+        .into_iter()
+        .flat_map(|about| golden_sections(&mut value, about, sections))
+        .collect();
+    highest_of(points.into_iter().chain(refined))
+}
+
+/// The same of a value that takes long, on all processors: the points, then the hills.
+pub fn largest_of_hills_in_parallel(
+    value: impl Fn(f64) -> f64 + Sync,
+    range: (f64, f64),
+    (cells, hills): (u32, usize),
+    sections: u32,
+) -> Extremum {
+    let points = parallel::map(&cell_ends(range, cells), |at| Extremum { at: *at, value: value(*at) });
+    let refined =
+        parallel::map(&highest_hills(&points, hills), |about| golden_sections(&mut |at| value(at), *about, sections));
+    highest_of(points.into_iter().chain(refined.into_iter().flatten()))
+}
+
+fn cell_ends((low, high): (f64, f64), cells: u32) -> Vec<f64> {
+    (0..=cells).map(|cell| low + (high - low) * (f64::from(cell) / f64::from(cells))).collect()
+}
+
+/// Whether a value is higher than another, or that is not a number.
+fn is_higher(one: f64, other: f64) -> bool {
+    one > other || other.is_nan()
+}
+
+/// The neighbours of each of the `hills` highest points that are not lower than these.
+fn highest_hills(points: &[Extremum], hills: usize) -> Vec<(f64, f64)> {
+    let of_top = |(index, here): (usize, &Extremum)| {
+        let neighbours = [index.checked_sub(1), Some(index + 1)].map(|index| index.and_then(|index| points.get(index)));
+        let is_top = neighbours.iter().flatten().all(|neighbour| !is_higher(neighbour.value, here.value));
+        let [before, after] = neighbours.map(|neighbour| neighbour.unwrap_or(here).at);
+        is_top.then_some(((before, after), here.value))
     };
-    let higher = |one: f64, other: f64| one > other || other.is_nan();
-    let is_top = |cell: u32| {
-        let here = height(Some(cell));
-        !higher(height(cell.checked_sub(1)), here) && !higher(height(Some(cell + 1)), here)
-    };
-    let mut tops: Vec<(u32, f64)> =
-        (0..=cells).filter(|cell| is_top(*cell)).map(|cell| (cell, height(Some(cell)))).collect();
+    let mut tops: Vec<_> = points.iter().enumerate().filter_map(of_top).collect();
     tops.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let first = points.first().copied().unwrap_or(Extremum { at: low, value: f64::NAN });
-    let best = |best: Extremum, next: &Extremum| if higher(next.value, best.value) { *next } else { best };
-    let mut found = points.iter().fold(first, best);
-    for (cell, _) in tops.into_iter().take(hills) {
-        let about = (at(cell.saturating_sub(1)), at(cell + 1));
-        found = golden_sections(&mut value, about, sections).iter().fold(found, best);
-    }
-    found
+    tops.into_iter().take(hills).map(|(about, _)| about).collect()
+}
+
+/// The highest of some points, the first of equals.
+fn highest_of(points: impl Iterator<Item = Extremum>) -> Extremum {
+    let higher = |best: Extremum, next: Extremum| if is_higher(next.value, best.value) { next } else { best };
+    points.reduce(higher).unwrap_or(Extremum { at: 0.0, value: f64::NAN })
 }
 
 /// The two inner points of the last golden section.

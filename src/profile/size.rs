@@ -6,7 +6,6 @@ use crate::follower::{Element, Follower, FollowerPlacement};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{CamData, Limits};
 use crate::motion::{Jet, Motion, Piece};
-use crate::numeric::extremum::Extremum;
 use crate::numeric::{extremum, root};
 
 /// Whole millimetres an automatic base radius is rounded up to, m; a millionth of a step is rounding noise.
@@ -77,9 +76,6 @@ const FINER_STEPS: i32 = 6;
 /// Rounds of solving each limit in turn. A limit may be violated again by the radius that another one needs only where it
 /// is not monotone in the radius; each round then starts above the last.
 const ROUNDS: u32 = 8;
-
-/// Sharpest places of discs that are followed to the size at which none is too sharp.
-const SHARPEST_PLACES: u32 = 8;
 
 /// No radius keeps the limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -169,35 +165,13 @@ impl SizeProblem<'_> {
     /// By how much the curve of a roller is too sharp.
     fn too_sharp(&self, curves: Curves<'_>, roller: f64) -> f64 {
         let motion = curves.motion;
-        let excess = sharpest_rolled(curves).value * self.required.convex_radius - 1.0;
+        let sharpest =
+            |rolled: bool| extremes::convex_curvature_on(curves, |piece| motion.is_rolled(piece) == rolled).value;
+        let excess = sharpest(true) * self.required.convex_radius - 1.0;
         if motion.is_rolled_throughout() {
             return excess;
         }
-        let closing = extremes::convex_curvature_on(curves, |piece| !motion.is_rolled(piece)).value;
-        worse(excess, closing * CLOSING_OVER_ROLLER * roller - 1.0)
-    }
-
-    /// A radius from `low` on, below which the curve of a roller is too sharp. The sharpest place of a disc asks for a larger disc, which is
-    /// sharpest elsewhere, and so on: the place hardly moves, so that few discs are searched.
-    fn too_sharp_below(&self, low: f64) -> f64 {
-        let mut radius = low;
-        for _ in 0..SHARPEST_PLACES {
-            let follower = self.follower.sized(radius);
-            let Some(follower) = follower.filter(|follower| matches!(follower.element(), Element::Roller { .. }))
-            else {
-                break;
-            };
-            let sharpest = sharpest_rolled(Curves { motion: self.motion, follower: &*follower });
-            let (piece, at) = self.motion.locate(sharpest.at);
-            let there = |curves: Curves<'_>| {
-                curves.metal_side() * curves.touch(piece, at).curve.curvature * self.required.convex_radius - 1.0
-            };
-            match first_at_or_above(radius, |radius| self.at(radius, there)) {
-                Ok(larger) if larger > radius => radius = larger,
-                _ => break,
-            }
-        }
-        radius
+        worse(excess, sharpest(false) * CLOSING_OVER_ROLLER * roller - 1.0)
     }
 
     /// The worse of both limits; only one where that is clearly violated at one of the sampled lifts.
@@ -257,11 +231,6 @@ impl SizeProblem<'_> {
     }
 }
 
-/// Where the curve of a roller is sharpest while the follower runs.
-fn sharpest_rolled(curves: Curves<'_>) -> Extremum {
-    extremes::convex_curvature_on(curves, |piece| curves.motion.is_rolled(piece))
-}
-
 /// The larger of two excesses; NaN where one is NaN.
 fn worse(one: f64, other: f64) -> f64 {
     if one > other || one.is_nan() { one } else { other }
@@ -290,24 +259,17 @@ pub fn smallest(motion: &dyn Motion, follower: &dyn Follower, required: &SizeLim
 /// is a root in the radius.
 fn first_of_falling(least: f64, sizing: &SizeProblem<'_>) -> Result<f64, NoRadius> {
     let (pressure, curvature) = (|radius: f64| sizing.pressure(radius), |radius: f64| sizing.curvature(radius));
-    let limits: [&dyn Fn(f64) -> f64; 2] = [&pressure, &curvature];
-    let starts: [&dyn Fn(f64) -> f64; 2] =
-        [&|radius| radius, &|radius| just_above(sizing.too_sharp_below(radius), curvature)];
-    let by_angle = sizing.by_pressure_angle().map(|by_angle| passing_just_above(by_angle, pressure));
-    let mut radius = by_angle.map_or(least, |by_angle| by_angle.unwrap_or_else(|missed| missed).max(least));
+    let mut radius = sizing.by_pressure_angle().map_or(least, |by_angle| by_angle.max(least));
     if !(radius <= LARGEST) {
         return Err(NoRadius);
     }
-    // The last radius found to keep each limit.
-    let mut kept = [by_angle.and_then(Result::ok), None];
     for _ in 0..ROUNDS {
-        for ((limit, start), kept) in limits.iter().zip(starts).zip(&mut kept) {
-            if *kept != Some(radius) {
-                radius = first_at_or_above(start(radius), limit)?;
-                *kept = Some(radius);
-            }
-        }
-        if kept.iter().all(|kept| *kept == Some(radius)) {
+        let sharp_enough = first_at_or_above(radius, curvature)?;
+        radius = match passing_just_above(sharp_enough, pressure) {
+            Ok(passing) => passing,
+            Err(failing) => first_at_or_above(failing, pressure)?,
+        };
+        if radius == sharp_enough {
             return Ok(radius);
         }
     }

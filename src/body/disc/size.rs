@@ -267,7 +267,7 @@ impl Disc {
         &self,
         place: FollowerPlacement,
         nearest: &SmallestShaftPlace,
-        size: impl Fn(f64) -> Option<SmallestSize>,
+        size: impl Fn(f64) -> Option<SmallestSize> + Sync,
     ) -> Option<(f64, f64)> {
         let ideal = place.chosen(nearest.shaft);
         if self.keeps_but_rounding(place, ideal, nearest.prime_radius) {
@@ -280,7 +280,8 @@ impl Disc {
         while searched < width && width < LARGEST_BASE {
             let (least, most) = place.choices(width);
             let range = ((ideal - width).max(least), (ideal + width).min(most));
-            let found = extremum::largest_of_hills(|choice| -prime(choice), range, (PLACES, VALLEYS), TO_ROUNDING);
+            let found =
+                extremum::largest_of_hills_in_parallel(|choice| -prime(choice), range, (PLACES, VALLEYS), TO_ROUNDING);
             if -found.value < best.1 {
                 best = (found.at, -found.value);
             }

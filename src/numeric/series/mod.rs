@@ -34,11 +34,13 @@ impl SeriesCoefficient for f64 {
 }
 
 /// Σ aᵢ bₙ₋ᵢ over two slices of one length.
+#[inline]
 fn convolved<T: SeriesCoefficient>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b.iter().rev()).fold(T::constant(-0.0), |sum, (a, b)| sum + *a * *b)
 }
 
 /// The n-th coefficient of a product.
+#[inline]
 fn product<T: SeriesCoefficient>(a: &[T], b: &[T], n: usize) -> T {
     convolved(a.get(..=n).unwrap_or_default(), b.get(..=n).unwrap_or_default())
 }
