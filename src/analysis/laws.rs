@@ -4,7 +4,7 @@ mod report;
 
 use super::{Analysis, Picture};
 use crate::body::disc::Disc;
-use crate::body::{Figures, Kind};
+use crate::body::{Figures, Kind, needs_base_circle};
 use crate::document::{Input, LengthOrAngle, cams};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
@@ -198,6 +198,9 @@ pub fn analysis(machine: Option<&Machine>, asked: &LawsOptions) -> Result<Analys
         Some(machine) => Some(machine.program().ok_or_else(without_motion)?),
         None => None,
     };
+    if let Some(machine) = machine {
+        needs_base_circle(machine, "the cam of `camgen laws`")?;
+    }
     let rise = Rise::of(program, asked, machine)?;
     let rpm = asked.rpm.or(program.and_then(Program::rpm));
     let all = || LAWS.iter().collect::<Vec<&'static Law>>();

@@ -2,7 +2,7 @@
 
 use super::{Analysis, Picture};
 use crate::body::disc::{BestPlace, Disc, SizeFigures};
-use crate::body::{Body, Figures, Kind};
+use crate::body::{Body, Figures, Kind, needs_base_circle};
 use crate::document::{Input, NamedChoice, cams};
 use crate::follower::FollowerPlacement;
 use crate::geometry::MILLIMETRES;
@@ -146,6 +146,7 @@ pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> 
         Refusal::new("the machine file has no [motion]").remedy("give the file of a cam that `camgen make` cuts")
     })?;
     let rpm = rpm.or(of_file);
+    needs_base_circle(machine, "the smallest cam of `camgen size`")?;
     let disc = Disc::of_motion(&opened(machine, free)?, motion, rpm)?;
     let place = disc.follower().place();
     let nearest = place.and_then(|place| Some((place, disc.nearest(place).ok()?)));

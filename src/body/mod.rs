@@ -4,6 +4,7 @@
 //! A new body is a folder here with `impl Body` and a line in [`BODIES`].
 
 pub mod balancing;
+pub mod barrel;
 pub mod closure;
 pub mod conjugate;
 mod cut;
@@ -24,6 +25,7 @@ mod sizing;
 pub(crate) mod start;
 pub(crate) mod stress;
 pub mod surface;
+pub mod swept;
 pub mod torque;
 mod worst_places;
 pub mod yoke;
@@ -38,6 +40,7 @@ pub use picture::{Cover, DrivenMechanism, FollowerTrack};
 pub use sheet::traces;
 pub(crate) use sizing::{broken_limit, no_radius, passing};
 pub use surface::Surface;
+pub use swept::{SweptDrawing, SweptFlanks};
 pub use worst_places::WorstPlaces;
 pub(crate) use worst_places::{STRAIGHT, radius_of};
 
@@ -57,7 +60,7 @@ use crate::refusal::Refusal;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
 use crate::report::{Place, Rolled, Section, Shaft, Speeds, shown};
-use crate::table::Row;
+use crate::table::{Row, Table};
 use disc::Disc;
 use groove::Groove;
 use nalgebra::Vector2;
@@ -86,6 +89,8 @@ pub type SolveProgram = fn(&Machine, &Arc<dyn Motion>, Option<f64>) -> Result<Pr
 pub struct ProgramBody {
     /// Its kind, whose keys are those of the body's name.
     pub kind: &'static Kind,
+    /// Whether its outline is that of a disc about a base circle, so that it has the size of one.
+    pub has_base_circle: bool,
     /// How it is solved.
     pub solve: SolveProgram,
 }
@@ -110,26 +115,47 @@ impl ProgramCams {
 pub const BODIES: &[ProgramBody] = &[
     ProgramBody {
         kind: &disc::GENERAL,
+        has_base_circle: true,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(Disc::of_motion(machine, Arc::clone(motion), rpm)?)),
     },
     ProgramBody {
         kind: &groove::RING,
+        has_base_circle: true,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::ring(machine, motion, rpm)?)),
     },
     ProgramBody {
         kind: &groove::GROOVE,
+        has_base_circle: true,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::between_flanks(machine, motion, rpm)?)),
     },
-    ProgramBody { kind: &conjugate::MAIN, solve: conjugate::pair },
+    ProgramBody { kind: &conjugate::MAIN, has_base_circle: true, solve: conjugate::pair },
     ProgramBody {
         kind: &rib::RIB,
+        has_base_circle: true,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(rib::Rib::of(machine, motion, rpm)?)),
     },
     ProgramBody {
         kind: &yoke::YOKE,
+        has_base_circle: true,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(yoke::Yoke::of(machine, motion, rpm)?)),
     },
+    ProgramBody {
+        kind: &barrel::BARREL,
+        has_base_circle: false,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(barrel::Barrel::of(machine, motion, rpm)?)),
+    },
 ];
+
+/// Refuses what is only known of a disc for a machine whose body is none.
+///
+/// # Errors
+/// [`Refusal`] where the body has no base circle.
+pub(crate) fn needs_base_circle(machine: &Machine, what: &str) -> Result<(), Refusal> {
+    let other = BODIES.iter().find(|body| body.kind.keys == machine.body() && !body.has_base_circle);
+    let Some(other) = other else { return Ok(()) };
+    let refusal = Refusal::new(format!("{what} is that of a disc, and this is a {}", other.kind.noun));
+    Err(refusal.remedy("`camgen make` reports the sizes and angles of other bodies"))
+}
 
 /// Kinds that are made with one of these.
 pub const MADE_WITH: &[&Kind] = &[&conjugate::COUNTER];
@@ -282,12 +308,15 @@ pub struct Drawn {
     pub cutter_path: Option<Result<Outline, OutlineError>>,
     /// Its paths along the other flanks of a part with several.
     pub other_cutter_paths: Vec<Result<Outline, OutlineError>>,
+    /// What is drawn of a body with flanks that a roller sweeps in space, in the place of parts.
+    pub swept: Option<Box<SweptDrawing>>,
 }
 
 impl Drawn {
     /// Parts alone.
-    pub(crate) fn of(parts: Vec<Part>) -> Self {
-        Self { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new() }
+    #[must_use]
+    pub fn of(parts: Vec<Part>) -> Self {
+        Self { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new(), swept: None }
     }
 
     /// The outlines of all parts, each with its part, in the order of the cuts of the body.
@@ -352,6 +381,17 @@ pub trait Body: std::fmt::Debug + Send + Sync {
     /// The surface of a body whose sections differ along its axis.
     fn surface(&self) -> Option<&dyn Surface> {
         None
+    }
+
+    /// The flanks that a roller sweeps in space, of a body that has no outlines.
+    fn swept(&self) -> Option<&dyn SweptFlanks> {
+        None
+    }
+
+    /// The tables that it has in addition to that of its rows, in the order of [`SweptDrawing::tables`], with so many rows over a turn and, where one
+    /// is given, for a cutter of a radius, m.
+    fn further_tables(&self, _samples: u32, _cutter: Option<f64>) -> Vec<Table> {
+        Vec::new()
     }
 
     /// The place that belongs to a value of the motion's parameter.

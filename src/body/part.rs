@@ -32,7 +32,13 @@ pub enum Layer {
     RibOuter,
     /// The flank of a rib on which its inner roller runs.
     RibInner,
-    /// The edge of a part whose roller runs within it.
+    /// The flank of a barrel above its roller, in the developed view.
+    FlankUpper,
+    /// The flank of a barrel below its roller, in the developed view.
+    FlankLower,
+    /// The centre line of the roller of a barrel, in the developed view.
+    Pitch,
+    /// The edge of a part whose roller runs within it, or of a developed blank.
     Blank,
     /// Bore and holes.
     Bore,
@@ -52,6 +58,9 @@ impl Layer {
             Layer::GrooveOuter => "GROOVE_OUTER",
             Layer::RibOuter => "RIB_OUTER",
             Layer::RibInner => "RIB_INNER",
+            Layer::FlankUpper => "FLANK_UPPER",
+            Layer::FlankLower => "FLANK_LOWER",
+            Layer::Pitch => "PITCH",
             Layer::Blank => "BLANK",
             Layer::Bore => "BORE",
             Layer::CutterPath => "CUTTER_PATH",

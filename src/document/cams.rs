@@ -38,15 +38,18 @@ const TURNS: &str = "cams that turn";
 const DISC: &str = "disc cams";
 const ONE_THICKNESS: &str = "cams of one thickness";
 const SURFACE: &str = "cams whose sections differ";
+const BASED: &str = "cams with a base circle";
 
 /// The classes of a disc cam.
-pub const OF_A_DISC: &[&str] = &[TURNS, DISC];
+pub const OF_A_DISC: &[&str] = &[TURNS, DISC, BASED];
 /// The classes of a disc cam whose thickness is a key.
-pub const OF_A_DISC_WITH_THICKNESS: &[&str] = &[TURNS, DISC, ONE_THICKNESS];
+pub const OF_A_DISC_WITH_THICKNESS: &[&str] = &[TURNS, DISC, ONE_THICKNESS, BASED];
 /// The classes of a cam that turns and whose sections differ.
-pub const OF_A_SURFACE: &[&str] = &[TURNS, SURFACE];
+pub const OF_A_SURFACE: &[&str] = &[TURNS, SURFACE, BASED];
 /// The kinds that turn about a shaft.
 pub const TURNING: &[&str] = &[TURNS];
+/// Cams with a base circle.
+pub const WITH_A_BASE: &[&str] = &[BASED];
 /// Disc cams.
 pub const DISCS: &[&str] = &[DISC];
 /// Cams that are as thick everywhere.
@@ -66,24 +69,29 @@ pub const CONJUGATE: &str = "conjugate";
 pub const RIB: &str = "rib";
 /// A disc between two faces or rollers of one follower, of a motion whose second half turn is the first one upside down.
 pub const YOKE: &str = "yoke";
+/// A cylinder with a groove round its outside, of any motion.
+pub const BARREL: &str = "barrel";
 
 /// What a file calls the body of a motion program that is a disc.
 pub const DISC_BODY: &str = "disc";
 
 /// The classes of a disc of a motion program.
-const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS];
+const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS, BASED];
 /// The classes of a body within which a roller runs.
-const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS];
+const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS, BASED];
+/// The classes of a body that is cut into the outside of a cylinder.
+const OF_A_CYLINDER: &[&str] = &[MAKE, TURNS];
 
 /// The bodies of a motion program, which all belong to the class [`MAKE`]: what a file calls each, and its kind of cam. The first is
 /// the usual one.
-const PROGRAM_BODIES: [(&str, CamKind); 6] = [
+const PROGRAM_BODIES: [(&str, CamKind); 7] = [
     (DISC_BODY, CamKind::cam(MAKE, OF_A_PROGRAM)),
     (RING, CamKind::cam(RING, OF_A_TRACK)),
     (GROOVE, CamKind::cam(GROOVE, OF_A_TRACK)),
     (CONJUGATE, CamKind::cam(CONJUGATE, OF_A_PROGRAM)),
     (RIB, CamKind::cam(RIB, OF_A_TRACK)),
     (YOKE, CamKind::cam(YOKE, OF_A_PROGRAM)),
+    (BARREL, CamKind::cam(BARREL, OF_A_CYLINDER)),
 ];
 
 /// The bodies of a motion program as a file names them.

@@ -5,7 +5,7 @@ use super::material::{CamMaterial, Material};
 use super::parallel_key;
 use super::track::{self, TrackData};
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::{DISCS, EVEN, TURNING};
+use crate::document::cams::{DISCS, EVEN, TURNING, WITH_A_BASE};
 use crate::document::range::{HIGHEST_STRESS, LONGEST, THINNEST};
 use crate::document::{Bounds, Field, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::FollowerData;
@@ -84,7 +84,7 @@ const BASE_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
     (&["auto"], &[None]),
     (Length, LENGTH, Some),
 )
-.only(TURNING)
+.only(WITH_A_BASE)
 .also(&["radius", "base_circle"]);
 const BASE_DIAMETER: Key =
     BASE_RADIUS.diameter("base_diameter", "diameter of the base circle, in the place of its radius", "90 mm");

@@ -11,6 +11,7 @@ pub struct Embedded {
 
 /// The embedded machines of the core; those of domains stand before them in the catalogue.
 pub const EMBEDDED: &[Embedded] = &[
+    Embedded { name: "barrel", toml: include_str!("../../profiles/barrel.toml") },
     Embedded { name: "conjugate", toml: include_str!("../../profiles/conjugate.toml") },
     Embedded { name: "feeder", toml: include_str!("../../profiles/feeder.toml") },
     Embedded { name: "lever", toml: include_str!("../../profiles/lever.toml") },

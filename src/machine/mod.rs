@@ -5,6 +5,7 @@
 //! Each part of the machine has a file with its data, its table of keys and its reading. `list` gathers the
 //! tables; a key is one constant in its table and one line in its reading.
 
+mod barrel;
 mod bearing;
 mod disc;
 mod dynamics;
@@ -24,6 +25,7 @@ mod track;
 
 pub use crate::document::{Excerpt, FileFault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
+pub use barrel::BarrelData;
 pub use bearing::BearingData;
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{Dynamics, GuideData, SpringData, VibrationData};
@@ -165,7 +167,8 @@ impl Machine {
         disc::reached_by(reader, &cam, &follower);
         track::rolled_by(reader, &cam.track, &follower);
         let counter = track::read_counter(reader, &follower);
-        let cam = CamData { track: TrackData { counter, ..cam.track }, ..cam };
+        let barrel = barrel::read(reader)?;
+        let cam = CamData { track: TrackData { counter, barrel, ..cam.track }, ..cam };
         Some(Self {
             catalogue: source.catalogue,
             name: reader.table(&ROOT).get(&NAME)?,

@@ -1,7 +1,8 @@
 //! Which body is cut for a motion program, and the measures of one whose roller runs within it.
 
+use super::barrel::BarrelData;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GROOVE, MAKE, RIB, RING, YOKE};
+use crate::document::cams::{BARREL, BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GROOVE, MAKE, RIB, RING, YOKE};
 use crate::document::range::{LARGEST_FORCE, LONGEST};
 use crate::document::{Field, Input, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::{Element, FollowerData};
@@ -30,6 +31,8 @@ pub struct TrackData {
     pub breadth: Option<f64>,
     /// The counter disc of a pair.
     pub counter: CounterData,
+    /// What only a barrel has.
+    pub barrel: BarrelData,
 }
 
 /// The counter disc of a pair of conjugate discs; what is absent is that of the main one.
@@ -49,7 +52,7 @@ pub struct CounterData {
 
 const BODY: Field<&'static str> = Field::words(
     "body",
-    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers",
+    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers; \"barrel\", a cylinder with a groove round its outside",
     Default(DISC_BODY),
     BODIES,
     BODY_KINDS,
@@ -57,12 +60,12 @@ const BODY: Field<&'static str> = Field::words(
 .also(&["kind", "type"]);
 const OUTER_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
     "outer_radius",
-    "radius of the outside of a ring; \"auto\": the smallest that leaves the wall, in whole millimetres",
+    "radius of the outside of a ring or a barrel; \"auto\": the smallest that leaves the wall, of a barrel also the smallest that keeps the pressure angle, in whole millimetres",
     Default("auto"),
     (&["auto"], &[None]),
     (Length, above(0.0, LONGEST), Some),
 )
-.only(&[RING]);
+.only(&[RING, BARREL]);
 const BLANK_RADIUS: Field<Option<f64>> = Field::words_or_quantity(
     "blank_radius",
     "radius of the blank that a groove is cut into; \"auto\": the smallest that leaves the wall, in whole millimetres",
@@ -79,23 +82,23 @@ const CLEARANCE: Field<f64> = Field::quantity(
     Length,
     within(0.0, LONGEST),
 )
-.only(&[GROOVE])
+.only(&[GROOVE, BARREL])
 .also(&["play", "gap"]);
 const CLEARANCE_SHARE: Field<f64> = Field::number(
     "clearance_share",
-    "share of the clearance on the inner flank, 0 to 1; with 0 the motion is exact where the roller runs on that flank",
+    "share of the clearance on the inner flank, or on that below the roller of a barrel, 0 to 1; with 0 the motion is exact where the roller runs on that flank",
     Default("0"),
     within(0.0, 1.0),
 )
-.only(&[GROOVE]);
+.only(&[GROOVE, BARREL]);
 const GROOVE_DEPTH: Field<f64> = Field::quantity(
     "groove_depth",
-    "depth of a groove, below the thickness",
+    "depth of a groove, below the thickness or the radius of the outside",
     Optional("10 mm"),
     Length,
     above(0.0, LONGEST),
 )
-.only(&[GROOVE])
+.only(&[GROOVE, BARREL])
 .also(&["depth"]);
 
 const ROLLER_DISTANCE: Field<f64> = Field::quantity(
@@ -230,6 +233,20 @@ pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool)
             Some(_) => {}
         }
     }
+    if body == BARREL && groove_depth.is_none() {
+        let help = "e.g. cam.groove_depth = \"12 mm\"";
+        table.fail(&BODY, "a barrel needs the depth of its groove".into(), Some(help.into()));
+    }
+    if let (BARREL, Some(outer), Some(depth)) = (body, outer_radius, groove_depth)
+        && depth >= outer
+    {
+        let message = format!("the groove of {} reaches the axis of the barrel", table.typed(&GROOVE_DEPTH));
+        table.fail(
+            &GROOVE_DEPTH,
+            message,
+            Some(format!("it must be below cam.outer_radius, {}", table.typed(&OUTER_RADIUS))),
+        );
+    }
     if (body == RING || body == RIB) && bored {
         let message = format!("a {body} has no bore: a roller runs inside of it");
         table.fail(&BODY, message, Some("leave cam.bore_radius out".into()));
@@ -248,6 +265,7 @@ pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool)
         roller_distance: table.get(&ROLLER_DISTANCE),
         breadth: table.get(&BREADTH),
         counter: CounterData::default(),
+        barrel: BarrelData::default(),
     })
 }
 

@@ -100,6 +100,9 @@ impl Cam {
         request: impl Into<Request>,
     ) -> Result<Report, Error> {
         let request = request.into();
+        if self.body().swept().is_some() {
+            return self.check_swept(bytes, &request);
+        }
         if step::is_step(bytes) {
             return match expected.section {
                 None => self.check_solid(bytes, &request),
@@ -245,6 +248,7 @@ impl Cam {
             points: None,
             of_others: &[],
             solid: None,
+            swept: None,
             tolerance_mm,
             motion,
             strict: request.strict,
@@ -315,6 +319,7 @@ impl Cam {
             rolled: &rolled,
             foreign: &[],
             solid: Some(&solid),
+            swept: None,
             cutter_paths: &[],
             points: None,
             of_others: &[],

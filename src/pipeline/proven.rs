@@ -10,11 +10,11 @@ use crate::geometry::points::{Interpolant, PointInterpolation};
 use crate::profile::outline::{Outline, OutlineError};
 use crate::report::{Finding, Inputs, LazyReport, PointMeasures, Report, Rolled, Section, passed};
 use crate::table::Table;
-use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
+use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, WrittenSwept, rolling};
 use crate::write::Rendering;
 use crate::write::csv;
 use crate::write::dxf::Version;
-use crate::write::{points, proof};
+use crate::write::{points, proof, step};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -58,6 +58,7 @@ struct ProvenData {
 
 /// The cut files of a drawing in memory, and what is in them.
 pub(super) struct WrittenCuts {
+    swept: Option<WrittenSwept>,
     cut_files: Vec<Vec<u8>>,
     outlines: Vec<WrittenOutline>,
     rolled: Vec<Rolled>,
@@ -121,13 +122,21 @@ impl Drawing {
             }
         }
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
+        let mut swept = None;
+        for drawing in self.drawn.iter().filter_map(|drawn| drawn.swept.as_deref()) {
+            let unrolled = proof::developed(&drawing.developed, version, &mark).map_err(Error::Proof)?;
+            let solid = step::write(&drawing.solid, "", None);
+            let developed = WrittenSwept::of_unrolled(body, &unrolled, proof::JOIN).map_err(Error::Proof)?;
+            swept = Some(developed.with(WrittenSwept::of_solid(body, &solid, tolerance_mm).map_err(Error::Proof)?));
+            cut_files.push(unrolled);
+        }
         let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
-        Ok(WrittenCuts { cut_files, outlines, rolled, inputs })
+        Ok(WrittenCuts { swept, cut_files, outlines, rolled, inputs })
     }
 
     /// Every check, of what was written, with the cams that are cut with it.
     pub(super) fn judged(self, version: Version, written: WrittenCuts, of_others: &[Measure]) -> Proven {
-        let WrittenCuts { cut_files, outlines, rolled, inputs: hashed } = written;
+        let WrittenCuts { swept, cut_files, outlines, rolled, inputs: hashed } = written;
         let body = self.cam.body();
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let (middle, _) = self.request.fit.band();
@@ -157,6 +166,7 @@ impl Drawing {
             points: tables.as_ref(),
             of_others,
             solid: None,
+            swept: swept.as_ref(),
             tolerance_mm,
             motion: self.request.fit.motion,
             strict: self.request.strict,

@@ -9,7 +9,7 @@ use crate::geometry::points::{Interpolant, PointRows, PointTableSpec};
 use crate::reading::{self, Chain};
 use crate::refusal::Refusal;
 use crate::report::{Finding, Inputs, Report, Section, Verdict};
-use crate::verify::{self, Evidence, WrittenPath, WrittenPoints, join_reach};
+use crate::verify::{self, Evidence, WrittenPath, WrittenPoints, WrittenSwept, join_reach};
 use crate::write::points;
 
 impl Cam {
@@ -63,6 +63,21 @@ impl Cam {
             None => self.best_of_cuts(expected, judged)?,
         };
         Ok(self.report_on("table of points", request, checks))
+    }
+
+    /// Whether a file is the solid, or the developed view, of this cam, whose flanks a roller sweeps in space.
+    pub(super) fn check_swept(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
+        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let body = self.body();
+        let (what, read) = if reading::step::is_step(bytes) {
+            ("solid", WrittenSwept::of_solid(body, bytes, tolerance_mm))
+        } else {
+            ("developed view", WrittenSwept::of_unrolled(body, bytes, join_reach(tolerance_mm)))
+        };
+        let swept = read.map_err(Error::Read)?;
+        let evidence = self.nothing_written(tolerance_mm, request)?;
+        let checks = verify::run(&Evidence { swept: Some(&swept), ..evidence });
+        Ok(self.report_on(what, request, checks))
     }
 
     /// The findings on the cut of this name, or the first that a file fits, of a part with several flanks.
@@ -150,6 +165,7 @@ impl Cam {
             points: None,
             of_others: &[],
             solid: None,
+            swept: None,
             tolerance_mm,
             motion: request.resolved(self.body()).map_err(Error::Draw)?.fit.motion,
             strict: request.strict,

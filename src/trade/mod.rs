@@ -9,7 +9,7 @@ pub(crate) use measure::{TradeLaw, TradeLimits, TradeProduct, TradeSetting};
 pub(crate) use settings::{SettingLadder, ladder, of_disc};
 
 use crate::analysis::{Analysis, Picture};
-use crate::body::Kind;
+use crate::body::{Kind, needs_base_circle};
 use crate::document::{Input, cams};
 use crate::machine::Machine;
 use crate::pipeline::Spec;
@@ -65,6 +65,7 @@ pub fn of_program(
         Refusal::new("the machine file has no motion")
             .remedy("`camgen trade make` needs the tables [motion] and [[motion.segment]]")
     };
+    needs_base_circle(machine, "the outline of `camgen trade`")?;
     let settings = of_disc(move || Spec::of_program(own.clone(), rpm).ok_or_else(no_motion))?;
     let limits = TradeLimits { residual: None, acceleration: Some(acceleration.unwrap_or(ACCELERATION)) };
     analysis(&TradeTask { kind: &KIND, cam: "make", machine, rpm: rpm.or(of_file), settings, limits }, run)

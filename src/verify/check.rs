@@ -1,5 +1,6 @@
 //! What a check of a written outline is, the evidence it judges, and how its findings are made.
 
+use super::swept_files::WrittenSwept;
 use crate::body::points::PointTable;
 use crate::body::{Body, Cut, Drawn};
 use crate::check::{Check, CheckExplanation, CheckScope, Measure};
@@ -82,6 +83,8 @@ pub struct Evidence<'a> {
     pub of_others: &'a [Measure],
     /// What was read from a STEP file that somebody else may have written.
     pub solid: Option<&'a WrittenSolid>,
+    /// What was read of the files of a body with flanks that a roller sweeps in space.
+    pub swept: Option<&'a WrittenSwept>,
     /// Tolerance of the outline, mm.
     pub tolerance_mm: f64,
     /// Largest errors of velocity and acceleration that the follower may have on it.

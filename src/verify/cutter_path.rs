@@ -187,6 +187,7 @@ mod tests {
                 rolled: &[],
                 foreign: &[],
                 solid: None,
+                swept: None,
                 cutter_paths: std::slice::from_ref(&path),
                 points: None,
                 of_others: &[],

@@ -4,23 +4,18 @@
 //! The exact surface is the pitch surface offset by the roller. From a point of a patch the nearest place of the pitch surface is
 //! found by Newton's method with exact derivatives; its distance less the roller's radius is the distance from the flank, since
 //! the two lie on one normal. Neither the curves the patches were made from nor their parameters are used.
-//!
-//! Between the samples a bound holds. On a cell, a share of a knot span no longer than 15 mm, the deviation is a polynomial of the
-//! patch's degrees less a surface so smooth there that one degree more represents it. A polynomial of degree m is nowhere larger than
-//! 1/cos(m π/2n) times its largest size at the n Chebyshev places (H. Ehlich, K. Zeller, Schwankung von Polynomen zwischen
-//! Gitterpunkten, 1964). The places are doubled until the bound keeps the limit, or a sample breaks it.
 
 use super::check::{Evidence, FileCheck, at};
+use super::patches::{ExactFlank, SLACK, of_patches};
 use crate::body::Surface;
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::nurbs::NurbsSurface as Patch;
 use crate::motion::Motion;
-use crate::numeric::parallel;
 use crate::profile::Worst;
 use crate::report::{Bound, Finding, Verdict};
 use nalgebra::{Vector2, Vector3};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 pub(super) const CHECK: FileCheck = FileCheck {
     check: Check {
@@ -39,20 +34,9 @@ pub(super) const CHECK: FileCheck = FileCheck {
     run: check,
 };
 
-/// Longest side of a cell, mm: on a tenth of a radian and less the exact surface is as smooth as its splines.
-const CELL: f64 = 15.0;
-/// Most cells along a span: no cam has a span of a metre.
-const MOST_CELLS: f64 = 64.0;
-/// Places along a cell at first, and how often they are doubled.
-const PLACES: u32 = 8;
-const DOUBLINGS: u32 = 3;
-/// The bound may exceed the tolerance by this factor, that of the finest places.
-const SLACK: f64 = 1.01;
 /// Newton steps to the nearest place of the pitch surface, and the step (m) at which they end.
 const STEPS: usize = 12;
 const AT_REST: f64 = 1e-10;
-/// Least cosine between the normal of a patch and that of the exact surface: a patch within a tolerance of it is not folded.
-const SAME_SIDE: f64 = 0.9;
 /// Points on each side of a patch by which the patches are counted round the axis, and how near one turn they must be.
 const AROUND: u32 = 256;
 const ONE_TURN: f64 = 1e-3;
@@ -60,37 +44,15 @@ const ONE_TURN: f64 = 1e-3;
 /// The exact surface, as the reference for points of a patch.
 struct ExactSurface<'a> {
     surface: &'a dyn Surface,
+    /// The law in the plane z = 0.
+    slice: Box<dyn Motion + 'a>,
     turned: bool,
 }
 
-/// The result for a cell or for the whole flank.
-#[derive(Debug, Clone, Copy)]
-struct FlankDeviation {
-    worst: Worst,
-    bound: f64,
-    samples: usize,
-    folded: bool,
-}
-
-impl FlankDeviation {
-    const NONE: Self = Self { worst: Worst { value: 0.0, at: 0.0, z: 0.0 }, bound: 0.0, samples: 0, folded: false };
-
-    fn with(self, other: Self) -> Self {
-        // Where the deviation is not a number, it is the largest.
-        let larger = !(other.worst.value.abs() <= self.worst.value.abs());
-        Self {
-            worst: if larger { other.worst } else { self.worst },
-            bound: if other.bound <= self.bound { self.bound } else { other.bound },
-            samples: self.samples + other.samples,
-            folded: self.folded || other.folded,
-        }
-    }
-}
-
-impl ExactSurface<'_> {
-    /// The deviation of a point (mm) of a patch with this normal, positive where metal is missing, with the cam angle and the
-    /// place along the axis of the sphere that touches there; and the cosine between the normals.
-    fn deviation(&self, slice: &dyn Motion, point: Vector3<f64>, normal: Vector3<f64>) -> (Worst, f64) {
+impl ExactFlank for ExactSurface<'_> {
+    /// By the sphere that touches there.
+    fn deviation(&self, point: Vector3<f64>, normal: Vector3<f64>) -> (Worst, f64) {
+        let slice = &self.slice;
         let sense = if self.turned { -1.0 } else { 1.0 };
         let mirrored = |v: Vector3<f64>| Vector3::new(v.x, sense * v.y, v.z);
         let (point, normal) = (mirrored(point) / MILLIMETRES, mirrored(normal));
@@ -127,93 +89,6 @@ impl ExactSurface<'_> {
     }
 }
 
-/// A part of a knot span in both directions.
-struct SpanCell<'a> {
-    patch: &'a Patch,
-    /// The patch's own normal points out of the metal.
-    outward: bool,
-    u: (f64, f64),
-    v: (f64, f64),
-}
-
-impl SpanCell<'_> {
-    /// The deviation at n by n Chebyshev places, with the bound for the places between.
-    fn at_places(&self, exact: &ExactSurface<'_>, slice: &dyn Motion, n: u32) -> FlankDeviation {
-        let place = |range: (f64, f64), i: u32| {
-            let share = 0.5 - 0.5 * libm::cos(PI * (f64::from(i) + 0.5) / f64::from(n));
-            range.0 + (range.1 - range.0) * share
-        };
-        let sense = if self.outward { 1.0 } else { -1.0 };
-        let mut found = FlankDeviation::NONE;
-        for i in 0..n {
-            for j in 0..n {
-                let [point, by_u, by_v] = self.patch.at(place(self.u, i), place(self.v, j));
-                let normal = by_u.cross(&by_v).normalize() * sense;
-                let (worst, cosine) = exact.deviation(slice, point, normal);
-                let folded = !(cosine >= SAME_SIDE);
-                found = found.with(FlankDeviation { worst, bound: 0.0, samples: 1, folded });
-            }
-        }
-        let growth = |degree: usize| {
-            #[expect(clippy::cast_precision_loss, reason = "a degree of at most 25")]
-            let angle = PI * (degree + 1) as f64 / (2.0 * f64::from(n));
-            if angle < 0.5 * PI { 1.0 / libm::cos(angle) } else { f64::INFINITY }
-        };
-        let bound = found.worst.value.abs() * growth(self.patch.u.degree) * growth(self.patch.v.degree);
-        FlankDeviation { bound, ..found }
-    }
-
-    /// The deviation with as many places as the decision needs.
-    fn found(&self, exact: &ExactSurface<'_>, slice: &dyn Motion, tolerance: f64) -> FlankDeviation {
-        let mut found = self.at_places(exact, slice, PLACES);
-        for doubling in 1..=DOUBLINGS {
-            let decided = found.bound <= tolerance || !(found.worst.value.abs() <= tolerance);
-            if decided || found.folded {
-                break;
-            }
-            let samples = found.samples;
-            found = self.at_places(exact, slice, PLACES << doubling);
-            found.samples += samples;
-        }
-        found
-    }
-}
-
-/// The knot spans of a patch.
-fn spans(patch: &Patch, outward: bool) -> Vec<SpanCell<'_>> {
-    let across = patch.v.spans();
-    let with = |u: (f64, f64)| across.iter().map(move |v| SpanCell { patch, outward, u, v: *v });
-    patch.u.spans().into_iter().flat_map(with).collect()
-}
-
-/// The result for a knot span, cell by cell; a span that fails at its first places is not refined.
-fn of_span(span: &SpanCell<'_>, exact: &ExactSurface<'_>, slice: &dyn Motion, tolerance: f64) -> FlankDeviation {
-    let whole = span.at_places(exact, slice, PLACES);
-    if whole.folded || !(whole.worst.value.abs() <= tolerance) {
-        return whole;
-    }
-    let (u, v) = (span.u, span.v);
-    let corner = |a: f64, b: f64| span.patch.at(a, b)[0];
-    let [a, b, c, d] = [corner(u.0, v.0), corner(u.1, v.0), corner(u.0, v.1), corner(u.1, v.1)];
-    let count = |first: f64, second: f64| (first.max(second) / CELL).ceil().clamp(1.0, MOST_CELLS);
-    let (along, across) = (count((b - a).norm(), (d - c).norm()), count((c - a).norm(), (d - b).norm()));
-    let part = |range: (f64, f64), of: f64, i: f64| {
-        let place = |share: f64| range.0 + (range.1 - range.0) * share;
-        (place(i / of), place((i + 1.0) / of))
-    };
-    let mut found = FlankDeviation::NONE;
-    let (mut i, mut j) = (0.0, 0.0);
-    while i < along {
-        let cell = SpanCell { u: part(u, along, i), v: part(v, across, j), ..*span };
-        found = found.with(cell.found(exact, slice, tolerance));
-        j += 1.0;
-        if j >= across {
-            (i, j) = (i + 1.0, 0.0);
-        }
-    }
-    found
-}
-
 /// Area of a patch in polar angle and height, rad mm, by its sides: the patches go round once where their sum is a full turn
 /// times the height.
 fn around(patch: &Patch, outward: bool) -> f64 {
@@ -234,11 +109,9 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let (surface, solid) = (evidence.body.surface()?, evidence.solid?);
     let patches = &solid.form.patches;
     let turned = evidence.body.cuts().first().is_some_and(|cut| cut.mirrored == [true]);
-    let (exact, law) = (ExactSurface { surface, turned }, surface.law(0.0));
+    let exact = ExactSurface { surface, slice: surface.law(0.0), turned };
     let limit = evidence.tolerance_mm;
-    let spans: Vec<SpanCell<'_>> = patches.iter().flat_map(|(patch, outward)| spans(patch, *outward)).collect();
-    let all: Vec<FlankDeviation> = parallel::map(&spans, |span| of_span(span, &exact, &*law, limit));
-    let found = all.into_iter().fold(FlankDeviation::NONE, FlankDeviation::with);
+    let found = of_patches(patches, &exact, limit);
     let (low, high) = surface.ends();
     let round: f64 = patches.iter().map(|(patch, outward)| around(patch, *outward)).sum();
     let turns = round / (TAU * MILLIMETRES * (high - low));
@@ -264,6 +137,7 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
 #[cfg(test)]
 #[cfg(feature = "press")]
 mod tests {
+    use super::super::patches::{DOUBLINGS, PLACES, SpanCell};
     use super::*;
     use crate::geometry::nurbs::{Knots, weighted};
     use crate::machine::Machine;
@@ -279,7 +153,7 @@ mod tests {
     fn a_deviation_is_the_distance_from_the_nearest_place() {
         let cam = conoid();
         let surface = cam.body().surface().expect("a conoid");
-        let (exact, slice) = (ExactSurface { surface, turned: false }, surface.law(0.0));
+        let (exact, slice) = (ExactSurface { surface, slice: surface.law(0.0), turned: false }, surface.law(0.0));
         let (low, high) = surface.ends();
         let radius = surface.sphere()[0];
         for i in 0..60 {
@@ -290,7 +164,7 @@ mod tests {
             for (off, turned) in [(0.0, 0.0), (2e-6, 0.1), (-3e-6, -0.1)] {
                 let point = (place - outward * (radius - off)) * MILLIMETRES;
                 let normal = (outward + by_angle.normalize() * turned).normalize();
-                let (found, cosine) = exact.deviation(&*slice, point, normal);
+                let (found, cosine) = exact.deviation(point, normal);
                 assert!((found.value + MILLIMETRES * off).abs() < 1e-10, "{i} {off}: {found:?}");
                 assert!((cosine - outward.dot(&normal)).abs() < 1e-6, "{i} {off}: {cosine}");
             }
@@ -321,7 +195,7 @@ mod tests {
     fn every_place_of_a_cell_is_counted() {
         let cam = conoid();
         let surface = cam.body().surface().expect("a conoid");
-        let (exact, slice) = (ExactSurface { surface, turned: false }, surface.law(0.0));
+        let (exact, slice) = (ExactSurface { surface, slice: surface.law(0.0), turned: false }, surface.law(0.0));
         let (low, high) = surface.ends();
         let on = |angle: f64, z: f64| {
             let (piece, inside) = slice.locate(angle);
@@ -331,10 +205,10 @@ mod tests {
         let (z, height) = (0.5 * (low + high), 0.1 * (high - low));
         let patch = bilinear([[on(1.0, z), on(1.0, z + height)], [on(1.1, z), on(1.1, z + height)]]);
         let cell = SpanCell { patch: &patch, outward: true, u: (0.0, 1.0), v: (0.0, 1.0) };
-        let finest = cell.at_places(&exact, &*slice, PLACES << DOUBLINGS);
+        let finest = cell.at_places(&exact, PLACES << DOUBLINGS);
         assert!(!finest.folded && finest.worst.value.abs() > 0.0 && finest.bound > finest.worst.value.abs());
         // Larger than any deviation found, and smaller than any bound.
-        let found = cell.found(&exact, &*slice, finest.worst.value.abs() * (1.0 + 1e-12));
+        let found = cell.found(&exact, finest.worst.value.abs() * (1.0 + 1e-12));
         assert_eq!(found.samples, 64 + 256 + 1024 + 4096);
     }
 }

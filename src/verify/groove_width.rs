@@ -4,6 +4,7 @@
 //! places that are looked at the width changes by what the arcs of the flanks are off, which `rolling` finds exactly on each.
 
 use super::check::{Evidence, FileCheck};
+use super::swept;
 use crate::body::Layer;
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::contour::Contour;
@@ -35,6 +36,9 @@ const NARROW: usize = 4;
 const SECTIONS: u32 = 40;
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    if let Some(found) = swept::least_width(evidence) {
+        return Some(of_swept(evidence, found));
+    }
     let cuts = evidence.body.cuts();
     let written = |hollow: bool| {
         let outline = evidence.outlines.iter().find(|outline| {
@@ -69,6 +73,27 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     };
     let found = CHECK.found(least.value, Some(nominal - slack), verdict);
     Some(Finding { place: evidence.body.place(least.at), note: Some(note), ..found })
+}
+
+/// The finding on a groove in space, whose flanks stand out by at most so much (mm) from where they should be.
+fn of_swept(evidence: &Evidence<'_>, (out, at): (f64, f64)) -> Finding {
+    let machine = evidence.body.machine();
+    let roller = 2e3 * machine.follower.shape.element().offset();
+    let nominal = roller + 1e3 * machine.cam.track.clearance;
+    let (least, slack) = (nominal - out, 2.0 * evidence.tolerance_mm);
+    let verdict = match least {
+        width if !(width >= nominal - slack) => Verdict::Fail,
+        width if width < roller => Verdict::Warn,
+        _ => Verdict::Pass,
+    };
+    let note = match verdict {
+        Verdict::Pass => format!("the roller has at least {} mm of room", shown(least - roller)),
+        _ => format!(
+            "within the tolerance the roller may be pinched by {} mm: give cam.clearance",
+            shown(roller - least)
+        ),
+    };
+    Finding { place: evidence.body.place(at), note: Some(note), ..CHECK.found(least, Some(nominal - slack), verdict) }
 }
 
 /// The least width between the inner and the outer flank, mm, and where.

@@ -3,8 +3,9 @@
 use super::check::CheckEntry::{self, Figure, File};
 use super::{
     balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, outline, plate_ends, points, rolling, solid,
-    sphere, tangency,
+    sphere, swept, tangency,
 };
+use crate::body::barrel::measures as barrel;
 use crate::body::closure;
 use crate::body::disc::{residual_vibration, roller_life};
 use crate::body::groove::switches;
@@ -44,6 +45,10 @@ pub const CHECKS: &[CheckEntry] = &[
     File(&tangency::CHECK),
     File(&outline::CHECK),
     File(&rolling::CHECK),
+    File(&swept::UNROLLED),
+    File(&swept::FLANK_SURFACE),
+    File(&swept::SOLID_SHELL),
+    File(&swept::SOLID_VOLUME),
     File(&groove_width::CHECK),
     File(&bore::CHECK),
     File(&lead_in::CHECK),
@@ -52,6 +57,7 @@ pub const CHECKS: &[CheckEntry] = &[
     Figure(&force_closure::CHECK),
     Figure(&jump_speed::CHECK),
     Figure(&switches::CHECK),
+    Figure(&barrel::PLANE_OFFSET),
     Figure(&closure::CHECK),
     Figure(&guide::CHECK),
     Figure(&contact_stress::CHECK),

@@ -15,11 +15,14 @@ mod groove_width;
 mod lead_in;
 mod list;
 mod outline;
+mod patches;
 mod plate_ends;
 mod points;
 pub mod rolling;
 mod solid;
 mod sphere;
+mod swept;
+mod swept_files;
 mod tangency;
 mod walls;
 
@@ -28,6 +31,7 @@ pub use file::join_reach;
 pub(crate) use lead_in::is_lead_in;
 pub use list::CHECKS;
 pub use solid::shell_reach;
+pub use swept_files::WrittenSwept;
 
 use crate::check::{AsWritten, Check, CheckScope, Measure, Measures, Walls, wall};
 use crate::geometry::contour::Contour;
@@ -39,7 +43,7 @@ use crate::report::{Finding, worst_first};
 pub fn run(evidence: &Evidence<'_>) -> Vec<Finding> {
     let applies = |check: &Check| match check.on {
         CheckScope::Cam => evidence.foreign.is_empty() && evidence.solid.is_none(),
-        CheckScope::Outline => !evidence.outlines.is_empty(),
+        CheckScope::Outline => !evidence.outlines.is_empty() || evidence.swept.is_some(),
         CheckScope::Motion => evidence.foreign.is_empty() || !evidence.rolled.is_empty(),
         CheckScope::File => !evidence.foreign.is_empty() || evidence.solid.is_some(),
         CheckScope::ToolFile => true,

@@ -245,7 +245,7 @@ fn holes(evidence: &Evidence<'_>, solid: &WrittenSolid) -> Finding {
 }
 
 /// The largest distance of any place on these contours from the others, mm.
-fn farthest(these: &[Contour], those: &[Contour]) -> f64 {
+pub(super) fn farthest(these: &[Contour], those: &[Contour]) -> f64 {
     let trees: Vec<EdgeTree> = those.iter().map(EdgeTree::new).collect();
     let places = these.iter().flat_map(Contour::edges);
     let places = places.flat_map(|edge| (0..PLACES).map(move |i| edge.at(f64::from(i) / f64::from(PLACES)).0));

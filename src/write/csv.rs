@@ -38,6 +38,17 @@ pub fn table(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutl
     Table::of(&rows(body, second, outlines, samples))
 }
 
+/// The further tables of a body.
+pub const FURTHER: Format = Format {
+    name: "further tables",
+    when: FormatSelection::Drawn,
+    flank: false,
+    unfit: fits_all,
+    endings: |drawn| drawn.swept.iter().flat_map(|swept| swept.tables.iter().map(|name| (*name).to_owned())).collect(),
+    write: |cam| Ok(cam.body.further_tables(cam.samples, cam.cutter_radius).iter().map(write).collect()),
+    of_analysis: None,
+};
+
 fn rows(body: &dyn Body, second: Option<&dyn Body>, outlines: &[WrittenOutline], samples: u32) -> Vec<Row> {
     let mut rows = body.rows(samples);
     if let Some(second) = second {

@@ -137,6 +137,7 @@ pub const FORMATS: &[Format] = &[
     diagram::FORMAT,
     toml::FORMAT,
     dxf::CUTTER_PATH,
+    csv::FURTHER,
 ];
 
 /// The formats that can be requested.

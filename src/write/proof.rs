@@ -7,13 +7,14 @@ use super::dxf::{self, Version};
 #[cfg(feature = "second-reader")]
 use super::second_reader;
 use crate::body::{Layer, Part};
+use crate::geometry::Entity;
 use crate::geometry::contour::Contour;
 use crate::profile::outline::Outline;
 use crate::reading::{self, Chain, Reading};
 use crate::refusal::Refusal;
 
 /// Ends nearer than this count as one, mm: far above twelve decimals, far below any segment.
-const JOIN: f64 = 1e-9;
+pub const JOIN: f64 = 1e-9;
 
 /// A written cut file.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +48,24 @@ pub fn write(part: &Part, version: Version) -> Result<WrittenCut, Refusal> {
     write_marked(part, version, "")
 }
 
+/// Writes a developed view to memory, with a comment at the head of the file.
+///
+/// # Errors
+/// [`Refusal`] when what was written is not what was drawn.
+pub fn developed(entities: &[(Layer, Entity)], version: Version, mark: &str) -> Result<Vec<u8>, Refusal> {
+    let bytes = dxf::marked(dxf::write(entities, version), mark);
+    #[cfg(feature = "second-reader")]
+    if !second_reader::holds(&bytes, entities) {
+        return Err(other_entities());
+    }
+    Ok(bytes)
+}
+
+#[cfg(feature = "second-reader")]
+fn other_entities() -> Refusal {
+    Refusal::new("the DXF file as written holds other entities than were drawn").remedy("please report this")
+}
+
 /// As [`write`](write()), with a comment at the head of the file.
 ///
 /// # Errors
@@ -59,9 +78,7 @@ pub fn write_marked(part: &Part, version: Version, mark: &str) -> Result<Written
     let bytes = dxf::marked(dxf::write(&entities, version), mark);
     #[cfg(feature = "second-reader")]
     if !second_reader::holds(&bytes, &entities) {
-        return Err(
-            Refusal::new("the DXF file as written holds other entities than were drawn").remedy("please report this")
-        );
+        return Err(other_entities());
     }
     let layers: Vec<Layer> = part.outlines().map(|(layer, _)| layer).collect();
     let (mut outlines, mut others) = (Vec::new(), Vec::new());

@@ -29,6 +29,9 @@ pub const FORMAT: Format = Format {
 
 fn solid(cam: &Rendering<'_>) -> std::result::Result<CheckedSolid, Refusal> {
     let (low, high) = cam.body.height().unwrap_or_default();
+    if let Some(swept) = &cam.drawn.swept {
+        return Ok(swept.solid.clone());
+    }
     let Some(part) = cam.drawn.parts.first() else { return Err(not_closed("no part")) };
     match &cam.drawn.flank {
         Some(flank) => flank_solid(&flank.patches, &part.hole_contours(), (low, high), flank.volume),

@@ -200,7 +200,7 @@ fn what_makes_no_groove_is_refused_with_the_reason() {
     assert!(without.contains("needs a depth"), "{without}");
     let bored = error(&translating(), &["cam.body=ring", "cam.bore_radius=10mm"]);
     assert!(bored.contains("a ring has no bore"), "{bored}");
-    assert!(error(&translating(), &["cam.body=barrel"]).contains("ring"), "the bodies are named");
+    assert!(error(&translating(), &["cam.body=bucket"]).contains("ring"), "the bodies are named");
     let jump = machine(&translating(), &["motion.segment[0].law=line", "limits.continuity=0"]);
     let refused = Spec::of_program(jump, None).expect("a motion").solve().expect_err("a corner").to_string();
     assert!(refused.contains("the velocity of the follower jumps"), "{refused}");

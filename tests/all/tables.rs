@@ -62,6 +62,7 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
                 "conjugate" => &["cam.body=conjugate"],
                 "rib" => &["cam.body=rib", "cam.roller_distance=30mm"],
                 "yoke" => &["cam.body=yoke"],
+                "barrel" => &["cam.body=barrel", "cam.groove_depth=8mm", "cam.outer_radius=auto"],
                 _ => &[],
             };
             // The second half turn of a yoke follows from the first.

@@ -9,7 +9,7 @@ mod jump;
 mod keyway_wall;
 mod loaded;
 mod mechanism;
-mod program;
+pub(in crate::body) mod program;
 pub mod residual_vibration;
 pub mod roller_life;
 mod size;

@@ -2,10 +2,10 @@
 
 use super::Disc;
 use crate::geometry::MILLIMETRES;
-use crate::motion::Quantity;
 use crate::motion::laws::optimum::{Objective, Optimum};
 use crate::motion::program::SegmentSummary;
 use crate::motion::program::rows::{RowFigures, Smoothing};
+use crate::motion::{Motion, Quantity};
 use crate::report::{Section, shown};
 use serde::Serialize;
 
@@ -209,45 +209,49 @@ fn segment(summary: &SegmentSummary, size: f64, speed: Option<f64>) -> SegmentFi
 impl Disc {
     /// The segments of its program, where its motion is one.
     pub(super) fn program(&self) -> Option<Section> {
-        let program = self.motion.program()?;
-        let swings = self.motion.quantity() == Quantity::Angle;
-        let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
-        let summary = program.segments();
-        let mut segments: Vec<SegmentFigures> =
-            summary.iter().map(|summary| segment(summary, size, self.speed)).collect();
-        let mut words: Vec<String> =
-            segments.iter().zip(summary).map(|(segment, summary)| line(segment, summary, unit)).collect();
-        let of_time = if swings { "rad" } else { "m" };
-        words.extend(at_speed(&segments, of_time));
-        if self.motion.lobes() > 1 {
-            words.push(format!("{} equal lobes", self.motion.lobes()));
-        }
-        if let Some(load) = program.load() {
-            words.push(format!(
-                "for an elastic load, cam speed over natural frequency {}, damping {}: these are the figures of the cam, and the \
-                    program of the file is that of the load",
-                shown(load.ratio),
-                shown(load.damping)
-            ));
-        }
-        let unit_by_time = self.speed.map(|_| of_time);
-        let mut rows = None;
-        for found in program.rows() {
-            let section = RowsSection::of(found, size);
-            let Some(index) = found.segment else {
-                words.extend(section.words(unit));
-                rows = Some(section);
-                continue;
-            };
-            let of_segment = section.words_of_segment(unit);
-            words.extend(of_segment.into_iter().map(|text| format!("segment {}: {text}", index + 1)));
-            if let Some(segment) = segments.get_mut(index) {
-                segment.rows = Some(section);
-            }
-        }
-        let value = MotionSection { unit, unit_by_time, repeat: self.motion.lobes(), segments, rows };
-        Some(Section::new("motion", &value).with_words(words))
+        of_motion(&*self.motion, self.speed)
     }
+}
+
+/// The segments of the program of a motion, where it is one, with the rates by the time at a speed of the cam, rad/s.
+pub(in crate::body) fn of_motion(motion: &dyn Motion, speed: Option<f64>) -> Option<Section> {
+    let program = motion.program()?;
+    let swings = motion.quantity() == Quantity::Angle;
+    let (unit, size) = if swings { ("deg", 1.0_f64.to_degrees()) } else { ("mm", MILLIMETRES) };
+    let summary = program.segments();
+    let mut segments: Vec<SegmentFigures> = summary.iter().map(|summary| segment(summary, size, speed)).collect();
+    let mut words: Vec<String> =
+        segments.iter().zip(summary).map(|(segment, summary)| line(segment, summary, unit)).collect();
+    let of_time = if swings { "rad" } else { "m" };
+    words.extend(at_speed(&segments, of_time));
+    if motion.lobes() > 1 {
+        words.push(format!("{} equal lobes", motion.lobes()));
+    }
+    if let Some(load) = program.load() {
+        words.push(format!(
+            "for an elastic load, cam speed over natural frequency {}, damping {}: these are the figures of the cam, and the \
+                program of the file is that of the load",
+            shown(load.ratio),
+            shown(load.damping)
+        ));
+    }
+    let unit_by_time = speed.map(|_| of_time);
+    let mut rows = None;
+    for found in program.rows() {
+        let section = RowsSection::of(found, size);
+        let Some(index) = found.segment else {
+            words.extend(section.words(unit));
+            rows = Some(section);
+            continue;
+        };
+        let of_segment = section.words_of_segment(unit);
+        words.extend(of_segment.into_iter().map(|text| format!("segment {}: {text}", index + 1)));
+        if let Some(segment) = segments.get_mut(index) {
+            segment.rows = Some(section);
+        }
+    }
+    let value = MotionSection { unit, unit_by_time, repeat: motion.lobes(), segments, rows };
+    Some(Section::new("motion", &value).with_words(words))
 }
 
 /// The largest rates by the time.

@@ -145,6 +145,8 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.clearance", "0.1 mm"),
     ("cam.clearance_share", "0.5"),
     ("cam.groove_depth", "8 mm"),
+    ("cam.roller_height", "7 mm"),
+    ("cam.blank_length", "90 mm"),
     ("cam.roller_distance", "50 mm"),
     ("cam.breadth", "150 mm"),
     ("cam.counter.radius", "19 mm"),
@@ -446,7 +448,7 @@ fn every_word_of_a_key_reads() {
                     "pivot" => file_for(&path)
                         .replace("to = \"20 mm\"", "to = \"20 deg\"")
                         .replace("\"0 mm\"\n", "\"0 deg\"\n"),
-                    "groove" => file_for(&path).replace("\n[cam]\n", "\n[cam]\ngroove_depth = \"5 mm\"\n"),
+                    "groove" | "barrel" => file_for(&path).replace("\n[cam]\n", "\n[cam]\ngroove_depth = \"5 mm\"\n"),
                     // Its roller runs where a bore would be.
                     "ring" | "rib" => {
                         let text = without(&file_for(&path), "cam.keyway");

@@ -5,6 +5,8 @@
 //! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
 //! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
 
+pub mod grooved_cylinder;
+
 use super::contour::{Contour, Cubic, Edge, Segment, sweep_minus_sine};
 use crate::refusal::Refusal;
 use nalgebra::Vector2;

@@ -150,6 +150,11 @@ impl Scanner<'_> {
         if word.bytes().any(|byte| byte.is_ascii_lowercase()) {
             return Err(self.error(format!("`{word}` has small letters; the words of a STEP file are in capitals")));
         }
+        // A word of one's own is a mark and a word; that of a name has no mark.
+        let plain = word.strip_prefix('!').unwrap_or(&word);
+        if plain.contains('!') || word == "!" {
+            return Err(self.error(format!("`{word}` is not a word: `!` begins a word of one's own")));
+        }
         Ok(word)
     }
 

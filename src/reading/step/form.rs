@@ -34,6 +34,8 @@ pub enum FlankShape {
     Upright,
     /// Patches of a flank that is not upright.
     Patches,
+    /// Patches of flanks in a round body: upright faces may be bounded by their edges.
+    Swept,
 }
 
 /// A boundary, recognised as a cam.
@@ -61,6 +63,8 @@ pub struct SolidForm {
     pub volume: Option<f64>,
 }
 
+/// Places of a rim at which its distance from a cylinder is taken.
+const PLACES: u32 = 24;
 /// Most sentences of one kind.
 const MOST_REPORTED: usize = 20;
 /// Least cosine between the normal of a wall and the outside of its contour: they are equal or opposite.
@@ -142,6 +146,12 @@ impl FormRecognizer<'_> {
         is_spline.then(|| LevelEdge::of(edge, [self.place(edge.start), self.place(edge.end)], self.reach))
     }
 
+    /// Whether an edge is a rim of a flank in a round body.
+    fn is_rim(&self, edge: usize) -> bool {
+        let curve = self.boundary.edges.get(edge).map(|edge| &edge.curve);
+        self.flank == FlankShape::Swept && matches!(curve, Some(StepCurve::Spline(_)))
+    }
+
     /// The spline edge of an upright flank, where it is one.
     fn level_of(&self, edge: usize) -> Option<&LevelEdge> {
         self.levels.get(edge)?.as_ref()?.as_ref().ok()
@@ -172,7 +182,7 @@ impl FormRecognizer<'_> {
             StepSurface::Plane { normal, .. } if level(normal.z.abs()) => FaceRole::Wall,
             StepSurface::Cylinder { axis, .. } if level(axis.xy().norm()) => FaceRole::Wall,
             _ if self.upright_of(index).is_some() => FaceRole::Wall,
-            StepSurface::Spline(_) if self.flank == FlankShape::Patches => FaceRole::Patch,
+            StepSurface::Spline(_) if self.flank != FlankShape::Upright => FaceRole::Patch,
             _ => FaceRole::Strange,
         }
     }
@@ -364,13 +374,20 @@ impl FormRecognizer<'_> {
                 StepSurface::Cylinder { origin, axis, radius },
                 StepCurve::Circle { centre, axis: own, radius: of_edge },
             ) => off_line(*centre, *origin, *axis) + (of_edge - radius).abs() + of_edge * axis.cross(own).norm(),
-            (StepSurface::Spline(patch), StepCurve::Spline(curve)) if self.flank == FlankShape::Patches => {
+            (StepSurface::Cylinder { origin, axis, radius }, StepCurve::Spline(curve))
+                if self.flank == FlankShape::Swept =>
+            {
+                let (first, last) = curve.knots.range();
+                let place = |i: u32| curve.at(first + (last - first) * f64::from(i) / f64::from(PLACES)).0;
+                largest(&(0..=PLACES).map(|i| (off_line(place(i), *origin, *axis) - radius).abs()).collect::<Vec<_>>())
+            }
+            (StepSurface::Spline(patch), StepCurve::Spline(curve)) if self.flank != FlankShape::Upright => {
                 let along = if edge.forward { curve.clone() } else { curve.reversed() };
                 let sides = patch.boundary().into_iter().flatten();
                 let off = |side: nurbs::NurbsCurve| side.farthest(&along).min(side.farthest(&along.reversed()));
                 sides.map(off).fold(f64::INFINITY, f64::min)
             }
-            (StepSurface::Spline(_), _) if self.flank == FlankShape::Patches => f64::INFINITY,
+            (StepSurface::Spline(_), _) if self.flank != FlankShape::Upright => f64::INFINITY,
             // A face of an unknown kind is reported elsewhere.
             (StepSurface::Other(_) | StepSurface::Spline(_) | StepSurface::Swept { .. }, _)
             | (_, StepCurve::Other(_)) => 0.0,
@@ -397,7 +414,8 @@ impl FormRecognizer<'_> {
                     self.form.patches.push((patch.clone(), face.same_sense));
                 }
                 (FaceRole::Wall, _) => {
-                    let mut read = face.loops.iter().flatten().filter(|run| !self.is_unread(run.0));
+                    let mut read =
+                        face.loops.iter().flatten().filter(|run| !self.is_unread(run.0) && !self.is_rim(run.0));
                     if read.any(|run| !(self.outward(index, *run) >= SAME_SIDE)) {
                         strange.push(format!("the wall of line {} is turned inside out", face.line));
                     }

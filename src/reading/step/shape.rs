@@ -165,6 +165,10 @@ impl<'a> ShapeReader<'a> {
             Some(StepValue::Reference(axis)) => self.direction(*axis)?,
             _ => Vector3::z(),
         };
+        // It decides nothing of a plane or a circle, but other programs stop at one that is none.
+        if let Some(StepValue::Reference(along)) = values.get(3) {
+            self.direction(*along)?;
+        }
         Ok(AxisPlacement { origin: self.point(*origin)?, axis })
     }
 

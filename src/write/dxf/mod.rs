@@ -24,7 +24,10 @@ pub const FORMAT: Format = Format {
     when: FormatSelection::Usual,
     flank: false,
     unfit: fits_all,
-    endings: |drawn| of_parts(drawn, ".dxf"),
+    endings: |drawn| {
+        let developed = drawn.swept.iter().map(|_| "-unrolled.dxf".to_owned());
+        of_parts(drawn, ".dxf").into_iter().chain(developed).collect()
+    },
     write: |cam| {
         let warning = warning(cam.findings).unwrap_or_default();
         Ok(cam.cut_files.iter().map(|file| marked(file.clone(), &warning)).collect())

@@ -14,6 +14,8 @@ pub(super) fn tables(tags: &mut DxfTags, layers: &[Layer], extents: &Extents) {
             let own = tags.new_handle();
             let colour = match layer {
                 Layer::CamProfile | Layer::GrooveInner | Layer::GrooveOuter | Layer::RibInner | Layer::RibOuter => 7,
+                Layer::FlankUpper | Layer::FlankLower => 7,
+                Layer::Pitch => 4,
                 Layer::Bore => 1,
                 Layer::Blank => 8,
                 Layer::CutterPath => 3,

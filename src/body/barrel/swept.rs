@@ -1,0 +1,213 @@
+//! The barrel as a body with swept flanks: the roller rolled past any point, and the curves of the developed view.
+
+use super::Barrel;
+use crate::body::Layer;
+use crate::body::swept::{FlankMiss, RoundForm, SweptFlanks};
+use crate::geometry::MILLIMETRES;
+use crate::machine::Rotation;
+use nalgebra::{Vector2, Vector3};
+use std::f64::consts::TAU;
+
+/// Cam angles to either side of a point at which the roller is tried first, their distance over that of the flank from the roller's path, and steps to
+/// the nearest one.
+const TRIED: i32 = 4;
+const APART: f64 = 0.3;
+const STEPS: usize = 12;
+const AT_REST: f64 = 1e-14;
+
+/// A flank.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlankSide {
+    /// Its metal lies above the roller.
+    Upper,
+    /// Its metal lies below.
+    Lower,
+}
+
+/// A curve of the developed view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BarrelCurve {
+    /// A flank on the outside.
+    Flank(FlankSide),
+    /// The centre line of the roller on the outside.
+    Pitch,
+}
+
+impl BarrelCurve {
+    /// All of them.
+    pub(super) const ALL: [Self; 3] = [Self::Flank(FlankSide::Upper), Self::Flank(FlankSide::Lower), Self::Pitch];
+
+    /// Its layer.
+    #[must_use]
+    pub fn layer(self) -> Layer {
+        match self {
+            Self::Flank(FlankSide::Upper) => Layer::FlankUpper,
+            Self::Flank(FlankSide::Lower) => Layer::FlankLower,
+            Self::Pitch => Layer::Pitch,
+        }
+    }
+
+    fn of(layer: Layer) -> Option<Self> {
+        Self::ALL.into_iter().find(|curve| curve.layer() == layer)
+    }
+}
+
+impl Barrel {
+    /// 1 where the drawing is that of a cam that turns clockwise, −1 where it is mirrored.
+    pub(super) fn sense(&self) -> f64 {
+        if self.machine.cam.rotation == Rotation::Clockwise { 1.0 } else { -1.0 }
+    }
+
+    /// Place (mm) and unit tangent of a curve of the developed view at a cam angle of a piece: x along the circumference of the outside, which grows with
+    /// the cam angle of a cam that turns clockwise, y along the axis.
+    pub(super) fn developed_at(&self, curve: BarrelCurve, place: (usize, f64)) -> (Vector2<f64>, Vector2<f64>) {
+        let distance = match curve {
+            BarrelCurve::Flank(side) => self.signed(side),
+            BarrelCurve::Pitch => 0.0,
+        };
+        let nowhere = Vector2::repeat(f64::NAN);
+        let Some(found) = self.axis(place.0, place.1).on_cylinder(distance, self.outer) else {
+            return (nowhere, nowhere);
+        };
+        let x = |value: f64| self.sense() * self.outer * value;
+        let slope = Vector2::new(x(found.by_angle[0]), found.by_angle[1]);
+        (Vector2::new(x(place.1 + found.ahead), found.height) * MILLIMETRES, slope.normalize())
+    }
+
+    /// The cam angle, within the turn of the motion, at which the roller comes nearest to a point of the cam, m, with the point's distance across and
+    /// along from the centre line there, m.
+    fn nearest(&self, point: Vector3<f64>) -> (f64, [f64; 2]) {
+        let polar = libm::atan2(point.y, point.x);
+        let radius = point.xy().norm();
+        let apart = |angle: f64| {
+            let (piece, inside) = self.motion.locate(angle);
+            let axis = self.axis(piece, inside);
+            let (sin, cos) = libm::sincos(angle);
+            let (along, across) = (point.x * cos + point.y * sin, point.y * cos - point.x * sin);
+            let off = [across - axis.across[0], point.z - axis.along[0]];
+            let first = [-along - axis.across[1], -axis.along[1]];
+            let second = [-across - axis.across[2], -axis.along[2]];
+            (off, first, second)
+        };
+        let square = |angle: f64| {
+            let ([a, b], ..) = apart(angle);
+            a * a + b * b
+        };
+        let step = APART * self.distances[0].max(self.distances[1]) / radius;
+        let tried = (-TRIED..=TRIED).map(|i| polar + step * f64::from(i));
+        let start = tried.map(|angle| (square(angle), angle)).reduce(|a, b| if b.0 < a.0 { b } else { a });
+        let (mut least, mut at) = start.unwrap_or((f64::NAN, polar));
+        for _ in 0..STEPS {
+            let ([a, b], [da, db], [dda, ddb]) = apart(at);
+            let (slope, bend) = (a * da + b * db, da * da + db * db + a * dda + b * ddb);
+            let steepest = slope / (da * da + db * db);
+            let mut by = if bend > 0.0 { slope / bend } else { steepest };
+            // A step that does not come nearer is halved.
+            let mut next = (square(at - by), at - by);
+            for _ in 0..STEPS {
+                if next.0 <= least {
+                    break;
+                }
+                by *= 0.5;
+                next = (square(at - by), at - by);
+            }
+            if next.0 > least {
+                break;
+            }
+            (least, at) = next;
+            if by.abs() <= AT_REST {
+                break;
+            }
+        }
+        (at, apart(at).0)
+    }
+
+    /// Volume of the groove, m³: on each cylinder the area between the two flanks, ∮ z dφ.
+    fn groove_volume(&self) -> f64 {
+        let (floor, outer) = (self.floor(), self.outer);
+        let on = |radius: f64| {
+            let of = |(index, piece): (usize, &crate::motion::Piece)| {
+                let area = |angle: f64| {
+                    let edge =
+                        |side| self.edge(side, radius, (index, angle)).map_or(f64::NAN, |p| p.height * p.by_angle[0]);
+                    edge(FlankSide::Upper) - edge(FlankSide::Lower)
+                };
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a turn has few panels")]
+                let panels = ((piece.end - piece.start) * PANELS_PER_RADIAN).ceil().max(1.0) as u32;
+                crate::numeric::quadrature::integrate(area, (piece.start, piece.end), panels)
+            };
+            radius * self.motion.pieces().iter().enumerate().map(of).sum::<f64>()
+        };
+        crate::numeric::quadrature::integrate(on, (floor, outer), 1)
+    }
+
+    /// Volume without holes, mm³.
+    pub(super) fn volume(&self) -> f64 {
+        let blank = 0.5 * TAU * self.outer * self.outer * (self.ends.1 - self.ends.0);
+        (blank - self.groove_volume()) * MILLIMETRES * MILLIMETRES * MILLIMETRES
+    }
+
+    /// The first cam angle of the motion with its piece, and the last.
+    pub(super) fn turn(&self) -> [(usize, f64); 2] {
+        let pieces = self.motion.pieces();
+        let (start, end) = self.motion.range();
+        [(0, start), (pieces.len().saturating_sub(1), end)]
+    }
+}
+
+/// Panels of eight points for a radian of cam angle.
+const PANELS_PER_RADIAN: f64 = 4.0;
+
+impl SweptFlanks for Barrel {
+    fn miss(&self, point: Vector3<f64>) -> FlankMiss {
+        let sense = self.sense();
+        let own = Vector3::new(point.x, sense * point.y, point.z) / MILLIMETRES;
+        let (at, [across, along]) = self.nearest(own);
+        let away = libm::hypot(across, along);
+        let side = if along > 0.0 { FlankSide::Upper } else { FlankSide::Lower };
+        let (sin, cos) = libm::sincos(at);
+        // Out of the metal, towards the centre line of the roller.
+        let inwards = Vector3::new(across * sin, -sense * across * cos, -along) / away;
+        let angle = self.motion.locate(at).1;
+        FlankMiss { value: MILLIMETRES * (away - self.signed(side).abs()), at: angle, outward: inwards }
+    }
+
+    fn form(&self) -> RoundForm {
+        RoundForm {
+            outer: MILLIMETRES * self.outer,
+            floor: MILLIMETRES * self.floor(),
+            ends: (MILLIMETRES * self.ends.0, MILLIMETRES * self.ends.1),
+            volume: self.volume(),
+        }
+    }
+
+    fn developed(&self) -> Vec<(Layer, [Vector2<f64>; 2])> {
+        let of = |curve: BarrelCurve| (curve.layer(), self.turn().map(|place| self.developed_at(curve, place).0));
+        BarrelCurve::ALL.map(of).to_vec()
+    }
+
+    fn developed_miss(&self, layer: Layer, point: Vector2<f64>) -> (f64, f64) {
+        let Some(curve) = BarrelCurve::of(layer) else { return (f64::NAN, 0.0) };
+        let (start, end) = self.motion.range();
+        let at = |angle: f64| {
+            let (piece, inside) = self.motion.locate(angle);
+            let (place, tangent) = self.developed_at(curve, (piece, inside));
+            // The place of an angle beyond the turn of the motion.
+            let shift = MILLIMETRES * self.sense() * self.outer * (angle - inside);
+            (place + Vector2::new(shift, 0.0), tangent)
+        };
+        let turn = MILLIMETRES * self.sense() * self.outer;
+        let mut angle = point.x / turn;
+        for _ in 0..STEPS {
+            let (place, tangent) = at(angle);
+            let by = (point - place).dot(&tangent) * tangent.x / turn;
+            angle = (angle + by).clamp(start - 1e-9, end + 1e-9);
+            if by.abs() <= AT_REST {
+                break;
+            }
+        }
+        let (place, tangent) = at(angle);
+        let _ = tangent;
+        ((point - place).norm(), self.motion.locate(angle).1)
+    }
+}
