@@ -184,7 +184,7 @@ mod tests {
         let at = |x: f64, y: f64, z: f64| Vector3::new(x, y, z);
         let (a, b) = ([at(50.0, 0.0, 3.0), at(50.0, 0.0, 7.0)], [at(0.0, 40.0, 3.0), at(0.0, 40.0, 7.0)]);
         let area = around(&bilinear([a, b]), true);
-        assert!((area - 0.5 * PI * 4.0).abs() < 1e-9, "{area}");
+        assert!((area - 0.25 * TAU * 4.0).abs() < 1e-9, "{area}");
         assert_eq!(around(&bilinear([a, b]), false), -area);
         let other = around(&bilinear([b, a]), true);
         assert!((other + area).abs() < 1e-9, "{other}");
