@@ -25,6 +25,7 @@ pub(crate) mod start;
 pub(crate) mod stress;
 pub mod surface;
 pub mod torque;
+pub mod wedge;
 mod worst_places;
 pub mod yoke;
 
@@ -129,6 +130,10 @@ pub const BODIES: &[ProgramBody] = &[
         kind: &yoke::YOKE,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(yoke::Yoke::of(machine, motion, rpm)?)),
     },
+    ProgramBody {
+        kind: &wedge::WEDGE,
+        solve: |machine, motion, _| Ok(ProgramCams::alone(wedge::Wedge::of(machine, motion)?)),
+    },
 ];
 
 /// Kinds that are made with one of these.
@@ -172,8 +177,14 @@ impl RateTolerance {
     /// The tolerance by the angle of the shaft, m or rad, of the velocity (order 1) or the acceleration (order 2) of a body.
     fn by_angle(self, body: &dyn Body, order: usize) -> Result<f64, Refusal> {
         let swings = curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
+        let by_travel = curves(body).is_some_and(|curves| curves.motion.is_by_travel());
         match self {
             Self::Share(share) => Ok(share * body.largest_rates().get(order - 1).copied().unwrap_or(0.0)),
+            Self::Rate { .. } if by_travel => Err(Refusal::new(format!(
+                "the rates of a plate are by its travel: the tolerance of the {} must be a share",
+                rate_word(order)
+            ))
+            .remedy("e.g. 5%")),
             Self::Rate { swing, .. } if swing != swings => {
                 let follower = if swings { "swings" } else { "does not swing" };
                 let unit = match (swings, order) {

@@ -67,6 +67,9 @@ pub const RIB: &str = "rib";
 /// A disc between two faces or rollers of one follower, of a motion whose second half turn is the first one upside down.
 pub const YOKE: &str = "yoke";
 
+/// A plate that travels out and back under its follower, of any motion.
+pub const WEDGE: &str = "wedge";
+
 /// What a file calls the body of a motion program that is a disc.
 pub const DISC_BODY: &str = "disc";
 
@@ -74,16 +77,19 @@ pub const DISC_BODY: &str = "disc";
 const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS];
 /// The classes of a body within which a roller runs.
 const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS];
+/// The classes of a body that travels.
+const OF_A_PLATE: &[&str] = &[MAKE, ONE_THICKNESS];
 
 /// The bodies of a motion program, which all belong to the class [`MAKE`]: what a file calls each, and its kind of cam. The first is
 /// the usual one.
-const PROGRAM_BODIES: [(&str, CamKind); 6] = [
+const PROGRAM_BODIES: [(&str, CamKind); 7] = [
     (DISC_BODY, CamKind::cam(MAKE, OF_A_PROGRAM)),
     (RING, CamKind::cam(RING, OF_A_TRACK)),
     (GROOVE, CamKind::cam(GROOVE, OF_A_TRACK)),
     (CONJUGATE, CamKind::cam(CONJUGATE, OF_A_PROGRAM)),
     (RIB, CamKind::cam(RIB, OF_A_TRACK)),
     (YOKE, CamKind::cam(YOKE, OF_A_PROGRAM)),
+    (WEDGE, CamKind::cam(WEDGE, OF_A_PLATE)),
 ];
 
 /// The bodies of a motion program as a file names them.

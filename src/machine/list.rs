@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, bearing, disc, dynamics, limits, title, track};
+use super::{ROOT, bearing, disc, dynamics, limits, plate, title, track};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -19,6 +19,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &dynamics::FLYWHEEL,
     &disc::SECTION,
     &track::SECTION,
+    &plate::SECTION,
     &disc::KEYWAY,
     &track::COUNTER,
     &limits::SECTION,
