@@ -436,7 +436,8 @@ pub fn parse_rate(text: &str, order: u32) -> Result<DerivativeValue, QuantityErr
     let of = unit(of, Dimension::Length).or_else(|| unit(of, Dimension::Angle)).ok_or_else(unknown)?;
     let power = if order == 1 { String::new() } else { order.to_string() };
     let by_text = by.trim().strip_suffix(power.as_str()).ok_or_else(unknown)?;
-    let by = unit(by_text, Dimension::Angle).or_else(|| unit(by_text, Dimension::Time).filter(|unit| unit.symbol == "s"));
+    let by =
+        unit(by_text, Dimension::Angle).or_else(|| unit(by_text, Dimension::Time).filter(|unit| unit.symbol == "s"));
     let by = by.or_else(|| unit(by_text, Dimension::Length)).ok_or_else(unknown)?;
     let each = by.multiply / by.divide;
     let value = number * of.multiply / of.divide / (0..order).fold(1.0, |power, _| power * each);
@@ -530,10 +531,18 @@ mod tests {
             ("0.5 mm/°", 1, 0.5e-3 / degree, false, false),
             ("90 °/s", 1, 0.5 * std::f64::consts::PI, true, true),
             ("2 MM/S", 1, 2e-3, false, true),
+            ("0.4 mm/mm", 1, 0.4, false, false),
+            ("0.02 mm/mm2", 2, 20.0, false, false),
+            ("1 in/in³", 3, 1.0 / (0.0254 * 0.0254), false, false),
         ] {
             let rate = parse_rate(text, order).expect(text);
             assert!((rate.value - value).abs() <= 4.0 * f64::EPSILON * value.abs(), "{text}: {rate:?}");
             assert_eq!((rate.swing, rate.by_time), (swing, by_time), "{text}");
+            assert_eq!(
+                rate.by_travel,
+                order == 1 && text.contains("mm/mm") || text.contains("/mm2") || text.contains("/in"),
+                "{text}"
+            );
         }
         for (text, order) in [("2 m/s", 2), ("2 m/s2", 1), ("2 kg/s", 1), ("2 mm/kg", 1), ("2 mm", 1), ("2 mm/", 1)] {
             assert!(matches!(parse_rate(text, order), Err(QuantityError::UnknownUnit { .. })), "{text}");

@@ -132,7 +132,7 @@ pub const BODIES: &[ProgramBody] = &[
     },
     ProgramBody {
         kind: &wedge::WEDGE,
-        solve: |machine, motion, _| Ok(ProgramCams::alone(wedge::Wedge::of(machine, motion)?)),
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(wedge::Wedge::at_speed(machine, motion, rpm)?)),
     },
 ];
 

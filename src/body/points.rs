@@ -243,6 +243,12 @@ pub fn swings(body: &dyn Body) -> bool {
     curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle)
 }
 
+/// Whether the rates of a body are by the travel of a plate.
+#[must_use]
+pub fn by_travel(body: &dyn Body) -> bool {
+    curves(body).is_some_and(|curves| curves.motion.is_by_travel())
+}
+
 /// The rows that keep all tolerances; where that takes too many, those that keep the tolerances that must be kept.
 fn rows(
     path: &ExactPath<'_>,

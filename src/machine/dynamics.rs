@@ -225,7 +225,8 @@ fn fluctuation(reader: &Reader<'_>) -> Option<f64> {
 
 /// Refuses what acts by the speed of a cam, or by the side force on a guide: the forces on a plate are those at rest.
 pub(super) fn refuse_for_plate(reader: &Reader<'_>) {
-    let help = |section: &KeySection| Some(format!("leave [{}] out: the forces on a plate are those at rest", section.path));
+    let help =
+        |section: &KeySection| Some(format!("leave [{}] out: the forces on a plate are those at rest", section.path));
     let turns = |what: &str| format!("{what} acts by the speed of the cam, and that of a plate is not known");
     if let Some(table) = reader.find(&SPRING).filter(|table| table.has(&DAMPING)) {
         let help = "remove it: the forces on a plate are those at rest";

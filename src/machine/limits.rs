@@ -321,7 +321,8 @@ pub(super) fn refuse_for_plate(reader: &Reader<'_>) {
     let table = reader.table(&SECTION);
     let by_speed = [&JUMP_MARGIN, &RESIDUAL, &ROLLER_LIFE];
     for field in by_speed.into_iter().filter(|field| table.has(field)) {
-        let message = format!("`limits.{}` is for the speed of a cam, and that of a plate is not known", field.key.name);
+        let message =
+            format!("`limits.{}` is for the speed of a cam, and that of a plate is not known", field.key.name);
         table.fail(field, message, Some("remove it".into()));
     }
     if table.has(&PIVOT_CLEARANCE) {

@@ -57,7 +57,13 @@ impl AsCutError {
     /// Units of velocity and acceleration by the angle, as they are written.
     #[must_use]
     pub fn units(&self) -> [&'static str; 2] {
-        match (self.swings, self.by_travel) {
+        Self::units_of(self.swings, self.by_travel)
+    }
+
+    /// Those of a follower that swings, or whose rates are by travel.
+    #[must_use]
+    pub fn units_of(swings: bool, by_travel: bool) -> [&'static str; 2] {
+        match (swings, by_travel) {
             (true, _) => ["rad/rad", "rad/rad²"],
             (false, true) => ["mm/mm", "mm/mm²"],
             (false, false) => ["mm/rad", "mm/rad²"],
@@ -91,7 +97,10 @@ impl Serialize for AsCutError {
                 None => map.serialize_entry(&format!("{name}_cam_deg"), &place.cam_deg)?,
             }
         }
-        map.serialize_entry(&format!("acceleration_of_motion_max_{unit}_per_{by_square}"), &self.acceleration_of_motion)?;
+        map.serialize_entry(
+            &format!("acceleration_of_motion_max_{unit}_per_{by_square}"),
+            &self.acceleration_of_motion,
+        )?;
         if let Some(velocity) = self.velocity(self.velocity_error.0) {
             map.serialize_entry(&format!("velocity_error_max_{unit}_per_s"), &velocity)?;
         }

@@ -145,7 +145,9 @@ pub const COLUMNS: &[CamColumn] = &[
     ("principal_curvature_radius_mm", |row| Some(row.surface?.principal_radius)),
     ("axial_force_n", |row| Some(row.surface?.axial_force)),
     ("velocity_cut_mm_per_mm", |row| row.cut.filter(|_| row.by_travel).map(|[velocity, _]| velocity)),
-    ("acceleration_cut_mm_per_mm2", |row| row.cut.filter(|_| row.by_travel).map(|[_, acceleration]| 1e-3 * acceleration)),
+    ("acceleration_cut_mm_per_mm2", |row| {
+        row.cut.filter(|_| row.by_travel).map(|[_, acceleration]| 1e-3 * acceleration)
+    }),
     ("velocity_cut_mm_per_rad", |row| by_angle(row).map(|[velocity, _]| 1e3 * velocity)),
     ("acceleration_cut_mm_per_rad2", |row| by_angle(row).map(|[_, acceleration]| 1e3 * acceleration)),
     ("velocity_cut_rad_per_rad", |row| row.cut.filter(|_| row.swings).map(|[velocity, _]| velocity)),

@@ -105,8 +105,10 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     }
     if too_fast {
         let [velocity, _] = motion.units();
-        note =
-            format!("the velocity exceeds the {} {velocity} requested; {note}", shown(of_velocity * evidence.motion.velocity));
+        note = format!(
+            "the velocity exceeds the {} {velocity} requested; {note}",
+            shown(of_velocity * evidence.motion.velocity)
+        );
     }
     Some(Finding { place: motion.acceleration_error.1, note: Some(note), ..found })
 }

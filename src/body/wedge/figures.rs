@@ -3,6 +3,7 @@
 use super::Wedge;
 use crate::body::{Figures, stress};
 use crate::check::contact_stress::ContactKind;
+use crate::motion::Motion;
 use crate::profile::{Contact, Worst};
 
 impl Figures for Wedge {
@@ -50,7 +51,7 @@ impl Figures for Wedge {
     }
 
     fn largest_lifting_force(&self) -> Worst {
-        self.largest(|piece, x| self.pressing(crate::motion::Motion::jet(&self.motion, piece, x).s).map_or(f64::NAN, |force| -force))
+        self.largest(|piece, x| self.pressing(self.motion.jet(piece, x).s).map_or(f64::NAN, |force| -force))
     }
 
     fn least_closing_force(&self) -> Option<Worst> {

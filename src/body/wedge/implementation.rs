@@ -39,7 +39,9 @@ impl Wedge {
             let [thinnest, x, least] = [thinnest, at, self.height - thinnest].map(|length| MILLIMETRES * length);
             let refusal =
                 Refusal::new(format!("the plate would be {thinnest:.3} mm high")).at(format!("x = {x:.3} mm"));
-            return Err(DrawError::NoOutline(refusal.remedy(format!("cam.height must exceed {least:.3} mm")).to_string()));
+            return Err(DrawError::NoOutline(
+                refusal.remedy(format!("cam.height must exceed {least:.3} mm")).to_string(),
+            ));
         }
         let curves = self.curves();
         let (flank, shift) = outline::profile_within(curves, fit).map_err(|error| match error {

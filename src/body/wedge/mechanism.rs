@@ -3,8 +3,9 @@
 use super::Wedge;
 use crate::body::Drawn;
 use crate::body::picture::{Cover, range};
+use crate::follower::Follower;
 use crate::geometry::{Entity, MILLIMETRES};
-use crate::motion::Motion;
+use crate::motion::{Jet, Motion};
 use crate::report::mechanism::{MechanismView, MovingMechanism, RigidPart, circle, line, rectangle};
 use crate::report::sheet::SheetShape;
 use nalgebra::Vector2;
@@ -94,7 +95,7 @@ fn size(wedge: &Wedge) -> f64 {
 /// The stem with its guides, in a frame whose x is the follower's path.
 fn follower(wedge: &Wedge, places: &[FollowerPlace], cover: &mut Cover) -> Vec<RigidPart> {
     let size = size(wedge);
-    let (_, drive) = crate::follower::Follower::point_turned(&wedge.follower, 0.0, (0.0, 1.0), &crate::motion::Jet::default());
+    let (_, drive) = wedge.follower.point_turned(0.0, (0.0, 1.0), &Jet::default());
     let turn = libm::atan2(drive.y, drive.x).to_degrees();
     let (low, high) = range(places.iter().map(|at| at.roller.dot(&drive)));
     let half = STEM * size;

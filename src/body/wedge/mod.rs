@@ -26,8 +26,9 @@ pub use motion::PlateMotion;
 use super::{Figures, Kind, WorstPlaces, broken_limit, largest};
 use crate::document::cams;
 use crate::follower::{Element, PlateRoller};
-use crate::geometry::MILLIMETRES;
-use crate::machine::Machine;
+use crate::geometry::contour::{Segment, Vertex};
+use crate::geometry::{CurvePoint, MILLIMETRES};
+use crate::machine::{Machine, PlateData};
 use crate::motion::{Motion, Quantity};
 use crate::profile::outline::{self, OutlineError};
 use crate::profile::{Curves, Worst, lifts, size};
@@ -70,6 +71,15 @@ pub struct Wedge {
 }
 
 impl Wedge {
+    /// As [`Wedge::of`], where no speed of a shaft is given.
+    pub(super) fn at_speed(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<Self, Refusal> {
+        if rpm.is_some() {
+            let what = "a plate travels and has no shaft that turns at a speed";
+            return Err(Refusal::new(what).remedy("leave --rpm out"));
+        }
+        Self::of(machine, motion)
+    }
+
     /// The plate of a motion by its travel (x in m, lifts in m, no period), under the roller or knife edge of the machine.
     ///
     /// # Errors
@@ -82,7 +92,11 @@ impl Wedge {
         let straight = motion.quantity() == Quantity::Length && machine.follower.shape.quantity() == Quantity::Length;
         let radius = match machine.follower.shape.element() {
             Element::Roller { radius } if straight => radius,
-            _ => return Err(Refusal::new("a plate moves a roller along a straight path").remedy("give [follower.roller]")),
+            _ => {
+                return Err(
+                    Refusal::new("a plate moves a roller along a straight path").remedy("give [follower.roller]")
+                );
+            }
         };
         let plate = machine.cam.plate;
         let run_in = plate.run_in.unwrap_or_else(|| radius.max(LEAST_RUN_IN));
@@ -142,13 +156,19 @@ impl Wedge {
         let up = |piece: usize, x: f64| self.curves().profile(piece, x).point.y;
         let highest = largest(self.curves(), up);
         let lowest = largest(self.curves(), |piece, x| -up(piece, x));
-        let (high, at) =
-            if self.run_out.y > highest.value { (self.run_out.y, self.stroke().1) } else { (highest.value, highest.at) };
+        let (high, at) = if self.run_out.y > highest.value {
+            (self.run_out.y, self.stroke().1)
+        } else {
+            (highest.value, highest.at)
+        };
         let low = (-lowest.value).min(self.run_out.y);
         let radius = self.follower_radius();
-        let height = self.machine.cam.plate.height.unwrap_or_else(|| {
-            rounded_up(high - low + self.machine.limits.least_wall(None).max(radius))
-        });
+        let height = self
+            .machine
+            .cam
+            .plate
+            .height
+            .unwrap_or_else(|| rounded_up(high - low + self.machine.limits.least_wall(None).max(radius)));
         (self.top, self.height, self.thinnest) = (low + height, height, (low + height - high, at));
     }
 
@@ -198,7 +218,7 @@ impl Wedge {
     }
 
     /// Where the motion ends on the flank, with its tangent.
-    fn end(&self) -> crate::geometry::CurvePoint {
+    fn end(&self) -> CurvePoint {
         let last = self.motion.pieces().len().saturating_sub(1);
         self.curves().profile(last, self.stroke().1)
     }
@@ -230,7 +250,7 @@ impl Wedge {
     /// The least factor of the travel with which every limit is kept, tried; `None` where none was found.
     fn stretch_that_keeps(&self) -> Option<f64> {
         let machine = {
-            let plate = crate::machine::PlateData { length: None, height: None, ..self.machine.cam.plate };
+            let plate = PlateData { length: None, height: None, ..self.machine.cam.plate };
             self.machine.with_plate(plate)
         };
         let keeps = |factor: f64| {
@@ -249,7 +269,11 @@ impl Wedge {
         let factor = self.stretch_that_keeps()?;
         let stroke = rounded_up(factor * (to - from));
         let given = self.machine.cam.plate;
-        let sizes = if given.length.is_some() || given.height.is_some() { ", and cam.length and cam.height \"auto\"" } else { "" };
+        let sizes = if given.length.is_some() || given.height.is_some() {
+            ", and cam.length and cam.height \"auto\""
+        } else {
+            ""
+        };
         Some(format!(
             "motion.stroke = \"{} mm\" with all lengths of the program in proportion{sizes} would pass",
             (MILLIMETRES * stroke).round()
@@ -257,16 +281,14 @@ impl Wedge {
     }
 
     /// The pitch curve, for viewing.
-    fn pitch_curve(&self) -> Result<Vec<crate::geometry::contour::Segment>, OutlineError> {
+    fn pitch_curve(&self) -> Result<Vec<Segment>, OutlineError> {
         let mut vertices = outline::pitch(self.curves())?.contour.vertices;
         let last = self.motion.pieces().len().saturating_sub(1);
         let end = self.curves().contact(last, self.stroke().1).curve.point * MILLIMETRES;
-        vertices.push(crate::geometry::contour::Vertex::new(end, 0.0));
+        vertices.push(Vertex::new(end, 0.0));
         let pairs = vertices.iter().zip(vertices.iter().skip(1));
         // A pitch curve is laid as arcs.
-        let segment = |(a, b): (&crate::geometry::contour::Vertex, &crate::geometry::contour::Vertex)| {
-            Some(crate::geometry::contour::Segment { start: a.point, end: b.point, bulge: a.bulge()? })
-        };
+        let segment = |(a, b): (&Vertex, &Vertex)| Some(Segment { start: a.point, end: b.point, bulge: a.bulge()? });
         Ok(pairs.filter_map(segment).collect())
     }
 

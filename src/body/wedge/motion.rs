@@ -68,7 +68,8 @@ impl Motion for PlateMotion {
     }
 
     fn named_stretches(&self) -> Vec<NamedStretch> {
-        let run_in = self.pieces.first().map(|piece| NamedStretch { from: piece.start, to: piece.end, name: "run-in".into() });
+        let run_in =
+            self.pieces.first().map(|piece| NamedStretch { from: piece.start, to: piece.end, name: "run-in".into() });
         run_in.into_iter().chain(self.motion.named_stretches()).collect()
     }
 

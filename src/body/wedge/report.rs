@@ -107,8 +107,14 @@ fn cam(wedge: &Wedge, weight: Weight) -> Section {
         shortest_stroke_mm: shortest,
         weight,
     };
-    let follower = value.roller_radius_mm.map_or("knife edge".to_owned(), |radius| format!("roller Ø{} mm", rounded(2.0 * radius)));
-    let inclined = if value.drive_angle_deg == 0.0 { String::new() } else { format!(", path inclined by {}°", shown(value.drive_angle_deg)) };
+    let follower = value
+        .roller_radius_mm
+        .map_or("knife edge".to_owned(), |radius| format!("roller Ø{} mm", rounded(2.0 * radius)));
+    let inclined = if value.drive_angle_deg == 0.0 {
+        String::new()
+    } else {
+        format!(", path inclined by {}°", shown(value.drive_angle_deg))
+    };
     let size = format!("plate {} × {} mm", rounded(value.length_mm), rounded(value.height_mm));
     let lift = format!("lift {:.3} mm over a stroke of {} mm", value.max_lift_mm, shown(value.stroke_mm));
     let mut words = vec![
@@ -141,7 +147,8 @@ fn motion(wedge: &Wedge, program: &Program) -> Section {
 
 /// The largest and the least slope between two places, m/m, the least as a positive number.
 fn slopes(wedge: &Wedge, (from, to): (f64, f64)) -> [f64; 2] {
-    let inside = |piece: &crate::motion::Piece| from <= 0.5 * (piece.start + piece.end) && 0.5 * (piece.start + piece.end) <= to;
+    let inside =
+        |piece: &crate::motion::Piece| from <= 0.5 * (piece.start + piece.end) && 0.5 * (piece.start + piece.end) <= to;
     let pieces = wedge.motion.pieces().iter().enumerate().skip(1).filter(|(_, piece)| inside(piece));
     pieces.fold([0.0_f64; 2], |[rise, fall], (index, piece)| {
         let of = |x: f64| {

@@ -51,7 +51,8 @@ pub(super) fn view(wedge: &Wedge, drawn: &Drawn) -> Result<SheetView, OutlineErr
     seen.retain(|group| group.class == "side");
     groups.extend(seen);
     let weight = part.map(|part| part.weight(&wedge.machine));
-    let zone = part.and_then(|part| profile_tolerance(&wedge.machine, None, wedge.pressure_angle().value, &part.outline));
+    let zone =
+        part.and_then(|part| profile_tolerance(&wedge.machine, None, wedge.pressure_angle().value, &part.outline));
     let frame = zone.map(|zone| tolerance_frame(&wedge.machine, zone, flank_places(wedge)));
     Ok(SheetView {
         groups,
@@ -98,7 +99,11 @@ fn travel(wedge: &Wedge, outline: &Extents) -> (Vec<SheetShape>, Vec<Mark>) {
     });
     let direction = Vector2::new(0.0, outline.largest.y);
     let middle = Vector2::new(0.5 * (outline.least.x + outline.largest.x), direction.y);
-    let text = format!("thickness {} at x = {}", rounded((1e3 * MILLIMETRES * wedge.thinnest.0).round() / 1e3), rounded((1e3 * MILLIMETRES * wedge.thinnest.1).round() / 1e3));
+    let text = format!(
+        "thickness {} at x = {}",
+        rounded((1e3 * MILLIMETRES * wedge.thinnest.0).round() / 1e3),
+        rounded((1e3 * MILLIMETRES * wedge.thinnest.1).round() / 1e3)
+    );
     marks.push(Mark::Label { class: "dimension", at: middle, towards: Vector2::new(0.0, 1.0), text });
     (shapes, marks)
 }
@@ -134,7 +139,9 @@ fn places(wedge: &Wedge) -> Vec<PlaceTable> {
     let rows: Arc<[Vec<String>]> = wedge.rows(STEPS).iter().map(row).collect();
     let heads = ["x, mm", "lift, mm", "flank x", "flank y"].map(str::to_owned).to_vec();
     let table = |every: usize| PlaceTable {
-        title: "Flank of the plate: travel x, lift there, place of contact, mm from the roller's centre at x = 0, lift 0".into(),
+        title:
+            "Flank of the plate: travel x, lift there, place of contact, mm from the roller's centre at x = 0, lift 0"
+                .into(),
         heads: heads.clone(),
         rows: Arc::clone(&rows),
         every,

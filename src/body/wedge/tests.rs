@@ -1,7 +1,6 @@
 //! The plate against closed forms and values of 16 digits.
 
 use super::*;
-use crate::body::Body;
 use crate::motion::program::Program;
 use crate::motion::{Jet, Piece, laws};
 use crate::pipeline::{Cam, Error, Spec};
@@ -81,7 +80,11 @@ fn a_motion_of_ones_own_is_a_plate() {
     assert!((wedge.pressure_angle().value - libm::atan(steepest)).abs() < 1e-12);
     assert!((wedge.max_lift() - 0.008).abs() < 1e-15);
     // Its range needs no turn, and one of a turn needs no plate.
-    let turn = Program::new(Quantity::Length, 0.0, &[(laws::named("cycloidal"), 1.0, 0.01), (laws::named("cycloidal"), 1.0, 0.0)]);
+    let turn = Program::new(
+        Quantity::Length,
+        0.0,
+        &[(laws::named("cycloidal"), 1.0, 0.01), (laws::named("cycloidal"), 1.0, 0.0)],
+    );
     let why = Wedge::of(&machine, &(Arc::new(turn) as Arc<dyn Motion>)).expect_err("a turn").to_string();
     assert!(why.contains("does not turn"), "{why}");
     let disc = Spec::builder("hill").roller(0.01).motion(Hill).expect("a machine").solve().expect_err("no disc");
@@ -111,7 +114,8 @@ fn the_shortest_stroke_keeps_the_limit_exactly() {
 #[test]
 fn sizes_are_chosen_or_given() {
     let of = |cam: &str| {
-        let cam = solved(&file("100 mm", &format!("{RISE}\n[[motion.segment]]\nlaw = \"dwell\""), cam)).expect("a plate");
+        let cam =
+            solved(&file("100 mm", &format!("{RISE}\n[[motion.segment]]\nlaw = \"dwell\""), cam)).expect("a plate");
         let machine = cam.body().machine().clone();
         let wedge = Wedge::of(&machine, &machine.motion().expect("a motion").0).expect("a plate");
         [wedge.length(), wedge.height(), wedge.run_in(), wedge.thinnest.0].map(|length| (1e6 * length).round() / 1e3)
@@ -121,7 +125,8 @@ fn sizes_are_chosen_or_given() {
     assert_eq!(of("length = \"150.5 mm\"\nheight = \"40 mm\"\nrun_in = \"20 mm\""), [150.5, 40.0, 20.0, 15.0]);
     let short = refused(&file("80 mm", RISE, "length = \"90 mm\""));
     assert!(short.contains("ends 2 mm before its motion does") && short.contains("at least 92 mm"), "{short}");
-    let through = solved(&file("80 mm", RISE, "height = \"20 mm\"")).expect("a plate").draw(5e-6).map(|_| ()).expect_err("none");
+    let through =
+        solved(&file("80 mm", RISE, "height = \"20 mm\"")).expect("a plate").draw(5e-6).map(|_| ()).expect_err("none");
     assert!(through.to_string().contains("cam.height must exceed 25.000 mm"), "{through}");
 }
 
@@ -180,7 +185,14 @@ fn a_program_by_length_is_what_its_segments_say() {
         let jet = motion.jet(piece, x);
         [1e3 * jet.s, jet.ds]
     };
-    for (x, lift, slope) in [(0.0, 0.0, 0.0), (40.0, 8.0, 0.4), (50.0, 12.0, 0.4), (60.0, 16.0, 0.4), (110.0, 26.0, 0.0), (150.0, 20.0, 0.0)] {
+    for (x, lift, slope) in [
+        (0.0, 0.0, 0.0),
+        (40.0, 8.0, 0.4),
+        (50.0, 12.0, 0.4),
+        (60.0, 16.0, 0.4),
+        (110.0, 26.0, 0.0),
+        (150.0, 20.0, 0.0),
+    ] {
         let [s, v] = at(x);
         assert!((s - lift).abs() < 1e-10 && (v - slope).abs() < 1e-12, "{x}: {s} {v}");
     }
@@ -200,7 +212,8 @@ fn the_stroke_of_the_remedy_passes() {
     let machine = Machine::from_toml("plate.toml", &text, &[]).expect("a machine");
     let wedge = Wedge::of(&machine, &machine.motion().expect("a motion").0).expect("a plate");
     let remedy = wedge.remedy().expect("a remedy");
-    let stroke: f64 = remedy.split('"').nth(1).and_then(|text| text.strip_suffix(" mm")?.parse().ok()).expect("a stroke");
+    let stroke: f64 =
+        remedy.split('"').nth(1).and_then(|text| text.strip_suffix(" mm")?.parse().ok()).expect("a stroke");
     // 2 · 25/tan 30° = 86.6 mm.
     assert!(stroke >= 87.0, "{remedy}");
     let longer = text.replace("50 mm", &format!("{stroke} mm"));

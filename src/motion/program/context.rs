@@ -96,7 +96,8 @@ impl ProgramContext {
     pub(super) fn wrong_place(&self, name: &str, found: Quantity) -> (String, String) {
         let found = found.words();
         if self.by_travel {
-            let message = format!("`{name}` is {found}, but a plate travels: its program goes over the length motion.stroke");
+            let message =
+                format!("`{name}` is {found}, but a plate travels: its program goes over the length motion.stroke");
             return (message, "give a length, such as \"40 mm\"".into());
         }
         let message = format!("`{name}` is {found}, but the cam turns");

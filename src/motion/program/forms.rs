@@ -1,7 +1,6 @@
 //! Motions that are given as a whole instead of by segments: a formula, a Fourier series, points, a table; and segments that are given by a
 //! formula, points or a table.
 
-use super::{Program, Span};
 use super::context::ProgramContext;
 use super::fault_reported::FaultReported;
 use super::keys::{
@@ -10,6 +9,7 @@ use super::keys::{
     START, STEP, STROKE, TABLE, TABULATED, UNIT, VELOCITY,
 };
 use super::rows::{self, Origin, RowFigures, RowPlace, RowWishes, Rows, SplineRows};
+use super::{Program, Span};
 use crate::document::range::LONGEST;
 use crate::document::{Columns, Field, PointList, Reader, TableReader};
 use crate::motion::Quantity;
@@ -255,11 +255,7 @@ fn points(table: &TableReader<'_>, whole: ProgramContext) -> Option<Rows> {
 const TYPED: f64 = 1e-3;
 
 /// The points of a key, of the right kind: angle and position.
-fn typed_points(
-    table: &TableReader<'_>,
-    key: &Field<PointList>,
-    whole: ProgramContext,
-) -> Option<Vec<[f64; 2]>> {
+fn typed_points(table: &TableReader<'_>, key: &Field<PointList>, whole: ProgramContext) -> Option<Vec<[f64; 2]>> {
     let mut points: Vec<[f64; 2]> = Vec::new();
     for (number, (place, position)) in (1..).zip(table.get(key)?) {
         let place = match whole.along(place) {
@@ -283,11 +279,7 @@ fn typed_points(
 }
 
 /// The points of a key, in order.
-fn increasing_points(
-    table: &TableReader<'_>,
-    key: &Field<PointList>,
-    whole: ProgramContext,
-) -> Option<Vec<[f64; 2]>> {
+fn increasing_points(table: &TableReader<'_>, key: &Field<PointList>, whole: ProgramContext) -> Option<Vec<[f64; 2]>> {
     let points = typed_points(table, key, whole)?;
     let pairs = points.iter().zip(points.iter().skip(1));
     match (1..).zip(pairs).find(|(_, (a, b))| b[0] - a[0] <= SAME_ANGLE) {

@@ -288,13 +288,8 @@ impl Program {
     /// The first segment that cannot be made, and why.
     fn of_stroke((start, stroke): (f64, f64), steps: &[SegmentSpec]) -> Result<Self, (usize, LawError)> {
         // A rest before the first segment and behind the last one, where the segments of a turn follow each other.
-        let rest = SegmentSpec {
-            mover: Mover::Dwell,
-            over: stroke,
-            to: start,
-            end: EndState::default(),
-            free_start: false,
-        };
+        let rest =
+            SegmentSpec { mover: Mover::Dwell, over: stroke, to: start, end: EndState::default(), free_start: false };
         let all: Vec<SegmentSpec> = std::iter::once(rest).chain(steps.iter().cloned()).collect();
         let found = solved::solve(start, &all).map_err(|(index, error)| (index.saturating_sub(1), error))?;
         let mut program = Self { stroke: Some(stroke), ..Self::empty(Quantity::Length, 1) };

@@ -57,8 +57,13 @@ impl Program {
         if let Some(jump) = self.jump() {
             return Err(jump);
         }
-        let mut program =
-            Self { rpm: self.rpm, load: Some(load), rows: self.rows.clone(), stroke: self.stroke, ..Self::empty(self.quantity, self.lobes) };
+        let mut program = Self {
+            rpm: self.rpm,
+            load: Some(load),
+            rows: self.rows.clone(),
+            stroke: self.stroke,
+            ..Self::empty(self.quantity, self.lobes)
+        };
         let whole = self.stroke.unwrap_or(TAU / f64::from(self.lobes));
         let first = self.segments.first().map_or(0.0, |segment| segment.start);
         let ends = self.segments.iter().skip(1).map(|segment| segment.start).chain([first + whole]);

@@ -5,8 +5,8 @@ use super::fault_reported::FaultReported;
 use super::half_turn;
 use super::keys::{
     ACCELERATION, AMPLITUDES, AT, BEGINS, BETWEEN_ROWS, BY, DWELL, END, EXPRESSED, EndWord, FRACTIONS, INFLECTION,
-    JERK, LAW, LINE, MINIMISE, OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, STROKE,
-    TABULATED, TO, UNTIL, USUAL, VELOCITY,
+    JERK, LAW, LINE, MINIMISE, OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, STROKE, TABULATED,
+    TO, UNTIL, USUAL, VELOCITY,
 };
 use super::{EndState, Mover, Program, SegmentSpec};
 use super::{forms, optimum, polydyne, rows};
@@ -80,18 +80,10 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     if halved {
         half_turn::completed(&mut steps, start);
     }
-    let largest = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);
-    let last = steps.last_mut()?;
-    if stroke.is_none() && (last.to - start).abs() > SAME_PLACE * largest {
-        let message = "the motion does not end where it starts".to_owned();
-        let help = Some(format!("the last `to` must be motion.start, {}", table.typed(&START)));
-        segments.last()?.fail(&TO, message, help);
-        return None;
-    }
     let made = if let Some(stroke) = stroke {
         Program::of_stroke((start, stroke), &steps)
     } else {
-        last.to = start;
+        close(&table, &segments, &mut steps, start)?;
         Program::of_steps(quantity, (at, start, lobes), &steps)
     };
     match made {
@@ -101,6 +93,20 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
             None
         }
     }
+}
+
+/// Ends the steps of a turn exactly where they start; `None` where they end elsewhere.
+fn close(table: &TableReader<'_>, segments: &[TableReader<'_>], steps: &mut [SegmentSpec], start: f64) -> Option<()> {
+    let largest = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);
+    let last = steps.last_mut()?;
+    if (last.to - start).abs() > SAME_PLACE * largest {
+        let message = "the motion does not end where it starts".to_owned();
+        let help = Some(format!("the last `to` must be motion.start, {}", table.typed(&START)));
+        segments.last()?.fail(&TO, message, help);
+        return None;
+    }
+    last.to = start;
+    Some(())
 }
 
 /// The stroke of a plate, m, over which its program goes in the place of a turn; `None` of a cam that turns.
@@ -304,7 +310,11 @@ fn width(segment: &TableReader<'_>, whole: ProgramContext, sum: f64, rest: bool)
     if let Some(over) = whole.place(segment, &OVER)? {
         if over <= WHOLE_TURN {
             let least = if whole.by_travel { "0.02 nm" } else { "1e-9 deg" };
-            segment.fail(&OVER, format!("a segment must be longer than {least}"), Some("make it longer, or remove it".into()));
+            segment.fail(
+                &OVER,
+                format!("a segment must be longer than {least}"),
+                Some("make it longer, or remove it".into()),
+            );
             return Err(FaultReported);
         }
         return Ok(Some(over));
