@@ -1,7 +1,6 @@
 //! Plates as `camgen make` cuts them for any motion by travel: their files, what checks them, and what does not take them for a disc.
 
 use crate::common::program::camgen_in;
-use camgen::Motion;
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, Spec};
 use camgen::report::Verdict;

@@ -90,15 +90,10 @@ fn travel(wedge: &Wedge, outline: &Extents) -> (Vec<SheetShape>, Vec<Mark>) {
         marks.push(Mark::Label { class: "axis", at: below, towards: Vector2::new(0.0, -1.0), text });
     }
     let [start, ..] = wedge.corners().map(|corner| corner * MILLIMETRES);
-    let run_in = Vector2::new(start.x + MILLIMETRES * wedge.run_in, start.y);
-    marks.push(Mark::Distance {
-        from: start,
-        to: run_in,
-        away: Vector2::new(0.0, 1.0),
-        text: format!("run-in {}", rounded(MILLIMETRES * wedge.run_in)),
-    });
-    let direction = Vector2::new(0.0, outline.largest.y);
-    let middle = Vector2::new(0.5 * (outline.least.x + outline.largest.x), direction.y);
+    let middle = Vector2::new(start.x + 0.5 * MILLIMETRES * wedge.run_in, start.y);
+    let text = format!("run-in {}", rounded((1e3 * MILLIMETRES * wedge.run_in).round() / 1e3));
+    marks.push(Mark::Label { class: "dimension", at: middle, towards: Vector2::new(-0.5, -1.0), text });
+    let middle = Vector2::new(0.5 * (outline.least.x + outline.largest.x), outline.largest.y);
     let text = format!(
         "thickness {} at x = {}",
         rounded((1e3 * MILLIMETRES * wedge.thinnest.0).round() / 1e3),
@@ -139,9 +134,8 @@ fn places(wedge: &Wedge) -> Vec<PlaceTable> {
     let rows: Arc<[Vec<String>]> = wedge.rows(STEPS).iter().map(row).collect();
     let heads = ["x, mm", "lift, mm", "flank x", "flank y"].map(str::to_owned).to_vec();
     let table = |every: usize| PlaceTable {
-        title:
-            "Flank of the plate: travel x, lift there, place of contact, mm from the roller's centre at x = 0, lift 0"
-                .into(),
+        title: "Flank of the plate: travel x, lift there, place of contact, mm from the follower at x = 0, lift 0"
+            .into(),
         heads: heads.clone(),
         rows: Arc::clone(&rows),
         every,

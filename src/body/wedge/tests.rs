@@ -1,6 +1,7 @@
 //! The plate against closed forms and values of 16 digits.
 
 use super::*;
+use crate::body::Request;
 use crate::motion::program::Program;
 use crate::motion::{Jet, Piece, laws};
 use crate::pipeline::{Cam, Error, Spec};
@@ -125,8 +126,8 @@ fn sizes_are_chosen_or_given() {
     assert_eq!(of("length = \"150.5 mm\"\nheight = \"40 mm\"\nrun_in = \"20 mm\""), [150.5, 40.0, 20.0, 15.0]);
     let short = refused(&file("80 mm", RISE, "length = \"90 mm\""));
     assert!(short.contains("ends 2 mm before its motion does") && short.contains("at least 92 mm"), "{short}");
-    let through =
-        solved(&file("80 mm", RISE, "height = \"20 mm\"")).expect("a plate").draw(5e-6).map(|_| ()).expect_err("none");
+    let through = solved(&file("80 mm", RISE, "height = \"20 mm\"")).expect("a plate");
+    let through = through.body().draw(&Request::within(5e-6)).map(|_| ()).expect_err("no outline");
     assert!(through.to_string().contains("cam.height must exceed 25.000 mm"), "{through}");
 }
 
