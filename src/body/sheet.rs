@@ -383,7 +383,7 @@ fn acceleration(curves: Curves<'_>, followed: &FollowerOnChain<'_>) -> Trace {
     };
     let points = followed.accelerations(TRACE_SHARE);
     Trace {
-        head: format!("Follower's acceleration, {unit}: motion (thin), as cut (bold)",),
+        head: format!("Follower's acceleration, {unit}: motion (thin), as cut (bold)"),
         places: match (turns, by_travel) {
             (true, _) => "cam angle, deg",
             (false, true) => "travel of the plate, mm",
