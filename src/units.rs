@@ -405,19 +405,21 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<ParsedQuantity, Quantit
     Ok(ParsedQuantity { si, symbol: unit.symbol, si_per_unit: unit.multiply / unit.divide })
 }
 
-/// A derivative of a position, by the cam angle or by the time.
+/// A derivative of a position, by the cam angle, by the travel of a plate or by the time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DerivativeValue {
-    /// Metres or radians per radian or second, to the power of its order.
+    /// Metres or radians per radian, metre or second, to the power of its order.
     pub value: f64,
     /// Whether it is the derivative of an angle; else of a length.
     pub swing: bool,
-    /// Whether it is per second; else per radian of the cam.
+    /// Whether it is per second.
     pub by_time: bool,
+    /// Whether it is per metre of travel; where it is neither, it is per radian of the cam.
+    pub by_travel: bool,
 }
 
-/// Parses a velocity (order 1), an acceleration (2) or a jerk (3): a length or an angle over `deg`, `rad` or `s` with the order as its
-/// power, `"-0.3 mm/deg"`, `"2 m/s2"`.
+/// Parses a velocity (order 1), an acceleration (2) or a jerk (3): a length or an angle over `deg`, `rad`, a length or `s` with the order as
+/// its power, `"-0.3 mm/deg"`, `"0.4 mm/mm"`, `"2 m/s2"`.
 ///
 /// # Errors
 /// Every case of [`QuantityError`] but `WrongKind` and `NotBare`.
@@ -433,16 +435,17 @@ pub fn parse_rate(text: &str, order: u32) -> Result<DerivativeValue, QuantityErr
     let unit = |symbol: &str, kind| unit_of(symbol.trim(), Some(kind)).filter(|unit| unit.dimension == kind);
     let of = unit(of, Dimension::Length).or_else(|| unit(of, Dimension::Angle)).ok_or_else(unknown)?;
     let power = if order == 1 { String::new() } else { order.to_string() };
-    let by = by.trim().strip_suffix(power.as_str()).ok_or_else(unknown)?;
-    let by = unit(by, Dimension::Angle).or_else(|| unit(by, Dimension::Time).filter(|unit| unit.symbol == "s"));
-    let by = by.ok_or_else(unknown)?;
-    let turning = by.dimension == Dimension::Angle;
+    let by_text = by.trim().strip_suffix(power.as_str()).ok_or_else(unknown)?;
+    let by =
+        unit(by_text, Dimension::Angle).or_else(|| unit(by_text, Dimension::Time).filter(|unit| unit.symbol == "s"));
+    let by = by.or_else(|| unit(by_text, Dimension::Length)).ok_or_else(unknown)?;
     let each = by.multiply / by.divide;
     let value = number * of.multiply / of.divide / (0..order).fold(1.0, |power, _| power * each);
     if !value.is_finite() {
         return Err(QuantityError::NotFinite { found });
     }
-    Ok(DerivativeValue { value, swing: of.dimension == Dimension::Angle, by_time: !turning })
+    let (by_time, by_travel) = (by.dimension == Dimension::Time, by.dimension == Dimension::Length);
+    Ok(DerivativeValue { value, swing: of.dimension == Dimension::Angle, by_time, by_travel })
 }
 
 /// Parses a bare number: a ratio, an exponent, revolutions per minute.
@@ -528,10 +531,18 @@ mod tests {
             ("0.5 mm/°", 1, 0.5e-3 / degree, false, false),
             ("90 °/s", 1, 0.5 * std::f64::consts::PI, true, true),
             ("2 MM/S", 1, 2e-3, false, true),
+            ("0.4 mm/mm", 1, 0.4, false, false),
+            ("0.02 mm/mm2", 2, 20.0, false, false),
+            ("1 in/in³", 3, 1.0 / (0.0254 * 0.0254), false, false),
         ] {
             let rate = parse_rate(text, order).expect(text);
             assert!((rate.value - value).abs() <= 4.0 * f64::EPSILON * value.abs(), "{text}: {rate:?}");
             assert_eq!((rate.swing, rate.by_time), (swing, by_time), "{text}");
+            assert_eq!(
+                rate.by_travel,
+                order == 1 && text.contains("mm/mm") || text.contains("/mm2") || text.contains("/in"),
+                "{text}"
+            );
         }
         for (text, order) in [("2 m/s", 2), ("2 m/s2", 1), ("2 kg/s", 1), ("2 mm/kg", 1), ("2 mm", 1), ("2 mm/", 1)] {
             assert!(matches!(parse_rate(text, order), Err(QuantityError::UnknownUnit { .. })), "{text}");

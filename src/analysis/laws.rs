@@ -198,6 +198,11 @@ pub fn analysis(machine: Option<&Machine>, asked: &LawsOptions) -> Result<Analys
         Some(machine) => Some(machine.program().ok_or_else(without_motion)?),
         None => None,
     };
+    if program.is_some_and(|program| program.stroke().is_some()) {
+        let what = "laws are compared over an angle of a cam that turns, and this motion is by the travel of a plate";
+        return Err(Refusal::new(what)
+            .remedy("give --lift and --over without a file: cv, ca and cj are those of any length too"));
+    }
     if let Some(machine) = machine {
         needs_base_circle(machine, "the cam of `camgen laws`")?;
     }

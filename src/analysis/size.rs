@@ -145,6 +145,10 @@ pub fn analysis(machine: &Machine, free: &[FreeDimension], rpm: Option<f64>) -> 
     let (motion, of_file) = machine.motion().ok_or_else(|| {
         Refusal::new("the machine file has no [motion]").remedy("give the file of a cam that `camgen make` cuts")
     })?;
+    if motion.period().is_none() {
+        let what = "a plate has no base radius whose smallest could be found";
+        return Err(Refusal::new(what).remedy("`camgen make` reports the shortest stroke and lengths of its segments"));
+    }
     let rpm = rpm.or(of_file);
     needs_base_circle(machine, "the smallest cam of `camgen size`")?;
     let disc = Disc::of_motion(&opened(machine, free)?, motion, rpm)?;

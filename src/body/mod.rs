@@ -27,6 +27,7 @@ pub(crate) mod stress;
 pub mod surface;
 pub mod swept;
 pub mod torque;
+pub mod wedge;
 mod worst_places;
 pub mod yoke;
 
@@ -144,6 +145,11 @@ pub const BODIES: &[ProgramBody] = &[
         has_base_circle: false,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(barrel::Barrel::of(machine, motion, rpm)?)),
     },
+    ProgramBody {
+        kind: &wedge::WEDGE,
+        has_base_circle: false,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(wedge::Wedge::at_speed(machine, motion, rpm)?)),
+    },
 ];
 
 /// Refuses what is only known of a disc for a machine whose body is none.
@@ -198,8 +204,14 @@ impl RateTolerance {
     /// The tolerance by the angle of the shaft, m or rad, of the velocity (order 1) or the acceleration (order 2) of a body.
     fn by_angle(self, body: &dyn Body, order: usize) -> Result<f64, Refusal> {
         let swings = curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle);
+        let by_travel = curves(body).is_some_and(|curves| curves.motion.is_by_travel());
         match self {
             Self::Share(share) => Ok(share * body.largest_rates().get(order - 1).copied().unwrap_or(0.0)),
+            Self::Rate { .. } if by_travel => Err(Refusal::new(format!(
+                "the rates of a plate are by its travel: the tolerance of the {} must be a share",
+                rate_word(order)
+            ))
+            .remedy("e.g. 5%")),
             Self::Rate { swing, .. } if swing != swings => {
                 let follower = if swings { "swings" } else { "does not swing" };
                 let unit = match (swings, order) {

@@ -56,10 +56,13 @@ const SHOWN: &[ShownColumn] = &[
     shown_column(0, "Lift", "lift_deg"),
     shown_column(VELOCITY, "Velocity", "velocity_mm_per_rad"),
     shown_column(VELOCITY, "Velocity", "velocity_rad_per_rad"),
+    shown_column(VELOCITY, "Velocity", "velocity_mm_per_mm"),
     shown_column(ACCELERATION, "Acceleration", "acceleration_mm_per_rad2"),
     shown_column(ACCELERATION, "Acceleration", "acceleration_rad_per_rad2"),
+    shown_column(ACCELERATION, "Acceleration", "acceleration_mm_per_mm2"),
     shown_column(JERK, "Jerk", "jerk_mm_per_rad3"),
     shown_column(JERK, "Jerk", "jerk_rad_per_rad3"),
+    shown_column(JERK, "Jerk", "jerk_mm_per_mm3"),
     shown_column(4, "Pressure angle", "pressure_angle_deg"),
     shown_column(RADIUS, "Radius of curvature of the profile", "profile_curvature_radius_mm"),
     shown_column(FORCE, "Contact force along the normal", "contact_force_n"),
@@ -107,7 +110,11 @@ pub fn motion_diagram(body: &dyn Body, outline: Option<&Contour>) -> Option<Moti
     let turns = motion.period().is_some();
     let (first, last) = motion.range();
     Some(MotionDiagram {
-        places: if turns { "cam angle θ, degrees" } else { "overrun x of the bed, mm" },
+        places: match (turns, motion.is_by_travel()) {
+            (true, _) => "cam angle θ, degrees",
+            (false, true) => "travel x of the plate, mm",
+            (false, false) => "overrun x of the bed, mm",
+        },
         turns,
         range: if turns { (0.0, 360.0) } else { (source.place(first, 0.0), source.place(last, 0.0)) },
         segments: source.segments(),
@@ -260,6 +267,8 @@ impl DiagramSource<'_> {
     ) -> Vec<DiagramRun> {
         let scale = factor
             * match (shown.rank, self.motion.quantity()) {
+                (VELOCITY, Quantity::Length) if self.motion.is_by_travel() => 1.0,
+                (ACCELERATION, Quantity::Length) if self.motion.is_by_travel() => 1e-3,
                 (0, Quantity::Angle) => 1.0_f64.to_degrees(),
                 (0..=ACCELERATION, Quantity::Length) => 1e3,
                 (0..=ACCELERATION, Quantity::Angle) => 1.0,
@@ -351,6 +360,9 @@ impl DiagramSource<'_> {
         let mut notes = Vec::new();
         let shaft = if self.turns() { "cam" } else { "crank" };
         notes.push(match self.body.shaft_speed() {
+            None if self.motion.is_by_travel() => {
+                "Velocity, acceleration and jerk by the travel of the plate: its speed is not given.".into()
+            }
             Some(speed) => format!(
                 "By time, with the {shaft} at {} rpm, ω = {} rad/s: velocity, acceleration and jerk over ω, ω² and ω³ are those per rad.",
                 shown(speed * 60.0 / TAU),
@@ -390,6 +402,9 @@ fn unit(column: &str, speed: Option<f64>, size: f64) -> (&'static str, f64) {
         "velocity_rad_per_rad" => by_time(1, ["rad/s"; 2], "rad/rad"),
         "acceleration_mm_per_rad2" => by_time(2, ["mm/s²", "m/s²"], "mm/rad²"),
         "acceleration_rad_per_rad2" => by_time(2, ["rad/s²"; 2], "rad/rad²"),
+        "velocity_mm_per_mm" => ("mm/mm", 1.0),
+        "acceleration_mm_per_mm2" => ("mm/mm²", 1.0),
+        "jerk_mm_per_mm3" => ("mm/mm³", 1.0),
         "jerk_mm_per_rad3" => by_time(3, ["mm/s³", "m/s³"], "mm/rad³"),
         "jerk_rad_per_rad3" => by_time(3, ["rad/s³"; 2], "rad/rad³"),
         "contact_force_n" | "roller_force_n" if size >= LARGE => ("kN", 1e-3),

@@ -123,7 +123,7 @@ pub enum TableError {
 
 /// That a plate has no table by the angle.
 fn without_angle() -> Refusal {
-    Refusal::new("a plate rides on the bed and has no angle").remedy("give x and y by equal chord error")
+    Refusal::new("a plate does not turn and has no angle").remedy("give x and y by equal chord error")
 }
 
 /// The exact curve of a cut with a cutter (radius in m), mm, of a clockwise cam or of the lower
@@ -243,6 +243,12 @@ pub fn swings(body: &dyn Body) -> bool {
     curves(body).is_some_and(|curves| curves.motion.quantity() == Quantity::Angle)
 }
 
+/// Whether the rates of a body are by the travel of a plate.
+#[must_use]
+pub fn by_travel(body: &dyn Body) -> bool {
+    curves(body).is_some_and(|curves| curves.motion.is_by_travel())
+}
+
 /// The rows that keep all tolerances; where that takes too many, those that keep the tolerances that must be kept.
 fn rows(
     path: &ExactPath<'_>,
@@ -298,7 +304,7 @@ pub fn tables(body: &dyn Body, request: &Request, drawn: &Drawn) -> Result<Vec<P
     let cuts = body.cuts();
     let all: Vec<(usize, &Cut<'_>, &Part)> =
         cuts.iter().zip(drawn.outlines()).enumerate().map(|(index, (cut, (part, ..)))| (index, cut, part)).collect();
-    let table = |of: &(usize, &Cut<'_>, &Part)| one(body, request, *of, (asked.curve, wish, allowed), plate);
+    let table = |of: &(usize, &Cut<'_>, &Part)| one(body, request, *of, (asked.curve, wish, allowed));
     parallel::map(&all, table).into_iter().collect()
 }
 
@@ -308,7 +314,6 @@ fn one(
     request: &Request,
     (index, cut, part): (usize, &Cut<'_>, &Part),
     (which, wish, allowed): (PointCurve, PointTableSpec, [f64; 2]),
-    plate: bool,
 ) -> Result<PointTable, TableError> {
     let path = traced(body, cut, which, request.cutter_radius)?;
     let feel = motion_errors(body, cut, which, request.cutter_radius);
@@ -341,7 +346,7 @@ fn one(
         allowed,
         errors,
         closed: path.is_closed(),
-        flipped: plate || cut.mirrored == [true],
+        flipped: cut.mirrored.contains(&true),
         rows,
     })
 }

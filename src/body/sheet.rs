@@ -374,14 +374,21 @@ pub fn traces(first: torque::DiscOutline<'_>, second: Option<torque::DiscOutline
 fn acceleration(curves: Curves<'_>, followed: &FollowerOnChain<'_>) -> Trace {
     let turns = curves.motion.period().is_some();
     let swings = curves.motion.quantity() == Quantity::Angle;
-    let (place, value) = (if turns { 1.0_f64.to_degrees() } else { 1e3 }, if swings { 1.0 } else { 1e3 });
+    let by_travel = curves.motion.is_by_travel();
+    let place = if turns { 1.0_f64.to_degrees() } else { 1e3 };
+    let (value, unit) = match (swings, by_travel) {
+        (true, _) => (1.0, "rad/rad²"),
+        (false, true) => (1e-3, "mm/mm²"),
+        (false, false) => (1e3, "mm/rad²"),
+    };
     let points = followed.accelerations(TRACE_SHARE);
     Trace {
-        head: format!(
-            "Follower's acceleration, {}: motion (thin), as cut (bold)",
-            if swings { "rad/rad²" } else { "mm/rad²" }
-        ),
-        places: if turns { "cam angle, deg" } else { "overrun of the bed, mm" },
+        head: format!("Follower's acceleration, {unit}: motion (thin), as cut (bold)"),
+        places: match (turns, by_travel) {
+            (true, _) => "cam angle, deg",
+            (false, true) => "travel of the plate, mm",
+            (false, false) => "overrun of the bed, mm",
+        },
         step: if turns { 30.0 } else { 20.0 },
         period: turns.then_some(360.0),
         points: points.into_iter().map(|[at, motion, cut]| [place * at, value * motion, value * cut]).collect(),

@@ -63,6 +63,9 @@ impl SideBySideArgs {
             }
         };
         let spec = spec.ok_or_else(|| Failure(format!("{name} has neither a press nor a motion")))?;
+        if spec.machine().program().is_some_and(|program| program.stroke().is_some()) {
+            return Err(Failure(format!("{name}: side-by-side compares cams that turn, and this one is a plate")));
+        }
         Ok((spec.solve().map_err(|error| Failure(format!("{name}: {error}")))?, stem))
     }
 

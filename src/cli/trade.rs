@@ -59,6 +59,9 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
                         "--residual belongs to the cams of a press: a motion program balances no force".into(),
                     ));
                 }
+                TradeTarget::Make if machine.program().is_some_and(|program| program.stroke().is_some()) => {
+                    return Err(Failure("trade measures cams that turn, and this motion is that of a plate".into()));
+                }
                 TradeTarget::Make => (trade::of_program(&machine, args.rpm, args.acceleration, run), name, "make"),
                 target => {
                     let design = machine.press().map_err(Failure::new)?.design_rpm;

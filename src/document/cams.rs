@@ -71,6 +71,8 @@ pub const RIB: &str = "rib";
 pub const YOKE: &str = "yoke";
 /// A cylinder with a groove round its outside, of any motion.
 pub const BARREL: &str = "barrel";
+/// A plate that travels out and back under its follower, of any motion.
+pub const WEDGE: &str = "wedge";
 
 /// What a file calls the body of a motion program that is a disc.
 pub const DISC_BODY: &str = "disc";
@@ -81,10 +83,12 @@ const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS, BASED];
 const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS, BASED];
 /// The classes of a body that is cut into the outside of a cylinder.
 const OF_A_CYLINDER: &[&str] = &[MAKE, TURNS];
+/// The classes of a body that travels.
+const OF_A_PLATE: &[&str] = &[MAKE, ONE_THICKNESS];
 
 /// The bodies of a motion program, which all belong to the class [`MAKE`]: what a file calls each, and its kind of cam. The first is
 /// the usual one.
-const PROGRAM_BODIES: [(&str, CamKind); 7] = [
+const PROGRAM_BODIES: [(&str, CamKind); 8] = [
     (DISC_BODY, CamKind::cam(MAKE, OF_A_PROGRAM)),
     (RING, CamKind::cam(RING, OF_A_TRACK)),
     (GROOVE, CamKind::cam(GROOVE, OF_A_TRACK)),
@@ -92,6 +96,7 @@ const PROGRAM_BODIES: [(&str, CamKind); 7] = [
     (RIB, CamKind::cam(RIB, OF_A_TRACK)),
     (YOKE, CamKind::cam(YOKE, OF_A_PROGRAM)),
     (BARREL, CamKind::cam(BARREL, OF_A_CYLINDER)),
+    (WEDGE, CamKind::cam(WEDGE, OF_A_PLATE)),
 ];
 
 /// The bodies of a motion program as a file names them.

@@ -29,6 +29,8 @@ pub enum KeyForm {
     Quantity(Dimension, Bounds),
     /// A length or an angle, each in its range; which one it is decides what it means.
     LengthOrAngle(Bounds, Bounds),
+    /// An angle, or in its place a length, each in its range: a place of a cam that turns, or of one that travels.
+    AngleOrLength(Bounds, Bounds),
     /// A length, an angle, or a share such as `1 %` with its bounds as a number.
     LengthAngleOrShare(Bounds, Bounds, Bounds),
     /// A quantity of one of two kinds, each in its range; which one it is decides what it means.
@@ -41,8 +43,8 @@ pub enum KeyForm {
     Band(Dimension, Bounds),
     /// A list of two quantities, `["-1100 mm", "550 mm"]`.
     Pair(Dimension, Bounds),
-    /// A list of points: a quantity, and a length or an angle in its range, `[["0 deg", "0 mm"], ["90 deg", "12 mm"]]`.
-    Points(Dimension, Bounds, (Bounds, Bounds)),
+    /// A list of points: an angle or a length, and a length or an angle, each in its range, `[["0 deg", "0 mm"], ["90 deg", "12 mm"]]`.
+    Points((Bounds, Bounds), (Bounds, Bounds)),
     /// The path of a file with columns of numbers, from the folder of the file that names it.
     Columns,
 }
@@ -216,7 +218,7 @@ pub(super) enum KeyValue {
     Word(usize),
     Band(f64, f64),
     Pair([f64; 2]),
-    Points(Vec<(f64, LengthOrAngle)>),
+    Points(PointList),
     Columns(Arc<Columns>),
 }
 
@@ -226,6 +228,14 @@ impl LengthOrAngle {
         match self {
             LengthOrAngle::Length(length) => format!("{} m", exact(length)),
             LengthOrAngle::Angle(angle) => format!("{} rad", exact(angle)),
+        }
+    }
+
+    /// The same where an angle is what is usual, and needs no unit.
+    fn canonical_place(self) -> String {
+        match self {
+            LengthOrAngle::Length(_) => self.canonical(),
+            LengthOrAngle::Angle(angle) => exact(angle),
         }
     }
 }
@@ -244,6 +254,7 @@ impl KeyValue {
             (KeyValue::Number(number), _) => exact(*number),
             (KeyValue::Numbers(numbers), _) => numbers.iter().copied().map(exact).collect::<Vec<_>>().join(" "),
             (KeyValue::Texts(texts), _) => texts.join(", "),
+            (KeyValue::LengthOrAngle(either), KeyForm::AngleOrLength(..)) => either.canonical_place(),
             (KeyValue::LengthOrAngle(either), _) => either.canonical(),
             (KeyValue::Share(share), _) => format!("{} of 1", exact(*share)),
             (KeyValue::Either(dimension, number), _) => format!("{} of {dimension}", exact(*number)),
@@ -255,7 +266,7 @@ impl KeyValue {
             (KeyValue::Pair(pair), _) => pair.map(exact).join(" "),
             (KeyValue::Points(points), _) => points
                 .iter()
-                .map(|(at, to)| format!("{} {}", exact(*at), to.canonical()))
+                .map(|(at, to)| format!("{} {}", at.canonical_place(), to.canonical()))
                 .collect::<Vec<_>>()
                 .join(", "),
             (KeyValue::Columns(columns), _) => columns.canonical(),
@@ -468,6 +479,19 @@ impl Field<LengthOrAngle> {
         let convert = |value: &KeyValue| if let KeyValue::LengthOrAngle(either) = value { Some(*either) } else { None };
         Self::new(name, about, presence, KeyForm::LengthOrAngle(length, angle), Convert::Plain(convert))
     }
+
+    /// A key for an angle, or in its place a length.
+    #[must_use]
+    pub const fn angle_or_length(
+        name: &'static str,
+        about: &'static str,
+        presence: Presence,
+        angle: Bounds,
+        length: Bounds,
+    ) -> Self {
+        let Field { key, convert } = Self::length_or_angle(name, about, presence, length, angle);
+        Field { key: Key { form: KeyForm::AngleOrLength(angle, length), ..key }, convert }
+    }
 }
 
 impl Field<LengthAngleOrShare> {
@@ -536,21 +560,22 @@ impl Field<[f64; 2]> {
     }
 }
 
-/// Points as they are read: a number in SI units and a length or angle each.
-pub type PointList = Vec<(f64, LengthOrAngle)>;
+/// Points as they are read: a place, an angle or a length, and a position, a length or an angle, each.
+pub type PointList = Vec<(LengthOrAngle, LengthOrAngle)>;
 
 impl Field<PointList> {
-    /// A key for a list of points. Example and default are as in TOML.
+    /// A key for a list of points: the bounds of their places, as angles and as lengths, and of their positions, as lengths and as angles.
+    /// Example and default are as in TOML.
     #[must_use]
     pub const fn points(
         name: &'static str,
         about: &'static str,
         presence: Presence,
-        (dimension, bounds): (Dimension, Bounds),
-        either: (Bounds, Bounds),
+        place: (Bounds, Bounds),
+        position: (Bounds, Bounds),
     ) -> Self {
         let convert = |value: &KeyValue| if let KeyValue::Points(points) = value { Some(points.clone()) } else { None };
-        Self::new(name, about, presence, KeyForm::Points(dimension, bounds, either), Convert::Plain(convert))
+        Self::new(name, about, presence, KeyForm::Points(place, position), Convert::Plain(convert))
     }
 }
 

@@ -144,6 +144,7 @@ fn form(form: KeyForm) -> Value {
         KeyForm::Texts => json!({ "type": "array", "items": { "type": ["string", "integer"] } }),
         KeyForm::Quantity(dimension, _) => pattern(&quantity(&[dimension])),
         KeyForm::LengthOrAngle(_, _) => pattern(&quantity(&[Dimension::Length, Dimension::Angle])),
+        KeyForm::AngleOrLength(_, _) => pattern(&quantity(&[Dimension::Angle, Dimension::Length])),
         KeyForm::LengthAngleOrShare(..) => {
             let size = pattern(&quantity(&[Dimension::Length, Dimension::Angle]));
             json!({ "anyOf": [size, pattern(&format!(r"{NUMBER}\s*%"))] })
@@ -160,9 +161,9 @@ fn form(form: KeyForm) -> Value {
         KeyForm::Pair(dimension, _) => {
             json!({ "type": "array", "items": pattern(&quantity(&[dimension])), "minItems": 2, "maxItems": 2 })
         }
-        KeyForm::Points(dimension, ..) => {
-            let (at, to) =
-                (pattern(&quantity(&[dimension])), pattern(&quantity(&[Dimension::Length, Dimension::Angle])));
+        KeyForm::Points(..) => {
+            let at = pattern(&quantity(&[Dimension::Angle, Dimension::Length]));
+            let to = pattern(&quantity(&[Dimension::Length, Dimension::Angle]));
             let point = json!({ "type": "array", "prefixItems": [at, to], "minItems": 2, "maxItems": 2 });
             json!({ "type": "array", "items": point })
         }

@@ -79,13 +79,14 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<KeyValue, M
         KeyForm::Texts => name.texts(scalar),
         KeyForm::Quantity(dimension, bounds) => name.quantity(scalar, &[], dimension, bounds),
         KeyForm::LengthOrAngle(length, angle) => name.length_or_angle(scalar, length, angle),
+        KeyForm::AngleOrLength(angle, length) => name.angle_or_length(scalar, angle, length),
         KeyForm::LengthAngleOrShare(length, angle, share) => name.length_angle_or_share(scalar, (length, angle), share),
         KeyForm::Either(first, second) => name.either(scalar, first, second),
         KeyForm::Words(words) => name.word(scalar, words),
         KeyForm::WordsOrQuantity(words, dimension, bounds) => name.quantity(scalar, words, dimension, bounds),
         KeyForm::Band(dimension, bounds) => name.band(scalar, dimension, bounds),
         KeyForm::Pair(dimension, bounds) => name.pair(scalar, dimension, bounds),
-        KeyForm::Points(dimension, bounds, either) => name.points(scalar, (dimension, bounds), either),
+        KeyForm::Points(place, position) => name.points(scalar, place, position),
     }
 }
 
@@ -204,7 +205,7 @@ impl KeyAtPath<'_> {
     fn points(
         &self,
         scalar: &Scalar,
-        (dimension, bounds): (Dimension, Bounds),
+        (place_angle, place_length): (Bounds, Bounds),
         (length, angle): (Bounds, Bounds),
     ) -> Result<KeyValue, Misfit> {
         let wrong = |what: String| misfit(format!("`{}` {what}", self.path), Some(self.example()));
@@ -222,9 +223,9 @@ impl KeyAtPath<'_> {
                 return wrong(format!("must have 2 values in each point: point {number} has {}", pair.len()));
             };
             let numbered = |fault: Misfit| Misfit { message: format!("{}, in point {number}", fault.message), ..fault };
-            let at = self.quantity(at, &[], dimension, bounds).map_err(numbered)?;
+            let at = self.angle_or_length(at, place_angle, place_length).map_err(numbered)?;
             let to = self.length_or_angle(to, length, angle).map_err(numbered)?;
-            if let (KeyValue::Number(at), KeyValue::LengthOrAngle(to)) = (at, to) {
+            if let (KeyValue::LengthOrAngle(at), KeyValue::LengthOrAngle(to)) = (at, to) {
                 points.push((at, to));
             }
         }
@@ -308,10 +309,12 @@ impl KeyAtPath<'_> {
 
     fn length_or_angle(&self, scalar: &Scalar, length: Bounds, angle: Bounds) -> Result<KeyValue, Misfit> {
         let found = self.of_two(scalar, [(Dimension::Length, length), (Dimension::Angle, angle)])?;
-        Ok(KeyValue::LengthOrAngle(match found {
-            (Dimension::Angle, angle) => LengthOrAngle::Angle(angle),
-            (_, length) => LengthOrAngle::Length(length),
-        }))
+        Ok(length_or_angle(found))
+    }
+
+    fn angle_or_length(&self, scalar: &Scalar, angle: Bounds, length: Bounds) -> Result<KeyValue, Misfit> {
+        let found = self.of_two(scalar, [(Dimension::Angle, angle), (Dimension::Length, length)])?;
+        Ok(length_or_angle(found))
     }
 
     /// A length or an angle, or a share with its sign, `1 %`.
@@ -353,7 +356,9 @@ impl KeyAtPath<'_> {
             }
             other => {
                 let kind = other.kind();
-                return misfit(format!("`{}` must be a {} or {}, not {kind}", self.path, first.0, second.0), None);
+                let article = if first.0 == Dimension::Angle { "an" } else { "a" };
+                let message = format!("`{}` must be {article} {} or {}, not {kind}", self.path, first.0, second.0);
+                return misfit(message, None);
             }
         };
         let (dimension, bounds) = match units::parse(text, first.0) {
@@ -380,6 +385,14 @@ impl KeyAtPath<'_> {
         }
         Ok(KeyValue::Band(low, high))
     }
+}
+
+/// A quantity that is one of both.
+fn length_or_angle((dimension, value): (Dimension, f64)) -> KeyValue {
+    KeyValue::LengthOrAngle(match dimension {
+        Dimension::Angle => LengthOrAngle::Angle(value),
+        _ => LengthOrAngle::Length(value),
+    })
 }
 
 /// The points of a text such as `[[0 deg, 0 mm], [90 deg, 12 mm]]`.

@@ -11,6 +11,7 @@ mod flat;
 mod knife;
 pub mod place;
 mod placed;
+mod plate_roller;
 mod swinging_flat;
 mod swinging_roller;
 mod translating_roller;
@@ -18,6 +19,7 @@ mod translating_roller;
 pub use bell_crank::BellCrank;
 pub use flat::FlatFace;
 pub use place::FollowerPlacement;
+pub use plate_roller::PlateRoller;
 pub use swinging_flat::SwingingFlat;
 pub use swinging_roller::SwingingRoller;
 pub use translating_roller::{Crown, RollerData, TranslatingRoller};
@@ -230,7 +232,7 @@ impl Element {
 }
 
 /// A follower at a value of the motion's parameter, m and rad, in the frame of the cam: the cam angle θ of a disc, the
-/// overrun x of a plate.
+/// travel or overrun x of a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
     /// Point of the follower's curve: the path of a roller's centre, the profile under a flat face.

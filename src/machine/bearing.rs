@@ -87,6 +87,14 @@ pub(super) const OF_ROLLER: KeySection = section("follower.roller.bearing");
 /// `[follower.swinging-roller.bearing]`.
 pub(super) const OF_SWINGING_ROLLER: KeySection = section("follower.swinging-roller.bearing");
 
+/// Refuses the bearing of a roller on a plate, whose speed is not known.
+pub(super) fn refuse_for_plate(reader: &Reader<'_>) {
+    for table in [&OF_ROLLER, &OF_SWINGING_ROLLER].into_iter().filter_map(|section| reader.find(section)) {
+        let message = "the life of a bearing follows from the speed of the cam, and that of a plate is not known";
+        table.fail(&DYNAMIC_RATING, message.into(), Some("leave the table of the bearing out".into()));
+    }
+}
+
 /// The bearing of the roller of a file.
 pub(super) fn read(reader: &Reader<'_>, follower: &FollowerData) -> Option<BearingData> {
     let sections = [&OF_ROLLER, &OF_SWINGING_ROLLER];

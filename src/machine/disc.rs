@@ -3,6 +3,7 @@
 use super::fit::{self, HoleFit};
 use super::material::{CamMaterial, Material};
 use super::parallel_key;
+use super::plate::{self, PlateData};
 use super::track::{self, TrackData};
 use crate::document::Presence::{Default, Optional, Required};
 use crate::document::cams::{DISCS, EVEN, TURNING, WITH_A_BASE};
@@ -44,6 +45,8 @@ pub struct CamData {
     pub rotation: Rotation,
     /// The body of a motion program.
     pub track: TrackData,
+    /// What only a plate of a motion program has.
+    pub plate: PlateData,
 }
 
 /// A keyway in the bore.
@@ -96,7 +99,7 @@ const THICKNESS: Field<f64> = Field::quantity(
     within(THINNEST, LONGEST),
 )
 .only(EVEN)
-.also(&["width", "height"]);
+.also(&["width"]);
 const BORE_RADIUS: Field<f64> = Field::quantity(
     "bore_radius",
     "radius of the bore for the shaft, below base_radius",
@@ -224,6 +227,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CamData> {
         material: read_material(&table),
         balance: table.get(&BALANCE),
         rotation: table.get(&ROTATION)?,
+        plate: plate::read(&table)?,
         track: track::read(&table, table.get(&THICKNESS), table.has(&BORE_RADIUS))?,
     })
 }

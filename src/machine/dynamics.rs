@@ -223,6 +223,27 @@ fn fluctuation(reader: &Reader<'_>) -> Option<f64> {
     reader.find(&FLYWHEEL)?.get(&FLUCTUATION)
 }
 
+/// Refuses what acts by the speed of a cam, or by the side force on a guide: the forces on a plate are those at rest.
+pub(super) fn refuse_for_plate(reader: &Reader<'_>) {
+    let help =
+        |section: &KeySection| Some(format!("leave [{}] out: the forces on a plate are those at rest", section.path));
+    let turns = |what: &str| format!("{what} acts by the speed of the cam, and that of a plate is not known");
+    if let Some(table) = reader.find(&SPRING).filter(|table| table.has(&DAMPING)) {
+        let help = "remove it: the forces on a plate are those at rest";
+        table.fail(&DAMPING, turns("damping"), Some(help.into()));
+    }
+    if let Some(table) = reader.find(&GUIDE) {
+        let message = "the friction in the guide of a follower is not computed on a plate".to_owned();
+        table.fail(&FRICTION, message, help(&GUIDE));
+    }
+    if let Some(table) = reader.find(&VIBRATION) {
+        table.fail(&NATURAL_FREQUENCY, turns("vibration"), help(&VIBRATION));
+    }
+    if let Some(table) = reader.find(&FLYWHEEL) {
+        table.fail(&FLUCTUATION, "a plate has no shaft for a flywheel".into(), help(&FLYWHEEL));
+    }
+}
+
 /// The elastic train of a file.
 fn vibration(reader: &Reader<'_>) -> Option<VibrationData> {
     let table = reader.find(&VIBRATION)?;

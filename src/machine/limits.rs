@@ -316,6 +316,21 @@ fn overshoot(reader: &Reader<'_>, follower: &dyn Follower) -> Option<OvershootLi
     Some(OvershootLimit::By(value))
 }
 
+/// Refuses limits of what is not known of a plate.
+pub(super) fn refuse_for_plate(reader: &Reader<'_>) {
+    let table = reader.table(&SECTION);
+    let by_speed = [&JUMP_MARGIN, &RESIDUAL, &ROLLER_LIFE];
+    for field in by_speed.into_iter().filter(|field| table.has(field)) {
+        let message =
+            format!("`limits.{}` is for the speed of a cam, and that of a plate is not known", field.key.name);
+        table.fail(field, message, Some("remove it".into()));
+    }
+    if table.has(&PIVOT_CLEARANCE) {
+        let message = "`limits.pivot_clearance` is for a follower that swings, and that of a plate does not".to_owned();
+        table.fail(&PIVOT_CLEARANCE, message, Some("remove it".into()));
+    }
+}
+
 pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limits> {
     let table = reader.table(&SECTION);
     Some(Limits {

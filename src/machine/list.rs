@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, barrel, bearing, disc, dynamics, limits, title, track};
+use super::{ROOT, barrel, bearing, disc, dynamics, limits, plate, title, track};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -20,6 +20,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &disc::SECTION,
     &track::SECTION,
     &barrel::SECTION,
+    &plate::SECTION,
     &disc::KEYWAY,
     &track::COUNTER,
     &limits::SECTION,

@@ -17,6 +17,7 @@ mod material;
 mod other_files;
 pub mod parallel_key;
 mod parts;
+mod plate;
 mod source;
 mod start;
 mod stem;
@@ -34,6 +35,7 @@ pub use limits::{Limits, OvershootLimit, customary_stress, customary_stress_of, 
 pub use list::sections;
 pub use material::{CamMaterial, Grade, Material};
 pub use parts::{MachinePart, MachineParts};
+pub use plate::PlateData;
 pub(crate) use source::MachineText;
 pub use source::{Catalogue, ReadParts};
 pub use start::{followers, schema, template, template_of_program};
@@ -46,8 +48,8 @@ use crate::document::cams;
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, TURNS_FORWARD};
 use crate::document::{Field, Input, KeySection, Occurrence, Reader};
 use crate::follower::{self, FollowerPlacement};
-use crate::motion::program::FollowerMovement;
-use crate::motion::{Motion, program};
+use crate::motion::program::{FollowerMovement, ProgramSpan};
+use crate::motion::{Motion, Quantity, program};
 use crate::refusal::Refusal;
 use std::fmt;
 use std::sync::Arc;
@@ -157,8 +159,14 @@ impl Machine {
             quantity: shape.quantity(),
             arm: *arm,
         });
-        let of_yoke = cam.as_ref().is_some_and(|cam| cam.track.body == cams::YOKE);
-        let motion = program::read::read(reader, moves, of_yoke);
+        let span = cam.as_ref().map(|cam| match cam.track.body {
+            cams::YOKE => ProgramSpan::HalfTurn,
+            cams::WEDGE => ProgramSpan::Stroke,
+            _ => ProgramSpan::Turn,
+        });
+        // A follower that swings is refused on a plate, whatever its motion.
+        let moves = moves.filter(|moves| span != Some(ProgramSpan::Stroke) || moves.quantity == Quantity::Length);
+        let motion = program::read::read(reader, moves, span);
         let mut parts = MachineParts::default();
         for read in &source.catalogue.parts {
             read(reader, (cam.as_ref(), follower.as_ref()), &mut parts);
@@ -166,6 +174,9 @@ impl Machine {
         let (follower, cam) = (follower?, cam?);
         disc::reached_by(reader, &cam, &follower);
         track::rolled_by(reader, &cam.track, &follower);
+        if cam.track.body == cams::WEDGE {
+            plate::refuse_turning(reader, &follower);
+        }
         let counter = track::read_counter(reader, &follower);
         let barrel = barrel::read(reader)?;
         let cam = CamData { track: TrackData { counter, barrel, ..cam.track }, ..cam };
@@ -248,6 +259,12 @@ impl Machine {
     #[must_use]
     pub(crate) fn with_base_radius(&self, base_radius: f64) -> Self {
         Self { cam: CamData { base_radius: Some(base_radius), ..self.cam }, ..self.clone() }
+    }
+
+    /// The machine with another plate of a linear cam.
+    #[must_use]
+    pub fn with_plate(&self, plate: PlateData) -> Self {
+        Self { cam: CamData { plate, ..self.cam }, ..self.clone() }
     }
 
     /// The machine with another follower.

@@ -1,8 +1,9 @@
 //! Which body is cut for a motion program, and the measures of one whose roller runs within it.
 
 use super::barrel::BarrelData;
+use super::plate;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BARREL, BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GROOVE, MAKE, RIB, RING, YOKE};
+use crate::document::cams::{BARREL, BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GROOVE, MAKE, RIB, RING, WEDGE, YOKE};
 use crate::document::range::{LARGEST_FORCE, LONGEST};
 use crate::document::{Field, Input, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::{Element, FollowerData};
@@ -52,7 +53,7 @@ pub struct CounterData {
 
 const BODY: Field<&'static str> = Field::words(
     "body",
-    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers; \"barrel\", a cylinder with a groove round its outside",
+    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers; \"barrel\", a cylinder with a groove round its outside; \"wedge\", a plate that travels under its follower",
     Default(DISC_BODY),
     BODIES,
     BODY_KINDS,
@@ -276,7 +277,11 @@ pub(super) fn rolled_by(reader: &Reader<'_>, track: &TrackData, follower: &Follo
         Element::Roller { radius } => Some(radius).filter(|radius| *radius != 0.0),
         Element::Face => None,
     };
-    if track.body == YOKE {
+    if track.body == WEDGE {
+        if let Some((why, help)) = plate::misfit(follower) {
+            table.fail(&BODY, why, Some(help.into()));
+        }
+    } else if track.body == YOKE {
         on_a_line(&table, follower, radius);
     } else if track.body != MAKE && radius.is_none() {
         let message = format!("a {} needs a roller, and the follower is that of [{}]", track.body, follower.path);

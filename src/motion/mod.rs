@@ -1,4 +1,4 @@
-//! Motions: the cam angle, or the overrun of the bed, to the follower's lift and its derivatives.
+//! Motions: the cam angle, the travel of a plate, or the overrun of the bed, to the follower's lift and its derivatives.
 //!
 //! A motion is smooth on each of its pieces and may jump between them. A motion is sampled piece by piece, so that
 //! both sides of a break are available: there is no evaluation "at" a break without saying from which side.
@@ -146,6 +146,11 @@ pub trait Motion: std::fmt::Debug + Send + Sync {
     /// After how much the motion repeats itself: a turn, or `None` for a cam that is run over once and back.
     fn period(&self) -> Option<f64> {
         Some(TAU)
+    }
+
+    /// Whether its parameter is the travel of a plate, m, and its rates are by that: no shaft gives the time.
+    fn is_by_travel(&self) -> bool {
+        false
     }
 
     /// First and second derivative of the parameter by the angle of the shaft that gives the time: the cam's own, or the crank's

@@ -1,14 +1,14 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, report};
-use crate::body::points::{PointErrors, PointTable, swings};
+use crate::body::points::{PointErrors, PointTable, by_travel, swings};
 use crate::body::{Body, DrawingEvidence, Drawn, Request};
 use crate::check::Measure;
 use crate::document::Input;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Interpolant, PointInterpolation};
 use crate::profile::outline::{Outline, OutlineError};
-use crate::report::{Finding, Inputs, LazyReport, PointMeasures, Report, Rolled, Section, passed};
+use crate::report::{AsCutError, Finding, Inputs, LazyReport, PointMeasures, Report, Rolled, Section, passed};
 use crate::table::Table;
 use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, WrittenSwept, rolling};
 use crate::write::Rendering;
@@ -214,9 +214,12 @@ fn written_points(
 /// The figures of a table, for the report.
 fn measures(body: &dyn Body, table: &PointTable) -> PointMeasures {
     let swings = swings(body);
-    let unit = if swings { 1.0 } else { MILLIMETRES };
+    let by_travel = by_travel(body);
+    let sizes = AsCutError::sizes(swings, by_travel);
     let [velocity, acceleration] = match table.errors {
-        PointErrors::Known(errors) => errors.map(|error| Some(unit * error).filter(|error| error.is_finite())),
+        PointErrors::Known([velocity, acceleration]) => {
+            [sizes[0] * velocity, sizes[1] * acceleration].map(|error| Some(error).filter(|error| error.is_finite()))
+        }
         PointErrors::Unknown(_) => [None; 2],
     };
     PointMeasures {
@@ -226,6 +229,7 @@ fn measures(body: &dyn Body, table: &PointTable) -> PointMeasures {
         tolerance_mm: table.wish.tolerance,
         error_mm: table.rows.error,
         swings,
+        by_travel,
         velocity_error: velocity,
         acceleration_error: acceleration,
     }

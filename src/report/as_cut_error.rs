@@ -1,15 +1,18 @@
 //! Errors of the follower on a written outline: velocity and acceleration as cut.
 
 use super::Place;
+use crate::geometry::MILLIMETRES;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// The largest errors of velocity and acceleration as cut, per radian of the shaft; millimetres, or radians under a swinging
-/// follower.
+/// The largest errors of velocity and acceleration as cut, per radian of the shaft, or per millimetre of the travel of a plate without one;
+/// millimetres, or radians under a swinging follower.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AsCutError {
     /// Whether the follower swings.
     pub swings: bool,
+    /// Whether they are per millimetre of travel.
+    pub by_travel: bool,
     /// Largest error of the velocity, and where it is.
     pub velocity_error: (f64, Place),
     /// Largest error of the acceleration, and where it is.
@@ -54,18 +57,39 @@ impl AsCutError {
     /// Units of velocity and acceleration by the angle, as they are written.
     #[must_use]
     pub fn units(&self) -> [&'static str; 2] {
-        if self.swings { ["rad/rad", "rad/rad²"] } else { ["mm/rad", "mm/rad²"] }
+        Self::units_of(self.swings, self.by_travel)
+    }
+
+    /// Those of a follower that swings, or whose rates are by travel.
+    #[must_use]
+    pub fn units_of(swings: bool, by_travel: bool) -> [&'static str; 2] {
+        match (swings, by_travel) {
+            (true, _) => ["rad/rad", "rad/rad²"],
+            (false, true) => ["mm/mm", "mm/mm²"],
+            (false, false) => ["mm/rad", "mm/rad²"],
+        }
+    }
+
+    /// What velocity and acceleration in SI units are multiplied by, of a follower that swings, or whose rates are by travel.
+    #[must_use]
+    pub fn sizes(swings: bool, by_travel: bool) -> [f64; 2] {
+        match (swings, by_travel) {
+            (true, _) => [1.0; 2],
+            (false, true) => [1.0, 1.0 / MILLIMETRES],
+            (false, false) => [MILLIMETRES; 2],
+        }
     }
 }
 
 impl Serialize for AsCutError {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let (unit, fast) = if self.swings { ("rad", "rad") } else { ("mm", "m") };
+        let [by, by_square] = if self.by_travel { ["mm", "mm2"] } else { ["rad", "rad2"] };
         let mut map = serializer.serialize_map(None)?;
-        let velocity = ("velocity_error_max", self.velocity_error, "rad");
-        let acceleration = ("acceleration_error_max", self.acceleration_error, "rad2");
-        let step = ("acceleration_step_max", self.acceleration_step, "rad2");
-        let kink = self.velocity_step.map(|step| ("velocity_step_max", step, "rad"));
+        let velocity = ("velocity_error_max", self.velocity_error, by);
+        let acceleration = ("acceleration_error_max", self.acceleration_error, by_square);
+        let step = ("acceleration_step_max", self.acceleration_step, by_square);
+        let kink = self.velocity_step.map(|step| ("velocity_step_max", step, by));
         for (name, (value, place), per) in [velocity, acceleration, step].into_iter().chain(kink) {
             map.serialize_entry(&format!("{name}_{unit}_per_{per}"), &value)?;
             match place.x_mm {
@@ -73,7 +97,10 @@ impl Serialize for AsCutError {
                 None => map.serialize_entry(&format!("{name}_cam_deg"), &place.cam_deg)?,
             }
         }
-        map.serialize_entry(&format!("acceleration_of_motion_max_{unit}_per_rad2"), &self.acceleration_of_motion)?;
+        map.serialize_entry(
+            &format!("acceleration_of_motion_max_{unit}_per_{by_square}"),
+            &self.acceleration_of_motion,
+        )?;
         if let Some(velocity) = self.velocity(self.velocity_error.0) {
             map.serialize_entry(&format!("velocity_error_max_{unit}_per_s"), &velocity)?;
         }

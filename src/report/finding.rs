@@ -81,7 +81,7 @@ impl Bound {
 pub struct Place {
     /// Cam angle, degrees in [0, 360).
     pub cam_deg: Option<f64>,
-    /// Overrun of the bed, mm.
+    /// Overrun of the bed, or travel of a plate, mm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub x_mm: Option<f64>,
 }
@@ -93,7 +93,7 @@ impl Place {
         Self { cam_deg: Some(degrees(angle)), x_mm: None }
     }
 
-    /// At an overrun in m.
+    /// At an overrun, or a travel, in m.
     #[must_use]
     pub fn at_overrun(x: f64) -> Self {
         Self { cam_deg: None, x_mm: Some(1e3 * x + 0.0) }

@@ -1,6 +1,6 @@
 //! Tables of points in a report.
 
-use super::{Section, shown};
+use super::{AsCutError, Section, shown};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -19,9 +19,11 @@ pub struct PointMeasures {
     pub error_mm: f64,
     /// Whether the follower swings.
     pub swings: bool,
-    /// Largest error of the velocity, mm or rad per rad, where it is known.
+    /// Whether its rates are by the travel of a plate.
+    pub by_travel: bool,
+    /// Largest error of the velocity, mm or rad per rad, or mm per mm, where it is known.
     pub velocity_error: Option<f64>,
-    /// Largest error of the acceleration, mm or rad per rad², where it is known.
+    /// Largest error of the acceleration, mm or rad per rad², or mm per mm², where it is known.
     pub acceleration_error: Option<f64>,
 }
 
@@ -33,15 +35,15 @@ impl PointMeasures {
     }
 
     fn words(&self) -> String {
-        let unit = if self.swings { "rad" } else { "mm" };
+        let [of_velocity, of_acceleration] = AsCutError::units_of(self.swings, self.by_travel);
         let of = self.rpm.map_or_else(String::new, |rpm| format!(" for {rpm} rpm"));
         let mut words =
             format!("{} rows{of}, {} between them, off by {} mm", self.rows, self.interpolation, shown(self.error_mm));
         if let Some(error) = self.velocity_error {
-            words += &format!(", the velocity by {} {unit}/rad", shown(error));
+            words += &format!(", the velocity by {} {of_velocity}", shown(error));
         }
         if let Some(error) = self.acceleration_error {
-            words += &format!(", the acceleration by {} {unit}/rad²", shown(error));
+            words += &format!(", the acceleration by {} {of_acceleration}", shown(error));
         }
         words
     }
@@ -57,10 +59,10 @@ impl Serialize for PointMeasures {
         map.serialize_entry("interpolation", self.interpolation)?;
         map.serialize_entry("tolerance_mm", &self.tolerance_mm)?;
         map.serialize_entry("error_mm", &self.error_mm)?;
-        let keys = if self.swings {
-            ["velocity_error_rad_per_rad", "acceleration_error_rad_per_rad2"]
-        } else {
-            ["velocity_error_mm_per_rad", "acceleration_error_mm_per_rad2"]
+        let keys = match (self.swings, self.by_travel) {
+            (true, _) => ["velocity_error_rad_per_rad", "acceleration_error_rad_per_rad2"],
+            (false, true) => ["velocity_error_mm_per_mm", "acceleration_error_mm_per_mm2"],
+            (false, false) => ["velocity_error_mm_per_rad", "acceleration_error_mm_per_rad2"],
         };
         for (key, value) in keys.iter().zip([self.velocity_error, self.acceleration_error]) {
             if let Some(value) = value {

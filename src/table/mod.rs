@@ -51,6 +51,8 @@ pub struct Row {
     pub face: Option<f64>,
     /// Whether the follower swings.
     pub swings: bool,
+    /// Whether rates are by the travel of a plate, m per m, and not by the angle of a shaft.
+    pub by_travel: bool,
     /// What a domain adds, in the order of its columns.
     pub added: Vec<(&'static AddedColumn, f64)>,
 }
@@ -142,8 +144,12 @@ pub const COLUMNS: &[CamColumn] = &[
     ("axial_angle_deg", |row| Some(row.surface?.axial_angle_deg)),
     ("principal_curvature_radius_mm", |row| Some(row.surface?.principal_radius)),
     ("axial_force_n", |row| Some(row.surface?.axial_force)),
-    ("velocity_cut_mm_per_rad", |row| row.cut.filter(|_| !row.swings).map(|[velocity, _]| 1e3 * velocity)),
-    ("acceleration_cut_mm_per_rad2", |row| row.cut.filter(|_| !row.swings).map(|[_, acceleration]| 1e3 * acceleration)),
+    ("velocity_cut_mm_per_mm", |row| row.cut.filter(|_| row.by_travel).map(|[velocity, _]| velocity)),
+    ("acceleration_cut_mm_per_mm2", |row| {
+        row.cut.filter(|_| row.by_travel).map(|[_, acceleration]| 1e-3 * acceleration)
+    }),
+    ("velocity_cut_mm_per_rad", |row| by_angle(row).map(|[velocity, _]| 1e3 * velocity)),
+    ("acceleration_cut_mm_per_rad2", |row| by_angle(row).map(|[_, acceleration]| 1e3 * acceleration)),
     ("velocity_cut_rad_per_rad", |row| row.cut.filter(|_| row.swings).map(|[velocity, _]| velocity)),
     ("acceleration_cut_rad_per_rad2", |row| row.cut.filter(|_| row.swings).map(|[_, acceleration]| acceleration)),
     ("residual_cut_n", |row| row.residual_cut),
@@ -151,6 +157,11 @@ pub const COLUMNS: &[CamColumn] = &[
     ("torque_left_nm", |row| Some(row.force?.torque + row.torque_of_second?)),
     ("face_mm", |row| row.face),
 ];
+
+/// The rates as cut of a follower on a straight path by the angle of the shaft.
+fn by_angle(row: &Row) -> Option<[f64; 2]> {
+    row.cut.filter(|_| !row.swings && !row.by_travel)
+}
 
 /// In the names of columns of what the follower does on the outline as cut: nothing where it is not in touch.
 const AS_CUT: &str = "_cut_";
@@ -318,9 +329,10 @@ mod tests {
             face: Some(1.0),
             ..Row::default()
         };
+        let travelling = Row { by_travel: true, ..turning.clone() };
         let swinging = Row { lift: None, swing: Some(Jet::default()), swings: true, ..turning.clone() };
         let mut all: Vec<&str> = Vec::new();
-        for row in [turning, swinging] {
+        for row in [turning, swinging, travelling] {
             let columns = Table::of(&[row]).columns;
             let mut names = columns.clone();
             names.sort_unstable();

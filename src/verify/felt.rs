@@ -4,7 +4,6 @@ use super::check::{Evidence, FileCheck};
 use super::felt_sections;
 use crate::body::{Body, curves_of};
 use crate::check::{Check, CheckExplanation, CheckScope};
-use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Edge;
 use crate::motion::Quantity;
 use crate::profile::followed::{ErrorsOnChain, FollowerOnChain};
@@ -49,17 +48,19 @@ pub(super) fn of_flanks<'s>(
         return None;
     }
     let swings = curves.motion.quantity() == Quantity::Angle;
-    let unit = if swings { 1.0 } else { MILLIMETRES };
+    let by_travel = curves.motion.is_by_travel();
+    let [of_velocity, of_acceleration] = AsCutError::sizes(swings, by_travel);
     let [velocity, acceleration] = body.largest_rates();
     let kink = errors.velocity_step;
-    let placed = |worst: Worst| (unit * worst.value.max(0.0), body.place(worst.at));
+    let placed = |worst: Worst, unit: f64| (unit * worst.value.max(0.0), body.place(worst.at));
     Some(AsCutError {
         swings,
-        velocity_error: placed(errors.velocity),
-        acceleration_error: placed(errors.acceleration),
-        acceleration_step: placed(errors.step),
-        velocity_step: (kink.value > FELT * velocity).then(|| placed(kink)),
-        acceleration_of_motion: unit * acceleration,
+        by_travel,
+        velocity_error: placed(errors.velocity, of_velocity),
+        acceleration_error: placed(errors.acceleration, of_acceleration),
+        acceleration_step: placed(errors.step, of_acceleration),
+        velocity_step: (kink.value > FELT * velocity).then(|| placed(kink, of_velocity)),
+        acceleration_of_motion: of_acceleration * acceleration,
         shaft_speed: body.shaft_speed(),
         // The mass of a plate's follower moves along another path than the bottom.
         mass: body.machine().follower.mass.filter(|_| curves.motion.period().is_some() && !swings),
@@ -78,12 +79,12 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         None => of_outlines(evidence),
     }?;
     let share = motion.acceleration_share()?;
-    let unit = if motion.swings { 1.0 } else { MILLIMETRES };
-    let over = |(error, _): (f64, Place), requested: f64| error > unit * requested * (1.0 + ROUNDING);
-    let too_fast = over(motion.velocity_error, evidence.motion.velocity);
-    let too_much = over(motion.acceleration_error, evidence.motion.acceleration);
+    let [of_velocity, of_acceleration] = AsCutError::sizes(motion.swings, motion.by_travel);
+    let over = |(error, _): (f64, Place), requested: f64| error > requested * (1.0 + ROUNDING);
+    let too_fast = over(motion.velocity_error, of_velocity * evidence.motion.velocity);
+    let too_much = over(motion.acceleration_error, of_acceleration * evidence.motion.acceleration);
     let given = evidence.body.machine().limits.acceleration_share;
-    let requested = unit * evidence.motion.acceleration / motion.acceleration_of_motion;
+    let requested = of_acceleration * evidence.motion.acceleration / motion.acceleration_of_motion;
     let limit = given.unwrap_or(CUSTOMARY).min(requested);
     let verdict = match given {
         Some(limit) if share > limit => Verdict::Fail,
@@ -104,8 +105,10 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     }
     if too_fast {
         let [velocity, _] = motion.units();
-        note =
-            format!("the velocity exceeds the {} {velocity} requested; {note}", shown(unit * evidence.motion.velocity));
+        note = format!(
+            "the velocity exceeds the {} {velocity} requested; {note}",
+            shown(of_velocity * evidence.motion.velocity)
+        );
     }
     Some(Finding { place: motion.acceleration_error.1, note: Some(note), ..found })
 }

@@ -46,6 +46,7 @@ pub(super) fn of_sections(evidence: &Evidence<'_>, surface: &dyn Surface) -> Opt
     let [_, largest] = body.largest_rates();
     let placed = |worst: Worst| (MILLIMETRES * worst.value.max(0.0), body.place(worst.at));
     Some(AsCutError {
+        by_travel: false,
         swings: false,
         velocity_error: placed(velocity),
         acceleration_error: placed(acceleration),

@@ -5,11 +5,12 @@
 //! own headings and curvatures (`profile::interpolated`).
 
 use super::check::{Evidence, FileCheck, WrittenPoints, place};
-use crate::body::points::{PointCurve, PointErrors, PointTable, largest_errors, motion_errors, swings, traced};
+use crate::body::points::{
+    PointCurve, PointErrors, PointTable, by_travel, largest_errors, motion_errors, swings, traced,
+};
 use crate::check::{Check, CheckExplanation, CheckScope};
-use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{PointCoordinates, PointInterpolation, PointStep, deviations};
-use crate::report::{Bound, Finding, Place, Verdict, shown};
+use crate::report::{AsCutError, Bound, Finding, Place, Verdict, shown};
 use nalgebra::Vector2;
 
 pub(super) const CHECK: FileCheck = FileCheck {
@@ -89,24 +90,27 @@ impl TableDeviation<'_> {
 /// The largest errors of the follower's motion over all tables, in words.
 fn motion_words(evidence: &Evidence<'_>, found: &[TableDeviation<'_>]) -> String {
     let swings = swings(evidence.body);
-    let (unit, of) = if swings { (1.0, "rad") } else { (MILLIMETRES, "mm") };
+    let by_travel = by_travel(evidence.body);
+    let (sizes, units) = (AsCutError::sizes(swings, by_travel), AsCutError::units_of(swings, by_travel));
     let largest = |index: usize| {
         let errors = found.iter().filter_map(|found| found.motion?.get(index).copied());
-        errors.fold(0.0, f64::max)
+        sizes.get(index).copied().unwrap_or(1.0) * errors.fold(0.0, f64::max)
     };
     if let Some(PointErrors::Unknown(why)) = found.first().map(|found| found.written.table.errors) {
         return format!("; velocity and acceleration are not known: {why}");
     }
-    let velocity = format!("; the velocity off by {} {of}/rad", shown(unit * largest(0)));
+    let velocity = format!("; the velocity off by {} {}", shown(largest(0)), units[0]);
     let acceleration = match largest(1) {
-        error if error.is_finite() => format!(", the acceleration by {} {of}/rad²", shown(unit * error)),
+        error if error.is_finite() => format!(", the acceleration by {} {}", shown(error), units[1]),
         _ => ", the acceleration is not kept where the control moves in straight lines".to_owned(),
     };
     let over = |index: usize, name: &str| {
         let is_over = found.iter().any(|found| found.exceeds().get(index) == Some(&true));
-        let requested = found.first().and_then(|found| found.written.table.allowed.get(index).copied());
+        let size = sizes.get(index).copied().unwrap_or(1.0);
+        let requested =
+            found.first().and_then(|found| found.written.table.allowed.get(index).map(|allowed| size * allowed));
         if is_over {
-            requested.map(|requested| format!("; {} of {name} were requested", shown(unit * requested)))
+            requested.map(|requested| format!("; {} of {name} were requested", shown(requested)))
         } else {
             None
         }

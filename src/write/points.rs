@@ -4,11 +4,12 @@
 use super::number::{plain, shortest};
 use super::{Format, FormatSelection, fits_all, of_outlines};
 use crate::body::Body;
-use crate::body::points::{PointCurve, PointErrors, PointTable, swings};
+use crate::body::points::{PointCurve, PointErrors, PointTable, by_travel, swings};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
 use crate::machine::Rotation;
 use crate::refusal::Refusal;
+use crate::report::AsCutError;
 
 /// The points of every section, as they were proved.
 pub const FORMAT: Format = Format {
@@ -101,15 +102,23 @@ fn head(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
 
 /// The errors of the follower's motion on the curve that the control makes, and which tolerances are kept.
 fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, String)> {
-    const KEYS: [[&str; 2]; 4] = [
-        ["velocity_tolerance_mm_per_rad", "velocity_tolerance_rad_per_rad"],
-        ["velocity_error_mm_per_rad", "velocity_error_rad_per_rad"],
-        ["acceleration_tolerance_mm_per_rad2", "acceleration_tolerance_rad_per_rad2"],
-        ["acceleration_error_mm_per_rad2", "acceleration_error_rad_per_rad2"],
+    const KEYS: [[&str; 3]; 4] = [
+        ["velocity_tolerance_mm_per_rad", "velocity_tolerance_rad_per_rad", "velocity_tolerance_mm_per_mm"],
+        ["velocity_error_mm_per_rad", "velocity_error_rad_per_rad", "velocity_error_mm_per_mm"],
+        [
+            "acceleration_tolerance_mm_per_rad2",
+            "acceleration_tolerance_rad_per_rad2",
+            "acceleration_tolerance_mm_per_mm2",
+        ],
+        ["acceleration_error_mm_per_rad2", "acceleration_error_rad_per_rad2", "acceleration_error_mm_per_mm2"],
     ];
-    let swings = swings(body);
-    let (keys, unit) =
-        (KEYS.map(|[straight, swung]| if swings { swung } else { straight }), if swings { 1.0 } else { MILLIMETRES });
+    let (swings, by_travel) = (swings(body), by_travel(body));
+    let keys = KEYS.map(|[straight, swung, travelled]| match (swings, by_travel) {
+        (true, _) => swung,
+        (false, true) => travelled,
+        (false, false) => straight,
+    });
+    let [of_velocity, of_acceleration] = AsCutError::sizes(swings, by_travel);
     let mut head = Vec::new();
     let errors = match table.errors {
         PointErrors::Known(errors) => errors,
@@ -118,8 +127,14 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, Strin
             [f64::INFINITY; 2]
         }
     };
-    let rows = keys.iter().zip([table.allowed[0], errors[0], table.allowed[1], errors[1]]);
-    head.extend(rows.filter(|(_, value)| value.is_finite()).map(|(key, value)| (*key, plain(unit * value, DECIMALS))));
+    let values = [
+        of_velocity * table.allowed[0],
+        of_velocity * errors[0],
+        of_acceleration * table.allowed[1],
+        of_acceleration * errors[1],
+    ];
+    let rows = keys.iter().zip(values).filter(|(_, value)| value.is_finite());
+    head.extend(rows.map(|(key, value)| (*key, plain(value, DECIMALS))));
     if matches!(table.errors, PointErrors::Known(_)) {
         let how = if body.surface().is_some() && table.curve == PointCurve::Profile {
             ", to first order, at five places of every interval"
@@ -130,11 +145,12 @@ fn motion_lines(body: &dyn Body, table: &PointTable) -> Vec<(&'static str, Strin
             PointInterpolation::Linear => "largest error of the follower's velocity",
             PointInterpolation::Cubic => "largest errors of the follower's velocity and acceleration",
         };
-        let shaft = if table.closed { "cam" } else { "crank" };
-        head.push((
-            "felt",
-            format!("{what} on the interpolated curve by the angle of the {shaft}{wheel}{how}", wheel = wheel(table)),
-        ));
+        let by = match (table.closed, by_travel) {
+            (true, _) => "angle of the cam",
+            (false, true) => "travel of the plate",
+            (false, false) => "angle of the crank",
+        };
+        head.push(("felt", format!("{what} on the interpolated curve by the {by}{wheel}{how}", wheel = wheel(table))));
     }
     head.extend(kept(table, errors));
     head
@@ -174,8 +190,12 @@ fn given(table: &PointTable) -> String {
     let radius = table
         .radius
         .map_or_else(String::new, |radius| format!(" of radius {} mm", plain(MILLIMETRES * radius, DECIMALS)));
+    // The lower flank of a plate with two is not written.
+    let of_two = table.flipped;
     match (table.curve, table.closed) {
         (PointCurve::Profile, true) => "profile of the cam".to_owned(),
+        (PointCurve::Profile, false) if !of_two => "flank of the plate".to_owned(),
+        (PointCurve::Centre, false) if !of_two => format!("path of the centre of the roller on the plate{radius}"),
         (PointCurve::Profile, false) => "upper flank of the plate; the lower is its mirror image, y negated".to_owned(),
         (PointCurve::Centre, true) => format!("path of the centre of the roller{radius}"),
         (PointCurve::Centre, false) => {
@@ -192,7 +212,10 @@ fn coordinates(table: &PointTable) -> &'static str {
              cam, radius_mm its distance from the shaft"
         }
         (PointCoordinates::Plane, true) => "x and y of the drawing, the shaft at the origin",
-        (PointCoordinates::Plane, false) => "x and y of the drawing, X the axis of the bed",
+        (PointCoordinates::Plane, false) if table.flipped => "x and y of the drawing, X the axis of the bed",
+        (PointCoordinates::Plane, false) => {
+            "x and y of the drawing, X along the travel of the plate, the roller's centre at the origin at travel 0 and lift 0"
+        }
     }
 }
 

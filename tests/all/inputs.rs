@@ -20,8 +20,15 @@ const LIFTER: &str = include_str!("common/lifter.toml");
 /// With this the machine is one whose follower swings.
 const OF_ARMS: &str = "cam.counter.preload=0N";
 
+/// With this it is a plate.
+const OF_A_PLATE: &str = "cam.run_in=20mm";
+const PLATE: &str = "name = \"plate\"\n[motion]\nstroke = \"200 mm\"\nstart = \"0 mm\"\n[[motion.segment]]\nover = \"20 mm\"\n\
+                     to = \"5 mm\"\n[[motion.segment]]\nlaw = \"dwell\"\n[follower.roller]\nradius = \"10 mm\"\n\
+                     [cam]\nbody = \"wedge\"\n";
+
 /// A key that means something only beside another.
-const BESIDE: [(&str, &str); 6] = [
+const BESIDE: [(&str, &str); 7] = [
+    ("motion.stroke", OF_A_PLATE),
     // Of a follower that swings.
     ("cam.counter.arm", OF_ARMS),
     ("cam.counter.included_angle", OF_ARMS),
@@ -53,6 +60,9 @@ fn form_for(key: &str) -> Option<String> {
 fn lifter_for(sets: &[String]) -> String {
     let key =
         sets.last().and_then(|set| set.split_once('=')).map_or("", |(path, _)| path.rsplit('.').next().unwrap_or(""));
+    if sets.iter().any(|set| set == OF_A_PLATE) {
+        return PLATE.to_owned();
+    }
     let of_law = |law: &str| LIFTER.replacen("3-4-5", law, 1);
     if ["motion.measured_at", "motion.output_arm"].iter().any(|key| sets.iter().any(|set| set.starts_with(key))) {
         let swinging = "[follower.swinging-roller]\narm = \"90 mm\"\npivot_distance = \"120 mm\"\nside = \"trailing\"";

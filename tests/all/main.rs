@@ -72,4 +72,5 @@ mod translating;
 mod two_sided;
 mod verdicts;
 mod walls;
+mod wedge;
 mod words;

@@ -63,11 +63,19 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
                 "rib" => &["cam.body=rib", "cam.roller_distance=30mm"],
                 "yoke" => &["cam.body=yoke"],
                 "barrel" => &["cam.body=barrel", "cam.groove_depth=8mm", "cam.outer_radius=auto"],
+                "wedge" => &["cam.body=wedge", "follower.roller.preload=100N"],
                 _ => &[],
             };
             // The second half turn of a yoke follows from the first.
             let first_half = LIFTER.replace("[[motion.segment]]\nto = \"0 mm\"\n", "");
-            lifter(if kind.keys == "yoke" { &first_half } else { LIFTER }, &[own, overrides].concat())
+            // A plate travels by a length for each degree.
+            let plate = LIFTER.replace("rpm = 120", "stroke = \"360 mm\"").replace(" deg\"", " mm\"");
+            let text = match kind.keys {
+                "yoke" => &first_half,
+                "wedge" => &plate,
+                _ => LIFTER,
+            };
+            lifter(text, &[own, overrides].concat())
         }
         #[cfg(feature = "brake")]
         "brake-cam" => {

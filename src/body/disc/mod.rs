@@ -118,6 +118,10 @@ impl Disc {
         rpm: Option<f64>,
         (kind, hold): (&'static Kind, Hold),
     ) -> Result<Self, Refusal> {
+        if motion.period().is_none() {
+            let what = "the motion is by the travel of a plate, and this cam turns";
+            return Err(Refusal::new(what).remedy("camgen make with cam.body = \"wedge\" cuts it as a plate"));
+        }
         let speed = rpm.map(|rpm| rpm * TAU / 60.0);
         let program_follower = forces::ProgramFollower::of(machine, &*motion);
         Self { kind, rpm, speed, hold, program_follower, ..Self::unsized_of(machine, motion) }.sized()

@@ -29,6 +29,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("motion.start", "5 mm"),
     ("motion.at", "10 deg"),
     ("motion.repeat", "2"),
+    ("motion.stroke", "110 mm"),
     ("motion.measured_at", "roller"),
     ("motion.output_arm", "160 mm"),
     ("motion.formula", "9*(1-cos(th))"),
@@ -149,6 +150,10 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.blank_length", "90 mm"),
     ("cam.roller_distance", "50 mm"),
     ("cam.breadth", "150 mm"),
+    ("cam.length", "170 mm"),
+    ("cam.height", "60 mm"),
+    ("cam.run_in", "30 mm"),
+    ("cam.drive_angle", "12 deg"),
     ("cam.counter.radius", "19 mm"),
     ("cam.counter.diameter", "37 mm"),
     ("cam.counter.arm", "90 mm"),
@@ -303,7 +308,9 @@ fn file_for(path: &str) -> String {
     let bearing = path
         .rsplit_once(".bearing.")
         .map_or(String::new(), |(own, _)| format!("[{own}.bearing]\ndynamic_rating = \"20 kN\"\n"));
-    let dynamics = if path.starts_with("follower.") || of_arc || of_arms { "" } else { DYNAMICS };
+    let of_plate = path == "motion.stroke";
+    let dynamics = if path.starts_with("follower.") || of_arc || of_arms || of_plate { "" } else { DYNAMICS };
+    let press = if of_plate { press.replace("\n[cam]\n", "\n[cam]\nbody = \"wedge\"\n") } else { press };
     let motion = match FOLLOWERS.iter().find(|kind| kind.section.path == section.path) {
         Some(kind) if kind.swings() && !of_arc => motion_for(path).replace(" mm\"", " deg\""),
         _ => motion_for(path),
@@ -324,6 +331,7 @@ fn motion_for(path: &str) -> String {
         "measured_at" | "output_arm" => {
             MOTION.replace("start =", "measured_at = \"output\"\noutput_arm = \"150 mm\"\nstart =")
         }
+        "stroke" => PLATE.to_owned(),
         "until" => MOTION.replace("over =", "until ="),
         "by" => MOTION.replacen("to =", "by =", 1),
         "repeat" => MOTION.replace("180 deg", "90 deg"),
@@ -358,6 +366,10 @@ fn motion_for(path: &str) -> String {
         _ => MOTION.to_owned(),
     }
 }
+
+/// The motion of a plate.
+const PLATE: &str = "\n[motion]\nstroke = \"100 mm\"\nstart = \"0 mm\"\n[[motion.segment]]\nover = \"80 mm\"\nto = \"20 mm\"\n\
+                     [[motion.segment]]\nlaw = \"dwell\"\n";
 
 /// Points that end where they begin.
 const POINTS: &str =
@@ -449,6 +461,7 @@ fn every_word_of_a_key_reads() {
                         .replace("to = \"20 mm\"", "to = \"20 deg\"")
                         .replace("\"0 mm\"\n", "\"0 deg\"\n"),
                     "groove" | "barrel" => file_for(&path).replace("\n[cam]\n", "\n[cam]\ngroove_depth = \"5 mm\"\n"),
+                    "wedge" => file_for("motion.stroke"),
                     // Its roller runs where a bore would be.
                     "ring" | "rib" => {
                         let text = without(&file_for(&path), "cam.keyway");

@@ -61,8 +61,9 @@ fn rate(text: &str, order: u32, known: &str) -> Result<RateLimit, String> {
         };
     }
     match units::parse_rate(text, order) {
+        Ok(rate) if rate.by_travel => Err(format!("of a plate the tolerance is a share (5%) or none: {text}")),
         Ok(rate) if rate.value > 0.0 => {
-            let units::DerivativeValue { value, swing, by_time } = rate;
+            let units::DerivativeValue { value, swing, by_time, .. } = rate;
             Ok(RateLimit::Within(RateTolerance::Rate { value, swing, by_time }))
         }
         Ok(_) => Err("must be above 0".into()),

@@ -1,12 +1,14 @@
 //! What applies to a whole program, however its motion is given.
 
+use super::fault_reported::FaultReported;
 use super::keys::{MEASURED_AT, MeasuredAt, OUTPUT_ARM, START};
-use crate::document::{LengthOrAngle, TableReader};
+use crate::document::{Field, LengthOrAngle, TableReader};
 use crate::motion::Quantity;
 use crate::units::{self, Dimension};
 use std::f64::consts::PI;
 
-/// Largest difference between the sum of the segments and a whole turn, rad: rounding of typed angles. Every segment is longer.
+/// Largest difference between the sum of the segments and a whole turn, rad, or the stroke of a plate, m: rounding of typed angles and lengths.
+/// Every segment is longer.
 pub(super) const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 
 /// How the follower of a file moves, which its motion must fit.
@@ -19,6 +21,17 @@ pub(crate) struct FollowerMovement {
     pub(crate) arm: Option<f64>,
 }
 
+/// Over what a program goes, as the body of its cam has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ProgramSpan {
+    /// A turn, in equal lobes.
+    Turn,
+    /// A turn or one half of it: the other half is the first one upside down, as between the two faces of a yoke.
+    HalfTurn,
+    /// The travel of a plate, once out and back.
+    Stroke,
+}
+
 /// What applies to the whole program.
 #[derive(Clone, Copy)]
 pub(super) struct ProgramContext {
@@ -29,9 +42,11 @@ pub(super) struct ProgramContext {
     pub(super) arm: Option<f64>,
     /// Angular speed of the cam, rad/s.
     pub(super) speed: Option<f64>,
-    /// First cam angle, and the angle the segments fill, rad.
+    /// First cam angle, and the angle the segments fill, rad; 0 and the stroke of a plate, m.
     pub(super) at: f64,
     pub(super) fill: f64,
+    /// It goes over the stroke of a plate: what is an angle of a turn is a length of it.
+    pub(super) by_travel: bool,
 }
 
 impl ProgramContext {
@@ -48,6 +63,55 @@ impl ProgramContext {
             Some(arc) if lengths() => (Quantity::Length, arc),
             _ => (self.quantity, 1.0),
         }
+    }
+
+    /// An angle of the program, or a length of that of a plate, as typed in a key; `None` where the key is absent.
+    pub(super) fn place(
+        &self,
+        table: &TableReader<'_>,
+        key: &Field<LengthOrAngle>,
+    ) -> Result<Option<f64>, FaultReported> {
+        if !table.has(key) {
+            return Ok(None);
+        }
+        let typed = table.get(key).ok_or(FaultReported)?;
+        self.along(typed).map(Some).map_err(|found| {
+            let (message, help) = self.wrong_place(key.key.name, found);
+            table.fail(key, message, Some(help));
+            FaultReported
+        })
+    }
+
+    /// The number of a place; what it is instead where it is of the other kind.
+    pub(super) fn along(&self, place: LengthOrAngle) -> Result<f64, Quantity> {
+        match place {
+            LengthOrAngle::Angle(angle) if !self.by_travel => Ok(angle),
+            LengthOrAngle::Length(length) if self.by_travel => Ok(length),
+            LengthOrAngle::Angle(_) => Err(Quantity::Angle),
+            LengthOrAngle::Length(_) => Err(Quantity::Length),
+        }
+    }
+
+    /// What is wrong with a place of the other kind, under this name, and what would be right.
+    pub(super) fn wrong_place(&self, name: &str, found: Quantity) -> (String, String) {
+        let found = found.words();
+        if self.by_travel {
+            let message =
+                format!("`{name}` is {found}, but a plate travels: its program goes over the length motion.stroke");
+            return (message, "give a length, such as \"40 mm\"".into());
+        }
+        let message = format!("`{name}` is {found}, but the cam turns");
+        (message, "give an angle, such as \"90 deg\"; lengths are those of a plate, cam.body = \"wedge\"".into())
+    }
+
+    /// A place for a message.
+    pub(super) fn shown(&self, place: f64) -> String {
+        if self.by_travel { format!("{:.6} mm", 1e3 * place) } else { format!("{:.6} deg", place.to_degrees()) }
+    }
+
+    /// What the segments fill, for a message.
+    pub(super) fn whole(&self) -> &'static str {
+        if self.by_travel { "stroke" } else { "turn" }
     }
 
     /// What to write in the place of a position of the wrong kind.

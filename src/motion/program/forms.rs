@@ -1,17 +1,17 @@
 //! Motions that are given as a whole instead of by segments: a formula, a Fourier series, points, a table; and segments that are given by a
 //! formula, points or a table.
 
-use super::Program;
 use super::context::ProgramContext;
 use super::fault_reported::FaultReported;
 use super::keys::{
     ACCELERATION, BETWEEN, COLUMNS, COSINES, DEGREE, END, ENDS, EXPRESSED, FORMULA, FOURIER, INNER, JERK,
     LARGEST_SWING, LIFT, MIRROR, OVER_ROWS, POINTS, RATIO_OF_ANGLES, REST, SCALE, SHAPE, SHARES, SINES, SMOOTH, SPLINE,
-    START, STEP, TABLE, TABULATED, UNIT, VELOCITY,
+    START, STEP, STROKE, TABLE, TABULATED, UNIT, VELOCITY,
 };
 use super::rows::{self, Origin, RowFigures, RowPlace, RowWishes, Rows, SplineRows};
+use super::{Program, Span};
 use crate::document::range::LONGEST;
-use crate::document::{Columns, Field, LengthOrAngle, Reader, TableReader};
+use crate::document::{Columns, Field, PointList, Reader, TableReader};
 use crate::motion::Quantity;
 use crate::motion::formula::{Formula, Scan};
 use crate::motion::laws::{self, LawCurve};
@@ -66,6 +66,14 @@ impl<'r> MotionForm<'r> {
             return Err(FaultReported);
         }
         refuse_keys_of_rows(table)?;
+        if table.has(&STROKE)
+            && let Some(closing) = names.first().filter(|name| ["points", "table", "fourier"].contains(*name))
+        {
+            let message = format!("`{closing}` of a whole motion closes after a turn, and a plate does not turn");
+            let help = "give segments, with law = \"spline\" or \"table\" for points and rows, or a formula of x";
+            table.fail(&STROKE, message, Some(help.into()));
+            return Err(FaultReported);
+        }
         Ok(match names.first() {
             Some(&"formula") => Some(Self::Formula),
             Some(&"points") => Some(Self::Points),
@@ -92,8 +100,9 @@ impl<'r> MotionForm<'r> {
                 return rows::program(table, whole, (start, lobes), rows::file::read(table, whole)?).and_then(kept);
             }
         };
-        let at = if at >= TAU { at - TAU } else { at };
-        let program = Program::of_curve(whole.quantity, (at, lobes), start + first, (name, curve));
+        let at = if at >= TAU && !whole.by_travel { at - TAU } else { at };
+        let span = if whole.by_travel { Span::Stroke(whole.fill) } else { Span::Turn { at, lobes } };
+        let program = Program::of_curve(whole.quantity, span, start + first, (name, curve));
         kept(program)
     }
 }
@@ -173,18 +182,19 @@ impl StartUnit {
 /// A curve of positions above its first one, and that first position.
 type OffsetCurve = (LawCurve, f64);
 
-/// The curve of a formula of th over a turn or lobe.
+/// The curve of a formula of th over a turn or lobe, or of x over the stroke of a plate.
 fn formula(table: &TableReader<'_>, unit: &StartUnit, whole: ProgramContext) -> Option<OffsetCurve> {
-    let (formula, scan) = parse_formula(table, &FORMULA, "th", whole.fill)?;
-    let (first, last) = (formula.at(0.0)[0], formula.at(whole.fill)[0]);
-    if (last - first).abs() > SAME_PLACE * (scan.range.1 - scan.range.0) {
+    let (variable, fill) = if whole.by_travel { ("x", whole.fill / unit.size) } else { ("th", whole.fill) };
+    let (formula, scan) = parse_formula(table, &FORMULA, variable, fill)?;
+    let (first, last) = (formula.at(0.0)[0], formula.at(fill)[0]);
+    if !whole.by_travel && (last - first).abs() > SAME_PLACE * (scan.range.1 - scan.range.0) {
         let (off, turn) = (unit.shown((last - first) * unit.size), whole.fill.to_degrees());
         let message = format!("the formula does not end where it begins: over {turn} deg the position grows by {off}");
         let help = "make it periodic: sin and cos of whole multiples of th (of repeat times th with lobes)";
         table.fail(&FORMULA, message, Some(help.into()));
         return None;
     }
-    Some((laws::from_formula(formula, whole.fill, (unit.size, first), &scan), first * unit.size))
+    Some((laws::from_formula(formula, fill, (unit.size, first), &scan), first * unit.size))
 }
 
 /// The formula of a key by a variable that runs from 0 to an end, which must have values and derivatives everywhere.
@@ -245,13 +255,17 @@ fn points(table: &TableReader<'_>, whole: ProgramContext) -> Option<Rows> {
 const TYPED: f64 = 1e-3;
 
 /// The points of a key, of the right kind: angle and position.
-fn typed_points(
-    table: &TableReader<'_>,
-    key: &Field<Vec<(f64, LengthOrAngle)>>,
-    whole: ProgramContext,
-) -> Option<Vec<[f64; 2]>> {
+fn typed_points(table: &TableReader<'_>, key: &Field<PointList>, whole: ProgramContext) -> Option<Vec<[f64; 2]>> {
     let mut points: Vec<[f64; 2]> = Vec::new();
-    for (number, (angle, position)) in (1..).zip(table.get(key)?) {
+    for (number, (place, position)) in (1..).zip(table.get(key)?) {
+        let place = match whole.along(place) {
+            Ok(place) => place,
+            Err(found) => {
+                let (message, help) = whole.wrong_place(key.key.name, found);
+                table.fail(key, format!("{message}, at point {number}"), Some(help));
+                return None;
+            }
+        };
         let (found, position) = whole.value_of(position);
         if found != whole.quantity {
             let message =
@@ -259,26 +273,23 @@ fn typed_points(
             table.fail(key, message, Some(whole.remedy(position)));
             return None;
         }
-        points.push([angle, position]);
+        points.push([place, position]);
     }
     Some(points)
 }
 
 /// The points of a key, in order.
-fn increasing_points(
-    table: &TableReader<'_>,
-    key: &Field<Vec<(f64, LengthOrAngle)>>,
-    whole: ProgramContext,
-) -> Option<Vec<[f64; 2]>> {
+fn increasing_points(table: &TableReader<'_>, key: &Field<PointList>, whole: ProgramContext) -> Option<Vec<[f64; 2]>> {
     let points = typed_points(table, key, whole)?;
     let pairs = points.iter().zip(points.iter().skip(1));
     match (1..).zip(pairs).find(|(_, (a, b))| b[0] - a[0] <= SAME_ANGLE) {
         None => Some(points),
         Some((number, (before, here))) => {
-            let (here, before) = (here[0].to_degrees(), before[0].to_degrees());
-            let message =
-                format!("point {} at {here:.6} deg does not come after point {number} at {before:.6} deg", number + 1);
-            table.fail(key, message, Some("give the points in order of increasing angle, each angle once".into()));
+            let (here, before) = (whole.shown(here[0]), whole.shown(before[0]));
+            let message = format!("point {} at {here} does not come after point {number} at {before}", number + 1);
+            let what = if whole.by_travel { "place" } else { "angle" };
+            let help = format!("give the points in order of increasing {what}, each {what} once");
+            table.fail(key, message, Some(help));
             None
         }
     }
@@ -411,16 +422,17 @@ pub(super) fn inner_points(segment: &TableReader<'_>, whole: ProgramContext) -> 
 /// Measures the angles of inner points from the start of their segment, which must contain them.
 pub(super) fn measure_from_start(
     segment: &TableReader<'_>,
+    whole: ProgramContext,
     points: &mut [[f64; 2]],
     (start, over): (f64, f64),
 ) -> Option<()> {
     for (number, point) in (1..).zip(points) {
-        let angle = point[0];
+        let place = point[0];
         point[0] -= start;
         if !(point[0] > SAME_ANGLE && point[0] < over - SAME_ANGLE) {
-            let message = format!("point {number} at {:.6} deg is not inside the segment", angle.to_degrees());
-            let (low, high) = (start.to_degrees(), (start + over).to_degrees());
-            segment.fail(&INNER, message, Some(format!("it runs from {low:.6} deg to {high:.6} deg")));
+            let message = format!("point {number} at {} is not inside the segment", whole.shown(place));
+            let (low, high) = (whole.shown(start), whole.shown(start + over));
+            segment.fail(&INNER, message, Some(format!("it runs from {low} to {high}")));
             return None;
         }
     }

@@ -1,7 +1,7 @@
 //! The keys of `[motion]`, `[motion.fourier]` and `[[motion.segment]]`.
 
 use crate::document::Presence::{Default, Optional, Required};
-use crate::document::cams::MAKE;
+use crate::document::cams::{MAKE, WEDGE};
 use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, LONGEST, TURNS_FORWARD};
 use crate::document::{Bounds, Columns, Field, KeySection, LengthOrAngle, Occurrence, PointList, above, within};
 use crate::motion::laws::spline;
@@ -26,6 +26,8 @@ pub(super) const USUAL: &str = "cycloidal";
 pub(super) const LARGEST_SWING: f64 = 2.0 * TAU;
 /// Positions, m or rad.
 const POSITION: (Bounds, Bounds) = (within(-LONGEST, LONGEST), within(-LARGEST_SWING, LARGEST_SWING));
+/// Places of a program, rad, or m of a plate.
+const PLACE: (Bounds, Bounds) = (within(-TAU, 2.0 * TAU), within(-LONGEST, LONGEST));
 /// Most lobes: more would be teeth.
 const MOST_LOBES: f64 = 100.0;
 
@@ -55,6 +57,15 @@ pub(super) const REPEAT: Field<f64> = Field::number(
     within(1.0, MOST_LOBES),
 )
 .also(&["lobes", "cycles", "number_of_lobes"]);
+pub(super) const STROKE: Field<f64> = Field::quantity(
+    "stroke",
+    "travel of a plate (cam.body = \"wedge\"), in the place of a turn: angles of the program are then lengths along it",
+    Optional("100 mm"),
+    Length,
+    above(0.0, LONGEST),
+)
+.only(&[WEDGE])
+.also(&["travel"]);
 pub(super) const MEASURED_AT: Field<MeasuredAt> = Field::words(
     "measured_at",
     "what positions of a swinging follower are: \"pivot\" (angles of its arm), \"roller\" (lengths along the arc of its roller) or \"output\" (lengths along the arc at output_arm)",
@@ -72,14 +83,14 @@ pub(super) const OUTPUT_ARM: Field<f64> = Field::quantity(
 
 pub(super) const FORMULA: Field<String> = Field::text(
     "formula",
-    "instead of segments: position above start, in the unit of start, as a function of th, the cam angle from at in rad: + - * / ^ sin cos tan asin acos atan sqrt exp log pi e",
+    "instead of segments: position above start, in the unit of start, as a function of th, the cam angle from at in rad: + - * / ^ sin cos tan asin acos atan sqrt exp log pi e; of a plate a function of x, its travel in the unit of start",
     Optional("20*(1-cos(th))/2"),
 );
 pub(super) const POINTS: Field<PointList> = Field::points(
     "points",
     "instead of segments: three or more pairs of a cam angle (from at on) and a position above start, joined by a periodic spline",
     Optional("[[\"0 deg\", \"0 mm\"], [\"120 deg\", \"20 mm\"], [\"240 deg\", \"5 mm\"]]"),
-    (Angle, within(-TAU, 2.0 * TAU)),
+    PLACE,
     POSITION,
 );
 pub(super) const DEGREE: Field<f64> = Field::number(
@@ -191,6 +202,7 @@ pub(crate) const SECTION: KeySection = KeySection {
         START.key,
         AT.key,
         REPEAT.key,
+        STROKE.key,
         MEASURED_AT.key,
         OUTPUT_ARM.key,
         FORMULA.key,
@@ -217,20 +229,20 @@ pub(super) const LAW: Field<String> = Field::text(
     Optional(USUAL),
 )
 .also(&["type", "kind", "curve", "motion", "profile"]);
-pub(super) const OVER: Field<f64> = Field::quantity(
+pub(super) const OVER: Field<LengthOrAngle> = Field::angle_or_length(
     "over",
-    "cam angle of the segment; the last segment may omit it",
+    "cam angle of the segment, or its length along a plate; the last segment may omit it",
     Optional("90 deg"),
-    Angle,
     above(0.0, TAU),
+    above(0.0, LONGEST),
 )
 .also(&["angle", "duration", "width", "length", "range", "cam_angle"]);
-pub(super) const UNTIL: Field<f64> = Field::quantity(
+pub(super) const UNTIL: Field<LengthOrAngle> = Field::angle_or_length(
     "until",
-    "cam angle at which it ends, instead of over",
+    "cam angle, or place along a plate, at which it ends, instead of over",
     Optional("210 deg"),
-    Angle,
-    within(-TAU, 2.0 * TAU),
+    PLACE.0,
+    PLACE.1,
 )
 .also(&["end_angle", "to_angle"]);
 pub(super) const TO: Field<LengthOrAngle> =
@@ -248,7 +260,7 @@ pub(super) const BEGINS: Field<bool> = Field::words(
 );
 pub(super) const VELOCITY: Field<String> = Field::text_or_number(
     "velocity",
-    "at its end, per angle or per second (needs rpm), or \"auto\": least jerk between polynomials and splines; for constant-velocity its velocity, instead of over or to",
+    "at its end, per angle, per second (needs rpm) or along a plate per length, or \"auto\": least jerk between polynomials and splines; for constant-velocity its velocity, instead of over or to",
     Optional("-0.3 mm/deg"),
 );
 pub(super) const ACCELERATION: Field<String> = Field::text_or_number(
@@ -345,19 +357,19 @@ pub(crate) const POLYDYNE: KeySection = KeySection {
 
 pub(super) const SHAPE: Field<String> = Field::text(
     "formula",
-    "for the law \"formula\": share of the travel as a function of x, the share of the angle, both from 0 to 1",
+    "for the law \"formula\": share of the travel as a function of x, the share of the angle or length, both from 0 to 1",
     Optional("x^3*(10-15*x+6*x^2)"),
 );
 pub(super) const INNER: Field<PointList> = Field::points(
     "points",
-    "for the law \"spline\": cam angles and positions between its ends",
+    "for the law \"spline\": cam angles, or places along a plate, and positions between its ends",
     Optional("[[\"30 deg\", \"4 mm\"], [\"60 deg\", \"15 mm\"]]"),
-    (Angle, within(-TAU, 2.0 * TAU)),
+    PLACE,
     POSITION,
 );
 pub(super) const SHARES: Field<Arc<Columns>> = Field::columns(
     "table",
-    "for the law \"table\": a file with rows of two shares, of the angle and of the travel, each from 0 to 1",
+    "for the law \"table\": a file with rows of two shares, of the angle or length and of the travel, each from 0 to 1",
     Optional("law.csv"),
 );
 pub(super) const ENDS: Field<spline::SplineEnds> = Field::words(

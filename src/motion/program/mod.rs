@@ -19,7 +19,7 @@ mod summary;
 mod with_law;
 
 pub use super::jump::Jump;
-pub(crate) use context::FollowerMovement;
+pub(crate) use context::{FollowerMovement, ProgramSpan};
 pub use polydyne::Polydyne;
 pub use spectrum::{Harmonics, ProgramMovement};
 pub use summary::{EndClass, SegmentSummary};
@@ -177,6 +177,15 @@ struct ProgramSegment {
     optimum: Option<Optimum>,
 }
 
+/// Over what a program goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Span {
+    /// A turn from a cam angle on, rad, in a number of equal lobes.
+    Turn { at: f64, lobes: u32 },
+    /// The travel of a plate, m, from 0 on.
+    Stroke(f64),
+}
+
 /// The source of a piece of the motion: parts of the curve of a segment.
 #[derive(Debug, Clone)]
 struct PieceSource {
@@ -191,12 +200,15 @@ fn curve(law: &Law) -> LawCurve {
     tasks.iter().find_map(|task| law.solve(task).ok()).unwrap_or_else(LawCurve::line)
 }
 
-/// A motion of segments over one turn, or one lobe of it.
+/// A motion of segments over one turn, or one lobe of it, or over the travel of a plate, whose places are lengths in metres where those of a turn
+/// are angles in radians.
 #[derive(Debug, Clone)]
 pub struct Program {
     quantity: Quantity,
     rpm: Option<f64>,
     lobes: u32,
+    /// The travel of a plate over which it goes once, m, in the place of a turn.
+    stroke: Option<f64>,
     pieces: Vec<Piece>,
     /// The sources of the pieces of the first lobe.
     sources: Vec<PieceSource>,
@@ -228,19 +240,61 @@ impl Program {
     #[must_use]
     pub fn new(quantity: Quantity, start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Self {
         let mut program = Self::empty(quantity, 1);
-        let (mut angle, mut position) = (0.0, start);
+        program.add_laws((start, TAU), segments);
+        program.with_lowest()
+    }
+
+    /// Segments of law (`None` rests), length (m) and end position (m) along a plate that travels from x = 0 on, from a position on; the stroke is
+    /// the sum of the lengths. Each law leads from rest to rest, as in [`Program::new`].
+    ///
+    /// ```
+    /// use camgen::{Motion, Program, law};
+    ///
+    /// // 25 mm over 80 mm of the plate, then a rest of 20 mm.
+    /// let program = Program::over_travel(0.0, &[(law("cycloidal"), 0.080, 0.025), (None, 0.020, 0.0)]);
+    /// assert_eq!((program.range(), program.period()), ((0.0, 0.1), None));
+    /// let (piece, x) = program.locate(0.040);
+    /// assert!((program.jet(piece, x).s - 0.0125).abs() < 1e-15);
+    /// // Twice the mean slope in the middle.
+    /// assert!((program.jet(piece, x).ds - 0.625).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn over_travel(start: f64, segments: &[(Option<&'static Law>, f64, f64)]) -> Self {
+        let stroke = segments.iter().map(|(_, over, _)| over).sum();
+        let mut program = Self { stroke: Some(stroke), ..Self::empty(Quantity::Length, 1) };
+        program.add_laws((start, stroke), segments);
+        program.with_lowest()
+    }
+
+    /// Adds segments of law, width and end position, from a position on, up to an end of the last one.
+    fn add_laws(&mut self, (start, last): (f64, f64), segments: &[(Option<&'static Law>, f64, f64)]) {
+        let (mut place, mut position) = (0.0, start);
         for (index, (law, over, to)) in segments.iter().enumerate() {
-            let end = if index + 1 == segments.len() { TAU } else { angle + over };
+            let end = if index + 1 == segments.len() { last } else { place + over };
             let to = if law.is_some() { *to } else { position };
-            let (width, travel, ends) = (end - angle, to - position, [EndState::default(); 2]);
+            let (width, travel, ends) = (end - place, to - position, [EndState::default(); 2]);
             let (curve, name) = (law.map(curve), law.map_or(keys::DWELL, |law| law.name));
             let (whole, optimum) = (false, None);
             let segment =
-                ProgramSegment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
-            program.add(segment, end);
-            (angle, position) = (end, to);
+                ProgramSegment { curve, name, start: place, width, from: position, travel, to, ends, whole, optimum };
+            self.add(segment, end);
+            (place, position) = (end, to);
         }
-        program.with_lowest()
+    }
+
+    /// Segments from a position (m) and x = 0 on over the stroke of a plate (m), which the follower enters at rest.
+    ///
+    /// # Errors
+    /// The first segment that cannot be made, and why.
+    fn of_stroke((start, stroke): (f64, f64), steps: &[SegmentSpec]) -> Result<Self, (usize, LawError)> {
+        // A rest before the first segment and behind the last one, where the segments of a turn follow each other.
+        let rest =
+            SegmentSpec { mover: Mover::Dwell, over: stroke, to: start, end: EndState::default(), free_start: false };
+        let all: Vec<SegmentSpec> = std::iter::once(rest).chain(steps.iter().cloned()).collect();
+        let found = solved::solve(start, &all).map_err(|(index, error)| (index.saturating_sub(1), error))?;
+        let mut program = Self { stroke: Some(stroke), ..Self::empty(Quantity::Length, 1) };
+        program.add_solved((0.0, start, stroke), found, 1);
+        Ok(program.with_lowest())
     }
 
     /// Segments from a position and a cam angle (rad) on, in a number of equal lobes.
@@ -254,11 +308,21 @@ impl Program {
     ) -> Result<Self, (usize, LawError)> {
         let mut program = Self::empty(quantity, lobes.max(1));
         let whole = TAU / f64::from(lobes.max(1));
-        let solved::SolvedSegments { steps, curves, rows } = solved::solve(start, steps)?;
+        let found = solved::solve(start, steps)?;
+        program.add_solved((at, start, at + whole), found, 0);
+        program.repeat(whole);
+        Ok(program.with_lowest())
+    }
+
+    /// Adds solved segments but the first few, from a place and a position on, up to an end of the last one.
+    fn add_solved(&mut self, (at, start, last): (f64, f64, f64), found: solved::SolvedSegments, skipped: usize) {
+        let solved::SolvedSegments { steps, curves, rows } = found;
         let (mut angle, mut position) = (at, start);
-        let mut before = steps.last().map_or_else(EndState::default, |step| step.end);
-        for (index, ((step, (curve, travel)), of_spline)) in steps.iter().zip(curves).zip(rows).enumerate() {
-            let end = if index + 1 == steps.len() { at + whole } else { angle + step.over };
+        let first = skipped.checked_sub(1).or(steps.len().checked_sub(1)).and_then(|before| steps.get(before));
+        let mut before = first.map_or_else(EndState::default, |step| step.end);
+        let (count, solved) = (steps.len(), steps.iter().zip(curves).zip(rows).skip(skipped).enumerate());
+        for (index, ((step, (curve, travel)), of_spline)) in solved {
+            let end = if index + skipped + 1 == count { last } else { angle + step.over };
             let ends = [before, step.end];
             let (name, width, to) = (step.mover.name(), end - angle, step.to);
             let (whole, optimum) = (false, step.mover.optimum());
@@ -266,35 +330,33 @@ impl Program {
                 Mover::Own(_, _, Some(figures)) => Some(rows::RowFigures::clone(figures)),
                 _ => of_spline,
             };
-            program.rows.extend(figures.map(|figures| figures.of_segment(index, (angle, width), travel.abs())));
+            self.rows.extend(figures.map(|figures| figures.of_segment(index, (angle, width), travel.abs())));
             let segment =
                 ProgramSegment { curve, name, start: angle, width, from: position, travel, to, ends, whole, optimum };
-            program.add(segment, end);
+            self.add(segment, end);
             (angle, position, before) = (end, step.to, step.end);
         }
-        program.repeat(whole);
-        Ok(program.with_lowest())
     }
 
-    /// One curve over a turn, or over each of a number of equal lobes, from a cam angle (rad) on: positions above a first one, m or rad,
-    /// by the share of the turn or lobe.
-    fn of_curve(
-        quantity: Quantity,
-        (at, lobes): (f64, u32),
-        from: f64,
-        (name, curve): (&'static str, LawCurve),
-    ) -> Self {
-        let mut program = Self::empty(quantity, lobes.max(1));
-        let width = TAU / f64::from(lobes.max(1));
-        let ([_, velocity, acceleration, _], peaks) = (curve.at(0, 0.0), curve.peaks());
+    /// One curve over a turn, each of its equal lobes, or a stroke: positions above a first one, m or rad, by the share of these.
+    fn of_curve(quantity: Quantity, span: Span, from: f64, (name, curve): (&'static str, LawCurve)) -> Self {
+        let (at, lobes, stroke) = match span {
+            Span::Turn { at, lobes } => (at, lobes.max(1), None),
+            Span::Stroke(stroke) => (0.0, 1, Some(stroke)),
+        };
+        let mut program = Self { stroke, ..Self::empty(quantity, lobes) };
+        let width = stroke.unwrap_or(TAU / f64::from(lobes));
+        let (peaks, last) = (curve.peaks(), curve.at(curve.parts().saturating_sub(1), 1.0));
         let exact = |value: f64, peak: f64| if value.abs() > ROUNDING * peak { value } else { 0.0 };
-        let state = EndState {
+        let state = |[_, velocity, acceleration, _]: [f64; 4]| EndState {
             velocity: exact(velocity, peaks.velocity.value) / width,
             acceleration: exact(acceleration, peaks.acceleration.value) / (width * width),
             ..EndState::default()
         };
-        let (curve, ends) = (Some(curve), [state; 2]);
-        let (travel, to, whole, optimum) = (1.0, from, true, None);
+        let first = state(curve.at(0, 0.0));
+        let ends = [first, stroke.map_or(first, |_| state(last))];
+        let to = stroke.map_or(from, |_| from + last[0]);
+        let (curve, travel, whole, optimum) = (Some(curve), 1.0, true, None);
         let segment = ProgramSegment { curve, name, start: at, width, from, travel, to, ends, whole, optimum };
         program.add(segment, at + width);
         program.repeat(width);
@@ -307,6 +369,7 @@ impl Program {
             quantity,
             rpm: None,
             lobes,
+            stroke: None,
             pieces,
             sources,
             segments,
@@ -357,6 +420,12 @@ impl Program {
     #[must_use]
     pub fn load(&self) -> Option<Polydyne> {
         self.load
+    }
+
+    /// The travel of a plate over which it goes, m; `None` of a program over a turn.
+    #[must_use]
+    pub fn stroke(&self) -> Option<f64> {
+        self.stroke
     }
 
     /// Number of its segments.
@@ -432,6 +501,14 @@ impl Motion for Program {
 
     fn lobes(&self) -> u32 {
         self.lobes
+    }
+
+    fn period(&self) -> Option<f64> {
+        self.stroke.map_or(Some(TAU), |_| None)
+    }
+
+    fn is_by_travel(&self) -> bool {
+        self.stroke.is_some()
     }
 
     /// Its segments, by their laws.

@@ -21,6 +21,11 @@ pub struct Polydyne {
 /// The program with its load, where the file describes one.
 pub(super) fn read(reader: &Reader<'_>, program: Program) -> Option<Program> {
     let Some(table) = reader.find(&POLYDYNE) else { return Some(program) };
+    if program.stroke().is_some() {
+        let message = "a polydyne cam is made for the speed of its shaft, and a plate has none".to_owned();
+        table.fail(&NATURAL_FREQUENCY, message, Some("leave [motion.polydyne] out".into()));
+        return None;
+    }
     let rpm = if table.has(&OWN_RPM) { Some(table.get(&OWN_RPM)?) } else { program.rpm };
     let Some(rpm) = rpm else {
         let help = "add rpm here, or motion.rpm";
@@ -52,9 +57,14 @@ impl Program {
         if let Some(jump) = self.jump() {
             return Err(jump);
         }
-        let mut program =
-            Self { rpm: self.rpm, load: Some(load), rows: self.rows.clone(), ..Self::empty(self.quantity, self.lobes) };
-        let whole = TAU / f64::from(self.lobes);
+        let mut program = Self {
+            rpm: self.rpm,
+            load: Some(load),
+            rows: self.rows.clone(),
+            stroke: self.stroke,
+            ..Self::empty(self.quantity, self.lobes)
+        };
+        let whole = self.stroke.unwrap_or(TAU / f64::from(self.lobes));
         let first = self.segments.first().map_or(0.0, |segment| segment.start);
         let ends = self.segments.iter().skip(1).map(|segment| segment.start).chain([first + whole]);
         for (segment, end) in self.segments.iter().zip(ends) {

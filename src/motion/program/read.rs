@@ -1,12 +1,12 @@
 //! The tables `[motion]` and `[[motion.segment]]`.
 
-use super::context::{FollowerMovement, ProgramContext, WHOLE_TURN, arc, report_mismatch, value_of};
+use super::context::{FollowerMovement, ProgramContext, ProgramSpan, WHOLE_TURN, arc, report_mismatch, value_of};
 use super::fault_reported::FaultReported;
 use super::half_turn;
 use super::keys::{
     ACCELERATION, AMPLITUDES, AT, BEGINS, BETWEEN_ROWS, BY, DWELL, END, EXPRESSED, EndWord, FRACTIONS, INFLECTION,
-    JERK, LAW, LINE, MINIMISE, OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, TABULATED, TO,
-    UNTIL, USUAL, VELOCITY,
+    JERK, LAW, LINE, MINIMISE, OVER, POLYNOMIAL, RAMP, REPEAT, RPM, SECTION, SEGMENT, SPLINE, START, STROKE, TABULATED,
+    TO, UNTIL, USUAL, VELOCITY,
 };
 use super::{EndState, Mover, Program, SegmentSpec};
 use super::{forms, optimum, polydyne, rows};
@@ -23,14 +23,18 @@ const MOST_SEGMENTS: usize = 2000;
 /// Largest distance of the last position from the first, over the largest: rounding of sums.
 const SAME_PLACE: f64 = 1e-12;
 
-/// The program of a file for its follower, where that has no fault, when there is one without fault. That of a yoke may be one half of a
-/// turn, or of a lobe: the other half is the first one upside down.
-pub(crate) fn read(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bool) -> Option<Program> {
-    polydyne::read(reader, as_given(reader, follower, of_yoke)?)
+/// The program of a file for its follower, where that has no fault, when there is one without fault; over what it goes is known where the cam
+/// has no fault.
+pub(crate) fn read(
+    reader: &Reader<'_>,
+    follower: Option<FollowerMovement>,
+    span: Option<ProgramSpan>,
+) -> Option<Program> {
+    polydyne::read(reader, as_given(reader, follower, span)?)
 }
 
 /// The motion that the file gives.
-fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bool) -> Option<Program> {
+fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Option<ProgramSpan>) -> Option<Program> {
     let table = reader.find(&SECTION)?;
     let start = table.get(&START);
     let segments: Vec<TableReader<'_>> = reader.elements(&SEGMENT).collect();
@@ -41,6 +45,7 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bo
         return None;
     }
     let form = forms::MotionForm::find(reader, &table, !segments.is_empty()).ok()?;
+    let stroke = stroke(&table, span);
     if segments.is_empty() && form.is_none() {
         if !reader.is_explained(&SEGMENT) {
             let help =
@@ -57,15 +62,17 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bo
     }
     let rpm = table.get(&RPM);
     let (at, lobes) = (table.get(&AT)?, lobes?);
+    let stroke = stroke.ok()?;
+    let of_yoke = span == Some(ProgramSpan::HalfTurn);
     if of_yoke {
         half_turn::refuse_even(&table, lobes);
     }
     let speed = rpm.map(|rpm| rpm * TAU / 60.0);
     let arm = follower.and_then(|follower| follower.arm);
-    let fill = TAU / f64::from(lobes);
+    let fill = stroke.unwrap_or(TAU / f64::from(lobes));
     let halved = of_yoke && half_turn::is_covered(&segments, at, 0.5 * fill);
     let fill = if halved { 0.5 * fill } else { fill };
-    let whole = ProgramContext { quantity, arc, arm, speed, at, fill };
+    let whole = ProgramContext { quantity, arc, arm, speed, at, fill, by_travel: stroke.is_some() };
     if let Some(form) = form {
         return Some(Program { rpm, ..form.program(&table, whole, (start, lobes))? });
     }
@@ -73,6 +80,23 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bo
     if halved {
         half_turn::completed(&mut steps, start);
     }
+    let made = if let Some(stroke) = stroke {
+        Program::of_stroke((start, stroke), &steps)
+    } else {
+        close(&table, &segments, &mut steps, start)?;
+        Program::of_steps(quantity, (at, start, lobes), &steps)
+    };
+    match made {
+        Ok(program) => Some(Program { rpm, ..program }),
+        Err((index, error)) => {
+            report_error(segments.get(index % segments.len())?, error);
+            None
+        }
+    }
+}
+
+/// Ends the steps of a turn exactly where they start; `None` where they end elsewhere.
+fn close(table: &TableReader<'_>, segments: &[TableReader<'_>], steps: &mut [SegmentSpec], start: f64) -> Option<()> {
     let largest = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);
     let last = steps.last_mut()?;
     if (last.to - start).abs() > SAME_PLACE * largest {
@@ -82,13 +106,35 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, of_yoke: bo
         return None;
     }
     last.to = start;
-    match Program::of_steps(quantity, (at, start, lobes), &steps) {
-        Ok(program) => Some(Program { rpm, ..program }),
-        Err((index, error)) => {
-            report_error(segments.get(index % segments.len())?, error);
-            None
+    Some(())
+}
+
+/// The stroke of a plate, m, over which its program goes in the place of a turn; `None` of a cam that turns.
+fn stroke(table: &TableReader<'_>, span: Option<ProgramSpan>) -> Result<Option<f64>, FaultReported> {
+    if !matches!(span, None | Some(ProgramSpan::Stroke)) && table.has(&STROKE) {
+        let help = "give cam.body = \"wedge\", or remove it";
+        table.fail(&STROKE, "`stroke` is the travel of a plate, but the cam turns".into(), Some(help.into()));
+        return Err(FaultReported);
+    }
+    if span == Some(ProgramSpan::Stroke) && !table.has(&STROKE) {
+        let help = "e.g. stroke = \"100 mm\": its segments then have lengths, over = \"80 mm\"";
+        table.fail(&STROKE, "the motion of a plate needs the travel over which it goes".into(), Some(help.into()));
+        return Err(FaultReported);
+    }
+    if !table.has(&STROKE) {
+        return Ok(None);
+    }
+    let turning = [(table.has(&RPM), "rpm"), (table.has(&AT), "at"), (table.has(&REPEAT), "repeat")];
+    for (_, name) in turning.into_iter().filter(|(given, _)| *given) {
+        let message = format!("`{name}` is for a cam that turns: a plate travels from x = 0 over its stroke");
+        let help = Some("remove it".to_owned());
+        match name {
+            "rpm" => table.fail(&RPM, message, help),
+            "at" => table.fail(&AT, message, help),
+            _ => table.fail(&REPEAT, message, help),
         }
     }
+    table.get(&STROKE).map(Some).ok_or(FaultReported)
 }
 
 /// The positions that are given as lengths, m.
@@ -146,10 +192,12 @@ fn steps(segments: &[TableReader<'_>], whole: ProgramContext, start: f64) -> Opt
         return None;
     }
     if (sum - whole.fill).abs() > WHOLE_TURN {
-        let (covered, off) = (sum.to_degrees(), (whole.fill - sum).to_degrees());
-        let what = if off > 0.0 { format!("{off:.6} deg are missing") } else { format!("{:.6} deg too much", -off) };
-        let message = format!("the segments cover {covered:.6} deg, {what}");
-        segments.last()?.fail(&OVER, message, Some("omit `over` of the last segment to fill the turn".into()));
+        let off = whole.fill - sum;
+        let by = whole.shown(off.abs());
+        let what = if off > 0.0 { format!("{by} are missing") } else { format!("{by} too much") };
+        let message = format!("the segments cover {}, {what}", whole.shown(sum));
+        let help = format!("omit `over` of the last segment to fill the {}", whole.whole());
+        segments.last()?.fail(&OVER, message, Some(help));
         return None;
     }
     Some(all)
@@ -185,8 +233,8 @@ fn step(
         }
         (None, _) if last && sum < whole.fill - WHOLE_TURN => whole.fill - sum,
         (None, _) => {
-            let help = "only the last segment may omit it; it then takes the rest of the turn";
-            segment.fail(&OVER, "a segment has no `over`".into(), Some(help.into()));
+            let help = format!("only the last segment may omit it; it then takes the rest of the {}", whole.whole());
+            segment.fail(&OVER, "a segment has no `over`".into(), Some(help));
             return None;
         }
     };
@@ -208,7 +256,7 @@ fn step(
             let (sized, slope) = (own_end(curve), (to - position) / over);
             end = EndState { velocity: sized[0] * slope, acceleration: sized[1] * slope / over, ..EndState::default() };
         }
-        Mover::Spline(rows) => forms::measure_from_start(segment, &mut rows.points, (whole.at + sum, over))?,
+        Mover::Spline(rows) => forms::measure_from_start(segment, whole, &mut rows.points, (whole.at + sum, over))?,
         _ => {}
     }
     Some(SegmentSpec { mover, over, to, end, free_start })
@@ -242,34 +290,37 @@ fn own_end(curve: &laws::LawCurve) -> [f64; 2] {
     sizes.map(|(value, size)| if value.abs() > super::ROUNDING * size.max(1.0) { value } else { 0.0 })
 }
 
-/// The cam angle of a segment, where it is given.
+/// The cam angle, or the length, of a segment, where it is given.
 fn width(segment: &TableReader<'_>, whole: ProgramContext, sum: f64, rest: bool) -> Result<Option<f64>, FaultReported> {
     if segment.has(&OVER) && segment.has(&UNTIL) {
         segment.fail(&UNTIL, "give `over` or `until`, not both".into(), Some("remove one of them".into()));
         return Err(FaultReported);
     }
-    if segment.has(&UNTIL) {
-        let until = segment.get(&UNTIL).ok_or(FaultReported)?;
+    if let Some(until) = whole.place(segment, &UNTIL)? {
         let over = until - (whole.at + sum);
-        if !(over > WHOLE_TURN && over <= TAU + WHOLE_TURN) {
-            let from = (whole.at + sum).to_degrees();
-            let message = format!("`until` must come after the start of the segment, {from:.6} deg");
+        let most = if whole.by_travel { f64::INFINITY } else { TAU };
+        if !(over > WHOLE_TURN && over <= most + WHOLE_TURN) {
+            let from = whole.shown(whole.at + sum);
+            let message = format!("`until` must come after the start of the segment, {from}");
             segment.fail(&UNTIL, message, None);
             return Err(FaultReported);
         }
         return Ok(Some(over));
     }
-    if segment.has(&OVER) {
-        let over = segment.get(&OVER).ok_or(FaultReported)?;
+    if let Some(over) = whole.place(segment, &OVER)? {
         if over <= WHOLE_TURN {
-            let message = "a segment must be longer than 1e-9 deg";
-            segment.fail(&OVER, message.into(), Some("make it longer, or remove it".into()));
+            let least = if whole.by_travel { "0.02 nm" } else { "1e-9 deg" };
+            segment.fail(
+                &OVER,
+                format!("a segment must be longer than {least}"),
+                Some("make it longer, or remove it".into()),
+            );
             return Err(FaultReported);
         }
         return Ok(Some(over));
     }
     if rest && sum >= whole.fill - WHOLE_TURN {
-        let message = format!("the segments before the last already cover {:.6} deg", sum.to_degrees());
+        let message = format!("the segments before the last already cover {}", whole.shown(sum));
         segment.fail(&OVER, message, Some("make them shorter, or remove the last".into()));
         return Err(FaultReported);
     }
@@ -308,7 +359,11 @@ fn rate(
     }
     let text = segment.get(key).ok_or(FaultReported)?;
     let swings = whole.quantity == Quantity::Angle;
-    let fits = if swings { "deg/deg, rad/rad or deg/s" } else { "mm/deg, mm/rad, mm/s or m/s" };
+    let fits = match (swings, whole.by_travel) {
+        (true, _) => "deg/deg, rad/rad or deg/s",
+        (false, false) => "mm/deg, mm/rad, mm/s or m/s",
+        (false, true) => "mm/mm or in/in",
+    };
     let powers = if order > 1 { format!(", with {order} after the second unit") } else { String::new() };
     let fail = |message: String, help: String| {
         segment.fail(key, message, Some(help));
@@ -320,6 +375,14 @@ fn rate(
         Ok(rate) if rate.swing != swings && (rate.swing || whole.arc.is_none()) => {
             let (found, wanted) = if swings { ("a length", "an angle") } else { ("an angle", "a length") };
             fail(format!("`{name}` is that of {found}, but motion.start is {wanted}"), format!("one of {fits}{powers}"))
+        }
+        Ok(rate) if rate.by_travel != whole.by_travel => {
+            let message = if whole.by_travel {
+                format!("`{name}` of a plate is that along its travel: its speed is not known")
+            } else {
+                format!("`{name}` is that along the travel of a plate, but the cam turns")
+            };
+            fail(message, format!("one of {fits}{powers}"))
         }
         Ok(rate) => {
             let value = if rate.swing { rate.value } else { rate.value / whole.arc.unwrap_or(1.0) };

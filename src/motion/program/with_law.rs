@@ -10,7 +10,7 @@ impl Program {
     pub fn with_law(&self, law: &'static Law) -> Option<Self> {
         let curve = law.serves_rests().then(|| law.solve(&LawTask::default()).ok()).flatten()?;
         let mut other = Self::empty(self.quantity, self.lobes);
-        other.rpm = self.rpm;
+        (other.rpm, other.stroke) = (self.rpm, self.stroke);
         let last = self.sources.len().checked_sub(1).and_then(|last| self.pieces.get(last))?.end;
         let starts = self.segments.iter().skip(1).map(|segment| segment.start);
         let mut changed = false;

@@ -112,12 +112,12 @@ fn units() -> String {
 fn dimensions(form: KeyForm) -> Vec<Dimension> {
     match form {
         KeyForm::LengthOrAngle(..) => vec![Dimension::Length, Dimension::Angle],
+        KeyForm::AngleOrLength(..) | KeyForm::Points(..) => vec![Dimension::Angle, Dimension::Length],
         KeyForm::Either((one, _), (other, _)) => vec![one, other],
         KeyForm::Quantity(dimension, _)
         | KeyForm::WordsOrQuantity(_, dimension, _)
         | KeyForm::Band(dimension, _)
-        | KeyForm::Pair(dimension, _)
-        | KeyForm::Points(dimension, ..) => vec![dimension],
+        | KeyForm::Pair(dimension, _) => vec![dimension],
         _ => Vec::new(),
     }
 }
@@ -169,13 +169,14 @@ fn value(form: KeyForm) -> String {
         KeyForm::Texts => "list of texts or numbers".into(),
         KeyForm::Quantity(dimension, _) => dimension.to_string(),
         KeyForm::LengthOrAngle(..) => "length or angle".into(),
+        KeyForm::AngleOrLength(..) => "angle or length".into(),
         KeyForm::LengthAngleOrShare(..) => "length, angle or share".into(),
         KeyForm::Either((one, _), (other, _)) => format!("{one} or {other}"),
         KeyForm::Words(all) => words(all),
         KeyForm::WordsOrQuantity(all, dimension, _) => format!("{} or {dimension}", words(all)),
         KeyForm::Band(dimension, _) => format!("two of {dimension}: `\"low .. high\"`"),
         KeyForm::Pair(dimension, _) => format!("list of two of {dimension}"),
-        KeyForm::Points(dimension, ..) => format!("list of points: {dimension}, position"),
+        KeyForm::Points(..) => "list of points: angle or length, position".into(),
         KeyForm::Columns => "path of a file".into(),
     }
 }

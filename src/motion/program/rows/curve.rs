@@ -5,7 +5,7 @@ use super::turn::Turn;
 use super::{RowFigures, RowShape, RowWishes, Rows};
 use crate::motion::laws::{LawCurve, spline};
 use crate::motion::program::context::ProgramContext;
-use crate::motion::program::{EndState, Program, ProgramSegment, keys};
+use crate::motion::program::{EndState, Program, ProgramSegment, Span, keys};
 use crate::numeric::extremum;
 
 /// Cells in which the extremes of a cubic are separated.
@@ -45,7 +45,7 @@ pub(super) fn program(
             spline::chain(&turn.knots, &nodes)
         };
         let base = base + if wishes.cubic { 0.0 } else { found.values.first().copied().unwrap_or(0.0) };
-        Program::of_curve(whole.quantity, (turn.at, lobes), base, (rows.name(), curve))
+        Program::of_curve(whole.quantity, Span::Turn { at: turn.at, lobes }, base, (rows.name(), curve))
     };
     let figures = run.figures(&found, rows.rounding, wishes, &rows.told).placed((turn.at, whole.fill), 1.0);
     let cubic_overshoot = wishes.cubic.then(|| overshoot_of(&program, turn, base, whole));
