@@ -1,6 +1,6 @@
 //! Everything that the core and the domains bring, in one catalogue: tables of keys, machine files, kinds of cam and of analysis, checks.
 
-use crate::analysis::{laws, size};
+use crate::analysis::{compare, laws, size};
 use crate::body::{self, Kind};
 use crate::check::Check;
 use crate::document::{KeySection, Tables, cams};
@@ -46,7 +46,7 @@ fn sections() -> Vec<&'static KeySection> {
 
 /// Every check, in the order of reports.
 pub fn checks() -> impl Iterator<Item = &'static Check> {
-    let mut all: Vec<&'static Check> = CHECKS.iter().map(|check| &**check).collect();
+    let mut all: Vec<&'static Check> = CHECKS.iter().map(|check| &**check).chain([&compare::DEVIATION]).collect();
     for added in DOMAINS.iter().flat_map(|domain| domain.checks) {
         added.put_into(&mut all, |check| check.name);
     }
@@ -60,7 +60,7 @@ pub fn kinds() -> impl Iterator<Item = &'static Kind> {
 }
 
 /// The analyses of any machine.
-const ANALYSES: &[&Kind] = &[&size::KIND, &laws::KIND, &trade::KIND];
+const ANALYSES: &[&Kind] = &[&size::KIND, &laws::KIND, &compare::KIND, &trade::KIND];
 
 /// Every kind of analysis.
 pub fn analyses() -> impl Iterator<Item = &'static Kind> {

@@ -3,6 +3,7 @@
 //! An analysis is plain data, made by one function from a machine. Checks judge its measures, formats write its tables and its
 //! plot. A new one is a file here, a line in the catalogue and its command.
 
+pub mod compare;
 pub mod laws;
 pub mod size;
 

@@ -1,6 +1,8 @@
 //! The commands that analyse a machine and cut nothing.
 
-use super::args::{AnalysisArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs, at_end, machine_with_free};
+use super::args::{
+    AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs, at_end, machine_with_free,
+};
 #[cfg(feature = "linkage")]
 use super::args::{LinkageArgs, LinkageGoal};
 #[cfg(feature = "shaft")]
@@ -8,7 +10,10 @@ use super::args::{Order, ShaftArgs, ShaftSolver};
 use super::cams::{show, source_date};
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message};
+use camgen::analysis::compare::{self as comparison, ComparisonOptions, measured};
 use camgen::analysis::{Analysis, laws, size};
+use camgen::body::Cut;
+use camgen::document::file::text_of;
 #[cfg(feature = "linkage")]
 use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
 use camgen::domains::press::analysis::{drive, regimes, spring};
@@ -19,7 +24,7 @@ use camgen::domains::shaft::analysis::{self as shaft, CriticalSpeedSolver, Shaft
 #[cfg(feature = "shaft")]
 use camgen::domains::shaft::machine::ShaftMachine;
 use camgen::machine::Machine;
-use camgen::pipeline::{Judged, Writing};
+use camgen::pipeline::{Judged, Spec, Writing};
 use camgen::report::Speeds;
 use camgen::write::number::names;
 
@@ -113,6 +118,41 @@ pub(super) fn size(args: &SizeArgs) -> Result<Outcome, Failure> {
     let (machine, name) = args.analysis.machine(&args.machine)?;
     judge_and_write(size::analysis(&machine, &args.free, args.rpm).map_err(Failure::new)?, &args.analysis, &name)
 }
+
+pub(super) fn compare(args: &CompareArgs) -> Result<Outcome, Failure> {
+    let file = args.measured.display();
+    let text =
+        text_of(&args.measured, LARGEST_MEASURED).map_err(|why| Failure(format!("cannot read `{file}`: {why}")))?;
+    let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
+    let (machine, name) = args.analysis.machine(&args.machine)?;
+    let spec = Spec::of_program(machine, args.rpm).ok_or_else(|| {
+        Failure(format!("{} has no motion: give the file of a cam that `camgen make` cuts", args.machine))
+    })?;
+    let cam = spec.solve().map_err(Failure::new)?;
+    let cuts = cam.body().cuts();
+    let wanted = |cut: &&Cut<'_>| args.flank.as_ref().is_none_or(|name| cut.name.eq_ignore_ascii_case(name));
+    let names: Vec<&str> = cuts.iter().map(|cut| cut.name).filter(|name| !name.is_empty()).collect();
+    let cut = match cuts.iter().filter(wanted).collect::<Vec<_>>()[..] {
+        [cut] => cut,
+        [] if cuts.is_empty() => {
+            return Err(Failure(format!(
+                "a {} has no outline in a plane with which points are compared",
+                cam.body().kind().noun
+            )));
+        }
+        _ if names.is_empty() => return Err(Failure("--flank is for a body with several flanks".into())),
+        _ => return Err(Failure(format!("give --flank {}", names.join(" or --flank ")))),
+    };
+    let options = ComparisonOptions { ball: args.ball.unwrap_or(0.0), fit: args.fit };
+    judge_and_write(
+        comparison::analysis(cam.body(), cut, &points, options).map_err(Failure::new)?,
+        &args.analysis,
+        &name,
+    )
+}
+
+/// Largest table of measured points, bytes.
+const LARGEST_MEASURED: u64 = 16 << 20;
 
 pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
     let (machine, name) = match &args.machine {

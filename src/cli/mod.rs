@@ -80,6 +80,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         #[cfg(feature = "brake")]
         Command::Brake(DeferredArgs(args)) => brake::run(args),
         Command::Size(DeferredArgs(args)) => analyses::size(args),
+        Command::Compare(DeferredArgs(args)) => analyses::compare(args),
         Command::Laws(DeferredArgs(args)) => analyses::laws(args),
         Command::SideBySide(DeferredArgs(args)) => side_by_side::run(args),
         Command::Check(DeferredArgs(args)) => check::run(args),

@@ -69,8 +69,8 @@ def same_drawing(path, own):
         raise NotRead(f"{type(error).__name__} {str(error)[:80]}") from error
     if not found:
         raise NotRead("no entity is left in the model space")
-    # Without a unit the numbers are millimetres for both; camgen says so.
-    if unit not in (0, own[0]):
+    # Without a unit the numbers are millimetres for both; camgen says so. A unit that is no whole number is none.
+    if str(unit) not in ("0", str(own[0])) and str(unit).isdigit():
         return f"$INSUNITS {unit}"
     if len(found) != len(own[1]):
         return f"{len(found)} entities instead of {len(own[1])}"

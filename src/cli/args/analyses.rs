@@ -6,7 +6,8 @@ use super::files::OutputArgs;
 use super::parse::power_share;
 #[cfg(feature = "shaft")]
 use super::parse::{Order, order, stiffnesses};
-use super::parse::{crank_step, force, format, law, lift, rpm, segment_angle, stiffness, word};
+use super::parse::{crank_step, cutter_radius, force, format, law, lift, rpm, segment_angle, stiffness, word};
+use camgen::analysis::compare::ComparisonFit;
 use camgen::analysis::size::FreeDimension;
 use camgen::document::LengthOrAngle;
 use camgen::domains::press::analysis::drive;
@@ -18,6 +19,7 @@ use camgen::motion::laws::Law;
 #[cfg(any(feature = "linkage", feature = "shaft"))]
 use clap::ValueEnum;
 use clap::{Args, ValueHint};
+use std::path::PathBuf;
 
 /// Flags of every analysis.
 #[derive(Debug, Args)]
@@ -217,6 +219,36 @@ pub(in crate::cli) struct SizeArgs {
     /// arm; also called pivot-distance or arm) [default: what the file leaves to auto]
     #[arg(long, value_name = "LIST", value_delimiter = ',', ignore_case = true, value_parser = word::<FreeDimension>())]
     pub(in crate::cli) free: Vec<FreeDimension>,
+
+    /// Speed of the cam, rpm [default: that of the file]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Option<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct CompareArgs {
+    /// The measured points: a table of x and y, or of angle and radius, in millimetres and degrees, of lines of text
+    #[arg(value_name = "MEASURED", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) measured: PathBuf,
+
+    /// The path of a file with [motion] and a follower, or an embedded one
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Radius of the ball whose centres the points are [default: 0, points on the profile]
+    #[arg(long, value_name = "RADIUS", value_parser = cutter_radius)]
+    pub(in crate::cli) ball: Option<f64>,
+
+    /// What is fitted before deviations are told: angle (about the shaft), centre (angle and centre) or none
+    #[arg(long, value_name = "WHAT", default_value = "angle", ignore_case = true, value_parser = word::<ComparisonFit>())]
+    pub(in crate::cli) fit: ComparisonFit,
+
+    /// Which flank of a body with several: inner or outer
+    #[arg(long, value_name = "FLANK")]
+    pub(in crate::cli) flank: Option<String>,
 
     /// Speed of the cam, rpm [default: that of the file]
     #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]

@@ -93,6 +93,13 @@ Examples:
   camgen size lever --free pivot-distance --dry-run
       base radius and pivot distance of an arm; only the report";
 
+pub(super) const COMPARE: &str = "\
+Examples:
+  camgen compare measured.csv lifter.toml --ball 3mm
+      centres of a ball of radius 3 mm, turned to fit; exit code 1 where a point leaves title.profile_tolerance
+  camgen compare measured.csv lifter.toml --fit centre --format csv,svg,html
+      also the centre is fitted: the eccentricity is told";
+
 pub(super) const SIDE_BY_SIDE: &str = "\
 Examples:
   camgen side-by-side dpi dpi-paper

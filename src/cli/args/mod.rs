@@ -10,7 +10,7 @@ mod help;
 mod parse;
 mod side_by_side;
 
-pub(super) use analyses::{AnalysisArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs};
+pub(super) use analyses::{AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs};
 #[cfg(feature = "linkage")]
 pub(super) use analyses::{LinkageArgs, LinkageGoal};
 #[cfg(feature = "shaft")]
@@ -118,6 +118,11 @@ pub(super) enum Command {
     /// Peaks of velocity, acceleration and jerk; with a file also pressure angle, size, forces, jump speed, vibration and harmonics.
     #[command(after_help = help::LAWS)]
     Laws(DeferredArgs<LawsArgs>),
+    /// A measured cam against the exact one: deviations, waviness, what the follower feels
+    ///
+    /// The points are a table of x and y, or of angle and radius; the angle, and where asked for the centre, with which they agree best is found first.
+    #[command(after_help = help::COMPARE)]
+    Compare(DeferredArgs<CompareArgs>),
     /// Two disc cams in one HTML report, side by side
     ///
     /// Both mechanisms move together, the curves are overlaid, and the differences are marked.
@@ -194,6 +199,7 @@ impl Command {
             #[cfg(feature = "brake")]
             Command::Brake(DeferredArgs(args)) => (&args.machine, &args.analysis),
             Command::Size(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            Command::Compare(DeferredArgs(args)) => (&args.machine, &args.analysis),
             _ => return None,
         };
         let files = || std::iter::once(PathBuf::from(machine)).chain(args.to.template.clone()).collect();

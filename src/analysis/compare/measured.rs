@@ -1,0 +1,198 @@
+//! Points measured on a cam, from a table: x and y, or angle and radius.
+
+use crate::refusal::Refusal;
+use nalgebra::Vector2;
+
+/// Most rows that are read, and the largest coordinate, mm.
+const MOST_ROWS: usize = 200_000;
+const LARGEST: f64 = 1e5;
+/// Fewest points with which anything can be compared.
+const FEWEST: usize = 8;
+/// Characters of a cell that a message repeats.
+const REPEATED: usize = 20;
+/// Millimetres in an inch.
+const INCH: f64 = 25.4;
+
+/// Which columns have the points, and what their numbers are in millimetres or radians.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum PointColumns {
+    /// x and y, each by its column and its unit in mm.
+    Plane([(usize, f64); 2]),
+    /// Angle, by its unit in rad, and radius.
+    Polar([(usize, f64); 2]),
+}
+
+/// The points of a table, mm, with the line of each.
+///
+/// Columns are separated by semicolons, tabs, commas or blanks; with semicolons or tabs a number may have a decimal comma. A line of names says which
+/// columns are `x` and `y`, or `angle` (`polar`, `phi`) and `radius` (`r`), with a unit behind the name (`x_mm`, `x in`, `angle_rad`); millimetres and
+/// degrees where none is given. Without names the first two columns are x and y, the second and the third where the first counts the rows. Lines that
+/// begin with # are left out.
+///
+/// # Errors
+/// [`Refusal`] with the line of the first cell that is no number, or when there are too few points or too many.
+pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
+    let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
+    let lines: Vec<(usize, &str)> = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).collect();
+    let separator = separator_of(&lines);
+    let cells = |line: &str| -> Vec<String> { split(line, separator).into_iter().map(str::to_owned).collect() };
+    let (names, rows) = match lines.split_first() {
+        Some(((_, first), rest)) if cells(first).iter().any(|cell| number(cell, separator).is_none()) => {
+            (Some(cells(first)), rest)
+        }
+        _ => (None, &lines[..]),
+    };
+    if rows.len() > MOST_ROWS {
+        return Err(Refusal::new(format!("the table has more than {MOST_ROWS} rows")).remedy("measure fewer points"));
+    }
+    let columns = match &names {
+        Some(names) => named(names)?,
+        None => PointColumns::Plane(if counts(rows, separator) { [(1, 1.0), (2, 1.0)] } else { [(0, 1.0), (1, 1.0)] }),
+    };
+    let points = rows.iter().map(|(line, text)| point(&cells(text), columns, (*line, separator)));
+    let points = points.collect::<Result<Vec<_>, _>>()?;
+    if points.len() < FEWEST {
+        let what = format!("the table has {} points", points.len());
+        return Err(Refusal::new(what).remedy(format!("give at least {FEWEST}, all round the cam")));
+    }
+    Ok(points)
+}
+
+fn separator_of(lines: &[(usize, &str)]) -> Option<char> {
+    [';', '\t', ','].into_iter().find(|sign| lines.first().is_some_and(|(_, line)| line.contains(*sign)))
+}
+
+fn split(line: &str, separator: Option<char>) -> Vec<&str> {
+    match separator {
+        Some(sign) => line.split(sign).map(str::trim).collect(),
+        None => line.split_whitespace().collect(),
+    }
+}
+
+fn number(cell: &str, separator: Option<char>) -> Option<f64> {
+    let plain = cell.trim_matches('"');
+    let found = if separator == Some(',') { plain.parse() } else { plain.replace(',', ".").parse::<f64>() };
+    found.ok().filter(|value: &f64| value.is_finite())
+}
+
+/// Whether the first of three columns or more counts the rows.
+fn counts(rows: &[(usize, &str)], separator: Option<char>) -> bool {
+    let first = |text: &str| number(split(text, separator).first()?, separator);
+    let wide = rows.first().is_some_and(|(_, text)| split(text, separator).len() > 2);
+    let all: Vec<Option<f64>> = rows.iter().map(|(_, text)| first(text)).collect();
+    let by_one = |pair: &[Option<f64>]| matches!(pair, [Some(a), Some(b)] if *b - *a == 1.0);
+    wide && all.windows(2).all(by_one)
+}
+
+/// The columns by their names.
+fn named(names: &[String]) -> Result<PointColumns, Refusal> {
+    let plain: Vec<String> = names.iter().map(|name| name.trim_matches('"').trim().to_lowercase()).collect();
+    let find = |words: &[&str]| {
+        let is = |name: &String| {
+            let word = name.split(|sign: char| !sign.is_alphanumeric()).next().unwrap_or_default();
+            words.contains(&word)
+        };
+        let index = plain.iter().position(is)?;
+        Some((index, plain.get(index)?.clone()))
+    };
+    let length = |(index, name): (usize, String)| {
+        let inch = name.split(|sign: char| !sign.is_alphanumeric()).any(|word| word == "in" || word == "inch");
+        (index, if inch || name.ends_with('"') { INCH } else { 1.0 })
+    };
+    let angle = |(index, name): (usize, String)| {
+        (index, if name.contains("rad") && !name.contains("radius") { 1.0 } else { 1.0_f64.to_radians() })
+    };
+    // The table of a cam itself has its profile among other places.
+    let own = |name: &str| plain.iter().position(|other| other == name).map(|index| (index, 1.0));
+    if let (Some(x), Some(y)) = (own("profile_x_mm"), own("profile_y_mm")) {
+        return Ok(PointColumns::Plane([x, y]));
+    }
+    if let (Some(x), Some(y)) = (find(&["x"]), find(&["y"])) {
+        return Ok(PointColumns::Plane([length(x), length(y)]));
+    }
+    if let (Some(at), Some(radius)) = (find(&["angle", "polar", "phi", "psi", "deg"]), find(&["radius", "r"])) {
+        return Ok(PointColumns::Polar([angle(at), length(radius)]));
+    }
+    let shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
+    let what = format!("the table has no columns of points among {}", shown.join(", "));
+    Err(Refusal::new(what).remedy("name them x and y, or angle and radius"))
+}
+
+fn point(
+    cells: &[String],
+    columns: PointColumns,
+    (line, separator): (usize, Option<char>),
+) -> Result<Vector2<f64>, Refusal> {
+    let cell = |(index, unit): (usize, f64)| {
+        let text = cells.get(index).map_or("", String::as_str);
+        number(text, separator).map(|value| value * unit).ok_or_else(|| {
+            let shown: String = text.chars().take(REPEATED).collect();
+            let what = if text.is_empty() {
+                format!("a row has {} columns, and column {} is needed", cells.len(), index + 1)
+            } else {
+                format!("`{shown}` is not a number")
+            };
+            Refusal::new(what).at(format!("line {line}")).remedy("give a number in each row, or begin the line with #")
+        })
+    };
+    let found = match columns {
+        PointColumns::Plane([x, y]) => Vector2::new(cell(x)?, cell(y)?),
+        PointColumns::Polar([at, radius]) => {
+            let (sin, cos) = libm::sincos(cell(at)?);
+            Vector2::new(cos, sin) * cell(radius)?
+        }
+    };
+    if found.norm() > LARGEST {
+        let what = format!("a point is {:.3e} mm from the shaft", found.norm());
+        return Err(Refusal::new(what).at(format!("line {line}")).remedy("give millimetres"));
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROWS: [[f64; 2]; 8] =
+        [[1.0, 2.0], [3.0, 4.5], [5.0, 6.0], [7.0, 8.0], [9.0, 1.0], [2.0, 3.0], [4.0, 5.0], [6.0, 7.0]];
+
+    fn written(head: &str, row: impl Fn(usize, [f64; 2]) -> String) -> String {
+        let rows = ROWS.iter().enumerate().map(|(index, pair)| row(index, *pair));
+        std::iter::once(head.to_owned()).chain(rows).collect::<Vec<_>>().join("\n")
+    }
+
+    #[test]
+    fn tables_are_read_in_the_forms_in_which_people_have_them() {
+        let expected: Vec<Vector2<f64>> = ROWS.iter().map(|[x, y]| Vector2::new(*x, *y)).collect();
+        for text in [
+            written("# measured", |_, [x, y]| format!("{x} {y}")),
+            written("", |_, [x, y]| format!("{x}, {y}")),
+            written("", |index, [x, y]| format!("{} {x} {y}", index + 1)),
+            written("no,x_mm,y_mm,dev", |index, [x, y]| format!("{index},{x},{y},0.1")),
+            written("x;y", |_, [x, y]| format!("{x};{y}").replace('.', ",")),
+            written("Y (mm)\tX (mm)", |_, [x, y]| format!("{y}\t{x}").replace('.', ",")),
+            written("x_in,y_in", |_, [x, y]| format!("{},{}", x / INCH, y / INCH)),
+            written("polar_deg,radius_mm", |_, [x, y]| {
+                format!("{},{}", libm::atan2(y, x).to_degrees(), libm::hypot(x, y))
+            }),
+        ] {
+            let found = read(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            let off = found.iter().zip(&expected).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            assert!(found.len() == expected.len() && off < 1e-12, "{text}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_table_of_points_is_refused_with_its_line() {
+        for (text, told) in [
+            (written("x,y", |index, [x, y]| if index == 3 { "7,eight".into() } else { format!("{x},{y}") }), "line 5"),
+            (written("x,y", |index, [x, y]| if index == 2 { "5".into() } else { format!("{x},{y}") }), "line 4"),
+            ("1 2\n3 4\n".to_owned(), "2 points"),
+            (written("a,b", |_, [x, y]| format!("{x},{y}")), "no columns of points"),
+            (written("x,y", |_, [x, _]| format!("{x},1e9")), "from the shaft"),
+        ] {
+            let error = read(&text).expect_err("refused").to_string();
+            assert!(error.contains(told), "{error}");
+        }
+    }
+}
