@@ -14,6 +14,7 @@ pub mod groove;
 mod load_as_cut;
 pub(crate) mod loaded;
 pub mod mesh;
+pub mod milling;
 pub mod motion_diagram;
 pub(crate) mod part;
 pub(crate) mod picture;
@@ -214,6 +215,8 @@ pub struct Request {
     pub strict: [bool; 2],
     /// The table of points that is needed.
     pub points: Option<points::Points>,
+    /// The program for a milling machine that is needed.
+    pub milling: Option<milling::Milling>,
     /// The cam angle at which the cut starts, rad; `None` for the middle of the longest dwell at the lowest lift, or the flattest joint.
     pub start: Option<f64>,
     /// The path of the tool to that start, where one is drawn.
@@ -229,6 +232,7 @@ impl Request {
             flank: false,
             cutter_radius: None,
             points: None,
+            milling: None,
             rates: [None; 2],
             strict: [true; 2],
             start: None,
@@ -282,12 +286,14 @@ pub struct Drawn {
     pub cutter_path: Option<Result<Outline, OutlineError>>,
     /// Its paths along the other flanks of a part with several.
     pub other_cutter_paths: Vec<Result<Outline, OutlineError>>,
+    /// The programs for a milling machine that were requested, one for each part, or why there are none.
+    pub programs: Result<Vec<milling::MillingProgram>, String>,
 }
 
 impl Drawn {
     /// Parts alone.
     pub(crate) fn of(parts: Vec<Part>) -> Self {
-        Self { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new() }
+        Self { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new(), programs: Ok(Vec::new()) }
     }
 
     /// The outlines of all parts, each with its part, in the order of the cuts of the body.

@@ -8,6 +8,7 @@ use super::progress::Progress;
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, print_painted, text};
 use camgen::body::Request;
+use camgen::body::milling::Milling;
 use camgen::body::points::{PointCurve, Points};
 use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
@@ -21,6 +22,7 @@ use camgen::pipeline::{Cam, FileSet, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::{LazyReport, Speeds};
 use camgen::units::{self, Dimension};
+use camgen::write::gcode;
 use camgen::write::json;
 use camgen::write::number::names;
 use camgen::write::points;
@@ -157,7 +159,12 @@ impl PointsArgs {
 impl FileArgs {
     fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
         let points = self.points.requested(self.format.as_deref())?;
-        Ok(Request { points, ..self.outline.request(&common.accuracy)? })
+        let milled = self.format.iter().flatten().any(|format| format == gcode::FORMAT.name);
+        if self.controller.is_some() && !milled {
+            return Err(Failure("--controller belongs to --format gcode".into()));
+        }
+        let milling = milled.then_some(Milling { controller: self.controller });
+        Ok(Request { points, milling, ..self.outline.request(&common.accuracy)? })
     }
 }
 

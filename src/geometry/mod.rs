@@ -5,6 +5,7 @@
 
 mod allowed;
 pub mod arcs;
+pub mod blocks;
 pub mod boundary;
 pub mod chain_distance;
 mod chain_start;

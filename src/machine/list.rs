@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, bearing, disc, dynamics, limits, title, track};
+use super::{ROOT, bearing, cutting, disc, dynamics, limits, title, track};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -23,6 +23,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &track::COUNTER,
     &limits::SECTION,
     &title::SECTION,
+    &cutting::SECTION,
 ];
 
 /// The tables of a machine file, and one for each kind of follower.

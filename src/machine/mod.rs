@@ -6,6 +6,7 @@
 //! tables; a key is one constant in its table and one line in its reading.
 
 mod bearing;
+mod cutting;
 mod disc;
 mod dynamics;
 mod embedded;
@@ -25,6 +26,7 @@ mod track;
 pub use crate::document::{Excerpt, FileFault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
 pub use bearing::BearingData;
+pub use cutting::{Controller, CuttingData, MillingDirection, RadiusCompensation};
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};
@@ -125,6 +127,8 @@ pub struct Machine {
     pub(crate) limits: Limits,
     /// Title block.
     pub(crate) title: Title,
+    /// How it is milled, where the file says so.
+    cutting: Option<CuttingData>,
     /// The parts that domains have read.
     parts: MachineParts,
     /// Keys and values of the file.
@@ -175,6 +179,7 @@ impl Machine {
             dynamics: Dynamics::read(reader, &follower),
             limits: limits::read(reader, &*follower.shape)?,
             title: title::read(reader),
+            cutting: cutting::read(reader),
             parts,
             key_values: KeyValues {
                 keys: reader.given(source.by_user),
@@ -257,6 +262,12 @@ impl Machine {
     #[must_use]
     pub fn body(&self) -> &'static str {
         self.cam.track.body
+    }
+
+    /// How it is milled.
+    #[must_use]
+    pub fn cutting(&self) -> CuttingData {
+        self.cutting.clone().unwrap_or_default()
     }
 
     /// What reports call it.

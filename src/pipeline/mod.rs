@@ -33,6 +33,7 @@ pub use proven::Proven;
 pub use spec::Spec;
 pub(crate) use spec::{SolvedBodies, WantedCams};
 
+use crate::body::milling::{self, MillingError};
 use crate::body::points::{self, PointTable, TableError};
 use crate::body::{self, Body, DrawError, Drawn, Request};
 use crate::document::Input;
@@ -98,6 +99,12 @@ impl Cam {
         let (drawn, points) = match self.body.draw(&request) {
             Ok(drawn) => {
                 let drawn = body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?;
+                let programs = match milling::programs(self.body(), &request) {
+                    Err(MillingError::Cutter(why)) => Err(why.to_string()),
+                    Err(MillingError::Refused(why)) => return Err(Error::Draw(why.context("no program"))),
+                    Ok(programs) => Ok(programs),
+                };
+                let drawn = Drawn { programs, ..drawn };
                 let points = match points::tables(self.body(), &request, &drawn) {
                     // The check of the cutter's radius says so, too, and what would pass.
                     Err(TableError::Cutter(why)) => Err(why.to_string()),

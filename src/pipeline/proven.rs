@@ -1,6 +1,7 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, report};
+use crate::body::milling::{self, MillingProgram};
 use crate::body::points::{PointErrors, PointTable, swings};
 use crate::body::{Body, DrawingEvidence, Drawn, Request};
 use crate::check::Measure;
@@ -8,13 +9,14 @@ use crate::document::Input;
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Interpolant, PointInterpolation};
 use crate::profile::outline::{Outline, OutlineError};
+use crate::reading;
 use crate::report::{Finding, Inputs, LazyReport, PointMeasures, Report, Rolled, Section, passed};
 use crate::table::Table;
-use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, rolling};
+use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram, rolling};
 use crate::write::Rendering;
 use crate::write::csv;
 use crate::write::dxf::Version;
-use crate::write::{points, proof};
+use crate::write::{gcode, points, proof};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -48,6 +50,8 @@ struct ProvenData {
     cut_files: Vec<Vec<u8>>,
     /// The bytes of the tables of points, one for each part, when they were requested.
     points: Vec<Vec<u8>>,
+    /// The bytes of the programs for a milling machine, one for each part, when they were requested.
+    programs: Vec<Vec<u8>>,
     /// The figures of those tables, for the report.
     point_measures: Vec<PointMeasures>,
     version: Version,
@@ -147,6 +151,8 @@ impl Drawing {
         let cutter_paths: Vec<WrittenPath> = paths.filter_map(written_path).collect();
         let point_measures = self.points.iter().flatten().map(|table| measures(body, table)).collect();
         let (points, tables) = written_points(body, &self.request, self.points);
+        let (programs, read_programs) =
+            written_programs(body, &self.request, self.drawn.as_ref().ok(), &hashed.to_string());
         let findings = verify::run(&Evidence {
             body,
             drawn: self.drawn.as_ref().ok(),
@@ -155,6 +161,7 @@ impl Drawing {
             foreign: &[],
             cutter_paths: &cutter_paths,
             points: tables.as_ref(),
+            programs: read_programs.as_ref(),
             of_others,
             solid: None,
             tolerance_mm,
@@ -170,6 +177,7 @@ impl Drawing {
             drawn,
             cut_files,
             points,
+            programs,
             point_measures,
             version,
             outlines,
@@ -198,6 +206,31 @@ fn written_points(
         WrittenPoints { table, cutter: request.cutter_radius, curve }
     };
     let written = tables.into_iter().zip(&files).map(read).collect();
+    (files, Some(Ok(written)))
+}
+
+/// The programs for a milling machine in memory, and what their control reads in their bytes; none when they were not requested.
+#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
+fn written_programs(
+    body: &dyn Body,
+    request: &Request,
+    drawn: Option<&Drawn>,
+    mark: &str,
+) -> (Vec<Vec<u8>>, Option<Result<Vec<WrittenProgram>, String>>) {
+    let programs = match drawn.map(|drawn| &drawn.programs) {
+        Some(Ok(programs)) if !programs.is_empty() => programs,
+        Some(Err(why)) => return (Vec::new(), Some(Err(why.clone()))),
+        _ => return (Vec::new(), None),
+    };
+    let files: Vec<Vec<u8>> = programs.iter().map(|program| gcode::write(body, program, &[mark.to_owned()])).collect();
+    let read = |(program, bytes): (&MillingProgram, &Vec<u8>)| WrittenProgram {
+        cuts: program.cuts.clone(),
+        cutter: program.cutter.map(|radius| MILLIMETRES * radius),
+        middle: MILLIMETRES * request.fit.band().0,
+        depth: milling::depth_of(body),
+        program: reading::gcode::read(bytes).map_err(|why| why.to_string()),
+    };
+    let written = programs.iter().zip(&files).map(read).collect();
     (files, Some(Ok(written)))
 }
 
@@ -364,6 +397,7 @@ impl Proven {
             outlines: &self.0.outlines,
             cut_files,
             points: &self.0.points,
+            programs: &self.0.programs,
             fit: self.0.request.fit,
             cutter_radius: self.0.request.cutter_radius,
             dxf_version,

@@ -148,6 +148,7 @@ impl Cam {
             foreign: &[],
             cutter_paths: &[],
             points: None,
+            programs: None,
             of_others: &[],
             solid: None,
             tolerance_mm,

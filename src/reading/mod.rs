@@ -7,6 +7,7 @@
 
 mod contents;
 mod curve;
+pub mod gcode;
 mod groups;
 mod join;
 mod limits;

@@ -2,8 +2,8 @@
 
 use super::check::CheckEntry::{self, Figure, File};
 use super::{
-    balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, outline, plate_ends, points, rolling, solid,
-    sphere, tangency,
+    balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, milling, outline, plate_ends, points,
+    rolling, solid, sphere, tangency,
 };
 use crate::body::closure;
 use crate::body::disc::{residual_vibration, roller_life};
@@ -36,6 +36,7 @@ pub const CHECKS: &[CheckEntry] = &[
     Figure(&face_width::CHECK),
     Figure(&cutter_radius::CHECK),
     File(&cutter_path::CHECK),
+    File(&milling::CHECK),
     File(&points::CHECK),
     Figure(&wall::CHECK),
     Figure(&size::CHECK),

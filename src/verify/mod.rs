@@ -14,6 +14,7 @@ mod flank;
 mod groove_width;
 mod lead_in;
 mod list;
+mod milling;
 mod outline;
 mod plate_ends;
 mod points;
@@ -23,7 +24,9 @@ mod sphere;
 mod tangency;
 mod walls;
 
-pub use check::{CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenPoints, WrittenSolid};
+pub use check::{
+    CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram, WrittenSolid,
+};
 pub use file::join_reach;
 pub(crate) use lead_in::is_lead_in;
 pub use list::CHECKS;

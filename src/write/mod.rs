@@ -9,6 +9,7 @@ pub mod dxf;
 mod error;
 pub mod files;
 mod finite;
+pub mod gcode;
 #[cfg(feature = "html")]
 pub mod html;
 mod interrupted;
@@ -53,6 +54,8 @@ pub struct Rendering<'a> {
     pub cut_files: &'a [Vec<u8>],
     /// The tables of points, written and proved, one for each part of the drawing; empty when they were not requested.
     pub points: &'a [Vec<u8>],
+    /// The programs for a milling machine, written and proved, one for each part of the drawing; empty when they were not requested.
+    pub programs: &'a [Vec<u8>],
     /// The tolerance of the outlines, and on which side of the exact curves they lie.
     pub fit: Fit,
     /// Radius of the cutter whose path was drawn, m.
@@ -135,6 +138,7 @@ pub const FORMATS: &[Format] = &[
     stl::FORMAT,
     points::FORMAT,
     diagram::FORMAT,
+    gcode::FORMAT,
     toml::FORMAT,
     dxf::CUTTER_PATH,
 ];
