@@ -181,7 +181,17 @@ fn drawn(body: &dyn Body, request: &Request, (cutter, decimals): (Option<f64>, u
     }
     let fit = Fit { tolerance: half - rounding, side: Side::Both, laid: SegmentKind::Arcs, ..request.fit };
     let cutter_radius = cutter.map(|radius| radius - middle);
-    let fine = Request { fit, cutter_radius, flank: false, points: None, milling: None, lead_in: None, ..*request };
+    let fine = Request {
+        fit,
+        cutter_radius,
+        flank: false,
+        points: None,
+        milling: None,
+        servo: false,
+        inspection: None,
+        lead_in: None,
+        ..*request
+    };
     let drawn = body.draw(&fine).map_err(|error| match error {
         DrawError::NoOutline(why) => Refusal::new(why),
         DrawError::Refused(refusal) => refusal,

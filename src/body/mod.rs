@@ -11,6 +11,7 @@ pub mod disc;
 pub(crate) mod figures;
 mod flank;
 pub mod groove;
+pub mod inspection;
 mod load_as_cut;
 pub(crate) mod loaded;
 pub mod mesh;
@@ -20,6 +21,7 @@ pub(crate) mod part;
 pub(crate) mod picture;
 pub mod points;
 pub mod rib;
+pub mod servo;
 pub(crate) mod sheet;
 mod sizing;
 pub(crate) mod start;
@@ -209,6 +211,10 @@ pub struct Request {
     pub flank: bool,
     /// Radius of a cutter whose path is needed, m.
     pub cutter_radius: Option<f64>,
+    /// The list of places for a measuring machine that is needed.
+    pub inspection: Option<inspection::Inspection>,
+    /// Tables for a servo drive are needed.
+    pub servo: bool,
     /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
     pub rates: [Option<RateTolerance>; 2],
     /// Refuse a cam whose follower has larger errors, of velocity and of acceleration; else they are only reported.
@@ -233,6 +239,8 @@ impl Request {
             cutter_radius: None,
             points: None,
             milling: None,
+            servo: false,
+            inspection: None,
             rates: [None; 2],
             strict: [true; 2],
             start: None,

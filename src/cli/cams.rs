@@ -8,6 +8,7 @@ use super::progress::Progress;
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, print_painted, text};
 use camgen::body::Request;
+use camgen::body::inspection::Inspection;
 use camgen::body::milling::Milling;
 use camgen::body::points::{PointCurve, Points};
 use camgen::catalogue::catalogue;
@@ -23,9 +24,11 @@ use camgen::profile::outline::Fit;
 use camgen::report::{LazyReport, Speeds};
 use camgen::units::{self, Dimension};
 use camgen::write::gcode;
+use camgen::write::inspection;
 use camgen::write::json;
 use camgen::write::number::names;
 use camgen::write::points;
+use camgen::write::servo;
 use camgen::write::step::LATEST;
 use camgen::write::svg;
 
@@ -156,6 +159,9 @@ impl PointsArgs {
     }
 }
 
+/// Radius of the ball of a common probe, m.
+const USUAL_BALL_RADIUS: f64 = 1.5e-3;
+
 impl FileArgs {
     fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
         let points = self.points.requested(self.format.as_deref())?;
@@ -164,7 +170,14 @@ impl FileArgs {
             return Err(Failure("--controller belongs to --format gcode".into()));
         }
         let milling = milled.then_some(Milling { controller: self.controller });
-        Ok(Request { points, milling, ..self.outline.request(&common.accuracy)? })
+        let servo = self.format.iter().flatten().any(|format| servo::NAMES.contains(&format.as_str()));
+        let inspected = self.format.iter().flatten().any(|format| format == inspection::FORMAT.name);
+        if self.ball_diameter.is_some() && !inspected {
+            return Err(Failure("--ball-diameter belongs to --format inspect".into()));
+        }
+        let ball_radius = self.ball_diameter.unwrap_or(USUAL_BALL_RADIUS);
+        let inspection = inspected.then_some(Inspection { ball_radius });
+        Ok(Request { points, milling, servo, inspection, ..self.outline.request(&common.accuracy)? })
     }
 }
 

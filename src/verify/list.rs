@@ -2,8 +2,8 @@
 
 use super::check::CheckEntry::{self, Figure, File};
 use super::{
-    balance, bore, cutter_path, felt, file, flank, groove_width, lead_in, milling, outline, plate_ends, points,
-    rolling, solid, sphere, tangency,
+    balance, bore, cutter_path, felt, file, flank, groove_width, inspection, lead_in, milling, outline, plate_ends,
+    points, rolling, servo, solid, sphere, tangency,
 };
 use crate::body::closure;
 use crate::body::disc::{residual_vibration, roller_life};
@@ -38,6 +38,8 @@ pub const CHECKS: &[CheckEntry] = &[
     File(&cutter_path::CHECK),
     File(&milling::CHECK),
     File(&points::CHECK),
+    File(&servo::CHECK),
+    File(&inspection::CHECK),
     Figure(&wall::CHECK),
     Figure(&size::CHECK),
     Figure(&pivot_clearance::CHECK),

@@ -214,8 +214,9 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
         blocks => format!("; of the preamble `{}` is passed over", blocks.join("`, `")),
     };
     let (depth, passes) = (passes.iter().map(|pass| pass.depth).fold(0.0, f64::max), passes.len());
+    let noun = if passes == 1 { "pass" } else { "passes" };
     let note =
-        format!("{how}, {blocks} moves in {passes} passes to {} mm, as the control reads them{unknown}", shown(depth));
+        format!("{how}, {blocks} moves in {passes} {noun} to {} mm, as the control reads them{unknown}", shown(depth));
     Ok(JudgedProgram { value: worst.0, at: worst.1, note })
 }
 

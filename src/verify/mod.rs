@@ -12,6 +12,7 @@ mod felt_sections;
 mod file;
 mod flank;
 mod groove_width;
+mod inspection;
 mod lead_in;
 mod list;
 mod milling;
@@ -19,13 +20,15 @@ mod outline;
 mod plate_ends;
 mod points;
 pub mod rolling;
+mod servo;
 mod solid;
 mod sphere;
 mod tangency;
 mod walls;
 
 pub use check::{
-    CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram, WrittenSolid,
+    CheckEntry, Evidence, FileCheck, WrittenInspection, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram,
+    WrittenServo, WrittenSolid,
 };
 pub use file::join_reach;
 pub(crate) use lead_in::is_lead_in;

@@ -104,7 +104,7 @@ impl Body for Groove {
             Ok(Part { name, rpm: None, z: 0.0, outline, bore: None, balancing: None, track: None })
         };
         let parts = NAMES.into_iter().zip(self.curves()).map(part).collect::<Result<_, _>>()?;
-        Ok(Drawn { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new() })
+        Ok(Drawn { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new(), programs: Ok(Vec::new()) })
     }
 
     fn rows(&self, _: u32) -> Vec<Row> {

@@ -338,9 +338,19 @@ fn every_check_is_run_for_some_cam() {
         let made = cam_of(kind, &[]);
         if kind.command == "rotary" {
             let points = Some(camgen::body::points::Points::default());
-            let request = camgen::Request { cutter_radius: Some(0.01), points, ..camgen::Request::within(TOLERANCE) };
+            let request = camgen::Request {
+                cutter_radius: Some(0.01),
+                points,
+                milling: Some(camgen::body::milling::Milling::default()),
+                servo: true,
+                inspection: Some(camgen::body::inspection::Inspection { ball_radius: 1.5e-3 }),
+                ..camgen::Request::within(TOLERANCE)
+            };
             let proven = made.draw(request).expect("drawn").prove().expect("a proof");
-            reports.push((format!("{} with the path of a cutter and points", kind.noun), proven.report()));
+            reports.push((
+                format!("{} with the path of a cutter, points, a program, a table for a drive and places", kind.noun),
+                proven.report(),
+            ));
         }
         let request = camgen::Request { flank: true, ..camgen::Request::within(TOLERANCE) };
         let proven = made.draw(request).expect("drawn").prove().expect("a proof");

@@ -28,7 +28,7 @@ TOLERANCE = 5e-3
 ROUNDING = 2e-4
 CONTROLS = {"linuxcnc": ".ngc", "fanuc": ".nc", "sinumerik": ".mpf", "heidenhain": ".h"}
 UNPACKED = Path("target/linuxcnc")
-THETA = np.linspace(0, 2 * np.pi, 24000, endpoint=False)
+THETA = (np.arange(24000) + 0.5) * (2 * np.pi / 24000)
 
 
 class Machine:
@@ -129,8 +129,8 @@ def linuxcnc(path, folder, rs274, diameter):
     """The moves that LinuxCNC makes of a program, its cutter's radius kept by itself."""
     command, environment = rs274
     (folder / "rs274.var").write_text("")
-    (folder / "tool.tbl").write_text(f"T1 P1 D{diameter:.6f} Z0\n")
-    words = [*command, "-v", str(folder / "rs274.var"), "-t", str(folder / "tool.tbl"), "-n", "0", "-g", str(path)]
+    (folder / "tool.tbl").write_text(f"T1 P1 D{diameter / 25.4:.9f} Z0\n")  # without a machine its tools are in inches
+    words = [*command, "-v", str(folder / "rs274.var"), "-t", str(folder / "tool.tbl"), "-n", "2", "-g", str(path)]
     done = subprocess.run(words, capture_output=True, text=True, stdin=subprocess.DEVNULL, env=environment, timeout=120)
     assert "PROGRAM_END" in done.stdout, done.stdout[-500:] + done.stderr[-500:]
     machine = Machine()
@@ -151,7 +151,7 @@ def linuxcnc(path, folder, rs274, diameter):
 
 def parallel(of, distance):
     """The parallel of a closed curve at a distance to its left, complex, by central differences."""
-    step = 1e-6
+    step = 1e-5
     tangent = of(THETA + step) - of(THETA - step)
     return of(THETA) + 1j * tangent / abs(tangent) * distance
 

@@ -30,9 +30,8 @@ pub const FORMAT: Format = Format {
         (Ok(_), []) => Err(Refusal::new("no program for a milling machine was requested with the drawing")),
         (Ok(programs), proved) => Ok(match warning(cam.findings) {
             None => proved.to_vec(),
-            Some(warning) => {
-                programs.iter().map(|program| write(cam.body, program, &[cam.report.mark(), warning.clone()])).collect()
-            }
+            // The mark of a cam that breaks a limit says so.
+            Some(_) => programs.iter().map(|program| write(cam.body, program, &[cam.report.mark()])).collect(),
         }),
     },
     of_analysis: None,
@@ -104,13 +103,14 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
         None => {
             let least = largest_compensated(program);
             format!(
-                "the profile, for a control that keeps its cutter on it; cutters below radius {} mm, {sense}",
+                "the profile, on which the control keeps its cutter, of a radius below {} mm, {sense}",
                 short(least, 3)
             )
         }
     };
     let flanks: Vec<&str> = program.passes.iter().map(|pass| pass.words.as_str()).collect();
     let count = program.depths.len();
+    let passes = if count == 1 { "pass" } else { "passes" };
     let origin = if body.machine().motion().is_none() && body.surface().is_none() && body.shaft_speed().is_none() {
         "X0 Y0 as in the drawing"
     } else {
@@ -119,7 +119,7 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     vec![
         format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
         path,
-        format!("{origin}; Z0 the upper face, {} mm deep in {count} passes", short(depth, 6)),
+        format!("{origin}, Z0 the upper face, {} mm deep in {count} {passes}", short(depth, 6)),
         "bore, keyway and holes are not in this program".to_owned(),
     ]
 }
