@@ -30,6 +30,8 @@ pub struct InspectionList {
 pub struct InspectionPlace {
     /// Cam angle of the contact of the follower, degrees.
     pub cam_deg: f64,
+    /// Angle of the place about the shaft on the drawing, degrees.
+    pub polar_deg: f64,
     /// The place.
     pub point: Vector2<f64>,
     /// Unit normal out of the metal.
@@ -63,9 +65,12 @@ pub fn lists(body: &dyn Body, request: &Request) -> Vec<InspectionList> {
             let found = curves.profile(piece, angle);
             let normal = found.outward() * curves.metal_side();
             let bend = curves.metal_side() * found.curvature;
+            let point = turned(found.point * MILLIMETRES);
+            let polar = libm::atan2(point.y, point.x).to_degrees();
             InspectionPlace {
                 cam_deg,
-                point: turned(found.point * MILLIMETRES),
+                polar_deg: if polar < 0.0 { polar + 360.0 } else { polar },
+                point,
                 normal: turned(normal),
                 radius: if bend == 0.0 { f64::INFINITY } else { MILLIMETRES / bend },
             }

@@ -1,4 +1,4 @@
-//! Programs for a milling machine, in no control's words yet: passes along the flanks of a part, with the ways in and out.
+//! Programs for a milling machine, in no control's words yet: passes along the flanks of a part, with lead-ins and lead-outs.
 //!
 //! The path is drawn anew, within what the rounding of its numbers leaves of the tolerance. With a cutter it is that of the cutter's centre,
 //! else the profile, along which the control keeps its own cutter. Bore, keyway and holes are not in it.
@@ -76,13 +76,13 @@ pub enum MillingError {
 const ROUNDING: f64 = 2.0;
 /// Least share of the tolerance that rounding must leave to the arcs.
 const LEAST_SHARE: f64 = 0.2;
-/// Radii of the ways in and out that are tried, mm, the largest first.
+/// Radii of lead-ins and lead-outs that are tried, mm, the largest first.
 const LEADS: [f64; 6] = [5.0, 2.5, 1.2, 0.6, 0.3, 0.1];
 /// The same where the control keeps its cutter on the profile: its radius must be smaller.
 const COMPENSATED_LEADS: [f64; 4] = [10.0, 5.0, 2.5, 1.2];
-/// A way in of this many radii of the cutter is large enough for every control.
+/// A lead-in of this many radii of the cutter is large enough for every control.
 const LARGER: f64 = 1.1;
-/// Depth below which a way in only touches the flank, as a share of the tolerance.
+/// Depth below which a lead-in only touches the flank, as a share of the tolerance.
 const TOUCHES: f64 = 0.1;
 /// Radii that differ by less are equal, m.
 const SAME_RADIUS: f64 = 1e-9;
@@ -296,7 +296,7 @@ fn passes(
 }
 
 impl Flank<'_> {
-    /// The pass, with ways in and out that keep clear of the metal.
+    /// The pass, with a lead-in and a lead-out that keep clear of the metal.
     fn pass(
         &self,
         request: &Request,
@@ -326,7 +326,7 @@ impl Flank<'_> {
         Ok(MillingPass { words: self.words.clone(), cutter_left: self.cutter_left, compensated, start, blocks })
     }
 
-    /// The ways in and out; `None` where the cutter goes down on the path itself.
+    /// The lead-in and the lead-out; `None` where the cutter goes down on the path itself.
     fn leads(
         &self,
         request: &Request,
@@ -356,11 +356,11 @@ impl Flank<'_> {
         if cutter.is_some() && request.lead_in.is_none() {
             return Ok(None);
         }
-        let what = format!("no way to the {} is free for the cutter", self.words);
+        let what = format!("no lead-in to the {} is free for the cutter", self.words);
         Err(Refusal::new(what).remedy("give another --start, a smaller --lead-in, or --cutter-diameter"))
     }
 
-    /// The ways to and from the start of the path, on the side of the cutter.
+    /// The lead-in to and the lead-out from the start of the path, on the side of the cutter.
     fn lead(&self, (first, last): (&Segment, &Segment), form: LeadInForm, size: f64) -> [Segment; 2] {
         let at = first.start;
         let (along, off) = (first.start_tangent(), last.end_tangent());
@@ -379,7 +379,7 @@ impl Flank<'_> {
         }
     }
 
-    /// Whether a way only touches the metal.
+    /// Whether a lead-in only touches the metal.
     fn is_free(&self, lead: &Segment, tolerance: f64) -> bool {
         let deep = |tree: &EdgeTree| depth(tree, &Edge::Segment(*lead), TOUCHES * tolerance);
         self.metal.iter().all(|tree| deep(tree) <= tolerance)

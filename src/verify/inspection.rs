@@ -1,7 +1,7 @@
 //! The places of a written list for a measuring machine, compared with the outline as it is in the cut file.
 //!
-//! The places are those that are read back from the bytes. Each must lie on the outline as it was read from the cut file, its normal must stand
-//! upright on the exact profile, whose direction is found from two places close to each other, and its ball must touch there.
+//! The places are those that are read back from the bytes. Each must lie on the outline as it was read from the cut file, its normal must be
+//! perpendicular to the exact profile, whose direction is found from two places close to each other, and its ball must touch there.
 
 use super::check::{Evidence, FileCheck, WrittenInspection, place};
 use crate::check::{Check, CheckExplanation, CheckScope};
@@ -18,7 +18,7 @@ pub(super) const CHECK: FileCheck = FileCheck {
         on: CheckScope::ToolFile,
         unit: "mm",
         about: "The largest distance of the places of --format inspect, as they are in the file, from the outline in the cut file. Each normal must \
-                stand upright on the profile, and each ball must touch it at its place.",
+                be perpendicular to the profile, and each ball must touch it at its place.",
         explained: CheckExplanation {
             bound: Bound::AtMost,
             formula: "max distance of a place from the outline as written",

@@ -2,7 +2,7 @@
 //!
 //! The moves are as they are read back from the bytes. Between the upper face and the depth every level pass must close round a flank of the
 //! part: what the cutter leaves along it is followed along the exact profile, as for the path of a cutter (`cutter_path`). Each flank must be
-//! cut to the full depth, the ways in and out must keep clear of the metal, and no rapid move may go below the upper face.
+//! cut to the full depth, lead-ins and lead-outs must keep clear of the metal, and no rapid move may go below the upper face.
 
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
 use super::cutter_path::left_behind;
@@ -23,7 +23,7 @@ pub(super) const CHECK: FileCheck = FileCheck {
         on: CheckScope::ToolFile,
         unit: "mm",
         about: "The largest distance between the exact profile and what the cutter leaves along the passes of the program as its control reads \
-                it, in both directions; also how deep a way in or out cuts into the cam. Every flank must be cut to its depth, and no rapid \
+                it, in both directions; also how deep a lead-in or lead-out cuts into the cam. Every flank must be cut to its depth, and no rapid \
                 move may go below the upper face.",
         explained: CheckExplanation {
             bound: Bound::AtMost,
@@ -39,7 +39,7 @@ pub(super) const CHECK: FileCheck = FileCheck {
 const SAME_DEPTH: f64 = 1e-3;
 /// Places nearer than this are one, mm: far below the numbers of a program.
 const SAME_PLACE: f64 = 1e-7;
-/// Depths of the ways in and out are found to within this share of the tolerance.
+/// Depths of lead-ins and lead-outs are found to within this share of the tolerance.
 const FINE_SHARE: f64 = 0.1;
 
 /// A program that is not one of the cam.
@@ -161,7 +161,7 @@ impl<'m> ClosedPass<'m> {
         Ok(Self { way_in, round, way_out, contour, left })
     }
 
-    /// The edges of its ways in and out.
+    /// The edges of its lead-in and lead-out.
     fn ways(&self) -> impl Iterator<Item = Edge> + '_ {
         self.way_in.iter().chain(self.way_out).flat_map(CutterMove::segments).map(Edge::Segment)
     }
@@ -199,7 +199,7 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
     for way in closed.iter().flat_map(ClosedPass::ways) {
         let deep = trees.iter().map(|tree| lead_in::depth(tree, &way, FINE_SHARE * limit)).fold(0.0, f64::max);
         if deep > limit {
-            let why = format!("a way in or out cuts {} mm into the cam", shown(deep));
+            let why = format!("a lead-in or lead-out cuts {} mm into the cam", shown(deep));
             return Err(ProgramFault { why, value: deep, at: Some(way.start()) });
         }
     }

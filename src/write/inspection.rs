@@ -43,9 +43,8 @@ pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> (Vec<u8>, Ve
     for (index, place) in list.places.iter().enumerate() {
         let (point, normal) = (place.point, place.normal);
         let ball = point + normal * list.ball_radius;
-        let polar = libm::atan2(point.y, point.x).to_degrees();
-        let polar = if polar < 0.0 { polar + 360.0 } else { polar };
-        let of_place = [place.cam_deg, polar, point.norm(), point.x, point.y, normal.x, normal.y, ball.x, ball.y];
+        let of_place =
+            [place.cam_deg, place.polar_deg, point.norm(), point.x, point.y, normal.x, normal.y, ball.x, ball.y];
         let zone = [-list.zone, list.zone, place.radius];
         let cells: Vec<String> = of_place.into_iter().chain(zone).map(shortest).collect();
         table.push_str(&format!("{},{}\n", index + 1, cells.join(",")));

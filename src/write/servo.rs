@@ -102,7 +102,7 @@ fn xyva(body: &dyn Body, table: &ServoTable, head: &[String]) -> String {
     format!(
         "{}VAR_GLOBAL\n    {name}_Nodes : ARRAY[0..{}] OF SMC_CAMXYVA := [\n{}\n    ];\n    {name} : MC_CAM_REF := (byType := SMC_CAM_TYPE.XYVA, \
          xStart := 0.0, xEnd := 360.0, nElements := {count}, strCAMName := '{name}');\nEND_VAR\n(* Once before MC_CamTableSelect: \
-         {name}.pce := ADR {name}_Nodes; *)\n",
+         {name}.pce := ADR({name}_Nodes); *)\n",
         comment(head),
         count.saturating_sub(1),
         points.join(",\n")

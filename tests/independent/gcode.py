@@ -28,7 +28,7 @@ TOLERANCE = 5e-3
 ROUNDING = 2e-4
 CONTROLS = {"linuxcnc": ".ngc", "fanuc": ".nc", "sinumerik": ".mpf", "heidenhain": ".h"}
 UNPACKED = Path("target/linuxcnc")
-THETA = (np.arange(24000) + 0.5) * (2 * np.pi / 24000)
+THETA = (np.arange(10000) + 0.5) * (2 * np.pi / 10000)
 
 
 class Machine:
@@ -216,15 +216,17 @@ def judged(found, moves, cutter, depth, slot):
     places = np.concatenate([path[:, :2] for path in below])
     bottom = np.concatenate([path[:, :2] for path in below if path[:, 2].max() < 1e-3 - depth])
     way = bottom[:, 0] + 1j * bottom[:, 1]
-    gouge, left = 0.0, 0.0
-    for name, profile, hollow in flanks(found):
-        metal = ~inside(profile, places) if hollow else inside(profile, places)
-        distance = away(tree(profile), places)
-        reach = np.where(metal, radius + distance, radius - distance)
-        gouge = max(gouge, reach.max())
+    exact = flanks(found)
+    metals = [~inside(profile, places) if hollow else inside(profile, places) for _, profile, hollow in exact]
+    # A rib is the metal between its flanks, of a groove that on either side.
+    metal = np.logical_and.reduce(metals) if found["kind"] == "rib" else np.logical_or.reduce(metals)
+    distance = np.minimum.reduce([away(tree(profile), places) for _, profile, _ in exact])
+    gouge, left = np.where(metal, radius + distance, radius - distance).max(), 0.0
+    lines = linestrings(np.stack([bottom[:-1], bottom[1:]], axis=1))
+    passes = STRtree(lines[np.abs(np.diff(way)) < 1.0])
+    for _, profile, _ in exact:
         # Every place of the profile is reached at the full depth.
-        lines = linestrings(np.stack([bottom[:-1], bottom[1:]], axis=1))
-        near = away(STRtree(lines[np.abs(np.diff(way)) < 1.0]), np.stack([profile.real, profile.imag], 1)[::4])
+        near = away(passes, np.stack([profile.real, profile.imag], 1)[::4])
         left = max(left, np.abs(near - radius).max() if not slot else (near - radius).max())
     return gouge, left
 
@@ -263,12 +265,12 @@ def fault_texts(text, control, random):
         yield changed("an arc turned over", middle, lambda line: line.replace("DR+", "DR?").replace("DR-", "DR+").replace("DR?", "DR-"))
         move = lambda line: re.sub(r"X([+-][\d.]+)", lambda m: f"X{float(m[1]) + 1.5:+.4f}", line)
         yield changed("a centre moved", middle - 1, move)
-        yield changed("the side of the cutter", middle, lambda line: line + " RR")
+        yield changed("the side of the cutter", middle, lambda line: line + (" RL" if " RR" in text else " RR"))
     else:
         yield changed("an arc turned over", middle, lambda line: line.replace("G2 ", "G? ").replace("G3 ", "G2 ").replace("G? ", "G3 "))
         yield changed("a centre moved", middle, lambda line: re.sub(r"I(-?[\d.]+)", lambda m: f"I{float(m[1]) + 1.5:.4f}", line))
         yield changed("incremental coordinates", middle, lambda line: "G91 " + line)
-        yield changed("the side of the cutter", middle, lambda line: "G42 " + line if "G41" not in text else "G40 " + line)
+        yield changed("the side of the cutter", middle, lambda line: ("G41 " if "G42" in text else "G42 ") + line)
         yield changed("inches", 0 if control != "fanuc" else 1, lambda line: line + "\nG20")
     yield changed("a block lost", middle, lambda line: None)
     shift = 1.3 * TOLERANCE

@@ -189,7 +189,7 @@ mod tests {
             ("G20\n", "inch"),
             ("G18\n", "plane"),
             ("G90.1\n", "absolute"),
-            ("G2 X10 I5 J1\n", "off its circle"),
+            ("G2 X10 I5.1\n", "off its circle"),
             ("G2 X10\n", "no centre"),
             ("G1 X10 I5\n", "straight move has a centre"),
             ("G5 X10 I5\n", "not known"),

@@ -124,7 +124,7 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
     ]
 }
 
-/// The radius that a cutter must stay below where the control keeps it on the profile, mm: that of the way in.
+/// The radius that a cutter must stay below where the control keeps it on the profile, mm: that of the lead-in.
 fn largest_compensated(program: &MillingProgram) -> f64 {
     let of = |pass: &milling::MillingPass| {
         let [from, _] = pass.compensated?;
