@@ -93,7 +93,7 @@ impl Grid {
     }
 
     /// Adds an edge whose ends are on the grid.
-    fn add(&self, blocks: &mut Vec<Block>, edge: &Segment) {
+    fn add(self, blocks: &mut Vec<Block>, edge: &Segment) {
         let chord = (edge.end - edge.start).norm();
         let sagitta = 0.5 * chord * edge.bulge.abs();
         if edge.bulge == 0.0 || sagitta < SAGITTA * self.step() || chord < SHORTEST_ARC * self.step() {
@@ -112,7 +112,7 @@ impl Grid {
     }
 
     /// The centre on the grid of an arc whose ends are on it.
-    fn centre(&self, arc: &Segment) -> Vector2<f64> {
+    fn centre(self, arc: &Segment) -> Vector2<f64> {
         let exact = arc.centre();
         let around = self.point(exact);
         let steps = [0.0, -self.step(), self.step()];

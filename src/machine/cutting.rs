@@ -280,7 +280,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CuttingData> {
         let lines = table.get(field).unwrap_or_default();
         let fits = |line: &String| line.len() <= LONGEST_LINE && line.bytes().all(|byte| (b' '..=b'~').contains(&byte));
         if let Some(line) = lines.iter().find(|line| !fits(line)) {
-            let start: String = line.chars().filter(|c| c.is_ascii_graphic()).take(20).collect();
+            let start: String = line.chars().filter(char::is_ascii_graphic).take(20).collect();
             let help = format!("a line of a program has at most {LONGEST_LINE} ASCII characters");
             table.fail(field, format!("cut.{}: no control reads the line `{start}`", field.key.name), Some(help));
         }

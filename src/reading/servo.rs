@@ -82,7 +82,7 @@ fn points(text: &str) -> Result<ServoRows, String> {
             fields.find(|(own, _)| own.trim() == name).and_then(|(_, value)| finite(value))
         };
         if inside.contains(names[0]) {
-            let all = names.map(|name| value(name));
+            let all = names.map(value);
             let [Some(x), Some(y), Some(v), Some(a)] = all else {
                 return Err(format!("point {} has not four numbers", read.rows.len() + 1));
             };

@@ -57,7 +57,8 @@ fn head(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<String> {
 }
 
 fn csv(table: &ServoTable, head: &[String]) -> String {
-    let mut text: String = head.iter().map(|line| format!("# {line}\n")).collect();
+    let head: Vec<String> = head.iter().map(|line| format!("# {line}\n")).collect();
+    let mut text = head.concat();
     text.push_str(if table.swings {
         "master_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2\n"
     } else {

@@ -2,7 +2,7 @@
 
 use camgen::body::milling::Milling;
 use camgen::machine::Controller;
-use camgen::reading::gcode::{CutterSide, MoveKind, read};
+use camgen::reading::gcode::{CutterMove, CutterSide, MoveKind, read};
 use camgen::{Cam, Error, ExpectedFile, Machine, Proven, Request, Spec, Verdict, Writing};
 
 const TOLERANCE: f64 = 5e-6;
@@ -84,7 +84,7 @@ fn passes_sense_and_side_are_those_that_were_asked_for() {
         let arcs = || read.moves.iter().filter(|moved| matches!(moved.kind, MoveKind::Arc { .. }));
         assert!(arcs().all(|moved| moved.side == side), "{direction}");
         // About the shaft a disc is climbed clockwise.
-        let turned: f64 = arcs().flat_map(|moved| moved.segments()).map(|arc| arc.sweep()).sum();
+        let turned: f64 = arcs().flat_map(CutterMove::segments).map(|arc| arc.sweep()).sum();
         assert_eq!(turned < 0.0, direction == "climb");
     }
 }

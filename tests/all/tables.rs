@@ -304,6 +304,18 @@ fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
     }
 }
 
+/// A request for every file of a tool.
+fn of_every_tool() -> Request {
+    Request {
+        cutter_radius: Some(0.01),
+        points: Some(camgen::body::points::Points::default()),
+        milling: Some(camgen::body::milling::Milling::default()),
+        servo: true,
+        inspection: Some(camgen::body::inspection::Inspection { ball_radius: 1.5e-3 }),
+        ..Request::within(TOLERANCE)
+    }
+}
+
 /// Every check is reached by some cam or some file, and is found in the order of the list, the worst verdicts first.
 #[test]
 fn every_check_is_run_for_some_cam() {
@@ -337,15 +349,7 @@ fn every_check_is_run_for_some_cam() {
         }
         let made = cam_of(kind, &[]);
         if kind.command == "rotary" {
-            let points = Some(camgen::body::points::Points::default());
-            let request = camgen::Request {
-                cutter_radius: Some(0.01),
-                points,
-                milling: Some(camgen::body::milling::Milling::default()),
-                servo: true,
-                inspection: Some(camgen::body::inspection::Inspection { ball_radius: 1.5e-3 }),
-                ..camgen::Request::within(TOLERANCE)
-            };
+            let request = of_every_tool();
             let proven = made.draw(request).expect("drawn").prove().expect("a proof");
             reports.push((
                 format!("{} with the path of a cutter, points, a program, a table for a drive and places", kind.noun),

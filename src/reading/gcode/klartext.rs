@@ -19,12 +19,15 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             words.remove(0);
         }
         match words.as_slice() {
-            [] => {}
-            _ if ended => return Err(at_line(line, "there is more behind the end of the program")),
-            ["BEGIN", "PGM", _, "MM"] => {}
+            _ if ended && !words.is_empty() => {
+                return Err(at_line(line, "there is more behind the end of the program"));
+            }
+            []
+            | ["BEGIN", "PGM", _, "MM"]
+            | ["TOOL", "CALL", ..]
+            | ["STOP" | "M0" | "M1" | "M3" | "M5" | "M6" | "M8" | "M9" | "M30" | "M2"] => {}
             ["BEGIN", "PGM", ..] => return Err(at_line(line, "the unit is not the millimetre")),
             ["END", "PGM", ..] => ended = true,
-            ["TOOL", "CALL", ..] | ["STOP" | "M0" | "M1" | "M3" | "M5" | "M6" | "M8" | "M9" | "M30" | "M2"] => {}
             ["CC", rest @ ..] => centre = Some(centre_of(line, rest)?),
             ["L", rest @ ..] => straight(line, rest, &mut state)?,
             ["C", rest @ ..] => round(line, rest, centre, &mut state)?,
@@ -110,7 +113,8 @@ mod tests {
     #[test]
     fn a_dialogue_is_read_as_a_control_reads_it() {
         let read = program("4 CC X+0 Y+0\n5 C X-10 Y+0 DR+\n6 C X+10 Y+0 DR+ ; back").expect("a program");
-        let turned: f64 = read.moves[1..].iter().flat_map(|moved| moved.segments()).map(|arc| arc.sweep()).sum();
+        let turned: f64 =
+            read.moves[1..].iter().flat_map(super::super::CutterMove::segments).map(|arc| arc.sweep()).sum();
         assert!((turned - std::f64::consts::TAU).abs() < 1e-12, "{read:?}");
         let cases = [
             ("4 C X-10 Y+0 DR+", "no centre"),

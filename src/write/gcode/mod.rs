@@ -8,8 +8,8 @@ mod klartext;
 
 use super::number::short;
 use super::{Format, FormatSelection, of_parts};
-use crate::body::Body;
 use crate::body::milling::{self, MillingProgram};
+use crate::body::{Body, curves};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{Controller, MillingDirection};
 use crate::refusal::Refusal;
@@ -98,24 +98,18 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
         MillingDirection::Climb => "climb milling",
         MillingDirection::Conventional => "conventional milling",
     };
-    let path = match program.cutter {
-        Some(radius) => format!("path of the centre of a cutter of diameter {} mm, {sense}", millimetres(2.0 * radius)),
-        None => {
-            let least = largest_compensated(program);
-            format!(
-                "the profile, on which the control keeps its cutter, of a radius below {} mm, {sense}",
-                short(least, 3)
-            )
-        }
-    };
+    let path = program.cutter.map_or_else(
+        || {
+            let least = short(largest_compensated(program), 3);
+            format!("the profile, on which the control keeps its cutter, of a radius below {least} mm, {sense}")
+        },
+        |radius| format!("path of the centre of a cutter of diameter {} mm, {sense}", millimetres(2.0 * radius)),
+    );
     let flanks: Vec<&str> = program.passes.iter().map(|pass| pass.words.as_str()).collect();
     let count = program.depths.len();
     let passes = if count == 1 { "pass" } else { "passes" };
-    let origin = if body.machine().motion().is_none() && body.surface().is_none() && body.shaft_speed().is_none() {
-        "X0 Y0 as in the drawing"
-    } else {
-        "X0 Y0 as in the drawing: the axis of the shaft"
-    };
+    let plate = curves(body).is_some_and(|curves| curves.motion.period().is_none());
+    let origin = if plate { "X0 Y0 as in the drawing" } else { "X0 Y0 as in the drawing: the axis of the shaft" };
     vec![
         format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
         path,
