@@ -20,7 +20,7 @@ use camgen::follower::{FOLLOWERS, FollowerKind};
 use camgen::geometry::lead_in::{LeadIn, LeadInForm};
 use camgen::machine::Machine;
 use camgen::motion::laws::{LAWS, LINE};
-use camgen::pipeline::{Assembly, Cam, Error, Judged, Spec, Writing};
+use camgen::pipeline::{Assembly, Cam, Error, Judged, Proven, Spec, Writing};
 use camgen::report::{Report, Verdict};
 use camgen::table::COLUMNS;
 use camgen::write::{FORMATS, FormatSelection, by_name};
@@ -304,6 +304,13 @@ fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
     }
 }
 
+/// A cam with a lead-in.
+fn led() -> Proven {
+    let lead_in = Some(LeadIn { form: LeadInForm::Arc, size: 0.004 });
+    let led = Request { lead_in, ..Request::within(TOLERANCE) };
+    lifter(LIFTER, &[]).solve().expect("a cam").draw(led).expect("drawn").prove().expect("proved")
+}
+
 /// A request for every file of a tool.
 fn of_every_tool() -> Request {
     Request {
@@ -375,10 +382,7 @@ fn every_check_is_run_for_some_cam() {
     ];
     let moving = lifter(LIFTER, &dynamics).solve().expect("a cam");
     reports.push(("lifter with spring, guide and train".into(), report_of(&moving)));
-    let lead_in = Some(LeadIn { form: LeadInForm::Arc, size: 0.004 });
-    let led = Request { lead_in, ..Request::within(TOLERANCE) };
-    let led = lifter(LIFTER, &[]).solve().expect("a cam").draw(led).expect("drawn").prove().expect("proved");
-    reports.push(("lifter with a lead-in".into(), led.report()));
+    reports.push(("lifter with a lead-in".into(), led().report()));
     let pair = lifter(LIFTER, &["cam.body=conjugate"]).assemble().expect("two discs");
     reports.push(("conjugate discs".into(), pair.draw(TOLERANCE).expect("drawn").prove().expect("proved").report()));
     let arm = Machine::load("lever", &["limits.pivot_clearance=1 mm".to_owned()]).expect("valid").0;
