@@ -102,6 +102,7 @@ const UNITS: &[UnitSymbol] = &[
     unit("daN/cm", Dimension::Stiffness, 1e3, 1.0),
     unit("m/s", Dimension::Speed, 1.0, 1.0),
     unit("mm/s", Dimension::Speed, 1.0, 1e3),
+    unit("mm/min", Dimension::Speed, 1.0, 6e4),
     unit("kg*m2", Dimension::Inertia, 1.0, 1.0),
     unit("kg*cm2", Dimension::Inertia, 1.0, 1e4),
     unit("kg*mm2", Dimension::Inertia, 1.0, 1e6),

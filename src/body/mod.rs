@@ -12,14 +12,17 @@ pub mod disc;
 pub(crate) mod figures;
 mod flank;
 pub mod groove;
+pub mod inspection;
 mod load_as_cut;
 pub(crate) mod loaded;
 pub mod mesh;
+pub mod milling;
 pub mod motion_diagram;
 pub(crate) mod part;
 pub(crate) mod picture;
 pub mod points;
 pub mod rib;
+pub mod servo;
 pub(crate) mod sheet;
 mod sizing;
 pub(crate) mod start;
@@ -246,12 +249,18 @@ pub struct Request {
     pub flank: bool,
     /// Radius of a cutter whose path is needed, m.
     pub cutter_radius: Option<f64>,
+    /// The list of places for a measuring machine that is needed.
+    pub inspection: Option<inspection::Inspection>,
+    /// Tables for a servo drive are needed.
+    pub servo: bool,
     /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
     pub rates: [Option<RateTolerance>; 2],
     /// Refuse a cam whose follower has larger errors, of velocity and of acceleration; else they are only reported.
     pub strict: [bool; 2],
     /// The table of points that is needed.
     pub points: Option<points::Points>,
+    /// The program for a milling machine that is needed.
+    pub milling: Option<milling::Milling>,
     /// The cam angle at which the cut starts, rad; `None` for the middle of the longest dwell at the lowest lift, or the flattest joint.
     pub start: Option<f64>,
     /// The path of the tool to that start, where one is drawn.
@@ -267,6 +276,9 @@ impl Request {
             flank: false,
             cutter_radius: None,
             points: None,
+            milling: None,
+            servo: false,
+            inspection: None,
             rates: [None; 2],
             strict: [true; 2],
             start: None,
@@ -322,13 +334,22 @@ pub struct Drawn {
     pub other_cutter_paths: Vec<Result<Outline, OutlineError>>,
     /// What is drawn of a body with flanks that a roller sweeps in space, in the place of parts.
     pub swept: Option<Box<SweptDrawing>>,
+    /// The programs for a milling machine that were requested, one for each part, or why there are none.
+    pub programs: Result<Vec<milling::MillingProgram>, String>,
 }
 
 impl Drawn {
     /// Parts alone.
     #[must_use]
     pub fn of(parts: Vec<Part>) -> Self {
-        Self { parts, flank: None, cutter_path: None, other_cutter_paths: Vec::new(), swept: None }
+        Self {
+            parts,
+            flank: None,
+            cutter_path: None,
+            other_cutter_paths: Vec::new(),
+            programs: Ok(Vec::new()),
+            swept: None,
+        }
     }
 
     /// The outlines of all parts, each with its part, in the order of the cuts of the body.

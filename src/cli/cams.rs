@@ -8,6 +8,8 @@ use super::progress::Progress;
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, print_painted, text};
 use camgen::body::Request;
+use camgen::body::inspection::Inspection;
+use camgen::body::milling::Milling;
 use camgen::body::points::{PointCurve, Points};
 use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
@@ -21,9 +23,12 @@ use camgen::pipeline::{Cam, FileSet, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::{LazyReport, Speeds};
 use camgen::units::{self, Dimension};
+use camgen::write::gcode;
+use camgen::write::inspection;
 use camgen::write::json;
 use camgen::write::number::names;
 use camgen::write::points;
+use camgen::write::servo;
 use camgen::write::step::LATEST;
 use camgen::write::svg;
 
@@ -154,10 +159,25 @@ impl PointsArgs {
     }
 }
 
+/// Radius of the ball of a common probe, m.
+const USUAL_BALL_RADIUS: f64 = 1.5e-3;
+
 impl FileArgs {
     fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
         let points = self.points.requested(self.format.as_deref())?;
-        Ok(Request { points, ..self.outline.request(&common.accuracy)? })
+        let milled = self.format.iter().flatten().any(|format| format == gcode::FORMAT.name);
+        if self.controller.is_some() && !milled {
+            return Err(Failure("--controller belongs to --format gcode".into()));
+        }
+        let milling = milled.then_some(Milling { controller: self.controller });
+        let servo = self.format.iter().flatten().any(|format| servo::NAMES.contains(&format.as_str()));
+        let inspected = self.format.iter().flatten().any(|format| format == inspection::FORMAT.name);
+        if self.ball_diameter.is_some() && !inspected {
+            return Err(Failure("--ball-diameter belongs to --format inspect".into()));
+        }
+        let ball_radius = self.ball_diameter.unwrap_or(USUAL_BALL_RADIUS);
+        let inspection = inspected.then_some(Inspection { ball_radius });
+        Ok(Request { points, milling, servo, inspection, ..self.outline.request(&common.accuracy)? })
     }
 }
 

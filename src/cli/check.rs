@@ -1,4 +1,4 @@
-//! `camgen check`: proves a DXF or STEP file that may have been edited or written by another program.
+//! `camgen check`: proves a DXF or STEP file, or a program for a milling machine, that may have been edited or written by another program.
 
 use super::args::{CheckArgs, CheckTarget, CommonArgs, ReportFormat};
 use super::cams::{of_conoid, of_program};
@@ -11,7 +11,7 @@ use camgen::domains::press::motion::equation_18::Solver;
 use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::pipeline::{Error, ExpectedFile, Spec};
 use camgen::profile::outline::Fit;
-use camgen::reading::{self, LARGEST_FILE, step};
+use camgen::reading::{self, LARGEST_FILE, gcode, servo, step};
 use camgen::refusal::Refusal;
 use camgen::report::Section;
 use camgen::write::json;
@@ -83,6 +83,12 @@ fn section_of(file: &Path, run: &RecordedRun) -> Option<f64> {
 fn readable(bytes: &[u8]) -> Result<(), Refusal> {
     if step::is_step(bytes) {
         return step::read(bytes).map(drop);
+    }
+    if gcode::is_program(bytes) {
+        return gcode::read(bytes).map(drop);
+    }
+    if servo::is_servo(bytes) {
+        return servo::read(bytes).map(drop).map_err(Refusal::new);
     }
     if points::is_points(bytes) { Ok(()) } else { reading::read(bytes, JOINED).map(drop) }
 }

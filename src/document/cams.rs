@@ -54,6 +54,8 @@ pub const WITH_A_BASE: &[&str] = &[BASED];
 pub const DISCS: &[&str] = &[DISC];
 /// Cams that are as thick everywhere.
 pub const EVEN: &[&str] = &[ONE_THICKNESS];
+/// Cams that are cut from a plate along one outline or more.
+pub const FLAT: &[&str] = &[DISC, ONE_THICKNESS];
 /// Cams whose sections differ along their axis.
 pub const SURFACES: &[&str] = &[SURFACE];
 

@@ -6,6 +6,7 @@
 mod allowed;
 pub mod arcs;
 pub mod biarcs;
+pub mod blocks;
 pub mod boundary;
 pub mod chain_distance;
 mod chain_start;

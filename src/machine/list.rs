@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, barrel, bearing, disc, dynamics, limits, plate, title, track};
+use super::{ROOT, barrel, bearing, cutting, disc, dynamics, limits, plate, title, track};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -25,6 +25,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &track::COUNTER,
     &limits::SECTION,
     &title::SECTION,
+    &cutting::SECTION,
 ];
 
 /// The tables of a machine file, and one for each kind of follower.

@@ -7,6 +7,7 @@
 
 mod barrel;
 mod bearing;
+mod cutting;
 mod disc;
 mod dynamics;
 mod embedded;
@@ -28,6 +29,7 @@ pub use crate::document::{Excerpt, FileFault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
 pub use barrel::BarrelData;
 pub use bearing::BearingData;
+pub use cutting::{Controller, CuttingData, MillingDirection, RadiusCompensation};
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};
@@ -129,6 +131,8 @@ pub struct Machine {
     pub(crate) limits: Limits,
     /// Title block.
     pub(crate) title: Title,
+    /// How it is milled, where the file says so.
+    cutting: Option<CuttingData>,
     /// The parts that domains have read.
     parts: MachineParts,
     /// Keys and values of the file.
@@ -189,6 +193,7 @@ impl Machine {
             dynamics: Dynamics::read(reader, &follower),
             limits: limits::read(reader, &*follower.shape)?,
             title: title::read(reader),
+            cutting: cutting::read(reader),
             parts,
             key_values: KeyValues {
                 keys: reader.given(source.by_user),
@@ -277,6 +282,12 @@ impl Machine {
     #[must_use]
     pub fn body(&self) -> &'static str {
         self.cam.track.body
+    }
+
+    /// How it is milled.
+    #[must_use]
+    pub fn cutting(&self) -> CuttingData {
+        self.cutting.clone().unwrap_or_default()
     }
 
     /// What reports call it.

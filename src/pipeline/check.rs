@@ -6,7 +6,7 @@ use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
 use crate::profile::outline::MotionTolerance;
 use crate::reading::step::{FaceLoop, FlankShape, SolidForm, StepFile};
-use crate::reading::{self, Chain, Reading, step};
+use crate::reading::{self, Chain, Reading, gcode, servo, step};
 use crate::refusal::Refusal;
 use crate::report::{Finding, Inputs, Report, Rolled, Section, Verdict};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
@@ -73,8 +73,8 @@ impl Cam {
         self.check_file(bytes, &ExpectedFile::default(), request)
     }
 
-    /// As [`Cam::check`], with what the file should hold where the cam has more than one file, and how it is read. A path of a cutter and a
-    /// table of points are recognised and checked as such.
+    /// As [`Cam::check`], with what the file should hold where the cam has more than one file, and how it is read. A path of a cutter, a
+    /// table of points or for a servo drive and a program for a milling machine are recognised and checked as such.
     ///
     /// ```
     /// use camgen::{ExpectedFile, Machine, Request, Spec};
@@ -89,7 +89,7 @@ impl Cam {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Read`] when the bytes are not a DXF or a STEP file or a table of points;
+    /// [`Error::Read`] when the bytes are not a DXF or a STEP file, a table of points or a program;
     /// [`Error::Section`] for a DXF file and a conoid of several sections, when there is no such section or outline, and for its solid where
     /// errors of the motion are requested; [`Error::Cutter`] for the path of a cutter of unknown radius; [`Error::Draw`] when the follower
     /// does not have such a velocity or acceleration.
@@ -110,6 +110,12 @@ impl Cam {
                     Refusal::new("a STEP file holds the solid of all sections").remedy("give no section"),
                 )),
             };
+        }
+        if gcode::is_program(bytes) {
+            return self.check_program(bytes, expected, &request);
+        }
+        if servo::is_servo(bytes) {
+            return self.check_servo(bytes, &request);
         }
         if points::is_points(bytes) {
             return self.check_points(bytes, expected, &request);
@@ -246,6 +252,9 @@ impl Cam {
             foreign: readings,
             cutter_paths: &[],
             points: None,
+            programs: None,
+            servo: None,
+            inspections: &[],
             of_others: &[],
             solid: None,
             swept: None,
@@ -322,6 +331,9 @@ impl Cam {
             swept: None,
             cutter_paths: &[],
             points: None,
+            programs: None,
+            servo: None,
+            inspections: &[],
             of_others: &[],
             tolerance_mm,
             motion,

@@ -33,7 +33,9 @@ pub use proven::Proven;
 pub use spec::Spec;
 pub(crate) use spec::{SolvedBodies, WantedCams};
 
+use crate::body::milling::{self, MillingError};
 use crate::body::points::{self, PointTable, TableError};
+use crate::body::servo::{self, ServoTable};
 use crate::body::{self, Body, DrawError, Drawn, Request};
 use crate::document::Input;
 use crate::report::{Inputs, Report, Section};
@@ -98,6 +100,12 @@ impl Cam {
         let (drawn, points) = match self.body.draw(&request) {
             Ok(drawn) => {
                 let drawn = body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?;
+                let programs = match milling::programs(self.body(), &request) {
+                    Err(MillingError::Cutter(why)) => Err(why.to_string()),
+                    Err(MillingError::Refused(why)) => return Err(Error::Draw(why.context("no program"))),
+                    Ok(programs) => Ok(programs),
+                };
+                let drawn = Drawn { programs, ..drawn };
                 let points = match points::tables(self.body(), &request, &drawn) {
                     // The check of the cutter's radius says so, too, and what would pass.
                     Err(TableError::Cutter(why)) => Err(why.to_string()),
@@ -109,7 +117,15 @@ impl Cam {
             Err(DrawError::NoOutline(why)) => (Err(why), Ok(Vec::new())),
             Err(DrawError::Refused(why)) => return Err(Error::Draw(why)),
         };
-        Ok(Drawing { cam: self.clone(), request, inputs, drawn, points })
+        let servo = if request.servo {
+            Some(
+                servo::table(self.body(), &request)
+                    .map_err(|why| Error::Draw(why.context("no table for a servo drive")))?,
+            )
+        } else {
+            None
+        };
+        Ok(Drawing { cam: self.clone(), request, inputs, drawn, points, servo })
     }
 
     /// Whether it is made from the inputs of a recorded run; how it is drawn does not matter.
@@ -142,6 +158,8 @@ pub struct Drawing {
     drawn: Result<Drawn, String>,
     /// The tables of points that were requested, or why there are none.
     points: Result<Vec<PointTable>, String>,
+    /// The table for servo drives that was requested.
+    servo: Option<ServoTable>,
 }
 
 impl Drawing {

@@ -1,20 +1,32 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, report};
+use crate::body::inspection::{self, InspectionList};
+use crate::body::milling::{self, MillingProgram};
 use crate::body::points::{PointErrors, PointTable, by_travel, swings};
+use crate::body::servo::ServoTable;
 use crate::body::{Body, DrawingEvidence, Drawn, Request};
 use crate::check::Measure;
-use crate::document::Input;
+use crate::document::{Input, NamedChoice};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Interpolant, PointInterpolation};
 use crate::profile::outline::{Outline, OutlineError};
-use crate::report::{AsCutError, Finding, Inputs, LazyReport, PointMeasures, Report, Rolled, Section, passed};
+use crate::reading::gcode::{self as read_gcode, CutterMove, MoveKind};
+use crate::reading::inspection as read_inspection;
+use crate::reading::servo as read_servo;
+use crate::report::{
+    AsCutError, Finding, Inputs, LazyReport, PointMeasures, ProgramMeasures, Report, Rolled, Section, passed,
+};
 use crate::table::Table;
-use crate::verify::{self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, WrittenSwept, rolling};
+use crate::verify::WrittenInspection;
+use crate::verify::{
+    self, Evidence, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram, WrittenServo, WrittenSwept, rolling,
+};
 use crate::write::Rendering;
 use crate::write::csv;
 use crate::write::dxf::Version;
-use crate::write::{points, proof, step};
+use crate::write::inspection as write_inspection;
+use crate::write::{gcode, points, proof, servo, step};
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -48,6 +60,14 @@ struct ProvenData {
     cut_files: Vec<Vec<u8>>,
     /// The bytes of the tables of points, one for each part, when they were requested.
     points: Vec<Vec<u8>>,
+    /// The bytes of the programs for a milling machine, one for each part, when they were requested.
+    programs: Vec<Vec<u8>>,
+    /// The tables for servo drives by their formats, when they were requested.
+    servo: Vec<(&'static str, Vec<u8>)>,
+    /// The lists of places for a measuring machine in both of their forms, when they were requested.
+    inspections: Vec<(Vec<u8>, Vec<u8>)>,
+    /// The figures of those programs, for the report.
+    program_measures: Vec<ProgramMeasures>,
     /// The figures of those tables, for the report.
     point_measures: Vec<PointMeasures>,
     version: Version,
@@ -134,11 +154,8 @@ impl Drawing {
         Ok(WrittenCuts { swept, cut_files, outlines, rolled, inputs })
     }
 
-    /// Every check, of what was written, with the cams that are cut with it.
-    pub(super) fn judged(self, version: Version, written: WrittenCuts, of_others: &[Measure]) -> Proven {
-        let WrittenCuts { swept, cut_files, outlines, rolled, inputs: hashed } = written;
-        let body = self.cam.body();
-        let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
+    /// The paths of a cutter as another program would read them.
+    fn written_paths(&self, version: Version) -> Vec<WrittenPath> {
         let (middle, _) = self.request.fit.band();
         let paths = self.drawn.iter().flat_map(Drawn::cutter_paths).enumerate();
         let written_path = |(cut, outline): (usize, &Result<Outline, OutlineError>)| {
@@ -153,9 +170,22 @@ impl Drawing {
             let radius = self.request.cutter_radius?;
             Some(WrittenPath { cut, radius: MILLIMETRES * radius, middle: MILLIMETRES * middle, contour, lead_ins })
         };
-        let cutter_paths: Vec<WrittenPath> = paths.filter_map(written_path).collect();
+        paths.filter_map(written_path).collect()
+    }
+
+    /// Every check, of what was written, with the cams that are cut with it.
+    pub(super) fn judged(self, version: Version, written: WrittenCuts, of_others: &[Measure]) -> Proven {
+        let WrittenCuts { swept, cut_files, outlines, rolled, inputs: hashed } = written;
+        let body = self.cam.body();
+        let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
+        let cutter_paths = self.written_paths(version);
         let point_measures = self.points.iter().flatten().map(|table| measures(body, table)).collect();
         let (points, tables) = written_points(body, &self.request, self.points);
+        let (programs, read_programs) =
+            written_programs(body, &self.request, self.drawn.as_ref().ok(), &hashed.to_string());
+        let (servo, read_servo) = written_servo(body, self.servo.as_ref(), &hashed.to_string());
+        let (inspections, places) = written_inspections(body, &self.request, &hashed.to_string());
+        let program_measures = program_measures(self.drawn.as_ref().ok(), read_programs.as_ref());
         let findings = verify::run(&Evidence {
             body,
             drawn: self.drawn.as_ref().ok(),
@@ -164,6 +194,9 @@ impl Drawing {
             foreign: &[],
             cutter_paths: &cutter_paths,
             points: tables.as_ref(),
+            programs: read_programs.as_ref(),
+            servo: read_servo.as_ref(),
+            inspections: &places,
             of_others,
             solid: None,
             swept: swept.as_ref(),
@@ -180,6 +213,10 @@ impl Drawing {
             drawn,
             cut_files,
             points,
+            programs,
+            servo,
+            inspections,
+            program_measures,
             point_measures,
             version,
             outlines,
@@ -209,6 +246,80 @@ fn written_points(
     };
     let written = tables.into_iter().zip(&files).map(read).collect();
     (files, Some(Ok(written)))
+}
+
+/// The programs for a milling machine in memory, and what their control reads in their bytes; none when they were not requested.
+#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
+fn written_programs(
+    body: &dyn Body,
+    request: &Request,
+    drawn: Option<&Drawn>,
+    mark: &str,
+) -> (Vec<Vec<u8>>, Option<Result<Vec<WrittenProgram>, String>>) {
+    let programs = match drawn.map(|drawn| &drawn.programs) {
+        Some(Ok(programs)) if !programs.is_empty() => programs,
+        Some(Err(why)) => return (Vec::new(), Some(Err(why.clone()))),
+        _ => return (Vec::new(), None),
+    };
+    let files: Vec<Vec<u8>> = programs.iter().map(|program| gcode::write(body, program, &[mark.to_owned()])).collect();
+    let read = |(program, bytes): (&MillingProgram, &Vec<u8>)| WrittenProgram {
+        cuts: program.cuts.clone(),
+        cutter: program.cutter.map(|radius| MILLIMETRES * radius),
+        middle: MILLIMETRES * request.fit.band().0,
+        depth: milling::depth_of(body),
+        program: read_gcode::read(bytes).map_err(|why| why.to_string()),
+    };
+    let written = programs.iter().zip(&files).map(read).collect();
+    (files, Some(Ok(written)))
+}
+
+/// The tables for servo drives in memory, and what is read in their bytes; none when they were not requested.
+#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
+fn written_servo(
+    body: &dyn Body,
+    table: Option<&ServoTable>,
+    mark: &str,
+) -> (Vec<(&'static str, Vec<u8>)>, Option<Result<Vec<WrittenServo>, String>>) {
+    let Some(table) = table else { return (Vec::new(), None) };
+    let files = servo::write(body, table, mark);
+    let read = files.iter().map(|(format, bytes)| WrittenServo { format, table: read_servo::read(bytes) }).collect();
+    (files, Some(Ok(read)))
+}
+
+/// The lists of places for a measuring machine in memory, and what is read in the bytes of each; none when they were not requested.
+#[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
+fn written_inspections(
+    body: &dyn Body,
+    request: &Request,
+    mark: &str,
+) -> (Vec<(Vec<u8>, Vec<u8>)>, Vec<WrittenInspection>) {
+    let of = |list: InspectionList| {
+        let files = write_inspection::write(body, &list, mark);
+        let places = read_inspection::read(&files.0);
+        (files, WrittenInspection { cut: list.cut, ball_radius: list.ball_radius, places })
+    };
+    inspection::lists(body, request).into_iter().map(of).unzip()
+}
+
+/// The figures of programs as they were read, for the report.
+fn program_measures(drawn: Option<&Drawn>, read: Option<&Result<Vec<WrittenProgram>, String>>) -> Vec<ProgramMeasures> {
+    let (Some(Ok(programs)), Some(Ok(read))) = (drawn.map(|drawn| &drawn.programs), read) else { return Vec::new() };
+    let of = |(program, written): (&MillingProgram, &WrittenProgram)| {
+        let moves = &written.program.as_ref().ok()?.moves;
+        let at_feed = || moves.iter().filter(|moved| moved.kind != MoveKind::Rapid);
+        let along: f64 = at_feed().flat_map(CutterMove::segments).map(|segment| segment.length()).sum();
+        let down: f64 = at_feed().map(|moved| (moved.to[2] - moved.from[2]).abs()).sum();
+        let seconds = (along / program.cutting.feed + down / program.cutting.plunge_feed) / MILLIMETRES;
+        Some(ProgramMeasures {
+            controller: program.controller.word(),
+            moves: moves.len(),
+            passes: program.depths.len() * program.passes.len(),
+            depth_mm: program.depths.last().copied().unwrap_or(0.0),
+            length_mm: along + down,
+            minutes: seconds / 60.0,
+        })
+    };
+    programs.iter().zip(read).filter_map(of).collect()
 }
 
 /// The figures of a table, for the report.
@@ -323,10 +434,11 @@ impl Proven {
 
     /// The report with more sections, and with the reason why there is no outline of a cam that belongs to it.
     pub(super) fn report_with(&self, more: Vec<Section>, no_outline: Option<&str>) -> Report {
-        let ProvenData { rolled, point_measures, hashed, findings, .. } = &*self.0;
+        let ProvenData { rolled, point_measures, program_measures, hashed, findings, .. } = &*self.0;
         let found = DrawingEvidence { drawn: self.drawn(), rolled, tolerance_mm: self.tolerance_mm() };
         let mut sections = self.body().sections(&found);
         sections.extend(PointMeasures::section(point_measures));
+        sections.extend(ProgramMeasures::section(program_measures));
         sections.extend(more);
         let mut report = report(self.body(), hashed.clone(), sections, findings.clone());
         report.notes.extend(no_outline.map(|why| format!("there is no outline: {why}")));
@@ -378,6 +490,9 @@ impl Proven {
             outlines: &self.0.outlines,
             cut_files,
             points: &self.0.points,
+            programs: &self.0.programs,
+            servo: &self.0.servo,
+            inspections: &self.0.inspections,
             fit: self.0.request.fit,
             cutter_radius: self.0.request.cutter_radius,
             dxf_version,

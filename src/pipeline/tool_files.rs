@@ -2,14 +2,19 @@
 
 use super::check::CutSection;
 use super::{Cam, Error, ExpectedFile, report};
+use crate::body::milling::{depth_of, groove_width};
 use crate::body::points::{PointCurve, PointErrors, PointTable, radius_of_roller, traced};
 use crate::body::{Layer, Request};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Interpolant, PointRows, PointTableSpec};
+use crate::reading::gcode::{self, CutterSide, MoveKind};
+use crate::reading::servo;
 use crate::reading::{self, Chain};
 use crate::refusal::Refusal;
 use crate::report::{Finding, Inputs, Report, Section, Verdict};
-use crate::verify::{self, Evidence, WrittenPath, WrittenPoints, WrittenSwept, join_reach};
+use crate::verify::{
+    self, Evidence, WrittenPath, WrittenPoints, WrittenProgram, WrittenServo, WrittenSwept, join_reach,
+};
 use crate::write::points;
 
 impl Cam {
@@ -78,6 +83,48 @@ impl Cam {
         let evidence = self.nothing_written(tolerance_mm, request)?;
         let checks = verify::run(&Evidence { swept: Some(&swept), ..evidence });
         Ok(self.report_on(what, request, checks))
+    }
+
+    /// Whether a program for a milling machine cuts this cam.
+    pub(super) fn check_program(
+        &self,
+        bytes: &[u8],
+        expected: &ExpectedFile<'_>,
+        request: &Request,
+    ) -> Result<Report, Error> {
+        let program =
+            gcode::read(bytes).map_err(|why| Error::Read(why.context("not a program that can be checked")))?;
+        let mut arcs = program.moves.iter().filter(|moved| matches!(moved.kind, MoveKind::Arc { .. }));
+        let kept = arcs.all(|moved| moved.side != CutterSide::Centre);
+        let cuts = self.body().cuts();
+        let width = groove_width(&cuts).map(|width| 0.5 * width);
+        let cutter = match expected.cutter.or(request.cutter_radius).or(width) {
+            _ if kept => None,
+            Some(cutter) => Some(MILLIMETRES * cutter),
+            None => {
+                let refusal = Refusal::new("the program moves the centre of a cutter and does not give its radius");
+                return Err(Error::Cutter(refusal.remedy("give the radius of the cutter")));
+            }
+        };
+        let programs = Ok(vec![WrittenProgram {
+            cuts: (0..cuts.len()).collect(),
+            cutter,
+            middle: MILLIMETRES * request.fit.band().0,
+            depth: depth_of(self.body()),
+            program: Ok(program),
+        }]);
+        let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
+        let checks = verify::run(&Evidence { programs: Some(&programs), ..evidence });
+        Ok(self.report_on("program", request, checks))
+    }
+
+    /// Whether a table for a servo drive moves it as this cam moves its follower.
+    pub(super) fn check_servo(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
+        let table = servo::read(bytes);
+        let tables = Ok(vec![WrittenServo { format: "the table", table }]);
+        let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
+        let checks = verify::run(&Evidence { servo: Some(&tables), ..evidence });
+        Ok(self.report_on("table for a servo drive", request, checks))
     }
 
     /// The findings on the cut of this name, or the first that a file fits, of a part with several flanks.
@@ -163,6 +210,9 @@ impl Cam {
             foreign: &[],
             cutter_paths: &[],
             points: None,
+            programs: None,
+            servo: None,
+            inspections: &[],
             of_others: &[],
             solid: None,
             swept: None,

@@ -7,11 +7,14 @@
 
 mod contents;
 mod curve;
+pub mod gcode;
 mod groups;
+pub mod inspection;
 mod join;
 mod limits;
 mod placement;
 mod record;
+pub mod servo;
 mod shape;
 mod shown;
 mod spline;

@@ -14,6 +14,7 @@ pub mod mechanism;
 pub mod motion_diagram;
 pub mod plot;
 mod point_measures;
+mod program_measures;
 mod rolled;
 pub mod scheme;
 pub mod sheet;
@@ -26,6 +27,7 @@ pub(crate) use figures::to_type;
 pub use finding::{Bound, Finding, Place, Verdict, degrees, failed, passed, worst_first};
 pub use inputs::{Inputs, sha256};
 pub use point_measures::PointMeasures;
+pub use program_measures::ProgramMeasures;
 pub use rolled::Rolled;
 pub use values::{CamMeasures, OutlineMeasures, Weight, lobes_words};
 

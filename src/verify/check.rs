@@ -8,6 +8,9 @@ use crate::geometry::contour::Contour;
 use crate::geometry::points::Interpolant;
 use crate::profile::Worst;
 use crate::profile::outline::MotionTolerance;
+use crate::reading::gcode::CutterProgram;
+use crate::reading::inspection::ReadPlace;
+use crate::reading::servo::ServoRows;
 use crate::reading::step::{SolidForm, StepFile};
 use crate::reading::{Chain, Reading};
 use crate::report::{Finding, Place, Rolled};
@@ -53,6 +56,41 @@ pub struct WrittenPoints {
     pub curve: Result<Interpolant, String>,
 }
 
+/// A program for a milling machine as its control would read it from the written file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenProgram {
+    /// Along which of the cuts of its body its passes run.
+    pub cuts: Vec<usize>,
+    /// Radius of the cutter whose centre is moved, mm; `None` where the control keeps its cutter on the profile.
+    pub cutter: Option<f64>,
+    /// How far the middle of the tolerance band lies inwards of the exact profile, mm.
+    pub middle: f64,
+    /// How deep is cut, mm; `None` where it is not known.
+    pub depth: Option<f64>,
+    /// What the control does, or why it does nothing.
+    pub program: Result<CutterProgram, String>,
+}
+
+/// A table for a servo drive as it would be read from the written file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenServo {
+    /// What messages call it.
+    pub format: &'static str,
+    /// Its rows, or why there are none.
+    pub table: Result<ServoRows, String>,
+}
+
+/// A list of places for a measuring machine as it would be read from the written file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenInspection {
+    /// On which of the cuts of its body they are.
+    pub cut: usize,
+    /// Radius of the ball, mm.
+    pub ball_radius: f64,
+    /// The places, or why there are none.
+    pub places: Result<Vec<ReadPlace>, String>,
+}
+
 /// The solid of a STEP file as read, and what its boundary was recognised as.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WrittenSolid {
@@ -79,6 +117,12 @@ pub struct Evidence<'a> {
     pub cutter_paths: &'a [WrittenPath],
     /// The tables of points as read back, when they were requested, or why there are none.
     pub points: Option<&'a Result<Vec<WrittenPoints>, String>>,
+    /// The programs for a milling machine as read back, when they were requested, or why there are none.
+    pub programs: Option<&'a Result<Vec<WrittenProgram>, String>>,
+    /// The tables for servo drives as read back, when they were requested, or why there are none.
+    pub servo: Option<&'a Result<Vec<WrittenServo>, String>>,
+    /// The lists of places for a measuring machine as read back, when they were requested.
+    pub inspections: &'a [WrittenInspection],
     /// Measures that rest on other cams of its assembly.
     pub of_others: &'a [Measure],
     /// What was read from a STEP file that somebody else may have written.

@@ -8,7 +8,6 @@
 //! their order, the cut itself then lies between the profile and its parallel at the tolerance.
 
 use super::check::{Evidence, FileCheck, WrittenPath, place};
-use crate::body::Cut;
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::contour::{Contour, Segment, Vertex};
 use crate::geometry::following::follow;
@@ -57,24 +56,10 @@ fn along(evidence: &Evidence<'_>, path: &WrittenPath) -> Option<Finding> {
         Ok(contour) => contour,
         Err(why) => return none(why.clone()),
     };
-    let profile = match evidence.body.cuts().get(path.cut).map_or(Ok(None), |cut| evidence.body.boundary(cut)) {
-        Ok(Some(profile)) => profile,
+    let left = match left_behind(evidence, path.cut, (path.radius, path.middle), contour) {
+        Ok(Some(left)) => left,
         Ok(None) => return None,
-        Err(error) => return none(error.to_string()),
-    };
-    let hollow = evidence.body.cuts().get(path.cut).is_some_and(Cut::is_hollow);
-    let inwards = |contour: &Contour| moved_inwards(contour, path.radius - path.middle);
-    let moved = if hollow { inwards(&contour.reversed()).map(|cut| cut.reversed()) } else { inwards(contour) };
-    let Some(cut) = moved else {
-        return none("the path has cubic curves, whose parallels are not cubic curves".into());
-    };
-    let room = limit - path.middle.abs();
-    let (worst, kept, fault) = match follow(&cut, &profile) {
-        Ok(worst) => (worst, worst.distance <= room, None),
-        Err(lost) => {
-            let at = place(evidence.body, lost.at);
-            (two_sided_distance(&cut, &profile), false, Some(format!("the cut departs from the profile at {at}; ")))
-        }
+        Err(why) => return none(why),
     };
     let side = match path.middle {
         middle if middle > 0.0 => "never outside it",
@@ -83,13 +68,49 @@ fn along(evidence: &Evidence<'_>, path: &WrittenPath) -> Option<Finding> {
     };
     let note = format!(
         "{}cutter Ø{} mm along {} segments as read from the file, in both directions, {side}",
-        fault.unwrap_or_default(),
+        left.fault.map_or_else(String::new, |fault| format!("{fault}; ")),
         2.0 * path.radius,
         contour.vertices.len(),
     );
-    let value = worst.distance + path.middle.abs();
-    let found = CHECK.found(value, Some(limit), Verdict::of(kept));
-    Some(Finding { place: place(evidence.body, worst.at), note: Some(note), ..found })
+    let found = CHECK.found(left.distance, Some(limit), Verdict::of(left.kept));
+    Some(Finding { place: place(evidence.body, left.at), note: Some(note), ..found })
+}
+
+/// What a cutter leaves along a path.
+pub(super) struct LeftBehind {
+    /// Largest distance from the exact profile, mm, in both directions.
+    pub(super) distance: f64,
+    /// Where, mm.
+    pub(super) at: Vector2<f64>,
+    /// Whether it keeps the tolerance, on its side.
+    pub(super) kept: bool,
+    /// That it does not go round the profile, and where.
+    pub(super) fault: Option<String>,
+}
+
+/// What a cutter of a radius leaves along a counter-clockwise path about a cut; `middle` is how far the middle of the tolerance band lies
+/// inwards of the exact profile, all in mm. `None` where the cut has no exact profile.
+pub(super) fn left_behind(
+    evidence: &Evidence<'_>,
+    cut: usize,
+    (radius, middle): (f64, f64),
+    contour: &Contour,
+) -> Result<Option<LeftBehind>, String> {
+    let cuts = evidence.body.cuts();
+    let Some(of) = cuts.get(cut) else { return Ok(None) };
+    let Some(profile) = evidence.body.boundary(of).map_err(|error| error.to_string())? else { return Ok(None) };
+    let inwards = |contour: &Contour| moved_inwards(contour, radius - middle);
+    let moved = if of.is_hollow() { inwards(&contour.reversed()).map(|cut| cut.reversed()) } else { inwards(contour) };
+    let moved = moved.ok_or("the path has cubic curves, whose parallels are not cubic curves")?;
+    let room = evidence.tolerance_mm - middle.abs();
+    let (worst, kept, fault) = match follow(&moved, &profile) {
+        Ok(worst) => (worst, worst.distance <= room, None),
+        Err(lost) => {
+            let at = place(evidence.body, lost.at);
+            (two_sided_distance(&moved, &profile), false, Some(format!("the cut departs from the profile at {at}")))
+        }
+    };
+    Ok(Some(LeftBehind { distance: worst.distance + middle.abs(), at: worst.at, kept, fault }))
 }
 
 /// What a cutter of this radius (mm) leaves on the left of its path; `None` where the path is not of arcs and lines.
@@ -190,6 +211,9 @@ mod tests {
                 swept: None,
                 cutter_paths: std::slice::from_ref(&path),
                 points: None,
+                programs: None,
+                servo: None,
+                inspections: &[],
                 of_others: &[],
                 tolerance_mm: 5e-3,
                 motion: MotionTolerance::ANY,

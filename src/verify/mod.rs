@@ -12,13 +12,16 @@ mod felt_sections;
 mod file;
 mod flank;
 mod groove_width;
+mod inspection;
 mod lead_in;
 mod list;
+mod milling;
 mod outline;
 mod patches;
 mod plate_ends;
 mod points;
 pub mod rolling;
+mod servo;
 mod solid;
 mod sphere;
 mod swept;
@@ -26,7 +29,10 @@ mod swept_files;
 mod tangency;
 mod walls;
 
-pub use check::{CheckEntry, Evidence, FileCheck, WrittenOutline, WrittenPath, WrittenPoints, WrittenSolid};
+pub use check::{
+    CheckEntry, Evidence, FileCheck, WrittenInspection, WrittenOutline, WrittenPath, WrittenPoints, WrittenProgram,
+    WrittenServo, WrittenSolid,
+};
 pub use file::join_reach;
 pub(crate) use lead_in::is_lead_in;
 pub use list::CHECKS;

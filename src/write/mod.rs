@@ -9,8 +9,10 @@ pub mod dxf;
 mod error;
 pub mod files;
 mod finite;
+pub mod gcode;
 #[cfg(feature = "html")]
 pub mod html;
+pub mod inspection;
 mod interrupted;
 pub mod json;
 mod known;
@@ -23,6 +25,7 @@ pub mod proof;
 pub mod record;
 #[cfg(feature = "second-reader")]
 mod second_reader;
+pub mod servo;
 pub mod step;
 pub mod step_assembly;
 pub mod stl;
@@ -53,6 +56,12 @@ pub struct Rendering<'a> {
     pub cut_files: &'a [Vec<u8>],
     /// The tables of points, written and proved, one for each part of the drawing; empty when they were not requested.
     pub points: &'a [Vec<u8>],
+    /// The programs for a milling machine, written and proved, one for each part of the drawing; empty when they were not requested.
+    pub programs: &'a [Vec<u8>],
+    /// The tables for servo drives by the names of their formats, written and proved; empty when they were not requested.
+    pub servo: &'a [(&'static str, Vec<u8>)],
+    /// The lists of places for a measuring machine, each in both of its forms, written and proved; empty when they were not requested.
+    pub inspections: &'a [(Vec<u8>, Vec<u8>)],
     /// The tolerance of the outlines, and on which side of the exact curves they lie.
     pub fit: Fit,
     /// Radius of the cutter whose path was drawn, m.
@@ -135,6 +144,11 @@ pub const FORMATS: &[Format] = &[
     stl::FORMAT,
     points::FORMAT,
     diagram::FORMAT,
+    gcode::FORMAT,
+    servo::CSV,
+    servo::XYVA,
+    servo::TWINCAT,
+    inspection::FORMAT,
     toml::FORMAT,
     dxf::CUTTER_PATH,
     csv::FURTHER,

@@ -226,6 +226,7 @@ fn another(key: &Key, share: f64, index: u32) -> String {
             format!("[{0}, {0}, {0}, {1}]", 0.1 * share, 1.0 - 0.3 * share)
         }
         KeyForm::Numbers(_) if key.name == "amplitudes" => format!("[7, {share}, -2]"),
+        KeyForm::Number(_) if ["tool", "program", "decimals"].contains(&key.name) => (3 + index % 4).to_string(),
         KeyForm::Number(_) if key.name == "repeat" => (index + 1).to_string(),
         KeyForm::Texts => format!("[1, {}]", 2 + index % 2),
         KeyForm::Text if key.name == "unit" => ["in", "cm", "um"][index as usize % 3].to_owned(),

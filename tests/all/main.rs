@@ -29,6 +29,7 @@ mod faults;
 mod felt;
 mod following;
 mod forces;
+mod gcode;
 mod groove;
 mod groove_cam;
 mod html;
@@ -54,6 +55,7 @@ mod rows;
 // What is stored is made by every domain and format.
 #[cfg(all(feature = "brake", feature = "html", feature = "pdf"))]
 mod same_bytes;
+mod servo;
 mod shaft;
 mod sheets;
 mod shop;

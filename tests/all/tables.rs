@@ -20,7 +20,7 @@ use camgen::follower::{FOLLOWERS, FollowerKind};
 use camgen::geometry::lead_in::{LeadIn, LeadInForm};
 use camgen::machine::Machine;
 use camgen::motion::laws::{LAWS, LINE};
-use camgen::pipeline::{Assembly, Cam, Error, Judged, Spec, Writing};
+use camgen::pipeline::{Assembly, Cam, Error, Judged, Proven, Spec, Writing};
 use camgen::report::{Report, Verdict};
 use camgen::table::COLUMNS;
 use camgen::write::{FORMATS, FormatSelection, by_name};
@@ -313,6 +313,25 @@ fn every_column_belongs_to_some_cam_and_every_cell_is_a_number() {
     }
 }
 
+/// A cam with a lead-in.
+fn led() -> Proven {
+    let lead_in = Some(LeadIn { form: LeadInForm::Arc, size: 0.004 });
+    let led = Request { lead_in, ..Request::within(TOLERANCE) };
+    lifter(LIFTER, &[]).solve().expect("a cam").draw(led).expect("drawn").prove().expect("proved")
+}
+
+/// A request for every file of a tool.
+fn of_every_tool() -> Request {
+    Request {
+        cutter_radius: Some(0.01),
+        points: Some(camgen::body::points::Points::default()),
+        milling: Some(camgen::body::milling::Milling::default()),
+        servo: true,
+        inspection: Some(camgen::body::inspection::Inspection { ball_radius: 1.5e-3 }),
+        ..Request::within(TOLERANCE)
+    }
+}
+
 /// Every check is reached by some cam or some file, and is found in the order of the list, the worst verdicts first.
 #[test]
 fn every_check_is_run_for_some_cam() {
@@ -346,10 +365,12 @@ fn every_check_is_run_for_some_cam() {
         }
         let made = cam_of(kind, &[]);
         if kind.command == "rotary" {
-            let points = Some(camgen::body::points::Points::default());
-            let request = camgen::Request { cutter_radius: Some(0.01), points, ..camgen::Request::within(TOLERANCE) };
+            let request = of_every_tool();
             let proven = made.draw(request).expect("drawn").prove().expect("a proof");
-            reports.push((format!("{} with the path of a cutter and points", kind.noun), proven.report()));
+            reports.push((
+                format!("{} with the path of a cutter, points, a program, a table for a drive and places", kind.noun),
+                proven.report(),
+            ));
         }
         let request = camgen::Request { flank: true, ..camgen::Request::within(TOLERANCE) };
         let proven = made.draw(request).expect("drawn").prove().expect("a proof");
@@ -370,10 +391,7 @@ fn every_check_is_run_for_some_cam() {
     ];
     let moving = lifter(LIFTER, &dynamics).solve().expect("a cam");
     reports.push(("lifter with spring, guide and train".into(), report_of(&moving)));
-    let lead_in = Some(LeadIn { form: LeadInForm::Arc, size: 0.004 });
-    let led = Request { lead_in, ..Request::within(TOLERANCE) };
-    let led = lifter(LIFTER, &[]).solve().expect("a cam").draw(led).expect("drawn").prove().expect("proved");
-    reports.push(("lifter with a lead-in".into(), led.report()));
+    reports.push(("lifter with a lead-in".into(), led().report()));
     let pair = lifter(LIFTER, &["cam.body=conjugate"]).assemble().expect("two discs");
     reports.push(("conjugate discs".into(), pair.draw(TOLERANCE).expect("drawn").prove().expect("proved").report()));
     let arm = Machine::load("lever", &["limits.pivot_clearance=1 mm".to_owned()]).expect("valid").0;

@@ -253,6 +253,21 @@ const OTHERS: &[(&str, &str)] = &[
     ("title.edges", "sharp"),
     ("title.profile_tolerance", "0.04 mm"),
     ("title.lift_tolerance", "0.05 mm"),
+    ("cut.controller", "heidenhain"),
+    ("cut.decimals", "5"),
+    ("cut.preamble", "[\"G55\"]"),
+    ("cut.postamble", "[\"M2\"]"),
+    ("cut.feed", "500 mm/min"),
+    ("cut.plunge_feed", "50 mm/min"),
+    ("cut.spindle", "1200"),
+    ("cut.tool", "7"),
+    ("cut.program", "12"),
+    ("cut.depth", "8 mm"),
+    ("cut.depth_per_pass", "2 mm"),
+    ("cut.overrun", "0.5 mm"),
+    ("cut.clearance", "20 mm"),
+    ("cut.direction", "conventional"),
+    ("cut.compensation", "control"),
 ];
 
 /// A shaft with every part, behind a press.

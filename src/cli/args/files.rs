@@ -3,6 +3,7 @@
 use super::parse::{bare_cutter, cutter_diameter, cutter_radius, dxf_version, format, samples, start, stem, word};
 use camgen::body::points::PointCurve;
 use camgen::geometry::points::{PointCoordinates, PointInterpolation, PointStep};
+use camgen::machine::Controller;
 use camgen::profile::outline::{SegmentKind, Side};
 use camgen::write::dxf::Version;
 use clap::{Args, ValueHint};
@@ -76,7 +77,7 @@ pub(in crate::cli) struct OutlineArgs {
 /// What is written, where, and how.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct FileArgs {
-    /// Formats to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet and the motion diagram), diagram (the motion diagram as SVG), points, and stl for a conoid
+    /// Formats to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet and the motion diagram), diagram (the motion diagram as SVG), points, gcode (a program for a milling machine), servo-csv, servo-xyva (CODESYS) and servo-twincat (tables for a servo drive), inspect (places for a measuring machine), and stl for a conoid
     /// [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(in crate::cli) format: Option<Vec<String>>,
@@ -93,6 +94,14 @@ pub(in crate::cli) struct FileArgs {
 
     #[command(flatten)]
     pub(in crate::cli) points: PointsArgs,
+
+    /// Control of the program of --format gcode: linuxcnc, fanuc, sinumerik or heidenhain [default: cut.controller, linuxcnc]
+    #[arg(long, value_name = "CONTROL", ignore_case = true, value_parser = word::<Controller>())]
+    pub(in crate::cli) controller: Option<Controller>,
+
+    /// Diameter of the ball of the probe whose centres --format inspect gives [default: 3mm]
+    #[arg(long, value_name = "DIAMETER", value_parser = cutter_diameter)]
+    pub(in crate::cli) ball_diameter: Option<f64>,
 }
 
 /// The table of --format points, STEM-points.csv: as many points as needed to keep --tolerance between them.

@@ -115,7 +115,7 @@ Examples:
   camgen check part.dxf --design lifter.toml
       exit code 1: it is not the cam of the motion program in lifter.toml
 
-The file may also be the path of a cutter (-cutter.dxf) or a table of points (-points.csv).";
+The file may also be the path of a cutter (-cutter.dxf), a table of points (-points.csv) or for a servo drive (-servo.csv, -xyva.st, -twincat.st), or a program for a milling machine (.ngc, .nc, .mpf, .h).";
 
 pub(super) const TRADE: &str = "\
 Examples:

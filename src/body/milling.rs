@@ -1,0 +1,387 @@
+//! Programs for a milling machine, in no control's words yet: passes along the flanks of a part, with lead-ins and lead-outs.
+//!
+//! The path is drawn anew, within what the rounding of its numbers leaves of the tolerance. With a cutter it is that of the cutter's centre,
+//! else the profile, along which the control keeps its own cutter. Bore, keyway and holes are not in it.
+
+use super::{Body, Cut, DrawError, Drawn, Layer, Part, Request};
+use crate::geometry::MILLIMETRES;
+use crate::geometry::blocks::{Block, Grid};
+use crate::geometry::contour::{Contour, Edge, Segment};
+use crate::geometry::edge_tree::EdgeTree;
+use crate::geometry::lead_in::{LeadInForm, depth};
+use crate::machine::{Controller, CuttingData, MillingDirection, RadiusCompensation};
+use crate::numeric::parallel;
+use crate::profile::outline::{Fit, Outline, OutlineError, SegmentKind, Side};
+use crate::refusal::Refusal;
+use crate::report::shown;
+use nalgebra::Vector2;
+use std::f64::consts::FRAC_PI_8;
+
+/// A requested program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Milling {
+    /// The control, in the place of that of the machine file.
+    pub controller: Option<Controller>,
+}
+
+/// The program for a part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MillingProgram {
+    /// Which of the parts of a drawing it is of.
+    pub part: usize,
+    /// Which of the cuts of the body its passes are along.
+    pub cuts: Vec<usize>,
+    /// The control.
+    pub controller: Controller,
+    /// Decimals of its numbers.
+    pub decimals: u32,
+    /// Feeds, speeds and heights.
+    pub cutting: CuttingData,
+    /// Radius of the cutter whose centre is moved, m; `None` where the control keeps its cutter on the profile.
+    pub cutter: Option<f64>,
+    /// The passes at each depth.
+    pub passes: Vec<MillingPass>,
+    /// The depths, mm below the upper face, from the first on.
+    pub depths: Vec<f64>,
+}
+
+/// Once round a flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MillingPass {
+    /// What it is along, for a reader: "outer flank".
+    pub words: String,
+    /// Whether the cutter is on the left of its path (G41), else on the right.
+    pub cutter_left: bool,
+    /// Where the control begins to keep its cutter on the left or right, before `start`, and where it ends to; mm.
+    pub compensated: Option<[Vector2<f64>; 2]>,
+    /// Where the cutter goes down, mm.
+    pub start: Vector2<f64>,
+    /// To the flank, round it, and away from it.
+    pub blocks: Vec<Block>,
+}
+
+/// Why there is no program.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MillingError {
+    /// The cutter has no path, as the check of its radius says, too.
+    #[error(transparent)]
+    Cutter(OutlineError),
+    /// Of any other cause.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
+}
+
+/// Steps of the grid by which rounded arcs may lie off the ones that were drawn.
+const ROUNDING: f64 = 2.0;
+/// Least share of the tolerance that rounding must leave to the arcs.
+const LEAST_SHARE: f64 = 0.2;
+/// Radii of lead-ins and lead-outs that are tried, mm, the largest first.
+const LEADS: [f64; 6] = [5.0, 2.5, 1.2, 0.6, 0.3, 0.1];
+/// The same where the control keeps its cutter on the profile: its radius must be smaller.
+const COMPENSATED_LEADS: [f64; 4] = [10.0, 5.0, 2.5, 1.2];
+/// A lead-in of this many radii of the cutter is large enough for every control.
+const LARGER: f64 = 1.1;
+/// Depth below which a lead-in only touches the flank, as a share of the tolerance.
+const TOUCHES: f64 = 0.1;
+/// Radii that differ by less are equal, m.
+const SAME_RADIUS: f64 = 1e-9;
+/// Most passes, and most blocks of a program.
+const MOST_PASSES: f64 = 1000.0;
+const MOST_BLOCKS: usize = 200_000;
+
+/// Why a cam is not milled from a plate.
+#[must_use]
+pub fn unfit(body: &dyn Body) -> Option<&'static str> {
+    let leans = "its flank leans along the axis: a cutter that is moved round one section of it cuts into the next";
+    body.surface().map(|_| leans)
+}
+
+/// The width of a groove between these cuts, m.
+#[must_use]
+pub fn groove_width(cuts: &[Cut<'_>]) -> Option<f64> {
+    let [inner, outer] = cuts else { return None };
+    let groove = inner.layer == Layer::GrooveInner && outer.layer == Layer::GrooveOuter;
+    let width = inner.curves?.offset() - outer.curves?.offset();
+    groove.then_some(width)
+}
+
+/// The radius of the cutter of a request whose centre is moved, m: in a groove that of a cutter as wide as the groove where none is given.
+#[must_use]
+pub fn cutter_of(body: &dyn Body, request: &Request) -> Option<f64> {
+    let moved = body.machine().cutting().compensation == RadiusCompensation::Program;
+    let cutter = request.cutter_radius.or_else(|| Some(0.5 * groove_width(&body.cuts())?));
+    cutter.filter(|_| moved)
+}
+
+/// How deep a cut of a body is milled, mm: `[cut] depth`, the depth of its groove, or through its thickness.
+#[must_use]
+pub fn depth_of(body: &dyn Body) -> Option<f64> {
+    let cutting = body.machine().cutting();
+    let of_cut = body.cuts().first().and_then(|cut| cut.depth);
+    let through = || body.machine().cam.thickness.map(|thickness| thickness + cutting.overrun);
+    cutting.depth.or(of_cut).or_else(through).map(|depth| MILLIMETRES * depth)
+}
+
+/// The programs for all parts of a body; none where they were not requested.
+///
+/// # Errors
+/// [`MillingError`] when the cutter does not get into a concave part, the tolerance is too fine for the control, no depth is known, or no way
+/// to the flank is free.
+pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram>, MillingError> {
+    let Some(asked) = request.milling else { return Ok(Vec::new()) };
+    if let Some(why) = unfit(body) {
+        return Err(Refusal::new(why).into());
+    }
+    let cutting = body.machine().cutting();
+    let controller = asked.controller.unwrap_or(cutting.controller);
+    let decimals = cutting.decimals.unwrap_or(controller.decimals());
+    let cutter = cutter_of(body, request);
+    let drawn = drawn(body, request, (cutter, decimals))?;
+    let depths = depths(body, &cutting, decimals)?;
+    let mut first = 0;
+    let mut programs = Vec::with_capacity(drawn.parts.len());
+    for (part, drawn_part) in drawn.parts.iter().enumerate() {
+        let cuts: Vec<usize> = (first..first + drawn_part.outlines().count()).collect();
+        first += cuts.len();
+        let passes = passes(body, request, (&drawn, drawn_part, &cuts), (cutter, Grid::of_decimals(decimals)))?;
+        let blocks = depths.len() * passes.iter().map(|pass| pass.blocks.len()).sum::<usize>();
+        if blocks > MOST_BLOCKS {
+            let what = format!("the program would have {blocks} blocks, more than {MOST_BLOCKS}");
+            return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
+        }
+        let (cutting, depths) = (cutting.clone(), depths.clone());
+        programs.push(MillingProgram { part, cuts, controller, decimals, cutting, cutter, passes, depths });
+    }
+    Ok(programs)
+}
+
+/// The drawing within what rounding leaves of the tolerance, with the paths of the cutter where its centre is moved.
+fn drawn(body: &dyn Body, request: &Request, (cutter, decimals): (Option<f64>, u32)) -> Result<Drawn, MillingError> {
+    let (middle, half) = request.fit.band();
+    let rounding = ROUNDING * Grid::of_decimals(decimals).step() / MILLIMETRES;
+    if half - rounding < LEAST_SHARE * half {
+        let sides = request.fit.tolerance / half;
+        let least = 1e6 * sides * rounding / (1.0 - LEAST_SHARE);
+        let what = format!(
+            "numbers of {decimals} decimals keep no tolerance of {} um: they need {} um",
+            shown(1e6 * request.fit.tolerance),
+            shown(least)
+        );
+        let remedy = "give a coarser --tolerance, or cut.decimals that the control takes";
+        return Err(Refusal::new(what).remedy(remedy).into());
+    }
+    if middle != 0.0 && cutter.is_none() {
+        let what = "the control keeps its cutter on a profile that lies on both sides of the exact one";
+        return Err(Refusal::new(what).remedy("leave --side out, or give --cutter-diameter").into());
+    }
+    if middle != 0.0 && one_pass(&body.cuts(), cutter) {
+        let what = "a cutter as wide as its groove cuts both flanks in one pass, on either side";
+        return Err(Refusal::new(what).remedy("leave --side out, or give a smaller --cutter-diameter").into());
+    }
+    let fit = Fit { tolerance: half - rounding, side: Side::Both, laid: SegmentKind::Arcs, ..request.fit };
+    let cutter_radius = cutter.map(|radius| radius - middle);
+    let fine = Request {
+        fit,
+        cutter_radius,
+        flank: false,
+        points: None,
+        milling: None,
+        servo: false,
+        inspection: None,
+        lead_in: None,
+        ..*request
+    };
+    let drawn = body.draw(&fine).map_err(|error| match error {
+        DrawError::NoOutline(why) => Refusal::new(why),
+        DrawError::Refused(refusal) => refusal,
+    })?;
+    if let Some(Err(error)) = drawn.cutter_paths().find(|path| path.is_err()) {
+        return Err(MillingError::Cutter(error.clone()));
+    }
+    Ok(super::start::started(body, &fine, drawn)?)
+}
+
+/// Whether the cutter is as wide as the groove between these cuts.
+fn one_pass(cuts: &[Cut<'_>], cutter: Option<f64>) -> bool {
+    groove_width(cuts).zip(cutter).is_some_and(|(width, cutter)| (width - 2.0 * cutter).abs() < SAME_RADIUS)
+}
+
+/// The depths of the passes, mm.
+fn depths(body: &dyn Body, cutting: &CuttingData, decimals: u32) -> Result<Vec<f64>, Refusal> {
+    let depth = depth_of(body).ok_or_else(|| {
+        let refusal = Refusal::new("the depth of the cut is not known");
+        refusal.remedy("give cam.thickness, or cut.depth")
+    })?;
+    let per_pass = cutting.depth_per_pass.map_or(depth, |depth| MILLIMETRES * depth);
+    let count = (depth / per_pass - 1e-9).ceil().max(1.0);
+    if count > MOST_PASSES {
+        let what =
+            format!("{} mm in passes of {} mm are more than {MOST_PASSES} passes", shown(depth), shown(per_pass));
+        return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass"));
+    }
+    let grid = Grid::of_decimals(decimals);
+    let mut depths = Vec::new();
+    while f64::from(u32::try_from(depths.len()).unwrap_or(u32::MAX)) < count {
+        let number = f64::from(u32::try_from(depths.len() + 1).unwrap_or(u32::MAX));
+        depths.push(grid.nearest(depth * number / count));
+    }
+    Ok(depths)
+}
+
+/// What a pass is planned from.
+struct Flank<'a> {
+    words: String,
+    /// The path, in the sense of the cut.
+    path: Contour,
+    /// Whether the cutter is on the left of the profile.
+    cutter_left: bool,
+    /// Edges of all paths, the metal on their left.
+    metal: &'a [EdgeTree],
+}
+
+/// A pass along every flank of a part, or one along both of a groove.
+fn passes(
+    body: &dyn Body,
+    request: &Request,
+    (drawn, part, cuts): (&Drawn, &Part, &[usize]),
+    (cutter, grid): (Option<f64>, Grid),
+) -> Result<Vec<MillingPass>, MillingError> {
+    let all = body.cuts();
+    let of_part: Vec<&Cut<'_>> = cuts.iter().filter_map(|index| all.get(*index)).collect();
+    let width = groove_width(&all);
+    if let (Some(width), Some(cutter)) = (width, cutter)
+        && cutter > 0.5 * width + SAME_RADIUS
+    {
+        let (width, cutter) = (shown(MILLIMETRES * width), shown(2.0 * MILLIMETRES * cutter));
+        let what = format!("a cutter of diameter {cutter} mm does not fit into a groove of {width} mm");
+        return Err(Refusal::new(what).remedy("give a smaller --cutter-diameter, or leave it out").into());
+    }
+    let paths: Vec<&Outline> = match cutter {
+        Some(_) => {
+            let paths = drawn.cutter_paths().flatten().enumerate();
+            paths.filter(|(index, _)| cuts.contains(index)).map(|(_, path)| path).collect()
+        }
+        None => part.outlines().map(|(_, outline)| outline).collect(),
+    };
+    let single = one_pass(&all, cutter);
+    let hollow = |cut: &Cut<'_>| cut.is_hollow();
+    let ways: Vec<Contour> = of_part
+        .iter()
+        .zip(&paths)
+        .map(|(cut, path)| if hollow(cut) { path.contour.reversed() } else { path.contour.clone() })
+        .collect();
+    let metal: Vec<EdgeTree> = if single { Vec::new() } else { parallel::map(&ways, EdgeTree::new) };
+    let climb = body.machine().cutting().direction == MillingDirection::Climb;
+    let room = width.filter(|_| !single).map(|width| MILLIMETRES * (width - 2.0 * cutter.unwrap_or(0.0)));
+    let mut found = Vec::new();
+    for (cut, way) in of_part.iter().zip(&ways) {
+        // With the metal on its left the cutter is on the right of the profile.
+        let path = if climb { way.reversed() } else { way.clone() };
+        let plate = cut.curves.is_some_and(|curves| curves.motion.period().is_none());
+        let path = if plate { path.started_where_flattest() } else { path };
+        let words = match (single, cut.name, hollow(cut)) {
+            (true, ..) => "both flanks of the groove".to_owned(),
+            (_, "", true) => "inside".to_owned(),
+            (_, "", false) => "profile".to_owned(),
+            (_, name, _) => format!("{name} flank"),
+        };
+        let flank = Flank { words, path, cutter_left: climb, metal: &metal };
+        found.push(flank.pass(request, (cutter, room), grid)?);
+        if single {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+impl Flank<'_> {
+    /// The pass, with a lead-in and a lead-out that keep clear of the metal.
+    fn pass(
+        &self,
+        request: &Request,
+        (cutter, room): (Option<f64>, Option<f64>),
+        grid: Grid,
+    ) -> Result<MillingPass, Refusal> {
+        let refused =
+            || Refusal::new("the path has edges that are neither arcs nor lines").remedy("please report this");
+        let edges = self.path.segments().ok_or_else(refused)?;
+        let (Some(first), Some(last)) = (edges.first(), edges.last()) else { return Err(refused()) };
+        let round = grid.blocks(&edges);
+        let at = grid.point(first.start);
+        let tolerance = MILLIMETRES * request.fit.tolerance;
+        let Some(leads) = self.leads(request, (first, last), (cutter, room), tolerance)? else {
+            let (words, cutter_left) = (self.words.clone(), self.cutter_left);
+            return Ok(MillingPass { words, cutter_left, compensated: None, start: at, blocks: round });
+        };
+        let [to, from] = leads;
+        let to = Segment { end: at, ..to };
+        let from = Segment { start: at, ..from };
+        let blocks = [grid.blocks(&[to]), round, grid.blocks(&[from])].concat();
+        let start = grid.point(to.start);
+        let compensated = cutter.is_none().then(|| {
+            let size = (to.start - to.end).norm();
+            [grid.point(to.start - to.start_tangent() * size), grid.point(from.end + from.end_tangent() * size)]
+        });
+        Ok(MillingPass { words: self.words.clone(), cutter_left: self.cutter_left, compensated, start, blocks })
+    }
+
+    /// The lead-in and the lead-out; `None` where the cutter goes down on the path itself.
+    fn leads(
+        &self,
+        request: &Request,
+        ends: (&Segment, &Segment),
+        (cutter, room): (Option<f64>, Option<f64>),
+        tolerance: f64,
+    ) -> Result<Option<[Segment; 2]>, Refusal> {
+        if self.metal.is_empty() {
+            return Ok(None);
+        }
+        let least = if cutter.is_none() { LARGER * MILLIMETRES * request.cutter_radius.unwrap_or(0.0) } else { 0.0 };
+        let (form, sizes) = match request.lead_in {
+            Some(asked) => (asked.form, vec![MILLIMETRES * asked.size]),
+            None if cutter.is_none() => {
+                let larger = (least > COMPENSATED_LEADS[0]).then_some(least);
+                (LeadInForm::Arc, larger.into_iter().chain(COMPENSATED_LEADS).collect())
+            }
+            None => (LeadInForm::Arc, LEADS.to_vec()),
+        };
+        let fits = |size: &&f64| **size >= least && room.is_none_or(|room| **size <= room);
+        for size in sizes.iter().filter(fits) {
+            let leads = self.lead(ends, form, *size);
+            if leads.iter().all(|lead| self.is_free(lead, tolerance)) {
+                return Ok(Some(leads));
+            }
+        }
+        if cutter.is_some() && request.lead_in.is_none() {
+            return Ok(None);
+        }
+        let what = format!("no lead-in to the {} is free for the cutter", self.words);
+        Err(Refusal::new(what).remedy("give another --start, a smaller --lead-in, or --cutter-diameter"))
+    }
+
+    /// The lead-in to and the lead-out from the start of the path, on the side of the cutter.
+    fn lead(&self, (first, last): (&Segment, &Segment), form: LeadInForm, size: f64) -> [Segment; 2] {
+        let at = first.start;
+        let (along, off) = (first.start_tangent(), last.end_tangent());
+        let side = if self.cutter_left { 1.0 } else { -1.0 };
+        let away = |along: Vector2<f64>| Vector2::new(-along.y, along.x) * side;
+        match form {
+            LeadInForm::Tangent => [
+                Segment { start: at - along * size, end: at, bulge: 0.0 },
+                Segment { start: at, end: at + off * size, bulge: 0.0 },
+            ],
+            LeadInForm::Arc => {
+                let bulge = side * libm::tan(FRAC_PI_8);
+                let to = Segment { start: at + (away(along) - along) * size, end: at, bulge };
+                [to, Segment { start: at, end: at + (away(off) + off) * size, bulge }]
+            }
+        }
+    }
+
+    /// Whether a lead-in only touches the metal.
+    fn is_free(&self, lead: &Segment, tolerance: f64) -> bool {
+        let deep = |tree: &EdgeTree| depth(tree, &Edge::Segment(*lead), TOUCHES * tolerance);
+        self.metal.iter().all(|tree| deep(tree) <= tolerance)
+    }
+}

@@ -1,0 +1,90 @@
+//! Where the cutter is and what holds until it is changed, whatever the words of the control.
+
+use super::{CutterMove, CutterProgram, CutterSide, MOST_MOVES, MoveKind, NO_MOVE, RADII};
+use crate::refusal::Refusal;
+use nalgebra::Vector2;
+
+/// The state of a control.
+#[derive(Debug, Default)]
+pub(super) struct MachineState {
+    /// X, Y and Z, mm, once they are known.
+    at: [Option<f64>; 3],
+    /// Feed, mm/min, once it is given.
+    pub(super) feed: Option<f64>,
+    /// The side of the cutter.
+    pub(super) side: CutterSide,
+    program: CutterProgram,
+}
+
+/// A refusal at a line.
+pub(super) fn at_line(line: usize, what: impl Into<String>) -> Refusal {
+    Refusal::new(what).at(format!("line {line}"))
+}
+
+impl MachineState {
+    /// What was read.
+    pub(super) fn program(self) -> CutterProgram {
+        self.program
+    }
+
+    /// A block that is not known.
+    pub(super) fn unknown(&mut self, line: usize, block: &str) -> Result<(), Refusal> {
+        if self.at == [None; 3] {
+            self.program.unknown.push(block.to_owned());
+            return Ok(());
+        }
+        let shown: String = block.chars().take(40).collect();
+        Err(at_line(line, format!("`{shown}` is not known, and what it does to the path neither")))
+    }
+
+    /// The place in the plane.
+    pub(super) fn place(&self) -> Option<Vector2<f64>> {
+        Some(Vector2::new(self.at[0]?, self.at[1]?))
+    }
+
+    /// A move to the coordinates that are given.
+    pub(super) fn go(&mut self, line: usize, kind: MoveKind, to: [Option<f64>; 3]) -> Result<(), Refusal> {
+        let before = self.at;
+        for (own, new) in self.at.iter_mut().zip(to) {
+            *own = new.or(*own);
+        }
+        if kind != MoveKind::Rapid {
+            if !self.feed.is_some_and(|feed| feed > 0.0) {
+                return Err(at_line(line, "the cutter is to move at a feed that is not given"));
+            }
+            if before.contains(&None) {
+                return Err(at_line(line, "the cutter is to cut from a place that is not known"));
+            }
+        }
+        let filled = |of: [Option<f64>; 3], or: [Option<f64>; 3]| {
+            let mut all = [0.0; 3];
+            for ((value, own), other) in all.iter_mut().zip(of).zip(or) {
+                *value = own.or(other)?;
+            }
+            Some(all)
+        };
+        // Until all coordinates are known the cutter comes from anywhere.
+        let Some(to) = filled(self.at, self.at) else { return Ok(()) };
+        let Some(from) = filled(before, self.at) else { return Ok(()) };
+        let is_arc = matches!(kind, MoveKind::Arc { .. });
+        if !is_arc && from.iter().zip(&to).all(|(a, b)| (a - b).abs() < NO_MOVE) {
+            return Ok(());
+        }
+        let moved = CutterMove { line, kind, from, to, side: self.side };
+        if moved.radii_differ() > RADII {
+            let (off, most) = (moved.radii_differ(), RADII);
+            let what = format!(
+                "the end of the arc is off its circle by {off:.4} mm, more than the {most} mm that controls take"
+            );
+            return Err(at_line(line, what));
+        }
+        if is_arc && !moved.is_level() {
+            return Err(at_line(line, "an arc changes its depth"));
+        }
+        if self.program.moves.len() == MOST_MOVES {
+            return Err(at_line(line, format!("the program has more than {MOST_MOVES} moves")));
+        }
+        self.program.moves.push(moved);
+        Ok(())
+    }
+}

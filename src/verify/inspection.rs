@@ -1,0 +1,98 @@
+//! The places of a written list for a measuring machine, compared with the outline as it is in the cut file.
+//!
+//! The places are those that are read back from the bytes. Each must lie on the outline as it was read from the cut file, its normal must be
+//! perpendicular to the exact profile, whose direction is found from two places close to each other, and its ball must touch there.
+
+use super::check::{Evidence, FileCheck, WrittenInspection, place};
+use crate::check::{Check, CheckExplanation, CheckScope};
+use crate::geometry::MILLIMETRES;
+use crate::geometry::edge_tree::EdgeTree;
+use crate::machine::Rotation;
+use crate::reading::inspection::ReadPlace;
+use crate::report::{Bound, Finding, Verdict, shown};
+use nalgebra::Vector2;
+
+pub(super) const CHECK: FileCheck = FileCheck {
+    check: Check {
+        name: "inspection",
+        on: CheckScope::ToolFile,
+        unit: "mm",
+        about: "The largest distance of the places of --format inspect, as they are in the file, from the outline in the cut file. Each normal must \
+                be perpendicular to the profile, and each ball must touch it at its place.",
+        explained: CheckExplanation {
+            bound: Bound::AtMost,
+            formula: "max distance of a place from the outline as written",
+            usual: "the tolerance",
+            change: "nothing: the files contradict each other; please report this",
+        },
+    },
+    run: check,
+};
+
+/// Half of the angle between the places from which the direction of the profile is found, rad.
+const STEP: f64 = 1e-6;
+/// Largest sine between a normal and that of the profile, and the largest error of a length of 1 mm.
+const UPRIGHT: f64 = 1e-5;
+const EXACT: f64 = 1e-6;
+
+fn check(evidence: &Evidence<'_>) -> Option<Finding> {
+    let limit = evidence.tolerance_mm;
+    let mut worst = (0.0, Vector2::zeros());
+    let mut count = 0;
+    for list in evidence.inspections {
+        match of(evidence, list) {
+            Err(why) => {
+                let found = CHECK.found(f64::INFINITY, Some(limit), Verdict::Fail);
+                return Some(Finding { note: Some(why), ..found });
+            }
+            Ok((distance, at, places)) => {
+                count += places;
+                if distance >= worst.0 {
+                    worst = (distance, at);
+                }
+            }
+        }
+    }
+    if evidence.inspections.is_empty() {
+        return None;
+    }
+    let note = format!("{count} places as read from the file, on the outline as read from the cut file");
+    let found = CHECK.found(worst.0, Some(limit), Verdict::of(worst.0 <= limit));
+    Some(Finding { place: place(evidence.body, worst.1), note: Some(note), ..found })
+}
+
+/// The largest distance of the places of a list, where, and how many there are.
+fn of(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Vector2<f64>, usize), String> {
+    let places = list.places.as_ref().map_err(Clone::clone)?;
+    let cuts = evidence.body.cuts();
+    let curves = cuts.get(list.cut).and_then(|cut| cut.curves).ok_or("the cam has no such cut")?;
+    let outline = evidence.outlines.iter().find(|outline| outline.cut == list.cut).ok_or("there is no outline")?;
+    let tree = EdgeTree::new(&outline.contour);
+    let flipped = evidence.body.machine().cam.rotation == Rotation::CounterClockwise;
+    let turned = |v: Vector2<f64>| if flipped { Vector2::new(v.x, -v.y) } else { v };
+    let mut worst = (0.0, Vector2::zeros());
+    for ReadPlace { cam_deg, point, normal, ball } in places {
+        let at = |by: f64| {
+            let (piece, angle) = curves.motion.locate(cam_deg.to_radians() + by);
+            turned(curves.profile(piece, angle).point * MILLIMETRES)
+        };
+        let along = at(STEP) - at(-STEP);
+        let upright = along.norm() < EXACT * STEP || (along.normalize().dot(normal)).abs() < UPRIGHT;
+        let touches = (ball - point - normal * list.ball_radius).norm() < EXACT * list.ball_radius.max(1.0);
+        if !((normal.norm() - 1.0).abs() < EXACT && upright && touches) {
+            return Err(format!("at {} deg normal and ball do not fit the profile", shown(*cam_deg)));
+        }
+        // Out of the metal: a step along the normal leaves it, or, in a ring, enters the space of the roller.
+        let nearest = tree.nearest(point + normal * EXACT.sqrt()).ok_or("the outline is empty")?;
+        let hollow = cuts.get(list.cut).is_some_and(crate::body::Cut::is_hollow);
+        let distance = tree.nearest(*point).map_or(f64::INFINITY, |nearest| nearest.left.abs());
+        let out = if hollow { nearest.left } else { -nearest.left };
+        if out < -2.0 * evidence.tolerance_mm {
+            return Err(format!("at {} deg the normal points into the metal", shown(*cam_deg)));
+        }
+        if !(distance <= worst.0) {
+            worst = (distance, *point);
+        }
+    }
+    Ok((worst.0, worst.1, places.len()))
+}

@@ -1,0 +1,128 @@
+//! Programs for a milling machine: the passes of `body::milling` in the words of a control.
+//!
+//! Numbers are on the grid of the control already, so that what is written is what was planned. The file is read back by `reading::gcode`,
+//! which shares nothing with this, and refused where the moves are not those of the cam.
+
+mod iso;
+mod klartext;
+
+use super::number::short;
+use super::{Format, FormatSelection, of_parts};
+use crate::body::milling::{self, MillingProgram};
+use crate::body::{Body, curves};
+use crate::geometry::MILLIMETRES;
+use crate::machine::{Controller, MillingDirection};
+use crate::refusal::Refusal;
+use crate::report::warning;
+
+/// The programs, as they were proved: one for each part, with all of its flanks.
+pub const FORMAT: Format = Format {
+    name: "gcode",
+    when: FormatSelection::Asked,
+    flank: false,
+    unfit: milling::unfit,
+    endings: |drawn| {
+        let controller = drawn.programs.as_ref().ok().and_then(|programs| programs.first());
+        of_parts(drawn, controller.map_or(Controller::default(), |program| program.controller).ending())
+    },
+    write: |cam| match (cam.drawn.programs.as_ref(), cam.programs) {
+        (Err(why), _) => Err(Refusal::new(why.clone())),
+        (Ok(_), []) => Err(Refusal::new("no program for a milling machine was requested with the drawing")),
+        (Ok(programs), proved) => Ok(match warning(cam.findings) {
+            None => proved.to_vec(),
+            // The mark of a cam that breaks a limit says so.
+            Some(_) => programs.iter().map(|program| write(cam.body, program, &[cam.report.mark()])).collect(),
+        }),
+    },
+    of_analysis: None,
+};
+
+/// Seconds in a minute.
+const MINUTE: f64 = 60.0;
+/// Decimals of feeds and speeds.
+const RATE_DECIMALS: usize = 3;
+/// Longest comment, characters.
+const LONGEST_COMMENT: usize = 70;
+
+/// A program as its file, with these comments at its head.
+#[must_use]
+pub fn write(body: &dyn Body, program: &MillingProgram, marks: &[String]) -> Vec<u8> {
+    let mut comments: Vec<String> = marks.to_vec();
+    comments.extend(head(body, program));
+    let comments: Vec<String> = comments.iter().flat_map(|comment| folded(&plain_text(comment))).collect();
+    let text = match program.controller {
+        Controller::Heidenhain => klartext::write(program, &comments, &name(body)),
+        _ => iso::write(program, &comments, &name(body)),
+    };
+    text.into_bytes()
+}
+
+/// A feed in mm/min.
+fn feed(speed: f64) -> String {
+    short(MINUTE * MILLIMETRES * speed, RATE_DECIMALS)
+}
+
+/// The machine's name in capitals, digits and underscores.
+fn name(body: &dyn Body) -> String {
+    let kept = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
+    let name: String = body.machine().name().chars().map(kept).take(24).collect();
+    if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("CAM_{name}") }
+}
+
+/// What a comment may have in all of the controls.
+fn plain_text(text: &str) -> String {
+    let text = text.replace('Ø', "dia. ");
+    text.chars().map(|c| if (' '..='~').contains(&c) && !"();%".contains(c) { c } else { ' ' }).collect()
+}
+
+/// A comment in lines that fit a block.
+fn folded(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_ascii_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.len() + word.len() < LONGEST_COMMENT => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.chars().take(LONGEST_COMMENT).collect()),
+        }
+    }
+    lines
+}
+
+/// What a program is, line by line.
+fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
+    let (cutting, millimetres) = (&program.cutting, |length: f64| short(MILLIMETRES * length, 6));
+    let depth = program.depths.last().copied().unwrap_or(0.0);
+    let sense = match cutting.direction {
+        MillingDirection::Climb => "climb milling",
+        MillingDirection::Conventional => "conventional milling",
+    };
+    let path = program.cutter.map_or_else(
+        || {
+            let least = short(largest_compensated(program), 3);
+            format!("the profile, on which the control keeps its cutter, of a radius below {least} mm, {sense}")
+        },
+        |radius| format!("path of the centre of a cutter of diameter {} mm, {sense}", millimetres(2.0 * radius)),
+    );
+    let flanks: Vec<&str> = program.passes.iter().map(|pass| pass.words.as_str()).collect();
+    let count = program.depths.len();
+    let passes = if count == 1 { "pass" } else { "passes" };
+    let plate = curves(body).is_some_and(|curves| curves.motion.period().is_none());
+    let origin = if plate { "X0 Y0 as in the drawing" } else { "X0 Y0 as in the drawing: the axis of the shaft" };
+    vec![
+        format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
+        path,
+        format!("{origin}, Z0 the upper face, {} mm deep in {count} {passes}", short(depth, 6)),
+        "bore, keyway and holes are not in this program".to_owned(),
+    ]
+}
+
+/// The radius that a cutter must stay below where the control keeps it on the profile, mm: that of the lead-in.
+fn largest_compensated(program: &MillingProgram) -> f64 {
+    let of = |pass: &milling::MillingPass| {
+        let [from, _] = pass.compensated?;
+        Some((pass.start - from).norm() * std::f64::consts::FRAC_1_SQRT_2)
+    };
+    program.passes.iter().filter_map(of).fold(f64::INFINITY, f64::min)
+}

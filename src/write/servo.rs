@@ -1,0 +1,131 @@
+//! Tables for servo drives: a CSV file, a cam of CODESYS SoftMotion, and a motion function of TwinCAT. All have the same nodes.
+
+use super::number::shortest;
+use super::{Format, FormatSelection, Rendering};
+use crate::body::Body;
+use crate::body::servo::{self, ServoTable};
+use crate::refusal::Refusal;
+
+/// Rows of master, slave, velocity and acceleration.
+pub const CSV: Format = format("servo-csv", |_| vec!["-servo.csv".into()], |cam| of(cam, "servo-csv"));
+/// The declaration of an `MC_CAM_REF` of CODESYS SoftMotion with its `SMC_CAMXYVA` points.
+pub const XYVA: Format = format("servo-xyva", |_| vec!["-xyva.st".into()], |cam| of(cam, "servo-xyva"));
+/// The declaration of the `MC_MotionFunctionPoint` points of a cam of TwinCAT.
+pub const TWINCAT: Format = format("servo-twincat", |_| vec!["-twincat.st".into()], |cam| of(cam, "servo-twincat"));
+
+/// The names of the formats.
+pub const NAMES: [&str; 3] = [CSV.name, XYVA.name, TWINCAT.name];
+
+const fn format(
+    name: &'static str,
+    endings: fn(&crate::body::Drawn) -> Vec<String>,
+    write: fn(&Rendering<'_>) -> Result<Vec<Vec<u8>>, Refusal>,
+) -> Format {
+    Format { name, when: FormatSelection::Asked, flank: false, unfit: servo::unfit, endings, write, of_analysis: None }
+}
+
+/// The file of a format, as it was proved.
+fn of(cam: &Rendering<'_>, name: &str) -> Result<Vec<Vec<u8>>, Refusal> {
+    let found = cam.servo.iter().find(|(format, _)| *format == name);
+    match found {
+        Some((_, bytes)) => Ok(vec![bytes.clone()]),
+        None => Err(Refusal::new("no table for a servo drive was requested with the drawing")),
+    }
+}
+
+/// A table in each of the formats, under a mark.
+#[must_use]
+pub fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<(&'static str, Vec<u8>)> {
+    let head = head(body, table, mark);
+    let files = [csv(table, &head), xyva(body, table, &head), twincat(body, table, &head)];
+    NAMES.into_iter().zip(files.map(String::into_bytes)).collect()
+}
+
+/// What a table is, line by line.
+fn head(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<String> {
+    let plain: String = body.machine().name().chars().filter(|c| c.is_ascii() && !"(*)".contains(*c)).collect();
+    let unit = if table.swings { "deg" } else { "mm" };
+    vec![
+        mark.to_owned(),
+        format!("machine: {plain}"),
+        "master: deg of the cam, one turn".to_owned(),
+        format!("slave: {unit}; velocity and acceleration by the master, {unit}/deg and {unit}/deg2"),
+        "interpolation: between two nodes the polynomial of degree 5 with position, velocity and acceleration of both"
+            .to_owned(),
+        format!("nodes: {}", table.nodes.len()),
+    ]
+}
+
+fn csv(table: &ServoTable, head: &[String]) -> String {
+    let head: Vec<String> = head.iter().map(|line| format!("# {line}\n")).collect();
+    let mut text = head.concat();
+    text.push_str(if table.swings {
+        "master_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2\n"
+    } else {
+        "master_deg,slave_mm,velocity_mm_per_deg,acceleration_mm_per_deg2\n"
+    });
+    for node in &table.nodes {
+        text.push_str(&format!("{}\n", node.map(shortest).join(",")));
+    }
+    text
+}
+
+/// The machine's name as a variable.
+fn variable(body: &dyn Body) -> String {
+    let kept = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let name: String = body.machine().name().chars().map(kept).take(24).collect();
+    format!("Cam_{}", name.trim_matches('_'))
+}
+
+fn comment(head: &[String]) -> String {
+    let mark = |line: &String| format!("   {}\n", line.replace("(*", "(").replace("*)", ")"));
+    format!("(*\n{}*)\n", head.iter().map(mark).collect::<String>())
+}
+
+/// A number of structured text: with a point and without a plus sign in the exponent.
+fn real(value: f64) -> String {
+    let text = shortest(value);
+    match text.split_once('e') {
+        Some((digits, exponent)) if !digits.contains('.') => format!("{digits}.0E{exponent}"),
+        Some((digits, exponent)) => format!("{digits}E{exponent}"),
+        None if text.contains('.') => text,
+        None => text + ".0",
+    }
+}
+
+fn xyva(body: &dyn Body, table: &ServoTable, head: &[String]) -> String {
+    let (name, count) = (variable(body), table.nodes.len());
+    let point = |node: &[f64; 4]| {
+        let [x, y, v, a] = node.map(real);
+        format!("        (dX := {x}, dY := {y}, dV := {v}, dA := {a})")
+    };
+    let points: Vec<String> = table.nodes.iter().map(point).collect();
+    format!(
+        "{}VAR_GLOBAL\n    {name}_Nodes : ARRAY[0..{}] OF SMC_CAMXYVA := [\n{}\n    ];\n    {name} : MC_CAM_REF := (byType := SMC_CAM_TYPE.XYVA, \
+         xStart := 0.0, xEnd := 360.0, nElements := {count}, strCAMName := '{name}');\nEND_VAR\n(* Once before MC_CamTableSelect: \
+         {name}.pce := ADR({name}_Nodes); *)\n",
+        comment(head),
+        count.saturating_sub(1),
+        points.join(",\n")
+    )
+}
+
+fn twincat(body: &dyn Body, table: &ServoTable, head: &[String]) -> String {
+    let (name, count) = (variable(body), table.nodes.len());
+    let point = |(index, node): (usize, &[f64; 4])| {
+        let [x, y, v, a] = node.map(real);
+        // The last point ends the last polynomial.
+        let next = usize::from(index + 1 < count);
+        format!(
+            "        (PointIndex := {}, FunctionType := MOTIONFUNCTYPE_POLYNOM5_MM, PointType := MOTIONPOINTTYPE_MOTION, RelIndexNextPoint := {next}, \
+             MasterPos := {x}, SlavePos := {y}, SlaveVelo := {v}, SlaveAcc := {a}, SlaveJerk := 0.0)",
+            index + 1
+        )
+    };
+    let points: Vec<String> = table.nodes.iter().enumerate().map(point).collect();
+    format!(
+        "{}VAR_GLOBAL\n    {name} : ARRAY[1..{count}] OF MC_MotionFunctionPoint := [\n{}\n    ];\nEND_VAR\n",
+        comment(head),
+        points.join(",\n")
+    )
+}

@@ -1,0 +1,170 @@
+//! Programs for milling machines as their controls read them: every body and control, and planted faults.
+
+use camgen::body::milling::Milling;
+use camgen::machine::Controller;
+use camgen::reading::gcode::{CutterMove, CutterSide, MoveKind, read};
+use camgen::{Cam, Error, ExpectedFile, Machine, Proven, Request, Spec, Verdict, Writing};
+
+const TOLERANCE: f64 = 5e-6;
+const CONTROLLERS: [Controller; 4] =
+    [Controller::LinuxCnc, Controller::Fanuc, Controller::Sinumerik, Controller::Heidenhain];
+
+fn cam(name: &str, overrides: &[&str]) -> Cam {
+    let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+    let (machine, _) = Machine::load(name, &overrides).expect("a machine");
+    Spec::of_program(machine, None).expect("a motion").solve().expect("a cam")
+}
+
+fn request(controller: Controller, cutter: Option<f64>) -> Request {
+    let milling = Some(Milling { controller: Some(controller) });
+    Request { milling, cutter_radius: cutter, ..Request::within(TOLERANCE) }
+}
+
+fn proven(cam: &Cam, request: Request) -> Proven {
+    cam.draw(request).expect("drawn").prove().expect("proved")
+}
+
+/// The text of a program that was proved.
+fn program(cam: &Cam, request: Request) -> String {
+    let proven = proven(cam, request);
+    let found = proven.findings().iter().find(|finding| finding.check == "program").expect("checked");
+    assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
+    let controller = request.milling.and_then(|milling| milling.controller).unwrap_or_default();
+    let writing = Writing { force: true, ..Writing::to("nowhere", "cam").formats(&["gcode"]) };
+    let set = proven.files(&writing).expect("files");
+    String::from_utf8(set.bytes(controller.ending()).expect("a program").to_vec()).expect("text")
+}
+
+/// What the check of a program says: whether it passes, its value and its note.
+fn checked(cam: &Cam, text: &str, cutter: Option<f64>) -> Result<(bool, f64, String), Error> {
+    let expected = ExpectedFile { cutter, ..ExpectedFile::default() };
+    let report = cam.check_file(text.as_bytes(), &expected, TOLERANCE)?;
+    let found = report.checks.iter().find(|finding| finding.check == "program").expect("checked").clone();
+    Ok((found.verdict == Verdict::Pass, found.value, found.note.unwrap_or_default()))
+}
+
+#[test]
+fn every_body_has_a_program_for_every_control() {
+    for (name, cutter) in [
+        ("feeder", Some(4e-3)),
+        ("feeder", None),
+        ("lever", Some(3e-3)),
+        ("groove", Some(10e-3)),
+        ("groove", None),
+        ("conjugate", Some(6e-3)),
+        ("yoke", None),
+        ("valve", None),
+    ] {
+        let cam = cam(name, &["cut.depth=8mm"]);
+        for controller in CONTROLLERS {
+            let text = program(&cam, request(controller, cutter));
+            let (passes, value, note) = checked(&cam, &text, cutter).expect("a program");
+            assert!(passes && value <= 0.005, "{name} {controller:?}: {value} {note}");
+        }
+    }
+}
+
+#[test]
+fn passes_sense_and_side_are_those_that_were_asked_for() {
+    let sets = ["cut.depth=10mm", "cut.depth_per_pass=4mm", "cut.spindle=3000", "cut.tool=3"];
+    let more = ["cut.preamble=[\"G54\", \"M8\"]", "cut.postamble=[\"M9\"]", "cut.feed=450mm/min"];
+    for direction in ["climb", "conventional"] {
+        let direction_set = format!("cut.direction={direction}");
+        let all: Vec<&str> = sets.iter().chain(&more).copied().chain([direction_set.as_str()]).collect();
+        let cam = cam("feeder", &all);
+        let text = program(&cam, request(Controller::LinuxCnc, None));
+        for words in ["G54\nM8\nG17 G21 G40 G90 G91.1 G94\nT3 M6\nS3000 M3\n", "F450", "D3", "M5\nM9\nM30\n", "G0 Z5.0"]
+        {
+            assert!(text.contains(words), "{words}\n{text}");
+        }
+        let side = if direction == "climb" { CutterSide::Left } else { CutterSide::Right };
+        let read = read(text.as_bytes()).expect("a program");
+        let depths: Vec<f64> = read.moves.iter().filter(|moved| moved.is_upright()).map(|moved| moved.to[2]).collect();
+        assert!(depths.contains(&-3.3333) && depths.contains(&-6.6667) && depths.contains(&-10.0), "{depths:?}");
+        let arcs = || read.moves.iter().filter(|moved| matches!(moved.kind, MoveKind::Arc { .. }));
+        assert!(arcs().all(|moved| moved.side == side), "{direction}");
+        // About the shaft a disc is climbed clockwise.
+        let turned: f64 = arcs().flat_map(CutterMove::segments).map(|arc| arc.sweep()).sum();
+        assert_eq!(turned < 0.0, direction == "climb");
+    }
+}
+
+#[test]
+fn a_planted_fault_is_refused_for_its_own_reason() {
+    let (cam, cutter) = (cam("feeder", &[]), Some(4e-3));
+    let text = program(&cam, request(Controller::LinuxCnc, cutter));
+    let lines: Vec<&str> = text.lines().collect();
+    let arcs: Vec<usize> =
+        (0..lines.len()).filter(|at| lines[*at].starts_with("G2 ") || lines[*at].starts_with("G3 ")).collect();
+    let middle = arcs[arcs.len() / 2];
+    let with = |at: usize, line: Option<String>| {
+        let kept = lines
+            .iter()
+            .enumerate()
+            .filter_map(|(own, old)| if own == at { line.clone() } else { Some((*old).to_owned()) });
+        kept.collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let old = lines[middle];
+    let other_way = if old.starts_with("G2 ") { old.replace("G2 ", "G3 ") } else { old.replace("G3 ", "G2 ") };
+    let moved = |letter: char, by: f64, line: &str| {
+        let word = line.split(' ').find(|word| word.starts_with(letter)).expect("a word");
+        let number: f64 = word[1..].parse().expect("a number");
+        line.replace(word, &format!("{letter}{:.4}", number + by))
+    };
+    let plunge = lines.iter().position(|line| line.starts_with("G1 Z-")).expect("a plunge");
+    let faults = [
+        ("an arc turned over", with(middle, Some(other_way)), "another cam"),
+        ("a block lost", with(middle, None), "another cam|off its circle"),
+        ("a centre moved", with(middle, Some(moved('J', 1.3, old))), "off its circle"),
+        ("G91", with(middle, Some(format!("G91\n{old}"))), "G91"),
+        ("inches", with(plunge, Some(format!("G20\n{}", lines[plunge]))), "inch"),
+        ("another plane", with(plunge, Some(format!("G18\n{}", lines[plunge]))), "plane"),
+        (
+            "kept on a side",
+            with(middle, Some(format!("G41\n{old}"))),
+            "must be on its path|must be on the left|on the left",
+        ),
+        ("not deep enough", with(plunge, Some("G1 Z-7.5 F100".to_owned())), "7.5 mm deep"),
+        ("a rapid plunge", with(plunge, Some(lines[plunge].replace("G1", "G0"))), "rapid"),
+        ("a way in through the cam", with(arcs[0] - 2, Some("G0 X0 Y0".to_owned())), "into the cam|off its circle"),
+    ];
+    for (name, text, expected) in faults {
+        let why = match checked(&cam, &text, cutter) {
+            Ok((false, _, note)) => note,
+            Ok(found) => panic!("{name} passes: {found:?}"),
+            Err(error) => error.to_string(),
+        };
+        assert!(expected.split('|').any(|part| why.contains(part)), "{name}: {why}");
+    }
+    // All moved by 1.3 tolerances, by 0.5 tolerances, and a cutter that is 1.3 tolerances smaller.
+    let shifted = |by: f64| {
+        let line = |line: &&str| if line.contains(" X") { moved('X', by, line) } else { (*line).to_owned() };
+        lines.iter().map(line).collect::<Vec<_>>().join("\n") + "\n"
+    };
+    let (passes, value, _) = checked(&cam, &shifted(0.0065), cutter).expect("a program");
+    assert!(!passes && value > 0.0065 && value < 0.0115, "{value}");
+    let (passes, value, note) = checked(&cam, &text, Some(4e-3 - 6.5e-6)).expect("a program");
+    assert!(!passes && value > 0.0065, "{value} {note}");
+    assert!(matches!(checked(&cam, &text, None), Err(Error::Cutter(_))));
+}
+
+#[test]
+fn sides_and_tolerances_that_no_program_keeps_are_refused_with_a_remedy() {
+    use camgen::{Fit, Side};
+    let sided = |side: Side| Fit { side, ..Fit::from(TOLERANCE) };
+    for side in [Side::Inside, Side::Outside] {
+        let cam = cam("feeder", &[]);
+        let one = Request { fit: sided(side), ..request(Controller::Sinumerik, Some(4e-3)) };
+        let found = proven(&cam, one);
+        let found = found.findings().iter().find(|finding| finding.check == "program").expect("checked").clone();
+        assert_eq!(found.verdict, Verdict::Pass, "{found:?}");
+        let kept = Request { fit: sided(side), ..request(Controller::Sinumerik, None) };
+        assert!(cam.draw(kept).is_err_and(|error| error.to_string().contains("--side")));
+    }
+    let fine = Request { fit: Fit::from(1e-6), ..request(Controller::Fanuc, None) };
+    let error = cam("feeder", &[]).draw(fine).expect_err("too fine").to_string();
+    assert!(error.contains("3 decimals") && error.contains("cut.decimals"), "{error}");
+    assert!(cam("feeder", &["cut.decimals=5"]).draw(fine).is_ok());
+    let wide = cam("groove", &[]).draw(request(Controller::Fanuc, Some(20e-3))).expect_err("too wide").to_string();
+    assert!(wide.contains("does not fit") && wide.contains("--cutter-diameter"), "{wide}");
+}
