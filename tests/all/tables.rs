@@ -223,6 +223,18 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
             let valve = Machine::load("valve", &[]).expect("valid").0;
             analysis::laws::analysis(Some(&valve), &analysis::laws::LawsOptions::default()).expect("laws")
         }
+        "compare" => {
+            let cam = lifter(LIFTER, &[]).solve().expect("a cam");
+            let table = cam.draw(TOLERANCE).expect("drawn").prove().expect("proved").table(90);
+            let column = |name: &str| table.columns.iter().position(|column| *column == name).expect("a column");
+            let (x, y) = (column("profile_x_mm"), column("profile_y_mm"));
+            let text: Vec<String> = table.rows.iter().map(|row| format!("{} {}", row[x], row[y])).collect();
+            let points = analysis::compare::measured::read(&text.join("\n")).expect("points");
+            let options =
+                analysis::compare::ComparisonOptions { ball: 0.0, fit: analysis::compare::ComparisonFit::Centre };
+            let cut = cam.body().cuts()[0];
+            analysis::compare::analysis(cam.body(), &cut, &points, options).expect("a comparison")
+        }
         "trade" => {
             let shaft = ShaftMachine::load("dpi-shaft", &[]).expect("valid").0;
             let start = std::time::Instant::now();
@@ -406,6 +418,7 @@ fn every_check_is_run_for_some_cam() {
     let measured = Machine::load(&measured.display().to_string(), &[]).unwrap_or_else(|error| panic!("{error}")).0;
     let measured = Spec::of_program(measured, None).expect("a motion").solve().expect("a cam");
     reports.push(("measured rows".into(), report_of(&measured)));
+    reports.push(("a measured cam".into(), Judged::new(analysis_of(&analysis::compare::KIND)).report()));
     reports.extend(cams_of_followers().iter().map(|(path, cam)| ((*path).to_owned(), report_of(cam))));
     let mut seen: Vec<String> = Vec::new();
     for (what, report) in &reports {

@@ -31,6 +31,10 @@ fn prepared() -> tempfile::TempDir {
     fs::write(directory.path().join("lifter.toml"), LIFTER).expect("written");
     let run = camgen_in(directory, &["rotary", "--format", "dxf", "--name", "part", "--out", ".", "--quiet"]);
     assert_eq!(run.code, 0, "{}", run.err);
+    // Its table has points of the profile.
+    let table = ["make", "lifter.toml", "--format", "csv", "--name", "measured", "--out", ".", "--quiet"];
+    let run = camgen_in(run.directory, &table);
+    assert_eq!(run.code, 0, "{}", run.err);
     run.directory
 }
 

@@ -23,6 +23,16 @@ const FOLLOWED: usize = 3;
 const FITS: usize = 30;
 const SETTLED: f64 = 1e-12;
 
+/// Most orders of the waviness, and points for each order.
+pub(super) const ORDERS: usize = 24;
+pub(super) const POINTS_FOR_ORDER: usize = 4;
+/// Points that leave a larger gap, over the mean distance, do not cover the turn.
+const GAP: f64 = 8.0;
+/// Waves that are found with the move, the share of the largest that each has at least, and how often both are found.
+const WAVES: usize = 3;
+const WORTH: f64 = 0.2;
+const JOINT: usize = 12;
+
 /// The exact profile of a cut.
 pub(super) struct ExactProfile<'a> {
     curves: Curves<'a>,
@@ -149,7 +159,45 @@ impl<'a> ExactProfile<'a> {
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
         let followed = starts.into_iter().take(FOLLOWED).map(|(_, start)| self.followed(points, start, free));
         let best = followed.reduce(|a, b| if b.0 < a.0 { b } else { a });
-        best.map_or(MeasuredMove::NONE, |(_, found)| found)
+        best.map_or(MeasuredMove::NONE, |(_, found)| self.beside_waves(points, found, free))
+    }
+
+    /// The move beside the mean and the few largest waves of what it leaves: a wave that looks a little like a turn of the cam would otherwise turn it.
+    fn beside_waves(&self, points: &[Vector2<f64>], start: MeasuredMove, free: ComparisonFit) -> MeasuredMove {
+        let mut found = start;
+        for _ in 0..JOINT {
+            let places: Vec<MeasuredPlace> = points.iter().filter_map(|point| self.place(found.of(*point))).collect();
+            let values: Vec<(f64, f64)> = places.iter().map(|place| (polar(place.foot), place.deviation)).collect();
+            if places.len() < POINTS_FOR_ORDER || !covers(&values) {
+                return start;
+            }
+            let mut orders = largest_orders(&values);
+            orders.retain(|order| *order > 1 || free == ComparisonFit::Angle);
+            let moves = if free == ComparisonFit::Centre { 3 } else { 1 };
+            let size = moves + 1 + 2 * orders.len();
+            let (mut matrix, mut right) = (DMatrix::<f64>::zeros(size, size), DVector::<f64>::zeros(size));
+            for (place, (angle, deviation)) in places.iter().zip(&values) {
+                let moved = self.by_move(place, &found);
+                let waves = orders.iter().flat_map(|order| wave(*order, *angle));
+                // A deviation is what the move leaves, and the mean and the waves are what it is.
+                let model = std::iter::once(-1.0).chain(waves.map(|value| -value));
+                let row = DVector::from_iterator(size, moved.iter().take(moves).copied().chain(model));
+                matrix.ger(1.0, &row, &row, 1.0);
+                right.axpy(-deviation, &row, 1.0);
+            }
+            let Some(step) = matrix.lu().solve(&right) else { return start };
+            let at = |index: usize| {
+                step.get(index).copied().filter(|value| value.is_finite() && index < moves).unwrap_or(0.0)
+            };
+            found = MeasuredMove { turn: found.turn + at(0), shift: found.shift + Vector2::new(at(1), at(2)) };
+        }
+        found
+    }
+
+    /// By how much the deviation of a point grows with a turn, and with a shift along either axis.
+    fn by_move(&self, place: &MeasuredPlace, moved: &MeasuredMove) -> Vector3<f64> {
+        let turned = place.point - moved.shift;
+        Vector3::new(place.normal.dot(&Vector2::new(-turned.y, turned.x)), place.normal.x, place.normal.y)
     }
 
     /// Gauss and Newton's steps from a start; the sum of squares, and the move.
@@ -159,9 +207,7 @@ impl<'a> ExactProfile<'a> {
         for _ in 0..FITS {
             let (mut matrix, mut right, mut sum) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
             for place in points.iter().filter_map(|point| self.place(found.of(*point))) {
-                let turned = place.point - found.shift;
-                let row =
-                    Vector3::new(place.normal.dot(&Vector2::new(-turned.y, turned.x)), place.normal.x, place.normal.y);
+                let row = self.by_move(&place, &found);
                 matrix += row * row.transpose();
                 right -= row * place.deviation;
                 sum += place.deviation * place.deviation;
@@ -185,24 +231,50 @@ impl<'a> ExactProfile<'a> {
     }
 }
 
+/// Cosine and sine of an order at an angle.
+fn wave(order: usize, angle: f64) -> [f64; 2] {
+    #[expect(clippy::cast_precision_loss, reason = "a few dozen orders")]
+    let (sin, cos) = libm::sincos(order as f64 * angle);
+    [cos, sin]
+}
+
+/// The few largest waves of values at angles over a turn.
+fn largest_orders(values: &[(f64, f64)]) -> Vec<usize> {
+    let order = (values.len() / POINTS_FOR_ORDER).min(ORDERS);
+    let Some(found) = harmonics(values, order) else { return Vec::new() };
+    let size = |index: usize| found.get(index).map_or(0.0, |[cos, sin]| libm::hypot(*cos, *sin));
+    let mut orders: Vec<usize> = (1..=order).collect();
+    orders.sort_by(|a, b| size(*b).total_cmp(&size(*a)));
+    let largest = orders.first().map_or(0.0, |first| size(*first));
+    orders.retain(|order| size(*order) > WORTH * largest);
+    orders.truncate(WAVES);
+    orders
+}
+
+/// Polar angle of a point, 0 to 2π.
+pub(super) fn polar(point: Vector2<f64>) -> f64 {
+    libm::atan2(point.y, point.x).rem_euclid(TAU)
+}
+
+/// Whether places on a turn, rad, leave no gap that is much larger than the others.
+pub(super) fn covers(values: &[(f64, f64)]) -> bool {
+    let mut angles: Vec<f64> = values.iter().map(|(angle, _)| angle.rem_euclid(TAU)).collect();
+    angles.sort_by(f64::total_cmp);
+    let after = angles.iter().skip(1).copied().chain(angles.first().map(|first| first + TAU));
+    let widest = angles.iter().zip(after).map(|(a, b)| b - a).fold(0.0, f64::max);
+    #[expect(clippy::cast_precision_loss, reason = "few points")]
+    let mean = TAU / angles.len() as f64;
+    widest <= (GAP * mean).min(0.5)
+}
+
 /// The mean and the harmonics of values at angles (rad) over a turn, up to an order, by least squares: cosine and sine of each order.
 pub(super) fn harmonics(values: &[(f64, f64)], order: usize) -> Option<Vec<[f64; 2]>> {
     let size = 2 * order + 1;
     let mut matrix = DMatrix::<f64>::zeros(size, size);
     let mut right = DVector::<f64>::zeros(size);
-    let mut row = DVector::<f64>::zeros(size);
     for (angle, value) in values {
-        row.fill(1.0);
-        for k in 1..=order {
-            #[expect(clippy::cast_precision_loss, reason = "a few dozen orders")]
-            let (sin, cos) = libm::sincos(k as f64 * angle);
-            if let Some(slot) = row.get_mut(2 * k - 1) {
-                *slot = cos;
-            }
-            if let Some(slot) = row.get_mut(2 * k) {
-                *slot = sin;
-            }
-        }
+        let waves = (1..=order).flat_map(|order| wave(order, *angle));
+        let row = DVector::from_iterator(size, std::iter::once(1.0).chain(waves));
         matrix.ger(1.0, &row, &row, 1.0);
         right.axpy(*value, &row, 1.0);
     }

@@ -120,7 +120,7 @@ fn named(names: &[String]) -> Result<PointColumns, Refusal> {
 
 fn point(
     cells: &[String],
-    columns: PointColumns,
+    wanted: PointColumns,
     (line, separator): (usize, Option<char>),
 ) -> Result<Vector2<f64>, Refusal> {
     let cell = |(index, unit): (usize, f64)| {
@@ -135,7 +135,7 @@ fn point(
             Refusal::new(what).at(format!("line {line}")).remedy("give a number in each row, or begin the line with #")
         })
     };
-    let found = match columns {
+    let found = match wanted {
         PointColumns::Plane([x, y]) => Vector2::new(cell(x)?, cell(y)?),
         PointColumns::Polar([at, radius]) => {
             let (sin, cos) = libm::sincos(cell(at)?);

@@ -15,7 +15,7 @@ use crate::report::plot::{Plot, PlotCurve, PlotPanel};
 use crate::report::{Bound, Place, Section, sha256, shown};
 use crate::table::{ListedColumn, Table};
 pub use fit::ComparisonFit;
-use fit::{ExactProfile, MeasuredMove, MeasuredPlace, harmonics};
+use fit::{ExactProfile, MeasuredMove, MeasuredPlace, ORDERS, POINTS_FOR_ORDER, covers, harmonics, polar};
 use nalgebra::Vector2;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -37,11 +37,6 @@ pub const DEVIATION: Check = Check {
     },
 };
 
-/// Most orders of the waviness, and points for each order.
-const ORDERS: usize = 24;
-const POINTS_FOR_ORDER: usize = 4;
-/// Points that leave a larger gap, over the mean distance, do not cover the turn.
-const GAP: f64 = 8.0;
 /// Places at which the acceleration of the error is searched.
 const PLACES: u32 = 1440;
 
@@ -97,11 +92,6 @@ const COLUMNS: &[ListedColumn<PointRow>] = &[
     ("deviation_mm", |row| row.place.deviation),
     ("lift_error_mm", |row| row.place.lift),
 ];
-
-/// Polar angle of a point, 0 to 2π.
-fn polar(point: Vector2<f64>) -> f64 {
-    libm::atan2(point.y, point.x).rem_euclid(TAU)
-}
 
 /// Compares points (mm) that were measured on a cut of a body with its exact profile.
 ///
@@ -186,17 +176,6 @@ fn rows(exact: &ExactProfile<'_>, points: &[Vector2<f64>], moved: &MeasuredMove)
     }
     rows.sort_by(|a, b| polar(a.place.foot).total_cmp(&polar(b.place.foot)));
     rows
-}
-
-/// Whether places on a turn, rad, leave no gap that is much larger than the others.
-fn covers(values: &[(f64, f64)]) -> bool {
-    let mut angles: Vec<f64> = values.iter().map(|(angle, _)| angle.rem_euclid(TAU)).collect();
-    angles.sort_by(f64::total_cmp);
-    let after = angles.iter().skip(1).copied().chain(angles.first().map(|first| first + TAU));
-    let widest = angles.iter().zip(after).map(|(a, b)| b - a).fold(0.0, f64::max);
-    #[expect(clippy::cast_precision_loss, reason = "few points")]
-    let mean = TAU / angles.len() as f64;
-    widest <= (GAP * mean).min(0.5)
 }
 
 fn measure(body: &dyn Body, rows: &[PointRow]) -> Measure {
