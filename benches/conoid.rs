@@ -29,20 +29,8 @@ fn stages(criterion: &mut Criterion) {
         let drawn = flank::flank(&conoid, 0.005).expect("a flank");
         let request = Request { flank: true, ..Request::within(5e-6) };
         let whole = conoid.draw(&request).expect("sections and a flank");
-        let evidence = Evidence {
-            body: &conoid,
-            drawn: Some(&whole),
-            outlines: &[],
-            rolled: &[],
-            foreign: &[],
-            cutter_paths: &[],
-            points: None,
-            of_others: &[],
-            solid: None,
-            tolerance_mm: 0.005,
-            motion: MotionTolerance::ANY,
-            strict: [true; 2],
-        };
+        let evidence =
+            Evidence { drawn: Some(&whole), ..Evidence::without_files(&conoid, 0.005, MotionTolerance::ANY) };
         criterion
             .bench_function(&name("checks, sphere on the flank"), |b| b.iter(|| verify::run(black_box(&evidence))));
         let solid = flank_solid(&drawn.patches, &[], (0.0, 120.0), drawn.volume).expect("a solid");

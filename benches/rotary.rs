@@ -57,18 +57,10 @@ fn stages(criterion: &mut Criterion) {
     let outlines =
         [verify::WrittenOutline { cut: 0, z: 0.0, contour: written.outlines[0].clone(), others: written.others }];
     let evidence = Evidence {
-        body: &cam,
         drawn: Some(&drawn),
         outlines: &outlines,
         rolled: &rolled,
-        foreign: &[],
-        cutter_paths: &[],
-        points: None,
-        of_others: &[],
-        solid: None,
-        tolerance_mm: 0.005,
-        motion: MotionTolerance::ANY,
-        strict: [true; 2],
+        ..Evidence::without_files(&cam, 0.005, MotionTolerance::ANY)
     };
     criterion.bench_function("checks", |b| b.iter(|| verify::run(black_box(&evidence))));
     let solved = Spec::rotary(machine, 35.0).solve().expect("a cam");

@@ -245,22 +245,11 @@ impl Cam {
         let outlines: Vec<WrittenOutline> = readings.iter().enumerate().filter_map(outline).collect();
         let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
         let checks = verify::run(&Evidence {
-            body,
-            drawn: None,
             outlines: &outlines,
             rolled: &rolled,
             foreign: readings,
-            cutter_paths: &[],
-            points: None,
-            programs: None,
-            servo: None,
-            inspections: &[],
-            of_others: &[],
-            solid: None,
-            swept: None,
-            tolerance_mm,
-            motion,
             strict: request.strict,
+            ..Evidence::without_files(body, tolerance_mm, motion)
         });
         let mut sections = vec![Section::new("cam", &body.kind().noun)];
         sections.extend(section.map(|section| Section::new("section", &section)));
@@ -322,22 +311,11 @@ impl Cam {
         let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
         let solid = WrittenSolid { file, form };
         let checks = verify::run(&Evidence {
-            body,
-            drawn: None,
             outlines: &outlines,
             rolled: &rolled,
-            foreign: &[],
             solid: Some(&solid),
-            swept: None,
-            cutter_paths: &[],
-            points: None,
-            programs: None,
-            servo: None,
-            inspections: &[],
-            of_others: &[],
-            tolerance_mm,
-            motion,
             strict: request.strict,
+            ..Evidence::without_files(body, tolerance_mm, motion)
         });
         (checks, rolled)
     }

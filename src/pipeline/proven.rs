@@ -187,22 +187,18 @@ impl Drawing {
         let (inspections, places) = written_inspections(body, &self.request, &hashed.to_string());
         let program_measures = program_measures(self.drawn.as_ref().ok(), read_programs.as_ref());
         let findings = verify::run(&Evidence {
-            body,
             drawn: self.drawn.as_ref().ok(),
             outlines: &outlines,
             rolled: &rolled,
-            foreign: &[],
             cutter_paths: &cutter_paths,
             points: tables.as_ref(),
             programs: read_programs.as_ref(),
             servo: read_servo.as_ref(),
             inspections: &places,
             of_others,
-            solid: None,
             swept: swept.as_ref(),
-            tolerance_mm,
-            motion: self.request.fit.motion,
             strict: self.request.strict,
+            ..Evidence::without_files(body, tolerance_mm, self.request.fit.motion)
         });
         let (cam, request, inputs, drawn) = (self.cam, self.request, self.inputs, self.drawn);
         Proven(Arc::new(ProvenData {

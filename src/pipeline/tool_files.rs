@@ -203,22 +203,12 @@ impl Cam {
     /// The evidence of a file without an outline.
     fn nothing_written(&self, tolerance_mm: f64, request: &Request) -> Result<Evidence<'_>, Error> {
         Ok(Evidence {
-            body: self.body(),
-            drawn: None,
-            outlines: &[],
-            rolled: &[],
-            foreign: &[],
-            cutter_paths: &[],
-            points: None,
-            programs: None,
-            servo: None,
-            inspections: &[],
-            of_others: &[],
-            solid: None,
-            swept: None,
-            tolerance_mm,
-            motion: request.resolved(self.body()).map_err(Error::Draw)?.fit.motion,
             strict: request.strict,
+            ..Evidence::without_files(
+                self.body(),
+                tolerance_mm,
+                request.resolved(self.body()).map_err(Error::Draw)?.fit.motion,
+            )
         })
     }
 

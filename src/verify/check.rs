@@ -138,6 +138,29 @@ pub struct Evidence<'a> {
 }
 
 impl<'a> Evidence<'a> {
+    /// Of a body of which no file was read: a tolerance of its outlines, mm, and the largest errors of its follower.
+    #[must_use]
+    pub fn without_files(body: &'a dyn Body, tolerance_mm: f64, motion: MotionTolerance) -> Self {
+        Self {
+            body,
+            drawn: None,
+            outlines: &[],
+            rolled: &[],
+            foreign: &[],
+            cutter_paths: &[],
+            points: None,
+            programs: None,
+            servo: None,
+            inspections: &[],
+            of_others: &[],
+            solid: None,
+            swept: None,
+            tolerance_mm,
+            motion,
+            strict: [true; 2],
+        }
+    }
+
     /// The cut that this outline was written for.
     pub(super) fn cut_of(&self, outline: &WrittenOutline) -> Option<Cut<'a>> {
         self.body.cuts().get(outline.cut).copied()

@@ -202,22 +202,8 @@ mod tests {
         let contour = drawn.as_ref().expect("a path").contour.clone();
         let verdict = |path: WrittenPath| {
             let evidence = Evidence {
-                body: cam.body(),
-                drawn: None,
-                outlines: &[],
-                rolled: &[],
-                foreign: &[],
-                solid: None,
-                swept: None,
                 cutter_paths: std::slice::from_ref(&path),
-                points: None,
-                programs: None,
-                servo: None,
-                inspections: &[],
-                of_others: &[],
-                tolerance_mm: 5e-3,
-                motion: MotionTolerance::ANY,
-                strict: [true; 2],
+                ..Evidence::without_files(cam.body(), 5e-3, MotionTolerance::ANY)
             };
             check(&evidence).expect("checked").verdict
         };

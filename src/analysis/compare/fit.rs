@@ -177,7 +177,7 @@ impl<'a> ExactProfile<'a> {
             let size = moves + 1 + 2 * orders.len();
             let (mut matrix, mut right) = (DMatrix::<f64>::zeros(size, size), DVector::<f64>::zeros(size));
             for (place, (angle, deviation)) in places.iter().zip(&values) {
-                let moved = self.by_move(place, &found);
+                let moved = by_move(place, &found);
                 let waves = orders.iter().flat_map(|order| wave(*order, *angle));
                 // A deviation is what the move leaves, and the mean and the waves are what it is.
                 let model = std::iter::once(-1.0).chain(waves.map(|value| -value));
@@ -194,12 +194,6 @@ impl<'a> ExactProfile<'a> {
         found
     }
 
-    /// By how much the deviation of a point grows with a turn, and with a shift along either axis.
-    fn by_move(&self, place: &MeasuredPlace, moved: &MeasuredMove) -> Vector3<f64> {
-        let turned = place.point - moved.shift;
-        Vector3::new(place.normal.dot(&Vector2::new(-turned.y, turned.x)), place.normal.x, place.normal.y)
-    }
-
     /// Gauss and Newton's steps from a start; the sum of squares, and the move.
     fn followed(&self, points: &[Vector2<f64>], start: MeasuredMove, free: ComparisonFit) -> (f64, MeasuredMove) {
         let mut found = start;
@@ -207,7 +201,7 @@ impl<'a> ExactProfile<'a> {
         for _ in 0..FITS {
             let (mut matrix, mut right, mut sum) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
             for place in points.iter().filter_map(|point| self.place(found.of(*point))) {
-                let row = self.by_move(&place, &found);
+                let row = by_move(&place, &found);
                 matrix += row * row.transpose();
                 right -= row * place.deviation;
                 sum += place.deviation * place.deviation;
@@ -229,6 +223,12 @@ impl<'a> ExactProfile<'a> {
         }
         least
     }
+}
+
+/// By how much the deviation of a point grows with a turn, and with a shift along either axis.
+fn by_move(place: &MeasuredPlace, moved: &MeasuredMove) -> Vector3<f64> {
+    let turned = place.point - moved.shift;
+    Vector3::new(place.normal.dot(&Vector2::new(-turned.y, turned.x)), place.normal.x, place.normal.y)
 }
 
 /// Cosine and sine of an order at an angle.

@@ -124,9 +124,8 @@ pub fn analysis(
     let section = section(body, (&rows, options.ball), &moved, (&waves, felt.as_deref()));
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(body.machine().inputs(body.kind().keys));
-    let mut text = String::new();
-    points.iter().for_each(|point| text.push_str(&format!("{} {}\n", point.x, point.y)));
-    inputs.push(Input::word("points", sha256(text.as_bytes())));
+    let lines: Vec<String> = points.iter().map(|point| format!("{} {}", point.x, point.y)).collect();
+    inputs.push(Input::word("points", sha256(lines.join("\n").as_bytes())));
     inputs.push(Input::quantity("ball", options.ball, ("mm", 1e-3)));
     inputs.push(Input::word("fit", word(options.fit)));
     Ok(Analysis {

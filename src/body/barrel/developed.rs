@@ -71,7 +71,7 @@ impl Barrel {
         for (piece, angle) in self.places() {
             for side in [FlankSide::Upper, FlankSide::Lower] {
                 let Some((polar, height)) = place(side, (piece, angle)) else { continue };
-                let off = (self.from_unrolled((polar, height), radius, angle) - self.signed(side).abs()).abs();
+                let off = (self.distance_unrolled((polar, height), radius, angle) - self.signed(side).abs()).abs();
                 if off > worst.value {
                     worst = Worst { value: off, at: angle, z: 0.0 };
                 }
@@ -81,7 +81,7 @@ impl Barrel {
     }
 
     /// Distance of a place (angle and height, m) from the centre line of the roller unrolled at a radius, m, near a cam angle.
-    fn from_unrolled(&self, (polar, height): (f64, f64), radius: f64, near: f64) -> f64 {
+    fn distance_unrolled(&self, (polar, height): (f64, f64), radius: f64, near: f64) -> f64 {
         let mut angle = near;
         let apart = |angle: f64| {
             let (piece, inside) = self.motion.locate(angle);

@@ -10,7 +10,7 @@ use crate::profile::lifts;
 use crate::report::{Section, shown};
 use serde::Serialize;
 
-/// Grams in a kilogram are of no use here: the mass is in kilograms, lengths in millimetres.
+/// The section `barrel`.
 #[derive(Debug, Serialize)]
 struct BarrelSection {
     outer_radius_mm: f64,

@@ -206,8 +206,6 @@ impl SweptFlanks for Barrel {
                 break;
             }
         }
-        let (place, tangent) = at(angle);
-        let _ = tangent;
-        ((point - place).norm(), self.motion.locate(angle).1)
+        ((point - at(angle).0).norm(), self.motion.locate(angle).1)
     }
 }

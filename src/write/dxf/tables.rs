@@ -13,8 +13,13 @@ pub(super) fn tables(tags: &mut DxfTags, layers: &[Layer], extents: &Extents) {
         for layer in layers {
             let own = tags.new_handle();
             let colour = match layer {
-                Layer::CamProfile | Layer::GrooveInner | Layer::GrooveOuter | Layer::RibInner | Layer::RibOuter => 7,
-                Layer::FlankUpper | Layer::FlankLower => 7,
+                Layer::CamProfile
+                | Layer::GrooveInner
+                | Layer::GrooveOuter
+                | Layer::RibInner
+                | Layer::RibOuter
+                | Layer::FlankUpper
+                | Layer::FlankLower => 7,
                 Layer::Pitch => 4,
                 Layer::Bore => 1,
                 Layer::Blank => 8,
