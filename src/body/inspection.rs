@@ -47,7 +47,8 @@ const PLACES: u32 = 360;
 #[must_use]
 pub fn unfit(body: &dyn Body) -> Option<&'static str> {
     let turns = body.cuts().iter().all(|cut| cut.curves.is_some_and(|curves| curves.motion.period().is_some()));
-    (!turns).then_some("a place is numbered by the angle of a cam that turns and has one outline over its thickness")
+    (!turns || body.cuts().is_empty())
+        .then_some("a place is numbered by the angle of a cam that turns and has one outline over its thickness")
 }
 
 /// The lists for every cut of a body; none where they were not requested.

@@ -94,7 +94,8 @@ const MOST_BLOCKS: usize = 200_000;
 #[must_use]
 pub fn unfit(body: &dyn Body) -> Option<&'static str> {
     let leans = "its flank leans along the axis: a cutter that is moved round one section of it cuts into the next";
-    body.surface().map(|_| leans)
+    let in_space = "its flanks lie in space: -four-axes.csv has the places of the tool";
+    body.surface().map(|_| leans).or(body.swept().map(|_| in_space))
 }
 
 /// The width of a groove between these cuts, m.

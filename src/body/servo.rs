@@ -39,10 +39,9 @@ const VELOCITY_JUMP: f64 = 1e-6;
 #[must_use]
 pub fn unfit(body: &dyn Body) -> Option<&'static str> {
     match curves(body) {
+        None if body.swept().is_some() => Some("a table is made of the motion of a follower in a plane"),
         None => Some("each of its sections has a motion of its own"),
-        Some(curves) if curves.motion.period().is_none() => {
-            Some("a plate rides on the bed: it has no turn of a master")
-        }
+        Some(curves) if curves.motion.period().is_none() => Some("a plate has no turn of a master"),
         Some(_) => None,
     }
 }

@@ -8,8 +8,9 @@ use nalgebra::Vector2;
 /// Places of a stretch at which its arcs are compared with the curve, and how often a stretch is halved.
 const PLACES: u32 = 8;
 const HALVINGS: u32 = 16;
-/// A turn below this, rad, is that of a straight line.
+/// A turn below this, rad, or a sagitta below this, mm, is that of a straight line: the centre of so flat an arc has no digits left for its ends.
 const STRAIGHT: f64 = 1e-12;
+const FLAT: f64 = 1e-7;
 
 /// A place of a curve (mm) and its unit tangent, by a parameter.
 pub type Tangential<'a> = dyn Fn(f64) -> (Vector2<f64>, Vector2<f64>) + 'a;
@@ -58,8 +59,8 @@ fn between(
     };
     let joint = 0.5 * (start + end + (leaves - arrives) * length);
     let turn = |from: Vector2<f64>, to: Vector2<f64>| {
-        let angle = libm::atan2(from.perp(&to), from.dot(&to));
-        if angle.abs() < STRAIGHT { 0.0 } else { libm::tan(0.5 * angle) }
+        let bulge = libm::tan(0.5 * libm::atan2(from.perp(&to), from.dot(&to)));
+        if 0.5 * bulge.abs() * from.norm().max(to.norm()) < FLAT { 0.0 } else { bulge }
     };
     let first = Segment { start, end: joint, bulge: turn(leaves, joint - start) };
     let second = Segment { start: joint, end, bulge: turn(end - joint, arrives) };

@@ -13,6 +13,11 @@ pub struct ServoRows {
 const NAMES: [[&str; 4]; 2] = [["dX", "dY", "dV", "dA"], ["MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc"]];
 /// What the header of a CSV table begins with.
 const CSV_HEAD: &str = "master_deg,slave_";
+/// The columns of a table of a slave in mm, and of one in degrees.
+const CSV_HEADS: [&str; 2] = [
+    "master_deg,slave_mm,velocity_mm_per_deg,acceleration_mm_per_deg2",
+    "master_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2",
+];
 /// What a head says of a slave in degrees.
 const SWINGS: &str = "slave: deg";
 /// Most rows.
@@ -50,8 +55,11 @@ fn finite(text: &str) -> Option<f64> {
 fn rows(text: &str) -> Result<ServoRows, String> {
     let mut read = ServoRows::default();
     for line in text.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
-        if let Some(rest) = line.strip_prefix(CSV_HEAD) {
-            read.swings = rest.starts_with("deg");
+        if line.starts_with(CSV_HEAD) {
+            read.swings = line == CSV_HEADS[1];
+            if !CSV_HEADS.contains(&line) {
+                return Err(format!("its columns are not {}", CSV_HEADS.join(" or ")));
+            }
             continue;
         }
         let cells: Vec<Option<f64>> = line.split(',').map(finite).collect();
@@ -89,6 +97,7 @@ fn points(text: &str) -> Result<ServoRows, String> {
             read.rows.push([x, y, v, a]);
         }
     }
+    declared(&code, &read.rows)?;
     let bounds = code.split("ARRAY[").nth(1).and_then(|rest| rest.split_once(']')).map(|(bounds, _)| bounds);
     let bounds = bounds.and_then(|bounds| bounds.split_once("..")).ok_or("the array has no bounds")?;
     match (bounds.0.trim().parse::<usize>(), bounds.1.trim().parse::<usize>()) {
@@ -97,13 +106,57 @@ fn points(text: &str) -> Result<ServoRows, String> {
     }
 }
 
+/// Whether what a declaration says of its points is so: their kind, their number, the turn, and the order of the points.
+fn declared(code: &str, rows: &[[f64; 4]]) -> Result<(), String> {
+    let values = |name: &'static str| {
+        let is_name = move |before: &str| before.trim_end().ends_with(name);
+        let parts: Vec<&str> = code.split(":=").collect();
+        let pairs: Vec<(&str, &str)> = parts.iter().copied().zip(parts.iter().copied().skip(1)).collect();
+        let value =
+            |after: &str| after.trim_start().split([',', ')', ';']).next().unwrap_or_default().trim().to_owned();
+        pairs.into_iter().filter(|(before, _)| is_name(before)).map(|(_, after)| value(after)).collect::<Vec<String>>()
+    };
+    let last = rows.last().map_or(f64::NAN, |row| row[0]);
+    let numbers =
+        [("xStart", rows.first().map_or(f64::NAN, |row| row[0])), ("xEnd", last), ("nElements", count(rows.len()))];
+    for (name, due) in numbers {
+        if let Some(wrong) = values(name).iter().find(|value| finite(value) != Some(due)) {
+            return Err(format!("{name} is {wrong}, and the points have {due}"));
+        }
+    }
+    let words = [
+        ("byType", "SMC_CAM_TYPE.XYVA"),
+        ("FunctionType", "MOTIONFUNCTYPE_POLYNOM5_MM"),
+        ("PointType", "MOTIONPOINTTYPE_MOTION"),
+    ];
+    for (name, due) in words {
+        if let Some(wrong) = values(name).iter().find(|value| *value != due) {
+            return Err(format!("{name} is {wrong}, and the points are those of {due}"));
+        }
+    }
+    let numbered = |name: &'static str, due: fn(usize, usize) -> usize| {
+        let found = values(name);
+        let total = found.len();
+        let wrong = found.iter().enumerate().find(|(index, value)| finite(value) != Some(count(due(*index, total))));
+        wrong.map_or(Ok(()), |(index, value)| Err(format!("{name} of point {} is {value}", index + 1)))
+    };
+    numbered("PointIndex", |index, _| index + 1)?;
+    numbered("RelIndexNextPoint", |index, total| usize::from(index + 1 < total))
+}
+
+#[expect(clippy::cast_precision_loss, reason = "at most a million points")]
+fn count(number: usize) -> f64 {
+    number as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn tables_are_read_as_they_are_written_by_anybody() {
-        let csv = "# a head\nmaster_deg,slave_deg,velocity,acceleration\n0,1,2,3\n90.5,-1e-3,0,4\n";
+        let csv =
+            "# a head\nmaster_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2\n0,1,2,3\n90.5,-1e-3,0,4\n";
         let rows = vec![[0.0, 1.0, 2.0, 3.0], [90.5, -1e-3, 0.0, 4.0]];
         assert_eq!(read(csv.as_bytes()), Ok(ServoRows { swings: true, rows: rows.clone() }));
         let st = "(* slave: mm *)\nVAR_GLOBAL\nA : ARRAY[0..1] OF SMC_CAMXYVA := [(dX := 0, dY:=1, dV:= 2 ,dA := 3),\n\

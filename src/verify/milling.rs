@@ -111,6 +111,14 @@ fn passes(program: &CutterProgram) -> Result<Vec<LevelPass<'_>>, ProgramFault> {
         } else if cuts && !moved.is_level() && !moved.is_upright() {
             return Err(ProgramFault::new(format!("a move in line {line} changes place and depth at once")));
         }
+        let plunges = cuts && moved.is_upright() && moved.to[2] < moved.from[2] && moved.kind != MoveKind::Rapid;
+        let goes_on = |next: &CutterMove| {
+            let down = next.is_upright() && next.to[2] < next.from[2];
+            next.kind != MoveKind::Rapid && (down || (next.is_level() && !next.is_upright()))
+        };
+        if plunges && !program.moves.get(index + 1).is_some_and(goes_on) {
+            return Err(ProgramFault::new(format!("the cutter goes down in line {line}, and no pass begins there")));
+        }
         let level = cuts && moved.is_level() && moved.kind != MoveKind::Rapid;
         match (level, first) {
             (true, None) => first = Some(index),
@@ -204,6 +212,9 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
         }
     }
     deep_enough(&cuts, written, &deepest)?;
+    if program.side_at_end != CutterSide::Centre {
+        return Err(ProgramFault::new("the program ends while the control keeps the cutter beside its path"));
+    }
     let blocks = program.moves.len();
     let how = match written.cutter {
         Some(radius) => format!("the centre of a cutter Ø{} mm", shown(2.0 * radius)),

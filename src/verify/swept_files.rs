@@ -55,6 +55,7 @@ impl WrittenSwept {
             let reading = read_with_outline(bytes, join, Some(layer.name()))?;
             if curves.is_empty() {
                 faults = faults_of(&reading);
+                faults.extend(fault_of_blank(body, &reading));
             }
             curves.push((layer, reading.chains));
         }
@@ -95,6 +96,35 @@ fn faults_of(reading: &Reading) -> Vec<String> {
     let strange = reading.others.iter().filter(|chain| !known.iter().any(|layer| chain.on_layer(layer.name())));
     faults.extend(strange.take(3).map(|chain| format!("{} would be cut and is no part of the view", chain.names())));
     faults
+}
+
+/// Ends of the developed blank are this near to their places, mm.
+const BLANK: f64 = 1e-3;
+
+/// What is wrong with the edge of the developed blank, which is one rectangle.
+fn fault_of_blank(body: &dyn Body, reading: &Reading) -> Option<String> {
+    let exact = body.swept()?;
+    let (low, high) = exact.form().ends;
+    let ends: Vec<f64> = exact
+        .developed()
+        .iter()
+        .filter(|(layer, _)| *layer == Layer::Pitch)
+        .flat_map(|(_, ends)| ends.map(|end| end.x))
+        .collect();
+    let around = std::f64::consts::TAU * exact.form().outer;
+    let on_blank: Vec<&Chain> = reading.others.iter().filter(|chain| chain.on_layer(Layer::Blank.name())).collect();
+    let wrong = |why: &str| Some(format!("the edge of the blank on layer {} {why}", Layer::Blank.name()));
+    let [chain] = on_blank.as_slice() else { return wrong("is not one rectangle") };
+    let lines = chain.edges.iter().all(|edge| edge.segment().is_some_and(|segment| segment.bulge == 0.0));
+    if !chain.closed || !lines || chain.edges.len() != 4 {
+        return wrong("is not one rectangle");
+    }
+    let extents = chain.contour().extents();
+    let size = extents.size();
+    let left = ends.iter().copied().fold(f64::INFINITY, f64::min);
+    let offset_of_pitch = (left - extents.least.x).abs();
+    let off = (size.x - around).abs().max((extents.least.y - low).abs()).max((extents.largest.y - high).abs());
+    if off <= BLANK && offset_of_pitch <= 0.5 * around { None } else { wrong("is elsewhere or of another size") }
 }
 
 /// A point in the middle of a patch.

@@ -24,10 +24,10 @@ const FITS: usize = 30;
 const SETTLED: f64 = 1e-12;
 
 /// Most orders of the waviness, and points for each order.
-pub(super) const ORDERS: usize = 24;
-pub(super) const POINTS_FOR_ORDER: usize = 4;
-/// Points that leave a larger gap, over the mean distance, do not cover the turn.
-const GAP: f64 = 8.0;
+const ORDERS: usize = 24;
+const POINTS_FOR_ORDER: usize = 4;
+/// Points that leave a larger gap, rad, do not go round the turn.
+const GAP: f64 = 1.0;
 /// Waves that are found with the move, the share of the largest that each has at least, and how often both are found.
 const WAVES: usize = 3;
 const WORTH: f64 = 0.2;
@@ -143,6 +143,11 @@ impl<'a> ExactProfile<'a> {
         })
     }
 
+    /// The middle of the profile, mm.
+    fn middle(&self) -> Vector2<f64> {
+        middle(self.tree.edges().iter().map(|edge| self.flipped(edge.start())))
+    }
+
     /// The move with which the points agree best with the profile, in the sense of least squares.
     pub(super) fn fitted(&self, points: &[Vector2<f64>], free: ComparisonFit) -> MeasuredMove {
         if free == ComparisonFit::Nothing {
@@ -150,8 +155,12 @@ impl<'a> ExactProfile<'a> {
         }
         let every = points.len().div_ceil(LOOKED).max(1);
         let looked: Vec<Vector2<f64>> = points.iter().step_by(every).copied().collect();
+        let (measured, own) = (middle(points.iter().copied()), self.middle());
         let at = |i: u32| {
-            let start = MeasuredMove { turn: TAU * f64::from(i) / f64::from(ANGLES), ..MeasuredMove::NONE };
+            let turned = MeasuredMove { turn: TAU * f64::from(i) / f64::from(ANGLES), ..MeasuredMove::NONE };
+            // The middle of points that go round lies near that of the profile.
+            let shift = if free == ComparisonFit::Centre { own - turned.of(measured) } else { Vector2::zeros() };
+            let start = MeasuredMove { shift, ..turned };
             let sum: f64 = looked.iter().map(|point| self.roughly(start.of(*point)).powi(2)).sum();
             (sum, start)
         };
@@ -231,6 +240,16 @@ fn by_move(place: &MeasuredPlace, moved: &MeasuredMove) -> Vector3<f64> {
     Vector3::new(place.normal.dot(&Vector2::new(-turned.y, turned.x)), place.normal.x, place.normal.y)
 }
 
+/// The mean of points by the length of way to the next one, mm: that of points that go round, however dense they are.
+fn middle(points: impl Iterator<Item = Vector2<f64>> + Clone) -> Vector2<f64> {
+    let after = points.clone().skip(1).chain(points.clone().next());
+    let (sum, length) = points.zip(after).fold((Vector2::zeros(), 0.0), |(sum, length), (a, b)| {
+        let way: f64 = (b - a).norm();
+        (sum + 0.5 * (a + b) * way, length + way)
+    });
+    if length > 0.0 { sum / length } else { Vector2::zeros() }
+}
+
 /// Cosine and sine of an order at an angle.
 fn wave(order: usize, angle: f64) -> [f64; 2] {
     #[expect(clippy::cast_precision_loss, reason = "a few dozen orders")]
@@ -240,7 +259,7 @@ fn wave(order: usize, angle: f64) -> [f64; 2] {
 
 /// The few largest waves of values at angles over a turn.
 fn largest_orders(values: &[(f64, f64)]) -> Vec<usize> {
-    let order = (values.len() / POINTS_FOR_ORDER).min(ORDERS);
+    let order = highest_order(values);
     let Some(found) = harmonics(values, order) else { return Vec::new() };
     let size = |index: usize| found.get(index).map_or(0.0, |[cos, sin]| libm::hypot(*cos, *sin));
     let mut orders: Vec<usize> = (1..=order).collect();
@@ -256,15 +275,24 @@ pub(super) fn polar(point: Vector2<f64>) -> f64 {
     libm::atan2(point.y, point.x).rem_euclid(TAU)
 }
 
-/// Whether places on a turn, rad, leave no gap that is much larger than the others.
-pub(super) fn covers(values: &[(f64, f64)]) -> bool {
+/// The widest gap between places on a turn, rad.
+fn widest_gap(values: &[(f64, f64)]) -> f64 {
     let mut angles: Vec<f64> = values.iter().map(|(angle, _)| angle.rem_euclid(TAU)).collect();
     angles.sort_by(f64::total_cmp);
     let after = angles.iter().skip(1).copied().chain(angles.first().map(|first| first + TAU));
-    let widest = angles.iter().zip(after).map(|(a, b)| b - a).fold(0.0, f64::max);
-    #[expect(clippy::cast_precision_loss, reason = "few points")]
-    let mean = TAU / angles.len() as f64;
-    widest <= (GAP * mean).min(0.5)
+    angles.iter().zip(after).map(|(a, b)| b - a).fold(0.0, f64::max)
+}
+
+/// Whether places go round the whole turn.
+pub(super) fn covers(values: &[(f64, f64)]) -> bool {
+    widest_gap(values) <= GAP
+}
+
+/// The highest order of a wave that values at these angles can show: with a few points for each, and two within the widest gap.
+pub(super) fn highest_order(values: &[(f64, f64)]) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number, or 0")]
+    let by_gap = (0.5 * TAU / widest_gap(values)) as usize;
+    (values.len() / POINTS_FOR_ORDER).min(ORDERS).min(by_gap)
 }
 
 /// The mean and the harmonics of values at angles (rad) over a turn, up to an order, by least squares: cosine and sine of each order.

@@ -32,6 +32,8 @@ enum PointColumns {
 /// # Errors
 /// [`Refusal`] with the line of the first cell that is no number, or when there are too few points or too many.
 pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
+    // The mark that some programs put before UTF-8.
+    let text = text.trim_start_matches('\u{feff}');
     let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     let lines: Vec<(usize, &str)> = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).collect();
     let separator = separator_of(&lines);
@@ -84,38 +86,72 @@ fn counts(rows: &[(usize, &str)], separator: Option<char>) -> bool {
     wide && all.windows(2).all(by_one)
 }
 
+/// Words behind the name of a column that say nothing else than that it is measured.
+const MEASURED_WORDS: [&str; 6] = ["act", "actual", "measured", "meas", "ist", "pos"];
+
 /// The columns by their names.
 fn named(names: &[String]) -> Result<PointColumns, Refusal> {
     let plain: Vec<String> = names.iter().map(|name| name.trim_matches('"').trim().to_lowercase()).collect();
-    let find = |words: &[&str]| {
-        let is = |name: &String| {
-            let word = name.split(|sign: char| !sign.is_alphanumeric()).next().unwrap_or_default();
-            words.contains(&word)
-        };
-        let index = plain.iter().position(is)?;
-        Some((index, plain.get(index)?.clone()))
-    };
-    let length = |(index, name): (usize, String)| {
-        let inch = name.split(|sign: char| !sign.is_alphanumeric()).any(|word| word == "in" || word == "inch");
-        (index, if inch || name.ends_with('"') { INCH } else { 1.0 })
-    };
-    let angle = |(index, name): (usize, String)| {
-        (index, if name.contains("rad") && !name.contains("radius") { 1.0 } else { 1.0_f64.to_radians() })
-    };
     // The table of a cam itself has its profile among other places.
     let own = |name: &str| plain.iter().position(|other| other == name).map(|index| (index, 1.0));
     if let (Some(x), Some(y)) = (own("profile_x_mm"), own("profile_y_mm")) {
         return Ok(PointColumns::Plane([x, y]));
     }
-    if let (Some(x), Some(y)) = (find(&["x"]), find(&["y"])) {
-        return Ok(PointColumns::Plane([length(x), length(y)]));
+    let length: &[(&str, f64)] = &[("mm", 1.0), ("in", INCH), ("inch", INCH), ("\"", INCH)];
+    let angle: &[(&str, f64)] = &[("deg", 1.0_f64.to_radians()), ("°", 1.0_f64.to_radians()), ("rad", 1.0)];
+    let find = |words: &[&str], units: &[(&str, f64)]| column(&plain, words, units);
+    if let (Some(x), Some(y)) = (find(&["x"], length)?, find(&["y"], length)?) {
+        return Ok(PointColumns::Plane([x, y]));
     }
-    if let (Some(at), Some(radius)) = (find(&["angle", "polar", "phi", "psi", "deg"]), find(&["radius", "r"])) {
-        return Ok(PointColumns::Polar([angle(at), length(radius)]));
+    let at = find(&["angle", "polar", "phi", "psi"], angle)?;
+    if let (Some(at), Some(radius)) = (at, find(&["radius", "r"], length)?) {
+        return Ok(PointColumns::Polar([at, radius]));
     }
     let shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
     let what = format!("the table has no columns of points among {}", shown.join(", "));
     Err(Refusal::new(what).remedy("name them x and y, or angle and radius"))
+}
+
+/// The one column whose name is one of these words, with a unit or a word for what is measured behind it, and its unit; the first unit is that of a
+/// name without one.
+fn column(plain: &[String], words: &[&str], units: &[(&str, f64)]) -> Result<Option<(usize, f64)>, Refusal> {
+    let mut found = Vec::new();
+    let mut strange = None;
+    for (index, name) in plain.iter().enumerate() {
+        let mut parts = name
+            .split(|sign: char| !(sign.is_alphanumeric() || sign == '"' || sign == '°'))
+            .filter(|part| !part.is_empty());
+        if !parts.next().is_some_and(|first| words.contains(&first)) {
+            continue;
+        }
+        let rest: Vec<&str> = parts.filter(|part| !MEASURED_WORDS.contains(part)).collect();
+        let unit = match rest.as_slice() {
+            [] => units.first().map(|(_, size)| *size),
+            [unit] => units.iter().find(|(word, _)| word == unit).map(|(_, size)| *size),
+            _ => None,
+        };
+        match unit {
+            Some(unit) => found.push((index, unit)),
+            None => strange = Some(name.clone()),
+        }
+    }
+    let known: Vec<&str> = units.iter().map(|(word, _)| *word).collect();
+    match (found.as_slice(), strange) {
+        ([one], _) => Ok(Some(*one)),
+        ([], None) => Ok(None),
+        ([], Some(name)) => {
+            let what = format!("the column `{name}` has no unit that is known, or is not what was measured");
+            Err(Refusal::new(what).remedy(format!(
+                "name it {0}, or {0} with {1}",
+                words.first().unwrap_or(&"x"),
+                known.join(", ")
+            )))
+        }
+        _ => {
+            let what = format!("several columns are named {}", words.join(" or "));
+            Err(Refusal::new(what).remedy("keep those of the measured points"))
+        }
+    }
 }
 
 fn point(
@@ -171,6 +207,7 @@ mod tests {
             written("no,x_mm,y_mm,dev", |index, [x, y]| format!("{index},{x},{y},0.1")),
             written("x;y", |_, [x, y]| format!("{x};{y}").replace('.', ",")),
             written("Y (mm)\tX (mm)", |_, [x, y]| format!("{y}\t{x}").replace('.', ",")),
+            written("\u{feff}x_nom,y_nom,x_act,y_act", |_, [x, y]| format!("1,2,{x},{y}")),
             written("x_in,y_in", |_, [x, y]| format!("{},{}", x / INCH, y / INCH)),
             written("polar_deg,radius_mm", |_, [x, y]| {
                 format!("{},{}", libm::atan2(y, x).to_degrees(), libm::hypot(x, y))
@@ -190,6 +227,8 @@ mod tests {
             ("1 2\n3 4\n".to_owned(), "2 points"),
             (written("a,b", |_, [x, y]| format!("{x},{y}")), "no columns of points"),
             (written("x,y", |_, [x, _]| format!("{x},1e9")), "from the shaft"),
+            (written("x_um,y_um", |_, [x, y]| format!("{x},{y}")), "`x_um`"),
+            (written("x,y,x_mm,y_mm", |_, [x, y]| format!("{x},{y},{x},{y}")), "several columns"),
         ] {
             let error = read(&text).expect_err("refused").to_string();
             assert!(error.contains(told), "{error}");

@@ -18,7 +18,7 @@ const LONGEST: f64 = std::f64::consts::PI / 6.0;
 /// Spans of a patch along the angle and outwards to begin with, and how often either is doubled.
 const SPANS: u32 = 4;
 const RINGS: u32 = 3;
-const DOUBLINGS: u32 = 6;
+const DOUBLINGS: u32 = 4;
 /// Share of the tolerance that the splines may miss.
 const SHARE: f64 = 0.02;
 
@@ -114,7 +114,7 @@ impl Barrel {
             rings *= 2;
         }
         let what = format!("the flanks of the barrel miss by {found:.2e} mm, with {rings} rings of splines");
-        Err(Refusal::new(what).remedy(format!("give a tolerance of {:.1e} mm", 2.0 * found / SHARE)))
+        Err(Refusal::new(what).remedy("give a coarser --tolerance, a larger cam.outer_radius or a smoother motion"))
     }
 
     /// A patch with as many spans along the angle as it needs, and what it misses along the angle and outwards, mm.

@@ -10,7 +10,7 @@ use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::{Machine, Rotation};
 use crate::motion::Quantity;
 use crate::profile::followed;
-use crate::profile::outline::OutlineError;
+use crate::profile::outline::{OutlineError, SegmentKind, Side};
 use crate::refusal::Refusal;
 use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
@@ -110,6 +110,9 @@ impl Body for Barrel {
         let without = |what: &str| Refusal::new(format!("{what} is not drawn for a barrel")).remedy("leave it out");
         if request.lead_in.is_some() || request.start.is_some() {
             return Err(without("a start of the cut").into());
+        }
+        if request.fit.side != Side::Both || request.fit.laid != SegmentKind::Arcs {
+            return Err(without("--side, or an outline of splines,").into());
         }
         if request.points.is_some() {
             return Err(without("a table of points of an outline")

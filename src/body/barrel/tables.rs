@@ -5,6 +5,8 @@ use super::{Barrel, FlankSide};
 use crate::geometry::MILLIMETRES;
 use crate::table::{ListedColumn, Table, turned};
 
+/// Rounding of a diameter that was typed.
+const ROUNDING: f64 = 1e-12;
 /// Cylinders on which the flanks are listed, from the floor to the outside.
 const CYLINDERS: u32 = 4;
 
@@ -28,6 +30,7 @@ const SECTIONS: &[ListedColumn<SectionRow>] = &[
 /// A place of a tool on a machine with four axes.
 struct ToolRow {
     pass: f64,
+    tool_mm: f64,
     a_deg: f64,
     y_mm: f64,
     z_mm: f64,
@@ -36,6 +39,7 @@ struct ToolRow {
 
 const FOUR_AXES: &[ListedColumn<ToolRow>] = &[
     ("pass", |row| row.pass),
+    ("tool_mm", |row| row.tool_mm),
     ("a_deg", |row| row.a_deg),
     ("y_mm", |row| row.y_mm),
     ("z_mm", |row| row.z_mm),
@@ -66,13 +70,14 @@ impl Barrel {
     }
 
     /// Places of the tool's axis, which points at the cam's axis or lies beside it: the angle of the cam, and across and along in the frame of the machine.
-    /// A tool of the width of the groove runs along the centre line of the roller; a smaller one along either flank, which it touches exactly in the
+    /// A tool of the width of the groove, which is meant where none is given, runs in the middle between both flanks; a smaller one along either flank, which it touches exactly in the
     /// middle of the groove's depth.
     pub(super) fn four_axes_table(&self, samples: u32, tool: Option<f64>) -> Table {
-        let one = self.distances[0] == self.distances[1] && tool.is_none_or(|tool| tool >= self.distances[0]);
+        let half = 0.5 * self.distances.iter().sum::<f64>();
+        let one = tool.is_none_or(|tool| tool >= half * (1.0 - ROUNDING));
         let passes: &[Option<FlankSide>] =
             if one { &[None] } else { &[Some(FlankSide::Upper), Some(FlankSide::Lower)] };
-        let radius = tool.unwrap_or(self.roller).min(self.distances[0]).min(self.distances[1]);
+        let radius = if one { half } else { tool.unwrap_or(half) };
         let middle = self.outer - 0.5 * self.depth;
         let mut rows = Vec::new();
         for (pass, side) in passes.iter().enumerate() {
@@ -81,7 +86,8 @@ impl Barrel {
                 let (piece, angle) = self.motion.locate(at.angle);
                 let axis = self.axis(piece, angle);
                 let (sin, cos) = axis.point(middle).slope;
-                let away = side.map_or(0.0, |side| {
+                // In the middle between both flanks, or beside one of them.
+                let away = side.map_or(0.5 * (self.distances[0] - self.distances[1]), |side| {
                     let distance = self.signed(side);
                     distance - distance.signum() * radius
                 });
@@ -92,7 +98,14 @@ impl Barrel {
                 #[expect(clippy::cast_precision_loss, reason = "two passes")]
                 let number = (pass + 1) as f64;
                 let [y_mm, z_mm, missed_mm] = [across, along, missed].map(|length| MILLIMETRES * length);
-                rows.push(ToolRow { pass: number, a_deg: self.sense() * at.cam_deg, y_mm, z_mm, missed_mm });
+                rows.push(ToolRow {
+                    pass: number,
+                    tool_mm: 2.0 * MILLIMETRES * radius,
+                    a_deg: self.sense() * at.cam_deg,
+                    y_mm,
+                    z_mm,
+                    missed_mm,
+                });
             }
         }
         Table::listed(FOUR_AXES, &rows)

@@ -16,6 +16,8 @@ struct ModalWords {
     plane: bool,
     metric: bool,
     absolute: bool,
+    /// Whether a block was read, and whether the last one was.
+    begun: bool,
     ended: bool,
 }
 
@@ -24,11 +26,18 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
     let (mut state, mut modal) = (MachineState::default(), ModalWords::default());
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
-        let block = without_comments(whole);
-        let block = block.trim();
-        if block.is_empty() || block == "%" || modal.ended {
+        if modal.ended {
             continue;
         }
+        let block = without_comments(whole).ok_or_else(|| at_line(line, "a comment does not end"))?;
+        let block = block.trim();
+        if block.is_empty() || (block == "%" && !modal.begun) {
+            continue;
+        }
+        if block == "%" {
+            return Err(at_line(line, "`%` ends the program for the control, before M2 or M30"));
+        }
+        modal.begun = true;
         match words(block) {
             Some(words) if words.iter().all(|word| is_known(*word)) => run(line, &words, &mut state, &mut modal)?,
             _ => state.unknown(line, block)?,
@@ -37,8 +46,8 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
     if modal.ended { Ok(state.program()) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
 }
 
-/// A block without what stands in parentheses or behind a semicolon.
-fn without_comments(block: &str) -> String {
+/// A block without what stands in parentheses or behind a semicolon; `None` where a parenthesis is left open.
+fn without_comments(block: &str) -> Option<String> {
     let mut depth = 0_u32;
     let mut kept = String::with_capacity(block.len());
     for character in block.chars() {
@@ -50,7 +59,7 @@ fn without_comments(block: &str) -> String {
             _ => {}
         }
     }
-    kept
+    (depth == 0).then_some(kept)
 }
 
 /// The words of a block; `None` where it has something else.
@@ -104,6 +113,13 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
         }
     };
     state.feed = of('F')?.or(state.feed);
+    if of('D')? == Some(0.0) && state.side != CutterSide::Centre {
+        return Err(at_line(line, "D0 ends the compensation: the cutter would take its radius out of the cam"));
+    }
+    let datum = |(letter, number): &Word| *letter == 'G' && (54.0..=61.0).contains(number);
+    if state.has_moved() && words.iter().any(datum) {
+        return Err(at_line(line, "the datum changes after the first move"));
+    }
     modal.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
     let to = [of('X')?, of('Y')?, of('Z')?];
     let (i, j) = (of('I')?, of('J')?);

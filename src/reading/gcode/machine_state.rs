@@ -22,9 +22,14 @@ pub(super) fn at_line(line: usize, what: impl Into<String>) -> Refusal {
 }
 
 impl MachineState {
+    /// Whether the cutter has moved.
+    pub(super) fn has_moved(&self) -> bool {
+        !self.program.moves.is_empty()
+    }
+
     /// What was read.
     pub(super) fn program(self) -> CutterProgram {
-        self.program
+        CutterProgram { side_at_end: self.side, ..self.program }
     }
 
     /// A block that is not known.
@@ -55,6 +60,11 @@ impl MachineState {
             if before.contains(&None) {
                 return Err(at_line(line, "the cutter is to cut from a place that is not known"));
             }
+        }
+        // Where it comes from is not known: it must not be within the part.
+        let below = |z: Option<f64>| z.is_some_and(|z| z < 0.0);
+        if kind == MoveKind::Rapid && before.contains(&None) && (below(before[2]) || below(self.at[2])) {
+            return Err(at_line(line, "a rapid move goes below the upper face, from a place that is not known"));
         }
         let filled = |of: [Option<f64>; 3], or: [Option<f64>; 3]| {
             let mut all = [0.0; 3];

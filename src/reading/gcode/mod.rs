@@ -128,6 +128,8 @@ pub struct CutterProgram {
     pub moves: Vec<CutterMove>,
     /// Blocks before the first move that were passed over.
     pub unknown: Vec<String>,
+    /// The side of the cutter where it ends.
+    pub side_at_end: CutterSide,
 }
 
 /// Whether bytes are a program: a dialogue begins with its name, other programs state their plane and their unit.
