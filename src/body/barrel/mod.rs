@@ -1,6 +1,6 @@
 //! A barrel cam: a cylinder with a groove all round its outside, in which a roller moves along the axis, straight or on an arm.
 //!
-//! The axis of the roller points at that of the cam, or lies beside it. Both flanks follow from its motion exactly ([`contact`]); no unrolled curve is
+//! The axis of the roller points at that of the cam, or lies beside it. Both flanks follow from its motion exactly (`contact`); no unrolled curve is
 //! offset. The groove is drawn three times: as the developed view of the outside, as the solid with spline flanks, and as tables for a machine with
 //! four axes. Forces are not computed.
 
