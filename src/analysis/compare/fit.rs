@@ -13,7 +13,7 @@ const NEAR: f64 = 2e-6;
 /// Steps to the exact place, and the distance along the profile at which they end, mm.
 const STEPS: usize = 8;
 const AT_REST: f64 = 1e-9;
-/// A place that is farther along the profile from its foot than this is none, mm: the point lies at a corner.
+/// A foot that is farther than this from the point along the profile, mm, is not a foot: the point lies at a corner.
 const BESIDE: f64 = 1e-6;
 /// Angles of the first look all round, points of it, and how many of the best angles are followed.
 const ANGLES: u32 = 180;
@@ -171,7 +171,7 @@ impl<'a> ExactProfile<'a> {
         best.map_or(MeasuredMove::NONE, |(_, found)| self.beside_waves(points, found, free))
     }
 
-    /// The move beside the mean and the few largest waves of what it leaves: a wave that looks a little like a turn of the cam would otherwise turn it.
+    /// The move, found together with the mean and the few largest waves of what it leaves: a wave that looks a little like a turn of the cam would otherwise turn it.
     fn beside_waves(&self, points: &[Vector2<f64>], start: MeasuredMove, free: ComparisonFit) -> MeasuredMove {
         let mut found = start;
         for _ in 0..JOINT {

@@ -1,6 +1,6 @@
 //! A barrel cam: a cylinder with a groove all round its outside, in which a roller moves along the axis, straight or on an arm.
 //!
-//! The axis of the roller points at that of the cam, or lies beside it. Both flanks follow from its motion exactly (`contact`); no unrolled curve is
+//! The axis of the roller meets that of the cam, or passes it at an offset. Both flanks follow from its motion exactly (`contact`); no unrolled curve is
 //! offset. The groove is drawn three times: as the developed view of the outside, as the solid with spline flanks, and as tables for a machine with
 //! four axes. Forces are not computed.
 
@@ -39,7 +39,7 @@ const LARGEST_GROWTH: f64 = 8.0;
 const CELLS: u32 = 32;
 /// Golden sections to a place.
 const SECTIONS: u32 = 50;
-/// A slope of the lift below this, over the lift itself, is none, 1/rad.
+/// The roller rests where the slope of the lift, over the lift itself, is below this, 1/rad.
 const LEVEL: f64 = 1e-9;
 
 /// A barrel cam.
@@ -145,7 +145,7 @@ impl Barrel {
         rising.value <= up && falling.value <= down && free
     }
 
-    /// Heights of the ends of the blank: as long as asked, with the groove in its middle, or as the wall beside the groove needs.
+    /// Heights of the ends of the blank: as long as asked, with the groove in its middle, or long enough for the wall on either side of it.
     fn blank_ends(&self) -> Result<(f64, f64), Refusal> {
         let wall = self.machine.limits.least_wall(self.machine.cam.bore_radius);
         let heights = |sign: f64| self.largest(|jet| sign * self.path.at(jet).along[0]).value;
@@ -164,7 +164,7 @@ impl Barrel {
         Ok((-bottom - margin, top + margin))
     }
 
-    /// The refusal of a groove that leaves the cylinder, or whose roller lies beside it.
+    /// The refusal of a groove that leaves the cylinder, or whose roller misses it.
     fn refuse_what_leaves(&self) -> Result<(), Refusal> {
         let floor = self.floor();
         let deep = MILLIMETRES * self.depth;

@@ -69,7 +69,7 @@ impl Barrel {
         Table::listed(SECTIONS, &rows)
     }
 
-    /// Places of the tool's axis, which points at the cam's axis or lies beside it: the angle of the cam, and across and along in the frame of the machine.
+    /// Places of the tool's axis, which meets the cam's axis or passes it at an offset: the angle of the cam, and across and along in the frame of the machine.
     /// A tool of the width of the groove, which is meant where none is given, runs in the middle between both flanks; a smaller one along either flank, which it touches exactly in the
     /// middle of the groove's depth.
     pub(super) fn four_axes_table(&self, samples: u32, tool: Option<f64>) -> Table {
