@@ -11,6 +11,7 @@ mod cut;
 pub mod disc;
 pub(crate) mod figures;
 mod flank;
+pub mod globoid;
 pub mod groove;
 pub mod inspection;
 mod load_as_cut;
@@ -44,7 +45,7 @@ pub use picture::{Cover, DrivenMechanism, FollowerTrack};
 pub use sheet::traces;
 pub(crate) use sizing::{broken_limit, no_radius, passing};
 pub use surface::Surface;
-pub use swept::{SweptDrawing, SweptFlanks};
+pub use swept::{RoundFace, SweptDrawing, SweptFlanks};
 pub use worst_places::WorstPlaces;
 pub(crate) use worst_places::{STRAIGHT, radius_of};
 
@@ -147,6 +148,11 @@ pub const BODIES: &[ProgramBody] = &[
         kind: &barrel::BARREL,
         has_base_circle: false,
         solve: |machine, motion, rpm| Ok(ProgramCams::alone(barrel::Barrel::of(machine, motion, rpm)?)),
+    },
+    ProgramBody {
+        kind: &globoid::GLOBOID,
+        has_base_circle: false,
+        solve: |machine, motion, rpm| Ok(ProgramCams::alone(globoid::Globoid::of(machine, motion, rpm)?)),
     },
     ProgramBody {
         kind: &wedge::WEDGE,

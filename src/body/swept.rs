@@ -3,7 +3,36 @@
 use super::Layer;
 use crate::geometry::Entity;
 use crate::geometry::solid::CheckedSolid;
+use crate::motion::Motion;
+use crate::refusal::Refusal;
 use nalgebra::{Vector2, Vector3};
+
+/// The refusal of a motion whose velocity jumps: a groove has no corners.
+///
+/// # Errors
+/// [`Refusal`] with the cam angle of a jump.
+pub(super) fn refuse_jumps(motion: &dyn Motion) -> Result<(), Refusal> {
+    let pieces = motion.pieces();
+    let after = pieces.iter().enumerate().cycle().skip(1);
+    for ((index, piece), (next, start)) in pieces.iter().enumerate().zip(after) {
+        let [before, behind] = [motion.jet(index, piece.end), motion.jet(next, start.start)];
+        let scale = before.ds.abs().max(behind.ds.abs()).max(1e-3);
+        if (before.ds - behind.ds).abs() > 1e-9 * scale {
+            let what = "the velocity of the follower jumps, and a groove has no corners";
+            let remedy = "give other states or laws of the segments that meet there";
+            return Err(Refusal::new(what).at(format!("{:.3} deg", piece.end.to_degrees())).remedy(remedy));
+        }
+    }
+    Ok(())
+}
+
+/// The smallest positive root d of a + b d + c d² with a > 0, the area of a flank at a distance d from the roller's axis; infinite where there is none.
+pub(super) fn smallest_root(a: f64, b: f64, c: f64) -> f64 {
+    let root = (b * b - 4.0 * a * c).sqrt();
+    // In the form without cancellation: 2a/(−b ± root).
+    let roots = [2.0 * a / (-b + root), 2.0 * a / (-b - root)];
+    roots.into_iter().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min)
+}
 
 /// What is drawn of a body with such flanks.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,7 +41,7 @@ pub struct SweptDrawing {
     pub solid: CheckedSolid,
     /// Largest distance of its flanks from the exact ones, between the places that they are made through, mm.
     pub deviation: f64,
-    /// The developed view of its outside, mm.
+    /// The developed view of its outside, mm, where that can be developed.
     pub developed: Vec<(Layer, Entity)>,
     /// The endings of the names of its tables.
     pub tables: &'static [&'static str],
@@ -30,16 +59,38 @@ pub struct FlankMiss {
 }
 
 /// The round faces and the ends of a body with swept flanks, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RoundForm {
-    /// Radius of the outside.
-    pub outer: f64,
-    /// Radius of the floor.
-    pub floor: f64,
+    /// Its round faces that the flanks bound: outside, floor, conical ends.
+    pub faces: Vec<RoundFace>,
+    /// Radius of the rim of its ends.
+    pub rim: f64,
     /// Heights of the two ends.
     pub ends: (f64, f64),
     /// Volume without holes, mm³.
     pub volume: f64,
+}
+
+/// A face that is round about the axis, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RoundFace {
+    /// A cylinder with the metal inside.
+    Cylinder {
+        /// Its radius.
+        radius: f64,
+    },
+    /// A cone with the metal inside, between two places: radius and height.
+    Cone {
+        /// The places.
+        between: [(f64, f64); 2],
+    },
+    /// The hollow of a torus about z = 0, the metal outside of its tube.
+    Torus {
+        /// Radius of the circle in the middle of its tube.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
+    },
 }
 
 /// The flanks.
@@ -50,9 +101,13 @@ pub trait SweptFlanks: Sync {
     /// Outside, floor and ends.
     fn form(&self) -> RoundForm;
 
-    /// The layers of the developed view of the outside with the ends of the curve on each, mm.
-    fn developed(&self) -> Vec<(Layer, [Vector2<f64>; 2])>;
+    /// The layers of the developed view of the outside with the ends of the curve on each, mm; none where the outside cannot be developed.
+    fn developed(&self) -> Vec<(Layer, [Vector2<f64>; 2])> {
+        Vec::new()
+    }
 
     /// Distance of a point (mm) of the developed view from the exact curve of a layer, mm, and the cam angle there, rad.
-    fn developed_miss(&self, layer: Layer, point: Vector2<f64>) -> (f64, f64);
+    fn developed_miss(&self, _layer: Layer, _point: Vector2<f64>) -> (f64, f64) {
+        (f64::NAN, 0.0)
+    }
 }

@@ -73,6 +73,8 @@ pub const RIB: &str = "rib";
 pub const YOKE: &str = "yoke";
 /// A cylinder with a groove round its outside, of any motion.
 pub const BARREL: &str = "barrel";
+/// A hollow round body that moves a turret on, of any motion that indexes.
+pub const GLOBOID: &str = "globoid";
 /// A plate that travels out and back under its follower, of any motion.
 pub const WEDGE: &str = "wedge";
 
@@ -83,14 +85,14 @@ pub const DISC_BODY: &str = "disc";
 const OF_A_PROGRAM: &[&str] = &[MAKE, TURNS, DISC, ONE_THICKNESS, BASED];
 /// The classes of a body within which a roller runs.
 const OF_A_TRACK: &[&str] = &[MAKE, TURNS, ONE_THICKNESS, BASED];
-/// The classes of a body that is cut into the outside of a cylinder.
+/// The classes of a body that is cut into the outside of a round blank.
 const OF_A_CYLINDER: &[&str] = &[MAKE, TURNS];
 /// The classes of a body that travels.
 const OF_A_PLATE: &[&str] = &[MAKE, ONE_THICKNESS];
 
 /// The bodies of a motion program, which all belong to the class [`MAKE`]: what a file calls each, and its kind of cam. The first is
 /// the usual one.
-const PROGRAM_BODIES: [(&str, CamKind); 8] = [
+const PROGRAM_BODIES: [(&str, CamKind); 9] = [
     (DISC_BODY, CamKind::cam(MAKE, OF_A_PROGRAM)),
     (RING, CamKind::cam(RING, OF_A_TRACK)),
     (GROOVE, CamKind::cam(GROOVE, OF_A_TRACK)),
@@ -98,6 +100,7 @@ const PROGRAM_BODIES: [(&str, CamKind); 8] = [
     (RIB, CamKind::cam(RIB, OF_A_TRACK)),
     (YOKE, CamKind::cam(YOKE, OF_A_PROGRAM)),
     (BARREL, CamKind::cam(BARREL, OF_A_CYLINDER)),
+    (GLOBOID, CamKind::cam(GLOBOID, OF_A_CYLINDER)),
     (WEDGE, CamKind::cam(WEDGE, OF_A_PLATE)),
 ];
 

@@ -23,6 +23,7 @@ mod entity;
 pub mod following;
 pub mod lead_in;
 pub mod nurbs;
+pub mod patch_fit;
 pub mod points;
 pub mod polar;
 pub mod registration;

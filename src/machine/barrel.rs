@@ -1,7 +1,7 @@
 //! The measures of a barrel: what the roller reaches of its groove, and how long the blank is.
 
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BARREL, MAKE};
+use crate::document::cams::{BARREL, GLOBOID, MAKE};
 use crate::document::range::LONGEST;
 use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above};
 use crate::units::Dimension::Length;
@@ -17,12 +17,12 @@ pub struct BarrelData {
 
 const ROLLER_HEIGHT: Field<f64> = Field::quantity(
     "roller_height",
-    "how far the roller reaches into the groove of a barrel; the depth of the groove when absent",
+    "how far the roller reaches into the groove of a barrel or a globoid; the depth of the groove when absent",
     Optional("11 mm"),
     Length,
     above(0.0, LONGEST),
 )
-.only(&[BARREL]);
+.only(&[BARREL, GLOBOID]);
 const BLANK_LENGTH: Field<Option<f64>> = Field::words_or_quantity(
     "blank_length",
     "length of the blank of a barrel along its axis; \"auto\": the groove and the wall on either side of it, in whole millimetres",

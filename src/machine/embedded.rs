@@ -16,6 +16,7 @@ pub const EMBEDDED: &[Embedded] = &[
     Embedded { name: "feeder", toml: include_str!("../../profiles/feeder.toml") },
     Embedded { name: "lever", toml: include_str!("../../profiles/lever.toml") },
     Embedded { name: "groove", toml: include_str!("../../profiles/groove.toml") },
+    Embedded { name: "indexer", toml: include_str!("../../profiles/indexer.toml") },
     Embedded { name: "yoke", toml: include_str!("../../profiles/yoke.toml") },
     Embedded { name: "wedge", toml: include_str!("../../profiles/wedge.toml") },
     Embedded { name: "valve", toml: include_str!("../../profiles/valve.toml") },

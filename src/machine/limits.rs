@@ -276,8 +276,8 @@ const SWINGING_PRESSURE_ANGLE: f64 = FRAC_PI_4;
 /// The limit of the pressure angle under a follower whose table says this, rad: that of the file, or the customary one. Under a flat
 /// face there is none: on a straight path the angle is the tilt of the face; on an arm tan α = f/ℓ, with the offset f of the face from its
 /// pivot and the distance ℓ of the contact along the face.
-fn pressure_angle(table: &TableReader<'_>, in_table: f64, follower: &dyn Follower) -> Option<f64> {
-    match (table.has(&PRESSURE_ANGLE), follower.element(), follower.quantity()) {
+fn pressure_angle(table: &TableReader<'_>, in_table: f64, follower: &dyn Follower, moves: Quantity) -> Option<f64> {
+    match (table.has(&PRESSURE_ANGLE), follower.element(), moves) {
         (false, Element::Face, _) => None,
         (false, Element::Roller { .. }, Quantity::Angle) => Some(SWINGING_PRESSURE_ANGLE),
         _ => Some(in_table),
@@ -285,12 +285,12 @@ fn pressure_angle(table: &TableReader<'_>, in_table: f64, follower: &dyn Followe
 }
 
 /// The inputs of a file, the limit of the pressure angle as it holds for a follower in the place of the default of its key.
-pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower) -> Vec<Input> {
+pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower, moves: Quantity) -> Vec<Input> {
     let (table, path) = (reader.table(&SECTION), SECTION.path_of(&PRESSURE_ANGLE.key));
     let of = |input: Input| {
         let in_table = if input.key == path { table.get(&PRESSURE_ANGLE) } else { None };
         let Some(in_table) = in_table else { return Some(input) };
-        match pressure_angle(&table, in_table, follower) {
+        match pressure_angle(&table, in_table, follower, moves) {
             Some(limit) if limit != in_table => Some(Input::quantity(&path, limit, ("deg", 1.0_f64.to_radians()))),
             limit => limit.map(|_| input),
         }
@@ -299,14 +299,13 @@ pub(super) fn inputs(reader: &Reader<'_>, follower: &dyn Follower) -> Vec<Input>
 }
 
 /// The limit of the overshoot, which must be of the kind of the follower's motion.
-fn overshoot(reader: &Reader<'_>, follower: &dyn Follower) -> Option<OvershootLimit> {
+fn overshoot(reader: &Reader<'_>, wanted: Quantity) -> Option<OvershootLimit> {
     let table = reader.table(&SECTION);
     let (found, value) = match table.get(&OVERSHOOT).filter(|_| table.has(&OVERSHOOT))? {
         LengthAngleOrShare::Share(share) => return Some(OvershootLimit::OfLift(share)),
         LengthAngleOrShare::Size(LengthOrAngle::Length(value)) => (Quantity::Length, value),
         LengthAngleOrShare::Size(LengthOrAngle::Angle(value)) => (Quantity::Angle, value),
     };
-    let wanted = follower.quantity();
     if found != wanted && reader.find(&MOTION).is_some() {
         let message = format!("`limits.overshoot` is {}, but the follower moves by {}", found.words(), wanted.words());
         let example = if wanted == Quantity::Angle { "0.1 deg" } else { "0.1 mm" };
@@ -331,10 +330,10 @@ pub(super) fn refuse_for_plate(reader: &Reader<'_>) {
     }
 }
 
-pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limits> {
+pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower, moves: Quantity) -> Option<Limits> {
     let table = reader.table(&SECTION);
     Some(Limits {
-        pressure_angle: pressure_angle(&table, table.get(&PRESSURE_ANGLE)?, follower),
+        pressure_angle: pressure_angle(&table, table.get(&PRESSURE_ANGLE)?, follower, moves),
         pressure_angle_return: table.get(&PRESSURE_ANGLE_RETURN),
         min_convex_pitch_radius_over_roller: table.get(&MIN_CONVEX)?,
         min_convex_radius: table.get(&MIN_CONVEX_RADIUS),
@@ -348,6 +347,6 @@ pub(super) fn read(reader: &Reader<'_>, follower: &dyn Follower) -> Option<Limit
         jump_margin: table.get(&JUMP_MARGIN)?,
         residual: table.get(&RESIDUAL),
         roller_life: table.get(&ROLLER_LIFE),
-        overshoot: overshoot(reader, follower),
+        overshoot: overshoot(reader, moves),
     })
 }

@@ -1,6 +1,6 @@
 //! The tables of a machine file.
 
-use super::{ROOT, barrel, bearing, cutting, disc, dynamics, limits, plate, title, track};
+use super::{ROOT, barrel, bearing, cutting, disc, dynamics, limits, plate, title, track, turret};
 use crate::document::KeySection;
 use crate::follower::FOLLOWERS;
 use crate::motion::program;
@@ -20,6 +20,7 @@ const BODY_TABLES: &[&KeySection] = &[
     &disc::SECTION,
     &track::SECTION,
     &barrel::SECTION,
+    &turret::SECTION,
     &plate::SECTION,
     &disc::KEYWAY,
     &track::COUNTER,

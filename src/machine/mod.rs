@@ -24,6 +24,7 @@ mod start;
 mod stem;
 mod title;
 mod track;
+mod turret;
 
 pub use crate::document::{Excerpt, FileFault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
@@ -44,6 +45,7 @@ pub use start::{followers, schema, template, template_of_program};
 pub use stem::fault_of as fault_of_stem;
 pub use title::Title;
 pub use track::{CounterData, TrackData};
+pub use turret::TurretData;
 
 use crate::document::Presence::Required;
 use crate::document::cams;
@@ -160,13 +162,16 @@ impl Machine {
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let moves = follower.as_ref().map(|FollowerData { path, shape, arm, .. }| FollowerMovement {
             table: path,
-            quantity: shape.quantity(),
+            quantity: turret::quantity(cam.as_ref().map(|cam| cam.track.body), shape.quantity()),
             arm: *arm,
         });
-        let span = cam.as_ref().map(|cam| match cam.track.body {
-            cams::YOKE => ProgramSpan::HalfTurn,
-            cams::WEDGE => ProgramSpan::Stroke,
-            _ => ProgramSpan::Turn,
+        let quantity = moves.map_or(Quantity::Length, |moves| moves.quantity);
+        let turret = cam.as_ref().and_then(|cam| turret::read(reader, cam.track.body, follower.as_ref()));
+        let span = cam.as_ref().and_then(|cam| match cam.track.body {
+            cams::YOKE => Some(ProgramSpan::HalfTurn),
+            cams::WEDGE => Some(ProgramSpan::Stroke),
+            cams::GLOBOID => turret.map(|turret| ProgramSpan::Index(turret.index())),
+            _ => Some(ProgramSpan::Turn),
         });
         // A follower that swings is refused on a plate, whatever its motion.
         let moves = moves.filter(|moves| span != Some(ProgramSpan::Stroke) || moves.quantity == Quantity::Length);
@@ -183,7 +188,7 @@ impl Machine {
         }
         let counter = track::read_counter(reader, &follower);
         let barrel = barrel::read(reader)?;
-        let cam = CamData { track: TrackData { counter, barrel, ..cam.track }, ..cam };
+        let cam = CamData { track: TrackData { counter, barrel, turret, ..cam.track }, ..cam };
         Some(Self {
             catalogue: source.catalogue,
             name: reader.table(&ROOT).get(&NAME)?,
@@ -191,14 +196,14 @@ impl Machine {
             cam,
             material_name: disc::material_name(reader),
             dynamics: Dynamics::read(reader, &follower),
-            limits: limits::read(reader, &*follower.shape)?,
+            limits: limits::read(reader, &*follower.shape, quantity)?,
             title: title::read(reader),
             cutting: cutting::read(reader),
             parts,
             key_values: KeyValues {
                 keys: reader.given(source.by_user),
                 overridden: reader.given(false),
-                inputs: track::without_disc(limits::inputs(reader, &*follower.shape)),
+                inputs: track::without_disc(limits::inputs(reader, &*follower.shape, quantity)),
             },
             follower,
         })

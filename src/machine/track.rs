@@ -2,8 +2,11 @@
 
 use super::barrel::BarrelData;
 use super::plate;
+use super::turret::TurretData;
 use crate::document::Presence::{Default, Optional};
-use crate::document::cams::{BARREL, BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GROOVE, MAKE, RIB, RING, WEDGE, YOKE};
+use crate::document::cams::{
+    BARREL, BODIES, BODY_KINDS, CONJUGATE, DISC_BODY, GLOBOID, GROOVE, MAKE, RIB, RING, WEDGE, YOKE,
+};
 use crate::document::range::{LARGEST_FORCE, LONGEST};
 use crate::document::{Field, Input, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::{Element, FollowerData};
@@ -34,6 +37,8 @@ pub struct TrackData {
     pub counter: CounterData,
     /// What only a barrel has.
     pub barrel: BarrelData,
+    /// The turret of a globoid.
+    pub turret: Option<TurretData>,
 }
 
 /// The counter disc of a pair of conjugate discs; what is absent is that of the main one.
@@ -53,7 +58,7 @@ pub struct CounterData {
 
 const BODY: Field<&'static str> = Field::words(
     "body",
-    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers; \"barrel\", a cylinder with a groove round its outside; \"wedge\", a plate that travels under its follower",
+    "what is cut: \"disc\", the roller outside of it; \"ring\", the roller inside of it; \"groove\", the roller between two flanks; \"conjugate\", two discs for two rollers of one follower; \"rib\", a wall between two rollers; \"yoke\", a disc between two faces or rollers; \"barrel\", a cylinder with a groove round its outside; \"globoid\", a hollow round body that moves a turret with rollers on, an indexer; \"wedge\", a plate that travels under its follower",
     Default(DISC_BODY),
     BODIES,
     BODY_KINDS,
@@ -83,15 +88,15 @@ const CLEARANCE: Field<f64> = Field::quantity(
     Length,
     within(0.0, LONGEST),
 )
-.only(&[GROOVE, BARREL])
+.only(&[GROOVE, BARREL, GLOBOID])
 .also(&["play", "gap"]);
 const CLEARANCE_SHARE: Field<f64> = Field::number(
     "clearance_share",
-    "share of the clearance on the inner flank, or on that below the roller of a barrel, 0 to 1; with 0 the motion is exact where the roller runs on that flank",
+    "share of the clearance on the inner flank, or on that below the roller of a barrel or a globoid, 0 to 1; with 0 the motion is exact where the roller runs on that flank",
     Default("0"),
     within(0.0, 1.0),
 )
-.only(&[GROOVE, BARREL]);
+.only(&[GROOVE, BARREL, GLOBOID]);
 const GROOVE_DEPTH: Field<f64> = Field::quantity(
     "groove_depth",
     "depth of a groove, below the thickness or the radius of the outside",
@@ -99,7 +104,7 @@ const GROOVE_DEPTH: Field<f64> = Field::quantity(
     Length,
     above(0.0, LONGEST),
 )
-.only(&[GROOVE, BARREL])
+.only(&[GROOVE, BARREL, GLOBOID])
 .also(&["depth"]);
 
 const ROLLER_DISTANCE: Field<f64> = Field::quantity(
@@ -234,9 +239,9 @@ pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool)
             Some(_) => {}
         }
     }
-    if body == BARREL && groove_depth.is_none() {
+    if (body == BARREL || body == GLOBOID) && groove_depth.is_none() {
         let help = "e.g. cam.groove_depth = \"12 mm\"";
-        table.fail(&BODY, "a barrel needs the depth of its groove".into(), Some(help.into()));
+        table.fail(&BODY, format!("a {body} needs the depth of its groove"), Some(help.into()));
     }
     if let (BARREL, Some(outer), Some(depth)) = (body, outer_radius, groove_depth)
         && depth >= outer
@@ -267,6 +272,7 @@ pub(super) fn read(table: &TableReader<'_>, thickness: Option<f64>, bored: bool)
         breadth: table.get(&BREADTH),
         counter: CounterData::default(),
         barrel: BarrelData::default(),
+        turret: None,
     })
 }
 

@@ -144,11 +144,14 @@ impl Drawing {
         let tolerance_mm = MILLIMETRES * self.request.fit.tolerance;
         let mut swept = None;
         for drawing in self.drawn.iter().filter_map(|drawn| drawn.swept.as_deref()) {
-            let unrolled = proof::developed(&drawing.developed, version, &mark).map_err(Error::Proof)?;
             let solid = step::write(&drawing.solid, "", None);
-            let developed = WrittenSwept::of_unrolled(body, &unrolled, proof::JOIN).map_err(Error::Proof)?;
-            swept = Some(developed.with(WrittenSwept::of_solid(body, &solid, tolerance_mm).map_err(Error::Proof)?));
-            cut_files.push(unrolled);
+            let mut read = WrittenSwept::of_solid(body, &solid, tolerance_mm).map_err(Error::Proof)?;
+            if !drawing.developed.is_empty() {
+                let unrolled = proof::developed(&drawing.developed, version, &mark).map_err(Error::Proof)?;
+                read = read.with(WrittenSwept::of_unrolled(body, &unrolled, proof::JOIN).map_err(Error::Proof)?);
+                cut_files.push(unrolled);
+            }
+            swept = Some(read);
         }
         let rolled = rolling::roll_all(body, &outlines, tolerance_mm);
         Ok(WrittenCuts { swept, cut_files, outlines, rolled, inputs })

@@ -76,6 +76,10 @@ impl Cam {
         let body = self.body();
         let (what, read) = if reading::step::is_step(bytes) {
             ("solid", WrittenSwept::of_solid(body, bytes, tolerance_mm))
+        } else if body.swept().is_some_and(|flanks| flanks.developed().is_empty()) {
+            let refusal =
+                Refusal::new("the outside of this cam cannot be developed: its STEP file is what can be checked");
+            return Err(Error::Read(refusal.remedy("give the STEP file")));
         } else {
             ("developed view", WrittenSwept::of_unrolled(body, bytes, join_reach(tolerance_mm)))
         };

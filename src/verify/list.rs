@@ -8,6 +8,7 @@ use super::{
 use crate::body::barrel::measures as barrel;
 use crate::body::closure;
 use crate::body::disc::{residual_vibration, roller_life};
+use crate::body::globoid::measures as globoid;
 use crate::body::groove::switches;
 use crate::check::{
     contact_stress, continuity, curvature, cutter_radius, face_width, force_closure, guide, jump_speed, noise,
@@ -61,6 +62,7 @@ pub const CHECKS: &[CheckEntry] = &[
     Figure(&jump_speed::CHECK),
     Figure(&switches::CHECK),
     Figure(&barrel::PLANE_OFFSET),
+    Figure(&globoid::MESHING),
     Figure(&closure::CHECK),
     Figure(&guide::CHECK),
     Figure(&contact_stress::CHECK),

@@ -8,14 +8,15 @@ use super::check::{Evidence, FileCheck};
 use super::patches::SLACK;
 use super::solid::farthest;
 use super::swept_files::{Developed, SweptSolid};
-use crate::body::{Body, Layer, SweptFlanks};
+use crate::body::{Body, Layer, RoundFace, SweptFlanks};
 use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::contour::{Contour, Edge};
 use crate::geometry::nurbs::NurbsSurface;
-use crate::reading::step::{FaceLoop, StepCurve, StepFace, StepSurface};
+use crate::reading::step::{FaceLoop, StepBoundary, StepCurve, StepFace, StepSurface};
 use crate::reading::{Chain, FileUnit};
 use crate::report::{Bound, Finding, Verdict, shown};
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
+use std::f64::consts::TAU;
 
 /// What a check of these files is: it applies where such a file was read.
 const fn check_of(
@@ -57,7 +58,7 @@ pub(super) const FLANK_SURFACE: FileCheck = check_of(
 pub(super) const SOLID_SHELL: FileCheck = check_of(
     "solid_shell",
     "",
-    "How many faults the boundary of a grooved cylinder has: more or fewer than one solid, edges that are not shared by two faces or leave them, faces \
+    "How many faults the boundary of a grooved cylinder or globoid has: more or fewer than one solid, edges that are not shared by two faces or leave them, faces \
      that are no flank, floor, outside, end or wall of the bore, or lie elsewhere.",
     CheckExplanation {
         bound: Bound::AtMost,
@@ -71,10 +72,10 @@ pub(super) const SOLID_SHELL: FileCheck = check_of(
 pub(super) const SOLID_VOLUME: FileCheck = check_of(
     "solid_volume",
     "mm³",
-    "The volume that the faces of a grooved cylinder enclose, compared with the integral over the exact flanks.",
+    "The volume that the faces of a grooved cylinder or globoid enclose, compared with the integral over the exact flanks.",
     CheckExplanation {
         bound: Bound::Exactly,
-        formula: "∮ z n_z over flanks and ends, compared with π R² H less the groove and the bore",
+        formula: "∮ z n_z over all faces, compared with the blank less its grooves and the bore",
         usual: "camgen's own rule: they agree to a share of 1e-5",
         change: "write the solid with camgen again",
     },
@@ -185,24 +186,40 @@ fn faults_of_faces(evidence: &Evidence<'_>, solid: &SweptSolid) -> Vec<String> {
         let curve = |edge: usize| solid.file.boundary.edges.get(edge).map(|edge| &edge.curve);
         face.loops.iter().flatten().any(|(edge, _)| matches!(curve(*edge), Some(StepCurve::Spline(_))))
     };
+    let scale = exact.ends.1 - exact.ends.0;
     for face in solid.file.boundary.faces.iter().filter(|face| rims(face)) {
-        match &face.surface {
-            StepSurface::Cylinder { origin, axis, radius } => {
-                let off = [exact.outer, exact.floor]
-                    .map(|due| (radius - due).abs())
-                    .into_iter()
-                    .fold(f64::INFINITY, f64::min);
-                let beside = origin.xy().norm() + axis.xy().norm() * (exact.ends.1 - exact.ends.0);
-                if !(off + beside <= limit) || axis.xy().norm() > LEVEL || !face.same_sense {
-                    sentences.push(format!("the face of line {} is neither outside nor floor", face.line));
-                }
-            }
-            StepSurface::Spline(_) => {}
-            _ => sentences.push(format!("the face of line {} is no flank, floor or outside", face.line)),
+        if matches!(face.surface, StepSurface::Spline(_)) {
+            continue;
+        }
+        let off = exact.faces.iter().map(|due| off_face(due, face, scale)).fold(f64::INFINITY, f64::min);
+        if !(off <= limit) {
+            sentences.push(format!("the face of line {} is no flank, floor, outside or end of this cam", face.line));
         }
     }
-    sentences.extend(faults_of_ends(evidence, solid, exact.outer));
+    sentences.extend(faults_of_ends(evidence, solid, exact.rim));
     sentences
+}
+
+/// How far a face is from a round face of the cam, mm; infinite where it is of another kind, or its metal lies on the other side.
+fn off_face(due: &RoundFace, face: &StepFace, scale: f64) -> f64 {
+    let tilted = |axis: &Vector3<f64>| if axis.xy().norm() > LEVEL { f64::INFINITY } else { axis.xy().norm() * scale };
+    let off = match (due, &face.surface) {
+        (RoundFace::Cylinder { radius: due }, StepSurface::Cylinder { origin, axis, radius }) => {
+            (radius - due).abs() + origin.xy().norm() + tilted(axis)
+        }
+        (RoundFace::Cone { between }, StepSurface::Cone { origin, axis, radius, slope }) => {
+            let at = |(due, z): &(f64, f64)| (radius + slope * (z - origin.z) * axis.z - due).abs();
+            between.iter().map(at).fold(0.0, |most: f64, next| if next <= most { most } else { next })
+                + origin.xy().norm()
+                + tilted(axis)
+        }
+        (RoundFace::Torus { major: due, minor: tube }, StepSurface::Torus { origin, axis, major, minor }) => {
+            (major - due).abs() + (minor - tube).abs() + origin.norm() + tilted(axis)
+        }
+        _ => f64::INFINITY,
+    };
+    let hollow = matches!(due, RoundFace::Torus { .. });
+    if face.same_sense == hollow { f64::INFINITY } else { off }
 }
 
 /// The holes of the ends and their outer rims, compared with those of the drawing.
@@ -246,12 +263,70 @@ fn solid_volume(evidence: &Evidence<'_>, solid: &SweptSolid) -> Finding {
     let height = |heights: &[f64]| heights.first().copied().unwrap_or(f64::NAN);
     let ends = height(&solid.form.high) * area(&solid.form.above) - height(&solid.form.low) * area(&solid.form.under);
     let lifted = |(patch, outward): &(NurbsSurface, bool)| if *outward { lifted(patch) } else { -lifted(patch) };
-    let volume = ends + solid.form.patches.iter().map(lifted).sum::<f64>();
+    let round: f64 = solid.file.boundary.faces.iter().map(|face| revolved(&solid.file.boundary, face)).sum();
+    let volume = ends + round + solid.form.patches.iter().map(lifted).sum::<f64>();
     let drilled: f64 = holes(evidence.body).iter().map(|hole| hole.area_and_centroid().0).sum();
     let expected = exact.volume + drilled * (exact.ends.1 - exact.ends.0);
     let kept = (volume / expected - 1.0).abs() <= VOLUME_TOLERANCE;
     let note = format!("off the integral by a share of {:.1e}", (volume / expected - 1.0).abs());
     Finding { note: Some(note), ..SOLID_VOLUME.found(volume, Some(expected), Verdict::of(kept)) }
+}
+
+/// ∬ z n_z over a part of a cone or a torus about the axis, mm³: by Stokes ∮ H dφ along its edges, with the polar angle φ and H the integral of z ρ dρ along the
+/// surface from its axis outwards. 0 of any other face.
+fn revolved(boundary: &StepBoundary, face: &StepFace) -> f64 {
+    let height = |place: &Vector3<f64>| -> f64 {
+        match &face.surface {
+            StepSurface::Cone { origin, axis, radius, slope } => {
+                // z = a + b ρ.
+                let b = axis.z / slope;
+                let a = origin.z - b * radius;
+                let rho = place.xy().norm();
+                rho * rho * (0.5 * a + b * rho / 3.0)
+            }
+            StepSurface::Torus { origin, major, minor, .. } => {
+                let (z, rho) = (place.z - origin.z, place.xy().norm());
+                let turn = libm::atan2(z, major - rho);
+                let (sin, cos) = libm::sincos(turn);
+                let about = minor * minor * (major * 0.5 * (turn - sin * cos) - minor * sin * sin * sin / 3.0);
+                about + 0.5 * origin.z * rho * rho
+            }
+            _ => f64::NAN,
+        }
+    };
+    if !matches!(face.surface, StepSurface::Cone { .. } | StepSurface::Torus { .. }) {
+        return 0.0;
+    }
+    let along = |(index, forward): &(usize, bool)| {
+        let Some(edge) = boundary.edges.get(*index) else { return f64::NAN };
+        let place = |vertex: usize| boundary.vertices.get(vertex).copied().unwrap_or_else(|| Vector3::repeat(f64::NAN));
+        let (start, end) = (place(edge.start), place(edge.end));
+        let found = match &edge.curve {
+            // About the axis, or along it.
+            StepCurve::Circle { axis, .. } => {
+                let counter = edge.forward == (axis.z > 0.0);
+                let turn = libm::atan2(start.xy().perp(&end.xy()), start.xy().dot(&end.xy()));
+                let turn = if counter { turn.rem_euclid(TAU) } else { -(-turn).rem_euclid(TAU) };
+                height(&start) * turn
+            }
+            StepCurve::Spline(curve) => {
+                let over = |span: (f64, f64)| {
+                    let value = |u: f64| {
+                        let (place, slope) = curve.at(u);
+                        height(&place) * place.xy().perp(&slope.xy()) / place.xy().norm_squared()
+                    };
+                    crate::numeric::quadrature::integrate(value, span, 1)
+                };
+                let whole: f64 = curve.knots.spans().into_iter().map(over).sum();
+                if edge.forward { whole } else { -whole }
+            }
+            // Straight down a cone: its polar angle is constant.
+            StepCurve::Line { .. } => 0.0,
+            StepCurve::Other(_) => f64::NAN,
+        };
+        if *forward { found } else { -found }
+    };
+    face.loops.iter().flatten().map(along).sum()
 }
 
 /// ∬ z (x_u y_v − y_u x_v) du dv over a patch, mm³.

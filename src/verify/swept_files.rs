@@ -111,7 +111,7 @@ fn fault_of_blank(body: &dyn Body, reading: &Reading) -> Option<String> {
         .filter(|(layer, _)| *layer == Layer::Pitch)
         .flat_map(|(_, ends)| ends.map(|end| end.x))
         .collect();
-    let around = std::f64::consts::TAU * exact.form().outer;
+    let around = std::f64::consts::TAU * exact.form().rim;
     let on_blank: Vec<&Chain> = reading.others.iter().filter(|chain| chain.on_layer(Layer::Blank.name())).collect();
     let wrong = |why: &str| Some(format!("the edge of the blank on layer {} {why}", Layer::Blank.name()));
     let [chain] = on_blank.as_slice() else { return wrong("is not one rectangle") };

@@ -142,8 +142,8 @@ impl DisplayByStep for EdgeCurve {
 impl StepLength for FaceSurface {
     fn step_length(&self) -> usize {
         match self {
-            FaceSurface::Plane { .. } | FaceSurface::Cylinder { .. } => 5,
             FaceSurface::Spline(spline) => 1 + spline.controls.iter().map(Vec::len).sum::<usize>(),
+            _ => 5,
         }
     }
 }
@@ -161,6 +161,15 @@ impl DisplayByStep for FaceSurface {
             FaceSurface::Cylinder { origin, radius } => {
                 writeln!(f, "#{index} = CYLINDRICAL_SURFACE('', #{next}, {});", real(*radius))?;
                 placement(f, next, *origin, Vector3::unit_z(), Vector3::unit_x())
+            }
+            FaceSurface::Cone { at: (z, radius), angle } => {
+                writeln!(f, "#{index} = CONICAL_SURFACE('', #{next}, {}, {});", real(*radius), real(angle.abs()))?;
+                let up = Vector3::new(0.0, 0.0, angle.signum());
+                placement(f, next, Point3::new(0.0, 0.0, *z), up, Vector3::unit_x())
+            }
+            FaceSurface::Torus { major, minor } => {
+                writeln!(f, "#{index} = TOROIDAL_SURFACE('', #{next}, {}, {});", real(*major), real(*minor))?;
+                placement(f, next, Point3::new(0.0, 0.0, 0.0), Vector3::unit_z(), Vector3::unit_x())
             }
             FaceSurface::Spline(SplineSurface { u, v, controls }) => {
                 let mut from = next;

@@ -237,6 +237,9 @@ fn another(key: &Key, share: f64, index: u32) -> String {
         KeyForm::Boolean => index.is_multiple_of(2).to_string(),
         KeyForm::Words(words) => words[index as usize % words.len()].to_owned(),
         KeyForm::WordsOrQuantity(words, ..) if index > 4 => words[index as usize % words.len()].to_owned(),
+        KeyForm::WordsOrQuantity(words, Dimension::Angle, _) if words.contains(&example) => {
+            format!("{} deg", 50.0 * share)
+        }
         KeyForm::WordsOrQuantity(words, dimension, _) if words.contains(&example) => {
             let unit = if dimension == Dimension::Force { "N" } else { "mm" };
             format!("{} {unit}", 100.0 * share)

@@ -38,6 +38,9 @@ fn lifter(text: &str, overrides: &[&str]) -> Spec {
     Spec::of_motion(machine, motion, rpm)
 }
 
+/// A turret that is moved on.
+const INDEXER: &str = include_str!("../../profiles/indexer.toml");
+
 /// A cam of each kind. A new kind of body needs a line here.
 fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
     let owned: Vec<String> = overrides.iter().map(|&set| set.to_owned()).collect();
@@ -73,6 +76,7 @@ fn cam_of(kind: &Kind, overrides: &[&str]) -> Cam {
             let text = match kind.keys {
                 "yoke" => &first_half,
                 "wedge" => &plate,
+                "globoid" => INDEXER,
                 _ => LIFTER,
             };
             lifter(text, &[own, overrides].concat())

@@ -4,6 +4,7 @@
 //! of the cam. Its points move by V = (−y, v + y', z') by the cam angle, and the flank touches the roller where the normal is n = a × V/|a × V| with
 //! the direction a = (1, 0, 0) of the roller's axis: n = (0, −sin χ, cos χ) with tan χ = z'/(v + y'). The flanks are X = C ± r n.
 
+use crate::body::swept::smallest_root;
 use crate::motion::Jet;
 
 /// Steps to the place of a flank on a cylinder, and the step over its radius at which they end.
@@ -174,6 +175,15 @@ impl LinePoint {
         self.speed / self.turn
     }
 
+    /// The smallest distance from the centre line, m, above it (sign 1) or below it (−1), at which the flank folds over itself; infinite where it never does.
+    ///
+    /// The area of the flank by the cam angle and by v is S − d (χ' + y χ_v) + d² χ_v sin χ: 0 where it folds.
+    pub(super) fn folds_at(&self, axis: &AxisLine, sign: f64) -> f64 {
+        let (sin, _) = self.slope;
+        let linear = -sign * (self.turn + axis.across[0] * self.turn_outwards);
+        smallest_root(self.speed, linear, self.turn_outwards * sin)
+    }
+
     /// The reduced curvature of the line of contact on the flank at a signed distance, 1/m: 1/r and both principal curvatures of the flank, convex
     /// positive.
     ///
@@ -229,6 +239,36 @@ mod tests {
         }
         let curvature = axis.point(0.050).reduced_curvature(&axis, 0.010);
         assert!((1e-3 * curvature - 0.103_580_372_325_9).abs() < 1e-11, "{curvature}");
+    }
+
+    /// The area of a flank, by the cross product of differences, vanishes where the flank folds.
+    #[test]
+    fn the_flank_folds_where_its_area_vanishes() {
+        let path = RollerPath::Straight { offset: 0.004 };
+        let at = |angle: f64| {
+            let (sin, cos) = libm::sincos(angle);
+            path.at(&Jet { s: 0.02 * (1.0 - cos), ds: 0.02 * sin, dds: 0.02 * cos, ddds: -0.02 * sin })
+        };
+        // A point of the flank in space, by the cam angle and v.
+        let place = |angle: f64, v: f64, distance: f64| {
+            let axis = at(angle);
+            let (tilt, lean) = axis.point(v).slope;
+            let (sin, cos) = libm::sincos(angle);
+            let across = axis.across[0] - distance * tilt;
+            nalgebra::Vector3::new(v * cos - across * sin, v * sin + across * cos, axis.along[0] + distance * lean)
+        };
+        for i in 0..24 {
+            let (angle, v, h) = (0.26 * f64::from(i) + 0.05, 0.05, 1e-6);
+            for sign in [1.0, -1.0] {
+                let fold = at(angle).point(v).folds_at(&at(angle), sign);
+                assert!(fold > 0.0);
+                let distance = sign * fold.min(10.0);
+                let by_angle = (place(angle + h, v, distance) - place(angle - h, v, distance)) / (2.0 * h);
+                let by_v = (place(angle, v + h, distance) - place(angle, v - h, distance)) / (2.0 * h);
+                let area = by_angle.cross(&by_v).norm();
+                assert!(!fold.is_finite() || area < 1e-6 * (1.0 + fold * fold), "{angle} {sign} {fold} {area}");
+            }
+        }
     }
 
     /// Slopes on the cylinder against central differences, for a straight path with an offset and an arm.

@@ -104,7 +104,7 @@ impl Body for Barrel {
     }
 
     fn draw(&self, request: &Request) -> Result<Drawn, DrawError> {
-        if self.least_radius().value <= self.distances[0].max(self.distances[1]) {
+        if self.least_fold().value <= self.distances[0].max(self.distances[1]) {
             return Err(DrawError::NoOutline("a flank folds over itself: the roller cannot follow it".into()));
         }
         let without = |what: &str| Refusal::new(format!("{what} is not drawn for a barrel")).remedy("leave it out");

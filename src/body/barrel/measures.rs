@@ -54,7 +54,7 @@ impl Barrel {
         of.add(&continuity::CHECK, |_| continuity::measure(&run(), || None, &subject));
         of.add(&pressure_angle::CHECK, |_| pressure_angle::measure(self.signed_pressure_angles(), &subject));
         let widest = self.distances[0].max(self.distances[1]);
-        of.add(&curvature::UNDERCUT, |_| curvature::undercut(&self.least_radius(), widest, Vec::new, &subject));
+        of.add(&curvature::UNDERCUT, |_| curvature::undercut(&self.least_fold(), widest, Vec::new, &subject));
         of.add(&curvature::MIN_CONVEX_RADIUS, |_| {
             curvature::min_convex_radius(&self.least_radius(), Some(self.roller), &subject)
         });

@@ -17,6 +17,7 @@ mod swept;
 mod tables;
 
 use super::Kind;
+use super::swept::refuse_jumps;
 use crate::document::cams;
 use crate::follower::{Carrier, Element};
 use crate::geometry::MILLIMETRES;
@@ -90,29 +91,13 @@ impl Barrel {
             ends: (0.0, 0.0),
             rpm,
         };
-        found.refuse_jumps()?;
+        refuse_jumps(&**motion)?;
         if track.outer_radius.is_none() {
             found.outer = found.smallest_outer()?;
         }
         found.ends = found.blank_ends()?;
         found.refuse_what_leaves()?;
         Ok(found)
-    }
-
-    /// The refusal of a motion whose velocity jumps.
-    fn refuse_jumps(&self) -> Result<(), Refusal> {
-        let pieces = self.motion.pieces();
-        let after = pieces.iter().enumerate().cycle().skip(1);
-        for ((index, piece), (next, start)) in pieces.iter().enumerate().zip(after) {
-            let [before, behind] = [self.motion.jet(index, piece.end), self.motion.jet(next, start.start)];
-            let scale = before.ds.abs().max(behind.ds.abs()).max(1e-3);
-            if (before.ds - behind.ds).abs() > 1e-9 * scale {
-                let what = "the velocity of the follower jumps, and a groove has no corners";
-                let remedy = "give other states or laws of the segments that meet there";
-                return Err(Refusal::new(what).at(format!("{:.3} deg", piece.end.to_degrees())).remedy(remedy));
-            }
-        }
-        Ok(())
     }
 
     /// The smallest radius of the outside, in whole millimetres, that keeps the pressure angle at the inner end of the roller (R ≥ max s'/tan α of a
@@ -140,8 +125,8 @@ impl Barrel {
         let limits = &self.machine.limits;
         let [up, down] = limits.pressure_angles();
         let [rising, falling] = self.signed_pressure_angles();
-        let radius = self.least_radius().value;
-        let free = radius > self.distances[0].max(self.distances[1]) && radius >= limits.convex_radius(self.roller);
+        let convex = self.least_radius().value >= limits.convex_radius(self.roller);
+        let free = self.least_fold().value > self.distances[0].max(self.distances[1]) && convex;
         rising.value <= up && falling.value <= down && free
     }
 
@@ -179,19 +164,36 @@ impl Barrel {
         }
         for (piece, at) in self.places() {
             let axis = self.axis(piece, at);
-            let known = |radius: f64| {
-                [(0, 1.0), (1, -1.0)]
+            let known = |axis: &AxisLine| {
+                [(floor, 0, 1.0), (floor, 1, -1.0), (self.outer, 0, 1.0), (self.outer, 1, -1.0)]
                     .iter()
-                    .all(|(flank, sign)| axis.on_cylinder(sign * self.distances[*flank], radius).is_some())
+                    .all(|(radius, flank, sign)| axis.on_cylinder(sign * self.distances[*flank], *radius).is_some())
             };
-            if !(known(floor) && known(self.outer)) {
-                let what = "the flank of the groove does not reach from its floor to the outside: the roller is too large for the cylinder";
-                return Err(Refusal::new(what)
-                    .at(format!("{:.3} deg", at.to_degrees()))
-                    .remedy("give a larger cam.outer_radius or a smaller roller"));
+            if !known(&axis) {
+                let [_, by, second] = axis.across;
+                let misses = known(&AxisLine { across: [0.0, by, second], ..axis });
+                return Err(self.leaves(misses.then_some(axis.across[0])).at(format!("{:.3} deg", at.to_degrees())));
             }
         }
         Ok(())
+    }
+
+    /// The refusal of a roller that stands so far beside the radius, m, that it misses the floor, else of one that is too large.
+    fn leaves(&self, beside: Option<f64>) -> Refusal {
+        let Some(beside) = beside else {
+            let what = "the flank of the groove does not reach from its floor to the outside: the roller is too large for the cylinder";
+            return Refusal::new(what).remedy("give a larger cam.outer_radius or a smaller roller");
+        };
+        let [beside, floor] = [beside.abs(), self.floor()].map(|length| MILLIMETRES * length);
+        let what = format!(
+            "the roller stands {beside:.3} mm beside the axis of the barrel and misses its floor of radius {floor:.3} mm"
+        );
+        let straight = matches!(self.path, RollerPath::Straight { .. });
+        Refusal::new(what).remedy(if straight {
+            "give a smaller follower.roller.offset or a larger cam.outer_radius"
+        } else {
+            "give a pivot_distance near the arm, a smaller swing or a larger cam.outer_radius"
+        })
     }
 
     /// Places of all pieces, a few to each.
@@ -260,6 +262,19 @@ impl Barrel {
             let axis = self.path.at(jet);
             let (inner, outer) = self.touched();
             [inner, outer].map(|v| axis.point(v).path_radius().abs().recip()).into_iter().fold(0.0, f64::max)
+        });
+        Worst { value: sharpest.value.recip(), ..sharpest }
+    }
+
+    /// The smallest distance from the roller's axis at which a flank would fold over itself, m, anywhere along the groove's depth.
+    fn least_fold(&self) -> Worst {
+        let sharpest = self.largest(|jet| {
+            let axis = self.path.at(jet);
+            let folds = [self.floor(), self.outer].map(|v| {
+                let point = axis.point(v);
+                point.folds_at(&axis, 1.0).min(point.folds_at(&axis, -1.0))
+            });
+            folds.into_iter().map(f64::recip).fold(0.0, f64::max)
         });
         Worst { value: sharpest.value.recip(), ..sharpest }
     }

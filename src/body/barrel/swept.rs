@@ -2,7 +2,7 @@
 
 use super::Barrel;
 use crate::body::Layer;
-use crate::body::swept::{FlankMiss, RoundForm, SweptFlanks};
+use crate::body::swept::{FlankMiss, RoundFace, RoundForm, SweptFlanks};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Rotation;
 use nalgebra::{Vector2, Vector3};
@@ -93,7 +93,8 @@ impl Barrel {
             let ([a, b], ..) = apart(angle);
             a * a + b * b
         };
-        let step = APART * self.distances[0].max(self.distances[1]) / radius;
+        let longest = self.distances[0].max(self.distances[1]) / radius;
+        let step = APART * longest;
         let tried = (-TRIED..=TRIED).map(|i| polar + step * f64::from(i));
         let start = tried.map(|angle| (square(angle), angle)).reduce(|a, b| if b.0 < a.0 { b } else { a });
         let (mut least, mut at) = start.unwrap_or((f64::NAN, polar));
@@ -101,7 +102,8 @@ impl Barrel {
             let ([a, b], [da, db], [dda, ddb]) = apart(at);
             let (slope, bend) = (a * da + b * db, da * da + db * db + a * dda + b * ddb);
             let steepest = slope / (da * da + db * db);
-            let mut by = if bend > 0.0 { slope / bend } else { steepest };
+            // A longer step could lead to where the roller's axis, without its end, passes the point on the far side of the cam.
+            let mut by = (if bend > 0.0 { slope / bend } else { steepest }).clamp(-longest, longest);
             // A step that does not come nearer is halved.
             let mut next = (square(at - by), at - by);
             for _ in 0..STEPS {
@@ -174,8 +176,10 @@ impl SweptFlanks for Barrel {
 
     fn form(&self) -> RoundForm {
         RoundForm {
-            outer: MILLIMETRES * self.outer,
-            floor: MILLIMETRES * self.floor(),
+            faces: [self.outer, self.floor()]
+                .map(|radius| RoundFace::Cylinder { radius: MILLIMETRES * radius })
+                .to_vec(),
+            rim: MILLIMETRES * self.outer,
             ends: (MILLIMETRES * self.ends.0, MILLIMETRES * self.ends.1),
             volume: self.volume(),
         }

@@ -148,6 +148,12 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.groove_depth", "8 mm"),
     ("cam.roller_height", "7 mm"),
     ("cam.blank_length", "90 mm"),
+    ("cam.turret_distance", "125 mm"),
+    ("cam.arm", "69 mm"),
+    ("cam.rollers", "9"),
+    ("cam.advance", "2"),
+    ("cam.rests_on", "groove"),
+    ("cam.end_angle", "50 deg"),
     ("cam.roller_distance", "50 mm"),
     ("cam.breadth", "150 mm"),
     ("cam.length", "170 mm"),
@@ -291,8 +297,15 @@ fn alike(machine: Machine) -> String {
     format!("{:#?}", machine.without_given())
 }
 
+/// Keys that only a globoid has.
+const OF_A_TURRET: [&str; 6] =
+    ["cam.turret_distance", "cam.arm", "cam.rollers", "cam.advance", "cam.rests_on", "cam.end_angle"];
+
 /// A file of a press and a motion program, with the follower that a key belongs to, or a roller.
 fn file_for(path: &str) -> String {
+    if OF_A_TURRET.contains(&path) {
+        return include_str!("../../../profiles/indexer.toml").to_owned();
+    }
     let of = |kind: &&FollowerKind| path.strip_prefix(kind.section.path).is_some_and(|rest| rest.starts_with('.'));
     let of_arc = ["motion.measured_at", "motion.output_arm"].contains(&path);
     let of_arms = ["cam.counter.arm", "cam.counter.included_angle"].contains(&path);
@@ -452,6 +465,12 @@ fn every_key_of_the_table_reaches_the_machine() {
             // A motion ends where it starts.
             sets.push("motion.segment[1].to=5 mm".into());
         }
+        // A turn of a globoid moves its turret on by whole rollers.
+        match *key {
+            "cam.rollers" => sets.push("motion.segment[0].to=40 deg".into()),
+            "cam.advance" => sets.push("motion.segment[0].to=90 deg".into()),
+            _ => {}
+        }
         let other = with(&sets);
         assert!(other.given().contains(&(*key).to_owned()), "{key}");
         assert_ne!(alike(other), alike(with(&[])), "{key}");
@@ -470,6 +489,8 @@ fn every_word_of_a_key_reads() {
                 let set = format!("{}={word}", path.replace("[]", index));
                 // A yoke has no links.
                 let text = match *word {
+                    _ if OF_A_TURRET.contains(&path.as_str()) => file_for(&path),
+                    "globoid" => file_for("cam.rollers").replace("body = \"globoid\"\n", ""),
                     "yoke" => without(&file_for(&path), "linkage"),
                     "residual" => file_for(&path).replace("over =", "ratio = 2.5\nover ="),
                     "pivot" => file_for(&path)

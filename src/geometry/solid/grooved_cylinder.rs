@@ -1,14 +1,13 @@
 //! A cylinder with a groove all round its outside: two flanks of spline patches, the floor between them, and what is left of the cylinder above and
 //! below.
 
+use super::flank_strip::ShellFlank;
 use super::{
-    CheckedSolid, EdgeCurve, FaceSurface, ShellBuilder, SolidVertex, SplineCurve, SplineSurface, TruckBoundary,
-    backward, check_closed, forward, swept,
+    CheckedSolid, FaceSurface, ShellBuilder, SplineSurface, TruckBoundary, backward, check_closed, forward, swept,
 };
 use crate::geometry::contour::Contour;
 use crate::refusal::Refusal;
-use truck_modeling::{InnerSpace, Point3};
-use truck_topology::compress::{CompressedEdge, CompressedFace};
+use truck_modeling::Point3;
 
 /// A cylinder about the z axis with a groove, mm.
 #[derive(Debug, Clone, Copy)]
@@ -66,8 +65,8 @@ impl GroovedCylinder<'_> {
         let mut walls = ShellBuilder::new(self.ends);
         // The rims of the outside come first among those of the ends.
         let (under, above) = (walls.under.len(), walls.above.len());
-        let upper = Flank::add(&mut walls, self.upper, 1.0);
-        let lower = Flank::add(&mut walls, self.lower, -1.0);
+        let upper = ShellFlank::add(&mut walls, self.upper, 1.0, true);
+        let lower = ShellFlank::add(&mut walls, self.lower, -1.0, true);
         let (top, bottom) = self.outside(&mut walls, &upper, &lower);
         walls.above.insert(above, top.iter().map(|edge| forward(*edge)).collect());
         walls.under.insert(under, bottom.iter().rev().map(|edge| backward(*edge)).collect());
@@ -78,18 +77,15 @@ impl GroovedCylinder<'_> {
     }
 
     /// What is left of the outside above and below the groove, and its floor; the edges of the two ends.
-    fn outside(&self, walls: &mut ShellBuilder, upper: &Flank, lower: &Flank) -> (Vec<usize>, Vec<usize>) {
+    fn outside(&self, walls: &mut ShellBuilder, upper: &ShellFlank, lower: &ShellFlank) -> (Vec<usize>, Vec<usize>) {
         let (radius, floor) = self.radii;
         let (low, high) = self.ends;
         let n = self.seams.len();
-        let at = |walls: &ShellBuilder, vertex: usize| {
-            walls.shell.vertices.get(vertex).map_or_else(|| Point3::new(f64::NAN, 0.0, 0.0), |vertex| vertex.0)
-        };
         let mut seams = Vec::new();
         for seam in self.seams {
             let ends = [(upper.outer(*seam), high), (lower.outer(*seam), low)];
             let [(top, up), (bottom, down)] = ends.map(|(vertex, z)| {
-                let place = at(walls, vertex);
+                let place = walls.place(vertex);
                 let end = walls.add_vertex(Point3::new(place.x, place.y, z));
                 (end, walls.add_line(vertex, end))
             });
@@ -105,17 +101,15 @@ impl GroovedCylinder<'_> {
             let mut above: Vec<_> = upper.outer_edges(from, to).map(forward).collect();
             above.extend([forward(next.up), backward(top), backward(seam.up)]);
             let mut below = vec![forward(bottom), backward(next.down)];
-            let edges: Vec<usize> = lower.outer_edges(from, to).collect();
-            below.extend(edges.into_iter().rev().map(backward));
+            below.extend(lower.outer_edges(from, to).rev().map(backward));
             below.push(forward(seam.down));
             let mut ground: Vec<_> = lower.floor_edges(from, to).map(forward).collect();
             ground.push(forward(next.across));
-            let edges: Vec<usize> = upper.floor_edges(from, to).collect();
-            ground.extend(edges.into_iter().rev().map(backward));
+            ground.extend(upper.floor_edges(from, to).rev().map(backward));
             ground.push(backward(seam.across));
             for (run, radius) in [(above, radius), (below, radius), (ground, floor)] {
                 let surface = FaceSurface::Cylinder { origin: Point3::new(0.0, 0.0, low), radius };
-                walls.shell.faces.push(CompressedFace { boundaries: vec![run], orientation: true, surface });
+                walls.add_face(run, surface, false);
             }
             tops.push(top);
             bottoms.push(bottom);
@@ -134,98 +128,6 @@ struct Seam {
     across: usize,
 }
 
-/// A flank in the shell: of each patch the vertices 2k at the floor and 2k + 1 outside at its start, and the edges 3k along the floor, 3k + 1 outside,
-/// 3k + 2 outwards at its start.
-struct Flank {
-    vertices: usize,
-    edges: usize,
-    patches: usize,
-}
-
-impl Flank {
-    fn floor(&self, patch: usize) -> usize {
-        self.vertices + 2 * (patch % self.patches)
-    }
-
-    fn outer(&self, patch: usize) -> usize {
-        self.floor(patch) + 1
-    }
-
-    fn edge(&self, patch: usize, kind: usize) -> usize {
-        self.edges + 3 * (patch % self.patches) + kind
-    }
-
-    /// Edges of a kind from the start of one patch to the start of another, all round where it is the same.
-    fn between(&self, kind: usize, from: usize, to: usize) -> impl Iterator<Item = usize> + '_ {
-        let to = if to > from { to } else { to + self.patches };
-        (from..to).map(move |patch| self.edge(patch, kind))
-    }
-
-    fn floor_edges(&self, from: usize, to: usize) -> impl Iterator<Item = usize> + '_ {
-        self.between(0, from, to)
-    }
-
-    fn outer_edges(&self, from: usize, to: usize) -> impl Iterator<Item = usize> + '_ {
-        self.between(1, from, to)
-    }
-
-    /// Adds patches whose metal lies above (`side` 1) or below (−1).
-    fn add(walls: &mut ShellBuilder, patches: &[SplineSurface], side: f64) -> Self {
-        let flank = Self {
-            vertices: walls.shell.vertices.len(),
-            edges: walls.shell.edges.len(),
-            patches: patches.len().max(1),
-        };
-        for (k, patch) in patches.iter().enumerate() {
-            let first = patch.controls.first().cloned().unwrap_or_default();
-            let row = |end: fn(&[Point3]) -> Option<&Point3>| -> Vec<Point3> {
-                patch.controls.iter().filter_map(|row| end(row).copied()).collect()
-            };
-            walls.shell.vertices.extend(first.first().into_iter().chain(first.last()).map(|point| SolidVertex(*point)));
-            let along = |vertices: (usize, usize), knots: &[f64], controls: Vec<Point3>| CompressedEdge {
-                vertices,
-                curve: EdgeCurve::Spline(SplineCurve { knots: knots.to_vec(), controls }),
-            };
-            walls.shell.edges.push(along((flank.floor(k), flank.floor(k + 1)), &patch.u, row(<[Point3]>::first)));
-            walls.shell.edges.push(along((flank.outer(k), flank.outer(k + 1)), &patch.u, row(<[Point3]>::last)));
-            walls.shell.edges.push(along((flank.floor(k), flank.outer(k)), &patch.v, first));
-            let [floor, outer, start, end] =
-                [flank.edge(k, 0), flank.edge(k, 1), flank.edge(k, 2), flank.edge(k + 1, 2)];
-            // Counter-clockwise about the normal out of the metal: of u by v it points down.
-            let (run, surface) = if side > 0.0 {
-                (vec![forward(floor), forward(end), backward(outer), backward(start)], patch.clone())
-            } else {
-                (vec![forward(start), forward(outer), backward(end), backward(floor)], patch.transposed())
-            };
-            let surface = FaceSurface::Spline(surface);
-            walls.shell.faces.push(CompressedFace { boundaries: vec![run], orientation: true, surface });
-        }
-        flank
-    }
-}
-
-impl ShellBuilder {
-    fn add_vertex(&mut self, place: Point3) -> usize {
-        self.shell.vertices.push(SolidVertex(place));
-        self.shell.vertices.len() - 1
-    }
-
-    fn add_line(&mut self, from: usize, to: usize) -> usize {
-        let place = |vertex: usize| self.shell.vertices.get(vertex).map(|vertex| vertex.0);
-        let (a, b) = place(from).zip(place(to)).unwrap_or((Point3::new(0.0, 0.0, 0.0), Point3::new(0.0, 0.0, 1.0)));
-        let curve = EdgeCurve::Line { origin: a, direction: (b - a).normalize() };
-        self.shell.edges.push(CompressedEdge { vertices: (from, to), curve });
-        self.shell.edges.len() - 1
-    }
-
-    /// An arc about the axis, counter-clockwise.
-    fn add_arc(&mut self, vertices: (usize, usize), (radius, z): (f64, f64)) -> usize {
-        let curve = EdgeCurve::Circle { centre: Point3::new(0.0, 0.0, z), radius, clockwise: false };
-        self.shell.edges.push(CompressedEdge { vertices, curve });
-        self.shell.edges.len() - 1
-    }
-}
-
 /// Abscissae and weights of Gauss' rule with five points on [0, 1], exact to the ninth power (Abramowitz & Stegun, table 25.4).
 const GAUSS: [(f64, f64); 5] = [
     (0.046_910_077_030_668, 0.118_463_442_528_094_5),
@@ -236,13 +138,6 @@ const GAUSS: [(f64, f64); 5] = [
 ];
 
 impl SplineSurface {
-    /// The patch with its parameters exchanged.
-    fn transposed(&self) -> Self {
-        let columns = self.controls.first().map_or(0, Vec::len);
-        let column = |v: usize| self.controls.iter().filter_map(|row| row.get(v).copied()).collect();
-        Self { u: self.v.clone(), v: self.u.clone(), controls: (0..columns).map(column).collect() }
-    }
-
     /// ∬ z (x_u y_v − y_u x_v) du dv, mm³, exactly.
     #[must_use]
     pub fn lifted_volume(&self) -> f64 {

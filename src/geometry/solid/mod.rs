@@ -5,6 +5,8 @@
 //! normal points away from its axis: out of the metal where the contour turns left, into it where it turns right, and
 //! there the face is the cylinder's other side. Both end faces are one plane each with the holes as inner wires.
 
+mod flank_strip;
+pub mod globoid;
 pub mod grooved_cylinder;
 
 use super::contour::{Contour, Cubic, Edge, Segment, sweep_minus_sine};
@@ -74,6 +76,20 @@ pub enum FaceSurface {
         origin: Point3,
         /// Its radius.
         radius: f64,
+    },
+    /// A cone about the axis z, widening upwards or downwards.
+    Cone {
+        /// Height of a place of it, and its radius there.
+        at: (f64, f64),
+        /// Its half angle, rad: positive where it widens upwards.
+        angle: f64,
+    },
+    /// A torus about the axis z, its middle at z = 0.
+    Torus {
+        /// Radius of the circle in the middle of its tube.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
     },
     /// A spline surface whose normal, first by second parameter, points out of the metal.
     Spline(SplineSurface),

@@ -22,7 +22,7 @@ pub(crate) struct FollowerMovement {
 }
 
 /// Over what a program goes, as the body of its cam has it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ProgramSpan {
     /// A turn, in equal lobes.
     Turn,
@@ -30,6 +30,8 @@ pub(crate) enum ProgramSpan {
     HalfTurn,
     /// The travel of a plate, once out and back.
     Stroke,
+    /// A turn, after which the follower is farther by this, rad, and goes on in the same way.
+    Index(f64),
 }
 
 /// What applies to the whole program.

@@ -22,6 +22,8 @@ use std::f64::consts::TAU;
 const MOST_SEGMENTS: usize = 2000;
 /// Largest distance of the last position from the first, over the largest: rounding of sums.
 const SAME_PLACE: f64 = 1e-12;
+/// Largest difference of the last position from that of an index, rad: rounding of typed angles, as 51.428571 deg.
+const SAME_ANGLE: f64 = 1e-7;
 
 /// The program of a file for its follower, where that has no fault, when there is one without fault; over what it goes is known where the cam
 /// has no fault.
@@ -38,12 +40,7 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     let table = reader.find(&SECTION)?;
     let start = table.get(&START);
     let segments: Vec<TableReader<'_>> = reader.elements(&SEGMENT).collect();
-    if segments.len() > MOST_SEGMENTS {
-        let message =
-            format!("the motion has {} segments; the largest possible number is {MOST_SEGMENTS}", segments.len());
-        table.fail(&START, message, Some("give it as a table of positions, motion.table".into()));
-        return None;
-    }
+    refuse_too_many(&table, segments.len()).ok()?;
     let form = forms::MotionForm::find(reader, &table, !segments.is_empty()).ok()?;
     let stroke = stroke(&table, span);
     if segments.is_empty() && form.is_none() {
@@ -73,6 +70,7 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     let halved = of_yoke && half_turn::is_covered(&segments, at, 0.5 * fill);
     let fill = if halved { 0.5 * fill } else { fill };
     let whole = ProgramContext { quantity, arc, arm, speed, at, fill, by_travel: stroke.is_some() };
+    let index = index(&table, span, (form.is_some(), lobes)).ok()?;
     if let Some(form) = form {
         return Some(Program { rpm, ..form.program(&table, whole, (start, lobes))? });
     }
@@ -83,7 +81,10 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     let made = if let Some(stroke) = stroke {
         Program::of_stroke((start, stroke), &steps)
     } else {
-        close(&table, &segments, &mut steps, start)?;
+        match index {
+            Some(angle) => end_farther(&segments, &mut steps, (start, angle))?,
+            None => close(&table, &segments, &mut steps, start)?,
+        }
         Program::of_steps(quantity, (at, start, lobes), &steps)
     };
     match made {
@@ -106,6 +107,53 @@ fn close(table: &TableReader<'_>, segments: &[TableReader<'_>], steps: &mut [Seg
         return None;
     }
     last.to = start;
+    Some(())
+}
+
+fn refuse_too_many(table: &TableReader<'_>, segments: usize) -> Result<(), FaultReported> {
+    if segments <= MOST_SEGMENTS {
+        return Ok(());
+    }
+    let message = format!("the motion has {segments} segments; the largest possible number is {MOST_SEGMENTS}");
+    table.fail(&START, message, Some("give it as a table of positions, motion.table".into()));
+    Err(FaultReported)
+}
+
+/// By how much a turn moves a turret on, rad; `None` of another follower. A motion that ends where it begins is refused.
+fn index(
+    table: &TableReader<'_>,
+    span: Option<ProgramSpan>,
+    (whole, lobes): (bool, u32),
+) -> Result<Option<f64>, FaultReported> {
+    let Some(ProgramSpan::Index(angle)) = span else { return Ok(None) };
+    if whole {
+        let message = "a motion given as a whole ends where it began, and a turret is moved on".to_owned();
+        let help = "give segments: a law, over and to for each movement, and the dwells between them";
+        table.fail(&START, message, Some(help.into()));
+        return Err(FaultReported);
+    }
+    if lobes > 1 {
+        let message = "`repeat` begins each lobe at motion.start, and a turret is moved on".to_owned();
+        table.fail(&REPEAT, message, Some("give the segments of the whole turn".into()));
+        return Err(FaultReported);
+    }
+    Ok(Some(angle))
+}
+
+/// Ends the steps of a turn exactly where the turret stands one index farther; `None` where they end elsewhere.
+fn end_farther(segments: &[TableReader<'_>], steps: &mut [SegmentSpec], (start, angle): (f64, f64)) -> Option<()> {
+    let last = steps.last_mut()?;
+    if (last.to - start - angle).abs() > SAME_ANGLE {
+        let moved = (last.to - start).to_degrees();
+        let message = format!(
+            "a turn of the cam moves the turret on by {moved:.6} deg instead of {:.6} deg, cam.advance of its rollers",
+            angle.to_degrees()
+        );
+        let help = format!("the last `to` must be {} deg", (start + angle).to_degrees());
+        segments.last()?.fail(&TO, message, Some(help));
+        return None;
+    }
+    last.to = start + angle;
     Some(())
 }
 

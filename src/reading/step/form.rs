@@ -23,6 +23,8 @@ enum FaceRole {
     Wall,
     /// A spline patch.
     Patch,
+    /// A cone or a torus about the axis.
+    Round,
     /// A face that a cam does not have.
     Strange,
 }
@@ -129,6 +131,43 @@ fn off_line(point: Vector3<f64>, origin: Vector3<f64>, direction: Vector3<f64>) 
     (point - origin).cross(&direction).norm()
 }
 
+/// Largest distance of an edge from a cone or a torus about an axis, mm, at a number of places.
+fn off_round(
+    (surface, origin, axis): (&StepSurface, Vector3<f64>, Vector3<f64>),
+    curve: &StepCurve,
+    ends: [Vector3<f64>; 2],
+) -> f64 {
+    let off = |point: Vector3<f64>| {
+        let height = (point - origin).dot(&axis);
+        let away = (point - origin - axis * height).norm();
+        match surface {
+            StepSurface::Cone { radius, slope, .. } => {
+                (away - radius - slope * height).abs() / libm::hypot(1.0, *slope)
+            }
+            StepSurface::Torus { major, minor, .. } => (libm::hypot(away - major, height) - minor).abs(),
+            _ => f64::INFINITY,
+        }
+    };
+    let at_places = |place: &dyn Fn(f64) -> Vector3<f64>| {
+        let all = (0..=PLACES).map(|i| off(place(f64::from(i) / f64::from(PLACES))));
+        all.fold(0.0, |most: f64, next| if next <= most { most } else { next })
+    };
+    match curve {
+        StepCurve::Line { .. } => at_places(&|share| ends[0] + (ends[1] - ends[0]) * share),
+        // About the axis of the surface.
+        StepCurve::Circle { centre, axis: own, radius } => {
+            let tilt = off_line(*centre, origin, axis) + radius * axis.cross(own).norm();
+            tilt + ends.map(off).into_iter().fold(0.0, f64::max)
+        }
+        StepCurve::Spline(curve) => {
+            let (first, last) = curve.knots.range();
+            at_places(&|share| curve.at(first + (last - first) * share).0)
+        }
+        // Reported elsewhere.
+        StepCurve::Other(_) => 0.0,
+    }
+}
+
 impl FormRecognizer<'_> {
     fn place(&self, vertex: usize) -> Vector3<f64> {
         self.boundary.vertices.get(vertex).copied().unwrap_or_else(|| Vector3::repeat(f64::NAN))
@@ -183,6 +222,11 @@ impl FormRecognizer<'_> {
             StepSurface::Cylinder { axis, .. } if level(axis.xy().norm()) => FaceRole::Wall,
             _ if self.upright_of(index).is_some() => FaceRole::Wall,
             StepSurface::Spline(_) if self.flank != FlankShape::Upright => FaceRole::Patch,
+            StepSurface::Cone { axis, .. } | StepSurface::Torus { axis, .. }
+                if self.flank == FlankShape::Swept && level(axis.xy().norm()) =>
+            {
+                FaceRole::Round
+            }
             _ => FaceRole::Strange,
         }
     }
@@ -381,6 +425,11 @@ impl FormRecognizer<'_> {
                 let place = |i: u32| curve.at(first + (last - first) * f64::from(i) / f64::from(PLACES)).0;
                 largest(&(0..=PLACES).map(|i| (off_line(place(i), *origin, *axis) - radius).abs()).collect::<Vec<_>>())
             }
+            (StepSurface::Cone { origin, axis, .. } | StepSurface::Torus { origin, axis, .. }, curve)
+                if self.flank == FlankShape::Swept =>
+            {
+                off_round((surface, *origin, *axis), curve, ends)
+            }
             (StepSurface::Spline(patch), StepCurve::Spline(curve)) if self.flank != FlankShape::Upright => {
                 let along = if edge.forward { curve.clone() } else { curve.reversed() };
                 let sides = patch.boundary().into_iter().flatten();
@@ -406,7 +455,7 @@ impl FormRecognizer<'_> {
                 (FaceRole::Above, StepSurface::Plane { origin, normal }) => {
                     self.form.high.push(origin.dot(normal) / normal.z);
                 }
-                (FaceRole::Floor, _) => {}
+                (FaceRole::Floor | FaceRole::Round, _) => {}
                 (FaceRole::Patch, StepSurface::Spline(patch)) => {
                     if !self.is_whole(face, patch) {
                         strange.push(format!("the patch of line {} is not bounded by its own four edges", face.line));

@@ -67,6 +67,28 @@ pub enum StepSurface {
         /// Its radius.
         radius: f64,
     },
+    /// A cone; its normal points away from its axis.
+    Cone {
+        /// A point of its axis.
+        origin: Vector3<f64>,
+        /// Its axis, a unit vector, along which it widens.
+        axis: Vector3<f64>,
+        /// Its radius at that point.
+        radius: f64,
+        /// How much wider it is a length farther along the axis, over that length.
+        slope: f64,
+    },
+    /// A torus; its normal points away from the circle in the middle of its tube.
+    Torus {
+        /// Its centre.
+        origin: Vector3<f64>,
+        /// Its axis, a unit vector.
+        axis: Vector3<f64>,
+        /// Radius of the circle in the middle of its tube.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
+    },
     /// A B-spline surface; its normal is the derivative by the first parameter times that by the second.
     Spline(nurbs::NurbsSurface),
     /// A surface swept from a B-spline along a unit vector, in both directions; its normal is the curve's tangent times the vector.
@@ -204,11 +226,11 @@ pub fn read(bytes: &[u8]) -> Result<StepFile, Refusal> {
     let (unit, boundary) = match solid {
         None => (FileUnit::Unstated, StepBoundary::default()),
         Some((number, instance)) => {
-            let (unit, scale) = unit_of(&exchange, *number).unwrap_or_else(|fault| {
+            let (unit, scale, angle) = unit_of(&exchange, *number).unwrap_or_else(|fault| {
                 faults.push(fault);
-                (FileUnit::Unstated, 1.0)
+                (FileUnit::Unstated, 1.0, None)
             });
-            let read = boundary(&exchange, instance, scale, &mut faults);
+            let read = boundary(&exchange, instance, (scale, angle), &mut faults);
             let frame = placement::of_solid(&exchange, *number, scale, &mut faults);
             let placed = match frame {
                 None => read,
@@ -235,8 +257,13 @@ pub fn read(bytes: &[u8]) -> Result<StepFile, Refusal> {
 }
 
 /// The boundary of a solid with one closed shell.
-fn boundary(exchange: &ExchangeData, solid: &StepInstance, scale: f64, faults: &mut Vec<ShapeFault>) -> StepBoundary {
-    let mut shapes = ShapeReader::new(exchange, scale);
+fn boundary(
+    exchange: &ExchangeData,
+    solid: &StepInstance,
+    (scale, angle): (f64, Option<f64>),
+    faults: &mut Vec<ShapeFault>,
+) -> StepBoundary {
+    let mut shapes = ShapeReader::new(exchange, scale).with_angle(angle);
     let mut faces = Vec::new();
     let mut read = || -> Result<(), ShapeFault> {
         let values = solid.part(SOLID).unwrap_or_default();
@@ -259,8 +286,8 @@ fn boundary(exchange: &ExchangeData, solid: &StepInstance, scale: f64, faults: &
     StepBoundary { vertices: shapes.places, edges: shapes.run, faces }
 }
 
-/// The unit of length of the representation that contains an item, and its millimetres.
-fn unit_of(exchange: &ExchangeData, item: u64) -> Result<(FileUnit, f64), ShapeFault> {
+/// The unit of length of the representation that contains an item, its millimetres, and the radians of its unit of angle where that is known.
+fn unit_of(exchange: &ExchangeData, item: u64) -> Result<(FileUnit, f64, Option<f64>), ShapeFault> {
     let holds = |values: &[StepValue]| references(values.get(1)).is_some_and(|items| items.contains(&item));
     let of = |instance: &StepInstance| -> Option<u64> {
         let (_, values) =
@@ -276,18 +303,37 @@ fn unit_of(exchange: &ExchangeData, item: u64) -> Result<(FileUnit, f64), ShapeF
     let units = context.part("GLOBAL_UNIT_ASSIGNED_CONTEXT").and_then(|values| references(values.first()));
     let units: Vec<&StepInstance> =
         units.ok_or_else(none)?.iter().map(|number| shapes.instance(*number)).collect::<Result<_, _>>()?;
+    let mut angles = units.iter().filter(|unit| unit.part("PLANE_ANGLE_UNIT").is_some());
+    let angle = match (angles.next(), angles.next()) {
+        (Some(unit), None) => radians(&shapes, unit),
+        _ => None,
+    };
     let mut lengths = units.into_iter().filter(|unit| unit.part("LENGTH_UNIT").is_some());
     let unit = lengths.next().ok_or_else(none)?;
     if let Some(other) = lengths.next() {
         return Err(other.fault("is a second unit of length of the solid"));
     }
     Ok(match metres(&shapes, unit, 0)? {
-        1e-3 => (FileUnit::Millimetres, 1.0),
-        1.0 => (FileUnit::Other("metres"), 1e3),
-        0.01 => (FileUnit::Other("centimetres"), 10.0),
-        other if (other - 0.0254).abs() < 1e-9 => (FileUnit::Other("inches"), 25.4),
-        other => (FileUnit::Other("another unit than millimetres"), 1e3 * other),
+        1e-3 => (FileUnit::Millimetres, 1.0, angle),
+        1.0 => (FileUnit::Other("metres"), 1e3, angle),
+        0.01 => (FileUnit::Other("centimetres"), 10.0, angle),
+        other if (other - 0.0254).abs() < 1e-9 => (FileUnit::Other("inches"), 25.4, angle),
+        other => (FileUnit::Other("another unit than millimetres"), 1e3 * other, angle),
     })
+}
+
+/// Radians in a unit of angle: the radian itself, or what is stated as a multiple of it.
+fn radians(shapes: &ShapeReader<'_>, unit: &StepInstance) -> Option<f64> {
+    if let Some(values) = unit.part("SI_UNIT") {
+        return matches!(values, [.., StepValue::Nothing, StepValue::Name(name)] if name == "RADIAN").then_some(1.0);
+    }
+    let Some(StepValue::Reference(measure)) = unit.part("CONVERSION_BASED_UNIT")?.get(1) else { return None };
+    let measure = shapes.instance(*measure).ok()?;
+    let values = measure.part("PLANE_ANGLE_MEASURE_WITH_UNIT").or_else(|| measure.part("MEASURE_WITH_UNIT"))?;
+    let Some(StepValue::Reference(base)) = values.get(1) else { return None };
+    let base = shapes.instance(*base).ok()?.part("SI_UNIT")?;
+    let of_radians = matches!(base, [.., StepValue::Nothing, StepValue::Name(name)] if name == "RADIAN");
+    shape::measure(values.first()?).filter(|factor| of_radians && *factor > 0.0)
 }
 
 /// Metres in a unit of length.

@@ -8,7 +8,7 @@ use super::shape::ShapeFault;
 const MOST_REPORTED: usize = 20;
 
 /// Parameters of entities that stand alone.
-const ALONE: [(&str, usize); 32] = [
+const ALONE: [(&str, usize); 34] = [
     ("ADVANCED_FACE", 4),
     ("AXIS2_PLACEMENT_3D", 4),
     ("B_SPLINE_CURVE_WITH_KNOTS", 9),
@@ -16,6 +16,7 @@ const ALONE: [(&str, usize); 32] = [
     ("CARTESIAN_POINT", 2),
     ("CIRCLE", 3),
     ("CLOSED_SHELL", 2),
+    ("CONICAL_SURFACE", 4),
     ("CONVERSION_BASED_UNIT", 3),
     ("CYLINDRICAL_SURFACE", 3),
     ("DIRECTION", 2),
@@ -36,6 +37,7 @@ const ALONE: [(&str, usize); 32] = [
     ("SI_UNIT", 3),
     ("SURFACE_CURVE", 4),
     ("SURFACE_OF_LINEAR_EXTRUSION", 3),
+    ("TOROIDAL_SURFACE", 4),
     ("VECTOR", 3),
     ("VERTEX_POINT", 2),
     ("ADVANCED_BREP_SHAPE_REPRESENTATION", 3),
@@ -59,12 +61,13 @@ const PARTS: [(&str, usize); 11] = [
 ];
 
 /// The shapes that are never a part of a complex entity.
-const NEVER_PARTS: [&str; 21] = [
+const NEVER_PARTS: [&str; 23] = [
     "ADVANCED_FACE",
     "AXIS2_PLACEMENT_3D",
     "CARTESIAN_POINT",
     "CIRCLE",
     "CLOSED_SHELL",
+    "CONICAL_SURFACE",
     "CYLINDRICAL_SURFACE",
     "DIRECTION",
     "EDGE_CURVE",
@@ -79,6 +82,7 @@ const NEVER_PARTS: [&str; 21] = [
     "PLANE",
     "SEAM_CURVE",
     "SURFACE_CURVE",
+    "TOROIDAL_SURFACE",
     "VECTOR",
     "VERTEX_POINT",
 ];

@@ -97,7 +97,9 @@ impl StepPlacement {
         for face in &mut placed.faces {
             match &mut face.surface {
                 StepSurface::Plane { origin, normal } => (*origin, *normal) = (point(*origin), axes * *normal),
-                StepSurface::Cylinder { origin, axis, .. } => (*origin, *axis) = (point(*origin), axes * *axis),
+                StepSurface::Cylinder { origin, axis, .. }
+                | StepSurface::Cone { origin, axis, .. }
+                | StepSurface::Torus { origin, axis, .. } => (*origin, *axis) = (point(*origin), axes * *axis),
                 StepSurface::Spline(patch) => {
                     for row in &mut patch.controls {
                         for value in row {

@@ -6,6 +6,7 @@ use crate::geometry::nurbs::{self, Knots, weighted};
 use nalgebra::{Matrix3, Vector3, Vector4};
 use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 /// Why an instance is not valid, with its line.
 pub(super) type ShapeFault = String;
@@ -29,6 +30,8 @@ pub(super) struct ShapeReader<'a> {
     pub(super) exchange: &'a ExchangeData,
     /// Millimetres in the file's unit of length.
     pub(super) scale: f64,
+    /// Radians in the file's unit of angle, where that is known.
+    angle: Option<f64>,
     vertices: BTreeMap<u64, usize>,
     edges: BTreeMap<u64, usize>,
     /// Control points that may still be read.
@@ -123,7 +126,12 @@ impl<'a> ShapeReader<'a> {
     pub(super) fn new(exchange: &'a ExchangeData, scale: f64) -> Self {
         let (vertices, edges) = (BTreeMap::new(), BTreeMap::new());
         let controls = Cell::new(MOST_CONTROLS);
-        Self { exchange, scale, vertices, edges, controls, places: Vec::new(), run: Vec::new() }
+        Self { exchange, scale, angle: None, vertices, edges, controls, places: Vec::new(), run: Vec::new() }
+    }
+
+    /// With the radians in the file's unit of angle.
+    pub(super) fn with_angle(self, angle: Option<f64>) -> Self {
+        Self { angle, ..self }
     }
 
     pub(super) fn instance(&self, number: u64) -> Result<&'a StepInstance, ShapeFault> {
@@ -210,6 +218,19 @@ impl<'a> ShapeReader<'a> {
         if let Some(values) = instance.part("CYLINDRICAL_SURFACE") {
             let AxisPlacement { origin, axis } = self.placement(referred(instance, values, 1)?)?;
             return Ok(StepSurface::Cylinder { origin, axis, radius: self.length(instance, values, 2)? });
+        }
+        if let Some(values) = instance.part("CONICAL_SURFACE") {
+            let AxisPlacement { origin, axis } = self.placement(referred(instance, values, 1)?)?;
+            let angle = values.get(3).and_then(self::number).zip(self.angle).map(|(angle, unit)| angle * unit);
+            let angle = angle.filter(|angle| *angle > 0.0 && *angle < FRAC_PI_2);
+            let angle = angle.ok_or_else(|| instance.fault("without an angle between 0 and 90 deg in a known unit"))?;
+            let radius = self.length(instance, values, 2)?;
+            return Ok(StepSurface::Cone { origin, axis, radius, slope: libm::tan(angle) });
+        }
+        if let Some(values) = instance.part("TOROIDAL_SURFACE") {
+            let AxisPlacement { origin, axis } = self.placement(referred(instance, values, 1)?)?;
+            let (major, minor) = (self.length(instance, values, 2)?, self.length(instance, values, 3)?);
+            return Ok(StepSurface::Torus { origin, axis, major, minor });
         }
         if instance.parts.iter().any(|(keyword, _)| keyword.starts_with("B_SPLINE_SURFACE")) {
             return self.spline_surface(instance).map(StepSurface::Spline);

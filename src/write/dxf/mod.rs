@@ -25,7 +25,8 @@ pub const FORMAT: Format = Format {
     flank: false,
     unfit: fits_all,
     endings: |drawn| {
-        let developed = drawn.swept.iter().map(|_| "-unrolled.dxf".to_owned());
+        let developed =
+            drawn.swept.iter().filter(|swept| !swept.developed.is_empty()).map(|_| "-unrolled.dxf".to_owned());
         of_parts(drawn, ".dxf").into_iter().chain(developed).collect()
     },
     write: |cam| {

@@ -1,0 +1,102 @@
+//! What is checked of a globoid as it was solved.
+
+use super::{Flank, Globoid};
+use crate::body::Body;
+use crate::check::continuity::RunMotion;
+use crate::check::{
+    Check, CheckExplanation, CheckScope, Measures, Subject, continuity, curvature, cutter_radius, pressure_angle, size,
+    wall,
+};
+use crate::geometry::MILLIMETRES;
+use crate::profile::Worst;
+use crate::report::{Bound, Place};
+
+/// Rounding of a diameter that was typed, and of an angle at an end.
+const ROUNDING: f64 = 1e-12;
+const AT_END: f64 = 1e-9;
+/// Places between two joints at which the rollers are counted.
+const PLACES: u32 = 64;
+
+/// The check.
+pub const MESHING: Check = Check {
+    name: "meshing",
+    on: CheckScope::Cam,
+    unit: "",
+    about: "How many rollers of a turret touch either flank of a globoid over their whole reach, at least: without one the turret would be loose, or be pressed by \
+            a roller that is entering.",
+    explained: CheckExplanation {
+        bound: Bound::AtLeast,
+        formula: "the least number, over a turn, of rollers whose line of contact lies between the ends of the cam, of the flanks above and of those below",
+        usual: "one on each flank",
+        change: "a larger `cam.end_angle`, more `cam.rollers`",
+    },
+};
+
+impl Globoid {
+    /// Least number of rollers that touch each flank over their whole reach, with the cam angle where that is.
+    pub(super) fn least_touching(&self) -> (f64, f64) {
+        let mut least = (f64::INFINITY, 0.0);
+        for (index, piece) in self.motion.pieces().iter().enumerate() {
+            for i in 0..=PLACES {
+                let angle = piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(PLACES);
+                for flank in Flank::BOTH {
+                    let inside = |roller: &i32| {
+                        let line = self.line((index, angle, 0.0), f64::from(*roller));
+                        self.touched().into_iter().all(|v| {
+                            let place = line.flank(&line.point(v), self.signed(flank));
+                            let about = libm::atan2(place.z, self.turret.distance - place.xy().norm());
+                            about.abs() <= self.end_angle + AT_END
+                        })
+                    };
+                    #[expect(clippy::cast_precision_loss, reason = "a few rollers")]
+                    let count = self.rollers().filter(inside).count() as f64;
+                    if count < least.0 {
+                        least = (count, angle);
+                    }
+                }
+            }
+        }
+        least
+    }
+
+    /// Least metal, m: about the bore, and of the ribs on the outside, with the cam angle of the latter.
+    pub(super) fn wall(&self) -> (f64, Option<f64>) {
+        let bore = self.machine.cam.bore_reach().map_or(f64::INFINITY, |bore| self.turret.distance - self.floor - bore);
+        let (rib, at) = self.thinnest_rib();
+        if rib < bore { (rib, Some(at)) } else { (bore, None) }
+    }
+
+    pub(super) fn take_measures(&self, of: &mut Measures<'_>) {
+        let at = |worst: &Worst| -> (Place, Option<String>) { (self.place(worst.at), None) };
+        let remedy = || None;
+        let subject = Subject { machine: &self.machine, curves: None, speed: self.speed(), at: &at, remedy: &remedy };
+        let run = || [RunMotion { motion: &*self.motion, z: 0.0, speed: self.speed() }];
+        let none = Worst { value: 0.0, at: 0.0, z: 0.0 };
+        of.add(&continuity::CHECK, |_| continuity::measure(&run(), || None, &subject));
+        of.add(&pressure_angle::CHECK, |_| pressure_angle::measure([self.pressure_angle(), none], &subject));
+        let widest = self.distances[0].max(self.distances[1]);
+        of.add(&curvature::UNDERCUT, |_| curvature::undercut(&self.least_fold(), widest, Vec::new, &subject));
+        // A cutter as wide as the groove fits; its radius was typed.
+        let half = 0.5 * self.distances.iter().sum::<f64>() * (1.0 + ROUNDING);
+        let widest_cutter = Worst { value: half, at: 0.0, z: 0.0 };
+        of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(Some(widest_cutter), &subject));
+        of.add(&wall::CHECK, |written| {
+            let (value, at) = self.wall();
+            wall::measure((value, at.map(|at| Worst { value, at, z: 0.0 })), written, &subject)
+        });
+        let (radius, height) = self.rim(self.outside);
+        let longest = MILLIMETRES * (2.0 * radius).max(2.0 * self.rim(self.floor).1.max(height));
+        of.add(&size::CHECK, |_| size::CHECK.measure(longest, Some(MILLIMETRES * self.machine.limits.largest_size())));
+        of.add(&MESHING, |_| {
+            let (count, at) = self.least_touching();
+            let kept = count >= 1.0;
+            let note = (!kept).then(|| {
+                format!(
+                    "cam.end_angle is {:.3} deg; a larger one keeps more rollers in contact",
+                    self.end_angle.to_degrees()
+                )
+            });
+            MESHING.measure(count, Some(1.0)).kept(kept).noted(note).at(&subject, &Worst { value: count, at, z: 0.0 })
+        });
+    }
+}

@@ -1,0 +1,121 @@
+//! Bicubic spline patches through exact places of a flank, with exact slopes along their first parameter, so that two patches that follow each other
+//! meet smoothly.
+
+use super::solid::SplineSurface;
+use crate::numeric::extremum::larger;
+use crate::numeric::parallel;
+use crate::numeric::spline::{Spline, bspline_knots};
+use nalgebra::Vector3;
+use truck_modeling::Point3;
+
+/// Spans of a patch along its first and its second parameter to begin with, and how often either is doubled.
+const SPANS: u32 = 4;
+const RINGS: u32 = 3;
+const DOUBLINGS: u32 = 4;
+
+/// A part of a flank over a range of its first parameter, along which it is smooth.
+pub struct FlankStretch<'a> {
+    /// The range.
+    pub along: (f64, f64),
+    /// Point (mm) and derivative by the first parameter at a value of both.
+    pub place: Box<dyn Fn(f64, f64) -> [Vector3<f64>; 2] + Send + Sync + 'a>,
+}
+
+/// The patches of stretches over a common range of the second parameter, and what they miss of the exact flanks between their nodes at most, mm, which is
+/// within what is allowed.
+///
+/// # Errors
+/// What they miss with the largest number of spans, and that number across.
+pub fn fitted(
+    stretches: &[FlankStretch<'_>],
+    across: (f64, f64),
+    allowed: f64,
+) -> Result<(Vec<SplineSurface>, f64), (f64, u32)> {
+    let mut rings = RINGS;
+    let mut found = f64::INFINITY;
+    for _ in 0..DOUBLINGS {
+        let all: Vec<(SplineSurface, [f64; 2])> =
+            parallel::map(stretches, |stretch| stretch.within((across, rings), allowed));
+        let [along, outwards] = all.iter().fold([0.0_f64; 2], |[a, b], (_, [c, d])| [larger(a, *c), larger(b, *d)]);
+        found = larger(along, outwards);
+        if found <= allowed {
+            return Ok((all.into_iter().map(|(patch, _)| patch).collect(), found));
+        }
+        rings *= 2;
+    }
+    Err((found, rings))
+}
+
+/// The value of a parameter at a share of its range, its ends exactly.
+fn at((start, end): (f64, f64), i: f64, of: u32) -> f64 {
+    if i == f64::from(of) { end } else { start + (end - start) * i / f64::from(of) }
+}
+
+impl FlankStretch<'_> {
+    /// A patch with as many spans along as it needs, and what it misses along and across, mm.
+    fn within(&self, rings: ((f64, f64), u32), allowed: f64) -> (SplineSurface, [f64; 2]) {
+        let mut spans = SPANS;
+        loop {
+            let patch = self.patch(spans, rings);
+            let missed = self.missed(&patch, spans, rings);
+            if !(missed[0] > allowed) || spans >= SPANS << DOUBLINGS {
+                return (patch, missed);
+            }
+            spans *= 2;
+        }
+    }
+
+    fn patch(&self, spans: u32, (across, rings): ((f64, f64), u32)) -> SplineSurface {
+        let alongs: Vec<f64> = (0..=spans).map(|i| at(self.along, f64::from(i), spans)).collect();
+        let acrosses: Vec<f64> = (0..=rings).map(|j| at(across, f64::from(j), rings)).collect();
+        let columns: Vec<Vec<[Vector3<f64>; 2]>> =
+            alongs.iter().map(|u| acrosses.iter().map(|v| (self.place)(*u, *v)).collect()).collect();
+        let count = acrosses.len() + 2;
+        let mut controls = vec![vec![Point3::new(0.0, 0.0, 0.0); count]; alongs.len() + 2];
+        for axis in 0..3 {
+            let outwards = |values: Vec<f64>| Spline::not_a_knot(&acrosses, &values).controls();
+            let component = |vector: &Vector3<f64>| vector.get(axis).copied().unwrap_or(f64::NAN);
+            let points: Vec<Vec<f64>> =
+                columns.iter().map(|column| outwards(column.iter().map(|[p, _]| component(p)).collect())).collect();
+            let slopes = |column: Option<&Vec<[Vector3<f64>; 2]>>| {
+                outwards(column.into_iter().flatten().map(|[_, slope]| component(slope)).collect())
+            };
+            let (first, last) = (slopes(columns.first()), slopes(columns.last()));
+            for v in 0..count {
+                let of = |list: &Vec<f64>| list.get(v).copied().unwrap_or(f64::NAN);
+                let row: Vec<f64> = points.iter().map(of).collect();
+                let along = Spline::clamped(&alongs, &row, (of(&first), of(&last))).controls();
+                for (u, value) in along.into_iter().enumerate() {
+                    if let Some(point) = controls.get_mut(u).and_then(|row| row.get_mut(v)) {
+                        match axis {
+                            0 => point.x = value,
+                            1 => point.y = value,
+                            _ => point.z = value,
+                        }
+                    }
+                }
+            }
+        }
+        SplineSurface { u: bspline_knots(&alongs), v: bspline_knots(&acrosses), controls }
+    }
+
+    /// What a patch misses at the middles of its spans, along on the rings, and between the rings, mm.
+    fn missed(&self, patch: &SplineSurface, spans: u32, (across, rings): ((f64, f64), u32)) -> [f64; 2] {
+        let off = |i: f64, j: f64| {
+            let (u, v) = (at(self.along, i, spans), at(across, j, rings));
+            (patch.at(u, v)[0] - (self.place)(u, v)[0]).norm()
+        };
+        let mut missed = [0.0_f64; 2];
+        for i in 0..spans {
+            for j in 0..=rings {
+                missed[0] = larger(missed[0], off(f64::from(i) + 0.5, f64::from(j)));
+            }
+        }
+        for i in 0..=spans {
+            for j in 0..rings {
+                missed[1] = larger(missed[1], off(f64::from(i), f64::from(j) + 0.5));
+            }
+        }
+        missed
+    }
+}
