@@ -1,6 +1,6 @@
 //! The figures of a cam that limits are set for, for every kind of body.
 
-use super::Body;
+use super::{Body, milling};
 use crate::check::contact_stress::{self, ContactKind};
 use crate::check::continuity::RunMotion;
 use crate::check::{
@@ -113,7 +113,10 @@ pub trait Figures: Body {
         of.add(&curvature::MIN_CONVEX_RADIUS, |_| {
             curvature::min_convex_radius(&self.least_rolled_radius(), roller(), subject)
         });
-        of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(self.min_concave_radius(), subject));
+        of.add(&cutter_radius::CHECK, |_| {
+            let half_width = milling::groove_width(&self.cuts()).map(|width| 0.5 * width);
+            cutter_radius::measure(self.min_concave_radius(), half_width, subject)
+        });
         of.add(&wall::CHECK, |written| self.wall().map(|wall| wall::measure(wall, written, subject)));
         of.add(&pivot_clearance::CHECK, |_| pivot_clearance::measure(subject));
         of.add(&size::CHECK, |written| size::measure(written, subject));

@@ -2,7 +2,7 @@
 
 use super::{Check, CheckExplanation, CheckScope, Measure, Subject};
 use crate::profile::Worst;
-use crate::report::{Bound, Verdict};
+use crate::report::{Bound, Verdict, shown};
 
 /// The check.
 pub const CHECK: Check = Check {
@@ -18,16 +18,24 @@ pub const CHECK: Check = Check {
     },
 };
 
-/// Measure of the largest cutter that fits, m; `None` where nothing is concave.
+/// A cutter as wide as a groove fits; its radius was typed.
+const ROUNDING: f64 = 1e-12;
+
+/// Measure of the largest cutter that fits, m; `None` where nothing is concave. Of a groove with half its width, m, which no larger cam changes.
 #[must_use]
-pub fn measure(largest: Option<Worst>, subject: &Subject<'_>) -> Measure {
+pub fn measure(largest: Option<Worst>, half_width: Option<f64>, subject: &Subject<'_>) -> Measure {
     let limit = subject.machine.limits.cutter_radius;
     let radius = largest.map_or(f64::INFINITY, |largest| largest.value);
-    let kept = limit.is_none_or(|limit| limit <= radius);
+    let within = |radius: f64| limit.is_none_or(|limit| limit <= radius * (1.0 + ROUNDING));
+    let kept = within(radius);
+    let remedy = || match half_width.filter(|half| !within(*half)) {
+        Some(half) => Some(format!("the groove is {} mm wide: no wider cutter fits into it", shown(2e3 * half))),
+        None => (subject.remedy)(),
+    };
     let verdict = limit.map_or(Verdict::Info, |_| Verdict::of(kept));
     let measure = CHECK.measure(1e3 * radius, limit.map(|limit| 1e3 * limit)).judged(verdict);
     match largest {
-        Some(largest) => measure.noted(if kept { None } else { (subject.remedy)() }).at(subject, &largest),
+        Some(largest) => measure.noted(if kept { None } else { remedy() }).at(subject, &largest),
         None => measure.noted("nothing is concave".to_owned()),
     }
 }

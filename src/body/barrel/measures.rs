@@ -11,9 +11,6 @@ use crate::geometry::MILLIMETRES;
 use crate::profile::Worst;
 use crate::report::{Bound, Place, shown};
 
-/// Rounding of a diameter that was typed.
-const ROUNDING: f64 = 1e-12;
-
 /// The check.
 pub const PLANE_OFFSET: Check = Check {
     name: "plane_offset_error",
@@ -58,10 +55,9 @@ impl Barrel {
         of.add(&curvature::MIN_CONVEX_RADIUS, |_| {
             curvature::min_convex_radius(&self.least_radius(), Some(self.roller), &subject)
         });
-        // A cutter as wide as the groove fits; its radius was typed.
-        let half = 0.5 * self.distances.iter().sum::<f64>() * (1.0 + ROUNDING);
+        let half = 0.5 * self.distances.iter().sum::<f64>();
         let widest_cutter = Worst { value: half, at: 0.0, z: 0.0 };
-        of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(Some(widest_cutter), &subject));
+        of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(Some(widest_cutter), Some(half), &subject));
         of.add(&wall::CHECK, |written| wall::measure((self.wall(), None), written, &subject));
         let longest = MILLIMETRES * (2.0 * self.outer).max(self.ends.1 - self.ends.0);
         of.add(&size::CHECK, |_| size::CHECK.measure(longest, Some(MILLIMETRES * self.machine.limits.largest_size())));

@@ -11,8 +11,7 @@ use crate::geometry::MILLIMETRES;
 use crate::profile::Worst;
 use crate::report::{Bound, Place};
 
-/// Rounding of a diameter that was typed, and of an angle at an end.
-const ROUNDING: f64 = 1e-12;
+/// Rounding of an angle at an end.
 const AT_END: f64 = 1e-9;
 /// Places between two joints at which the rollers are counted.
 const PLACES: u32 = 64;
@@ -76,10 +75,9 @@ impl Globoid {
         of.add(&pressure_angle::CHECK, |_| pressure_angle::measure([self.pressure_angle(), none], &subject));
         let widest = self.distances[0].max(self.distances[1]);
         of.add(&curvature::UNDERCUT, |_| curvature::undercut(&self.least_fold(), widest, Vec::new, &subject));
-        // A cutter as wide as the groove fits; its radius was typed.
-        let half = 0.5 * self.distances.iter().sum::<f64>() * (1.0 + ROUNDING);
+        let half = 0.5 * self.distances.iter().sum::<f64>();
         let widest_cutter = Worst { value: half, at: 0.0, z: 0.0 };
-        of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(Some(widest_cutter), &subject));
+        of.add(&cutter_radius::CHECK, |_| cutter_radius::measure(Some(widest_cutter), Some(half), &subject));
         of.add(&wall::CHECK, |written| {
             let (value, at) = self.wall();
             wall::measure((value, at.map(|at| Worst { value, at, z: 0.0 })), written, &subject)
