@@ -43,6 +43,17 @@ pub struct MillingProgram {
     pub passes: Vec<MillingPass>,
     /// The depths, mm below the upper face, from the first on.
     pub depths: Vec<f64>,
+    /// The path in polar coordinates, in the place of passes, of a disc that is ground so.
+    pub polar: Option<PolarPath>,
+}
+
+/// Once round a disc in polar coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolarPath {
+    /// Angle of the axis C, degrees, and distance X of the wheel's centre from it, mm; a control goes straight in both from row to row.
+    pub rows: Vec<[f64; 2]>,
+    /// Where the wheel stands off the disc, X, mm.
+    pub away: f64,
 }
 
 /// Once round a flank.
@@ -134,6 +145,9 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     if let Some(why) = unfit(body) {
         return Err(Refusal::new(why).into());
     }
+    if super::polar::is_asked(body) {
+        return super::polar::program(body, request, asked);
+    }
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
     let decimals = cutting.decimals.unwrap_or(controller.decimals());
@@ -152,7 +166,8 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
             return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
         }
         let (cutting, depths) = (cutting.clone(), depths.clone());
-        programs.push(MillingProgram { part, cuts, controller, decimals, cutting, cutter, passes, depths });
+        let polar = None;
+        programs.push(MillingProgram { part, cuts, controller, decimals, cutting, cutter, passes, depths, polar });
     }
     Ok(programs)
 }
@@ -190,6 +205,7 @@ fn drawn(body: &dyn Body, request: &Request, (cutter, decimals): (Option<f64>, u
         milling: None,
         servo: false,
         inspection: None,
+        gauge: None,
         lead_in: None,
         ..*request
     };
@@ -209,7 +225,7 @@ fn one_pass(cuts: &[Cut<'_>], cutter: Option<f64>) -> bool {
 }
 
 /// The depths of the passes, mm.
-fn depths(body: &dyn Body, cutting: &CuttingData, decimals: u32) -> Result<Vec<f64>, Refusal> {
+pub(super) fn depths(body: &dyn Body, cutting: &CuttingData, decimals: u32) -> Result<Vec<f64>, Refusal> {
     let depth = depth_of(body).ok_or_else(|| {
         let refusal = Refusal::new("the depth of the cut is not known");
         refusal.remedy("give cam.thickness, or cut.depth")
@@ -219,7 +235,8 @@ fn depths(body: &dyn Body, cutting: &CuttingData, decimals: u32) -> Result<Vec<f
     if count > MOST_PASSES {
         let what =
             format!("{} mm in passes of {} mm are more than {MOST_PASSES} passes", shown(depth), shown(per_pass));
-        return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass"));
+        let least = shown(1.001 * depth / MOST_PASSES);
+        return Err(Refusal::new(what).remedy(format!("give a cut.depth_per_pass of at least {least} mm")));
     }
     let grid = Grid::of_decimals(decimals);
     let mut depths = Vec::new();

@@ -11,6 +11,7 @@ mod cut;
 pub mod disc;
 pub(crate) mod figures;
 mod flank;
+pub mod gauge;
 pub mod globoid;
 pub mod groove;
 pub mod inspection;
@@ -22,6 +23,7 @@ pub mod motion_diagram;
 pub(crate) mod part;
 pub(crate) mod picture;
 pub mod points;
+mod polar;
 pub mod rib;
 pub mod servo;
 pub(crate) mod sheet;
@@ -257,6 +259,8 @@ pub struct Request {
     pub cutter_radius: Option<f64>,
     /// The list of places for a measuring machine that is needed.
     pub inspection: Option<inspection::Inspection>,
+    /// The gauge follower whose lift table is needed.
+    pub gauge: Option<gauge::Gauge>,
     /// Tables for a servo drive are needed.
     pub servo: bool,
     /// Largest errors of velocity and acceleration as cut, in place of those of `fit`.
@@ -285,6 +289,7 @@ impl Request {
             milling: None,
             servo: false,
             inspection: None,
+            gauge: None,
             rates: [None; 2],
             strict: [true; 2],
             start: None,

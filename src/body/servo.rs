@@ -18,6 +18,9 @@ pub struct ServoTable {
     pub swings: bool,
     /// The nodes over one turn of the master, the last one a turn after the first.
     pub nodes: Vec<ServoNode>,
+    /// Positions at equal parts of the turn, mm or degrees, so many that straight lines between them keep the tolerance; `None` where that would
+    /// be more than a control takes.
+    pub equal: Option<Vec<f64>>,
 }
 
 /// Largest error of the velocity over the largest velocity.
@@ -29,6 +32,9 @@ const PLACES: u32 = 9;
 /// Most halvings of an interval, and most nodes of a table: `nElements` of CODESYS is an INT.
 const HALVINGS: u32 = 18;
 const MOST_NODES: usize = 32_000;
+/// Fewest and most lines of a table of equal parts.
+const FEWEST_LINES: f64 = 360.0;
+const MOST_LINES: f64 = 100_000.0;
 /// Where the acceleration jumps by more than this share of the largest, two nodes stand, apart by twice this angle, rad.
 const JUMP: f64 = 1e-6;
 const APART: f64 = 1e-5;
@@ -104,7 +110,26 @@ pub fn table(body: &dyn Body, request: &Request) -> Result<ServoTable, Refusal> 
     }
     // Where nothing jumps the end of a span is the start of the next.
     nodes.dedup_by(|next, before| next[0] <= before[0]);
-    Ok(ServoTable { swings, nodes })
+    Ok(ServoTable { swings, nodes, equal: equal(body, motion, allowed) })
+}
+
+/// Positions at equal parts of the turn between which straight lines keep what is allowed of position and velocity: over a part of length h such
+/// a line is off by a h²/8 at most, its slope by a h/2, a being the largest acceleration.
+fn equal(body: &dyn Body, motion: &dyn Motion, [position, velocity]: [f64; 2]) -> Option<Vec<f64>> {
+    let [_, acceleration] = body.largest_rates();
+    let longest = (8.0 * position / acceleration).sqrt().min(2.0 * velocity / acceleration);
+    let count = (TAU / longest).ceil().max(FEWEST_LINES);
+    if !(count <= MOST_LINES) {
+        return None;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within its bounds")]
+    let count = count as u32;
+    let unit = if motion.quantity() == Quantity::Angle { 1f64.to_degrees() } else { MILLIMETRES };
+    let at = |index: u32| {
+        let (piece, angle) = motion.locate(TAU * f64::from(index) / f64::from(count));
+        unit * exact(motion, piece, angle).s
+    };
+    Some((0..count).map(at).collect())
 }
 
 /// A state as a node.

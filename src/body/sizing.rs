@@ -30,7 +30,8 @@ pub(crate) fn broken_limit(body: &impl Figures) -> Option<&'static str> {
         ("wall", &|| body.wall().is_none_or(|(wall, _)| wall > 0.0 && wall >= least_wall * (1.0 - SIZED_TO))),
         ("cutter_radius", &|| {
             kept(limits.cutter_radius, &|limit| {
-                body.min_concave_radius().is_none_or(|min_concave_radius| limit <= min_concave_radius.value * (1.0 + 1e-12))
+                body.min_concave_radius()
+                    .is_none_or(|min_concave_radius| limit <= min_concave_radius.value * (1.0 + 1e-12))
             })
         }),
         ("contact_stress", &|| kept(allowed, &|limit| !body.exceeds_stress(limit))),

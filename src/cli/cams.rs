@@ -2,12 +2,13 @@
 
 use super::args::{
     AccuracyArgs, CommonArgs, ConoidArgs, CutterArgs, DiscArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs,
-    ReportArgs, RotaryArgs, SolverKind, Speed, TranslatingArgs,
+    ReportArgs, RotaryArgs, SolverKind, Speed, TranslatingArgs, gauge_follower,
 };
 use super::progress::Progress;
 use super::put::put_set;
 use super::{Failure, Outcome, print, print_message, print_painted, text};
 use camgen::body::Request;
+use camgen::body::gauge::Gauge;
 use camgen::body::inspection::Inspection;
 use camgen::body::milling::Milling;
 use camgen::body::points::{PointCurve, Points};
@@ -23,6 +24,7 @@ use camgen::pipeline::{Cam, FileSet, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
 use camgen::report::{LazyReport, Speeds};
 use camgen::units::{self, Dimension};
+use camgen::write::gauge;
 use camgen::write::gcode;
 use camgen::write::inspection;
 use camgen::write::json;
@@ -159,11 +161,32 @@ impl PointsArgs {
     }
 }
 
+/// Rows of the table of a cam.
+const USUAL_ROWS: u32 = 720;
+/// Formats whose rows are as many as the tolerance, or the turn, needs, and those with rows by --samples.
+const COUNTED_ELSEWHERE: [&str; 3] = [points::FORMAT.name, inspection::FORMAT.name, gauge::FORMAT.name];
+const SAMPLED: [&str; 2] = ["csv", "html"];
+
 /// Radius of the ball of a common probe, m.
 const USUAL_BALL_RADIUS: f64 = 1.5e-3;
 
 impl FileArgs {
+    /// Refuses --samples where no format has rows by it and one has others.
+    fn sampled(&self) -> Result<(), Failure> {
+        let asked = |names: &[&str]| self.format.iter().flatten().any(|format| names.contains(&format.as_str()));
+        let elsewhere = asked(&COUNTED_ELSEWHERE) || asked(&servo::NAMES);
+        if self.samples.is_none() || !elsewhere || asked(&SAMPLED) {
+            return Ok(());
+        }
+        Err(Failure(
+            "--samples counts the rows of --format csv: points and tables for a servo drive have as many as --tolerance needs, inspect one for each \
+             degree; leave --samples out, or add csv to the formats"
+                .into(),
+        ))
+    }
+
     fn request(&self, common: &CommonArgs) -> Result<Request, Failure> {
+        self.sampled()?;
         let points = self.points.requested(self.format.as_deref())?;
         let milled = self.format.iter().flatten().any(|format| format == gcode::FORMAT.name);
         if self.controller.is_some() && !milled {
@@ -172,12 +195,24 @@ impl FileArgs {
         let milling = milled.then_some(Milling { controller: self.controller });
         let servo = self.format.iter().flatten().any(|format| servo::NAMES.contains(&format.as_str()));
         let inspected = self.format.iter().flatten().any(|format| format == inspection::FORMAT.name);
-        if self.ball_diameter.is_some() && !inspected {
-            return Err(Failure("--ball-diameter belongs to --format inspect".into()));
+        let gauged = self.format.iter().flatten().any(|format| format == gauge::FORMAT.name);
+        if self.ball_diameter.is_some() && !inspected && !gauged {
+            return Err(Failure("--ball-diameter belongs to --format inspect and gauge".into()));
+        }
+        if self.gauge.is_some() && !gauged {
+            return Err(Failure("--gauge belongs to --format gauge".into()));
         }
         let ball_radius = self.ball_diameter.unwrap_or(USUAL_BALL_RADIUS);
         let inspection = inspected.then_some(Inspection { ball_radius });
-        Ok(Request { points, milling, servo, inspection, ..self.outline.request(&common.accuracy)? })
+        let asked = self
+            .gauge
+            .as_deref()
+            .map(gauge_follower)
+            .transpose()
+            .map_err(Failure)?
+            .unwrap_or(Gauge::Round(ball_radius));
+        let gauge = gauged.then_some(asked);
+        Ok(Request { points, milling, servo, inspection, gauge, ..self.outline.request(&common.accuracy)? })
     }
 }
 
@@ -269,7 +304,7 @@ fn cut(spec: Spec, request: Request, common: &CommonArgs, files: &FileArgs, mach
         directory: files.to.out.clone(),
         stem: stem(common, files, cam, machine),
         formats: files.format.clone(),
-        samples: files.samples,
+        samples: files.samples.unwrap_or(USUAL_ROWS),
         template,
         created: source_date()?,
         force: files.to.force,

@@ -75,11 +75,23 @@ pub enum RadiusCompensation {
     Control,
 }
 
+/// How a disc is cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CuttingForm {
+    /// In X and Y, by a milling cutter.
+    #[default]
+    Milling,
+    /// In polar coordinates, by a wheel: the axis C turns the disc, X moves the wheel.
+    Polar,
+}
+
 /// `[cut]`, SI, or what holds without it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CuttingData {
     /// The control.
     pub controller: Controller,
+    /// How it is cut.
+    pub form: CuttingForm,
     /// Decimals of a millimetre; `None`: those of the control.
     pub decimals: Option<u32>,
     /// Lines before what the program itself sets, and before its first move.
@@ -114,6 +126,10 @@ pub struct CuttingData {
 const LARGEST_TOOL: f64 = 9999.0;
 /// Fastest feed, m/s.
 const FASTEST: f64 = 10.0;
+/// Slowest feed, m/s: 0.1 mm/min; programs have three decimals of it.
+const SLOWEST: f64 = 0.1 / 60e3;
+/// Least depth of a cut or of a pass, m: below it there is no chip.
+const SHALLOWEST: f64 = 1e-5;
 
 const CONTROLLER: Field<Controller> = Field::words(
     "controller",
@@ -123,6 +139,14 @@ const CONTROLLER: Field<Controller> = Field::words(
     ALL_CONTROLLERS,
 )
 .also(&["control", "machine", "post"]);
+const FORM: Field<CuttingForm> = Field::words(
+    "form",
+    "\"milling\" in X and Y, or \"polar\": the axis C turns a disc, X moves the centre of the wheel of --cutter-diameter, each block with its time \
+     (G93); not for heidenhain",
+    Default("milling"),
+    &["milling", "polar"],
+    &[CuttingForm::Milling, CuttingForm::Polar],
+);
 const DECIMALS: Field<f64> = Field::number(
     "decimals",
     "decimals of a millimetre in a program, 3 to 6; 4 when absent, 3 for fanuc (4 with increment system IS-C)",
@@ -138,15 +162,20 @@ const PREAMBLE: Field<Vec<String>> = Field::texts(
 .also(&["header", "start"]);
 const POSTAMBLE: Field<Vec<String>> =
     Field::texts("postamble", "lines after the last move of a program", Optional("[\"M9\"]")).also(&["footer", "end"]);
-const FEED: Field<f64> =
-    Field::quantity("feed", "feed of the cutter along its path", Default("300 mm/min"), Speed, above(0.0, FASTEST))
-        .also(&["feed_rate", "f"]);
+const FEED: Field<f64> = Field::quantity(
+    "feed",
+    "feed of the cutter along its path",
+    Default("300 mm/min"),
+    Speed,
+    within(SLOWEST, FASTEST),
+)
+.also(&["feed_rate", "f"]);
 const PLUNGE_FEED: Field<f64> = Field::quantity(
     "plunge_feed",
     "feed of the cutter into the material, along its axis",
     Default("100 mm/min"),
     Speed,
-    above(0.0, FASTEST),
+    within(SLOWEST, FASTEST),
 );
 const SPINDLE: Field<f64> = Field::number(
     "spindle",
@@ -169,14 +198,14 @@ const DEPTH: Field<f64> = Field::quantity(
     "how deep is cut from the upper face; through the thickness, or as deep as the groove, when absent",
     Optional("12 mm"),
     Length,
-    above(0.0, LONGEST),
+    within(SHALLOWEST, LONGEST),
 );
 const DEPTH_PER_PASS: Field<f64> = Field::quantity(
     "depth_per_pass",
     "largest depth of a pass, of passes that are equally deep; one pass when absent",
     Optional("4 mm"),
     Length,
-    above(0.0, LONGEST),
+    within(SHALLOWEST, LONGEST),
 )
 .also(&["step", "stepdown", "pass"]);
 const OVERRUN: Field<f64> = Field::quantity(
@@ -218,6 +247,7 @@ pub(super) const SECTION: KeySection = KeySection {
     cams: FLAT,
     keys: &[
         CONTROLLER.key,
+        FORM.key,
         DECIMALS.key,
         PREAMBLE.key,
         POSTAMBLE.key,
@@ -244,6 +274,7 @@ impl std::default::Default for CuttingData {
     fn default() -> Self {
         Self {
             controller: Controller::default(),
+            form: CuttingForm::default(),
             decimals: None,
             preamble: Vec::new(),
             postamble: Vec::new(),
@@ -288,6 +319,7 @@ pub(super) fn read(reader: &Reader<'_>) -> Option<CuttingData> {
     };
     Some(CuttingData {
         controller: table.get(&CONTROLLER)?,
+        form: table.get(&FORM)?,
         decimals: whole(&DECIMALS),
         preamble: lines(&PREAMBLE),
         postamble: lines(&POSTAMBLE),

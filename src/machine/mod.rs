@@ -30,7 +30,7 @@ pub use crate::document::{Excerpt, FileFault};
 pub use crate::follower::{Crown, FollowerData, RollerData};
 pub use barrel::BarrelData;
 pub use bearing::BearingData;
-pub use cutting::{Controller, CuttingData, MillingDirection, RadiusCompensation};
+pub use cutting::{Controller, CuttingData, CuttingForm, MillingDirection, RadiusCompensation};
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};

@@ -1,16 +1,16 @@
 //! The proof of a file that was edited, or written by another program.
 
-use super::{Cam, Error, diagnosis, report};
+use super::{Cam, Error, FileKind, diagnosis, report};
+use crate::body::conjugate::COUNTER;
 use crate::body::{Body, Cut, Layer, Request};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
 use crate::profile::outline::MotionTolerance;
 use crate::reading::step::{FaceLoop, FlankShape, SolidForm, StepFile};
-use crate::reading::{self, Chain, Reading, gcode, servo, step};
+use crate::reading::{self, Chain, Reading, step};
 use crate::refusal::Refusal;
 use crate::report::{Finding, Inputs, Report, Rolled, Section, Verdict};
 use crate::verify::{self, Evidence, WrittenOutline, WrittenSolid, join_reach, rolling, shell_reach};
-use crate::write::points;
 use serde::Serialize;
 
 /// File names give a speed with six digits: speeds that differ by less than half of the last digit are equal.
@@ -100,26 +100,29 @@ impl Cam {
         request: impl Into<Request>,
     ) -> Result<Report, Error> {
         let request = request.into();
-        if self.body().swept().is_some() {
-            return self.check_swept(bytes, &request);
+        let kind = FileKind::of(bytes);
+        kind.of_body(self.body()).map_err(Error::Read)?;
+        let swept = self.body().swept().is_some();
+        match kind {
+            FileKind::Step | FileKind::Dxf if swept => return self.check_swept(bytes, &request),
+            FileKind::Step if expected.section.is_some() => {
+                let refusal = Refusal::new("a STEP file holds the solid of all sections");
+                return Err(Error::Section(refusal.remedy("give no section")));
+            }
+            FileKind::Step => return self.check_solid(bytes, &request),
+            FileKind::Program => return self.check_program(bytes, expected, &request),
+            FileKind::Servo => return self.check_servo(bytes, &request),
+            FileKind::Points => return self.check_points(bytes, expected, &request),
+            FileKind::Places => return self.check_places(bytes, expected, &request),
+            FileKind::Gauge => return self.check_gauge(bytes, &request),
+            FileKind::Table => return self.check_table(bytes, &request),
+            FileKind::Dxf | FileKind::Shown(_) => {}
         }
-        if step::is_step(bytes) {
-            return match expected.section {
-                None => self.check_solid(bytes, &request),
-                Some(_) => Err(Error::Section(
-                    Refusal::new("a STEP file holds the solid of all sections").remedy("give no section"),
-                )),
-            };
-        }
-        if gcode::is_program(bytes) {
-            return self.check_program(bytes, expected, &request);
-        }
-        if servo::is_servo(bytes) {
-            return self.check_servo(bytes, &request);
-        }
-        if points::is_points(bytes) {
-            return self.check_points(bytes, expected, &request);
-        }
+        self.check_drawing(bytes, expected, request)
+    }
+
+    /// The report on a DXF file.
+    fn check_drawing(&self, bytes: &[u8], expected: &ExpectedFile<'_>, request: Request) -> Result<Report, Error> {
         if let Some(name) = expected.cut {
             return self.check_cut(bytes, name, request);
         }
@@ -280,6 +283,12 @@ impl Cam {
             return Err(Error::Section(Refusal::new(what).remedy("give the DXF file of a section")));
         }
         let file = step::read(bytes).map_err(Error::Read)?;
+        if body.kind().keys == COUNTER.keys && file.bodies.len() == 2 {
+            let what = "the assembly of both discs, which are made and proved one by one";
+            return Err(Error::Read(
+                Refusal::new(what).remedy("check STEM-main.step and STEM-counter.step of the same run"),
+            ));
+        }
         let flank = if body.surface().is_some() { FlankShape::Patches } else { FlankShape::Upright };
         let elsewhere = file.placement.clone().map(|placement| (placement, file.clone()));
         let (checks, rolled) = self.judge_solid(file, flank, (tolerance_mm, motion), request);

@@ -10,6 +10,7 @@ mod cam_files;
 mod check;
 mod diagnosis;
 mod error;
+mod file_kind;
 mod file_set;
 mod inputs;
 mod judged;
@@ -27,6 +28,7 @@ pub use builder::{
 pub use check::ExpectedFile;
 pub(crate) use diagnosis::Alternative;
 pub use error::Error;
+pub use file_kind::FileKind;
 pub use file_set::{FileSet, Output, Writing};
 pub use judged::Judged;
 pub use proven::Proven;

@@ -1,8 +1,9 @@
 //! A drawing with its proof: the bytes of its cut files, and what every check found of them.
 
 use super::{Cam, Drawing, Error, report};
+use crate::body::gauge;
 use crate::body::inspection::{self, InspectionList};
-use crate::body::milling::{self, MillingProgram};
+use crate::body::milling::{self, MillingProgram, PolarPath};
 use crate::body::points::{PointErrors, PointTable, by_travel, swings};
 use crate::body::servo::ServoTable;
 use crate::body::{Body, DrawingEvidence, Drawn, Request};
@@ -11,8 +12,8 @@ use crate::document::{Input, NamedChoice};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Interpolant, PointInterpolation};
 use crate::profile::outline::{Outline, OutlineError};
+use crate::reading::gauge as read_gauge;
 use crate::reading::gcode::{self as read_gcode, CutterMove, MoveKind};
-use crate::reading::inspection as read_inspection;
 use crate::reading::servo as read_servo;
 use crate::report::{
     AsCutError, Finding, Inputs, LazyReport, PointMeasures, ProgramMeasures, Report, Rolled, Section, passed,
@@ -25,6 +26,7 @@ use crate::verify::{
 use crate::write::Rendering;
 use crate::write::csv;
 use crate::write::dxf::Version;
+use crate::write::gauge as write_gauge;
 use crate::write::inspection as write_inspection;
 use crate::write::{gcode, points, proof, servo, step};
 use std::ops::Deref;
@@ -64,8 +66,10 @@ struct ProvenData {
     programs: Vec<Vec<u8>>,
     /// The tables for servo drives by their formats, when they were requested.
     servo: Vec<(&'static str, Vec<u8>)>,
-    /// The lists of places for a measuring machine in both of their forms, when they were requested.
-    inspections: Vec<(Vec<u8>, Vec<u8>)>,
+    /// The lists of places for a measuring machine with their files, when they were requested.
+    inspections: Vec<(InspectionList, Vec<Vec<u8>>)>,
+    /// The lift table of a gauge follower, when it was requested.
+    gauge: Option<Vec<u8>>,
     /// The figures of those programs, for the report.
     program_measures: Vec<ProgramMeasures>,
     /// The figures of those tables, for the report.
@@ -188,6 +192,9 @@ impl Drawing {
             written_programs(body, &self.request, self.drawn.as_ref().ok(), &hashed.to_string());
         let (servo, read_servo) = written_servo(body, self.servo.as_ref(), &hashed.to_string());
         let (inspections, places) = written_inspections(body, &self.request, &hashed.to_string());
+        let gauge =
+            gauge::table(body, &self.request).map(|table| write_gauge::write(body, &table, &hashed.to_string()));
+        let read_gauge = gauge.as_deref().map(read_gauge::read);
         let program_measures = program_measures(self.drawn.as_ref().ok(), read_programs.as_ref());
         let findings = verify::run(&Evidence {
             drawn: self.drawn.as_ref().ok(),
@@ -198,6 +205,7 @@ impl Drawing {
             programs: read_programs.as_ref(),
             servo: read_servo.as_ref(),
             inspections: &places,
+            gauge: read_gauge.as_ref(),
             of_others,
             swept: swept.as_ref(),
             strict: self.request.strict,
@@ -215,6 +223,7 @@ impl Drawing {
             programs,
             servo,
             inspections,
+            gauge,
             program_measures,
             point_measures,
             version,
@@ -266,7 +275,7 @@ fn written_programs(
         cutter: program.cutter.map(|radius| MILLIMETRES * radius),
         middle: MILLIMETRES * request.fit.band().0,
         depth: milling::depth_of(body),
-        program: read_gcode::read(bytes).map_err(|why| why.to_string()),
+        program: read_gcode::read_for(bytes, Some(program.controller)).map_err(|why| why.to_string()),
     };
     let written = programs.iter().zip(&files).map(read).collect();
     (files, Some(Ok(written)))
@@ -285,26 +294,31 @@ fn written_servo(
     (files, Some(Ok(read)))
 }
 
-/// The lists of places for a measuring machine in memory, and what is read in the bytes of each; none when they were not requested.
+/// The lists of places for a measuring machine in memory, and what is read in the bytes of each of their files; none when they were not requested.
 #[expect(clippy::type_complexity, reason = "bytes, and what is read in them")]
 fn written_inspections(
     body: &dyn Body,
     request: &Request,
     mark: &str,
-) -> (Vec<(Vec<u8>, Vec<u8>)>, Vec<WrittenInspection>) {
-    let of = |list: InspectionList| {
+) -> (Vec<(InspectionList, Vec<Vec<u8>>)>, Vec<WrittenInspection>) {
+    let (mut lists, mut read) = (Vec::new(), Vec::new());
+    for list in inspection::lists(body, request) {
         let files = write_inspection::write(body, &list, mark);
-        let places = read_inspection::read(&files.0);
-        (files, WrittenInspection { cut: list.cut, ball_radius: list.ball_radius, places })
-    };
-    inspection::lists(body, request).into_iter().map(of).unzip()
+        read.extend(files.iter().map(|bytes| WrittenInspection::of(list.cut, bytes)));
+        lists.push((list, files));
+    }
+    (lists, read)
 }
 
 /// The figures of programs as they were read, for the report.
 fn program_measures(drawn: Option<&Drawn>, read: Option<&Result<Vec<WrittenProgram>, String>>) -> Vec<ProgramMeasures> {
     let (Some(Ok(programs)), Some(Ok(read))) = (drawn.map(|drawn| &drawn.programs), read) else { return Vec::new() };
     let of = |(program, written): (&MillingProgram, &WrittenProgram)| {
-        let moves = &written.program.as_ref().ok()?.moves;
+        let found = written.program.as_ref().ok()?;
+        let moves = &found.moves;
+        if let (Some(path), false) = (&program.polar, found.polar.is_empty()) {
+            return Some(polar_measures(program, path, found.polar.len()));
+        }
         let at_feed = || moves.iter().filter(|moved| moved.kind != MoveKind::Rapid);
         let along: f64 = at_feed().flat_map(CutterMove::segments).map(|segment| segment.length()).sum();
         let down: f64 = at_feed().map(|moved| (moved.to[2] - moved.from[2]).abs()).sum();
@@ -319,6 +333,28 @@ fn program_measures(drawn: Option<&Drawn>, read: Option<&Result<Vec<WrittenProgr
         })
     };
     programs.iter().zip(read).filter_map(of).collect()
+}
+
+/// The figures of a program in polar coordinates.
+fn polar_measures(program: &MillingProgram, path: &PolarPath, passes: usize) -> ProgramMeasures {
+    let place = |row: &[f64; 2]| {
+        let (sin, cos) = libm::sincos(row[0].to_radians());
+        [row[1] * cos, row[1] * sin]
+    };
+    let length = |pair: &[[f64; 2]]| {
+        let [[x, y], [u, v]] = [place(&pair[0]), place(&pair[1])];
+        libm::hypot(u - x, v - y)
+    };
+    #[expect(clippy::cast_precision_loss, reason = "at most a thousand passes")]
+    let length_mm = passes as f64 * path.rows.windows(2).map(length).sum::<f64>();
+    ProgramMeasures {
+        controller: program.controller.word(),
+        moves: passes * path.rows.len(),
+        passes,
+        depth_mm: program.depths.last().copied().unwrap_or(0.0),
+        length_mm,
+        minutes: length_mm / (MILLIMETRES * program.cutting.feed) / 60.0,
+    }
 }
 
 /// The figures of a table, for the report.
@@ -492,6 +528,7 @@ impl Proven {
             programs: &self.0.programs,
             servo: &self.0.servo,
             inspections: &self.0.inspections,
+            gauge: self.0.gauge.as_deref(),
             fit: self.0.request.fit,
             cutter_radius: self.0.request.cutter_radius,
             dxf_version,

@@ -7,13 +7,16 @@ use crate::body::points::{PointCurve, PointErrors, PointTable, radius_of_roller,
 use crate::body::{Layer, Request};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Interpolant, PointRows, PointTableSpec};
+use crate::reading::gauge as read_gauge;
 use crate::reading::gcode::{self, CutterSide, MoveKind};
 use crate::reading::servo;
+use crate::reading::table as read_table;
 use crate::reading::{self, Chain};
 use crate::refusal::Refusal;
 use crate::report::{Finding, Inputs, Report, Section, Verdict};
 use crate::verify::{
-    self, Evidence, WrittenPath, WrittenPoints, WrittenProgram, WrittenServo, WrittenSwept, join_reach,
+    self, Evidence, WrittenInspection, WrittenPath, WrittenPoints, WrittenProgram, WrittenServo, WrittenSwept,
+    join_reach,
 };
 use crate::write::points;
 
@@ -96,10 +99,10 @@ impl Cam {
         expected: &ExpectedFile<'_>,
         request: &Request,
     ) -> Result<Report, Error> {
-        let program =
-            gcode::read(bytes).map_err(|why| Error::Read(why.context("not a program that can be checked")))?;
+        let program = gcode::read_for(bytes, Some(self.body().machine().cutting().controller))
+            .map_err(|why| Error::Read(why.context("not a program that can be checked")))?;
         let mut arcs = program.moves.iter().filter(|moved| matches!(moved.kind, MoveKind::Arc { .. }));
-        let kept = arcs.all(|moved| moved.side != CutterSide::Centre);
+        let kept = program.polar.is_empty() && arcs.all(|moved| moved.side != CutterSide::Centre);
         let cuts = self.body().cuts();
         let width = groove_width(&cuts).map(|width| 0.5 * width);
         let cutter = match expected.cutter.or(request.cutter_radius).or(width) {
@@ -129,6 +132,37 @@ impl Cam {
         let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
         let checks = verify::run(&Evidence { servo: Some(&tables), ..evidence });
         Ok(self.report_on("table for a servo drive", request, checks))
+    }
+
+    /// Whether a list of places for a measuring machine is one of this cam.
+    pub(super) fn check_places(
+        &self,
+        bytes: &[u8],
+        expected: &ExpectedFile<'_>,
+        request: &Request,
+    ) -> Result<Report, Error> {
+        let tolerance_mm = MILLIMETRES * request.fit.tolerance;
+        let checks = self.best_of_cuts(expected, |cut| {
+            let list = [WrittenInspection::of(cut, bytes)];
+            Ok(verify::run(&Evidence { inspections: &list, ..self.nothing_written(tolerance_mm, request)? }))
+        })?;
+        Ok(self.report_on("list of places", request, checks))
+    }
+
+    /// Whether the lift table of a gauge follower is one of this cam.
+    pub(super) fn check_gauge(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
+        let rows = read_gauge::read(bytes);
+        let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
+        let checks = verify::run(&Evidence { gauge: Some(&rows), ..evidence });
+        Ok(self.report_on("lift table of a gauge follower", request, checks))
+    }
+
+    /// Whether a table of numbers is one of this cam.
+    pub(super) fn check_table(&self, bytes: &[u8], request: &Request) -> Result<Report, Error> {
+        let table = read_table::read(bytes);
+        let evidence = self.nothing_written(MILLIMETRES * request.fit.tolerance, request)?;
+        let checks = verify::run(&Evidence { table: Some(&table), ..evidence });
+        Ok(self.report_on("table", request, checks))
     }
 
     /// The findings on the cut of this name, or the first that a file fits, of a part with several flanks.

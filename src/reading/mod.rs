@@ -7,6 +7,7 @@
 
 mod contents;
 mod curve;
+pub mod gauge;
 pub mod gcode;
 mod groups;
 pub mod inspection;
@@ -19,6 +20,7 @@ mod shape;
 mod shown;
 mod spline;
 pub mod step;
+pub mod table;
 mod walk;
 
 pub use join::Chain;

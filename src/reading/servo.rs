@@ -5,6 +5,8 @@
 pub struct ServoRows {
     /// Whether the slave is in degrees, where the file says so.
     pub swings: bool,
+    /// Whether the drive goes straight from row to row, whose velocity and acceleration are then nothing.
+    pub straight: bool,
     /// The rows.
     pub rows: Vec<[f64; 4]>,
 }
@@ -18,6 +20,10 @@ const CSV_HEADS: [&str; 2] = [
     "master_deg,slave_mm,velocity_mm_per_deg,acceleration_mm_per_deg2",
     "master_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2",
 ];
+/// What begins and ends the lines of a table of the controls of ISG, and what its units are.
+const BEGIN: &str = "Begintable";
+const END: &str = "EndTable";
+const TEN_THOUSANDTH: f64 = 1e-4;
 /// What a head says of a slave in degrees.
 const SWINGS: &str = "slave: deg";
 /// Most rows.
@@ -29,7 +35,10 @@ pub fn is_servo(bytes: &[u8]) -> bool {
     let text = String::from_utf8_lossy(bytes);
     text.lines().take(60).any(|line| {
         let line = line.trim_start();
-        line.starts_with(CSV_HEAD) || line.contains("SMC_CAMXYVA") || line.contains("MC_MotionFunctionPoint")
+        line.starts_with(CSV_HEAD)
+            || line == BEGIN
+            || line.contains("SMC_CAMXYVA")
+            || line.contains("MC_MotionFunctionPoint")
     })
 }
 
@@ -39,8 +48,12 @@ pub fn is_servo(bytes: &[u8]) -> bool {
 /// A sentence when it is not one, or its master does not ascend.
 pub fn read(bytes: &[u8]) -> Result<ServoRows, String> {
     let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
-    let csv = text.lines().any(|line| line.starts_with(CSV_HEAD));
-    let read = if csv { rows(text)? } else { points(text)? };
+    let has = |what: &str| text.lines().any(|line| line.trim_start().starts_with(what));
+    let read = match (has(CSV_HEAD), has(BEGIN)) {
+        (true, _) => rows(text)?,
+        (_, true) => equal_parts(text)?,
+        _ => points(text)?,
+    };
     match read.rows.windows(2).find(|pair| !(pair[0][0] < pair[1][0])) {
         Some(pair) => Err(format!("the master does not ascend at {} deg", pair[1][0])),
         None if read.rows.len() < 2 => Err("it has fewer than two rows".to_owned()),
@@ -71,6 +84,40 @@ fn rows(text: &str) -> Result<ServoRows, String> {
     Ok(read)
 }
 
+/// A table of one column of the controls of ISG: positions at equal parts of the turn, with straight lines between them, closed by the first.
+fn equal_parts(text: &str) -> Result<ServoRows, String> {
+    let code: Vec<&str> = text.lines().map(|line| line.split('#').next().unwrap_or_default().trim()).collect();
+    let begin = code.iter().position(|line| *line == BEGIN).unwrap_or(0);
+    let (head, rest) = code.split_at(begin);
+    let stated = |name: &str| {
+        let pairs = head.iter().filter_map(|line| line.split_once('='));
+        pairs.filter(|(own, _)| own.trim().replace(' ', "") == name).map(|(_, value)| value.trim()).next_back()
+    };
+    for (name, due) in [("Tabletype", "3"), ("Functiontype", "1")] {
+        match stated(name) {
+            Some(found) if found == due => {}
+            Some(found) => {
+                return Err(format!("its {name} is {found}: only {due}, one column with straight lines, is read"));
+            }
+            None => return Err(format!("it does not state its {name}")),
+        }
+    }
+    let lines: Vec<&str> = rest.iter().skip(1).copied().filter(|line| !line.is_empty()).collect();
+    let Some((&END, lines)) = lines.split_last() else { return Err(format!("it has no end ({END})")) };
+    let position = |line: &&str| {
+        let number = finite(&line.replace(',', "."))
+            .ok_or_else(|| format!("`{}` is not a position", line.chars().take(40).collect::<String>()));
+        number.map(|number| TEN_THOUSANDTH * number)
+    };
+    let positions: Vec<f64> = lines.iter().map(position).collect::<Result<_, _>>()?;
+    if stated("Lines").and_then(finite) != Some(count(positions.len())) || positions.len() > MOST_ROWS {
+        return Err(format!("it states another number of Lines than {}", positions.len()));
+    }
+    let closed = positions.iter().chain(positions.first()).enumerate();
+    let row = |(index, position): (usize, &f64)| [360.0 * count(index) / count(positions.len()), *position, 0.0, 0.0];
+    Ok(ServoRows { swings: text.contains(SWINGS), straight: true, rows: closed.map(row).collect() })
+}
+
 /// The points `(name := value, …)` of a declaration; comments are skipped.
 fn points(text: &str) -> Result<ServoRows, String> {
     let (mut code, mut comments, mut rest) = (String::new(), String::new(), text);
@@ -82,7 +129,7 @@ fn points(text: &str) -> Result<ServoRows, String> {
     }
     code.push_str(rest);
     let names = NAMES.iter().find(|names| code.contains(names[0])).ok_or("it has no points")?;
-    let mut read = ServoRows { swings: comments.contains(SWINGS), rows: Vec::new() };
+    let mut read = ServoRows { swings: comments.contains(SWINGS), ..ServoRows::default() };
     for part in code.split('(').skip(1) {
         let Some((inside, _)) = part.split_once(')') else { continue };
         let value = |name: &str| {
@@ -158,10 +205,10 @@ mod tests {
         let csv =
             "# a head\nmaster_deg,slave_deg,velocity_deg_per_deg,acceleration_deg_per_deg2\n0,1,2,3\n90.5,-1e-3,0,4\n";
         let rows = vec![[0.0, 1.0, 2.0, 3.0], [90.5, -1e-3, 0.0, 4.0]];
-        assert_eq!(read(csv.as_bytes()), Ok(ServoRows { swings: true, rows: rows.clone() }));
+        assert_eq!(read(csv.as_bytes()), Ok(ServoRows { swings: true, straight: false, rows: rows.clone() }));
         let st = "(* slave: mm *)\nVAR_GLOBAL\nA : ARRAY[0..1] OF SMC_CAMXYVA := [(dX := 0, dY:=1, dV:= 2 ,dA := 3),\n\
                   (dX := 90.5, dY := -1E-3, dV := 0, dA := 4)];\nEND_VAR\n";
-        assert_eq!(read(st.as_bytes()), Ok(ServoRows { swings: false, rows }));
+        assert_eq!(read(st.as_bytes()), Ok(ServoRows { swings: false, straight: false, rows }));
         assert!(is_servo(st.as_bytes()) && is_servo(csv.as_bytes()) && !is_servo(b"x_mm,y_mm\n"));
         for (from, to, why) in [
             ("0..1", "0..2", "another number"),
@@ -173,5 +220,23 @@ mod tests {
             assert!(found.as_ref().is_err_and(|found| found.contains(why)), "{from}: {found:?}");
         }
         assert!(read(csv.replace("90.5", "NaN").as_bytes()).is_err());
+    }
+
+    #[test]
+    fn a_table_of_equal_parts_is_read_in_its_units_and_closes() {
+        let text = "Tablename = A # name\nTable-ID = 402\nTabletype = 3\nFunctiontype = 1 # LINEAR\nLines = 2 # slave: mm\nBegintable\n0\n15000,5\nEndTable\n";
+        let read_rows = read(text.as_bytes()).expect("a table");
+        assert_eq!(read_rows.rows, [[0.0, 0.0, 0.0, 0.0], [180.0, 1.50005, 0.0, 0.0], [360.0, 0.0, 0.0, 0.0]]);
+        assert!(read_rows.straight && !read_rows.swings && is_servo(text.as_bytes()));
+        for (from, to, why) in [
+            ("Lines = 2", "Lines = 3", "another number"),
+            ("Functiontype = 1", "Functiontype = 5", "Functiontype is 5"),
+            ("Tabletype = 3\n", "", "Tabletype"),
+            ("EndTable", "", "no end"),
+            ("15000,5", "x", "not a position"),
+        ] {
+            let found = read(text.replace(from, to).as_bytes());
+            assert!(found.as_ref().is_err_and(|found| found.contains(why)), "{to}: {found:?}");
+        }
     }
 }

@@ -8,10 +8,12 @@ use crate::geometry::contour::Contour;
 use crate::geometry::points::Interpolant;
 use crate::profile::Worst;
 use crate::profile::outline::MotionTolerance;
+use crate::reading::gauge::GaugeRows;
 use crate::reading::gcode::CutterProgram;
-use crate::reading::inspection::ReadPlace;
+use crate::reading::inspection::{self, ReadPlace};
 use crate::reading::servo::ServoRows;
 use crate::reading::step::{SolidForm, StepFile};
+use crate::reading::table::NumberTable;
 use crate::reading::{Chain, Reading};
 use crate::report::{Finding, Place, Rolled};
 use nalgebra::Vector2;
@@ -85,10 +87,21 @@ pub struct WrittenServo {
 pub struct WrittenInspection {
     /// On which of the cuts of its body they are.
     pub cut: usize,
-    /// Radius of the ball, mm.
+    /// Radius of the ball, mm; 0 in a form without it.
     pub ball_radius: f64,
     /// The places, or why there are none.
     pub places: Result<Vec<ReadPlace>, String>,
+}
+
+impl WrittenInspection {
+    /// A file in any of the forms, of a cut.
+    #[must_use]
+    pub fn of(cut: usize, bytes: &[u8]) -> Self {
+        let places = inspection::read(bytes);
+        let first = places.as_ref().ok().and_then(|places| places.first());
+        let ball_radius = first.map_or(0.0, |place| (place.ball - place.point).norm());
+        Self { cut, ball_radius, places }
+    }
 }
 
 /// The solid of a STEP file as read, and what its boundary was recognised as.
@@ -123,6 +136,10 @@ pub struct Evidence<'a> {
     pub servo: Option<&'a Result<Vec<WrittenServo>, String>>,
     /// The lists of places for a measuring machine as read back, when they were requested.
     pub inspections: &'a [WrittenInspection],
+    /// The lift table of a gauge follower as read back, when it was requested, or why there is none.
+    pub gauge: Option<&'a Result<GaugeRows, String>>,
+    /// A table of numbers that somebody else may have written, or why there is none.
+    pub table: Option<&'a Result<NumberTable, String>>,
     /// Measures that rest on other cams of its assembly.
     pub of_others: &'a [Measure],
     /// What was read from a STEP file that somebody else may have written.
@@ -152,6 +169,8 @@ impl<'a> Evidence<'a> {
             programs: None,
             servo: None,
             inspections: &[],
+            gauge: None,
+            table: None,
             of_others: &[],
             solid: None,
             swept: None,

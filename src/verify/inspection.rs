@@ -1,7 +1,8 @@
 //! The places of a written list for a measuring machine, compared with the outline as it is in the cut file.
 //!
 //! The places are those that are read back from the bytes. Each must lie on the outline as it was read from the cut file, its normal must be
-//! perpendicular to the exact profile, whose direction is found from two places close to each other, and its ball must touch there.
+//! perpendicular to the exact profile, whose direction is found from two places close to each other, and its ball must touch there. Of a list
+//! that is checked without a cut file every place must be that of the exact profile.
 
 use super::check::{Evidence, FileCheck, WrittenInspection, place};
 use crate::check::{Check, CheckExplanation, CheckScope};
@@ -17,13 +18,14 @@ pub(super) const CHECK: FileCheck = FileCheck {
         name: "inspection",
         on: CheckScope::ToolFile,
         unit: "mm",
-        about: "The largest distance of the places of --format inspect, as they are in the file, from the outline in the cut file. Each normal must \
-                be perpendicular to the profile, and each ball must touch it at its place.",
+        about: "The largest distance of the places of --format inspect, as they are in each of its files, from the outline in the cut file, or, of a \
+                list that is checked, from the exact profile. Each normal must be perpendicular to the profile, and each ball must touch it at its \
+                place.",
         explained: CheckExplanation {
             bound: Bound::AtMost,
             formula: "max distance of a place from the outline as written",
             usual: "the tolerance",
-            change: "nothing: the files contradict each other; please report this",
+            change: "write the list anew; where camgen itself refuses what it wrote, please report this",
         },
     },
     run: check,
@@ -34,6 +36,16 @@ const STEP: f64 = 1e-6;
 /// Largest sine between a normal and that of the profile, and the largest error of a length of 1 mm.
 const UPRIGHT: f64 = 1e-5;
 const EXACT: f64 = 1e-6;
+/// The largest error of the length of a normal, of components of six decimals.
+const NORMAL: f64 = 2e-6;
+/// Angles that differ by less are equal, degrees.
+const SAME_ANGLE: f64 = 1e-6;
+
+/// The cam angle of a place among so many, degrees.
+#[expect(clippy::cast_precision_loss, reason = "numbers of places")]
+pub(super) fn due(index: usize, count: usize) -> f64 {
+    360.0 * index as f64 / count as f64
+}
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let limit = evidence.tolerance_mm;
@@ -56,7 +68,8 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     if evidence.inspections.is_empty() {
         return None;
     }
-    let note = format!("{count} places as read from the file, on the outline as read from the cut file");
+    let on = if evidence.outlines.is_empty() { "the exact profile" } else { "the outline as read from the cut file" };
+    let note = format!("{count} places as read, on {on}");
     let found = CHECK.found(worst.0, Some(limit), Verdict::of(worst.0 <= limit));
     Some(Finding { place: place(evidence.body, worst.1), note: Some(note), ..found })
 }
@@ -66,28 +79,49 @@ fn of(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Vector2
     let places = list.places.as_ref().map_err(Clone::clone)?;
     let cuts = evidence.body.cuts();
     let curves = cuts.get(list.cut).and_then(|cut| cut.curves).ok_or("the cam has no such cut")?;
-    let outline = evidence.outlines.iter().find(|outline| outline.cut == list.cut).ok_or("there is no outline")?;
-    let tree = EdgeTree::new(&outline.contour);
+    let outline = evidence.outlines.iter().find(|outline| outline.cut == list.cut);
+    let tree = outline.map(|outline| EdgeTree::new(&outline.contour));
+    let zone = evidence.body.machine().title.profile_tolerance.map(|width| 0.5 * MILLIMETRES * width);
     let flipped = evidence.body.machine().cam.rotation == Rotation::CounterClockwise;
     let turned = |v: Vector2<f64>| if flipped { Vector2::new(v.x, -v.y) } else { v };
     let mut worst = (0.0, Vector2::zeros());
-    for ReadPlace { cam_deg, point, normal, ball } in places {
+    for (index, ReadPlace { cam_deg, point, normal, ball, zone: given }) in places.iter().enumerate() {
         let at = |by: f64| {
             let (piece, angle) = curves.motion.locate(cam_deg.to_radians() + by);
             turned(curves.profile(piece, angle).point * MILLIMETRES)
         };
+        if (cam_deg - due(index, places.len())).abs() > SAME_ANGLE {
+            return Err(format!("place {} is not at equal parts of a turn: the list is not complete", index + 1));
+        }
         let along = at(STEP) - at(-STEP);
         let upright = along.norm() < EXACT * STEP || (along.normalize().dot(normal)).abs() < UPRIGHT;
         let touches = (ball - point - normal * list.ball_radius).norm() < EXACT * list.ball_radius.max(1.0);
-        if !((normal.norm() - 1.0).abs() < EXACT && upright && touches) {
+        if !((normal.norm() - 1.0).abs() < NORMAL && upright && touches) {
             return Err(format!("at {} deg normal and ball do not fit the profile", shown(*cam_deg)));
         }
+        if let (Some(zone), Some([lower, upper])) = (zone, given)
+            && (lower + zone).abs().max((upper - zone).abs()) > EXACT
+        {
+            return Err(format!(
+                "at {} deg the zone is not ±{} mm, as title.profile_tolerance is",
+                shown(*cam_deg),
+                shown(zone)
+            ));
+        }
         // Out of the metal: a step along the normal leaves it, or, in a ring, enters the space of the roller.
-        let nearest = tree.nearest(point + normal * EXACT.sqrt()).ok_or("the outline is empty")?;
         let hollow = cuts.get(list.cut).is_some_and(crate::body::Cut::is_hollow);
-        let distance = tree.nearest(*point).map_or(f64::INFINITY, |nearest| nearest.left.abs());
-        let out = if hollow { nearest.left } else { -nearest.left };
-        if out < -2.0 * evidence.tolerance_mm {
+        let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
+        let out = turned(curves.profile(piece, angle).outward() * curves.metal_side()).dot(normal);
+        let (distance, leaves) = match &tree {
+            None => ((point - at(0.0)).norm(), out > 0.0),
+            Some(tree) => {
+                let nearest = tree.nearest(point + normal * EXACT.sqrt()).ok_or("the outline is empty")?;
+                let distance = tree.nearest(*point).map_or(f64::INFINITY, |nearest| nearest.left.abs());
+                let left = if hollow { nearest.left } else { -nearest.left };
+                (distance, left >= -2.0 * evidence.tolerance_mm)
+            }
+        };
+        if !leaves {
             return Err(format!("at {} deg the normal points into the metal", shown(*cam_deg)));
         }
         if !(distance <= worst.0) {

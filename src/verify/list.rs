@@ -2,8 +2,8 @@
 
 use super::check::CheckEntry::{self, Figure, File};
 use super::{
-    balance, bore, cutter_path, felt, file, flank, groove_width, inspection, lead_in, milling, outline, plate_ends,
-    points, rolling, servo, solid, sphere, swept, tangency,
+    balance, bore, cutter_path, felt, file, flank, gauge, groove_width, inspection, lead_in, milling, outline,
+    plate_ends, points, rolling, servo, solid, sphere, swept, table, tangency,
 };
 use crate::body::barrel::measures as barrel;
 use crate::body::closure;
@@ -42,6 +42,8 @@ pub const CHECKS: &[CheckEntry] = &[
     File(&points::CHECK),
     File(&servo::CHECK),
     File(&inspection::CHECK),
+    File(&gauge::CHECK),
+    File(&table::CHECK),
     Figure(&wall::CHECK),
     Figure(&size::CHECK),
     Figure(&pivot_clearance::CHECK),

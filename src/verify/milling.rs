@@ -6,6 +6,7 @@
 
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
 use super::cutter_path::left_behind;
+use super::polar;
 use crate::body::milling::groove_width;
 use crate::body::{Cut, Layer};
 use crate::check::{Check, CheckExplanation, CheckScope};
@@ -43,25 +44,25 @@ const SAME_PLACE: f64 = 1e-7;
 const FINE_SHARE: f64 = 0.1;
 
 /// A program that is not one of the cam.
-struct ProgramFault {
-    why: String,
+pub(super) struct ProgramFault {
+    pub(super) why: String,
     /// mm.
-    value: f64,
-    at: Option<Vector2<f64>>,
+    pub(super) value: f64,
+    pub(super) at: Option<Vector2<f64>>,
 }
 
 impl ProgramFault {
-    fn new(why: impl Into<String>) -> Self {
+    pub(super) fn new(why: impl Into<String>) -> Self {
         Self { why: why.into(), value: f64::INFINITY, at: None }
     }
 }
 
 /// A program that was judged.
-struct JudgedProgram {
+pub(super) struct JudgedProgram {
     /// Largest distance, mm.
-    value: f64,
-    at: Vector2<f64>,
-    note: String,
+    pub(super) value: f64,
+    pub(super) at: Vector2<f64>,
+    pub(super) note: String,
 }
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
@@ -183,6 +184,9 @@ impl<'m> ClosedPass<'m> {
 /// The result for a program.
 fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedProgram, ProgramFault> {
     let program = written.program.as_ref().map_err(|why| ProgramFault::new(why.clone()))?;
+    if !program.polar.is_empty() {
+        return polar::judged(evidence, written, &program.polar);
+    }
     let (cuts, limit) = (evidence.body.cuts(), evidence.tolerance_mm);
     fits_between(&cuts, written)?;
     let passes = passes(program)?;

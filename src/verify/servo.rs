@@ -1,7 +1,7 @@
 //! The motion that a drive makes of a written table, compared with the exact one.
 //!
 //! The rows are those that are read back from the bytes. Between two of them the drive runs on the polynomial of degree 5 that has position,
-//! velocity and acceleration of both, here by its coefficients. The comparison is at many places of every interval, on either side of every break.
+//! velocity and acceleration of both, here by its coefficients, or, on a table of positions alone, on a straight line. The comparison is at many places of every interval, on either side of every break.
 
 use super::check::{Evidence, FileCheck, WrittenServo};
 use crate::body::servo::{VELOCITY_SHARE, exact, largest_velocity};
@@ -56,27 +56,31 @@ fn check(evidence: &Evidence<'_>) -> Option<Finding> {
         Ok(tables) => tables,
         Err(why) => return fails(why.clone()),
     };
-    let mut worst: Option<(f64, ServoDifference, usize)> = None;
+    let mut worst: Option<(f64, ServoDifference, String)> = None;
     for WrittenServo { format, table } in tables {
         let judged =
             table.as_ref().map_err(Clone::clone).and_then(|rows| Ok((judged(evidence.body, rows)?, rows.rows.len())));
         match judged {
             Err(why) => return fails(format!("{format}: {why}")),
             Ok((found, rows)) => {
+                let straight = table.as_ref().is_ok_and(|rows| rows.straight);
+                let between = if straight { "straight lines" } else { "polynomials of degree 5" };
                 let value = MILLIMETRES * found.position * arm(evidence.body);
-                if worst.as_ref().is_none_or(|worst| value > worst.0 || found.velocity > worst.1.velocity) {
-                    worst = Some((value, found, rows));
+                let velocity = worst.as_ref().map_or(0.0, |worst| worst.1.velocity).max(found.velocity);
+                if worst.as_ref().is_none_or(|worst| value > worst.0) {
+                    worst = Some((value, found, format!("{rows} rows, {between} between them")));
+                }
+                // The largest of both over all tables.
+                if let Some((_, found, _)) = &mut worst {
+                    found.velocity = velocity;
                 }
             }
         }
     }
-    let (value, found, rows) = worst?;
+    let (value, found, words) = worst?;
     let share = found.velocity / largest_velocity(evidence.body).max(f64::MIN_POSITIVE);
     let kept = value <= limit && share <= VELOCITY_SHARE;
-    let note = format!(
-        "{rows} rows, polynomials of degree 5 between them; the velocity off by {} of the largest",
-        shown(share)
-    );
+    let note = format!("{words}; the velocity off by {} of the largest", shown(share));
     let place = evidence.body.place(found.at);
     Some(Finding { place, note: Some(note), ..CHECK.found(value, Some(limit), Verdict::of(kept)) })
 }
@@ -108,7 +112,11 @@ fn judged(body: &dyn Body, read: &ServoRows) -> Result<ServoDifference, String> 
     let mut worst = ServoDifference { position: 0.0, velocity: 0.0, at: 0.0 };
     for pair in read.rows.windows(2) {
         let ((from, start), (to, end)) = (state(pair[0], read.swings), state(pair[1], read.swings));
-        let coefficients = quintic(start, end, to - from);
+        let coefficients = if read.straight {
+            [start[0], end[0] - start[0], 0.0, 0.0, 0.0, 0.0]
+        } else {
+            quintic(start, end, to - from)
+        };
         for step in 0..=PLACES {
             let share = f64::from(step) / f64::from(PLACES);
             let [position, velocity] = at(&coefficients, share, to - from);

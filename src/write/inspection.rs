@@ -1,55 +1,111 @@
-//! Lists of places for a measuring machine: a CSV file, and the same places as plain lines of numbers that measuring programs import.
+//! Lists of places for a measuring machine: a CSV file, the same places as plain lines of numbers and as a DMIS program (ISO 22093), which
+//! measuring programs import, and a sheet on which they are numbered.
 
 use super::number::{plain, shortest};
-use super::{Format, FormatSelection, of_outlines};
+use super::{Format, FormatSelection, Rendering, of_outlines, svg};
 use crate::body::Body;
 use crate::body::inspection::{self, InspectionList};
 use crate::refusal::Refusal;
+use crate::report::sheet::{Mark, PlaceTable, SheetExtras, compose};
 
-/// The lists of every outline, as they were proved: `-inspect.csv`, and `-inspect.txt` as lines of `no x y z nx ny nz`.
+/// The files of a list: a table, lines of `no x y z nx ny nz`, and a DMIS program.
+const ENDINGS: [&str; 3] = ["-inspect.csv", "-inspect.txt", "-inspect.dmi"];
+/// Its sheet.
+const SHEET: &str = "-inspect.svg";
+
+/// The lists of every outline, as they were proved, and the sheet of each.
 pub const FORMAT: Format = Format {
     name: "inspect",
     when: FormatSelection::Asked,
     flank: false,
     unfit: inspection::unfit,
-    endings: |drawn| {
-        let tables = of_outlines(drawn, "-inspect.csv");
-        tables.into_iter().chain(of_outlines(drawn, "-inspect.txt")).collect()
-    },
+    endings: |drawn| ENDINGS.iter().chain([&SHEET]).flat_map(|ending| of_outlines(drawn, ending)).collect(),
     write: |cam| match cam.inspections {
         [] => Err(Refusal::new("no list of places was requested with the drawing")),
         proved => {
-            let tables = proved.iter().map(|(table, _)| table.clone());
-            Ok(tables.chain(proved.iter().map(|(_, plain)| plain.clone())).collect())
+            let of_form = |form: usize| proved.iter().filter_map(move |(_, files)| files.get(form).cloned());
+            let mut all: Vec<Vec<u8>> = (0..ENDINGS.len()).flat_map(of_form).collect();
+            for (list, _) in proved {
+                all.push(sheet(cam, list)?);
+            }
+            Ok(all)
         }
     },
     of_analysis: None,
 };
 
-/// Decimals of the plain list, mm.
+/// Decimals of the plain list and of the program, mm.
 const DECIMALS: usize = 6;
+/// Every how many places one is numbered on the sheet, and every how many are in its tables, the finest first.
+const NUMBERED: usize = 10;
+const LISTED: [usize; 4] = [5, 10, 20, 30];
 
-/// A list as its two files, under a mark.
+/// A list as its files, in the order of their endings, under a mark.
 #[must_use]
-pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> (Vec<u8>, Vec<u8>) {
+pub fn write(body: &dyn Body, list: &InspectionList, mark: &str) -> Vec<Vec<u8>> {
+    let machine = body.machine().name().replace(['\n', '\r'], " ");
     let mut table = format!(
-        "# {mark}\n# machine: {}\n# units: mm, degrees\n# ball_radius_mm: {}\n# normal: unit vector out of the metal; the ball touches at x, y\n\
+        "# {mark}\n# machine: {machine}\n# units: mm, degrees\n# ball_radius_mm: {}\n# normal: unit vector out of the metal; the ball touches at x, y\n\
          # lower_mm, upper_mm: zone of the deviation along the normal\n\
          no,cam_deg,polar_deg,radius_mm,x_mm,y_mm,normal_x,normal_y,ball_x_mm,ball_y_mm,lower_mm,upper_mm,curvature_radius_mm\n",
-        body.machine().name().replace(['\n', '\r'], " "),
         shortest(list.ball_radius)
+    );
+    let plain_name: String = machine.chars().filter(|c| (' '..='~').contains(c) && !"'$".contains(*c)).collect();
+    let mut program = format!(
+        "DMISMN/'{mark}',05.2\n$$ {plain_name}\n$$ X0 Y0 as in the drawing: the axis of the shaft; Z0 the plane of the drawing\nUNITS/MM,ANGDEC\n"
     );
     let mut lines = String::new();
     for (index, place) in list.places.iter().enumerate() {
-        let (point, normal) = (place.point, place.normal);
+        let (number, point, normal) = (index + 1, place.point, place.normal);
         let ball = point + normal * list.ball_radius;
         let of_place =
             [place.cam_deg, place.polar_deg, point.norm(), point.x, point.y, normal.x, normal.y, ball.x, ball.y];
         let zone = [-list.zone, list.zone, place.radius];
         let cells: Vec<String> = of_place.into_iter().chain(zone).map(shortest).collect();
-        table.push_str(&format!("{},{}\n", index + 1, cells.join(",")));
+        table.push_str(&format!("{number},{}\n", cells.join(",")));
         let numbers = [point.x, point.y, 0.0, normal.x, normal.y, 0.0].map(|number| plain(number, DECIMALS));
-        lines.push_str(&format!("{} {}\n", index + 1, numbers.join(" ")));
+        lines.push_str(&format!("{number} {}\n", numbers.join(" ")));
+        let there = numbers.join(",");
+        program.push_str(&format!(
+            "F(P{number})=FEAT/POINT,CART,{there}\nMEAS/POINT,F(P{number}),1\nPTMEAS/CART,{there}\nENDMES\n"
+        ));
     }
-    (table.into_bytes(), lines.into_bytes())
+    program.push_str("ENDFIL\n");
+    [table, lines, program].map(String::into_bytes).to_vec()
+}
+
+/// The sheet of a list: the outline with its numbered places, and a table of them.
+fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8>, Refusal> {
+    let mut view = cam.body.view(cam.drawn).map_err(Refusal::of)?;
+    let numbered = list.places.iter().enumerate().step_by(NUMBERED);
+    let label = |(index, place): (usize, &inspection::InspectionPlace)| Mark::Label {
+        class: "dimensions",
+        at: place.point,
+        towards: place.normal,
+        text: (index + 1).to_string(),
+    };
+    view.marks = numbered.map(label).collect();
+    let millimetres = |value: f64| format!("{value:.3}");
+    let cells = |(index, place): (usize, &inspection::InspectionPlace)| {
+        let (point, normal) = (place.point, place.normal);
+        let places = [point.x, point.y, normal.x, normal.y].map(millimetres);
+        [vec![(index + 1).to_string()], places.to_vec()].concat()
+    };
+    let rows: Vec<Vec<String>> = list.places.iter().enumerate().map(cells).collect();
+    let heads = ["no.", "x", "y", "nx", "ny"].map(str::to_owned).to_vec();
+    let table = |every: &usize| {
+        let title = format!("Places, every {every}th");
+        PlaceTable { title, heads: heads.clone(), rows: rows.clone().into(), every: *every }
+    };
+    view.tables = LISTED.iter().map(table).collect();
+    view.notes = vec![format!(
+        "{} places, one for each degree of the cam; ball Ø{} mm; zone ±{} mm along the normal",
+        list.places.len(),
+        shortest(2.0 * list.ball_radius),
+        shortest(list.zone)
+    )];
+    let deviates = svg::deviation_words(&cam.fit);
+    let number = "1/1";
+    let extras = SheetExtras { file_deviates: &deviates, number, traces: &[], checks: &[], passed_otherwise: 0 };
+    svg::fill(&compose(&view, cam.report, &extras), cam.template, true, &cam.report.mark())
 }

@@ -9,6 +9,7 @@ pub mod dxf;
 mod error;
 pub mod files;
 mod finite;
+pub mod gauge;
 pub mod gcode;
 #[cfg(feature = "html")]
 pub mod html;
@@ -34,6 +35,7 @@ mod template;
 pub mod toml;
 
 use crate::analysis::Analysis;
+use crate::body::inspection::InspectionList;
 use crate::body::{Body, Drawn, Part};
 use crate::profile::outline::Fit;
 use crate::refusal::Refusal;
@@ -60,8 +62,10 @@ pub struct Rendering<'a> {
     pub programs: &'a [Vec<u8>],
     /// The tables for servo drives by the names of their formats, written and proved; empty when they were not requested.
     pub servo: &'a [(&'static str, Vec<u8>)],
-    /// The lists of places for a measuring machine, each in both of its forms, written and proved; empty when they were not requested.
-    pub inspections: &'a [(Vec<u8>, Vec<u8>)],
+    /// The lists of places for a measuring machine, each with its files, written and proved; empty when they were not requested.
+    pub inspections: &'a [(InspectionList, Vec<Vec<u8>>)],
+    /// The lift table of a gauge follower, written and proved, where it was requested.
+    pub gauge: Option<&'a [u8]>,
     /// The tolerance of the outlines, and on which side of the exact curves they lie.
     pub fit: Fit,
     /// Radius of the cutter whose path was drawn, m.
@@ -148,7 +152,9 @@ pub const FORMATS: &[Format] = &[
     servo::CSV,
     servo::XYVA,
     servo::TWINCAT,
+    servo::ISG,
     inspection::FORMAT,
+    gauge::FORMAT,
     toml::FORMAT,
     dxf::CUTTER_PATH,
     csv::FURTHER,

@@ -1,10 +1,14 @@
 //! Tables for servo drives: a CSV file, a cam of CODESYS SoftMotion, and a motion function of TwinCAT. All have the same nodes.
 
-use super::number::shortest;
+use super::number::{plain, shortest};
 use super::{Format, FormatSelection, Rendering};
 use crate::body::Body;
 use crate::body::servo::{self, ServoTable};
 use crate::refusal::Refusal;
+
+/// Units of a table of the controls of ISG in a millimetre or a degree, and the decimals of its numbers.
+const TEN_THOUSANDTHS: f64 = 1e4;
+const ISG_DECIMALS: usize = 6;
 
 /// Rows of master, slave, velocity and acceleration.
 pub const CSV: Format = format("servo-csv", |_| vec!["-servo.csv".into()], |cam| of(cam, "servo-csv"));
@@ -13,8 +17,11 @@ pub const XYVA: Format = format("servo-xyva", |_| vec!["-xyva.st".into()], |cam|
 /// The declaration of the `MC_MotionFunctionPoint` points of a cam of TwinCAT.
 pub const TWINCAT: Format = format("servo-twincat", |_| vec!["-twincat.st".into()], |cam| of(cam, "servo-twincat"));
 
+/// The table of a cam of the controls of ISG and of TwinCAT CNC, in their ASCII form.
+pub const ISG: Format = format("servo-isg", |_| vec!["-isg.txt".into()], |cam| of(cam, "servo-isg"));
+
 /// The names of the formats.
-pub const NAMES: [&str; 3] = [CSV.name, XYVA.name, TWINCAT.name];
+pub const NAMES: [&str; 4] = [CSV.name, XYVA.name, TWINCAT.name, ISG.name];
 
 const fn format(
     name: &'static str,
@@ -29,6 +36,10 @@ fn of(cam: &Rendering<'_>, name: &str) -> Result<Vec<Vec<u8>>, Refusal> {
     let found = cam.servo.iter().find(|(format, _)| *format == name);
     match found {
         Some((_, bytes)) => Ok(vec![bytes.clone()]),
+        None if name == ISG.name && !cam.servo.is_empty() => {
+            let refusal = Refusal::new("straight lines between equal parts of a turn would be more than 100000");
+            Err(refusal.remedy("give a coarser --tolerance, or a table with polynomials, servo-xyva or servo-twincat"))
+        }
         None => Err(Refusal::new("no table for a servo drive was requested with the drawing")),
     }
 }
@@ -38,7 +49,22 @@ fn of(cam: &Rendering<'_>, name: &str) -> Result<Vec<Vec<u8>>, Refusal> {
 pub fn write(body: &dyn Body, table: &ServoTable, mark: &str) -> Vec<(&'static str, Vec<u8>)> {
     let head = head(body, table, mark);
     let files = [csv(table, &head), xyva(body, table, &head), twincat(body, table, &head)];
+    let files = files.into_iter().chain(table.equal.as_ref().map(|positions| isg(body, table.swings, positions, mark)));
     NAMES.into_iter().zip(files.map(String::into_bytes)).collect()
+}
+
+/// A table of one column, in ten thousandths of a millimetre or a degree: the position at the beginning of each of so many equal parts of the
+/// turn, with straight lines between them (<https://infosys.beckhoff.com/content/1033/tccncmcplatform_fb/15306147467.html>).
+fn isg(body: &dyn Body, swings: bool, positions: &[f64], mark: &str) -> String {
+    let unit = if swings { "deg" } else { "mm" };
+    let rows: String =
+        positions.iter().map(|position| plain(TEN_THOUSANDTHS * position, ISG_DECIMALS) + "\n").collect();
+    format!(
+        "Tablename = {} # {mark}\nTable-ID = 1 # master: one turn of the cam in equal parts, the first line at 0 deg\nTabletype = 3 # \
+         TABLE_ONE_COLUMN_REAL64\nFunctiontype = 1 # LINEAR\nLines = {} # slave: {unit}, in 0.0001 {unit}\nBegintable\n{rows}EndTable\n",
+        variable(body),
+        positions.len()
+    )
 }
 
 /// What a table is, line by line.

@@ -121,7 +121,7 @@ fn a_planted_fault_is_refused_for_its_own_reason() {
         ("another plane", with(plunge, Some(format!("G18\n{}", lines[plunge]))), "plane"),
         (
             "kept on a side",
-            with(middle, Some(format!("G41\n{old}"))),
+            with(middle, Some(format!("G41 D1\n{old}"))),
             "must be on its path|must be on the left|on the left",
         ),
         ("a hole in the cam", text.replace("M30", "G0 X-30 Y0\nG1 Z-500 F100\nG0 Z5\nM30"), "no pass begins there"),
@@ -170,4 +170,42 @@ fn sides_and_tolerances_that_no_program_keeps_are_refused_with_a_remedy() {
     assert!(cam("feeder", &["cut.decimals=5"]).draw(fine).is_ok());
     let wide = cam("groove", &[]).draw(request(Controller::Fanuc, Some(20e-3))).expect_err("too wide").to_string();
     assert!(wide.contains("does not fit") && wide.contains("--cutter-diameter"), "{wide}");
+}
+
+#[test]
+fn a_program_that_a_control_reads_otherwise_is_refused() {
+    let cam = cam("feeder", &[]);
+    let why = |text: &str, cutter: Option<f64>| match checked(&cam, text, cutter) {
+        Ok((false, _, note)) => note,
+        Ok(found) => panic!("passes: {found:?}"),
+        Err(error) => error.to_string(),
+    };
+    let fanuc = program(&cam, request(Controller::Fanuc, Some(4e-3)));
+    assert!(fanuc.contains("G1 Z-15.0 F100.\n") && fanuc.contains(" F300.\n"), "{fanuc}");
+    let start = fanuc.lines().find(|line| line.starts_with("G0 X")).expect("a start");
+    let whole = fanuc.replace("Z-15.0", "Z-15");
+    assert!(why(&whole, Some(4e-3)).contains("Z-15 has no decimal point"), "{start}");
+    // A head without blanks between its words.
+    let dense = fanuc.replace("G17 G21 G40 G90 G94", "G21G17G90G40G94");
+    assert!(checked(&cam, &dense, Some(4e-3)).is_ok_and(|(passes, ..)| passes));
+    for controller in [Controller::Fanuc, Controller::LinuxCnc, Controller::Sinumerik] {
+        let text = program(&cam, request(controller, None));
+        let word = if controller == Controller::Fanuc { "G41 D01" } else { "G41 D1" };
+        assert!(why(&text.replace(word, "G41"), None).contains("without a number of its radius"), "{controller:?}");
+        for line in ["G68 X0 Y0 R10", "G92 X1 Y0", "G51 X0 Y0 P2", "TRANS X10"] {
+            let found = why(&text.replacen("G17", &format!("{line}\nG17"), 1), None);
+            assert!(found.contains("not the profile that it says"), "{line}: {found}");
+        }
+    }
+    let text = program(&cam, request(Controller::Heidenhain, None));
+    for line in [
+        "TOOL CALL 1 Z S3000 DR+0.05",
+        "CYCL DEF 7.1 X+60",
+        "CYCL DEF 10.1 ROT+35",
+        "CYCL DEF 11.1 SCL 0.9",
+        "CYCL DEF 8.1 X",
+    ] {
+        let found = why(&text.replacen("\n8 L", &format!("\n8 {line}\n8 L"), 1), None);
+        assert!(found.contains("DR") || found.contains("not the profile that it says"), "{line}: {found}");
+    }
 }

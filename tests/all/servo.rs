@@ -109,7 +109,17 @@ fn places_lie_on_the_profile_and_the_ball_touches_there() {
         let inspection = Some(Inspection { ball_radius: 2e-3 });
         let request = Request { inspection, ..Request::within(TOLERANCE) };
         let files = files(&cam, request, "inspection", &["inspect"]);
-        assert_eq!(files.len(), 2 * count, "{name}");
+        assert_eq!(files.len(), 4 * count, "{name}");
+        let sheet = String::from_utf8(files[3 * count].1.clone()).expect("text");
+        assert!(files[3 * count].0.ends_with("-inspect.svg"), "{}", files[3 * count].0);
+        let numbered = (1..=360).step_by(10).filter(|number| sheet.contains(&format!(">\n{number}\n<"))).count();
+        assert!(numbered >= 34, "{numbered} of 36 numbers");
+        for (file, bytes) in files.iter().take(3 * count) {
+            let report = cam.check(bytes, TOLERANCE).expect("a list");
+            assert!(report.passed(), "{name} {file}: {report:?}");
+        }
+        let shown = cam.check(&files[3 * count].1, TOLERANCE).expect_err("a sheet").to_string();
+        assert!(shown.contains("sheet") && shown.contains("nothing to prove"), "{shown}");
         let places = inspection::read(&files[0].1).expect("a list");
         assert_eq!(places.len(), 360);
         for place in &places {
@@ -126,5 +136,150 @@ fn places_lie_on_the_profile_and_the_ball_touches_there() {
         let moved = text.replacen("\n2,1,", "\n2,2,", 1);
         assert!(inspection::read(moved.as_bytes()).is_ok());
         assert!(inspection::read(text.replacen("\n2,", "\n3,", 1).as_bytes()).is_err());
+        let program = String::from_utf8(files[2 * count].1.clone()).expect("text");
+        assert!(program.starts_with("DMISMN/'camgen") && program.ends_with("ENDMES\nENDFIL\n"), "{program}");
+        for (what, other) in [
+            ("another angle", moved),
+            ("a place lost", text.lines().filter(|line| !line.starts_with("360,")).collect::<Vec<_>>().join("\n")),
+            ("another zone", text.replace("-0.015,0.015,", "-0.02,0.02,")),
+            ("another unit", program.replace("UNITS/MM", "UNITS/INCH")),
+            ("a point lost", program.replacen("ENDMES\nENDFIL", "ENDFIL", 1)),
+        ] {
+            let report = cam.check(other.as_bytes(), TOLERANCE).expect("a list");
+            assert!(!report.passed(), "{name} {what}");
+        }
+    }
+}
+
+#[test]
+fn a_table_of_straight_lines_keeps_the_velocity() {
+    for name in ["feeder", "lever"] {
+        let cam = cam(name, &[]);
+        let request = Request { servo: true, ..Request::within(TOLERANCE) };
+        let files = files(&cam, request, "servo", &["servo-isg"]);
+        assert!(files[0].0.ends_with("-isg.txt"), "{}", files[0].0);
+        let text = String::from_utf8(files[0].1.clone()).expect("text");
+        let report = cam.check(text.as_bytes(), TOLERANCE).expect("a table");
+        assert!(report.passed(), "{name}: {report:?}");
+        for (from, to) in
+            [("Functiontype = 1", "Functiontype = 5"), ("Begintable\n", "Begintable\n7\n"), ("EndTable", "")]
+        {
+            let report = cam.check(text.replacen(from, to, 1).as_bytes(), TOLERANCE).expect("a table");
+            assert!(!report.passed(), "{name}: {to}");
+        }
+    }
+}
+
+#[test]
+fn a_gauge_follower_rests_on_the_cam_and_its_table_is_checked() {
+    use camgen::body::gauge::Gauge;
+    use camgen::reading::gauge;
+    for (name, follower) in [
+        ("feeder", Gauge::Round(1.5e-3)),
+        ("feeder", Gauge::Flat),
+        ("lever", Gauge::Round(30e-3)),
+        ("valve", Gauge::Round(10e-3)),
+    ] {
+        let cam = cam(name, &[]);
+        let request = Request { gauge: Some(follower), ..Request::within(TOLERANCE) };
+        let files = files(&cam, request, "gauge", &["gauge"]);
+        let rows = gauge::read(&files[0].1).expect("a table").rows;
+        assert!(rows.len() == 360 && rows.iter().any(|row| row[2] == 0.0) && rows.iter().all(|row| row[2] >= 0.0));
+        let report = cam.check(&files[0].1, TOLERANCE).expect("a table");
+        assert!(report.passed(), "{name}: {report:?}");
+        let text = String::from_utf8(files[0].1.clone()).expect("text");
+        let lines: Vec<&str> = text.lines().collect();
+        let row = lines.len() - 100;
+        let cells: Vec<f64> = lines[row].split(',').map(|cell| cell.parse().expect("a number")).collect();
+        let other = format!("{},{},{}", cells[0], cells[1] + 0.0065, cells[2] + 0.0065);
+        for (what, changed) in [
+            ("a row moved", text.replace(lines[row], &other)),
+            ("a row lost", text.replace(&format!("{}\n", lines[row]), "")),
+            ("a lift alone", text.replace(lines[row], &format!("{},{},{}", cells[0], cells[1], cells[2] + 0.0065))),
+        ] {
+            let report = cam.check(changed.as_bytes(), TOLERANCE).expect("a table");
+            assert!(!report.passed(), "{name}: {what}");
+        }
+    }
+    // Where the follower is the gauge, the lift is that of the motion.
+    let own = cam("feeder", &["follower.roller.offset=0mm"]);
+    let radius = camgen::body::points::radius_of_roller(own.body()).expect("a roller");
+    let request = Request { gauge: Some(Gauge::Round(radius)), ..Request::within(TOLERANCE) };
+    let table = camgen::body::gauge::table(own.body(), &request).expect("a table");
+    let lowest = table.rows.iter().map(|row| row[1]).fold(f64::INFINITY, f64::min);
+    let curves = camgen::body::curves(own.body()).expect("a motion");
+    for [cam_deg, distance] in table.rows {
+        let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
+        let lift = 1e3 * curves.motion.jet(piece, angle).s;
+        assert!((distance - lowest - lift).abs() < 1e-9, "{cam_deg}: {} {lift}", distance - lowest);
+    }
+}
+
+#[test]
+fn samples_of_a_table_that_is_not_counted_by_them_are_refused() {
+    for format in ["points", "servo-csv", "servo-isg", "inspect", "gauge"] {
+        let run = camgen_in(
+            tempfile::tempdir().expect("a folder"),
+            &["make", "feeder", "--format", format, "--samples", "1"],
+        );
+        assert_eq!(run.code, 2, "{format} {} {}", run.out, run.err);
+        assert!(run.err.contains("--samples") && run.err.contains("csv"), "{}", run.err);
+    }
+    for (args, part) in [
+        (["--format", "gauge", "--gauge", "cone"], "flat"),
+        (["--format", "gcode", "--cutter-diameter", "1um"], "10 um"),
+        (["--format", "gcode", "--set", "cut.feed=1e-9 mm/min"], "cut.feed"),
+        (["--format", "gcode", "--set", "cut.depth_per_pass=11 um"], "at least 0.015"),
+        (["--format", "dxf", "--gauge", "flat"], "belongs to --format gauge"),
+    ] {
+        let all: Vec<&str> = ["make", "feeder"].into_iter().chain(args).collect();
+        let run = camgen_in(tempfile::tempdir().expect("a folder"), &all);
+        assert!(run.code == 2 && run.err.contains(part), "{args:?}: {} {}", run.code, run.err);
+        assert!(!run.directory.path().join("output").exists());
+    }
+}
+
+#[test]
+fn the_files_of_a_pair_and_of_a_plate_are_told_for_what_they_are() {
+    let run = camgen_in(
+        tempfile::tempdir().expect("a folder"),
+        &["make", "conjugate", "--format", "dxf,step,csv,points,svg", "--name", "c"],
+    );
+    assert_eq!(run.code, 0, "{}", run.err);
+    let check = |directory, file: &str, design: &str| camgen_in(directory, &["check", file, "--design", design]);
+    let mut directory = run.directory;
+    for (file, code, part) in [
+        ("output/c-counter.dxf", 0, "is this cam"),
+        ("output/c-counter.csv", 0, "is this cam"),
+        ("output/c-counter-points.csv", 0, "is this cam"),
+        ("output/c-main.csv", 0, "is this cam"),
+        ("output/c-pair.step", 2, "-main.step"),
+        ("output/c-main.svg", 2, "sheet"),
+    ] {
+        let run = check(directory, file, "conjugate");
+        assert!(
+            run.code == code && format!("{}{}", run.out, run.err).contains(part),
+            "{file}: {} {} {}",
+            run.code,
+            run.out,
+            run.err
+        );
+        directory = run.directory;
+    }
+    let run = camgen_in(directory, &["make", "wedge", "--format", "points", "--name", "w"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let run = check(run.directory, "output/w-points.csv", "wedge");
+    assert!(run.code == 0 && run.out.contains("is this cam"), "{} {}", run.out, run.err);
+    let path = run.directory.path().join("output/w-points.csv");
+    let text = std::fs::read_to_string(&path).expect("read");
+    let lines: Vec<&str> = text.lines().collect();
+    for at in [lines.len() - 1, lines.len() - 30] {
+        let kept: Vec<&str> = lines.iter().enumerate().filter(|(own, _)| *own != at).map(|(_, line)| *line).collect();
+        std::fs::write(&path, kept.join("\n") + "\n").expect("written");
+        let run = camgen_in(
+            tempfile::tempdir().expect("a folder"),
+            &["check", &path.display().to_string(), "--design", "wedge"],
+        );
+        assert_eq!(run.code, 1, "{at}: {} {}", run.out, run.err);
     }
 }

@@ -344,6 +344,7 @@ fn of_every_tool() -> Request {
         milling: Some(camgen::body::milling::Milling::default()),
         servo: true,
         inspection: Some(camgen::body::inspection::Inspection { ball_radius: 1.5e-3 }),
+        gauge: Some(camgen::body::gauge::Gauge::Flat),
         ..Request::within(TOLERANCE)
     }
 }
@@ -390,8 +391,14 @@ fn every_check_is_run_for_some_cam() {
         }
         let request = camgen::Request { flank: true, ..camgen::Request::within(TOLERANCE) };
         let proven = made.draw(request).expect("drawn").prove().expect("a proof");
-        let writing = camgen::Writing { force: true, ..camgen::Writing::to("nowhere", "cam").formats(&["step"]) };
+        let writing =
+            camgen::Writing { force: true, ..camgen::Writing::to("nowhere", "cam").formats(&["step", "csv"]) };
         let set = proven.files(&writing).expect("a solid");
+        for table in set.outputs().iter().filter(|output| output.name.ends_with(".csv")) {
+            let report = made.check(&table.bytes, TOLERANCE).expect("a table");
+            assert!(report.passed(), "{} {}: {report:?}", kind.noun, table.name);
+            reports.push((format!("table of a {} as a file", kind.noun), report));
+        }
         let report = made.check(set.bytes("step").expect("a solid"), TOLERANCE).expect("a STEP file");
         assert!(report.passed(), "{}: {report:?}", kind.noun);
         reports.push((format!("solid of a {} as a file", kind.noun), report));

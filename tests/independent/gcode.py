@@ -114,6 +114,36 @@ def dialogue(text):
     return machine.moves
 
 
+def polar(text):
+    """C turns the disc, X moves the wheel, straight in both at once: the wheel's centre as the disc sees it, and its largest speed, mm/min."""
+    moves, motion, by_time, states, feed, fastest = [], None, False, set(), None, 0.0
+    at = dict(X=None, C=None, Z=None)
+    for line, block in enumerate(text.splitlines(), 1):
+        block = re.sub(r"\(.*?\)|;.*", "", block).replace(" ", "").upper()
+        words = re.findall(r"([A-Z])([-+]?[0-9]*\.?[0-9]*)", block)
+        assert "".join(a + b for a, b in words) == block.replace("%", ""), f"line {line}: {block}"
+        values = {letter: float(number) for letter, number in words if letter != "G"}
+        for number in (number for letter, number in words if letter == "G"):
+            assert number in {"0", "1", "17", "21", "40", "90", "91.1", "93", "94", "710"}, f"line {line}: G{number}"
+            states.add(number)
+            motion = number if number in "01" else motion
+            by_time = {"93": True, "94": False}.get(number, by_time)
+        feed = values.get("F") if by_time else values.get("F", feed)
+        before, at = at, {axis: values.get(axis, old) for axis, old in at.items()}
+        if at != before and None not in before.values():
+            assert {"17", "90", "40"} <= states and states & {"21", "710"} and (motion == "0" or feed > 0), f"line {line}"
+            share = np.linspace(0, 1, 2 + int(abs(at["C"] - before["C"]) / 0.02))
+            x, c, z = (before[axis] + (at[axis] - before[axis]) * share for axis in "XCZ")
+            assert motion == "0" or at["C"] == before["C"] or by_time, f"line {line}: no time"
+            places = x * np.exp(-1j * np.radians(c))
+            if by_time:
+                fastest = max(fastest, abs(np.diff(places)).sum() * feed)
+            moves.append((line, motion == "0", np.stack([places.real, places.imag, z], axis=1), 0))
+        if values.get("M") == 30:
+            return moves, fastest
+    raise AssertionError("no end")
+
+
 def interpreter():
     """LinuxCNC's rs274 with the environment that it needs; None where it cannot be had."""
     if found := shutil.which("rs274"):
@@ -293,7 +323,7 @@ def main():
     folder = asked.directory / "gcode"
     folder.mkdir(parents=True, exist_ok=True)
     rs274 = interpreter()
-    worst, made, run, planted = [0.0, 0.0], 0, 0, 0
+    worst, made, run, planted, ground = [0.0, 0.0], 0, 0, 0, 0
     for index in range(asked.count):
         found, text, depth = design(random)
         control = list(CONTROLS)[index % 4]
@@ -330,6 +360,26 @@ def main():
         for result in results:
             assert max(result) < TOLERANCE + ROUNDING, (index, result, words, text)
             worst = [max(a, b) for a, b in zip(worst, result)]
+        if found["kind"] == "disc" and cutter and control != "heidenhain":
+            (folder / "design.toml").unlink()
+            done = make(asked.binary, folder, text.replace("[cut]", '[cut]\nform = "polar"'), "gcode", *words, "--force")
+            assert done.returncode < 2 and "program" not in failed(done), (index, done.stdout, done.stderr, text)
+            program_in_c = path.read_text()
+            moves, fastest = polar(program_in_c)
+            result = judged(found, moves, cutter, depth, False)
+            assert max(result) < TOLERANCE + ROUNDING and fastest < 300 * 1.02, (index, result, fastest, text)
+            ground, worst = ground + 1, [max(a, b) for a, b in zip(worst, result)]
+            for name, other in [("another way round", re.sub(r"C(-?)", lambda m: "C" if m[1] else "C-", program_in_c)), ("a row moved", re.sub(r"X([0-9.]+) C(-?1[0-9.]+)", lambda m: f"X{float(m[1]) + 0.02:.3f} C{m[2]}", program_in_c, count=1))]:
+                if other == program_in_c:
+                    continue
+                file = folder / f"planted{CONTROLS[control]}"
+                file.write_text(other)
+                done = subprocess.run([asked.binary, "check", str(file), "--json", "--design", str(folder / "design.toml"), "--cutter-diameter", f"{2 * cutter!r}mm"], capture_output=True, text=True)
+                # A symmetric cam is the same either way round.
+                assert done.returncode in (1, 2) or name == "another way round", (index, name, done.stdout, done.stderr)
+                planted += 1
+            path.write_text(program)
+            (folder / "design.toml").write_text(text)
         if index % 3 == 0:
             size = ["--cutter-diameter", f"{2 * radius!r}mm"] if radius else []
             check = lambda path: subprocess.run([asked.binary, "check", str(path), "--json", "--design", str(folder / "design.toml"), *size], capture_output=True, text=True)
@@ -343,7 +393,7 @@ def main():
                 planted += 1
     assert made > asked.count // 2, made
     by = f"{run} of them by rs274" if rs274 else "rs274 is not to be had"
-    print(f"{made} of {asked.count} programs ({by}): gouges up to {1e3 * worst[0]:.3f} um, {1e3 * worst[1]:.3f} um left over; {planted} planted faults refused")
+    print(f"{made} of {asked.count} programs ({by}): gouges up to {1e3 * worst[0]:.3f} um, {1e3 * worst[1]:.3f} um left over; {ground} discs ground in polar coordinates; {planted} planted faults refused")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Interpolates the tables of `--format servo-csv`, `servo-xyva` and `servo-twincat` as the controls document it, against motions integrated here.
+"""Interpolates the tables of `--format servo-csv`, `servo-xyva`, `servo-twincat` and `servo-isg` as the controls document it, against motions integrated here.
 
 Shares nothing with camgen but the motion programs below: the laws are those of laws.py, integrated by Gauss' rule. Between two nodes the drive runs
 on the polynomial of degree 5 with position, velocity and acceleration of both ends, whose coefficients are solved here as a linear system. The
@@ -24,6 +24,7 @@ ROUNDING = 1e-6
 VELOCITY = 1e-3
 NUMBER = r"(-?[0-9.]+(?:[eE][-+]?\d+)?)"
 ENDINGS = {"servo-csv": "-servo.csv", "servo-xyva": "-xyva.st", "servo-twincat": "-twincat.st"}
+ISG = "-isg.txt"
 
 
 def nodes(path):
@@ -38,6 +39,16 @@ def nodes(path):
     assert len(found) == int(high) - int(low) + 1, (len(found), low, high)
     assert "nElements" not in text or int(re.search(r"nElements := (\d+)", text)[1]) == len(found)
     return np.array(found, dtype=float)
+
+
+def equal_parts(text):
+    """Positions at equal parts of the turn of a table of the controls of ISG, closed by the first, in mm or degrees."""
+    head, rows = re.fullmatch(r"(.*)Begintable\n(.*)EndTable\n", text, re.S).groups()
+    stated = dict(re.findall(r"^([\w-]+) = ([^ #\n]+)", head, re.M))
+    assert (stated["Tabletype"], stated["Functiontype"]) == ("3", "1"), stated
+    slave = 1e-4 * np.array([float(row) for row in rows.split()])
+    assert int(stated["Lines"]) == len(slave)
+    return np.linspace(0, 360, len(slave) + 1), np.append(slave, slave[0])
 
 
 def interpolated(table):
@@ -65,7 +76,7 @@ def main():
     random = __import__("random").Random(asked.seed)
     folder = asked.directory / "servo"
     folder.mkdir(parents=True, exist_ok=True)
-    worst, made, most, refused = [0.0, 0.0], 0, 0, 0
+    worst, made, most, refused, straight = [0.0, 0.0], 0, 0, 0, 0
     for index in range(asked.count):
         found = groove.design(random)
         found["body"] = "groove"
@@ -89,6 +100,23 @@ def main():
         share = np.abs(speed[inner] - slope).max() / np.abs(slope).max()
         assert off < tolerance + ROUNDING and share < VELOCITY * (1 + 1e-2), (index, off, share, groove.toml(found))
         worst = [max(worst[0], off / tolerance), max(worst[1], share)]
+        isg = folder / f"cam{ISG}"
+        isg.unlink(missing_ok=True)
+        done = make(asked.binary, folder, groove.toml(found), "servo-isg", "--force", "--tolerance", f"{1e3 * tolerance!r}um")
+        if isg.exists():
+            straight += 1
+            masters, slaves = equal_parts(isg.read_text())
+            part = masters[1]
+            places = (masters[:-1, None] + part * np.linspace(0, 1, 5)[:-1]).ravel()
+            off = np.abs(np.interp(places, masters, slaves) - motion(found["segments"], 0.0, places)).max() * arm
+            # Within a part, clear of its ends, where the law's own slope is taken by central differences.
+            inside = masters[:-1, None] + part * np.array([0.01, 0.99])
+            near = 0.005 * part
+            exact_slope = (motion(found["segments"], 0.0, (inside + near).ravel()) - motion(found["segments"], 0.0, (inside - near).ravel())) / (2 * near)
+            share = np.abs(np.repeat(np.diff(slaves) / part, 2) - exact_slope).max() / np.abs(slope).max()
+            assert off < tolerance + ROUNDING and share < VELOCITY * (1 + 2e-2), (index, off, share, groove.toml(found))
+        else:
+            assert "more than 100000" in done.stderr, (index, done.stderr)
         if index % 3 == 0:
             path = folder / "cam-servo.csv"
             check = lambda path: subprocess.run([asked.binary, "check", str(path), "--json", "--tolerance", f"{1e3 * tolerance!r}um", "--design", str(folder / "design.toml")], capture_output=True, text=True)
@@ -106,7 +134,7 @@ def main():
                 assert done.returncode == 1 and "servo" in failed(done), (index, done.stdout[-1500:], done.stderr)
                 refused += 1
     assert made > asked.count // 2, made
-    print(f"{made} of {asked.count} motions: positions within {100 * worst[0]:.1f} % of the tolerance, velocities within {worst[1]:.2e} of the largest, at most {most} nodes; {refused} planted faults refused")
+    print(f"{made} of {asked.count} motions: positions within {100 * worst[0]:.1f} % of the tolerance, velocities within {worst[1]:.2e} of the largest, at most {most} nodes; {straight} tables of straight lines; {refused} planted faults refused")
 
 
 if __name__ == "__main__":

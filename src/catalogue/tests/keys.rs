@@ -260,6 +260,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("title.profile_tolerance", "0.04 mm"),
     ("title.lift_tolerance", "0.05 mm"),
     ("cut.controller", "heidenhain"),
+    ("cut.form", "polar"),
     ("cut.decimals", "5"),
     ("cut.preamble", "[\"G55\"]"),
     ("cut.postamble", "[\"M2\"]"),

@@ -77,14 +77,14 @@ pub(in crate::cli) struct OutlineArgs {
 /// What is written, where, and how.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct FileArgs {
-    /// Formats to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet and the motion diagram), diagram (the motion diagram as SVG), points, gcode (a program for a milling machine), servo-csv, servo-xyva (CODESYS) and servo-twincat (tables for a servo drive), inspect (places for a measuring machine), and stl for a conoid
+    /// Formats to write: dxf, svg, step, csv, json, html (the moving report), pdf (the review sheet and the motion diagram), diagram (the motion diagram as SVG), points, gcode (a program for a milling machine), servo-csv, servo-xyva (CODESYS), servo-twincat and servo-isg (tables for a servo drive), inspect (places for a measuring machine), gauge (the lift of a gauge follower), and stl for a conoid
     /// [default: dxf,svg,step,csv]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
     pub(in crate::cli) format: Option<Vec<String>>,
 
-    /// Rows of the CSV table over one turn of the cam, or steps of x over the stroke of a plate
-    #[arg(long, value_name = "N", default_value = "720", value_parser = samples)]
-    pub(in crate::cli) samples: u32,
+    /// Rows of the CSV table over one turn of the cam, or steps of x over the stroke of a plate [default: 720]
+    #[arg(long, value_name = "N", value_parser = samples)]
+    pub(in crate::cli) samples: Option<u32>,
 
     #[command(flatten)]
     pub(in crate::cli) outline: OutlineArgs,
@@ -99,9 +99,13 @@ pub(in crate::cli) struct FileArgs {
     #[arg(long, value_name = "CONTROL", ignore_case = true, value_parser = word::<Controller>())]
     pub(in crate::cli) controller: Option<Controller>,
 
-    /// Diameter of the ball of the probe whose centres --format inspect gives [default: 3mm]
+    /// Diameter of the ball of the probe whose centres --format inspect gives, and of the usual --gauge [default: 3mm]
     #[arg(long, value_name = "DIAMETER", value_parser = cutter_diameter)]
     pub(in crate::cli) ball_diameter: Option<f64>,
+
+    /// Follower of --format gauge: ball DIAMETER, roller DIAMETER, or flat [default: ball of --ball-diameter]
+    #[arg(long, num_args = 1..=2, value_names = ["FORM", "DIAMETER"])]
+    pub(in crate::cli) gauge: Option<Vec<String>>,
 }
 
 /// The table of --format points, STEM-points.csv: as many points as needed to keep --tolerance between them.

@@ -22,7 +22,7 @@ pub(super) use deferred::DeferredArgs;
 pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs};
 #[cfg(feature = "shaft")]
 pub(super) use parse::Order;
-pub(super) use parse::Speed;
+pub(super) use parse::{Speed, gauge_follower};
 pub(super) use side_by_side::SideBySideArgs;
 
 use camgen::analysis::size::FreeDimension;

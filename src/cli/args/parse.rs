@@ -1,6 +1,7 @@
 //! The values of flags, as they were typed.
 
 use camgen::body::RateTolerance;
+use camgen::body::gauge::Gauge;
 use camgen::document::{LengthOrAngle, NamedChoice, similar};
 #[cfg(feature = "shaft")]
 use camgen::domains::shaft::mechanics::MOST_ORDER;
@@ -194,6 +195,8 @@ pub(in crate::cli) fn tolerance(text: &str) -> Result<f64, String> {
 
 /// Radius of the largest cutter or wheel, m.
 const LARGEST_CUTTER: f64 = 1.0;
+/// Radius of the smallest cutter, beam or probing ball that can be had, m.
+const SMALLEST_CUTTER: f64 = 5e-6;
 
 /// The radius of a cutter of a diameter, m.
 pub(super) fn cutter_diameter(text: &str) -> Result<f64, String> {
@@ -208,10 +211,28 @@ pub(super) fn cutter_radius(text: &str) -> Result<f64, String> {
 fn cutter(text: &str, what: &str, radii: f64) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Length)
         .map_err(|error| format!("{error}; a {what} is a length with one of {}", Dimension::Length.unit_list()))?;
-    if quantity.si > 0.0 && quantity.si <= radii * LARGEST_CUTTER {
+    let [least, most] = [SMALLEST_CUTTER, LARGEST_CUTTER].map(|radius| radii * radius);
+    if (least..=most).contains(&quantity.si) {
         Ok(quantity.si / radii)
     } else {
-        Err(format!("must be above 0 and at most {}", quantity.in_same_unit(radii * LARGEST_CUTTER)))
+        let [least, most] = [least, most].map(|bound| quantity.in_same_unit(bound));
+        Err(format!("must be at least {least} and at most {most}"))
+    }
+}
+
+/// The gauge follower of the words of `--gauge`.
+pub(in crate::cli) fn gauge_follower(words: &[String]) -> Result<Gauge, String> {
+    let fault = |why: &str| {
+        format!("--gauge {}: {why}; write --gauge ball 3mm, --gauge roller 20mm or --gauge flat", words.join(" "))
+    };
+    let is_round = |form: &String| ["ball", "roller"].iter().any(|known| form.eq_ignore_ascii_case(known));
+    match words {
+        [form] if form.eq_ignore_ascii_case("flat") => Ok(Gauge::Flat),
+        [form] if is_round(form) => Err(fault("its diameter is missing")),
+        [form, diameter] if is_round(form) => {
+            cutter_diameter(diameter).map(Gauge::Round).map_err(|why| fault(&format!("the diameter {why}")))
+        }
+        _ => Err(fault("the form is ball or roller with a diameter, or flat")),
     }
 }
 

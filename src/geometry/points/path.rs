@@ -18,6 +18,10 @@ const LOOKED_AT: u32 = 8;
 /// circle about the shaft.
 const ROUND: f64 = 1e-11;
 
+/// Places along an open curve from which the one nearest to a row is found, and steps of doing that.
+const LOOKED_ALONG: u32 = 8192;
+const REFINED: u32 = 12;
+
 /// Curvatures that differ by more than this share of the larger count as a jump.
 const JUMP: f64 = 1e-6;
 
@@ -198,20 +202,25 @@ impl<'a> ExactPath<'a> {
         if once { Ok(()) } else { Err(not_around(0.0)) }
     }
 
-    /// The lengths at which the rows of an interpolated curve lie on a closed curve that goes round the shaft, each on the ray of its row, mm.
+    /// The lengths at which the rows of an interpolated curve lie, mm: on a closed curve that goes round the shaft each on the ray of its row,
+    /// on an open one where it is nearest to its row, from end to end.
     ///
     /// # Errors
-    /// [`Refusal`] where the curve is open or does not go round, or the rows do not go round it once in its direction.
+    /// [`Refusal`] where a closed curve does not go round, or the rows do not run along the curve once in its direction.
     pub fn places_of(&self, curve: &Interpolant) -> Result<Vec<f64>, Refusal> {
-        if !self.closed {
-            return Err(Refusal::new("the rows of an open curve are not compared").remedy("check the DXF file"));
-        }
-        self.check_goes_round()?;
-        let row = |index: usize| {
+        let point = |index: usize| {
             let (from, to) = curve.range(index.min(curve.count().saturating_sub(1)))?;
             let at =
                 if index < curve.count() { curve.at(index, from)? } else { curve.at(index.checked_sub(1)?, to)? };
-            self.on_ray(libm::atan2(at.point.y, at.point.x)).map(|(length, _)| length)
+            Some(at.point)
+        };
+        if !self.closed {
+            return self.places_along(&(0..=curve.count()).filter_map(point).collect::<Vec<_>>());
+        }
+        self.check_goes_round()?;
+        let row = |index: usize| {
+            let at = point(index)?;
+            self.on_ray(libm::atan2(at.y, at.x)).map(|(length, _)| length)
         };
         let mut places: Vec<f64> = Vec::with_capacity(curve.count() + 1);
         for index in 0..=curve.count() {
@@ -233,6 +242,34 @@ impl<'a> ExactPath<'a> {
         let round = places.last().zip(places.first()).map_or(0.0, |(last, first)| last - first);
         if (round - self.length).abs() > SAME_ROW {
             return Err(Refusal::new(format!("the rows cover {round:.6} mm of {:.6} mm round the cam", self.length)));
+        }
+        Ok(places)
+    }
+
+    /// The lengths at which an open curve is nearest to points along it, mm; the first and the last belong to its ends.
+    fn places_along(&self, points: &[Vector2<f64>]) -> Result<Vec<f64>, Refusal> {
+        let step = self.length / f64::from(LOOKED_ALONG);
+        let at = |length: f64| self.point(self.place(length.clamp(0.0, self.length)));
+        let away = |length: f64, point: Vector2<f64>| at(length).map_or(f64::NAN, |on| (on.point - point).norm());
+        let mut places = Vec::with_capacity(points.len());
+        let mut near = 0.0;
+        for (index, point) in points.iter().enumerate() {
+            while near < self.length && away(near + step, *point) <= away(near, *point) {
+                near += step;
+            }
+            let mut length = near.min(self.length);
+            for _ in 0..REFINED {
+                let Some(on) = at(length) else { break };
+                length = (length + (point - on.point).dot(&on.tangent)).clamp(near - step, near + step);
+            }
+            let last = places.last().copied().unwrap_or(0.0);
+            if !(length >= last - SAME_ROW) {
+                return Err(Refusal::new(format!("row {} lies behind the row before it", index + 1)));
+            }
+            places.push(length.clamp(last, self.length));
+        }
+        if let [first, .., last] = places.as_mut_slice() {
+            (*first, *last) = (0.0, self.length);
         }
         Ok(places)
     }

@@ -1,12 +1,18 @@
 //! Programs in words of a letter and a number: LinuxCNC, FANUC, SINUMERIK.
 
+use super::dialect::{dialect, moves_the_profile};
 use super::machine_state::{MachineState, at_line};
 use super::{CutterProgram, CutterSide, MoveKind};
+use crate::machine::Controller;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
 
 /// A word: its letter in capitals, and its number.
 type Word = (char, f64);
+/// The words whose numbers FANUC counts in its least increments where they have no decimal point.
+const COUNTED: &str = "XYZABCIJKR";
+/// The least increment of a FANUC control in its increment system IS-B, mm.
+const INCREMENT: f64 = 1e-3;
 
 /// What holds until another word of the group is read.
 #[derive(Debug, Default)]
@@ -19,11 +25,18 @@ struct ModalWords {
     /// Whether a block was read, and whether the last one was.
     begun: bool,
     ended: bool,
+    /// The tool that was called, whether it was changed in, and the number of the offset with its radius.
+    tool: Option<f64>,
+    changed: bool,
+    offset: Option<f64>,
+    /// The control, where it is known.
+    control: Option<Controller>,
 }
 
-/// Reads a program.
-pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
-    let (mut state, mut modal) = (MachineState::default(), ModalWords::default());
+/// Reads a program; where its head does not say for which control it is, for that of its design.
+pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
+    let control = dialect(text, design);
+    let (mut state, mut modal) = (MachineState::default(), ModalWords { control, ..ModalWords::default() });
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         if modal.ended {
@@ -38,6 +51,12 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             return Err(at_line(line, "`%` ends the program for the control, before M2 or M30"));
         }
         modal.begun = true;
+        if let Some(what) = moves_the_profile(block) {
+            return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
+        }
+        if control == Some(Controller::Fanuc) {
+            counted(line, block)?;
+        }
         match words(block) {
             Some(words) if words.iter().all(|word| is_known(*word)) => run(line, &words, &mut state, &mut modal)?,
             _ => state.unknown(line, block)?,
@@ -47,7 +66,7 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
 }
 
 /// A block without what stands in parentheses or behind a semicolon; `None` where a parenthesis is left open.
-fn without_comments(block: &str) -> Option<String> {
+pub(super) fn without_comments(block: &str) -> Option<String> {
     let mut depth = 0_u32;
     let mut kept = String::with_capacity(block.len());
     for character in block.chars() {
@@ -63,7 +82,7 @@ fn without_comments(block: &str) -> Option<String> {
 }
 
 /// The words of a block; `None` where it has something else.
-fn words(block: &str) -> Option<Vec<Word>> {
+pub(super) fn words(block: &str) -> Option<Vec<Word>> {
     let mut words = Vec::new();
     let mut rest = block;
     while let Some(letter) = rest.chars().next() {
@@ -77,22 +96,44 @@ fn words(block: &str) -> Option<Vec<Word>> {
         if !letter.is_ascii_alphabetic() || after.starts_with(['=', '[', '#']) {
             return None;
         }
-        words.push((letter.to_ascii_uppercase(), digits.parse().ok()?));
+        words.push((letter.to_ascii_uppercase(), digits.parse().ok().filter(|number: &f64| number.is_finite())?));
         rest = after;
     }
     Some(words)
 }
 
+/// Refuses a number without a decimal point that FANUC reads in its least increments (parameter 3401, DPI = 0, as delivered): `X10` is
+/// 0.010 mm for it.
+pub(super) fn counted(line: usize, block: &str) -> Result<(), Refusal> {
+    let mut rest = block;
+    while let Some(at) = rest.find(|c: char| c.is_ascii_alphabetic()) {
+        let (letter, after) = rest.split_at(at + 1);
+        let letter = letter.chars().last().unwrap_or(' ').to_ascii_uppercase();
+        let after = after.trim_start();
+        let end = after.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(after.len());
+        let (number, next) = after.split_at(end);
+        if COUNTED.contains(letter) && !number.contains('.') && number.parse().is_ok_and(|whole: f64| whole != 0.0) {
+            let read = INCREMENT * number.parse().unwrap_or(f64::NAN);
+            let what = format!("{letter}{number} has no decimal point: a FANUC control reads it as {read} mm");
+            return Err(at_line(line, what).remedy(format!("write {letter}{number}. with a point")));
+        }
+        rest = next;
+    }
+    Ok(())
+}
+
 /// Whether a word is one whose effect on the path is known.
-fn is_known((letter, number): Word) -> bool {
+pub(super) fn is_known((letter, number): Word) -> bool {
     // In tenths: G91.1 is 911.
     let tenths = 10.0 * number;
     let g = [
         0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0,
         900.0, 901.0, 910.0, 911.0, 930.0, 940.0, 950.0, 90.0, 540.0, 550.0, 560.0, 570.0, 580.0, 590.0, 600.0, 610.0,
-        640.0, 490.0, 800.0,
+        640.0, 430.0, 490.0, 690.0, 500.0, 501.0, 800.0,
     ];
     match letter {
+        // To a reference point, or to a place of the machine.
+        'G' if REFERENCE.contains(&number) => true,
         'G' => g.iter().any(|known| (known - tenths).abs() < 1e-6),
         'M' => number.fract() == 0.0 && ((0.0..=9.0).contains(&number) || number == 30.0),
         'N' | 'O' | 'T' | 'D' | 'S' | 'F' | 'X' | 'Y' | 'Z' | 'I' | 'J' | 'H' => true,
@@ -100,29 +141,89 @@ fn is_known((letter, number): Word) -> bool {
     }
 }
 
+/// The number behind a letter of a block.
+pub(super) fn of(line: usize, words: &[Word], letter: char) -> Result<Option<f64>, Refusal> {
+    let mut found = words.iter().filter(|(own, _)| *own == letter);
+    match (found.next(), found.next()) {
+        (Some(_), Some(_)) => Err(at_line(line, format!("{letter} is given twice"))),
+        (found, _) => Ok(found.map(|(_, number)| *number)),
+    }
+}
+
+/// G28, G30 and G53: to a reference point, or to a place of the machine.
+const REFERENCE: [f64; 3] = [28.0, 30.0, 53.0];
+
+/// A block that goes to a place of the machine, such as `G91 G28 Z0`: only upwards, or with the cutter above the part.
+fn to_the_machine(
+    line: usize,
+    words: &[Word],
+    state: &mut MachineState,
+    modal: &mut ModalWords,
+) -> Result<(), Refusal> {
+    modal.absolute &= !words.contains(&('G', 91.0));
+    let axes = ['X', 'Y', 'Z'].map(|axis| words.iter().any(|(letter, _)| *letter == axis));
+    if state.side != CutterSide::Centre {
+        return Err(at_line(line, "the cutter leaves for a place of the machine while it is kept beside its path"));
+    }
+    state.leave(line, axes)
+}
+
+/// What a block says of the tool and of the radius that is taken into account.
+fn tool(line: usize, words: &[Word], state: &MachineState, modal: &mut ModalWords) -> Result<(), Refusal> {
+    let offset = of(line, words, 'D')?;
+    modal.tool = of(line, words, 'T')?.or(modal.tool);
+    modal.changed |= modal.tool.is_some_and(|tool| tool > 0.0) && words.contains(&('M', 6.0));
+    modal.offset = offset.or(modal.offset);
+    if offset == Some(0.0) && state.side != CutterSide::Centre {
+        return Err(at_line(line, "D0 ends the compensation: the cutter would take its radius out of the cam"));
+    }
+    let begins = words.contains(&('G', 41.0)) || words.contains(&('G', 42.0));
+    if !begins || modal.offset.is_some_and(|offset| offset > 0.0 && offset.fract() == 0.0) {
+        return Ok(());
+    }
+    // LinuxCNC takes the radius of the tool in the spindle, SINUMERIK that of the first cutting edge of a tool that was changed in (machine data
+    // 20270); FANUC takes D00, a radius of 0.
+    let (why, known) = match modal.control {
+        Some(Controller::Fanuc) => ("FANUC then takes D00, a radius of 0", false),
+        Some(Controller::LinuxCnc) => {
+            ("LinuxCNC then takes the tool in the spindle, which the program does not change in", modal.changed)
+        }
+        Some(Controller::Sinumerik) => {
+            ("SINUMERIK then takes the tool that was changed in, and the program changes none", modal.changed)
+        }
+        Some(Controller::Heidenhain) | None => ("the control does not know the radius", modal.changed),
+    };
+    let zero = modal.offset == Some(0.0);
+    if known && !zero {
+        return Ok(());
+    }
+    let what = format!("the cutter is to be kept beside its path (G41, G42) without a number of its radius (D): {why}");
+    Err(at_line(line, what).remedy("write G41 D1 with the number of the offset"))
+}
+
 /// Does what a block says: first what is modal, then its move.
 fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalWords) -> Result<(), Refusal> {
+    let is = |code: &f64| words.contains(&('G', *code));
+    if REFERENCE.iter().any(is) {
+        return to_the_machine(line, words, state, modal);
+    }
     for (_, number) in words.iter().filter(|(letter, _)| *letter == 'G') {
         set(line, 10.0 * number, state, modal)?;
     }
-    let of = |letter: char| {
-        let mut found = words.iter().filter(|(own, _)| *own == letter);
-        match (found.next(), found.next()) {
-            (Some(_), Some(_)) => Err(at_line(line, format!("{letter} is given twice"))),
-            (found, _) => Ok(found.map(|(_, number)| *number)),
-        }
-    };
+    let of = |letter: char| of(line, words, letter);
     state.feed = of('F')?.or(state.feed);
-    if of('D')? == Some(0.0) && state.side != CutterSide::Centre {
-        return Err(at_line(line, "D0 ends the compensation: the cutter would take its radius out of the cam"));
-    }
-    let datum = |(letter, number): &Word| *letter == 'G' && (54.0..=61.0).contains(number);
+    tool(line, words, state, modal)?;
+    let datum = |(letter, number): &Word| *letter == 'G' && (54.0..=59.0).contains(number);
     if state.has_moved() && words.iter().any(datum) {
         return Err(at_line(line, "the datum changes after the first move"));
     }
     modal.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
     let to = [of('X')?, of('Y')?, of('Z')?];
     let (i, j) = (of('I')?, of('J')?);
+    // On a SINUMERIK these shift the datum by the coordinates that follow.
+    if modal.control == Some(Controller::Sinumerik) && to != [None; 3] && (is(&58.0) || is(&59.0)) {
+        return Err(at_line(line, "G58 and G59 with coordinates move the datum"));
+    }
     if to == [None; 3] && i.is_none() && j.is_none() {
         return Ok(());
     }
@@ -180,15 +281,15 @@ mod tests {
     const HEAD: &str = "G17 G21 G40 G90\n";
 
     fn why(body: &str) -> String {
-        read(&format!("{HEAD}{body}\nM30\n")).expect_err("refused").to_string()
+        read(&format!("{HEAD}{body}\nM30\n"), None).expect_err("refused").to_string()
     }
 
     #[test]
     fn a_program_is_read_as_a_control_reads_it() {
         let program = format!(
-            "%\nO1 (A (NESTED) NAME)\n{HEAD}n10 g0 z5 x10y0 ; a comment\nG1Z-2F100\nG3X-10I-10J0\nX10I10\nM30\nG91 X1\n"
+            "%\nO1 (A (NESTED) NAME)\n{HEAD}n10 g0 z5. x10.y0 ; a comment\nG1Z-2.F100\nG3X-10.I-10.J0\nX10.I10.\nM30\nG91 X1\n"
         );
-        let read = read(&program).expect("a program");
+        let read = read(&program, None).expect("a program");
         assert_eq!(read.moves.len(), 3, "{read:?}");
         assert!(read.moves[0].is_upright() && read.moves[1].is_level());
         let turned: f64 = read.moves[1..].iter().flat_map(CutterMove::segments).map(|arc| arc.sweep()).sum();
@@ -219,9 +320,69 @@ mod tests {
         }
         assert!(why("G0 X0 Y0 Z5\nG1 Z-1").contains("feed"));
         assert!(why("G1 X1 F100").contains("place that is not known"));
-        assert!(read("G21 G90\nG0 X1 Y1 Z1\nM30\n").is_err_and(|why| why.to_string().contains("G17")));
-        assert!(read(&format!("{HEAD}G0 X1 Y1 Z1\n")).is_err_and(|why| why.to_string().contains("end")));
-        let own = read(&format!("CYCLE832(0.01)\nG55\n{HEAD}G0 X1 Y1 Z1\nM30\n")).expect("passed over");
+        assert!(read("G21 G90\nG0 X1 Y1 Z1\nM30\n", None).is_err_and(|why| why.to_string().contains("G17")));
+        assert!(read(&format!("{HEAD}G0 X1 Y1 Z1\n"), None).is_err_and(|why| why.to_string().contains("end")));
+        let own = read(&format!("CYCLE832(0.01)\nG55\n{HEAD}G0 X1 Y1 Z1\nM30\n"), None).expect("passed over");
         assert_eq!(own.unknown, ["CYCLE832"]);
+    }
+
+    #[test]
+    fn a_number_without_a_point_is_one_of_increments_for_fanuc_alone() {
+        let body = "G17 G21 G40 G90\nG0 X1.5 Y0 Z5.\nG1 Z-1. F100\nG1 X10\nM30\n";
+        assert!(read(body, None).is_ok() && read(&format!("G91.1\n{body}"), Some(Controller::Fanuc)).is_ok());
+        for (text, design) in [(format!("%\nO0001\n{body}"), None), (body.to_owned(), Some(Controller::Fanuc))] {
+            let why = read(&text, design).expect_err("increments").to_string();
+            assert!(
+                why.contains("X10 has no decimal point") && why.contains("0.01 mm") && why.contains("X10."),
+                "{why}"
+            );
+            assert!(read(&text.replace("X10", "X10."), design).is_ok());
+        }
+    }
+
+    #[test]
+    fn a_cutter_is_kept_beside_its_path_by_a_radius_that_is_known() {
+        let body =
+            |head: &str, side: &str| format!("{head}\nG0 X0. Y0. Z5.\nG1 Z-1. F100\n{side}\nG1 X10.\nG40\nM30\n");
+        let of = |head: &str, side: &str| read(&body(head, side), None);
+        let (fanuc, linuxcnc, sinumerik) = ("O1\nG17 G21 G40 G90", "G17 G21 G40 G90 G91.1", "G17 G40 G90 G710");
+        for (head, why) in
+            [(fanuc, "D00"), (linuxcnc, "spindle"), (sinumerik, "changes none"), ("G17 G21 G40 G90", "not know")]
+        {
+            let found = of(head, "G41").expect_err("no radius").to_string();
+            assert!(found.contains(why) && found.contains("G41 D1"), "{found}");
+            assert!(
+                of(head, "G42 D0").is_err() && of(head, "G42 D3").is_ok() && of(&format!("{head} D2"), "G41").is_ok()
+            );
+            assert_eq!(of(&format!("{head}\nT1 M6"), "G41").is_ok(), head != fanuc, "{head}");
+        }
+    }
+
+    #[test]
+    fn a_feed_that_no_machine_runs_at_is_refused_with_its_number() {
+        for (word, why) in
+            [("", "not given"), ("F0", "0 mm/min"), ("F-5", "-5 mm/min"), ("F1000000000", "1000000000 mm/min")]
+        {
+            let found = why_of_feed(word);
+            assert!(found.contains(why), "{word}: {found}");
+        }
+    }
+
+    fn why_of_feed(word: &str) -> String {
+        why(&format!("G0 X0 Y0 Z5\nG1 Z-1 {word}"))
+    }
+
+    #[test]
+    fn what_moves_the_profile_is_refused_and_a_reference_point_is_not() {
+        for block in ["G68 X0 Y0 R10", "G92 X1 Y0", "G10 L2 P1 X1", "G51 X0 Y0 P2", "G52 X1 Y1", "TRANS X1", "#5221=3"]
+        {
+            assert!(why(&format!("{block}\nG0 X0 Y0 Z5")).contains("line 2"), "{block}");
+            assert!(why(&format!("G0 X0 Y0 Z5\n{block}")).contains("not the profile"), "{block}");
+        }
+        assert!(why("G710\nG58 X1\nG0 X0 Y0 Z5").contains("datum"));
+        let home = "G91 G28 Z0\nG90 G69 G54\nG0 X0 Y0\nG43 Z5 H1\nG1 Z-1 F9\nG1 X9\nG0 Z5\nG91 G28 Z0";
+        let found = read(&format!("{HEAD}{home}\nM30\n"), None).expect("a program");
+        assert!(found.unknown.is_empty() && found.moves.len() == 3, "{found:?}");
+        assert!(why("G0 X0 Y0 Z5\nG1 Z-1 F9\nG28 X0 Y0").contains("below the upper face"));
     }
 }

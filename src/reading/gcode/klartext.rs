@@ -1,12 +1,13 @@
 //! Programs in the dialogue of HEIDENHAIN controls (Klartext): `L`, `CC`, `C`.
 
+use super::dialect::moves_the_profile_of_a_dialogue;
 use super::machine_state::{MachineState, at_line};
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
 
-/// Largest feed that counts, mm/min; `FMAX` stands for more.
-const FASTEST: f64 = 1e6;
+/// The cycles that set a frame, and that of the tolerance.
+const KNOWN_CYCLES: [&str; 7] = ["7", "8", "10", "11", "19", "26", "32"];
 
 /// Reads a program.
 pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
@@ -18,14 +19,20 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
         if words.first().is_some_and(|word| word.bytes().all(|byte| byte.is_ascii_digit())) {
             words.remove(0);
         }
+        if let Some(what) = moves_the_profile_of_a_dialogue(&words) {
+            return Err(at_line(line, format!("the program {what}, and is then not the profile that it says")));
+        }
         match words.as_slice() {
             _ if ended && !words.is_empty() => {
                 return Err(at_line(line, "there is more behind the end of the program"));
             }
             []
             | ["BEGIN", "PGM", _, "MM"]
-            | ["TOOL", "CALL", ..]
             | ["STOP" | "M0" | "M1" | "M3" | "M5" | "M6" | "M8" | "M9" | "M30" | "M2"] => {}
+            // Those that move the profile are refused above.
+            ["PLANE" | "TRANS", ..] => {}
+            ["CYCL", "DEF", cycle, ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {}
+            ["TOOL", "CALL", call @ ..] => tool_call(line, call, &mut state)?,
             ["BEGIN", "PGM", ..] => return Err(at_line(line, "the unit is not the millimetre")),
             ["END", "PGM", ..] => ended = true,
             ["CC", rest @ ..] => centre = Some(centre_of(line, rest)?),
@@ -38,7 +45,31 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
 }
 
 fn number(line: usize, word: &str) -> Result<f64, Refusal> {
-    word.parse().map_err(|_| at_line(line, format!("`{word}` is no number")))
+    let read = word.parse().ok().filter(|number: &f64| number.is_finite());
+    read.ok_or_else(|| at_line(line, format!("`{word}` is no number")))
+}
+
+/// `TOOL CALL 1 Z S3000 F300 DL+0 DR+0`: no change of the tool may move the path or, where the control keeps it beside it, the profile.
+fn tool_call(line: usize, words: &[&str], state: &mut MachineState) -> Result<(), Refusal> {
+    state.radius_fault = (words.first() == Some(&"0")).then_some("no tool is called (TOOL CALL 0)");
+    for word in words {
+        let value = |name: &str| word.strip_prefix(name).map(|value| number(line, value));
+        if let Some(change) = value("DR2").or(value("DR")) {
+            state.radius_fault = (change? != 0.0).then_some("TOOL CALL changes its radius (DR)").or(state.radius_fault);
+        } else if let Some(change) = value("DL") {
+            if change? != 0.0 {
+                return Err(at_line(
+                    line,
+                    "TOOL CALL moves the tool along its axis (DL): it does not cut to its depth",
+                ));
+            }
+        } else if ["X", "Y", "U", "V", "W"].contains(word) {
+            return Err(at_line(line, "the axis of the tool is not Z: arcs of a cam lie in the plane across it"));
+        } else if let Some(feed) = word.strip_prefix('F').and_then(|feed| feed.parse().ok()) {
+            state.feed = Some(feed);
+        }
+    }
+    Ok(())
 }
 
 fn centre_of(line: usize, words: &[&str]) -> Result<Vector2<f64>, Refusal> {
@@ -61,8 +92,12 @@ fn coordinates(
         let axis = ["X", "Y", "Z"].iter().position(|axis| word.starts_with(axis));
         match (*word, axis) {
             ("R0", _) => state.side = CutterSide::Centre,
-            ("RL", _) => state.side = CutterSide::Left,
-            ("RR", _) => state.side = CutterSide::Right,
+            ("RL" | "RR", _) => {
+                if let Some(why) = state.radius_fault {
+                    return Err(at_line(line, format!("the cutter is to be kept beside its path, and {why}")));
+                }
+                state.side = if *word == "RL" { CutterSide::Left } else { CutterSide::Right };
+            }
             ("DR+", _) => left = Some(true),
             ("DR-", _) => left = Some(false),
             ("FMAX", _) => rapid = true,
@@ -74,7 +109,7 @@ fn coordinates(
                 }
             }
             (word, None) => match word.strip_prefix('F') {
-                Some(feed) => state.feed = Some(number(line, feed)?).filter(|feed| *feed < FASTEST),
+                Some(feed) => state.feed = Some(number(line, feed)?),
                 None => return Err(at_line(line, format!("`{word}` is not known"))),
             },
         }
@@ -126,6 +161,22 @@ mod tests {
         for (body, expected) in cases {
             assert!(program(body).is_err_and(|why| why.to_string().contains(expected)), "{body}");
         }
+        for (body, expected) in [
+            ("4 TOOL CALL 1 Z S3000 DR+0.05\n5 L X+9 RL F9", "(DR)"),
+            ("4 TOOL CALL 0 Z\n5 L X+9 RR", "TOOL CALL 0"),
+            ("4 TOOL CALL 1 Z DL+0.2", "(DL)"),
+            ("4 TOOL CALL 1 X", "axis"),
+            ("4 CYCL DEF 10.1 ROT+35", "turns the profile"),
+            ("4 L X+9 F0", "at 0 mm/min"),
+            ("4 L X+9 F-4", "-4 mm/min"),
+            ("4 L X+9 F1e9", "1000000000 mm/min"),
+        ] {
+            let found = program(body).expect_err(body).to_string();
+            assert!(found.contains(expected) && found.contains("line"), "{body}: {found}");
+        }
+        assert!(program("4 TOOL CALL 1 Z S3000 F9 DR+0 DL+0\n5 L X+9 RL\n6 L X+12 R0").is_ok());
+        // The centre is on the path: its radius is not asked for.
+        assert!(program("4 TOOL CALL 1 Z DR-0.1\n5 CYCL DEF 7.0 DATUM SHIFT\n6 CYCL DEF 7.1 X+0\n7 L X+9").is_ok());
         assert!(super::read("0 BEGIN PGM CAM INCH\n1 END PGM CAM INCH\n").is_err());
         assert!(super::read("0 BEGIN PGM CAM MM\n").is_err());
     }

@@ -1,6 +1,6 @@
 //! Where the cutter is and what holds until it is changed, whatever the words of the control.
 
-use super::{CutterMove, CutterProgram, CutterSide, MOST_MOVES, MoveKind, NO_MOVE, RADII};
+use super::{CutterMove, CutterProgram, CutterSide, FASTEST, MOST_MOVES, MoveKind, NO_MOVE, RADII};
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
 
@@ -13,6 +13,8 @@ pub(super) struct MachineState {
     pub(super) feed: Option<f64>,
     /// The side of the cutter.
     pub(super) side: CutterSide,
+    /// Why the control does not know the radius of the cutter, where it does not.
+    pub(super) radius_fault: Option<&'static str>,
     program: CutterProgram,
 }
 
@@ -34,12 +36,24 @@ impl MachineState {
 
     /// A block that is not known.
     pub(super) fn unknown(&mut self, line: usize, block: &str) -> Result<(), Refusal> {
-        if self.at == [None; 3] {
+        if self.at == [None; 3] && !self.has_moved() {
             self.program.unknown.push(block.to_owned());
             return Ok(());
         }
         let shown: String = block.chars().take(40).collect();
         Err(at_line(line, format!("`{shown}` is not known, and what it does to the path neither")))
+    }
+
+    /// Leaves for a place of the machine that is not known, along these axes.
+    pub(super) fn leave(&mut self, line: usize, axes: [bool; 3]) -> Result<(), Refusal> {
+        let upwards = axes == [false, false, true];
+        if !upwards && self.at[2].is_some_and(|z| z < 0.0) {
+            return Err(at_line(line, "the cutter leaves for a place of the machine from below the upper face"));
+        }
+        for (own, _) in self.at.iter_mut().zip(axes).filter(|(_, leaves)| *leaves) {
+            *own = None;
+        }
+        Ok(())
     }
 
     /// The place in the plane.
@@ -54,8 +68,13 @@ impl MachineState {
             *own = new.or(*own);
         }
         if kind != MoveKind::Rapid {
-            if !self.feed.is_some_and(|feed| feed > 0.0) {
-                return Err(at_line(line, "the cutter is to move at a feed that is not given"));
+            match self.feed {
+                None => return Err(at_line(line, "the cutter is to move at a feed that is not given")),
+                Some(feed) if !(feed > 0.0 && feed <= FASTEST) => {
+                    let what = format!("the cutter is to move at {feed} mm/min");
+                    return Err(at_line(line, what).remedy(format!("give a feed above 0 and at most {FASTEST} mm/min")));
+                }
+                Some(_) => {}
             }
             if before.contains(&None) {
                 return Err(at_line(line, "the cutter is to cut from a place that is not known"));

@@ -3,11 +3,16 @@
 //! It shares nothing with `write`: words are split, the modal state is kept, and an arc is found from its ends and its centre. A block
 //! that it does not know is passed over before the first move, where the shop's own lines stand, and refused after it.
 
+mod dialect;
 mod iso;
 mod klartext;
 mod machine_state;
+mod polar;
+
+pub use polar::PolarPass;
 
 use crate::geometry::contour::Segment;
+use crate::machine::Controller;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
@@ -17,6 +22,8 @@ pub const LARGEST_PROGRAM: usize = 1 << 26;
 const MOST_MOVES: usize = 1_000_000;
 /// Radii of an arc to its two ends may differ by so much, mm: LinuxCNC's limit, the least of the controls.
 const RADII: f64 = 0.005;
+/// Fastest feed, mm/min.
+const FASTEST: f64 = 600_000.0;
 /// Steps of rounding below which a move is none, mm.
 const NO_MOVE: f64 = 1e-9;
 /// An arc beyond this is divided in two, rad.
@@ -130,14 +137,20 @@ pub struct CutterProgram {
     pub unknown: Vec<String>,
     /// The side of the cutter where it ends.
     pub side_at_end: CutterSide,
+    /// Passes in polar coordinates, in the place of moves, of a program that turns a disc.
+    pub polar: Vec<PolarPass>,
 }
 
-/// Whether bytes are a program: a dialogue begins with its name, other programs state their plane and their unit.
+/// Whether bytes are a program: a dialogue begins with its name, other programs state in their head how their words are meant.
 #[must_use]
 pub fn is_program(bytes: &[u8]) -> bool {
     let head = String::from_utf8_lossy(bytes.get(..bytes.len().min(8192)).unwrap_or_default()).to_ascii_uppercase();
-    let states = |word: &str| head.split_ascii_whitespace().any(|found| found == word);
-    head.contains("BEGIN PGM") || (states("G17") && states("G90"))
+    let code = |line: &str| line.split(['(', ';']).next().unwrap_or_default().to_owned();
+    let lines: Vec<String> = head.lines().map(code).collect();
+    // Words may stand without blanks between them.
+    let states = |words: &[&str]| lines.iter().any(|line| words.iter().any(|word| dialect::has_word(line, word)));
+    let stated = [&["G17"][..], &["G90"], &["G20", "G21", "G70", "G71", "G700", "G710"], &["G0", "G00", "G1", "G01"]];
+    head.contains("BEGIN PGM") || stated.iter().filter(|words| states(words)).count() >= 2
 }
 
 /// Reads a program.
@@ -145,10 +158,24 @@ pub fn is_program(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`Refusal`] with the line, when a block is unknown, or would move the cutter otherwise than its words say.
 pub fn read(bytes: &[u8]) -> Result<CutterProgram, Refusal> {
+    read_for(bytes, None)
+}
+
+/// As [`read`], for the control of its design where its head does not say for which one it is.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_for(bytes: &[u8], design: Option<Controller>) -> Result<CutterProgram, Refusal> {
     if bytes.len() > LARGEST_PROGRAM {
         return Err(Refusal::new(format!("the program has more than {LARGEST_PROGRAM} bytes")));
     }
     let text =
         std::str::from_utf8(bytes).map_err(|_| Refusal::new("the program has characters that no control reads"))?;
-    if text.to_ascii_uppercase().contains("BEGIN PGM") { klartext::read(text) } else { iso::read(text) }
+    if text.to_ascii_uppercase().contains("BEGIN PGM") {
+        klartext::read(text)
+    } else if polar::is_polar(text) {
+        polar::read(text, design)
+    } else {
+        iso::read(text, design)
+    }
 }

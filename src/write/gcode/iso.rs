@@ -12,9 +12,9 @@ use nalgebra::Vector2;
 const SPEED_DECIMALS: usize = 1;
 
 /// A program being written.
-struct IsoText<'p> {
-    program: &'p MillingProgram,
-    decimals: usize,
+pub(super) struct IsoText<'p> {
+    pub(super) program: &'p MillingProgram,
+    pub(super) decimals: usize,
     text: String,
     /// Where the cutter is, mm.
     at: Vector2<f64>,
@@ -26,6 +26,9 @@ pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -
     let mut text = IsoText { program, decimals, text: String::new(), at: Vector2::zeros() };
     text.begin(comments, name);
     for depth in &program.depths {
+        if let Some(path) = &program.polar {
+            text.polar(path, *depth);
+        }
         for pass in &program.passes {
             text.pass(pass, *depth);
         }
@@ -35,12 +38,12 @@ pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -
 }
 
 impl IsoText<'_> {
-    fn line(&mut self, words: &str) {
+    pub(super) fn line(&mut self, words: &str) {
         self.text.push_str(words);
         self.text.push('\n');
     }
 
-    fn comment(&mut self, comment: &str) {
+    pub(super) fn comment(&mut self, comment: &str) {
         let comment = match self.program.controller {
             Controller::Fanuc => format!("({})", comment.to_ascii_uppercase()),
             Controller::Sinumerik => format!("; {comment}"),
@@ -90,7 +93,7 @@ impl IsoText<'_> {
         }
     }
 
-    fn up(&mut self) {
+    pub(super) fn up(&mut self) {
         let clearance = plain(MILLIMETRES * self.program.cutting.clearance, self.decimals);
         self.line(&format!("G0 Z{clearance}"));
     }
@@ -106,10 +109,16 @@ impl IsoText<'_> {
         words
     }
 
+    /// A feed; with a decimal point for FANUC, which reads one without as so many of its least increments where a parameter says so.
+    pub(super) fn feed(&self, speed: f64) -> String {
+        let text = feed(speed);
+        if self.program.controller == Controller::Fanuc && !text.contains('.') { text + "." } else { text }
+    }
+
     /// Down at its start, round, and up again.
     fn pass(&mut self, pass: &MillingPass, depth: f64) {
         let cutting = &self.program.cutting;
-        let (plunge, along) = (feed(cutting.plunge_feed), feed(cutting.feed));
+        let (plunge, along) = (self.feed(cutting.plunge_feed), self.feed(cutting.feed));
         self.comment(&pass.words);
         let start = pass.compensated.map_or(pass.start, |[from, _]| from);
         self.line(&format!("G0 X{} Y{}", plain(start.x, self.decimals), plain(start.y, self.decimals)));

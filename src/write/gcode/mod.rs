@@ -5,6 +5,7 @@
 
 mod iso;
 mod klartext;
+mod polar;
 
 use super::number::short;
 use super::{Format, FormatSelection, of_parts};
@@ -105,13 +106,25 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
         },
         |radius| format!("path of the centre of a cutter of diameter {} mm, {sense}", millimetres(2.0 * radius)),
     );
+    let polar = program.polar.is_some();
     let flanks: Vec<&str> = program.passes.iter().map(|pass| pass.words.as_str()).collect();
     let count = program.depths.len();
     let passes = if count == 1 { "pass" } else { "passes" };
     let plate = curves(body).is_some_and(|curves| curves.motion.period().is_none());
-    let origin = if plate { "X0 Y0 as in the drawing" } else { "X0 Y0 as in the drawing: the axis of the shaft" };
+    let origin = if polar {
+        "X the distance of the wheel from the axis of the shaft, C0 as in the drawing, Y0"
+    } else if plate {
+        "X0 Y0 as in the drawing"
+    } else {
+        "X0 Y0 as in the drawing: the axis of the shaft"
+    };
     vec![
-        format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
+        format!(
+            "{}: {}, {}",
+            body.machine().name(),
+            body.kind().noun,
+            if polar { "profile".into() } else { flanks.join(", ") }
+        ),
         path,
         format!("{origin}, Z0 the upper face, {} mm deep in {count} {passes}", short(depth, 6)),
         "bore, keyway and holes are not in this program".to_owned(),

@@ -1,0 +1,106 @@
+//! A disc that is ground in polar coordinates: the axis C turns it, the wheel's centre moves along X, and a control goes straight in both from row
+//! to row.
+//!
+//! The rows are the fewest with which the interpolated path keeps what the rounding of its numbers leaves of the tolerance, as a table of points
+//! for a control has them (`points`).
+
+use super::milling::{self, Milling, MillingError, MillingProgram, PolarPath, depths};
+use super::points::{PointCurve, TableError, traced};
+use super::{Body, Request};
+use crate::geometry::MILLIMETRES;
+use crate::geometry::blocks::Grid;
+use crate::geometry::points::{PointCoordinates, PointInterpolation, PointStep, PointTableSpec, place};
+use crate::machine::{Controller, MillingDirection, Rotation};
+use crate::refusal::Refusal;
+use crate::report::shown;
+
+/// Least share of the tolerance that rounding must leave to the rows.
+const LEAST_SHARE: f64 = 0.2;
+/// How far the wheel stands off the cam before and behind a pass, mm.
+const AWAY: f64 = 5.0;
+/// Most rows of a program.
+const MOST_ROWS: usize = 200_000;
+
+/// The program for a disc; C is counted from its angle 0 on.
+///
+/// # Errors
+/// [`MillingError`] when the control has no feed by the time, no wheel is given, the cam has no such path, or its numbers are too coarse.
+pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<MillingProgram>, MillingError> {
+    let cutting = body.machine().cutting();
+    let controller = asked.controller.unwrap_or(cutting.controller);
+    let decimals = cutting.decimals.unwrap_or(controller.decimals());
+    if controller == Controller::Heidenhain {
+        let what = "cut.form \"polar\" needs a feed by the time (G93), which the dialogue of HEIDENHAIN does not have";
+        return Err(Refusal::new(what).remedy("give another --controller, or cut.form = \"milling\"").into());
+    }
+    let cuts = body.cuts();
+    let disc = match cuts.as_slice() {
+        [cut] if !cut.is_hollow() && cut.curves.is_some_and(|curves| curves.motion.period().is_some()) => cut,
+        _ => {
+            let what = format!("cut.form \"polar\" grinds the outside of a disc, and this is a {}", body.kind().noun);
+            return Err(Refusal::new(what).remedy("give cut.form = \"milling\"").into());
+        }
+    };
+    let wheel = request.cutter_radius.ok_or_else(|| {
+        let refusal = Refusal::new("cut.form \"polar\" moves the centre of a wheel whose size is not given");
+        refusal.remedy("give --cutter-diameter")
+    })?;
+    let (middle, half) = request.fit.band();
+    let path = traced(body, disc, PointCurve::Cutter, Some(wheel - middle)).map_err(|error| match error {
+        TableError::Cutter(error) => MillingError::Cutter(error),
+        TableError::Refused(why) => MillingError::Refused(why),
+    })?;
+    let grid = Grid::of_decimals(decimals);
+    let (form, step, between) = (PointCoordinates::Polar, PointStep::Chord, PointInterpolation::Linear);
+    let within =
+        |tolerance: f64| place(&path, &PointTableSpec { form, step, between, tolerance }, None).map_err(Refusal::from);
+    // Half a step of X, and half a step of C at the largest distance.
+    let farthest = within(MILLIMETRES * half)?.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    let rounding = 0.5 * grid.step() * (1.0 + farthest.to_radians());
+    let tolerance = MILLIMETRES * half - rounding;
+    if tolerance < LEAST_SHARE * MILLIMETRES * half {
+        let what =
+            format!("numbers of {decimals} decimals keep no tolerance of {} um", shown(1e6 * request.fit.tolerance));
+        return Err(Refusal::new(what)
+            .remedy("give a coarser --tolerance, or cut.decimals that the control takes")
+            .into());
+    }
+    let placed = within(tolerance)?;
+    // About +Z the disc turns to bring a place of the drawing to the wheel at +X: C is its angle, reversed; angles of a cam that turns the
+    // other way are those of the mirrored drawing.
+    let sense = if body.machine().cam.rotation == Rotation::Clockwise { -1.0 } else { 1.0 };
+    let on_grid = |[angle, radius]: &[f64; 2]| [grid.nearest(sense * angle), grid.nearest(*radius)];
+    let mut rows: Vec<[f64; 2]> = placed.rows.iter().map(on_grid).collect();
+    // A full turn, whatever the rounding of its ends.
+    if let [first, .., last] = rows.as_mut_slice() {
+        *last = [first[0] + sense * 360.0, first[1]];
+    }
+    let climbs = cutting.direction == MillingDirection::Climb;
+    if climbs == (sense < 0.0) {
+        rows.reverse();
+    }
+    let away = rows.iter().map(|row| row[1]).fold(0.0, f64::max) + AWAY;
+    let depths = depths(body, &cutting, decimals)?;
+    if depths.len() * rows.len() > MOST_ROWS {
+        let what = format!("the program would have {} rows, more than {MOST_ROWS}", depths.len() * rows.len());
+        return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
+    }
+    let polar = Some(PolarPath { rows, away: grid.nearest(away) });
+    let cutter = Some(wheel);
+    Ok(vec![MillingProgram {
+        part: 0,
+        cuts: vec![0],
+        controller,
+        decimals,
+        cutting,
+        cutter,
+        passes: Vec::new(),
+        depths,
+        polar,
+    }])
+}
+
+/// Whether a body is to be ground in polar coordinates.
+pub(super) fn is_asked(body: &dyn Body) -> bool {
+    body.machine().cutting().form == crate::machine::CuttingForm::Polar && milling::unfit(body).is_none()
+}

@@ -1,0 +1,57 @@
+//! Reads the lift table of a gauge follower.
+
+/// A table as it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GaugeRows {
+    /// Radius of the ball or roller, mm; `None` of a flat face.
+    pub radius: Option<f64>,
+    /// Cam angle, degrees; distance of the centre, or of the face, from the axis, and lift, mm.
+    pub rows: Vec<[f64; 3]>,
+}
+
+/// The columns.
+pub const COLUMNS: &str = "cam_deg,distance_mm,lift_mm";
+/// What the head says of the follower.
+pub const FOLLOWER: &str = "# gauge_follower: ";
+/// A ball or a roller, with its diameter, and a flat face.
+pub const ROUND: &str = "ball or roller, diameter_mm ";
+/// A flat face.
+pub const FLAT: &str = "flat face";
+/// Most rows.
+const MOST_ROWS: usize = 1_000_000;
+
+/// Whether bytes are such a table.
+#[must_use]
+pub fn is_gauge(bytes: &[u8]) -> bool {
+    String::from_utf8_lossy(bytes).lines().take(40).any(|line| line.trim_end() == COLUMNS)
+}
+
+/// Reads a table.
+///
+/// # Errors
+/// A sentence when it is not one.
+pub fn read(bytes: &[u8]) -> Result<GaugeRows, String> {
+    let text = std::str::from_utf8(bytes).map_err(|error| error.to_string())?;
+    let follower = text.lines().find_map(|line| line.strip_prefix(FOLLOWER)).ok_or("it does not say which follower")?;
+    let radius = match follower.trim_end().strip_prefix(ROUND) {
+        Some(diameter) => {
+            let diameter: Option<f64> = diameter.parse().ok().filter(|diameter| *diameter > 0.0);
+            Some(0.5 * diameter.ok_or("the diameter of its follower is not a number above 0")?)
+        }
+        None if follower.trim_end() == FLAT => None,
+        None => return Err(format!("`{}` is not a gauge follower", follower.chars().take(40).collect::<String>())),
+    };
+    let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
+    if lines.next().map(str::trim_end) != Some(COLUMNS) {
+        return Err("the line that names the columns is missing".into());
+    }
+    let row = |(index, line): (usize, &str)| {
+        let numbers: Option<Vec<f64>> = line.split(',').map(|cell| cell.trim().parse().ok()).collect();
+        let finite = numbers.filter(|numbers| numbers.iter().all(|number| number.is_finite()));
+        finite
+            .and_then(|numbers| numbers.try_into().ok())
+            .ok_or_else(|| format!("row {} has not three numbers", index + 1))
+    };
+    let rows: Vec<[f64; 3]> = lines.take(MOST_ROWS).enumerate().map(row).collect::<Result<_, _>>()?;
+    if rows.is_empty() { Err("it has no rows".into()) } else { Ok(GaugeRows { radius, rows }) }
+}

@@ -1,0 +1,222 @@
+//! Whose words a program is written in, and the words that move, turn, mirror or scale the profile.
+
+use crate::machine::Controller;
+
+/// Lines in which a program says for which control it is.
+const HEAD: usize = 40;
+/// Words that move, turn, mirror or scale what a program says, or that take its coordinates in another way.
+const MOVING: [(&str, &str); 19] = [
+    ("G10", "writes offsets of the control (G10)"),
+    ("G12", "makes the control calculate with a rotary axis (G12)"),
+    ("G12.1", "makes the control calculate with a rotary axis (G12.1)"),
+    ("G112", "makes the control calculate with a rotary axis (G112)"),
+    ("TRANSMIT", "makes the control calculate with a rotary axis (TRANSMIT)"),
+    ("TRACYL", "makes the control calculate with a rotary axis (TRACYL)"),
+    ("G7", "makes X a diameter (G7)"),
+    ("DIAMON", "makes X a diameter (DIAMON)"),
+    ("G16", "makes the coordinates polar (G16)"),
+    ("G41.1", "keeps the cutter on its left by a radius of its own (G41.1)"),
+    ("G42.1", "keeps the cutter on its right by a radius of its own (G42.1)"),
+    ("G43.1", "moves the tool by an offset of its own (G43.1)"),
+    ("G43.4", "turns the tool (G43.4)"),
+    ("G43.5", "turns the tool (G43.5)"),
+    ("G51", "scales the profile (G51)"),
+    ("G51.1", "mirrors the profile (G51.1)"),
+    ("G68", "turns the profile (G68)"),
+    ("G68.2", "tilts the plane (G68.2)"),
+    ("G92", "moves the datum (G92)"),
+];
+/// The frames of SINUMERIK; alone in a block such a word ends all of them.
+const FRAMES: [(&str, &str); 11] = [
+    ("TRANS", "moves the profile (TRANS)"),
+    ("ATRANS", "moves the profile (ATRANS)"),
+    ("ROT", "turns the profile (ROT)"),
+    ("AROT", "turns the profile (AROT)"),
+    ("ROTS", "turns the profile (ROTS)"),
+    ("AROTS", "turns the profile (AROTS)"),
+    ("SCALE", "scales the profile (SCALE)"),
+    ("ASCALE", "scales the profile (ASCALE)"),
+    ("MIRROR", "mirrors the profile (MIRROR)"),
+    ("AMIRROR", "mirrors the profile (AMIRROR)"),
+    ("CYCLE800", "tilts the plane (CYCLE800)"),
+];
+
+/// The control that a program is for: by words that only one of them has, by the number (`O0001`, `:0001`) or the name (`<CAM>`) with which a
+/// program for FANUC begins, or else that of its design.
+pub(super) fn dialect(text: &str, design: Option<Controller>) -> Option<Controller> {
+    let mut blocks =
+        text.lines().map(|line| line.trim().to_ascii_uppercase()).filter(|line| !line.is_empty() && line != "%");
+    let head: Vec<String> = blocks.by_ref().take(HEAD).collect();
+    let has = |words: &[&str]| head.iter().any(|line| words.iter().any(|word| after(line, word).is_some()));
+    let numbered = |line: &String| {
+        let number = line.strip_prefix(['O', ':']).is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+        let subroutine = [" SUB", " CALL"].iter().any(|word| line.ends_with(word));
+        (number && !subroutine) || (line.starts_with('<') && line.contains('>'))
+    };
+    if has(&["G91.1", "G90.1"]) {
+        Some(Controller::LinuxCnc)
+    } else if has(&["G710", "G700", "G71", "G70"]) {
+        Some(Controller::Sinumerik)
+    } else if head.first().is_some_and(numbered) {
+        Some(Controller::Fanuc)
+    } else {
+        design
+    }
+}
+
+/// What a block does to the profile, in words of letters and numbers or of SINUMERIK; `None` where it does nothing to it.
+pub(super) fn moves_the_profile(block: &str) -> Option<&'static str> {
+    let block = block.to_ascii_uppercase();
+    let found = |(word, what): &(&str, &'static str)| Some((*what, after(&block, word)?));
+    if let Some((what, _)) = MOVING.iter().find_map(found) {
+        return Some(what);
+    }
+    if let Some((what, rest)) = FRAMES.iter().find_map(found) {
+        return (!["", "()"].contains(&rest.trim())).then_some(what);
+    }
+    if block.trim_start().starts_with("#5") || block.contains("$P_") {
+        return Some("writes a variable of the control in which its offsets are");
+    }
+    let shift = after(&block, "G52")?;
+    let zero = shift.split(|c: char| c.is_ascii_alphabetic()).skip(1).all(|number| number.trim().parse() == Ok(0.0));
+    (!zero).then_some("moves the datum (G52)")
+}
+
+/// Whether a block has a word.
+pub(super) fn has_word(block: &str, word: &str) -> bool {
+    after(block, word).is_some()
+}
+
+/// What follows a word in a block, where the block has it as a word of its own.
+fn after<'b>(block: &'b str, word: &str) -> Option<&'b str> {
+    let is_g = word.starts_with('G') && word.as_bytes().get(1).is_some_and(u8::is_ascii_digit);
+    block.match_indices(word).find_map(|(at, _)| {
+        let (before, rest) = (block.get(..at)?, block.get(at + word.len()..)?);
+        let begins = !before.ends_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        let goes_on =
+            |c: char| if is_g { c.is_ascii_digit() || c == '.' } else { c.is_ascii_alphanumeric() || c == '_' };
+        (begins && !rest.starts_with(goes_on)).then_some(rest)
+    })
+}
+
+/// What a block of the dialogue does to the profile; `None` where it does nothing to it, or takes such a change back.
+pub(super) fn moves_the_profile_of_a_dialogue(words: &[&str]) -> Option<&'static str> {
+    // A shift of 0, an angle of 0, a factor of 1.
+    let nothing = |neutral: f64, word: &str| {
+        let number = word.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+        let name_of_factor = number.is_empty() && neutral == 1.0;
+        name_of_factor || number.parse() == Ok(neutral)
+    };
+    match words {
+        ["CYCL", "DEF", cycle, rest @ ..] => {
+            let (number, line) = cycle.split_once('.').unwrap_or((cycle, "1"));
+            let (what, neutral) = match number {
+                "7" => ("moves the datum (CYCL DEF 7)", 0.0),
+                "8" => ("mirrors the profile (CYCL DEF 8)", 0.0),
+                "10" => ("turns the profile (CYCL DEF 10)", 0.0),
+                "11" | "26" => ("scales the profile (CYCL DEF 11, 26)", 1.0),
+                "19" => ("tilts the plane (CYCL DEF 19)", 0.0),
+                "27" | "28" | "39" => ("wraps the profile round a cylinder (CYCL DEF 27, 28, 39)", 0.0),
+                _ => return None,
+            };
+            (line != "0" && !rest.iter().all(|word| nothing(neutral, word))).then_some(what)
+        }
+        ["PLANE" | "TRANS", "RESET", ..] | ["TRANS", "DATUM", "RESET", ..] => None,
+        ["PLANE", ..] => Some("tilts the plane (PLANE)"),
+        ["TRANS", "DATUM", "AXIS", rest @ ..] if rest.iter().all(|word| nothing(0.0, word)) => None,
+        ["TRANS", ..] => Some("moves, mirrors, turns or scales the profile (TRANS)"),
+        ["FUNCTION", ..] => Some("changes how the control moves its tool (FUNCTION)"),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_the_profile_is_known_and_what_ends_that_is_not_taken_for_it() {
+        let moving = [
+            "G68 X0 Y0 R1",
+            "g51x0y0p2",
+            "G51.1 X0",
+            "G92 X0 Y0",
+            "G52 X1.5 Y0",
+            "G10 L2 P1 X1",
+            "TRANS X10",
+            "AROT Z5",
+            "ROT RPL=3",
+            "SCALE X2",
+            "MIRROR X0",
+            "N5 ATRANS Y=3",
+            "G17 G16",
+            "DIAMON",
+            "CYCLE800(1,\"TC\")",
+        ];
+        for block in moving {
+            assert!(moves_the_profile(block).is_some(), "{block}");
+        }
+        for block in [
+            "G69",
+            "G50",
+            "G50.1",
+            "G15",
+            "TRANS",
+            "ROT",
+            "MIRROR",
+            "G52 X0 Y0",
+            "CYCLE832(0.01)",
+            "G680",
+            "CYCLE800()",
+            "G5.1 Q1",
+            "TRANSFER",
+        ] {
+            assert_eq!(moves_the_profile(block), None, "{block}");
+        }
+        let of_dialogue = |block: &str| {
+            let words: Vec<&str> = block.split_ascii_whitespace().collect();
+            moves_the_profile_of_a_dialogue(&words)
+        };
+        for block in [
+            "CYCL DEF 7.1 X+60",
+            "CYCL DEF 8.1 X",
+            "CYCL DEF 10.1 ROT+35",
+            "CYCL DEF 11.1 SCL 0.9995",
+            "CYCL DEF 11.1 SCL0.9",
+            "PLANE SPATIAL SPA+0 SPB+5",
+            "TRANS DATUM AXIS X+1",
+            "CYCL DEF 26.1 X 0.9",
+        ] {
+            assert!(of_dialogue(block).is_some(), "{block}");
+        }
+        for block in [
+            "CYCL DEF 7.0 DATUM SHIFT",
+            "CYCL DEF 7.1 X+0",
+            "CYCL DEF 8.1",
+            "CYCL DEF 10.1 ROT+0",
+            "CYCL DEF 11.1 SCL 1",
+            "CYCL DEF 32.1 T0.01",
+            "PLANE RESET STAY",
+            "TRANS DATUM RESET",
+        ] {
+            assert_eq!(of_dialogue(block), None, "{block}");
+        }
+    }
+
+    #[test]
+    fn the_control_is_told_by_the_head_or_by_the_design() {
+        use Controller::{Fanuc, LinuxCnc, Sinumerik};
+        for (head, design, expected) in [
+            ("%\nO0001 (A)\nG21\n", None, Some(Fanuc)),
+            (":12\nG21\n", Some(LinuxCnc), Some(Fanuc)),
+            ("%\n<CAM>\n", None, Some(Fanuc)),
+            ("G17 G21\n", None, None),
+            ("G17 G21\n", Some(Fanuc), Some(Fanuc)),
+            ("%\nG17 G21G91.1\n", Some(Fanuc), Some(LinuxCnc)),
+            ("; A\nG17 G710\n", Some(LinuxCnc), Some(Sinumerik)),
+            ("o100 sub\n", None, None),
+        ] {
+            assert_eq!(dialect(head, design), expected, "{head}");
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The lift table of a gauge follower as a CSV file.
+
+use super::number::shortest;
+use super::{Format, FormatSelection};
+use crate::body::Body;
+use crate::body::gauge::{self, Gauge, GaugeTable};
+use crate::geometry::MILLIMETRES;
+use crate::reading::gauge::{COLUMNS, FLAT, FOLLOWER, ROUND};
+use crate::refusal::Refusal;
+
+/// The table, as it was proved.
+pub const FORMAT: Format = Format {
+    name: "gauge",
+    when: FormatSelection::Asked,
+    flank: false,
+    unfit: gauge::unfit,
+    endings: |_| vec!["-gauge.csv".into()],
+    write: |cam| match cam.gauge {
+        Some(proved) => Ok(vec![proved.to_vec()]),
+        None => Err(Refusal::new("no table for a gauge follower was requested with the drawing")),
+    },
+    of_analysis: None,
+};
+
+/// A table under a mark.
+#[must_use]
+pub fn write(body: &dyn Body, table: &GaugeTable, mark: &str) -> Vec<u8> {
+    let follower = match table.gauge {
+        Gauge::Round(radius) => format!("{ROUND}{}", shortest(2.0 * MILLIMETRES * radius)),
+        Gauge::Flat => FLAT.to_owned(),
+    };
+    let rest = if table.gauge == Gauge::Flat { "face" } else { "centre" };
+    let mut text = format!(
+        "# {mark}\n# machine: {}\n{FOLLOWER}{follower}\n# guided on a line through the axis of the cam, at cam_deg, which runs against the \
+         rotation\n# distance_mm: of its {rest} from the axis; lift_mm: from the lowest row\n{COLUMNS}\n",
+        body.machine().name().replace(['\n', '\r'], " ")
+    );
+    let lowest = table.rows.iter().map(|row| row[1]).fold(f64::INFINITY, f64::min);
+    for [cam_deg, distance] in &table.rows {
+        let cells = [*cam_deg, *distance, distance - lowest].map(shortest);
+        text.push_str(&format!("{}\n", cells.join(",")));
+    }
+    text.into_bytes()
+}
