@@ -1,6 +1,6 @@
 //! Everything that the core and the domains bring, in one catalogue: tables of keys, machine files, kinds of cam and of analysis, checks.
 
-use crate::analysis::{compare, laws, size};
+use crate::analysis::{compare, import, laws, size};
 use crate::body::{self, Kind};
 use crate::check::Check;
 use crate::document::{KeySection, Tables, cams};
@@ -9,7 +9,8 @@ use crate::domains::DOMAINS;
 use crate::domains::press::machine::DriveMachine;
 #[cfg(feature = "shaft")]
 use crate::domains::shaft::machine::ShaftMachine;
-use crate::machine::{self, Catalogue, Machine, MachineError};
+use crate::machine::{self, Catalogue, Machine, MachineError, MachineText};
+use crate::motion::program::rows::TableRows;
 use crate::trade;
 use crate::verify::CHECKS;
 use std::sync::LazyLock;
@@ -46,7 +47,8 @@ fn sections() -> Vec<&'static KeySection> {
 
 /// Every check, in the order of reports.
 pub fn checks() -> impl Iterator<Item = &'static Check> {
-    let mut all: Vec<&'static Check> = CHECKS.iter().map(|check| &**check).chain([&compare::DEVIATION]).collect();
+    let mut all: Vec<&'static Check> =
+        CHECKS.iter().map(|check| &**check).chain([&compare::DEVIATION, &import::DEVIATION]).collect();
     for added in DOMAINS.iter().flat_map(|domain| domain.checks) {
         added.put_into(&mut all, |check| check.name);
     }
@@ -60,7 +62,7 @@ pub fn kinds() -> impl Iterator<Item = &'static Kind> {
 }
 
 /// The analyses of any machine.
-const ANALYSES: &[&Kind] = &[&size::KIND, &laws::KIND, &compare::KIND, &trade::KIND];
+const ANALYSES: &[&Kind] = &[&size::KIND, &laws::KIND, &compare::KIND, &import::KIND, &trade::KIND];
 
 /// Every kind of analysis.
 pub fn analyses() -> impl Iterator<Item = &'static Kind> {
@@ -95,6 +97,16 @@ read!(Machine);
 read!(DriveMachine);
 #[cfg(feature = "shaft")]
 read!(ShaftMachine);
+
+impl TableRows {
+    /// Reads the lift table that the overrides name, `motion.table=FILE` among them, for the follower of a TOML text.
+    ///
+    /// # Errors
+    /// All faults found, each with its place.
+    pub fn load(text: &str, overrides: &[String]) -> Result<Self, MachineError> {
+        MachineText::of_user(catalogue(), "import", text).in_working_folder().read(overrides, machine::read_lift_table)
+    }
+}
 
 #[cfg(test)]
 #[cfg(all(feature = "press", feature = "linkage", feature = "shaft", feature = "brake"))]

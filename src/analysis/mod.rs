@@ -4,6 +4,7 @@
 //! plot. A new one is a file here, a line in the catalogue and its command.
 
 pub mod compare;
+pub mod import;
 pub mod laws;
 pub mod size;
 

@@ -1,7 +1,8 @@
 //! The commands that analyse a machine and cut nothing.
 
 use super::args::{
-    AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs, at_end, machine_with_free,
+    AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, ReportArgs, SizeArgs, SpringArgs, at_end,
+    machine_with_free,
 };
 #[cfg(feature = "linkage")]
 use super::args::{LinkageArgs, LinkageGoal};
@@ -208,7 +209,7 @@ pub(super) fn judge_and_write_as(analysis: Analysis, args: &AnalysisArgs, stem: 
 const LONGEST_STEM: usize = 200;
 
 /// The usual stem of the files of an analysis.
-fn stem(analysis: &Analysis, machine: &str) -> String {
+pub(super) fn stem(analysis: &Analysis, machine: &str) -> String {
     let of = |speeds: &[String]| format!("{machine}-{}-{}rpm", analysis.kind.command, speeds.join("-"));
     match &analysis.speeds {
         Speeds::Any(()) => format!("{machine}-{}", analysis.kind.command),
@@ -238,11 +239,16 @@ pub(super) fn write_judged(judged: &Judged, args: &AnalysisArgs, machine: &str) 
 }
 
 fn write_as(judged: &Judged, args: &AnalysisArgs, writing: &Writing) -> Result<Outcome, Failure> {
+    write_with(judged, &args.report, writing)
+}
+
+/// Writes and reports what was judged, by these flags.
+pub(super) fn write_with(judged: &Judged, args: &ReportArgs, writing: &Writing) -> Result<Outcome, Failure> {
     let files = if let Some(why) = judged.no_outline() {
         print_message(&format!("refused: {why}; there is no outline to write, and --force cannot help"));
         None
     } else if judged.passed() || writing.force {
-        Some(judged.files(writing).map_err(Failure::new)?).filter(|_| !args.report.dry_run)
+        Some(judged.files(writing).map_err(Failure::new)?).filter(|_| !args.dry_run)
     } else {
         print_message(
             "refused: a check failed, nothing was written (--force writes anyway; `camgen explain CHECK` explains a check)",
@@ -250,8 +256,8 @@ fn write_as(judged: &Judged, args: &AnalysisArgs, writing: &Writing) -> Result<O
         None
     };
     match files {
-        Some(files) => put_set(files, |report| show(report, &args.report))?,
-        None => show(&judged.lazy_report(), &args.report)?,
+        Some(files) => put_set(files, |report| show(report, args))?,
+        None => show(&judged.lazy_report(), args)?,
     }
     Ok(if judged.passed() { Outcome::Fine } else { Outcome::CheckFailed })
 }

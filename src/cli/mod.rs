@@ -8,6 +8,7 @@ mod cams;
 mod check;
 mod design;
 mod explain;
+mod import;
 mod machines;
 mod pages;
 mod progress;
@@ -80,6 +81,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         #[cfg(feature = "brake")]
         Command::Brake(DeferredArgs(args)) => brake::run(args),
         Command::Size(DeferredArgs(args)) => analyses::size(args),
+        Command::Import(DeferredArgs(args)) => import::run(args),
         Command::Compare(DeferredArgs(args)) => analyses::compare(args),
         Command::Laws(DeferredArgs(args)) => analyses::laws(args),
         Command::SideBySide(DeferredArgs(args)) => side_by_side::run(args),

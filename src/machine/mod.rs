@@ -12,6 +12,7 @@ mod disc;
 mod dynamics;
 mod embedded;
 pub mod fit;
+mod lift_table;
 mod limits;
 mod list;
 mod material;
@@ -34,6 +35,7 @@ pub use cutting::{Controller, CuttingData, CuttingForm, MillingDirection, Radius
 pub use disc::{CamData, Keyway, Rotation};
 pub use dynamics::{Dynamics, GuideData, SpringData, VibrationData};
 pub use embedded::{EMBEDDED, Embedded};
+pub(crate) use lift_table::read as read_lift_table;
 pub use limits::{Limits, OvershootLimit, customary_stress, customary_stress_of, stress_at_rest};
 pub use list::sections;
 pub use material::{CamMaterial, Grade, Material};

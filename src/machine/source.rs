@@ -45,6 +45,11 @@ impl<'a> MachineText<'a> {
         Self { catalogue, name, text, by_user: true, folder: None }
     }
 
+    /// The text as of a file in the working folder: other files that its overrides name are found from there.
+    pub(crate) fn in_working_folder(self) -> Self {
+        Self { folder: Some(Path::new("")), ..self }
+    }
+
     /// The result of `parts` for this text.
     pub(crate) fn read<T>(
         &self,

@@ -13,6 +13,7 @@ mod groups;
 pub mod inspection;
 mod join;
 mod limits;
+pub mod outline;
 mod placement;
 mod record;
 pub mod servo;

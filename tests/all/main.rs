@@ -33,6 +33,7 @@ mod gcode;
 mod groove;
 mod groove_cam;
 mod html;
+mod importing;
 mod inputs;
 mod laws;
 mod linkage_cams;

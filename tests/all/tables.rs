@@ -239,6 +239,18 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
             let cut = cam.body().cuts()[0];
             analysis::compare::analysis(cam.body(), &cut, &points, options).expect("a comparison")
         }
+        "import" => {
+            let lift = |degree: u32| 10.0 - 10.0 * f64::from(degree).to_radians().cos();
+            let rows: String = (0..360).map(|degree| format!("{degree},{:.5}\n", lift(degree))).collect();
+            let directory = tempfile::tempdir().expect("a directory");
+            let path = directory.path().join("lift.csv");
+            std::fs::write(&path, format!("deg,mm\n{rows}")).expect("written");
+            let options = analysis::import::ImportOptions { name: "lift".into(), spline: true, ..Default::default() };
+            let frame = analysis::import::frame(&options).expect("a follower");
+            let table = [format!("motion.table={}", path.display())];
+            let rows = camgen::motion::program::rows::TableRows::load(&frame, &table).expect("rows");
+            analysis::import::analysis(&analysis::import::ImportSource::Table(rows), &options).expect("a design")
+        }
         "trade" => {
             let shaft = ShaftMachine::load("dpi-shaft", &[]).expect("valid").0;
             let start = std::time::Instant::now();
@@ -429,6 +441,7 @@ fn every_check_is_run_for_some_cam() {
     let measured = Machine::load(&measured.display().to_string(), &[]).unwrap_or_else(|error| panic!("{error}")).0;
     let measured = Spec::of_program(measured, None).expect("a motion").solve().expect("a cam");
     reports.push(("measured rows".into(), report_of(&measured)));
+    reports.push(("an old cam".into(), Judged::new(analysis_of(&analysis::import::KIND)).report()));
     reports.push(("a measured cam".into(), Judged::new(analysis_of(&analysis::compare::KIND)).report()));
     reports.extend(cams_of_followers().iter().map(|(path, cam)| ((*path).to_owned(), report_of(cam))));
     let mut seen: Vec<String> = Vec::new();

@@ -1,6 +1,7 @@
 //! What a person meets at the terminal: help whose examples run, words that are nearly right, files that are not lost.
 
 use crate::common::program::{Run, camgen, camgen_in, files, report};
+use std::f64::consts::TAU;
 use std::fs;
 use std::io::{BufRead, BufReader, Lines};
 use std::path::Path;
@@ -35,7 +36,25 @@ fn prepared() -> tempfile::TempDir {
     let table = ["make", "lifter.toml", "--format", "csv", "--name", "measured", "--out", ".", "--quiet"];
     let run = camgen_in(run.directory, &table);
     assert_eq!(run.code, 0, "{}", run.err);
+    fs::write(run.directory.path().join("lift.csv"), lift_table()).expect("written");
     run.directory
+}
+
+/// A lift table: up by a cycloid, a dwell, down, a dwell.
+fn lift_table() -> String {
+    let cycloid = |x: f64| x - (TAU * x).sin() / TAU;
+    let row = |degree: u32| {
+        let x = f64::from(degree) / 120.0;
+        let lift = if degree < 120 {
+            cycloid(x)
+        } else if degree < 160 {
+            1.0
+        } else {
+            cycloid((280.0 - f64::from(degree).min(280.0)) / 120.0)
+        };
+        format!("{degree},{:.4}\n", 20.0 * lift)
+    };
+    format!("deg,mm\n{}", (0..360).map(row).collect::<String>())
 }
 
 #[test]

@@ -60,6 +60,34 @@ pub fn read(text: &str) -> Result<Vec<Vector2<f64>>, Refusal> {
     Ok(points)
 }
 
+/// Whether a table is one of points rather than of lifts, where nobody says so: by the names of its columns, or, without names, because its first
+/// column goes back and forth through 0 as x does. The table of a cam itself has both; a follower that is given (`rolled`) is there to be rolled.
+#[must_use]
+pub fn looks_like_points(text: &str, rolled: bool) -> bool {
+    let text = text.trim_start_matches('\u{feff}');
+    let lines: Vec<(usize, &str)> = text
+        .lines()
+        .enumerate()
+        .map(|(index, line)| (index + 1, line.trim()))
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
+        .collect();
+    let separator = separator_of(&lines);
+    let Some((_, first)) = lines.first() else { return false };
+    let names: Vec<String> = split(first, separator).into_iter().map(str::to_owned).collect();
+    if names.iter().any(|cell| number(cell, separator).is_none()) {
+        let both = names.iter().any(|name| name.contains("cam_deg"));
+        let lift =
+            names.iter().any(|name| ["lift", "position", "rise"].iter().any(|word| name.to_lowercase().contains(word)));
+        return named(&names).is_ok() && (rolled || !(both && lift));
+    }
+    let at = usize::from(counts(&lines, separator));
+    let column: Vec<f64> =
+        lines.iter().filter_map(|(_, line)| number(split(line, separator).get(at)?, separator)).collect();
+    let way = |up: bool| column.iter().zip(column.iter().skip(1)).filter(|(a, b)| (b > a) == up && a != b).count();
+    let signs = column.iter().any(|x| *x > 0.0) && column.iter().any(|x| *x < 0.0);
+    signs && way(true).min(way(false)) * 8 > column.len()
+}
+
 fn separator_of(lines: &[(usize, &str)]) -> Option<char> {
     [';', '\t', ','].into_iter().find(|sign| lines.first().is_some_and(|(_, line)| line.contains(*sign)))
 }

@@ -4,10 +4,14 @@ use super::common::ReportArgs;
 use super::files::OutputArgs;
 #[cfg(feature = "linkage")]
 use super::parse::power_share;
+use super::parse::{
+    LawOrSpline, crank_step, cutter_radius, force, format, law, law_or_spline, lift, rpm, segment_angle, stiffness,
+    word,
+};
 #[cfg(feature = "shaft")]
 use super::parse::{Order, order, stiffnesses};
-use super::parse::{crank_step, cutter_radius, force, format, law, lift, rpm, segment_angle, stiffness, word};
 use camgen::analysis::compare::ComparisonFit;
+use camgen::analysis::import::ImportFit;
 use camgen::analysis::size::FreeDimension;
 use camgen::document::LengthOrAngle;
 use camgen::domains::press::analysis::drive;
@@ -256,6 +260,119 @@ pub(in crate::cli) struct CompareArgs {
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct ImportArgs {
+    /// A lift table, measured points (x and y, or angle and radius) as lines of text, or the outline of a cam as DXF or STEP
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) file: PathBuf,
+
+    /// What FILE is, where it is not seen: table, outline or points
+    #[arg(long, value_name = "WHAT", ignore_case = true)]
+    pub(in crate::cli) from: Option<ImportForm>,
+
+    /// The follower that ran on the cam, or that of the design, with the keys of its table: roller,diameter=24mm,offset=3mm; knife; flat;
+    /// swinging-roller,diameter=32mm,arm=110mm,pivot_distance=140mm,side=trailing; swinging-flat,pivot_distance=150mm,face_offset=8mm
+    /// [default: a roller of 30 mm for a table; needed for an outline and points]
+    #[arg(long, value_name = "KIND,KEY=VALUE,…", value_delimiter = ',')]
+    pub(in crate::cli) follower: Vec<String>,
+
+    /// The only laws that may be recognised; with spline among them what none of them follows becomes a spline [default: all, and spline]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = law_or_spline)]
+    pub(in crate::cli) law: Vec<LawOrSpline>,
+
+    /// Largest deviation of the design from any row, point or place of the outline, e.g. 3um; an angle for a follower that swings is possible
+    /// [default: 0.7 of the rounding of a table, five times the noise of points, 10um of an outline]
+    #[arg(long, value_name = "DEVIATION", value_parser = lift, allow_hyphen_values = true)]
+    pub(in crate::cli) deviation: Option<LengthOrAngle>,
+
+    /// Radius of the ball whose centres the points are [default: 0, points on the profile]
+    #[arg(long, value_name = "RADIUS", value_parser = cutter_radius, allow_hyphen_values = true)]
+    pub(in crate::cli) ball: Option<f64>,
+
+    /// What is found of the position of the cam: angle (the first rise then begins at 0 deg), centre (angle and centre, from the dwells) or none
+    /// [default: angle for points, none for a table and an outline]
+    #[arg(long, value_name = "WHAT", ignore_case = true, value_parser = word::<ImportFit>())]
+    pub(in crate::cli) fit: Option<ImportFit>,
+
+    /// Layer of the outline in a DXF file [default: CAM_PROFILE; without that layer the only closed contour]
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) layer: Option<String>,
+
+    #[command(flatten)]
+    pub(in crate::cli) table: LiftTableArgs,
+
+    /// Speed of the cam for the design, rpm [default: none]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Option<f64>,
+
+    /// Set one key of the design, of the cam, its limits and everything but the motion, e.g. --set cam.thickness=20mm; repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(in crate::cli) set: Vec<String>,
+
+    /// Formats to write: toml (the design file), csv (the imported positions and the design), svg (both and their residuals), json, html, pdf
+    /// [default: toml,csv,svg]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = format)]
+    pub(in crate::cli) format: Option<Vec<String>>,
+
+    #[command(flatten)]
+    pub(in crate::cli) to: OutputArgs,
+
+    #[command(flatten)]
+    pub(in crate::cli) report: ReportArgs,
+}
+
+/// What a file to import is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(in crate::cli) enum ImportForm {
+    Table,
+    Outline,
+    Points,
+}
+
+/// How a lift table is read, as the keys of the same names in [motion] say.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct LiftTableArgs {
+    /// Of a table: the columns of angle and position, by heading or by number from 1; one column with --step
+    #[arg(long, value_name = "ANGLE,POSITION", value_delimiter = ',')]
+    pub(in crate::cli) columns: Vec<String>,
+
+    /// Of a table: the unit of its positions, or of its angles where it is an angle (rad), or both ("rad, in") [default: deg and mm, or as its headings say]
+    #[arg(long, value_name = "UNIT")]
+    pub(in crate::cli) unit: Option<String>,
+
+    /// Of a table: a factor of its positions
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    pub(in crate::cli) scale: Option<String>,
+
+    /// Of a table: turns of the shaft whose angles it has for each turn of the cam; 2 for crank degrees of a four-stroke engine
+    #[arg(long, value_name = "NUMBER", allow_hyphen_values = true)]
+    pub(in crate::cli) ratio: Option<String>,
+
+    /// Of a list of positions: angle from row to row
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    pub(in crate::cli) step: Option<String>,
+
+    /// Of a table: its positions are shares of this, from 0 to 1, or percent by their heading
+    #[arg(long, value_name = "LIFT", allow_hyphen_values = true)]
+    pub(in crate::cli) lift: Option<String>,
+
+    /// Of a table: its angles are shares of this, from 0 to 1
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    pub(in crate::cli) over: Option<String>,
+
+    /// Of a table: it is one half of a lobe, which is mirrored at its highest end
+    #[arg(long)]
+    pub(in crate::cli) mirror: bool,
+
+    /// Of a table: what the follower does where the turn has no rows: dwell
+    #[arg(long, value_name = "WHAT")]
+    pub(in crate::cli) rest: Option<String>,
+
+    /// Of a table: number of equal lobes, of which it has one
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub(in crate::cli) repeat: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -93,6 +93,15 @@ Examples:
   camgen size lever --free pivot-distance --dry-run
       base radius and pivot distance of an arm; only the report";
 
+pub(super) const IMPORT: &str = "\
+Examples:
+  camgen import lift.csv --follower roller,diameter=24mm
+      a lift table as a design file, with the law of each rise and return
+  camgen import part.dxf --follower roller,diameter=60mm --deviation 20um --dry-run
+      the lift of a roller on the outline of an old cam; only the report
+
+Measured points: camgen import points.csv --follower roller,diameter=24mm --ball 1.5mm --fit centre";
+
 pub(super) const COMPARE: &str = "\
 Examples:
   camgen compare measured.csv lifter.toml --ball 3mm

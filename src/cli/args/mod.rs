@@ -10,7 +10,9 @@ mod help;
 mod parse;
 mod side_by_side;
 
-pub(super) use analyses::{AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, SizeArgs, SpringArgs};
+pub(super) use analyses::{
+    AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportForm, LawsArgs, RegimesArgs, SizeArgs, SpringArgs,
+};
 #[cfg(feature = "linkage")]
 pub(super) use analyses::{LinkageArgs, LinkageGoal};
 #[cfg(feature = "shaft")]
@@ -22,7 +24,7 @@ pub(super) use deferred::DeferredArgs;
 pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs};
 #[cfg(feature = "shaft")]
 pub(super) use parse::Order;
-pub(super) use parse::{Speed, gauge_follower};
+pub(super) use parse::{LawOrSpline, Speed, gauge_follower};
 pub(super) use side_by_side::SideBySideArgs;
 
 use camgen::analysis::size::FreeDimension;
@@ -118,6 +120,12 @@ pub(super) enum Command {
     /// Peaks of velocity, acceleration and jerk; with a file also pressure angle, size, forces, jump speed, vibration and harmonics.
     #[command(after_help = help::LAWS)]
     Laws(DeferredArgs<LawsArgs>),
+    /// An old cam as a design: a lift table, an outline or measured points to a design file
+    ///
+    /// Finds the dwells and the law of each rise and return, within a stated deviation; what no law follows becomes a spline. The design file is one
+    /// that `camgen make` takes as it is.
+    #[command(after_help = help::IMPORT)]
+    Import(DeferredArgs<ImportArgs>),
     /// A measured cam against the exact one: deviations, waviness, what the follower feels
     ///
     /// The points are a table of x and y, or of angle and radius; the angle, and where asked for the centre, with which they agree best is found first.
@@ -183,6 +191,9 @@ impl Command {
     fn analysis_watched(&self) -> Option<Vec<PathBuf>> {
         if let Command::Laws(DeferredArgs(LawsArgs { machine: Some(machine), analysis, .. })) = self {
             return analysis.report.watch.then(|| vec![PathBuf::from(machine)]);
+        }
+        if let Command::Import(DeferredArgs(args)) = self {
+            return args.report.watch.then(|| vec![args.file.clone()]);
         }
         if let Command::Trade(DeferredArgs(args)) = self {
             let machine = args.target().1.unwrap_or("dpi");

@@ -278,6 +278,20 @@ pub(super) fn law(text: &str) -> Result<&'static Law, String> {
     laws::named(text).ok_or_else(|| format!("no such law; {}one of {}", meant(text, &known()), known().join(", ")))
 }
 
+/// A law, or what no law follows.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::cli) enum LawOrSpline {
+    Law(&'static Law),
+    Spline,
+}
+
+pub(super) fn law_or_spline(text: &str) -> Result<LawOrSpline, String> {
+    if text.eq_ignore_ascii_case("spline") {
+        return Ok(LawOrSpline::Spline);
+    }
+    law(text).map(LawOrSpline::Law).map_err(|why| format!("{why}; or spline"))
+}
+
 pub(super) fn dxf_version(text: &str) -> Result<Version, String> {
     Version::ALL.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|(_, version)| *version).ok_or_else(
         || {

@@ -96,6 +96,22 @@ fn as_given(reader: &Reader<'_>, follower: Option<FollowerMovement>, span: Optio
     }
 }
 
+/// The rows of the lift table of a file for its follower, where there is one without fault.
+pub(crate) fn table_rows(reader: &Reader<'_>, follower: Option<FollowerMovement>) -> Option<rows::TableRows> {
+    let table = reader.find(&SECTION)?;
+    let (start, lobes) = (table.get(&START)?, lobes(&table)?);
+    let arc = arc(&table, follower);
+    let (quantity, start) = value_of(start, arc);
+    let follower = follower?;
+    if follower.quantity != quantity {
+        report_mismatch(&table, (quantity, follower), &[start]);
+        return None;
+    }
+    let fill = TAU / f64::from(lobes);
+    let whole = ProgramContext { quantity, arc, arm: follower.arm, speed: None, at: 0.0, fill, by_travel: false };
+    rows::table_rows(&table, whole)
+}
+
 /// Ends the steps of a turn exactly where they start; `None` where they end elsewhere.
 fn close(table: &TableReader<'_>, segments: &[TableReader<'_>], steps: &mut [SegmentSpec], start: f64) -> Option<()> {
     let largest = steps.iter().map(|step| step.to.abs()).fold(start.abs(), f64::max);

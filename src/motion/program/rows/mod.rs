@@ -69,6 +69,40 @@ impl Rows {
     }
 }
 
+/// Rows of a lift table over a turn or lobe: in order, without the one that closes it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TableRows {
+    /// Whether the positions are lengths or angles.
+    pub quantity: Quantity,
+    /// What the rows fill: a turn or a lobe, rad.
+    pub fill: f64,
+    /// Cam angles, rad, growing, all of them within one filling.
+    pub angles: Vec<f64>,
+    /// Positions, m or rad, as many.
+    pub positions: Vec<f64>,
+    /// The step to which the positions are rounded; 0 where none is seen.
+    pub rounding: f64,
+    /// What was read otherwise than as it stands, in words.
+    pub told: Vec<String>,
+}
+
+/// The rows of the file of `table`, as they are.
+pub(super) fn table_rows(table: &TableReader<'_>, whole: ProgramContext) -> Option<TableRows> {
+    let mut rows = file::read(table, whole)?;
+    let mirrored = table.has(&MIRROR) && table.get(&MIRROR)?;
+    let rest = if table.has(&REST) { Some(table.get(&REST)?) } else { None };
+    let turn = turn::Turn::of(table, whole, &mut rows, (mirrored, rest))?;
+    let count = turn.dwells.len();
+    Some(TableRows {
+        quantity: whole.quantity,
+        fill: whole.fill,
+        angles: turn.knots.iter().take(count).map(|knot| turn.at + whole.fill * knot).collect(),
+        positions: turn.values.iter().take(count).copied().collect(),
+        rounding: rows.rounding,
+        told: rows.told,
+    })
+}
+
 /// How rows were smoothed, m or rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smoothing {

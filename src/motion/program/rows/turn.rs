@@ -271,7 +271,7 @@ fn uncovered(table: &TableReader<'_>, rows: &Rows, whole: ProgramContext, open: 
         if equal {
             ways.push("rest = \"dwell\" keeps the position there");
         }
-        ways.push("or add rows");
+        ways.push(if ways.is_empty() { "add rows" } else { "or add rows" });
         ways.join(", ")
     };
     if let Origin::File { in_degrees: true, span } = rows.origin {

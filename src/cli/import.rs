@@ -1,0 +1,205 @@
+//! `camgen import`: an old cam as a design.
+
+use super::analyses::{stem, write_with};
+use super::args::{ImportArgs, ImportForm, LawOrSpline};
+use super::cams::source_date;
+use super::{Failure, Outcome};
+use camgen::analysis::compare::measured;
+use camgen::analysis::import::{self, ImportOptions, ImportSource};
+use camgen::document::file::{bytes_of, text_of};
+use camgen::motion::program::rows::TableRows;
+use camgen::pipeline::{Judged, Writing};
+use camgen::reading::outline::outline_of;
+use camgen::reading::{LARGEST_FILE, step};
+use std::path::Path;
+
+/// The formats that are written by default.
+const USUAL: [&str; 3] = ["toml", "csv", "svg"];
+/// Largest table, bytes.
+const LARGEST_TABLE: u64 = 16 << 20;
+
+pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
+    let file = args.file.display().to_string();
+    let name = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let options = options(args, name.clone())?;
+    let form = match args.from {
+        Some(form) => form,
+        None => form_of(&args.file, !args.follower.is_empty() || args.ball.is_some())?,
+    };
+    refuse_flags(args, form)?;
+    let source = match form {
+        ImportForm::Table => table(args, &options)?,
+        ImportForm::Outline => {
+            let bytes = bytes_of(&args.file, LARGEST_FILE).map_err(|why| unread(&file, &why))?;
+            let found =
+                outline_of(&bytes, args.layer.as_deref()).map_err(|why| Failure(format!("`{file}` is {why}")))?;
+            ImportSource::Outline(found.contour, found.told)
+        }
+        ImportForm::Points => {
+            let text = text_of(&args.file, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
+            let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
+            ImportSource::Points(points, 1e3 * args.ball.unwrap_or(0.0))
+        }
+    };
+    let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;
+    let stem = args.to.name.clone().unwrap_or_else(|| stem(&analysis, &name));
+    let usual = || USUAL.map(str::to_owned).to_vec();
+    let writing = Writing {
+        formats: Some(args.format.clone().unwrap_or_else(usual)),
+        template: args.to.template()?,
+        force: args.to.force,
+        overwrite: args.to.overwrite,
+        created: source_date()?,
+        ..Writing::to(&args.to.out, stem)
+    };
+    write_with(&Judged::new(analysis), &args.report, &writing)
+}
+
+fn unread(file: &str, why: &camgen::Refusal) -> Failure {
+    Failure(format!("cannot read `{file}`: {why}"))
+}
+
+/// The options as the flags say them.
+fn options(args: &ImportArgs, name: String) -> Result<ImportOptions, Failure> {
+    let (kind, keys) = match args.follower.split_first() {
+        None => (None, &[][..]),
+        Some((kind, keys)) => (Some(kind.trim().to_lowercase()), keys),
+    };
+    let mut settings = Vec::new();
+    for key in keys {
+        if !key.contains('=') {
+            let kind = kind.as_deref().unwrap_or_default();
+            return Err(Failure(format!(
+                "--follower: `{key}` is not KEY=VALUE; write the keys of the follower behind its kind, e.g. --follower {kind},diameter=24mm"
+            )));
+        }
+        settings.push(format!("follower.{}.{}", kind.as_deref().unwrap_or_default(), key.trim()));
+    }
+    settings.extend(args.set.iter().cloned());
+    let law = |found: &LawOrSpline| if let LawOrSpline::Law(law) = found { Some(*law) } else { None };
+    let laws: Vec<_> = args.law.iter().filter_map(law).collect();
+    let spline = args.law.is_empty() || laws.len() < args.law.len();
+    Ok(ImportOptions {
+        source: args.file.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        name,
+        follower: kind,
+        settings,
+        only_spline: laws.is_empty() && !args.law.is_empty(),
+        laws,
+        spline,
+        deviation: args.deviation,
+        rpm: args.rpm,
+        fit: args.fit,
+    })
+}
+
+/// What a file is, by its beginning and its headings.
+fn form_of(path: &Path, follower: bool) -> Result<ImportForm, Failure> {
+    let file = path.display().to_string();
+    let bytes = bytes_of(path, LARGEST_FILE).map_err(|why| unread(&file, &why))?;
+    let begins = |start: &str| bytes.trim_ascii_start().starts_with(start.as_bytes());
+    let line = |number: usize| bytes.split(|byte| *byte == b'\n').nth(number).unwrap_or_default().trim_ascii();
+    let named = |ending: &str| path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
+    let drawing = begins("AutoCAD Binary DXF") || line(0) == b"999" || (line(0) == b"0" && line(1) == b"SECTION");
+    if drawing || named("dxf") || step::is_step(&bytes) {
+        return Ok(ImportForm::Outline);
+    }
+    if bytes.trim_ascii().is_empty() {
+        return Err(Failure(format!("`{file}` is an empty file; give a lift table, points, a DXF or a STEP file")));
+    }
+    let others = [
+        ("<", "an XML, SVG or HTML file"),
+        ("%PDF", "a PDF document"),
+        ("PK\u{3}\u{4}", "a packed file, as spreadsheets are"),
+        ("{", "a JSON file"),
+        ("[", "a file of settings"),
+    ];
+    if let Some((_, kind)) = others.iter().find(|(start, _)| begins(start)) {
+        return Err(Failure(format!(
+            "`{file}` is {kind}; give a lift table or points as text (CSV), a DXF or a STEP file"
+        )));
+    }
+    let text = text_of(path, LARGEST_TABLE).map_err(|why| unread(&file, &why))?;
+    Ok(if measured::looks_like_points(&text, follower) { ImportForm::Points } else { ImportForm::Table })
+}
+
+/// Refuses flags that belong to another form.
+fn refuse_flags(args: &ImportArgs, form: ImportForm) -> Result<(), Failure> {
+    let table = &args.table;
+    let of_table = [
+        ("--columns", !table.columns.is_empty()),
+        ("--unit", table.unit.is_some()),
+        ("--scale", table.scale.is_some()),
+        ("--ratio", table.ratio.is_some()),
+        ("--step", table.step.is_some()),
+        ("--lift", table.lift.is_some()),
+        ("--over", table.over.is_some()),
+        ("--mirror", table.mirror),
+        ("--rest", table.rest.is_some()),
+        ("--repeat", table.repeat.is_some()),
+    ];
+    let what = match form {
+        ImportForm::Table => "a lift table",
+        ImportForm::Outline => "an outline",
+        ImportForm::Points => "measured points",
+    };
+    let refused = |flag: &str, of: &str, from: &str| {
+        Err(Failure(format!(
+            "{flag} belongs to {of}, but `{}` is read as {what}; leave it out, or give --from {from}",
+            args.file.display()
+        )))
+    };
+    if let Some((flag, _)) = of_table.iter().find(|(_, given)| *given && form != ImportForm::Table) {
+        return refused(flag, "a lift table", "table");
+    }
+    if args.ball.is_some() && form != ImportForm::Points {
+        return refused("--ball", "measured points", "points");
+    }
+    if args.layer.is_some() && form != ImportForm::Outline {
+        return refused("--layer", "the outline of a DXF file", "outline");
+    }
+    Ok(())
+}
+
+/// A message on keys of [motion], with what they are here.
+fn as_flags(message: &str) -> String {
+    let keys = ["unit", "columns", "ratio", "over", "lift", "step", "rest", "mirror", "scale"];
+    let named = keys.iter().find(|key| message.contains(&format!("{key} = ")));
+    let hint = named.map_or(String::new(), |key| format!("\n  {key} = … of a file is --{key} … here"));
+    format!("{}{hint}", message.replace("--> --set:", "--> flags:"))
+}
+
+/// The rows of a lift table.
+fn table(args: &ImportArgs, options: &ImportOptions) -> Result<ImportSource, Failure> {
+    let file = args.file.display().to_string();
+    let of = |key: &str, value: &Option<String>| value.as_ref().map(|value| format!("motion.{key}={value}"));
+    let table = &args.table;
+    let columns: Vec<String> = table.columns.iter().map(|name| format!("{:?}", name.trim())).collect();
+    let mut overrides = vec![format!("motion.table={file}")];
+    overrides.extend((!columns.is_empty()).then(|| format!("motion.columns=[{}]", columns.join(", "))));
+    let keys = [
+        ("unit", &table.unit),
+        ("scale", &table.scale),
+        ("ratio", &table.ratio),
+        ("step", &table.step),
+        ("lift", &table.lift),
+        ("over", &table.over),
+        ("rest", &table.rest),
+        ("repeat", &table.repeat),
+    ];
+    overrides.extend(keys.into_iter().filter_map(|(key, value)| of(key, value)));
+    overrides.extend(table.mirror.then(|| "motion.mirror=true".to_owned()));
+    let read = |options: &ImportOptions| {
+        let text = import::frame(options).map_err(Failure::new)?;
+        let all: Vec<String> = overrides.iter().cloned().chain(options.follower_settings()).collect();
+        TableRows::load(&text, &all).map_err(Failure::new)
+    };
+    match read(options) {
+        Ok(rows) => Ok(ImportSource::Table(rows)),
+        Err(why) if options.follower.is_none() && why.0.contains("motion.start") => Err(Failure(format!(
+            "{why}\n  without --follower the positions are lengths; for angles give the follower that swings, e.g. --follower \
+             swinging-roller,diameter=32mm,arm=110mm,pivot_distance=140mm"
+        ))),
+        Err(why) => Err(Failure(as_flags(&why.0))),
+    }
+}

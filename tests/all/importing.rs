@@ -1,0 +1,263 @@
+//! `camgen import`: what is found of lift tables, outlines and points, and what is refused, with its row and what would be right.
+
+use crate::common::program::{Run, camgen_in, files, number, report};
+use std::f64::consts::{PI, TAU};
+use std::fs;
+
+const ROLLER: [&str; 2] = ["--follower", "roller,diameter=24mm"];
+const LEVER: [&str; 2] = ["--follower", "swinging-roller,diameter=24mm,arm=100mm,pivot_distance=130mm"];
+
+/// Runs import on a file with this content.
+fn import(content: &[u8], args: &[&str]) -> Run {
+    let directory = tempfile::tempdir().expect("a directory");
+    fs::write(directory.path().join("old.csv"), content).expect("written");
+    camgen_in(directory, &[&["import", "old.csv"], args].concat())
+}
+
+/// A lift of 20 mm up by a cycloid, a dwell, down, a dwell.
+fn lift(degree: u32) -> f64 {
+    let cycloid = |x: f64| x - (TAU * x).sin() / TAU;
+    let degree = f64::from(degree % 360);
+    let share = if degree < 120.0 { degree / 120.0 } else { ((280.0 - degree) / 120.0).clamp(0.0, 1.0) };
+    20.0 * cycloid(share)
+}
+
+fn table(head: &str, row: impl Fn(u32) -> String) -> String {
+    let rows: Vec<String> = (0..360).map(row).collect();
+    format!("{head}\n{}\n", rows.join("\n"))
+}
+
+fn usual(degree: u32) -> String {
+    format!("{degree},{:.4}", lift(degree))
+}
+
+fn at(wrong: u32, text: &str) -> impl Fn(u32) -> String {
+    let text = text.to_owned();
+    move |degree| if degree == wrong { text.clone() } else { usual(degree) }
+}
+
+/// Points of a profile under a knife edge.
+fn points(head: &str, point: impl Fn(u32, f64, f64) -> String) -> String {
+    table(head, |degree| {
+        let (angle, radius) = (f64::from(degree).to_radians(), 45.0 + lift(degree));
+        point(degree, radius * angle.cos(), radius * angle.sin())
+    })
+}
+
+fn plain(_: u32, x: f64, y: f64) -> String {
+    format!("{x:.5},{y:.5}")
+}
+
+fn drawing(entities: &str, head: &str) -> String {
+    format!("0\nSECTION\n2\nHEADER\n{head}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
+}
+
+fn circle(x: f64, y: f64, radius: f64, layer: &str) -> String {
+    format!("0\nCIRCLE\n8\n{layer}\n10\n{x}\n20\n{y}\n40\n{radius}\n")
+}
+
+const MM: &str = "9\n$INSUNITS\n70\n4\n";
+
+/// Content, arguments, and what the message must tell.
+type Refused = (String, Vec<&'static str>, &'static [&'static str]);
+
+fn tables() -> Vec<Refused> {
+    let head = "deg,mm";
+    vec![
+        (String::new(), vec![], &["is an empty file", "give a lift table"]),
+        ("deg,mm\n".into(), vec![], &["has no rows", "two numbers"]),
+        ("deg,mm\n0,0\n120,5\n240,2\n".into(), vec![], &["3 rows", "at least 8"]),
+        (table(head, at(17, "17,O.1")), vec![], &["old.csv:19", "`O.1`", "write a number"]),
+        (table(head, at(17, "17,")), vec![], &["old.csv:19", "1 cells", "two numbers"]),
+        (table(head, at(17, "17,nan")), vec![], &["old.csv:19", "`nan`"]),
+        (table(head, at(17, "16,0.36")), vec![], &["old.csv:19", "16 does not come after 16", "each angle once"]),
+        (table(head, at(17, "22,0.36")), vec![], &["old.csv:20", "18 does not come after 22", "sort the rows"]),
+        (
+            table(head, usual) + "360,1.0\n",
+            vec![],
+            &["old.csv:362", "does not end where it begins", "remove the last row"],
+        ),
+        (
+            table(head, |d| if d < 200 { usual(d) } else { "#".into() }),
+            vec![],
+            &["old.csv:201", "without rows", "add rows"],
+        ),
+        (table("", |d| format!("{:.5},{:.4}", f64::from(d).to_radians(), lift(d))), vec![], &["radians?", "--unit"]),
+        (
+            table("", |d| format!("{:.5},{:.4}", f64::from(d) / 360.0, lift(d))),
+            vec![],
+            &["shares of the turn?", "--over"],
+        ),
+        (table("t (ms),mm", usual), vec![], &["`", "in ms", "columns"]),
+        (table("deg,lift %", usual), vec![], &["shares of a lift", "--lift"]),
+        (table("angle (deg),swing (deg)", usual), vec![], &["positions are in deg", "--follower swinging-roller"]),
+        (table("deg,lift mm", usual), LEVER.to_vec(), &["positions are in mm", "is an angle"]),
+        (table(head, usual), vec!["--unit", "banana"], &["\"banana\" is not a unit", "one of um, mm"]),
+        (table(head, usual), vec!["--columns", "angle,hub"], &["no single column", "\"deg\", \"mm\""]),
+        (table(head, usual), vec!["--columns", "2"], &["two different columns", "--columns"]),
+        (table(head, usual), vec!["--ratio", "0"], &["must be above 0"]),
+        (table(head, usual), vec!["--lift", "20"], &["has no unit"]),
+        (
+            table(head, at(61, "61,9.9")),
+            vec![],
+            &["row 62", "61 deg", "off the motion of its neighbours", "correct it"],
+        ),
+        (table(head, |d| format!("{d},7.0")), vec![], &["does not move", "give rows of a lift"]),
+        (table(head, |d| format!("{d},{:.1}", 1e9 * lift(d))), vec![], &["farthest possible", "--unit"]),
+        (table(head, usual), vec!["--fit", "centre"], &["has no centre", "leave --fit centre out"]),
+        (table(head, usual), vec!["--deviation", "0.1deg"], &["the deviation is an angle", "--deviation 3um"]),
+        (table(head, usual), vec!["--ball", "3mm"], &["--ball belongs to measured points", "--from points"]),
+        (table(head, usual), vec!["--layer", "A"], &["--layer belongs to the outline", "--from outline"]),
+        (table(head, usual), vec!["--set", "motion.start=5mm"], &["is a key of the motion", "--rpm"]),
+        (table(head, usual), vec!["--set", "cam.banana=1"], &["unknown key `cam.banana`"]),
+        (table(head, usual), vec!["--format", "dxf"], &["no such format `dxf`", "toml"]),
+        ("%PDF-1.7\n".into(), vec![], &["a PDF document", "as text (CSV)"]),
+        ("PK\u{3}\u{4}x".into(), vec![], &["spreadsheets", "as text (CSV)"]),
+        ("{\"schema\": 1}".into(), vec![], &["a JSON file"]),
+        ("<svg/>".into(), vec![], &["an XML, SVG or HTML file"]),
+    ]
+}
+
+fn others() -> Vec<Refused> {
+    let rolled = ROLLER.to_vec();
+    let with = |more: &[&'static str]| [&ROLLER[..], more].concat();
+    let flower = table("x,y", |d| {
+        let angle = PI / 180.0 * f64::from(d);
+        let radius = 50.0 + 3.0 * angle.cos() + 2.0 * (5.0 * angle).cos();
+        format!("{},{}", radius * angle.cos(), radius * angle.sin())
+    });
+    let open = "0\nLINE\n8\nCAM_PROFILE\n10\n0\n20\n-9\n11\n50\n21\n0\n0\nLINE\n8\nCAM_PROFILE\n10\n50\n20\n0\n11\n-40\n21\n30\n";
+    vec![
+        ("x,y\n1,2\n3,4\n".into(), rolled.clone(), &["2 points", "at least 8"]),
+        (points("a,b", plain), with(&["--from", "points"]), &["no columns of points", "x and y"]),
+        (points("x_um,y_um", plain), with(&["--from", "points"]), &["`x_um`", "mm"]),
+        (
+            points("x,y", |d, x, y| if d == 17 { "x1,5".into() } else { plain(d, x, y) }),
+            rolled.clone(),
+            &["line 19", "`x1`"],
+        ),
+        (
+            points("x,y", |d, x, y| if (40..80).contains(&d) { "#".into() } else { plain(d, x, y) }),
+            rolled.clone(),
+            &["leave out 41.0 deg", "point 40", "all round"],
+        ),
+        (
+            points("x,y", |d, x, y| if d == 61 { plain(d, 1.01 * x, 1.01 * y) } else { plain(d, x, y) }),
+            rolled.clone(),
+            &["point 62", "off the motion", "correct it"],
+        ),
+        (points("x,y", |d, x, y| plain(d, x + 500.0, y)), rolled.clone(), &["leave out", "about its shaft"]),
+        (flower, with(&["--fit", "centre"]), &["no dwell", "--fit angle"]),
+        (points("x,y", plain), vec![], &["needs the follower", "--follower roller"]),
+        (points("x,y", plain), vec!["--follower", "rolller,diameter=24mm"], &["did you mean roller?"]),
+        (
+            points("x,y", plain),
+            vec!["--follower", "roller,dimeter=24mm"],
+            &["did you mean `follower.roller.diameter`?"],
+        ),
+        (points("x,y", plain), vec!["--follower", "roller,diameter=24"], &["has no unit"]),
+        (points("x,y", plain), vec!["--follower", "roller,24mm"], &["is not KEY=VALUE", "diameter=24mm"]),
+        (
+            points("x,y", plain),
+            vec!["--follower", "swinging-roller,diameter=24mm"],
+            &["follower.swinging-roller.arm", "add it"],
+        ),
+        (
+            points("x,y", plain),
+            vec!["--follower", "swinging-roller,diameter=24mm,arm=20mm,pivot_distance=130mm"],
+            &["point", "dimensions of the follower"],
+        ),
+        (points("x,y", plain), with(&["--ball", "-1mm"]), &["must be above 0"]),
+        (points("x,y", plain), with(&["--columns", "1,2"]), &["--columns belongs to a lift table"]),
+        (drawing(open, MM), rolled.clone(), &["not closed", "gap", "close it"]),
+        (
+            drawing(&(circle(0.0, 0.0, 50.0, "CAM_PROFILE") + &circle(200.0, 0.0, 10.0, "CAM_PROFILE")), MM),
+            rolled.clone(),
+            &["2 closed curves", "--layer"],
+        ),
+        (
+            drawing(&circle(5.0, 0.0, 50.0, "CAM_PROFILE"), "9\n$MEASUREMENT\n70\n0\n"),
+            rolled.clone(),
+            &["inches", "$INSUNITS"],
+        ),
+        (
+            drawing(&(circle(5.0, 0.0, 50.0, "A") + &circle(0.0, 0.0, 10.0, "B")), MM),
+            rolled.clone(),
+            &["layers A, B", "--layer"],
+        ),
+        (
+            drawing(&circle(500.0, 0.0, 50.0, "CAM_PROFILE"), MM),
+            rolled.clone(),
+            &["does not lie within the outline", "origin"],
+        ),
+        (drawing(&circle(0.0, 0.0, 50.0, "CAM_PROFILE"), MM), rolled.clone(), &["does not move"]),
+        (drawing(&circle(5.0, 0.0, 50.0, "CAM_PROFILE"), MM), vec![], &["needs the follower"]),
+        ("0\nSECTION\n".into(), rolled.clone(), &["EOF"]),
+        ("ISO-10303-21;\nHEADER;\n".into(), rolled, &["line 3"]),
+    ]
+}
+
+/// Each kind of bad input ends with exit code 2, is told with its place and what would be right, and leaves no file.
+#[test]
+fn what_cannot_be_imported_is_told_with_its_row_and_a_remedy() {
+    let all: Vec<Refused> = tables().into_iter().chain(others()).collect();
+    assert!(all.len() >= 40, "{}", all.len());
+    for (content, args, told) in all {
+        let run = import(content.as_bytes(), &args);
+        assert_eq!(run.code, 2, "{args:?} {told:?}: {}{}", run.out, run.err);
+        for part in told {
+            assert!(run.err.contains(part), "{args:?}: {part} is not told: {}", run.err);
+        }
+        assert_eq!(files(run.directory.path()), ["old.csv"], "{args:?}");
+    }
+    let run = import(b"\xff\xfe\xc4,1\n", &[]);
+    assert!(run.code == 2 && run.err.contains("UTF-8"), "{}", run.err);
+}
+
+/// A design is found with its laws and round numbers, and `make` takes it as it is.
+#[test]
+fn a_lift_table_becomes_a_design() {
+    let run =
+        import(table("deg,mm", usual).as_bytes(), &["--follower", "roller,diameter=20mm", "--json", "--out", "."]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    let found = report(&run);
+    let segments = found["import"]["segments"].as_array().expect("segments");
+    let laws: Vec<&str> = segments.iter().filter_map(|segment| segment["law"].as_str()).collect();
+    assert_eq!(laws, ["cycloidal", "dwell", "cycloidal", "dwell"]);
+    assert!((number(&segments[0]["to_deg"]) - 120.0).abs() < 1e-9 && (number(&segments[0]["to"]) - 20.0).abs() < 1e-9);
+    let design = fs::read_to_string(run.directory.path().join("old-import.toml")).expect("a design");
+    assert!(design.contains("over = \"120 deg\"\nto = \"20 mm\""), "{design}");
+    let made = camgen_in(run.directory, &["make", "old-import.toml", "--format", "dxf"]);
+    assert_eq!(made.code, 0, "{}{}", made.out, made.err);
+}
+
+/// A law that is demanded and leaves too much is not written.
+#[test]
+fn a_law_that_does_not_keep_the_deviation_is_refused() {
+    let run = import(table("deg,mm", usual).as_bytes(), &["--law", "parabola"]);
+    assert_eq!(run.code, 1, "{}", run.err);
+    assert_eq!(files(run.directory.path()), ["old.csv"]);
+    let run = import(table("deg,mm", usual).as_bytes(), &["--law", "spline", "--dry-run"]);
+    assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+}
+
+/// An eccentric circle under a flat face and a roller, in closed form.
+#[test]
+fn the_lift_on_an_outline_is_exact() {
+    let outline = drawing(&circle(5.0, 0.0, 50.0, "CAM_PROFILE"), MM);
+    let exact: [(&str, fn(f64) -> f64); 2] = [
+        ("flat", |at| 50.0 + 5.0 * at.cos() - 45.0),
+        ("roller,radius=10mm", |at| 5.0 * at.cos() + (3600.0 - 25.0 * at.sin().powi(2)).sqrt() - 55.0),
+    ];
+    for (follower, lift) in exact {
+        let run =
+            import(outline.as_bytes(), &["--follower", follower, "--law", "spline", "--format", "csv", "--out", "."]);
+        assert_eq!(run.code, 0, "{}{}", run.out, run.err);
+        let rows = fs::read_to_string(run.directory.path().join("old-import.csv")).expect("a table");
+        for row in rows.lines().skip(1) {
+            let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().expect("a number")).collect();
+            let wanted = lift(cells[0].to_radians());
+            assert!((cells[1] - wanted).abs() < 1e-8, "{follower} at {}: {} instead of {wanted}", cells[0], cells[1]);
+        }
+    }
+}
