@@ -85,7 +85,8 @@ fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8>, Refusal>
         text: (index + 1).to_string(),
     };
     view.marks = numbered.map(label).collect();
-    let millimetres = |value: f64| format!("{value:.3}");
+    // Without the sign of a negative 0.
+    let millimetres = |value: f64| format!("{:.3}", (value * 1e3).round() / 1e3 + 0.0);
     let cells = |(index, place): (usize, &inspection::InspectionPlace)| {
         let (point, normal) = (place.point, place.normal);
         let places = [point.x, point.y, normal.x, normal.y].map(millimetres);
@@ -105,7 +106,8 @@ fn sheet(cam: &Rendering<'_>, list: &InspectionList) -> Result<Vec<u8>, Refusal>
         shortest(list.zone)
     )];
     let deviates = svg::deviation_words(&cam.fit);
-    let number = "1/1";
-    let extras = SheetExtras { file_deviates: &deviates, number, traces: &[], checks: &[], passed_otherwise: 0 };
+    let (checks, passed_otherwise) = svg::listed_checks(&cam.report.checks);
+    let extras =
+        SheetExtras { file_deviates: &deviates, number: "1/1", traces: &[], checks: &checks, passed_otherwise };
     svg::fill(&compose(&view, cam.report, &extras), cam.template, true, &cam.report.mark())
 }

@@ -46,13 +46,18 @@ pub(super) fn numbered(cam: &Rendering<'_>, number: &'static str) -> Result<Shee
     let second = cam.other_cams.first().and_then(|(body, outlines)| Some((*body, &outlines.first()?.contour)));
     let traces = outline.map_or_else(Vec::new, |outline| body::traces((cam.body, outline), second));
     let file_deviates = deviation_words(&cam.fit);
-    // Figures about the bytes of the files are for the report, where they passed.
-    let is_listed = |finding: &&Finding| finding.verdict != Verdict::Pass || !verify::reads_files(&finding.check);
-    let checks: Vec<Finding> = cam.report.checks.iter().filter(is_listed).cloned().collect();
-    let passed_otherwise = cam.report.checks.len() - checks.len();
+    let (checks, passed_otherwise) = listed_checks(&cam.report.checks);
     let extras =
         SheetExtras { file_deviates: &file_deviates, number, traces: &traces, checks: &checks, passed_otherwise };
     Ok(compose(&view, cam.report, &extras))
+}
+
+/// The findings that a sheet lists, and how many others passed: figures about the bytes of the files are for the report, where they passed.
+pub(super) fn listed_checks(all: &[Finding]) -> (Vec<Finding>, usize) {
+    let is_listed = |finding: &&Finding| finding.verdict != Verdict::Pass || !verify::reads_files(&finding.check);
+    let checks: Vec<Finding> = all.iter().filter(is_listed).cloned().collect();
+    let passed_otherwise = all.len() - checks.len();
+    (checks, passed_otherwise)
 }
 
 /// How far the profile of the file may lie from the exact one, in words.

@@ -67,7 +67,8 @@ impl Design<'_> {
         let mut text = String::new();
         let (unit, size) = unit(rows.quantity);
         let position = |value: f64| format!("{} {unit}", number(value / size));
-        let _ = writeln!(text, "# imported from {}", self.source);
+        let source: String = self.source.chars().filter(|c| !c.is_control()).collect();
+        let _ = writeln!(text, "# imported from {source}");
         let _ = writeln!(text, "name = {}", quoted(self.name));
         let lines = tables(self.settings);
         text.push_str(lines.first().map_or("", |(_, lines)| lines));

@@ -291,7 +291,7 @@ impl Model {
                 for diagonal in 0..damped.nrows() {
                     damped[(diagonal, diagonal)] *= 1.0 + damping;
                 }
-                let moved = damped.cholesky().map(|found| self.moved(&found.solve(&right), &free, fixed));
+                let moved = damped.cholesky().map(|found| self.moved(&found.solve(&right), &free));
                 if let Some((moved, next)) = moved.flatten().and_then(|moved| {
                     let next = moved.squares(rows, (first, end, every))?;
                     Some((moved, next))
@@ -347,10 +347,18 @@ impl Model {
         free.extend((0..2).map(|_| next(centre)));
         let (mut matrix, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
         let (curves, mut slopes) = (self.curves(), Vec::new());
+        let changed = self.changed();
         let mut row: Vec<(usize, f64)> = Vec::new();
         for at in (first..end).step_by(every.max(1)) {
             let Some(value) = self.at(rows.angle(at), &curves, &mut slopes) else { continue };
             let off = rows.value(at) + shifted(rows, at, self.shift) - value;
+            if !changed.is_empty() {
+                let size = 1.0 / CHANGE;
+                let by = |(model, curves): &(Self, Vec<SegmentCurves>)| {
+                    model.at(rows.angle(at), curves, &mut Vec::new()).map_or(0.0, |other| (other - value) * size)
+                };
+                slopes = changed.iter().map(by).enumerate().collect();
+            }
             if let Some(by) = rows.by_shift.get(at % rows.len().max(1)).filter(|_| centre) {
                 slopes.extend([(nodes + levels + laws, -by[0]), (nodes + levels + laws + 1, -by[1])]);
             }
@@ -369,8 +377,24 @@ impl Model {
         (matrix, right, free)
     }
 
+    /// The model with each of its parameters changed a little, where a straight line in it makes the laws beside it depend on them.
+    fn changed(&self) -> Vec<(Self, Vec<SegmentCurves>)> {
+        if !(0..self.segments.len()).any(|segment| self.velocity(segment).is_some()) {
+            return Vec::new();
+        }
+        let [nodes, levels, laws, _] = self.sizes();
+        let of = |index: usize| {
+            let step = DVector::from_element(1, CHANGE);
+            let free: Vec<Option<usize>> = (0..nodes + levels + laws).map(|own| (own == index).then_some(0)).collect();
+            let model = self.moved(&step, &free).unwrap_or_else(|| self.clone());
+            let curves = model.curves();
+            (model, curves)
+        };
+        (0..nodes + levels + laws).map(of).collect()
+    }
+
     /// The model after a step; `None` where its nodes would no longer follow each other.
-    fn moved(&self, step: &DVector<f64>, free: &[Option<usize>], _: Fixed) -> Option<Self> {
+    fn moved(&self, step: &DVector<f64>, free: &[Option<usize>]) -> Option<Self> {
         let by = |index: usize| free.get(index).copied().flatten().and_then(|at| step.get(at)).copied().unwrap_or(0.0);
         let [nodes, levels, laws, _] = self.sizes();
         let mut moved = self.clone();

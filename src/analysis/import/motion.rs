@@ -292,14 +292,19 @@ fn joined(
     let first = model.nodes.first().copied().unwrap_or(0.0);
     let turns = ((first + 1e-9) / rows.fill).floor() * rows.fill;
     model.nodes.iter_mut().for_each(|node| *node -= turns);
-    for (segment, told) in model.segments.iter().zip(&mut segments) {
+    own_first(&model, &mut segments);
+    FoundMotion { model, segments, whole: false }
+}
+
+/// Puts the law that was chosen before the others that were fitted.
+fn own_first(model: &Model, segments: &mut [FoundSegment]) {
+    for (segment, told) in model.segments.iter().zip(segments) {
         let ModelLaw::Law(law) = segment.law else { continue };
         if let Some(own) = told.fits.iter().find(|(name, _)| *name == law.law.name).copied() {
             told.fits.retain(|(name, _)| *name != law.law.name);
             told.fits.insert(0, own);
         }
     }
-    FoundMotion { model, segments, whole: false }
 }
 
 /// Which stretches are not those of a law: those without one, and their neighbours where the motion passes between them without a rest.
