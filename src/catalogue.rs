@@ -9,7 +9,7 @@ use crate::domains::DOMAINS;
 use crate::domains::press::machine::DriveMachine;
 #[cfg(feature = "shaft")]
 use crate::domains::shaft::machine::ShaftMachine;
-use crate::machine::{self, Catalogue, Machine, MachineError, MachineText};
+use crate::machine::{self, Catalogue, Machine, MachineError, MachineSource};
 use crate::motion::program::rows::TableRows;
 use crate::trade;
 use crate::verify::CHECKS;
@@ -78,7 +78,8 @@ macro_rules! read {
             /// # Errors
             /// All faults found; a file that cannot be read is one of them.
             pub fn load(name_or_path: &str, overrides: &[String]) -> Result<(Self, String), MachineError> {
-                catalogue().load(name_or_path, |source| Self::read(source, overrides))
+                let source = catalogue().source(name_or_path)?;
+                Ok((Self::of_source(&source, overrides)?, source.stem().to_owned()))
             }
 
             /// Reads a machine from TOML text; `source` names it in messages, each override is `key=value`.
@@ -86,10 +87,26 @@ macro_rules! read {
             /// # Errors
             /// All faults found, each with its place.
             pub fn from_toml(source: &str, text: &str, overrides: &[String]) -> Result<Self, MachineError> {
-                Self::read(&$crate::machine::MachineText::of_user(catalogue(), source, text), overrides)
+                Self::of_source(&MachineSource::of_user(catalogue(), source, text), overrides)
             }
         }
     )*};
+}
+
+impl MachineSource {
+    /// Reads the text of an embedded machine by its name, or of a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is none of a machine; what is wrong in it shows when a machine is made of it.
+    pub fn load(name_or_path: &str) -> Result<Self, MachineError> {
+        catalogue().source(name_or_path)
+    }
+
+    /// Reads TOML text; `source` names it in messages.
+    #[must_use]
+    pub fn from_toml(source: &str, text: &str) -> Self {
+        Self::of_user(catalogue(), source, text)
+    }
 }
 
 read!(Machine);
@@ -104,7 +121,9 @@ impl TableRows {
     /// # Errors
     /// All faults found, each with its place.
     pub fn load(text: &str, overrides: &[String]) -> Result<Self, MachineError> {
-        MachineText::of_user(catalogue(), "import", text).in_working_folder().read(overrides, machine::read_lift_table)
+        MachineSource::of_user(catalogue(), "import", text)
+            .in_working_folder()
+            .read(overrides, machine::read_lift_table)
     }
 }
 

@@ -216,7 +216,7 @@ pub mod catalogue;
 #[doc(inline)]
 pub use analysis::Analysis;
 #[doc(inline)]
-pub use body::{Drawn, Part, Request};
+pub use body::{Accuracy, Drawn, Part, Request};
 #[cfg(feature = "press")]
 #[doc(inline)]
 pub use domains::press::motion::equation_18::{ExactOn, Solver};

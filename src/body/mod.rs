@@ -52,7 +52,7 @@ pub use worst_places::WorstPlaces;
 pub(crate) use worst_places::{STRAIGHT, radius_of};
 
 use crate::check::Measures;
-use crate::document::cams;
+use crate::document::{NamedChoice, cams};
 use crate::geometry::boundary::{Boundary, BoundaryStretch};
 use crate::geometry::contour::Contour;
 use crate::geometry::lead_in::LeadIn;
@@ -248,6 +248,46 @@ impl RateTolerance {
     }
 }
 
+/// Named accuracies, of those that [`trade`](mod@crate::trade) measures. The standard one is the default of the command line and of
+/// [`Cam::draw`](crate::Cam::draw).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Accuracy {
+    /// 50 µm: for a first look.
+    Draft,
+    /// 5 µm and 5 % of the acceleration: for milling.
+    #[default]
+    Standard,
+    /// 0.5 µm and 1 % of the acceleration: for grinding.
+    Fine,
+}
+
+impl NamedChoice for Accuracy {
+    const ALL: &'static [(&'static str, Self)] =
+        &[("draft", Self::Draft), ("standard", Self::Standard), ("fine", Self::Fine)];
+}
+
+impl Accuracy {
+    /// Tolerance of the outline, m.
+    #[must_use]
+    pub fn tolerance(self) -> f64 {
+        match self {
+            Self::Draft => 50e-6,
+            Self::Standard => 5e-6,
+            Self::Fine => 0.5e-6,
+        }
+    }
+
+    /// Largest error of the acceleration as cut, where one is kept.
+    #[must_use]
+    pub fn acceleration(self) -> Option<RateTolerance> {
+        match self {
+            Self::Draft => None,
+            Self::Standard => Some(RateTolerance::Share(0.05)),
+            Self::Fine => Some(RateTolerance::Share(0.01)),
+        }
+    }
+}
+
 /// What a drawing must contain, and how exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
@@ -278,7 +318,14 @@ pub struct Request {
 }
 
 impl Request {
-    /// Outlines within a tolerance (m), nothing else.
+    /// Outlines within a tolerance (m) whose errors of the acceleration are those of [`Accuracy::Standard`]; larger ones are only reported.
+    #[must_use]
+    pub fn usual(fit: impl Into<Fit>) -> Self {
+        let rates = [None, Accuracy::default().acceleration()];
+        Self { rates, strict: [true, false], ..Self::within(fit) }
+    }
+
+    /// Outlines within a tolerance (m), nothing else: the errors of velocity and acceleration are as they come.
     #[must_use]
     pub fn within(fit: impl Into<Fit>) -> Self {
         Self {

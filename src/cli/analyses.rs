@@ -26,8 +26,6 @@ use camgen::domains::shaft::analysis::{self as shaft, CriticalSpeedSolver, Shaft
 use camgen::domains::shaft::machine::ShaftMachine;
 use camgen::machine::Machine;
 use camgen::pipeline::{Judged, Spec, Writing};
-use camgen::report::Speeds;
-use camgen::write::number::names;
 
 /// Stations of the paper's shaft, and steps of a sweep, by default.
 #[cfg(feature = "shaft")]
@@ -38,8 +36,16 @@ const STEPS: u32 = 10;
 /// The default speeds for a press, in sevenths of its design speed: 20, 25, 30 and 35 rpm for that of the paper.
 const SEVENTHS: [f64; 4] = [4.0, 5.0, 6.0, 7.0];
 
+/// An analysis, and the name of its machine in the names of its files.
+type NamedAnalysis = (Analysis, String);
+
 pub(super) fn regimes(args: &RegimesArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = at_end(args.end, args.analysis.machine(&args.machine)?)?;
+    judge_and_write(regimes_of(args, args.analysis.machine(&args.machine)?)?, &args.analysis)
+}
+
+/// The regimes of a loaded machine.
+pub(crate) fn regimes_of(args: &RegimesArgs, loaded: (Machine, String)) -> Result<NamedAnalysis, Failure> {
+    let (machine, name) = at_end(args.end, loaded)?;
     let design = machine.press().map_err(Failure::new)?.design_rpm;
     let of_file = &PressCams::of(&machine).regimes;
     let given = if args.rpm.is_empty() { &of_file.speeds } else { &args.rpm };
@@ -49,26 +55,40 @@ pub(super) fn regimes(args: &RegimesArgs) -> Result<Outcome, Failure> {
     };
     let reset = args.reset.or(of_file.reset).unwrap_or(Reset::End);
     let analysis = regimes::analysis(&machine, args.cut_for.unwrap_or(design), &speeds, reset).map_err(Failure::new)?;
-    judge_and_write(analysis, &args.analysis, &name)
+    Ok((analysis, name))
 }
 
 pub(super) fn spring(args: &SpringArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = args.analysis.machine(&args.machine)?;
+    judge_and_write(spring_of(args, args.analysis.machine(&args.machine)?)?, &args.analysis)
+}
+
+/// The springs of a loaded machine.
+pub(crate) fn spring_of(args: &SpringArgs, (machine, name): (Machine, String)) -> Result<NamedAnalysis, Failure> {
     let of_file: Vec<f64> =
         PressCams::of(&machine).spring_stiffness.filter(|_| args.residual.is_none()).into_iter().collect();
     let stiffnesses = if args.stiffness.is_empty() { &of_file } else { &args.stiffness };
     let analysis = spring::analysis(&machine, &args.rpm, stiffnesses, args.residual).map_err(Failure::new)?;
-    judge_and_write(analysis, &args.analysis, &name)
+    Ok((analysis, name))
 }
 
 pub(super) fn drive(args: &DriveArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = DriveMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
-    judge_and_write(drive::analysis(&machine, args.solver, args.step).map_err(Failure::new)?, &args.analysis, &name)
+    let loaded = DriveMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
+    judge_and_write(drive_of(args, loaded)?, &args.analysis)
+}
+
+/// The drive of a loaded machine.
+pub(crate) fn drive_of(args: &DriveArgs, (machine, name): (DriveMachine, String)) -> Result<NamedAnalysis, Failure> {
+    Ok((drive::analysis(&machine, args.solver, args.step).map_err(Failure::new)?, name))
 }
 
 #[cfg(feature = "linkage")]
 pub(super) fn linkage(args: &LinkageArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = args.analysis.machine(&args.machine)?;
+    judge_and_write(linkage_of(args, args.analysis.machine(&args.machine)?)?, &args.analysis)
+}
+
+/// The linkage of a loaded machine.
+#[cfg(feature = "linkage")]
+pub(crate) fn linkage_of(args: &LinkageArgs, (machine, name): (Machine, String)) -> Result<NamedAnalysis, Failure> {
     let rpm = args.rpm.or(machine.design_rpm()).unwrap_or(f64::NAN);
     let (keep, power) = (args.keep.is_some(), args.power_limit);
     let goal = match args.synthesize {
@@ -80,12 +100,18 @@ pub(super) fn linkage(args: &LinkageArgs) -> Result<Outcome, Failure> {
         Some(LinkageGoal::Symmetric) => Some(DragLinkGoal::Symmetric),
         None => None,
     };
-    judge_and_write(linkage::analysis(&machine, rpm, goal).map_err(Failure::new)?, &args.analysis, &name)
+    Ok((linkage::analysis(&machine, rpm, goal).map_err(Failure::new)?, name))
 }
 
 #[cfg(feature = "shaft")]
 pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = ShaftMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
+    let loaded = ShaftMachine::load(&args.machine, &args.analysis.set).map_err(Failure::new)?;
+    judge_and_write(shaft_of(args, loaded)?, &args.analysis)
+}
+
+/// The shaft of a loaded machine.
+#[cfg(feature = "shaft")]
+pub(crate) fn shaft_of(args: &ShaftArgs, (machine, name): (ShaftMachine, String)) -> Result<NamedAnalysis, Failure> {
     let order = match args.order {
         Order::Auto => None,
         Order::Of(order) => Some(order),
@@ -112,20 +138,32 @@ pub(super) fn shaft(args: &ShaftArgs) -> Result<Outcome, Failure> {
         steps: args.steps.unwrap_or(STEPS),
         samples: args.samples,
     };
-    judge_and_write(shaft::analysis(&machine, &asked).map_err(Failure::new)?, &args.analysis, &name)
+    Ok((shaft::analysis(&machine, &asked).map_err(Failure::new)?, name))
 }
 
 pub(super) fn size(args: &SizeArgs) -> Result<Outcome, Failure> {
-    let (machine, name) = args.analysis.machine(&args.machine)?;
-    judge_and_write(size::analysis(&machine, &args.free, args.rpm).map_err(Failure::new)?, &args.analysis, &name)
+    judge_and_write(size_of(args, args.analysis.machine(&args.machine)?)?, &args.analysis)
+}
+
+/// The size of the disc of a loaded machine.
+pub(crate) fn size_of(args: &SizeArgs, (machine, name): (Machine, String)) -> Result<NamedAnalysis, Failure> {
+    Ok((size::analysis(&machine, &args.free, args.rpm).map_err(Failure::new)?, name))
 }
 
 pub(super) fn compare(args: &CompareArgs) -> Result<Outcome, Failure> {
+    judge_and_write(compare_of(args, || args.analysis.machine(&args.machine))?, &args.analysis)
+}
+
+/// Measured points and the cam of a machine, which is loaded once they are read.
+pub(crate) fn compare_of(
+    args: &CompareArgs,
+    load: impl FnOnce() -> Result<(Machine, String), Failure>,
+) -> Result<NamedAnalysis, Failure> {
     let file = args.measured.display();
     let text =
         text_of(&args.measured, LARGEST_MEASURED).map_err(|why| Failure(format!("cannot read `{file}`: {why}")))?;
     let points = measured::read(&text).map_err(|why| Failure(format!("`{file}`: {why}")))?;
-    let (machine, name) = args.analysis.machine(&args.machine)?;
+    let (machine, name) = load()?;
     let spec = Spec::of_program(machine, args.rpm).ok_or_else(|| {
         Failure(format!("{} has no motion: give the file of a cam that `camgen make` cuts", args.machine))
     })?;
@@ -145,11 +183,7 @@ pub(super) fn compare(args: &CompareArgs) -> Result<Outcome, Failure> {
         _ => return Err(Failure(format!("give --flank {}", names.join(" or --flank ")))),
     };
     let options = ComparisonOptions { ball: args.ball.unwrap_or(0.0), fit: args.fit };
-    judge_and_write(
-        comparison::analysis(cam.body(), cut, &points, options).map_err(Failure::new)?,
-        &args.analysis,
-        &name,
-    )
+    Ok((comparison::analysis(cam.body(), cut, &points, options).map_err(Failure::new)?, name))
 }
 
 /// Largest table of measured points, bytes.
@@ -166,16 +200,14 @@ pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
         None if args.analysis.set.is_empty() => (None, "laws".to_owned()),
         None => return Err(Failure("--set overrides keys of a file: give one".into())),
     };
-    let (lift, over, rpm) = (args.lift, args.over, args.rpm);
-    let asked = laws::LawsOptions { lift, over, rpm, sort: args.sort.clone(), laws: args.laws.clone() };
-    let analysis = laws::analysis(machine.as_ref(), &asked).map_err(Failure::new)?;
+    let (analysis, name) = laws_of(args, (machine, name))?;
     if args.csv == args.svg {
-        return judge_and_write(analysis, &args.analysis, &name);
+        return judge_and_write((analysis, name), &args.analysis);
     }
     // Files are written as usual, but one of them is printed instead of the report.
     let (format, ending) = if args.csv { ("csv", ".csv") } else { ("svg", ".svg") };
     let judged = Judged::new(analysis);
-    let writing = writing(&args.analysis, stem(judged.analysis(), &name))?;
+    let writing = writing(&args.analysis, judged.stem(&name))?;
     let shown = judged.files(&Writing { formats: Some(vec![format.to_owned()]), ..writing.clone() });
     let shown = shown.map_err(Failure::new)?;
     let files = (!args.analysis.report.dry_run).then(|| judged.files(&writing)).transpose().map_err(Failure::new)?;
@@ -189,6 +221,13 @@ pub(super) fn laws(args: &LawsArgs) -> Result<Outcome, Failure> {
     Ok(Outcome::Fine)
 }
 
+/// The laws, at the numbers of a loaded machine where there is one.
+pub(crate) fn laws_of(args: &LawsArgs, (machine, name): (Option<Machine>, String)) -> Result<NamedAnalysis, Failure> {
+    let (lift, over, rpm) = (args.lift, args.over, args.rpm);
+    let asked = laws::LawsOptions { lift, over, rpm, sort: args.sort.clone(), laws: args.laws.clone() };
+    Ok((laws::analysis(machine.as_ref(), &asked).map_err(Failure::new)?, name))
+}
+
 impl AnalysisArgs {
     fn machine(&self, name: &str) -> Result<(Machine, String), Failure> {
         Machine::load(name, &self.set).map_err(Failure::new)
@@ -196,29 +235,13 @@ impl AnalysisArgs {
 }
 
 /// Judges, writes and reports.
-pub(super) fn judge_and_write(analysis: Analysis, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
-    write_judged(&Judged::new(analysis), args, machine)
+fn judge_and_write((analysis, machine): NamedAnalysis, args: &AnalysisArgs) -> Result<Outcome, Failure> {
+    write_judged(&Judged::new(analysis), args, &machine)
 }
 
 /// Judges, writes under a stem of its own and reports.
 pub(super) fn judge_and_write_as(analysis: Analysis, args: &AnalysisArgs, stem: String) -> Result<Outcome, Failure> {
     write_as(&Judged::new(analysis), args, &writing(args, stem)?)
-}
-
-/// The longest stem that names every speed, bytes: what is added to it still fits a file system.
-const LONGEST_STEM: usize = 200;
-
-/// The usual stem of the files of an analysis.
-pub(super) fn stem(analysis: &Analysis, machine: &str) -> String {
-    let of = |speeds: &[String]| format!("{machine}-{}-{}rpm", analysis.kind.command, speeds.join("-"));
-    match &analysis.speeds {
-        Speeds::Any(()) => format!("{machine}-{}", analysis.kind.command),
-        Speeds::One(rpm) => of(&names(&[*rpm])),
-        Speeds::Several(speeds) => match (of(&names(speeds)), speeds.as_slice()) {
-            (long, [first, .., last]) if long.len() > LONGEST_STEM => of(&names(&[*first, *last])),
-            (stem, _) => stem,
-        },
-    }
 }
 
 /// Which files of a judged analysis are written, and where.
@@ -235,7 +258,7 @@ fn writing(args: &AnalysisArgs, stem: String) -> Result<Writing, Failure> {
 
 /// Writes and reports what was judged.
 pub(super) fn write_judged(judged: &Judged, args: &AnalysisArgs, machine: &str) -> Result<Outcome, Failure> {
-    write_as(judged, args, &writing(args, stem(judged.analysis(), machine))?)
+    write_as(judged, args, &writing(args, judged.stem(machine))?)
 }
 
 fn write_as(judged: &Judged, args: &AnalysisArgs, writing: &Writing) -> Result<Outcome, Failure> {

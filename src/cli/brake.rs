@@ -1,6 +1,6 @@
 //! `camgen brake`: the belt brake of a paper roll, and the disc that holds its tension.
 
-use super::analyses::{judge_and_write, write_judged};
+use super::analyses::write_judged;
 use super::args::BrakeArgs;
 use super::progress::Progress;
 use super::{Failure, Outcome};
@@ -22,32 +22,42 @@ pub(super) fn of_brake(machine: &BrakeMachine) -> Result<(Spec, Arc<BrakeDisc>),
 }
 
 pub(super) fn run(args: &BrakeArgs) -> Result<Outcome, Failure> {
-    let wanted = match (args.cam, args.synthesize) {
+    let loaded = BrakeMachine::load(catalogue(), &args.machine, &args.analysis.set, wanted(args));
+    let (machine, name) = loaded.map_err(Failure::new)?;
+    let progress = Progress::of_stages(args.analysis.report.shows_progress());
+    let judged = judged(args, &machine, |stage| progress.stage(stage))?;
+    drop(progress);
+    write_judged(&judged, &args.analysis, &name)
+}
+
+/// What of the file is read.
+pub(crate) fn wanted(args: &BrakeArgs) -> BrakeOutput {
+    match (args.cam, args.synthesize) {
         (true, _) => BrakeOutput::Disc,
         (false, Some(_)) => BrakeOutput::Frame,
         (false, None) => BrakeOutput::Figures,
-    };
-    let (machine, name) =
-        BrakeMachine::load(catalogue(), &args.machine, &args.analysis.set, wanted).map_err(Failure::new)?;
+    }
+}
+
+/// The brake of a loaded machine, with its disc where that is asked for.
+pub(crate) fn judged(
+    args: &BrakeArgs,
+    machine: &BrakeMachine,
+    stage: impl Fn(&'static str),
+) -> Result<Judged, Failure> {
     let request = analysis::BrakeRequest { steps: args.samples, goal: args.synthesize, seed: args.seed };
     if !args.cam {
-        return judge_and_write(
-            analysis::analysis(&machine, &request, None).map_err(Failure::new)?,
-            &args.analysis,
-            &name,
-        );
+        return Ok(Judged::new(analysis::analysis(machine, &request, None).map_err(Failure::new)?));
     }
-    let progress = Progress::of_stages(args.analysis.report.shows_progress());
-    progress.stage("solving");
-    let (spec, disc) = of_brake(&machine)?;
+    stage("solving");
+    let (spec, disc) = of_brake(machine)?;
     let cam = spec.solve().map_err(Failure::new)?;
-    progress.stage("drawing");
+    stage("drawing");
     let drawing = cam.draw(args.outline.request(&args.accuracy)?).map_err(Failure::new)?;
-    progress.stage("proving");
+    stage("proving");
     let proven = drawing.prove_as(args.outline.dxf_version).map_err(Failure::new)?;
-    drop(progress);
     let as_cut = brake::as_written(&disc, &proven);
     let held = analysis::TensionDisc { disc: &disc, as_cut: as_cut.as_ref() };
-    let analysis = analysis::analysis(&machine, &request, Some(&held)).map_err(Failure::new)?;
-    write_judged(&ProvenAssembly::from(proven).with_analysis(Judged::new(analysis)), &args.analysis, &name)
+    let analysis = analysis::analysis(machine, &request, Some(&held)).map_err(Failure::new)?;
+    Ok(ProvenAssembly::from(proven).with_analysis(Judged::new(analysis)))
 }

@@ -22,13 +22,12 @@ use camgen::geometry::points::PointInterpolation;
 use camgen::machine::Machine;
 use camgen::pipeline::{Cam, FileSet, ProvenAssembly, Spec, Writing};
 use camgen::profile::outline::Fit;
-use camgen::report::{LazyReport, Speeds};
+use camgen::report::LazyReport;
 use camgen::units::{self, Dimension};
 use camgen::write::gauge;
 use camgen::write::gcode;
 use camgen::write::inspection;
 use camgen::write::json;
-use camgen::write::number::names;
 use camgen::write::points;
 use camgen::write::servo;
 use camgen::write::step::LATEST;
@@ -36,9 +35,6 @@ use camgen::write::svg;
 
 /// Stations of the paper's solver by default: its error is then a hundredth of a millimetre.
 const STATIONS: u32 = 1800;
-/// More speeds than this are named by the first and the last.
-const MOST_NAMED: usize = 6;
-
 pub(super) fn rotary(args: &RotaryArgs) -> Result<Outcome, Failure> {
     let keys = args.compensator.iter().map(|key| format!("compensator.{}", key.trim()));
     let args = &args.disc;
@@ -264,20 +260,8 @@ const LARGEST_TEMPLATE: u64 = 1 << 20;
 
 /// The start of the names of the files.
 fn stem(args: &CommonArgs, files: &FileArgs, cam: &Cam, machine: &str) -> String {
-    let command = cam.body().kind().command;
-    let speeds = match cam.body().speeds() {
-        Speeds::Any(()) => return files.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}")),
-        Speeds::One(rpm) => names(&[rpm]).concat(),
-        Speeds::Several(speeds) => {
-            let sections = names(&speeds);
-            match (args.rpm.as_slice(), sections.as_slice()) {
-                ([Speed::Range(from, to)], _) => names(&[*from, *to]).join("-"),
-                (_, [first, .., last]) if sections.len() > MOST_NAMED => format!("{first}-{last}"),
-                _ => sections.join("-"),
-            }
-        }
-    };
-    files.to.name.clone().unwrap_or_else(|| format!("{machine}-{command}-{speeds}rpm"))
+    let range = if let [Speed::Range(from, to)] = args.rpm.as_slice() { Some([*from, *to]) } else { None };
+    files.to.name.clone().unwrap_or_else(|| cam.stem(machine, range))
 }
 
 /// The time to write into files, from the environment variable `SOURCE_DATE_EPOCH`: seconds since 1970, UTC. Without it no time is

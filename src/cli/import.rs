@@ -1,6 +1,6 @@
 //! `camgen import`: an old cam as a design.
 
-use super::analyses::{stem, write_with};
+use super::analyses::write_with;
 use super::args::{ImportArgs, ImportForm, LawOrSpline};
 use super::cams::source_date;
 use super::{Failure, Outcome};
@@ -42,7 +42,8 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         }
     };
     let analysis = import::analysis(&source, &options).map_err(|why| Failure(format!("`{file}`: {why}")))?;
-    let stem = args.to.name.clone().unwrap_or_else(|| stem(&analysis, &name));
+    let judged = Judged::new(analysis);
+    let stem = args.to.name.clone().unwrap_or_else(|| judged.stem(&name));
     let usual = || USUAL.map(str::to_owned).to_vec();
     let writing = Writing {
         formats: Some(args.format.clone().unwrap_or_else(usual)),
@@ -52,7 +53,7 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
         created: source_date()?,
         ..Writing::to(&args.to.out, stem)
     };
-    write_with(&Judged::new(analysis), &args.report, &writing)
+    write_with(&judged, &args.report, &writing)
 }
 
 fn unread(file: &str, why: &camgen::Refusal) -> Failure {

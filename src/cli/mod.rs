@@ -1,9 +1,9 @@
 //! Commands, their exit codes and what they print: data and reports on stdout, messages on stderr.
 
-mod analyses;
-mod args;
+pub(crate) mod analyses;
+pub(crate) mod args;
 #[cfg(feature = "brake")]
-mod brake;
+pub(crate) mod brake;
 mod cams;
 mod check;
 mod design;
@@ -22,8 +22,8 @@ mod watch;
 use args::{Cli, Command, DeferredArgs};
 use camgen::document::{named, plain};
 use clap::Parser;
+use std::ffi::OsString;
 use std::io::{self, ErrorKind, Write};
-use std::process::ExitCode;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +37,7 @@ enum Outcome {
 /// A message for the user: bad input, or something that cannot be done.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-struct Failure(String);
+pub(crate) struct Failure(String);
 
 impl Failure {
     fn new(why: impl std::fmt::Display) -> Self {
@@ -45,8 +45,16 @@ impl Failure {
     }
 }
 
-pub(crate) fn main() -> ExitCode {
-    let Cli { allow_path, command } = Cli::parse();
+/// Runs a command line, the name of the program first, and returns its exit code.
+pub(crate) fn main(typed: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> u8 {
+    let Cli { allow_path, command } = match Cli::try_parse_from(typed) {
+        Ok(cli) => cli,
+        Err(shown) => {
+            // As clap ends a program; that a page of help cannot be printed is ignored.
+            let _ = shown.print();
+            return u8::try_from(shown.exit_code()).unwrap_or(BAD_INPUT);
+        }
+    };
     let allowed = named::allow(&allow_path).map_err(|why| Failure(format!("--allow-path: {why}")));
     let outcome = allowed.and_then(|()| match command {
         None => pages::overview(),
@@ -56,14 +64,17 @@ pub(crate) fn main() -> ExitCode {
         },
     });
     match outcome {
-        Ok(Outcome::Fine) => ExitCode::SUCCESS,
-        Ok(Outcome::CheckFailed) => ExitCode::from(1),
+        Ok(Outcome::Fine) => 0,
+        Ok(Outcome::CheckFailed) => 1,
         Err(failure) => {
             print_message(&format!("error: {failure}"));
-            ExitCode::from(2)
+            BAD_INPUT
         }
     }
 }
+
+/// The exit code of bad input, and of what cannot be done.
+const BAD_INPUT: u8 = 2;
 
 fn run(command: &Command) -> Result<Outcome, Failure> {
     match command {

@@ -13,6 +13,8 @@ pub(super) struct Misfit {
 /// One fault: what was wrong, where, and what would be right.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileFault {
+    /// The dotted path of the key, or of the table, that it is of; `None` where it is of no single one.
+    pub key: Option<String>,
     /// What was wrong.
     pub message: String,
     /// What would be right.

@@ -35,6 +35,7 @@ pub use reader::{Reader, TableReader};
 pub use schema::schema;
 pub use tables::Tables;
 pub use template::{TemplateOptions, template};
+pub(crate) use text::FlatText;
 pub use words::NamedChoice;
 
 #[cfg(test)]

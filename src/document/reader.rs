@@ -8,7 +8,7 @@ use super::columns::Columns;
 use super::fault::{FileFault, KnownKey, Misfit, nearest, similar};
 use super::input::Input;
 use super::key::{Field, Key, KeyForm, KeySection, KeyValue, Occurrence, Presence, join, key_at};
-use super::text::{Document, MOST_FAULTS, PendingFault, TextPlace, TomlEntry};
+use super::text::{Document, FlatText, MOST_FAULTS, PendingFault, TextPlace, TomlEntry};
 use super::value::{self, Scalar};
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
@@ -44,21 +44,18 @@ impl<'a> Reader<'a> {
     /// Reads a TOML text named `source`, then the overrides, each `key=value`, against the sections.
     #[must_use]
     pub fn new(source: &'a str, text: &'a str, overrides: &[String], sections: &'a [&'a KeySection]) -> Self {
-        Self::in_folder(None, source, text, overrides, sections)
+        Self::of_flat((None, source), FlatText::new(text, sections), overrides, sections)
     }
 
-    /// Reads a text of a folder; other files that it names are read from that folder.
+    /// Reads a text that is flattened, of a folder and a name; other files that it names are read from that folder.
     #[must_use]
-    pub fn in_folder(
-        folder: Option<&'a Path>,
-        source: &'a str,
-        text: &'a str,
+    pub(crate) fn of_flat(
+        (folder, source): (Option<&'a Path>, &'a str),
+        flat: FlatText,
         overrides: &[String],
         sections: &'a [&'a KeySection],
     ) -> Self {
-        let mut document = Document::new(source, text, overrides, |path| {
-            sections.iter().any(|section| section.path == path && section.occurs == Occurrence::Repeated)
-        });
+        let mut document = Document::new(source, flat, overrides);
         let faults = RefCell::new(std::mem::take(&mut document.faults));
         let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
         let (inputs, doubled, meant, meant_keys) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
@@ -273,7 +270,7 @@ impl<'a> Reader<'a> {
             } else {
                 continue;
             };
-            faults.push(PendingFault { message, help, place: Some(entry.key.clone()) });
+            faults.push(PendingFault::at(message, help, Some(entry.key.clone())));
         }
         for (path, span) in &self.document.tables {
             let (pattern, _) = pattern(path);
@@ -282,7 +279,7 @@ impl<'a> Reader<'a> {
                 let place = Some(TextPlace::File(span.clone()));
                 let near = similar(path, sections.iter().map(|section| section.path));
                 let help = near.map(|near| format!("did you mean [{near}]?"));
-                faults.push(PendingFault { message: format!("unknown table `{path}`"), help, place });
+                faults.push(PendingFault::at(format!("unknown table `{path}`"), help, place));
             }
         }
         faults.extend(std::mem::take(&mut self.missing).into_values());
@@ -310,7 +307,7 @@ impl<'a> Reader<'a> {
     }
 
     fn report(&self, message: String, help: Option<String>, place: Option<TextPlace>) {
-        self.faults.borrow_mut().push(PendingFault { message, help, place });
+        self.faults.borrow_mut().push(PendingFault::at(message, help, place));
     }
 
     /// Whether a fault that was reported explains why a table is absent: it has the wrong shape, or another name.
@@ -487,6 +484,7 @@ fn missing((section, key): (&KeySection, &Key), path: &str, source: &str, place:
     let doubled = section.keys.iter().find(|other| other.halved == Some(key.name));
     let or = doubled.map_or(String::new(), |other| format!(", or {}", example(other)));
     PendingFault {
+        key: Some(path.to_owned()),
         message: format!("missing key `{path}` in {source}"),
         help: Some(format!("add it, e.g. {}{or}", example(key))),
         place,

@@ -5,12 +5,13 @@
 //! short, whatever it contains.
 
 use super::fault::{Excerpt, FileFault};
-use super::key::join;
+use super::key::{KeySection, Occurrence, join};
 use super::plain::shown;
 use super::syntax::{SyntaxFault, fault_of};
 use super::value::Scalar;
 use std::collections::BTreeMap;
 use std::ops::{Bound, Range};
+use std::sync::Arc;
 use toml::de::{DeArray, DeTable, DeValue};
 
 /// Deepest nesting of tables that is read, so that hostile files cannot make paths of any length. No section is deeper
@@ -37,12 +38,19 @@ pub(super) enum TextPlace {
 /// A fault whose line has not been cut out of the text yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PendingFault {
+    /// The path of its key, where its place does not tell that.
+    pub(super) key: Option<String>,
     pub(super) message: String,
     pub(super) help: Option<String>,
     pub(super) place: Option<TextPlace>,
 }
 
 impl PendingFault {
+    /// A fault whose key is the one at its place.
+    pub(super) fn at(message: String, help: Option<String>, place: Option<TextPlace>) -> Self {
+        Self { key: None, message, help, place }
+    }
+
     /// Faults without a place come first, then those of the file, then those of the overrides.
     fn order(&self) -> (u8, usize, usize) {
         match &self.place {
@@ -69,11 +77,27 @@ impl TomlEntry {
     }
 }
 
+/// A TOML text, flattened: read once for any number of overrides.
+#[derive(Debug, Clone)]
+pub(crate) struct FlatText {
+    text: Arc<str>,
+    /// Every value.
+    entries: BTreeMap<String, TomlEntry>,
+    /// Every table, elements of arrays of tables too, by where its name was written.
+    tables: BTreeMap<String, Range<usize>>,
+    /// Every array of tables: where its name comes first, and its length.
+    arrays: BTreeMap<String, (Range<usize>, usize)>,
+    /// The text is not TOML; faults that follow from that are not reported.
+    broken: bool,
+    /// Faults of the text itself, independent of what its keys mean.
+    faults: Vec<PendingFault>,
+}
+
 /// A text with its overrides, flattened.
 #[derive(Debug)]
 pub(super) struct Document<'a> {
     source: &'a str,
-    text: &'a str,
+    text: Arc<str>,
     /// The overrides as shown in messages, `key=value`.
     flags: Vec<String>,
     /// Every value.
@@ -88,29 +112,25 @@ pub(super) struct Document<'a> {
     pub(super) faults: Vec<PendingFault>,
 }
 
-impl<'a> Document<'a> {
-    /// Reads a TOML text named `source`, then the overrides, each `key=value`.
-    /// `repeated` says which tables occur several times.
-    pub(super) fn new(source: &'a str, text: &'a str, overrides: &[String], repeated: impl Fn(&str) -> bool) -> Self {
-        let mut document = Self {
-            source,
-            text,
-            flags: Vec::new(),
+impl FlatText {
+    /// Reads a TOML text; the sections say which tables occur several times.
+    pub(crate) fn new(text: &str, sections: &[&KeySection]) -> Self {
+        let repeated =
+            |path: &str| sections.iter().any(|section| section.path == path && section.occurs == Occurrence::Repeated);
+        let mut flat = Self {
+            text: text.into(),
             entries: BTreeMap::new(),
             tables: BTreeMap::new(),
             arrays: BTreeMap::new(),
             broken: false,
             faults: Vec::new(),
         };
-        document.parse(repeated);
-        for text in overrides {
-            document.override_with(text);
-        }
-        document
+        flat.parse(text, repeated);
+        flat
     }
 
-    fn parse(&mut self, repeated: impl Fn(&str) -> bool) {
-        let (table, errors) = DeTable::parse_recoverable(self.text);
+    fn parse(&mut self, text: &str, repeated: impl Fn(&str) -> bool) {
+        let (table, errors) = DeTable::parse_recoverable(text);
         // Later faults of the parser are mostly consequences of the first.
         let first = errors.iter().min_by_key(|error| error.span().map(|span| span.start));
         if let Some(error) = first {
@@ -127,12 +147,12 @@ impl<'a> Document<'a> {
             Some(SyntaxFault { message, help }) => (format!("not TOML: {message}"), Some(help)),
             None => (format!("not TOML: {why}"), None),
         };
-        self.faults.push(PendingFault { message, help, place });
+        self.faults.push(PendingFault::at(message, help, place));
     }
 
     /// The line of a place in the text.
-    fn line_at(&self, at: usize) -> &'a str {
-        let (before, after) = self.text.split_at_checked(at).unwrap_or((self.text, ""));
+    fn line_at(&self, at: usize) -> &str {
+        let (before, after) = self.text.split_at_checked(at).unwrap_or((&self.text, ""));
         let start = before.rfind('\n').map_or(0, |last| last + 1);
         let end = after.find('\n').map_or(self.text.len(), |next| before.len() + next);
         self.text.get(start..end).unwrap_or_default()
@@ -141,7 +161,7 @@ impl<'a> Document<'a> {
     fn table(&mut self, prefix: &str, table: &DeTable<'_>, depth: usize) {
         for (key, value) in table {
             if let Some((message, help)) = not_a_name(key.get_ref(), depth) {
-                self.faults.push(PendingFault { message, help, place: Some(TextPlace::File(key.span())) });
+                self.faults.push(PendingFault::at(message, help, Some(TextPlace::File(key.span()))));
                 continue;
             }
             let path = join(prefix, key.get_ref());
@@ -183,6 +203,18 @@ impl<'a> Document<'a> {
             other @ DeValue::Table(_) => Scalar::Other(other.type_str()),
         }
     }
+}
+
+impl<'a> Document<'a> {
+    /// A text named `source` with overrides, each `key=value`.
+    pub(super) fn new(source: &'a str, flat: FlatText, overrides: &[String]) -> Self {
+        let FlatText { text, entries, tables, arrays, broken, faults } = flat;
+        let mut document = Self { source, text, flags: Vec::new(), entries, tables, arrays, broken, faults };
+        for text in overrides {
+            document.override_with(text);
+        }
+        document
+    }
 
     /// A key with the elements of arrays of tables counted from 0, as paths have them; a number between dots counts them from 1,
     /// `shaft.segment.2.diameter` is `shaft.segment[1].diameter`.
@@ -201,11 +233,9 @@ impl<'a> Document<'a> {
 
     fn override_with(&mut self, text: &str) {
         let Some((key, value)) = text.split_once('=') else {
-            self.faults.push(PendingFault {
-                message: format!("--set {}: `=` is missing", shown(text, LONGEST_NAME)),
-                help: Some("write --set KEY=VALUE, e.g. --set follower.roller.radius=25mm".into()),
-                place: None,
-            });
+            let message = format!("--set {}: `=` is missing", shown(text, LONGEST_NAME));
+            let help = Some("write --set KEY=VALUE, e.g. --set follower.roller.radius=25mm".into());
+            self.faults.push(PendingFault::at(message, help, None));
             return;
         };
         let (key, value) = (&self.indexed(key.trim()), value.trim());
@@ -247,6 +277,7 @@ impl<'a> Document<'a> {
         let mut faults: Vec<FileFault> = once
             .into_iter()
             .map(|fault| FileFault {
+                key: fault.key.or_else(|| self.key_at(fault.place.as_ref()?)),
                 place: fault.place.map(|place| self.excerpt(&place)),
                 message: brief(&fault.message),
                 help: fault.help.map(|help| brief(&help)),
@@ -254,12 +285,25 @@ impl<'a> Document<'a> {
             .collect();
         if more > 0 {
             faults.push(FileFault {
+                key: None,
                 message: format!("{more} more faults are reported once these are corrected"),
                 help: None,
                 place: None,
             });
         }
         faults
+    }
+
+    /// The path of the value, or of the table, that is written at a place.
+    fn key_at(&self, place: &TextPlace) -> Option<String> {
+        let holds = |other: &TextPlace| match (place, other) {
+            (TextPlace::File(part), TextPlace::File(whole)) => part.start >= whole.start && part.end <= whole.end,
+            (TextPlace::Flag { index, .. }, TextPlace::Flag { index: other, .. }) => index == other,
+            _ => false,
+        };
+        let value = self.entries.iter().find(|(_, entry)| holds(&entry.key) || holds(&entry.at)).map(|(path, _)| path);
+        let table = || self.tables.iter().find(|(_, span)| *place == TextPlace::File((*span).clone()));
+        value.or_else(|| table().map(|(path, _)| path)).cloned()
     }
 
     /// The place of one character, from 1, of a text at a place, where it is written without escapes.

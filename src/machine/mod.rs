@@ -41,8 +41,7 @@ pub use list::sections;
 pub use material::{CamMaterial, Grade, Material};
 pub use parts::{MachinePart, MachineParts};
 pub use plate::PlateData;
-pub(crate) use source::MachineText;
-pub use source::{Catalogue, ReadParts};
+pub use source::{Catalogue, MachineSource, ReadParts};
 pub use start::{followers, schema, template, template_of_program};
 pub use stem::fault_of as fault_of_stem;
 pub use title::Title;
@@ -155,11 +154,15 @@ struct KeyValues {
 }
 
 impl Machine {
-    pub(crate) fn read(source: &MachineText<'_>, overrides: &[String]) -> Result<Self, MachineError> {
+    /// Reads a machine from a text that was read before, with overrides, each `key=value`.
+    ///
+    /// # Errors
+    /// All faults found, each with its place.
+    pub fn of_source(source: &MachineSource, overrides: &[String]) -> Result<Self, MachineError> {
         source.read(overrides, |reader| Self::of(reader, source))
     }
 
-    fn of(reader: &Reader<'_>, source: &MachineText<'_>) -> Option<Self> {
+    fn of(reader: &Reader<'_>, source: &MachineSource) -> Option<Self> {
         // Everything is read before the first `?`, so that each part reports what is wrong between its keys.
         let (follower, cam) = (follower::read(reader), disc::read(reader));
         let moves = follower.as_ref().map(|FollowerData { path, shape, arm, .. }| FollowerMovement {

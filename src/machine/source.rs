@@ -4,8 +4,8 @@ use super::embedded::Embedded;
 use super::other_files::instead_of_machine;
 use super::{CamData, FollowerData, MachineError, MachineParts, stem};
 use crate::document::file;
-use crate::document::{FileFault, Reader, Tables, similar};
-use std::path::Path;
+use crate::document::{FileFault, FlatText, Reader, Tables, similar};
+use std::path::{Path, PathBuf};
 
 /// Largest machine file, bytes.
 const LARGEST_FILE: u64 = 1 << 20;
@@ -26,28 +26,51 @@ pub struct Catalogue {
 /// Reads what a domain finds in a machine file, with the cam and the follower where they have no fault.
 pub type ReadParts = fn(&Reader<'_>, (Option<&CamData>, Option<&FollowerData>), &mut MachineParts);
 
-/// The text of a machine file.
-pub(crate) struct MachineText<'a> {
+/// The text of a machine file, read once: machines of it with other values are made without reading the text again.
+///
+/// ```
+/// use camgen::machine::MachineSource;
+/// use camgen::{Machine, Spec};
+///
+/// let source = MachineSource::load("feeder")?;
+/// for radius in [12, 14, 16] {
+///     let machine = Machine::of_source(&source, &[format!("follower.roller.radius={radius}mm")])?;
+///     let cam = Spec::of_program(machine, None).ok_or("the file has no motion")?.solve()?;
+///     assert_eq!(cam.body().machine().name(), "Feeder");
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct MachineSource {
     /// What it is read against.
     pub(crate) catalogue: &'static Catalogue,
     /// What messages call it.
-    name: &'a str,
-    text: &'a str,
+    name: String,
+    /// What the names of its files begin with.
+    stem: String,
+    text: FlatText,
     /// The user wrote it.
     pub(super) by_user: bool,
     /// The folder of its file.
-    folder: Option<&'a Path>,
+    folder: Option<PathBuf>,
 }
 
-impl<'a> MachineText<'a> {
+impl MachineSource {
     /// A text of the user that is not in a folder.
-    pub(crate) fn of_user(catalogue: &'static Catalogue, name: &'a str, text: &'a str) -> Self {
-        Self { catalogue, name, text, by_user: true, folder: None }
+    pub(crate) fn of_user(catalogue: &'static Catalogue, name: &str, text: &str) -> Self {
+        let (stem, text) = (stem::fitting(name), FlatText::new(text, &catalogue.keys.sections));
+        Self { catalogue, name: name.to_owned(), stem, text, by_user: true, folder: None }
+    }
+
+    /// What the names of its files begin with.
+    #[must_use]
+    pub fn stem(&self) -> &str {
+        &self.stem
     }
 
     /// The text as of a file in the working folder: other files that its overrides name are found from there.
     pub(crate) fn in_working_folder(self) -> Self {
-        Self { folder: Some(Path::new("")), ..self }
+        Self { folder: Some(PathBuf::new()), ..self }
     }
 
     /// The result of `parts` for this text.
@@ -56,7 +79,8 @@ impl<'a> MachineText<'a> {
         overrides: &[String],
         parts: impl FnOnce(&Reader<'_>) -> Option<T>,
     ) -> Result<T, MachineError> {
-        let reader = Reader::in_folder(self.folder, self.name, self.text, overrides, &self.catalogue.keys.sections);
+        let place = (self.folder.as_deref(), self.name.as_str());
+        let reader = Reader::of_flat(place, self.text.clone(), overrides, &self.catalogue.keys.sections);
         let made = parts(&reader);
         reader.finish().map_err(|faults| MachineError { faults })?;
         // A part is missing only after a fault, so `finish` has returned before.
@@ -65,24 +89,22 @@ impl<'a> MachineText<'a> {
 }
 
 impl Catalogue {
-    /// The result of `read` for an embedded machine by its name, or for a file, and the stem of its files.
-    pub(crate) fn load<T>(
-        &'static self,
-        name_or_path: &str,
-        read: impl FnOnce(&MachineText<'_>) -> Result<T, MachineError>,
-    ) -> Result<(T, String), MachineError> {
+    /// The text of an embedded machine by its name, or of a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is none of a machine; what is wrong in it shows when a machine is made of it.
+    pub fn source(&'static self, name_or_path: &str) -> Result<MachineSource, MachineError> {
         let path = Path::new(name_or_path);
         let exact = |machine: &&Embedded| machine.name == name_or_path;
         let in_any_case = |machine: &&Embedded| machine.name.eq_ignore_ascii_case(name_or_path) && !path.exists();
         let named = self.embedded.iter().find(exact).or_else(|| self.embedded.iter().find(in_any_case));
         if let Some(embedded) = named {
-            let name = format!("{} (embedded)", embedded.name);
-            let source =
-                MachineText { catalogue: self, name: &name, text: embedded.toml, by_user: false, folder: None };
-            return Ok((read(&source)?, embedded.name.to_owned()));
+            let of_embedded = MachineSource::of_user(self, &format!("{} (embedded)", embedded.name), embedded.toml);
+            return Ok(MachineSource { stem: embedded.name.to_owned(), by_user: false, ..of_embedded });
         }
         let text = file::text_of(path, LARGEST_FILE).map_err(|why| MachineError {
             faults: vec![FileFault {
+                key: None,
                 message: format!("cannot read the machine file `{name_or_path}`: {why}"),
                 help: Some(format!(
                     "{}give a path to a TOML file or an embedded machine: {}",
@@ -96,11 +118,11 @@ impl Catalogue {
         })?;
         if let Some((kind, help)) = instead_of_machine(name_or_path, text.as_bytes()) {
             let message = format!("`{name_or_path}` is {kind}, not a machine file");
-            return Err(MachineError { faults: vec![FileFault { message, help: Some(help), place: None }] });
+            return Err(MachineError { faults: vec![FileFault { key: None, message, help: Some(help), place: None }] });
         }
         let stem = stem::fitting(&path.file_stem().unwrap_or_default().to_string_lossy());
-        let source = MachineText { folder: path.parent(), ..MachineText::of_user(self, name_or_path, &text) };
-        Ok((read(&source)?, stem))
+        let folder = path.parent().map(Path::to_owned);
+        Ok(MachineSource { stem, folder, ..MachineSource::of_user(self, name_or_path, &text) })
     }
 
     /// The names of the machine files in the binary.

@@ -247,11 +247,9 @@ impl Builder {
     /// # Errors
     /// [`Error::Machine`] with all faults.
     pub fn motion(self, motion: impl Motion + 'static) -> Result<Spec, Error> {
-        let rpm = self
-            .rpm
-            .map(valid_rpm)
-            .transpose()
-            .map_err(|message| MachineError { faults: vec![FileFault { message, help: None, place: None }] })?;
+        let rpm = self.rpm.map(valid_rpm).transpose().map_err(|message| MachineError {
+            faults: vec![FileFault { key: Some("rpm".into()), message, help: None, place: None }],
+        })?;
         Ok(Spec::of_motion(self.machine()?, Arc::new(motion), rpm))
     }
 }

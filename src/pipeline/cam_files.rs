@@ -102,6 +102,14 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
         return Err(Error::Refused(whole.failed().join(", ")));
     }
     let (formats, _) = writing.chosen(proven.body())?;
+    let drawn = proven.outlined()?;
+    if let Some(format) = formats.iter().find(|format| format.flank)
+        && proven.body().surface().is_some()
+        && drawn.flank.is_none()
+    {
+        // The solid of one section would take its place.
+        return Err(Error::Unfit { format: format.name, why: "the flank of this cam was not drawn (Request::flank)" });
+    }
     let names = names(proven, &ProvenAssembly::writing(whole.name(), writing))?;
     let placed = names.iter().chain(other_names).map(|name| writing.directory.join(name).display().to_string());
     let files: Vec<String> = placed.collect();

@@ -17,6 +17,7 @@ mod judged;
 mod pair;
 mod proven;
 mod spec;
+mod stem;
 mod tool_files;
 
 pub use assembly::{Assembly, AssemblyDrawing, AssemblyReport, ProvenAssembly};
@@ -75,7 +76,8 @@ impl Cam {
         &*self.body
     }
 
-    /// Draws what is cut, within a tolerance (m) or as a [`Request`] asks.
+    /// Draws what is cut, within a tolerance (m) or as a [`Request`] asks. A tolerance alone is that of [`Request::usual`], with which the
+    /// command line draws, too.
     ///
     /// ```
     /// use camgen::{Fit, Machine, Request, Side, Spec};
@@ -146,7 +148,7 @@ impl Cam {
 
 impl From<f64> for Request {
     fn from(tolerance: f64) -> Self {
-        Request::within(tolerance)
+        Request::usual(tolerance)
     }
 }
 

@@ -358,7 +358,7 @@ fn points(
 ) -> Result<(TradeRow, RoundTimes), Refusal> {
     let body = law.cam.body();
     let request = request.resolved(body).map_err(Refusal::of)?;
-    let whole = law.cam.draw(setting.tolerance).map_err(Refusal::of)?;
+    let whole = law.cam.draw(Request::within(setting.tolerance)).map_err(Refusal::of)?;
     let drawn = whole.drawn().ok_or_else(|| Refusal::new("there is no outline"))?;
     let (placing, tables) = timed(clock, || points::tables(body, &request, drawn).map_err(Refusal::of))?;
     let Some(table) = tables.first() else { return Err(Refusal::new("there is no table of points")) };

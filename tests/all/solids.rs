@@ -6,7 +6,7 @@ use crate::common::random::Random;
 use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::profile::outline::{Fit, SegmentKind};
 use camgen::reading::step;
-use camgen::{Cam, Finding, Machine, Report, Request, Spec, Verdict, Writing};
+use camgen::{Cam, Error, Finding, Machine, Report, Request, Spec, Verdict, Writing};
 
 const TOLERANCE: f64 = 5e-6;
 /// Twice the tolerance, mm.
@@ -23,6 +23,20 @@ fn rotary(overrides: &[&str]) -> Cam {
 
 fn conoid(speeds: &[f64], overrides: &[&str]) -> Cam {
     Spec::conoid(machine(overrides), speeds.to_vec(), None).solve().expect("a cam")
+}
+
+/// The solid of a conoid is its flank: without it one section would take its place.
+#[test]
+fn a_conoid_whose_flank_was_not_drawn_has_no_solid() {
+    let cam = conoid(&[20.0, 35.0], &[]);
+    let files = |request: Request, formats: &[&str]| {
+        let proven = cam.draw(request).expect("drawn").prove().expect("proved");
+        proven.files(&Writing { force: true, ..Writing::to("output", "conoid").formats(formats) })
+    };
+    let sections = Request::within(50e-6);
+    assert!(files(sections, &["dxf", "csv"]).is_ok());
+    assert!(matches!(files(sections, &["dxf", "step"]), Err(Error::Unfit { format: "step", .. })));
+    assert!(files(Request { flank: true, ..sections }, &["dxf", "step"]).is_ok());
 }
 
 /// The STEP file that camgen writes of a cam.

@@ -27,7 +27,7 @@ use std::path::PathBuf;
 
 /// Flags of every analysis.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct AnalysisArgs {
+pub(crate) struct AnalysisArgs {
     /// Override one key of the machine file, e.g. --set buffer.lead=10mm; repeatable
     #[arg(long, value_name = "KEY=VALUE")]
     pub(in crate::cli) set: Vec<String>,
@@ -45,7 +45,7 @@ pub(in crate::cli) struct AnalysisArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct RegimesArgs {
+pub(crate) struct RegimesArgs {
     /// An embedded machine or the path of a machine file
     #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
@@ -73,7 +73,7 @@ pub(in crate::cli) struct RegimesArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct SpringArgs {
+pub(crate) struct SpringArgs {
     /// An embedded machine or the path of a machine file
     #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
@@ -96,7 +96,7 @@ pub(in crate::cli) struct SpringArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct DriveArgs {
+pub(crate) struct DriveArgs {
     /// An embedded machine or the path of a machine file with the table [drive]
     #[arg(default_value = "dp", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
@@ -116,7 +116,7 @@ pub(in crate::cli) struct DriveArgs {
 /// The goal of the design of a drag link.
 #[cfg(feature = "linkage")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum LinkageGoal {
+pub(crate) enum LinkageGoal {
     Equal,
     Symmetric,
     Least,
@@ -125,13 +125,13 @@ pub(in crate::cli) enum LinkageGoal {
 /// The condition that a design keeps.
 #[cfg(feature = "linkage")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum LinkageSymmetry {
+pub(crate) enum LinkageSymmetry {
     Symmetric,
 }
 
 #[cfg(feature = "linkage")]
 #[derive(Debug, Args)]
-pub(in crate::cli) struct LinkageArgs {
+pub(crate) struct LinkageArgs {
     /// An embedded machine or the path of a machine file with the table [linkage]
     #[arg(default_value = "dpi-six-bar", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
@@ -160,14 +160,14 @@ pub(in crate::cli) struct LinkageArgs {
 /// How critical speeds are found.
 #[cfg(feature = "shaft")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum ShaftSolver {
+pub(crate) enum ShaftSolver {
     Exact,
     Paper,
 }
 
 #[cfg(feature = "shaft")]
 #[derive(Debug, Args)]
-pub(in crate::cli) struct ShaftArgs {
+pub(crate) struct ShaftArgs {
     /// An embedded machine or the path of a machine file with the table [shaft]
     #[arg(default_value = "press-cylinder", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
@@ -214,7 +214,7 @@ pub(in crate::cli) struct ShaftArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct SizeArgs {
+pub(crate) struct SizeArgs {
     /// The path of a file with [motion] and a follower, or an embedded one
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,
@@ -233,7 +233,7 @@ pub(in crate::cli) struct SizeArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct CompareArgs {
+pub(crate) struct CompareArgs {
     /// The measured points: a table of x and y, or of angle and radius, in millimetres and degrees, of lines of text
     #[arg(value_name = "MEASURED", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) measured: PathBuf,
@@ -263,7 +263,7 @@ pub(in crate::cli) struct CompareArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct ImportArgs {
+pub(crate) struct ImportArgs {
     /// A lift table, measured points (x and y, or angle and radius) as lines of text, or the outline of a cam as DXF or STEP
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) file: PathBuf,
@@ -325,7 +325,7 @@ pub(in crate::cli) struct ImportArgs {
 
 /// What a file to import is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(in crate::cli) enum ImportForm {
+pub(crate) enum ImportForm {
     Table,
     Outline,
     Points,
@@ -376,7 +376,7 @@ pub(in crate::cli) struct LiftTableArgs {
 }
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct LawsArgs {
+pub(crate) struct LawsArgs {
     /// The path of a file with [motion] and a follower, or an embedded one; without it only the laws themselves are listed
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: Option<String>,

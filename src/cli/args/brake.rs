@@ -6,7 +6,7 @@ use camgen::domains::brake::analysis::FrameGoal;
 use clap::{Args, ValueHint};
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct BrakeArgs {
+pub(crate) struct BrakeArgs {
     /// An embedded machine or the path of a machine file with the table [brake]
     #[arg(default_value = "roll", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) machine: String,

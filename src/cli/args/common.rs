@@ -4,22 +4,11 @@ use super::super::Failure;
 use super::super::text::Page;
 use super::parse::{RateLimit, Speed, acceleration_error, speed, tolerance, velocity_error, word};
 use camgen::analysis::size::FreeDimension;
-use camgen::body::RateTolerance;
+use camgen::body::{Accuracy, RateTolerance};
 use camgen::domains::press::bed_motion::End;
 use camgen::machine::Machine;
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
 use std::io::IsTerminal;
-
-/// Named tolerances, of those that `trade` measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Accuracy {
-    /// 50 µm: for a first look.
-    Draft,
-    /// 5 µm and 5 % of the acceleration: for milling.
-    Standard,
-    /// 0.5 µm and 1 % of the acceleration: for grinding.
-    Fine,
-}
 
 /// How a report is printed.
 #[derive(Debug, Args)]
@@ -54,7 +43,7 @@ pub(in crate::cli) struct AccuracyArgs {
 
     /// Named tolerances: draft (50 µm), standard (5 µm and 5 % of the acceleration) or fine (0.5 µm and 1 %); `camgen trade`
     /// measures what each costs
-    #[arg(long, value_name = "NAME", ignore_case = true)]
+    #[arg(long, value_name = "NAME", ignore_case = true, value_parser = word::<Accuracy>())]
     pub(in crate::cli) accuracy: Option<Accuracy>,
 
     /// Largest error of the follower's velocity as cut: a share of the motion's largest (2%), a quantity (mm/rad, mm/s, m/s,
@@ -168,22 +157,13 @@ impl CommonArgs {
 impl AccuracyArgs {
     /// Tolerance of the outline, m.
     pub(in crate::cli) fn tolerance(&self) -> f64 {
-        match (self.tolerance, self.accuracy) {
-            (Some(tolerance), _) => tolerance,
-            (None, Some(Accuracy::Draft)) => 50e-6,
-            (None, None | Some(Accuracy::Standard)) => 5e-6,
-            (None, Some(Accuracy::Fine)) => 0.5e-6,
-        }
+        self.tolerance.unwrap_or_else(|| self.accuracy.unwrap_or_default().tolerance())
     }
 
     /// Tolerances of velocity and acceleration, and whether a cam that exceeds each of them is refused: a default one is only
     /// reported.
     pub(in crate::cli) fn rates(&self) -> ([Option<RateTolerance>; 2], [bool; 2]) {
-        let named = match self.accuracy {
-            Some(Accuracy::Draft) => None,
-            None | Some(Accuracy::Standard) => Some(RateTolerance::Share(0.05)),
-            Some(Accuracy::Fine) => Some(RateTolerance::Share(0.01)),
-        };
+        let named = self.accuracy.unwrap_or_default().acceleration();
         let asked = |rate: Option<RateLimit>, default| match rate {
             Some(RateLimit::Any) => None,
             Some(RateLimit::Within(rate)) => Some(rate),

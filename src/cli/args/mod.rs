@@ -7,18 +7,18 @@ mod common;
 mod deferred;
 mod files;
 mod help;
-mod parse;
+pub(crate) mod parse;
 mod side_by_side;
 
-pub(super) use analyses::{
+pub(crate) use analyses::{
     AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportForm, LawsArgs, RegimesArgs, SizeArgs, SpringArgs,
 };
 #[cfg(feature = "linkage")]
-pub(super) use analyses::{LinkageArgs, LinkageGoal};
+pub(crate) use analyses::{LinkageArgs, LinkageGoal};
 #[cfg(feature = "shaft")]
-pub(super) use analyses::{ShaftArgs, ShaftSolver};
+pub(crate) use analyses::{ShaftArgs, ShaftSolver};
 #[cfg(feature = "brake")]
-pub(super) use brake::BrakeArgs;
+pub(crate) use brake::BrakeArgs;
 pub(super) use common::{AccuracyArgs, CommonArgs, ReportArgs, at_end, machine_with_free};
 pub(super) use deferred::DeferredArgs;
 pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs};

@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A tolerance of velocity or acceleration, or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::cli) enum RateLimit {
+pub(crate) enum RateLimit {
     Any,
     Within(RateTolerance),
 }
@@ -27,20 +27,20 @@ const ACCELERATIONS: &str = "mm/rad2, mm/deg2, mm/s2, m/s2, rad/rad2, rad/s2";
 
 /// A speed, or `A..B` from one to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::cli) enum Speed {
+pub(crate) enum Speed {
     One(f64),
     Range(f64, f64),
 }
 
-pub(super) fn velocity_error(text: &str) -> Result<RateLimit, String> {
+pub(crate) fn velocity_error(text: &str) -> Result<RateLimit, String> {
     rate(text, 1, VELOCITIES)
 }
 
-pub(super) fn acceleration_error(text: &str) -> Result<RateLimit, String> {
+pub(crate) fn acceleration_error(text: &str) -> Result<RateLimit, String> {
     rate(text, 2, ACCELERATIONS)
 }
 
-pub(super) fn share(text: &str) -> Result<f64, String> {
+pub(crate) fn share(text: &str) -> Result<f64, String> {
     match rate(text, 2, ACCELERATIONS)? {
         RateLimit::Within(RateTolerance::Share(share)) => Ok(share),
         _ => Err("must be a share, e.g. 2%".into()),
@@ -72,7 +72,7 @@ fn rate(text: &str, order: u32, known: &str) -> Result<RateLimit, String> {
     }
 }
 
-pub(super) fn speed(text: &str) -> Result<Speed, String> {
+pub(crate) fn speed(text: &str) -> Result<Speed, String> {
     match text.split_once("..") {
         None => rpm(text).map(Speed::One),
         Some((from, to)) => {
@@ -86,7 +86,7 @@ pub(super) fn speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-pub(super) fn force(text: &str) -> Result<f64, String> {
+pub(crate) fn force(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Force)
         .map_err(|error| format!("{error}; a force has one of {}", Dimension::Force.unit_list()))?;
     if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
@@ -95,7 +95,7 @@ pub(super) fn force(text: &str) -> Result<f64, String> {
 /// Largest travel, m and rad: as in a file.
 const TRAVELS: (f64, f64) = (100.0, 4.0 * PI);
 
-pub(super) fn lift(text: &str) -> Result<LengthOrAngle, String> {
+pub(crate) fn lift(text: &str) -> Result<LengthOrAngle, String> {
     let (length, angle) = (units::parse(text, Dimension::Length), units::parse(text, Dimension::Angle));
     let found = match (length, angle) {
         (Ok(length), _) if length.si > 0.0 && length.si <= TRAVELS.0 => LengthOrAngle::Length(length.si),
@@ -110,7 +110,7 @@ pub(super) fn lift(text: &str) -> Result<LengthOrAngle, String> {
     Ok(found)
 }
 
-pub(super) fn segment_angle(text: &str) -> Result<f64, String> {
+pub(crate) fn segment_angle(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Angle)
         .map_err(|error| format!("{error}; an angle has one of {}", Dimension::Angle.unit_list()))?;
     let most = 2.0 * PI * (1.0 + 1e-12);
@@ -124,7 +124,7 @@ pub(super) fn segment_angle(text: &str) -> Result<f64, String> {
 /// Widest and narrowest step of the crank angle, rad.
 const STEPS: (f64, f64) = (1.0e-2 * PI / 180.0, PI / 2.0);
 
-pub(super) fn crank_step(text: &str) -> Result<f64, String> {
+pub(crate) fn crank_step(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Angle)
         .map_err(|error| format!("{error}; an angle has one of {}", Dimension::Angle.unit_list()))?;
     // With a margin for the rounding of the conversion.
@@ -133,12 +133,12 @@ pub(super) fn crank_step(text: &str) -> Result<f64, String> {
 }
 
 #[cfg(feature = "linkage")]
-pub(super) fn power_share(text: &str) -> Result<f64, String> {
+pub(crate) fn power_share(text: &str) -> Result<f64, String> {
     let share = units::parse_bare(text).map_err(|error| format!("{error}; a share is a bare number, e.g. 0.831"))?;
     if share > 0.0 && share <= 10.0 { Ok(share) } else { Err("must be above 0 and at most 10".into()) }
 }
 
-pub(super) fn stiffness(text: &str) -> Result<f64, String> {
+pub(crate) fn stiffness(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Stiffness)
         .map_err(|error| format!("{error}; a stiffness has one of {}", Dimension::Stiffness.unit_list()))?;
     if quantity.si > 0.0 { Ok(quantity.si) } else { Err("must be above 0".into()) }
@@ -146,7 +146,7 @@ pub(super) fn stiffness(text: &str) -> Result<f64, String> {
 
 /// Two stiffnesses, the first below the second, N/m.
 #[cfg(feature = "shaft")]
-pub(super) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
+pub(crate) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
     let (from, to) =
         text.split_once("..").ok_or("a sweep goes from one stiffness to another, e.g. \"1e8 N/m .. 1e9 N/m\"")?;
     let (from, to) = (stiffness(from.trim())?, stiffness(to.trim())?);
@@ -156,13 +156,13 @@ pub(super) fn stiffnesses(text: &str) -> Result<(f64, f64), String> {
 /// An order of load polynomials, or as many as it takes.
 #[cfg(feature = "shaft")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::cli) enum Order {
+pub(crate) enum Order {
     Auto,
     Of(usize),
 }
 
 #[cfg(feature = "shaft")]
-pub(super) fn order(text: &str) -> Result<Order, String> {
+pub(crate) fn order(text: &str) -> Result<Order, String> {
     if text.eq_ignore_ascii_case("auto") {
         return Ok(Order::Auto);
     }
@@ -174,7 +174,7 @@ pub(super) fn order(text: &str) -> Result<Order, String> {
     }
 }
 
-pub(in crate::cli) fn rpm(text: &str) -> Result<f64, String> {
+pub(crate) fn rpm(text: &str) -> Result<f64, String> {
     let number =
         units::parse_bare(text).map_err(|error| format!("{error}; a speed is a bare number, e.g. --rpm 35"))?;
     valid_rpm(number)
@@ -183,7 +183,7 @@ pub(in crate::cli) fn rpm(text: &str) -> Result<f64, String> {
 /// Coarsest tolerance, m: a cam that is off by more than a millimetre is of no use.
 const COARSEST: f64 = 1e-3;
 
-pub(in crate::cli) fn tolerance(text: &str) -> Result<f64, String> {
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Length)
         .map_err(|error| format!("{error}; a tolerance is a length with one of {}", Dimension::Length.unit_list()))?;
     if quantity.si > 0.0 && quantity.si <= COARSEST {
@@ -199,11 +199,11 @@ const LARGEST_CUTTER: f64 = 1.0;
 const SMALLEST_CUTTER: f64 = 5e-6;
 
 /// The radius of a cutter of a diameter, m.
-pub(super) fn cutter_diameter(text: &str) -> Result<f64, String> {
+pub(crate) fn cutter_diameter(text: &str) -> Result<f64, String> {
     cutter(text, "diameter", 2.0)
 }
 
-pub(super) fn cutter_radius(text: &str) -> Result<f64, String> {
+pub(crate) fn cutter_radius(text: &str) -> Result<f64, String> {
     cutter(text, "radius", 1.0)
 }
 
@@ -237,7 +237,7 @@ pub(in crate::cli) fn gauge_follower(words: &[String]) -> Result<Gauge, String> 
 }
 
 /// The cam angle of a start, rad.
-pub(super) fn start(text: &str) -> Result<f64, String> {
+pub(crate) fn start(text: &str) -> Result<f64, String> {
     let quantity = units::parse(text, Dimension::Angle)
         .map_err(|error| format!("{error}; a start is an angle with one of {}", Dimension::Angle.unit_list()))?;
     if (0.0..TAU).contains(&quantity.si) {
@@ -248,7 +248,7 @@ pub(super) fn start(text: &str) -> Result<f64, String> {
 }
 
 /// `--cutter` alone names neither: a cutter bought by its diameter and moved by its radius leaves twice or half of what it should.
-pub(super) fn bare_cutter(text: &str) -> Result<f64, String> {
+pub(crate) fn bare_cutter(text: &str) -> Result<f64, String> {
     let (typed, example) = if text.is_empty() { ("LENGTH", "8mm") } else { (text, text) };
     Err(format!(
         "is {typed} the diameter or the radius? For a cutter of Ø {example} write --cutter-diameter {example}, for one of radius {example} \
@@ -256,7 +256,7 @@ pub(super) fn bare_cutter(text: &str) -> Result<f64, String> {
     ))
 }
 
-pub(super) fn samples(text: &str) -> Result<u32, String> {
+pub(crate) fn samples(text: &str) -> Result<u32, String> {
     let rows = text.parse().map_err(|_| "must be a whole number")?;
     if (1..=MOST_ROWS).contains(&rows) {
         Ok(rows)
@@ -265,7 +265,7 @@ pub(super) fn samples(text: &str) -> Result<u32, String> {
     }
 }
 
-pub(super) fn format(text: &str) -> Result<String, String> {
+pub(crate) fn format(text: &str) -> Result<String, String> {
     if let Some(format) = by_name().find(|format| format.name.eq_ignore_ascii_case(text)) {
         return Ok(format.name.to_owned());
     }
@@ -273,7 +273,7 @@ pub(super) fn format(text: &str) -> Result<String, String> {
     Err(format!("no such format; {}one of {}", meant(text, &known), known.join(", ")))
 }
 
-pub(super) fn law(text: &str) -> Result<&'static Law, String> {
+pub(crate) fn law(text: &str) -> Result<&'static Law, String> {
     let known = || LAWS.iter().map(|law| law.name).collect::<Vec<_>>();
     laws::named(text).ok_or_else(|| format!("no such law; {}one of {}", meant(text, &known()), known().join(", ")))
 }
@@ -292,7 +292,7 @@ pub(super) fn law_or_spline(text: &str) -> Result<LawOrSpline, String> {
     law(text).map(LawOrSpline::Law).map_err(|why| format!("{why}; or spline"))
 }
 
-pub(super) fn dxf_version(text: &str) -> Result<Version, String> {
+pub(crate) fn dxf_version(text: &str) -> Result<Version, String> {
     Version::ALL.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|(_, version)| *version).ok_or_else(
         || {
             let known: Vec<&str> = Version::ALL.iter().map(|(name, _)| *name).collect();
@@ -302,7 +302,7 @@ pub(super) fn dxf_version(text: &str) -> Result<Version, String> {
 }
 
 /// One of the words of a choice.
-pub(in crate::cli) fn word<T: NamedChoice>() -> impl TypedValueParser<Value = T> {
+pub(crate) fn word<T: NamedChoice>() -> impl TypedValueParser<Value = T> {
     let mut known: Vec<(PossibleValue, T)> = Vec::new();
     for (name, case) in T::ALL {
         match known.iter_mut().find(|(_, other)| other == case) {
@@ -320,6 +320,6 @@ fn meant(text: &str, known: &[&str]) -> String {
 }
 
 /// A stem names files in the output directory and must not lead out of it.
-pub(in crate::cli) fn stem(text: &str) -> Result<String, String> {
+pub(crate) fn stem(text: &str) -> Result<String, String> {
     fault_of_stem(text).map_or_else(|| Ok(text.to_owned()), Err)
 }

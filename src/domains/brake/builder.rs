@@ -2,7 +2,7 @@
 
 use super::machine::{BeltMode, BrakeCam, BrakeLimits, BrakeMachine, BrakeModel, BrakeOutput};
 use super::mechanics::{BrakeFrame, PaperRoll, RollRotation, Web};
-use crate::machine::{Catalogue, MachineText};
+use crate::machine::{Catalogue, MachineSource};
 use crate::pipeline::{Builder, Error, OF_BUILDER};
 use crate::write::number::with_unit;
 
@@ -146,7 +146,7 @@ impl Builder {
     /// [`Error::Machine`] with all faults.
     pub fn brake_machine(self, catalogue: &'static Catalogue, wanted: BrakeOutput) -> Result<BrakeMachine, Error> {
         let (text, keys) = self.into_source();
-        Ok(BrakeMachine::read(&MachineText::of_user(catalogue, OF_BUILDER, &text), &keys, wanted)?)
+        Ok(BrakeMachine::of_source(&MachineSource::of_user(catalogue, OF_BUILDER, &text), &keys, wanted)?)
     }
 
     fn pair(self, key: &str, [first, second]: [f64; 2], unit: &str) -> Self {

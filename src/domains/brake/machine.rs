@@ -12,7 +12,7 @@ use crate::domains::brake::mechanics::ends::RollEnds;
 use crate::domains::brake::mechanics::{
     Brake, BrakeError, BrakeFrame, PaperRoll, Pulley, RollRotation, TensionHolding, Web, turned_too_far,
 };
-use crate::machine::{Catalogue, FollowerData, Machine, MachineError, MachineText, NAME, ROOT};
+use crate::machine::{Catalogue, FollowerData, Machine, MachineError, MachineSource, NAME, ROOT};
 use crate::refusal::Refusal;
 use keys::{
     ACCELERATION, BELT_SPEED_RATIO, CENTRE_OF_GRAVITY, DENSITY, FRICTION, GRIP, LARGEST_RADIUS, LEFT_PULLEY, MODE,
@@ -307,17 +307,18 @@ impl BrakeMachine {
         overrides: &[String],
         wanted: BrakeOutput,
     ) -> Result<(Self, String), MachineError> {
-        catalogue.load(name_or_path, |source| Self::read(source, overrides, wanted))
+        let source = catalogue.source(name_or_path)?;
+        Ok((Self::of_source(&source, overrides, wanted)?, source.stem().to_owned()))
     }
 
-    pub(super) fn read(
-        source: &MachineText<'_>,
-        overrides: &[String],
-        wanted: BrakeOutput,
-    ) -> Result<Self, MachineError> {
+    /// Reads a machine from a text that was read before, with overrides, each `key=value`.
+    ///
+    /// # Errors
+    /// All faults found, each with its place.
+    pub fn of_source(source: &MachineSource, overrides: &[String], wanted: BrakeOutput) -> Result<Self, MachineError> {
         let mut brake = source.read(overrides, |reader| Self::parts(source.catalogue, reader, wanted))?;
         if wanted == BrakeOutput::Disc {
-            brake.machine = Some(Machine::read(source, overrides)?);
+            brake.machine = Some(Machine::of_source(source, overrides)?);
         }
         Ok(brake)
     }
@@ -456,8 +457,9 @@ mod tests {
             // A disc holds the tension of a slipping belt, by the exact moments.
             let wanted = if ["brake.mode", "brake.model"].contains(key) { BrakeOutput::Figures } else { wanted };
             let with = |sets: &[String]| {
-                let brake = BrakeMachine::read(&MachineText::of_user(catalogue(), "roll.toml", text), sets, wanted)
-                    .expect("valid");
+                let brake =
+                    BrakeMachine::of_source(&MachineSource::of_user(catalogue(), "roll.toml", text), sets, wanted)
+                        .expect("valid");
                 format!("{:?} {:?}", brake.data, brake.limits)
             };
             assert_ne!(with(&[format!("{key}={value}")]), with(&[]), "{key}");

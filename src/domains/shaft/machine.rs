@@ -16,7 +16,7 @@ use crate::domains::shaft::SHAFT;
 use crate::domains::shaft::mechanics::exact::Statics;
 use crate::domains::shaft::mechanics::{Beam, Shaft, ShaftDisc, ShaftSegment, StepSide, Support};
 use crate::machine::{
-    CamData, Catalogue, FollowerData, Machine, MachineError, MachineParts, MachineText, Material, NAME, ROOT,
+    CamData, Catalogue, FollowerData, Machine, MachineError, MachineParts, MachineSource, Material, NAME, ROOT,
 };
 use crate::motion::program;
 use crate::units::Dimension::{Angle, Density, Inertia, Length, Mass, Pressure, Stiffness, Unbalance};
@@ -398,10 +398,14 @@ pub struct ShaftMachine {
 }
 
 impl ShaftMachine {
-    pub(crate) fn read(source: &MachineText<'_>, overrides: &[String]) -> Result<Self, MachineError> {
+    /// Reads a machine from a text that was read before, with overrides, each `key=value`.
+    ///
+    /// # Errors
+    /// All faults found, each with its place.
+    pub fn of_source(source: &MachineSource, overrides: &[String]) -> Result<Self, MachineError> {
         let (mut shaft, carries) = source.read(overrides, |reader| Self::parts(source.catalogue, reader))?;
         if carries {
-            let machine = Machine::read(source, overrides)?;
+            let machine = Machine::of_source(source, overrides)?;
             let command = if machine.press().is_ok() { ROTARY } else { MAKE };
             let more = machine
                 .inputs(command)

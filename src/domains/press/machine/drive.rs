@@ -8,7 +8,7 @@ use crate::document::range::{LARGEST_NUMBER, LONGEST};
 use crate::document::{Field, Input, KeySection, Occurrence, Reader, above, within};
 use crate::domains::press::buffer::bottom_law::ColumnRule;
 use crate::domains::press::cams::DRIVE;
-use crate::machine::{Catalogue, MachineError, MachineText, NAME, ROOT};
+use crate::machine::{Catalogue, MachineError, MachineSource, NAME, ROOT};
 use crate::units::Dimension::{Angle, Inertia, Length, Speed};
 use std::f64::consts::PI;
 
@@ -97,7 +97,11 @@ pub struct DriveMachine {
 }
 
 impl DriveMachine {
-    pub(crate) fn read(source: &MachineText<'_>, overrides: &[String]) -> Result<Self, MachineError> {
+    /// Reads a machine from a text that was read before, with overrides, each `key=value`.
+    ///
+    /// # Errors
+    /// All faults found, each with its place.
+    pub fn of_source(source: &MachineSource, overrides: &[String]) -> Result<Self, MachineError> {
         source.read(overrides, |reader| Self::parts(source.catalogue, reader))
     }
 
