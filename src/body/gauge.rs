@@ -115,7 +115,8 @@ impl<'a> SampledProfile<'a> {
             if point.dot(&direction) > 0.0 { -FAR * direction.perp(&point).abs() } else { f64::NEG_INFINITY }
         };
         let at = |point: Vector2<f64>| rests_on(gauge, point, direction).unwrap_or_else(|| beside(point));
-        let best = self.places.iter().max_by(|a, b| at(a.3).total_cmp(&at(b.3)))?;
+        let valued = self.places.iter().map(|place| (at(place.3), place));
+        let (_, best) = valued.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let (piece, middle, step, point) = *best;
         let own = self.curves.motion.pieces().get(piece)?;
         let (mut low, mut high) = ((middle - step).max(own.start), (middle + step).min(own.end));

@@ -24,6 +24,8 @@ pub(super) fn run(args: &ImportArgs) -> Result<Outcome, Failure> {
     let options = options(args, name.clone())?;
     let form = match args.from {
         Some(form) => form,
+        // What says how a table is read is said of a table.
+        None if of_table(args).iter().any(|(_, given)| *given) => ImportForm::Table,
         None => form_of(&args.file, !args.follower.is_empty() || args.ball.is_some())?,
     };
     refuse_flags(args, form)?;
@@ -124,10 +126,10 @@ fn form_of(path: &Path, follower: bool) -> Result<ImportForm, Failure> {
     Ok(if measured::looks_like_points(&text, follower) { ImportForm::Points } else { ImportForm::Table })
 }
 
-/// Refuses flags that belong to another form.
-fn refuse_flags(args: &ImportArgs, form: ImportForm) -> Result<(), Failure> {
+/// The flags of a lift table, and whether they are given.
+fn of_table(args: &ImportArgs) -> [(&'static str, bool); 10] {
     let table = &args.table;
-    let of_table = [
+    [
         ("--columns", !table.columns.is_empty()),
         ("--unit", table.unit.is_some()),
         ("--scale", table.scale.is_some()),
@@ -138,7 +140,11 @@ fn refuse_flags(args: &ImportArgs, form: ImportForm) -> Result<(), Failure> {
         ("--mirror", table.mirror),
         ("--rest", table.rest.is_some()),
         ("--repeat", table.repeat.is_some()),
-    ];
+    ]
+}
+
+/// Refuses flags that belong to another form.
+fn refuse_flags(args: &ImportArgs, form: ImportForm) -> Result<(), Failure> {
     let what = match form {
         ImportForm::Table => "a lift table",
         ImportForm::Outline => "an outline",
@@ -150,7 +156,7 @@ fn refuse_flags(args: &ImportArgs, form: ImportForm) -> Result<(), Failure> {
             args.file.display()
         )))
     };
-    if let Some((flag, _)) = of_table.iter().find(|(_, given)| *given && form != ImportForm::Table) {
+    if let Some((flag, _)) = of_table(args).iter().find(|(_, given)| *given && form != ImportForm::Table) {
         return refused(flag, "a lift table", "table");
     }
     if args.ball.is_some() && form != ImportForm::Points {
@@ -165,8 +171,10 @@ fn refuse_flags(args: &ImportArgs, form: ImportForm) -> Result<(), Failure> {
 /// A message on keys of [motion], with what they are here.
 fn as_flags(message: &str) -> String {
     let keys = ["unit", "columns", "ratio", "over", "lift", "step", "rest", "mirror", "scale"];
-    let named = keys.iter().find(|key| message.contains(&format!("{key} = ")));
-    let hint = named.map_or(String::new(), |key| format!("\n  {key} = … of a file is --{key} … here"));
+    let named: Vec<String> =
+        keys.iter().filter(|key| message.contains(&format!("{key} = "))).map(|key| format!("--{key}")).collect();
+    let hint =
+        if named.is_empty() { String::new() } else { format!("\n  here such keys are flags: {}", named.join(", ")) };
     format!("{}{hint}", message.replace("--> --set:", "--> flags:"))
 }
 

@@ -136,9 +136,10 @@ impl Design<'_> {
             && let Some(line) = model.segments.get(next)
         {
             let travel = written(model.level(line.to) / size) - written(model.level(line.from) / size);
-            let width = rounded(model.end(next) + moved) - rounded(model.start(next) + moved);
+            let width =
+                written((model.end(next) + moved).to_degrees()) - written((model.start(next) + moved).to_degrees());
             let slope = if rows.quantity == Quantity::Angle { "deg/deg" } else { "mm/deg" };
-            let _ = writeln!(text, "velocity = \"{} {slope}\"", travel / width.to_degrees());
+            let _ = writeln!(text, "velocity = \"{} {slope}\"", travel / width);
         }
         match segment.law {
             ModelLaw::Law(ChosenLaw { parameter: LawParameter::Inflection(share), .. }) => {

@@ -23,6 +23,8 @@ const INFLECTIONS: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
 /// Least shares of the width and of the travel of a stretch that a straight line has, and of the line that is sure to be straight.
 const LEAST_LINE: f64 = 0.12;
 const SURE: f64 = 0.8;
+/// Times that a model with a line is fitted on, since its laws change with the line.
+const REFINED: usize = 4;
 /// Starts of a line that are tried.
 const LINE_STARTS: usize = 48;
 
@@ -186,7 +188,12 @@ impl Stretch {
         let ModelLaw::Law(down) = best.segments.last()?.law else { return None };
         // The first side again, now that the other is known.
         let again = least(before.iter().filter_map(|up| fitted(model(*up, down))).collect());
-        Some(again.filter(|again| again.1.rms < left.rms).unwrap_or((best, left)))
+        let (mut best, _) = again.filter(|again| again.1.rms < left.rms).unwrap_or((best, left));
+        for _ in 0..REFINED {
+            best.fit(rows, (self.first, self.end, 1), Fixed { shift: true, ..Fixed::default() });
+        }
+        let left = best.left(rows, (self.first, self.end));
+        Some((best, left))
     }
 
     /// The longest part of the stretch that is a straight line within the deviation, where it is long enough.

@@ -2,7 +2,7 @@
 
 use super::super::Failure;
 use super::super::text::Page;
-use super::parse::{RateLimit, Speed, acceleration_error, speed, tolerance, velocity_error, word};
+use super::parse::{RateLimit, Speed, acceleration_error, accuracy, speed, tolerance, velocity_error, word};
 use camgen::analysis::size::FreeDimension;
 use camgen::body::{Accuracy, RateTolerance};
 use camgen::domains::press::bed_motion::End;
@@ -43,7 +43,7 @@ pub(in crate::cli) struct AccuracyArgs {
 
     /// Named tolerances: draft (50 µm), standard (5 µm and 5 % of the acceleration) or fine (0.5 µm and 1 %); `camgen trade`
     /// measures what each costs
-    #[arg(long, value_name = "NAME", ignore_case = true, value_parser = word::<Accuracy>())]
+    #[arg(long, value_name = "NAME", ignore_case = true, value_parser = accuracy())]
     pub(in crate::cli) accuracy: Option<Accuracy>,
 
     /// Largest error of the follower's velocity as cut: a share of the motion's largest (2%), a quantity (mm/rad, mm/s, m/s,

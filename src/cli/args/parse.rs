@@ -1,7 +1,7 @@
 //! The values of flags, as they were typed.
 
-use camgen::body::RateTolerance;
 use camgen::body::gauge::Gauge;
+use camgen::body::{Accuracy, RateTolerance};
 use camgen::document::{LengthOrAngle, NamedChoice, similar};
 #[cfg(feature = "shaft")]
 use camgen::domains::shaft::mechanics::MOST_ORDER;
@@ -312,6 +312,17 @@ pub(crate) fn word<T: NamedChoice>() -> impl TypedValueParser<Value = T> {
     }
     let known = known.into_iter().map(|(value, _)| value);
     PossibleValuesParser::new(known).try_map(|typed| T::named(&typed).ok_or("no such word"))
+}
+
+/// A named accuracy; help has what each is for.
+pub(crate) fn accuracy() -> impl TypedValueParser<Value = Accuracy> {
+    let about = |accuracy: Accuracy| match accuracy {
+        Accuracy::Draft => "50 µm: for a first look",
+        Accuracy::Standard => "5 µm and 5 % of the acceleration: for milling",
+        Accuracy::Fine => "0.5 µm and 1 % of the acceleration: for grinding",
+    };
+    let values = Accuracy::ALL.iter().map(|(name, accuracy)| PossibleValue::new(*name).help(about(*accuracy)));
+    PossibleValuesParser::new(values).try_map(|typed| Accuracy::named(&typed).ok_or("no such word"))
 }
 
 /// The known word that was probably meant, as the start of a message; empty when none is near.

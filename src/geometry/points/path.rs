@@ -21,6 +21,8 @@ const ROUND: f64 = 1e-11;
 /// Places along an open curve from which the one nearest to a row is found, and steps of doing that.
 const LOOKED_ALONG: u32 = 8192;
 const REFINED: u32 = 12;
+/// So near to its ends the first and the last row of an open curve must be, mm: above the rounding of three decimals.
+const AT_END: f64 = 1e-3;
 
 /// Curvatures that differ by more than this share of the larger count as a jump.
 const JUMP: f64 = 1e-6;
@@ -269,6 +271,12 @@ impl<'a> ExactPath<'a> {
             places.push(length.clamp(last, self.length));
         }
         if let [first, .., last] = places.as_mut_slice() {
+            if *first > AT_END || self.length - *last > AT_END {
+                let (from, to, length) = (*first, *last, self.length);
+                return Err(Refusal::new(format!(
+                    "the rows run from {from:.6} to {to:.6} mm of a curve of {length:.6} mm"
+                )));
+            }
             (*first, *last) = (0.0, self.length);
         }
         Ok(places)
