@@ -52,6 +52,8 @@ pub struct MillingProgram {
 pub struct PolarPath {
     /// Angle of the axis C, degrees, and distance X of the wheel's centre from it, mm; a control goes straight in both from row to row.
     pub rows: Vec<[f64; 2]>,
+    /// Lengths of the path on the disc from row to row, mm.
+    pub lengths: Vec<f64>,
     /// Where the wheel stands off the disc, X, mm.
     pub away: f64,
 }

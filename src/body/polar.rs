@@ -33,50 +33,14 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         let what = "cut.form \"polar\" needs a feed by the time (G93), which the dialogue of HEIDENHAIN does not have";
         return Err(Refusal::new(what).remedy("give another --controller, or cut.form = \"milling\"").into());
     }
-    let cuts = body.cuts();
-    let disc = match cuts.as_slice() {
-        [cut] if !cut.is_hollow() && cut.curves.is_some_and(|curves| curves.motion.period().is_some()) => cut,
-        _ => {
-            let what = format!("cut.form \"polar\" grinds the outside of a disc, and this is a {}", body.kind().noun);
-            return Err(Refusal::new(what).remedy("give cut.form = \"milling\"").into());
-        }
-    };
     let wheel = request.cutter_radius.ok_or_else(|| {
         let refusal = Refusal::new("cut.form \"polar\" moves the centre of a wheel whose size is not given");
         refusal.remedy("give --cutter-diameter")
     })?;
-    let (middle, half) = request.fit.band();
-    let path = traced(body, disc, PointCurve::Cutter, Some(wheel - middle)).map_err(|error| match error {
-        TableError::Cutter(error) => MillingError::Cutter(error),
-        TableError::Refused(why) => MillingError::Refused(why),
-    })?;
     let grid = Grid::of_decimals(decimals);
-    let (form, step, between) = (PointCoordinates::Polar, PointStep::Chord, PointInterpolation::Linear);
-    let within =
-        |tolerance: f64| place(&path, &PointTableSpec { form, step, between, tolerance }, None).map_err(Refusal::from);
-    // Half a step of X, and half a step of C at the largest distance.
-    let farthest = within(MILLIMETRES * half)?.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
-    let rounding = 0.5 * grid.step() * (1.0 + farthest.to_radians());
-    let tolerance = MILLIMETRES * half - rounding;
-    if tolerance < LEAST_SHARE * MILLIMETRES * half {
-        let what =
-            format!("numbers of {decimals} decimals keep no tolerance of {} um", shown(1e6 * request.fit.tolerance));
-        return Err(Refusal::new(what)
-            .remedy("give a coarser --tolerance, or cut.decimals that the control takes")
-            .into());
-    }
-    let placed = within(tolerance)?;
-    // About +Z the disc turns to bring a place of the drawing to the wheel at +X: C is its angle, reversed; angles of a cam that turns the
-    // other way are those of the mirrored drawing.
-    let sense = if body.machine().cam.rotation == Rotation::Clockwise { -1.0 } else { 1.0 };
-    let on_grid = |[angle, radius]: &[f64; 2]| [grid.nearest(sense * angle), grid.nearest(*radius)];
-    let mut rows: Vec<[f64; 2]> = placed.rows.iter().map(on_grid).collect();
-    // A full turn, whatever the rounding of its ends.
-    if let [first, .., last] = rows.as_mut_slice() {
-        *last = [first[0] + sense * 360.0, first[1]];
-    }
+    let mut rows = rows(body, request, (wheel, grid, decimals))?;
     let climbs = cutting.direction == MillingDirection::Climb;
-    if climbs == (sense < 0.0) {
+    if climbs == (sense(body) < 0.0) {
         rows.reverse();
     }
     let away = rows.iter().map(|row| row[1]).fold(0.0, f64::max) + AWAY;
@@ -85,7 +49,8 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         let what = format!("the program would have {} rows, more than {MOST_ROWS}", depths.len() * rows.len());
         return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
     }
-    let polar = Some(PolarPath { rows, away: grid.nearest(away) });
+    let lengths = rows.windows(2).map(|pair| length(pair[0], pair[1])).collect();
+    let polar = Some(PolarPath { rows, lengths, away: grid.nearest(away) });
     let cutter = Some(wheel);
     Ok(vec![MillingProgram {
         part: 0,
@@ -98,6 +63,59 @@ pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Res
         depths,
         polar,
     }])
+}
+
+/// The length of the path between two rows on the disc, mm: on a spiral, with its mean radius.
+fn length([from, near]: [f64; 2], [to, far]: [f64; 2]) -> f64 {
+    libm::hypot(0.5 * (near + far) * (to - from).to_radians(), far - near)
+}
+
+/// The sense of C by the cam angle. About +Z the disc turns to bring a place of the drawing to the wheel at +X: C is its angle, reversed; the angles
+/// of a cam that turns the other way are those of the mirrored drawing.
+fn sense(body: &dyn Body) -> f64 {
+    if body.machine().cam.rotation == Rotation::Clockwise { -1.0 } else { 1.0 }
+}
+
+/// C and X by ascending cam angle, on the grid of the control, for a wheel of a radius, m.
+fn rows(
+    body: &dyn Body,
+    request: &Request,
+    (wheel, grid, decimals): (f64, Grid, u32),
+) -> Result<Vec<[f64; 2]>, MillingError> {
+    let cuts = body.cuts();
+    let disc = match cuts.as_slice() {
+        [cut] if !cut.is_hollow() && cut.curves.is_some_and(|curves| curves.motion.period().is_some()) => cut,
+        _ => {
+            let what = format!("cut.form \"polar\" grinds the outside of a disc, and this is a {}", body.kind().noun);
+            return Err(Refusal::new(what).remedy("give cut.form = \"milling\"").into());
+        }
+    };
+    let (middle, half) = request.fit.band();
+    let path = traced(body, disc, PointCurve::Cutter, Some(wheel - middle)).map_err(|error| match error {
+        TableError::Cutter(error) => MillingError::Cutter(error),
+        TableError::Refused(why) => MillingError::Refused(why),
+    })?;
+    let (form, step, between) = (PointCoordinates::Polar, PointStep::Chord, PointInterpolation::Linear);
+    let within =
+        |tolerance: f64| place(&path, &PointTableSpec { form, step, between, tolerance }, None).map_err(Refusal::from);
+    // Half a step of X, and half a step of C at the largest distance.
+    let farthest = within(MILLIMETRES * half)?.rows.iter().map(|row| row[1]).fold(0.0, f64::max);
+    let rounding = 0.5 * grid.step() * (1.0 + farthest.to_radians());
+    let tolerance = MILLIMETRES * half - rounding;
+    if tolerance < LEAST_SHARE * MILLIMETRES * half {
+        let asked = shown(1e6 * request.fit.tolerance);
+        let what = format!("numbers of {decimals} decimals keep no tolerance of {asked} um");
+        let remedy = "give a coarser --tolerance, or cut.decimals that the control takes";
+        return Err(Refusal::new(what).remedy(remedy).into());
+    }
+    let sense = sense(body);
+    let on_grid = |[angle, radius]: &[f64; 2]| [grid.nearest(sense * angle), grid.nearest(*radius)];
+    let mut rows: Vec<[f64; 2]> = within(tolerance)?.rows.iter().map(on_grid).collect();
+    // A full turn, whatever the rounding of its ends.
+    if let [first, .., last] = rows.as_mut_slice() {
+        *last = [first[0] + sense * 360.0, first[1]];
+    }
+    Ok(rows)
 }
 
 /// Whether a body is to be ground in polar coordinates.

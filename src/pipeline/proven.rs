@@ -337,16 +337,8 @@ fn program_measures(drawn: Option<&Drawn>, read: Option<&Result<Vec<WrittenProgr
 
 /// The figures of a program in polar coordinates.
 fn polar_measures(program: &MillingProgram, path: &PolarPath, passes: usize) -> ProgramMeasures {
-    let place = |row: &[f64; 2]| {
-        let (sin, cos) = libm::sincos(row[0].to_radians());
-        [row[1] * cos, row[1] * sin]
-    };
-    let length = |pair: &[[f64; 2]]| {
-        let [[x, y], [u, v]] = [place(&pair[0]), place(&pair[1])];
-        libm::hypot(u - x, v - y)
-    };
     #[expect(clippy::cast_precision_loss, reason = "at most a thousand passes")]
-    let length_mm = passes as f64 * path.rows.windows(2).map(length).sum::<f64>();
+    let length_mm = passes as f64 * path.lengths.iter().sum::<f64>();
     ProgramMeasures {
         controller: program.controller.word(),
         moves: passes * path.rows.len(),

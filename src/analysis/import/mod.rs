@@ -361,9 +361,9 @@ fn of_points(
     for pass in 1.. {
         let placed: Vec<Vector2<f64>> = points.iter().map(|point| point - shift).collect();
         let least = placed.iter().map(Vector2::norm).fold(f64::INFINITY, f64::min) - ball;
+        let normals = measured_points::normals(&placed)?;
         let radii = measured_points::radii(&placed);
         checked(&radii, (OF_NOISE * radii.noise()).max(LEAST_OF_POINTS), "point")?;
-        let normals = measured_points::normals(&placed)?;
         let follower = rolled::sized(&*machine.follower.shape, least / MILLIMETRES)?;
         let mut rows = measured_points::positions(&normals, &*follower, ball)?;
         let centred = fit == ImportFit::Centre && pass < CENTRED;

@@ -5,7 +5,6 @@ use super::iso::IsoText;
 use crate::body::milling::PolarPath;
 use crate::geometry::MILLIMETRES;
 use crate::write::number::{plain, short};
-use nalgebra::Vector2;
 
 /// Decimals of a feed by the time, and the largest of one, 1/min: what every control takes.
 const RATE_DECIMALS: usize = 3;
@@ -24,20 +23,13 @@ impl IsoText<'_> {
         self.line(&format!("G1 X{} F{}", number(first[1]), self.feed(cutting.plunge_feed)));
         self.line("G93");
         let speed = MINUTE * MILLIMETRES * cutting.feed;
-        for pair in path.rows.windows(2) {
-            let length = (place(pair[1]) - place(pair[0])).norm();
+        for ([angle, radius], length) in path.rows.iter().skip(1).zip(&path.lengths) {
             let words = short((speed / length).clamp(0.001, FASTEST), RATE_DECIMALS);
             let words = if words.contains('.') { words } else { words + "." };
-            self.line(&format!("G1 X{} C{} F{words}", number(pair[1][1]), number(pair[1][0])));
+            self.line(&format!("G1 X{} C{} F{words}", number(*radius), number(*angle)));
         }
         self.line("G94");
         self.line(&format!("G1 X{} F{along}", number(path.away)));
         self.up();
     }
-}
-
-/// Where a row lies on the disc, mm.
-fn place([angle, radius]: [f64; 2]) -> Vector2<f64> {
-    let (sin, cos) = libm::sincos(angle.to_radians());
-    Vector2::new(cos, sin) * radius
 }
