@@ -238,7 +238,7 @@ pub use motion::{Jet, Motion, Piece, Quantity};
 pub use nalgebra::{Vector2, Vector3};
 #[doc(inline)]
 pub use pipeline::{
-    ArmSide, Assembly, AssemblyDrawing, AssemblyReport, Builder, Cam, Drawing, Error, ExpectedFile, FileSet,
+    ArmSide, Assembly, AssemblyDrawing, AssemblyReport, Builder, Cam, Drawing, Error, ExpectedFile, FileKind, FileSet,
     FlatFaceFollower, Judged, KnifeEdgeFollower, Output, PlaceChoice, Proven, ProvenAssembly, RollerFollower, Spec,
     SwingingFaceFollower, SwingingRollerFollower, Writing,
 };

@@ -137,7 +137,7 @@ pub fn depth_of(body: &dyn Body) -> Option<f64> {
     cutting.depth.or(of_cut).or_else(through).map(|depth| MILLIMETRES * depth)
 }
 
-/// The programs for all parts of a body; none where they were not requested.
+/// The programs that mill all parts of a body; none where they were not requested.
 ///
 /// # Errors
 /// [`MillingError`] when the cutter does not get into a concave part, the tolerance is too fine for the control, no depth is known, or no way
@@ -146,9 +146,6 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
     let Some(asked) = request.milling else { return Ok(Vec::new()) };
     if let Some(why) = unfit(body) {
         return Err(Refusal::new(why).into());
-    }
-    if super::polar::is_asked(body) {
-        return super::polar::program(body, request, asked);
     }
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);

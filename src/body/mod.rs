@@ -23,7 +23,7 @@ pub mod motion_diagram;
 pub(crate) mod part;
 pub(crate) mod picture;
 pub mod points;
-mod polar;
+pub mod polar;
 pub mod rib;
 pub mod servo;
 pub(crate) mod sheet;

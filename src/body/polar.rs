@@ -21,11 +21,22 @@ const AWAY: f64 = 5.0;
 /// Most rows of a program.
 const MOST_ROWS: usize = 200_000;
 
+/// The programs for all parts of a body, in polar coordinates where its machine file says so, else by milling; none where they were not requested.
+///
+/// # Errors
+/// As [`milling::programs`]; also when the control has no feed by the time, or no wheel is given.
+pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram>, MillingError> {
+    match request.milling.filter(|_| is_asked(body)) {
+        Some(asked) => program(body, request, asked),
+        None => milling::programs(body, request),
+    }
+}
+
 /// The program for a disc; C is counted from its angle 0 on.
 ///
 /// # Errors
 /// [`MillingError`] when the control has no feed by the time, no wheel is given, the cam has no such path, or its numbers are too coarse.
-pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<MillingProgram>, MillingError> {
+fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<MillingProgram>, MillingError> {
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
     let decimals = cutting.decimals.unwrap_or(controller.decimals());
@@ -119,6 +130,6 @@ fn rows(
 }
 
 /// Whether a body is to be ground in polar coordinates.
-pub(super) fn is_asked(body: &dyn Body) -> bool {
+fn is_asked(body: &dyn Body) -> bool {
     body.machine().cutting().form == crate::machine::CuttingForm::Polar && milling::unfit(body).is_none()
 }

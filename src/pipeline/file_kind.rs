@@ -30,6 +30,9 @@ pub enum FileKind {
     Shown(&'static str),
 }
 
+/// Whether bytes are those of a kind of file.
+type Recognises = fn(&[u8]) -> bool;
+
 /// How files begin from which nothing is cut.
 const SHOWN: [(&str, &str); 7] = [
     ("%pdf", "a sheet (PDF)"),
@@ -52,7 +55,7 @@ impl FileKind {
     /// The kind of a file.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Self {
-        let known: [(fn(&[u8]) -> bool, Self); 7] = [
+        let known: [(Recognises, Self); 7] = [
             (step::is_step, Self::Step),
             (read_servo::is_servo, Self::Servo),
             (points::is_points, Self::Points),

@@ -117,7 +117,7 @@ fn resting(outline: &Contour, gauge: Gauge, direction: Vector2<f64>) -> Option<(
         rest(edge.start());
         match edge {
             Edge::Segment(segment) if segment.bulge == 0.0 => {
-                on_line(&segment, gauge, direction).into_iter().for_each(&mut rest)
+                on_line(&segment, gauge, direction).into_iter().for_each(&mut rest);
             }
             Edge::Segment(segment) => on_arc(&segment, gauge, direction).into_iter().for_each(&mut rest),
             Edge::Cubic(cubic) => (1..PLACES).for_each(|step| rest(cubic.at(f64::from(step) / f64::from(PLACES)).0)),

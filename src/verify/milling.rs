@@ -7,6 +7,7 @@
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
 use super::cutter_path::left_behind;
 use super::polar;
+use super::program::{JudgedProgram, ProgramFault};
 use crate::body::milling::groove_width;
 use crate::body::{Cut, Layer};
 use crate::check::{Check, CheckExplanation, CheckScope};
@@ -42,28 +43,6 @@ const SAME_DEPTH: f64 = 1e-3;
 const SAME_PLACE: f64 = 1e-7;
 /// Depths of lead-ins and lead-outs are found to within this share of the tolerance.
 const FINE_SHARE: f64 = 0.1;
-
-/// A program that is not one of the cam.
-pub(super) struct ProgramFault {
-    pub(super) why: String,
-    /// mm.
-    pub(super) value: f64,
-    pub(super) at: Option<Vector2<f64>>,
-}
-
-impl ProgramFault {
-    pub(super) fn new(why: impl Into<String>) -> Self {
-        Self { why: why.into(), value: f64::INFINITY, at: None }
-    }
-}
-
-/// A program that was judged.
-pub(super) struct JudgedProgram {
-    /// Largest distance, mm.
-    pub(super) value: f64,
-    pub(super) at: Vector2<f64>,
-    pub(super) note: String,
-}
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let limit = evidence.tolerance_mm;

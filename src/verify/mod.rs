@@ -22,6 +22,7 @@ mod patches;
 mod plate_ends;
 mod points;
 mod polar;
+mod program;
 pub mod rolling;
 mod servo;
 mod solid;

@@ -2,7 +2,7 @@
 //! in C and X at once, is bounded between the rows as a table of points is.
 
 use super::check::{Evidence, WrittenProgram};
-use super::milling::{JudgedProgram, ProgramFault};
+use super::program::{JudgedProgram, ProgramFault};
 use crate::body::points::{PointCurve, traced};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, deviations};

@@ -17,7 +17,7 @@ pub(super) const CHECK: FileCheck = FileCheck {
         explained: CheckExplanation {
             bound: Bound::AtMost,
             formula: "max |number of the table − number of the cam| / allowed",
-            usual: "1",
+            usual: "1: within what is allowed",
             change: "write the table anew: camgen make FILE --format csv",
         },
     },
@@ -28,9 +28,9 @@ pub(super) const CHECK: FileCheck = FileCheck {
 const SHARE: f64 = 1e-6;
 /// What the names of columns have that depend on the outline as it was cut, or on another cam.
 const NOT_COMPARED: [&str; 3] = ["_cut", "compensator_torque_nm", "torque_left_nm"];
-/// Numbers of rows of which the tables of a body are made to see how many a row of `--samples` gives.
-const TRIED: [u32; 2] = [8, 9];
-const SAMPLES_TRIED: usize = 8;
+/// Numbers of samples of which the tables of a body are made to see how many rows a sample gives, and how far the number of a table may be off what follows.
+const TRIED: [u32; 2] = [8, 80];
+const OFF: i32 = 4;
 
 fn check(evidence: &Evidence<'_>) -> Option<Finding> {
     let judged = evidence.table?.as_ref().map_err(Clone::clone).and_then(|table| judged(evidence, table));
@@ -59,21 +59,29 @@ fn table_of(evidence: &Evidence<'_>, read: &NumberTable) -> Result<Table, String
     let which = few.iter().position(|table| known(table) == most && most > 1);
     let which =
         which.ok_or_else(|| format!("a {} has no table with the column {}", body.kind().noun, read.columns[0]))?;
-    // Rows are so many for each sample, and some more.
-    let [first, second] = [&few, &more].map(|all| all.get(which).map_or(0, |table| table.rows.len()));
-    let each = second.saturating_sub(first).max(1);
-    let samples = (read.rows.len() + each * SAMPLES_TRIED).checked_sub(first).map(|rows| rows / each);
-    let samples = samples.and_then(|samples| u32::try_from(samples).ok()).filter(|samples| *samples > 0);
+    let rows = [&few, &more].map(|all| all.get(which).map_or(0, |table| table.rows.len()));
+    let samples = samples_of(read.rows.len(), rows);
     // A smaller tool has a pass along either flank.
     let column = read.columns.iter().position(|name| name == "tool_mm");
     let tool = column.and_then(|column| read.rows.first()?.get(column)).map(|diameter| 0.5e-3 * diameter);
     let passes: &[(u32, Option<f64>)] = &[(1, None), (2, tool)];
-    let made = passes.iter().filter_map(|(divided, tool)| {
-        let samples = samples.filter(|samples| samples % divided == 0)?;
-        tables(body, samples / divided, *tool).into_iter().nth(which)
+    let made = passes.iter().flat_map(|(divided, tool)| {
+        let whole = samples.iter().filter(move |samples| *samples % divided == 0);
+        whole.filter_map(move |samples| tables(body, samples / divided, *tool).into_iter().nth(which))
     });
     let mut fitting = made.filter(|table| table.rows.len() == read.rows.len());
     fitting.next().ok_or_else(|| format!("it has {} rows, and no table of this cam has so many", read.rows.len()))
+}
+
+/// With how many samples a table may have so many rows, the likeliest first, by the rows that it has with [`TRIED`].
+fn samples_of(rows: usize, [few, more]: [usize; 2]) -> Vec<u32> {
+    #[expect(clippy::cast_precision_loss, reason = "a table has fewer rows")]
+    let [rows, few, more] = [rows, few, more].map(|count| count as f64);
+    let [first, second] = TRIED.map(f64::from);
+    let guess = first + ((rows - few) * (second - first) / (more - few).max(1.0)).round();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of samples")]
+    let at = |off: i32| (guess + f64::from(off)) as u32;
+    (0..=OFF).flat_map(|off| [at(off), at(-off)]).filter(|samples| *samples > 0).collect()
 }
 
 /// The largest difference over what is allowed, in words, and where.

@@ -167,7 +167,7 @@ fn others() -> Vec<Refused> {
             vec!["--follower", "swinging-roller,diameter=24mm,arm=20mm,pivot_distance=130mm"],
             &["point", "dimensions of the follower"],
         ),
-        (points("x,y", plain), with(&["--ball", "-1mm"]), &["must be above 0"]),
+        (points("x,y", plain), with(&["--ball", "-1mm"]), &["must be at least 0.005 mm"]),
         (points("x,y", plain), with(&["--from", "points", "--columns", "1,2"]), &["--columns belongs to a lift table"]),
         (drawing(open, MM), rolled.clone(), &["not closed", "gap", "close it"]),
         (
@@ -242,11 +242,14 @@ fn a_law_that_does_not_keep_the_deviation_is_refused() {
     assert_eq!(run.code, 0, "{}{}", run.out, run.err);
 }
 
+/// A lift by the cam angle.
+type Lift = fn(f64) -> f64;
+
 /// An eccentric circle under a flat face and a roller, in closed form.
 #[test]
 fn the_lift_on_an_outline_is_exact() {
     let outline = drawing(&circle(5.0, 0.0, 50.0, "CAM_PROFILE"), MM);
-    let exact: [(&str, fn(f64) -> f64); 2] = [
+    let exact: [(&str, Lift); 2] = [
         ("flat", |at| 50.0 + 5.0 * at.cos() - 45.0),
         ("roller,radius=10mm", |at| 5.0 * at.cos() + (3600.0 - 25.0 * at.sin().powi(2)).sqrt() - 55.0),
     ];

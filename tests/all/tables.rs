@@ -241,7 +241,8 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
         }
         "import" => {
             let lift = |degree: u32| 10.0 - 10.0 * f64::from(degree).to_radians().cos();
-            let rows: String = (0..360).map(|degree| format!("{degree},{:.5}\n", lift(degree))).collect();
+            let rows: Vec<String> = (0..360).map(|degree| format!("{degree},{:.5}\n", lift(degree))).collect();
+            let rows = rows.concat();
             let directory = tempfile::tempdir().expect("a directory");
             let path = directory.path().join("lift.csv");
             std::fs::write(&path, format!("deg,mm\n{rows}")).expect("written");
@@ -361,6 +362,29 @@ fn of_every_tool() -> Request {
     }
 }
 
+/// What `check` reports on the tables and the solid of a cam.
+fn reports_on_files(made: &Cam) -> Vec<(String, Report)> {
+    let kind = made.body().kind();
+    let mut reports = Vec::new();
+    let request = camgen::Request { flank: true, ..camgen::Request::within(TOLERANCE) };
+    let proven = made.draw(request).expect("drawn").prove().expect("a proof");
+    let writing = camgen::Writing { force: true, ..camgen::Writing::to("nowhere", "cam").formats(&["step", "csv"]) };
+    let set = proven.files(&writing).expect("a solid");
+    for table in set
+        .outputs()
+        .iter()
+        .filter(|output| std::path::Path::new(&output.name).extension().is_some_and(|ending| ending == "csv"))
+    {
+        let report = made.check(&table.bytes, TOLERANCE).expect("a table");
+        assert!(report.passed(), "{} {}: {report:?}", kind.noun, table.name);
+        reports.push((format!("table of a {} as a file", kind.noun), report));
+    }
+    let report = made.check(set.bytes("step").expect("a solid"), TOLERANCE).expect("a STEP file");
+    assert!(report.passed(), "{}: {report:?}", kind.noun);
+    reports.push((format!("solid of a {} as a file", kind.noun), report));
+    reports
+}
+
 /// Every check is reached by some cam or some file, and is found in the order of the list, the worst verdicts first.
 #[test]
 fn every_check_is_run_for_some_cam() {
@@ -401,19 +425,7 @@ fn every_check_is_run_for_some_cam() {
                 proven.report(),
             ));
         }
-        let request = camgen::Request { flank: true, ..camgen::Request::within(TOLERANCE) };
-        let proven = made.draw(request).expect("drawn").prove().expect("a proof");
-        let writing =
-            camgen::Writing { force: true, ..camgen::Writing::to("nowhere", "cam").formats(&["step", "csv"]) };
-        let set = proven.files(&writing).expect("a solid");
-        for table in set.outputs().iter().filter(|output| output.name.ends_with(".csv")) {
-            let report = made.check(&table.bytes, TOLERANCE).expect("a table");
-            assert!(report.passed(), "{} {}: {report:?}", kind.noun, table.name);
-            reports.push((format!("table of a {} as a file", kind.noun), report));
-        }
-        let report = made.check(set.bytes("step").expect("a solid"), TOLERANCE).expect("a STEP file");
-        assert!(report.passed(), "{}: {report:?}", kind.noun);
-        reports.push((format!("solid of a {} as a file", kind.noun), report));
+        reports.extend(reports_on_files(&made));
     }
     let dynamics = [
         "follower.roller.mass=2kg",

@@ -11,6 +11,7 @@ mod recognise;
 mod report;
 mod rolled;
 mod round;
+mod sought;
 mod spline;
 
 use super::{Analysis, Picture};
@@ -27,10 +28,11 @@ use crate::motion::{Jet, Motion, Quantity};
 use crate::refusal::Refusal;
 use crate::report::{Bound, Speeds, sha256};
 use design::Design;
-use motion::{FoundMotion, Sought, found};
+use motion::{FoundMotion, found};
 use nalgebra::Vector2;
 use positions::{FEWEST, Positions};
 use report::Imported;
+use sought::Sought;
 
 /// The import.
 pub const KIND: Kind = Kind { command: "import", noun: "import of an old cam", keys: cams::MAKE };

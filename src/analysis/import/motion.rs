@@ -5,7 +5,8 @@ use super::plateaus::{Plateau, plateaus};
 use super::positions::Positions;
 use super::recognise::{FittedLaw, Stretch};
 use super::round;
-use crate::motion::laws::{Law, SegmentEnd};
+use super::sought::Sought;
+use crate::motion::laws::SegmentEnd;
 
 /// Turns that may be rests are tried in all combinations up to this many; a turn must leave this much less than a rest.
 const COMBINED: u32 = 6;
@@ -14,20 +15,6 @@ const WORTH: f64 = 0.85;
 const NARROW: f64 = 1.0;
 /// A rest of a spline shorter than this share of the filling may be none.
 const SHORT: f64 = 15.0 / 360.0;
-
-/// What may be found.
-#[derive(Debug, Clone)]
-pub(super) struct Sought<'a> {
-    pub(super) laws: &'a [&'static Law],
-    /// A stretch that no law follows becomes a spline.
-    pub(super) spline: bool,
-    /// m or rad.
-    pub(super) deviation: f64,
-    /// The angle of the cam is not known.
-    pub(super) any_turn: bool,
-    /// Positions count from the lowest one.
-    pub(super) from_lowest: bool,
-}
 
 /// A segment as it was found.
 #[derive(Debug, Clone)]

@@ -1,8 +1,8 @@
 //! Round numbers in a motion that was found, as far as the positions do not contradict them: angles first, then positions, then parameters of laws.
 
 use super::model::{Fixed, LawParameter, Left, Model, ModelLaw, ModelSegment};
-use super::motion::Sought;
 use super::positions::Positions;
+use super::sought::Sought;
 use crate::motion::Quantity;
 use std::f64::consts::PI;
 

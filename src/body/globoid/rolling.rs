@@ -35,10 +35,10 @@ struct Seen {
 impl Globoid {
     /// A point (m) seen along the centre line of a roller at a cam angle.
     fn seen(&self, point: Vector3<f64>, angle: f64, roller: f64) -> Seen {
-        self.seen_along(point, angle, self.line_at(angle, roller))
+        Self::seen_along(point, angle, self.line_at(angle, roller))
     }
 
-    fn seen_along(&self, point: Vector3<f64>, angle: f64, line: TurretLine) -> Seen {
+    fn seen_along(point: Vector3<f64>, angle: f64, line: TurretLine) -> Seen {
         let [turret, by, second] = line.angle;
         let (sin, cos) = libm::sincos(angle);
         let (s, c) = libm::sincos(turret);
@@ -104,7 +104,7 @@ impl Globoid {
             let square = |(angle, line): &(f64, TurretLine)| {
                 let [turret, by, second] = line.angle;
                 let [a, b] =
-                    self.seen_along(point, *angle, TurretLine { angle: [turret - back, by, second], ..*line }).off;
+                    Self::seen_along(point, *angle, TurretLine { angle: [turret - back, by, second], ..*line }).off;
                 a * a + b * b
             };
             let tried: Vec<f64> = places.iter().map(square).collect();

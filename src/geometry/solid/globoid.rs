@@ -130,9 +130,9 @@ impl GrooveGloboid<'_> {
         end: f64,
     ) -> (Opening, Vec<usize>) {
         let (from, to) = (Self::station(above, end), Self::station(below, end));
-        let outer = self.arcs_in_two(walls, (above.outer(from), below.outer(to)), self.rim(end, true), None);
+        let outer = Self::arcs_in_two(walls, (above.outer(from), below.outer(to)), self.rim(end, true), None);
         let middle = polar(walls.place(outer.middle));
-        let floor = self.arcs_in_two(walls, (above.floor(from), below.floor(to)), self.rim(end, false), Some(middle));
+        let floor = Self::arcs_in_two(walls, (above.floor(from), below.floor(to)), self.rim(end, false), Some(middle));
         let line = walls.add_line(outer.middle, floor.middle);
         let ((radius, z), (inner, inner_z)) = (self.rim(end, true), self.rim(end, false));
         let cone = FaceSurface::Cone { at: (z, radius), angle: libm::atan((inner - radius) / (inner_z - z)) };
@@ -157,7 +157,6 @@ impl GrooveGloboid<'_> {
 
     /// An arc counter-clockwise from one vertex to another, divided at a polar angle, else in the middle.
     fn arcs_in_two(
-        &self,
         walls: &mut ShellBuilder,
         (from, to): (usize, usize),
         (radius, z): (f64, f64),

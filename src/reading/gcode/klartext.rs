@@ -28,9 +28,9 @@ pub(super) fn read(text: &str) -> Result<CutterProgram, Refusal> {
             }
             []
             | ["BEGIN", "PGM", _, "MM"]
-            | ["STOP" | "M0" | "M1" | "M3" | "M5" | "M6" | "M8" | "M9" | "M30" | "M2"] => {}
-            // Those that move the profile are refused above.
-            ["PLANE" | "TRANS", ..] => {}
+            | ["STOP" | "M0" | "M1" | "M3" | "M5" | "M6" | "M8" | "M9" | "M30" | "M2"]
+            // Those of them that move the profile are refused above.
+            | ["PLANE" | "TRANS", ..] => {}
             ["CYCL", "DEF", cycle, ..] if KNOWN_CYCLES.contains(&cycle.split('.').next().unwrap_or_default()) => {}
             ["TOOL", "CALL", call @ ..] => tool_call(line, call, &mut state)?,
             ["BEGIN", "PGM", ..] => return Err(at_line(line, "the unit is not the millimetre")),
