@@ -5,8 +5,10 @@ use super::contact::TurretLine;
 use nalgebra::Vector3;
 
 /// Cam angles to either side of a point at which rollers are tried first, their distance over that of a flank from the roller's path, and steps to the nearest.
-const TRIED: i32 = 6;
-const APART: f64 = 0.3;
+const TRIED: i32 = 4;
+const APART: f64 = 0.4;
+/// A place that is left out: the square of its distance is larger than the least so many times, which half a step does not explain.
+const WORTH: f64 = 2.0;
 /// Rollers are tried that stand no farther from the point about the turret, in the distances of two: a flank lies within half of that of its roller, which moves on as
 /// far at most between its contact and the point's own angle.
 const FARTHEST: f64 = 1.2;
@@ -97,7 +99,8 @@ impl Globoid {
             .map(|i| polar + step * f64::from(i))
             .map(|angle| (angle, self.line_at(angle, 0.0)))
             .collect();
-        let mut found: Option<(f64, Nearest)> = None;
+        // Cam angle, roller and square of the distance where that is least among its neighbours.
+        let mut starts: Vec<(f64, f64, f64)> = Vec::new();
         let mut roller = (lead - FARTHEST).ceil();
         while roller <= lead + FARTHEST {
             let back = roller * self.turret.pitch();
@@ -111,12 +114,15 @@ impl Globoid {
             for ((start, _), around) in places.iter().skip(1).zip(tried.windows(3)) {
                 let [before, here, after] = around else { continue };
                 if before >= here && after >= here {
-                    let nearest = self.nearest_of(point, *start, roller);
-                    found = Some(found.map_or(nearest, |best| if nearest.0 < best.0 { nearest } else { best }));
+                    starts.push((*start, roller, *here));
                 }
             }
             roller += 1.0;
         }
+        let least = starts.iter().map(|start| start.2).fold(f64::INFINITY, f64::min);
+        let near = starts.iter().filter(|start| start.2 <= WORTH * least);
+        let found = near.map(|(angle, roller, _)| self.nearest_of(point, *angle, *roller));
+        let found = found.reduce(|best, next| if next.0 < best.0 { next } else { best });
         found.map_or(Nearest { at: polar, turret: about, off: [f64::NAN; 2] }, |(_, nearest)| nearest)
     }
 
