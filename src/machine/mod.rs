@@ -172,11 +172,12 @@ impl Machine {
         });
         let quantity = moves.map_or(Quantity::Length, |moves| moves.quantity);
         let turret = cam.as_ref().and_then(|cam| turret::read(reader, cam.track.body, follower.as_ref()));
-        let span = cam.as_ref().and_then(|cam| match cam.track.body {
-            cams::YOKE => Some(ProgramSpan::HalfTurn),
-            cams::WEDGE => Some(ProgramSpan::Stroke),
-            cams::GLOBOID => turret.map(|turret| ProgramSpan::Index(turret.index())),
-            _ => Some(ProgramSpan::Turn),
+        let span = cam.as_ref().map(|cam| match cam.track.body {
+            cams::YOKE => ProgramSpan::HalfTurn,
+            cams::WEDGE => ProgramSpan::Stroke,
+            // Of a turret that has a fault it is not known.
+            cams::GLOBOID => ProgramSpan::Index(turret.map_or(f64::NAN, |turret| turret.index())),
+            _ => ProgramSpan::Turn,
         });
         // A follower that swings is refused on a plate, whatever its motion.
         let moves = moves.filter(|moves| span != Some(ProgramSpan::Stroke) || moves.quantity == Quantity::Length);

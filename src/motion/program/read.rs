@@ -159,6 +159,10 @@ fn index(
 /// Ends the steps of a turn exactly where the turret stands one index farther; `None` where they end elsewhere.
 fn end_farther(segments: &[TableReader<'_>], steps: &mut [SegmentSpec], (start, angle): (f64, f64)) -> Option<()> {
     let last = steps.last_mut()?;
+    // What is wrong with the turret is reported elsewhere.
+    if angle.is_nan() {
+        return None;
+    }
     if (last.to - start - angle).abs() > SAME_ANGLE {
         let moved = (last.to - start).to_degrees();
         let message = format!(
