@@ -23,7 +23,10 @@ pub const FORMAT: Format = Format {
     name: "dxf",
     when: FormatSelection::Usual,
     flank: false,
-    unfit: fits_all,
+    unfit: |body| {
+        let hollow = body.swept().is_some_and(|flanks| flanks.developed().is_empty());
+        hollow.then_some("the outside of this cam cannot be developed; its STEP file has the solid")
+    },
     endings: |drawn| {
         let developed =
             drawn.swept.iter().filter(|swept| !swept.developed.is_empty()).map(|_| "-unrolled.dxf".to_owned());
