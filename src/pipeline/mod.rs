@@ -48,15 +48,15 @@ use std::sync::Arc;
 /// A solved cam: exact curves, nothing drawn yet. A copy shares its body.
 ///
 /// ```
-/// use camgen::{Cam, Machine, Spec};
+/// use camgen::{Cam, Machine, Request, Spec};
 ///
 /// let (machine, _) = Machine::load("valve", &[])?;
 /// let cam: Cam = Spec::of_program(machine, None).ok_or("no motion")?.solve()?;
 ///
 /// // A cam owns what it needs: it can be kept, and drawn in another thread.
 /// let copy = cam.clone();
-/// let coarse = std::thread::spawn(move || copy.draw(50e-6)).join().expect("no panic")?;
-/// let fine = cam.draw(2e-6)?;
+/// let coarse = std::thread::spawn(move || copy.draw(Request::within(50e-6))).join().expect("no panic")?;
+/// let fine = cam.draw(Request::within(2e-6))?;
 /// let arcs = |drawing: &camgen::Drawing| drawing.drawn().map(|drawn| drawn.parts[0].outline.contour.arcs());
 /// assert!(arcs(&coarse) < arcs(&fine));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
