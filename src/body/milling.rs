@@ -3,6 +3,7 @@
 //! The path is drawn anew, within what the rounding of its numbers leaves of the tolerance. With a cutter it is that of the cutter's centre,
 //! else the profile, along which the control keeps its own cutter. Bore, keyway and holes are not in it.
 
+use super::swept::TurnedCam;
 use super::{Body, Cut, DrawError, Drawn, Layer, Part, Request};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::{Block, Grid};
@@ -43,19 +44,30 @@ pub struct MillingProgram {
     pub passes: Vec<MillingPass>,
     /// The depths, mm below the upper face, from the first on.
     pub depths: Vec<f64>,
-    /// The path in polar coordinates, in the place of passes, of a disc that is ground so.
-    pub polar: Option<PolarPath>,
+    /// The path of a cam that is turned under its tool, in the place of passes.
+    pub turned: Option<TurnedPath>,
 }
 
-/// Once round a disc in polar coordinates.
+/// The path of a tool over a cam that an axis of the machine turns.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PolarPath {
-    /// Angle of the axis C, degrees, and distance X of the wheel's centre from it, mm; a control goes straight in both from row to row.
-    pub rows: Vec<[f64; 2]>,
-    /// Lengths of the path on the disc from row to row, mm.
+pub struct TurnedPath {
+    /// The letter of the axis: C of a disc that is ground, A of a barrel that is milled.
+    pub axis: char,
+    /// Once round each, at every depth.
+    pub rounds: Vec<TurnedRound>,
+}
+
+/// Once round a cam that is turned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnedRound {
+    /// What it is along, for a reader.
+    pub words: String,
+    /// Angle of the axis, degrees, and X and Y of the tool, mm; a control goes straight in all from row to row. Y is 0 where the axis is C.
+    pub rows: Vec<[f64; 3]>,
+    /// Lengths of the path on the cam from row to row, mm.
     pub lengths: Vec<f64>,
-    /// Where the wheel stands off the disc, X, mm.
-    pub away: f64,
+    /// Where the tool goes down, X and Y, mm.
+    pub away: [f64; 2],
 }
 
 /// Once round a flank.
@@ -107,8 +119,14 @@ const MOST_BLOCKS: usize = 200_000;
 #[must_use]
 pub fn unfit(body: &dyn Body) -> Option<&'static str> {
     let leans = "its flank leans along the axis: a cutter that is moved round one section of it cuts into the next";
-    let in_space = "its flanks lie in space: -four-axes.csv has the places of the tool";
-    body.surface().map(|_| leans).or(body.swept().map(|_| in_space))
+    let in_space = "its flanks lie in space: -two-axes.csv has the places of the tool";
+    let fixed = body.swept().filter(|swept| swept.turned().is_none());
+    body.surface().map(|_| leans).or(fixed.map(|_| in_space))
+}
+
+/// A body that is turned under its tool.
+fn turned(body: &dyn Body) -> Option<&dyn TurnedCam> {
+    body.swept()?.turned()
 }
 
 /// The width of a groove between these cuts, m.
@@ -120,19 +138,25 @@ pub fn groove_width(cuts: &[Cut<'_>]) -> Option<f64> {
     groove.then_some(width)
 }
 
+/// The radius of a cutter as wide as the groove of a body, m.
+#[must_use]
+pub fn widest_cutter(body: &dyn Body) -> Option<f64> {
+    let across = || groove_width(&body.cuts()).map(|width| 0.5 * width);
+    turned(body).map(TurnedCam::widest_tool).or_else(across)
+}
+
 /// The radius of the cutter of a request whose centre is moved, m: in a groove that of a cutter as wide as the groove where none is given.
 #[must_use]
 pub fn cutter_of(body: &dyn Body, request: &Request) -> Option<f64> {
     let moved = body.machine().cutting().compensation == RadiusCompensation::Program;
-    let cutter = request.cutter_radius.or_else(|| Some(0.5 * groove_width(&body.cuts())?));
-    cutter.filter(|_| moved)
+    request.cutter_radius.or_else(|| widest_cutter(body)).filter(|_| moved || turned(body).is_some())
 }
 
 /// How deep a cut of a body is milled, mm: `[cut] depth`, the depth of its groove, or through its thickness.
 #[must_use]
 pub fn depth_of(body: &dyn Body) -> Option<f64> {
     let cutting = body.machine().cutting();
-    let of_cut = body.cuts().first().and_then(|cut| cut.depth);
+    let of_cut = body.cuts().first().and_then(|cut| cut.depth).or_else(|| Some(turned(body)?.depth()));
     let through = || body.machine().cam.thickness.map(|thickness| thickness + cutting.overrun);
     cutting.depth.or(of_cut).or_else(through).map(|depth| MILLIMETRES * depth)
 }
@@ -165,8 +189,8 @@ pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram
             return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
         }
         let (cutting, depths) = (cutting.clone(), depths.clone());
-        let polar = None;
-        programs.push(MillingProgram { part, cuts, controller, decimals, cutting, cutter, passes, depths, polar });
+        let turned = None;
+        programs.push(MillingProgram { part, cuts, controller, decimals, cutting, cutter, passes, depths, turned });
     }
     Ok(programs)
 }

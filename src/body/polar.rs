@@ -4,9 +4,9 @@
 //! The rows are the fewest with which the interpolated path keeps what the rounding of its numbers leaves of the tolerance, as a table of points
 //! for a control has them (`points`).
 
-use super::milling::{self, Milling, MillingError, MillingProgram, PolarPath, depths};
+use super::milling::{Milling, MillingError, MillingProgram, TurnedPath, TurnedRound, depths};
 use super::points::{PointCurve, TableError, traced};
-use super::{Body, Request};
+use super::{Body, Cut, Request};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::blocks::Grid;
 use crate::geometry::points::{PointCoordinates, PointInterpolation, PointStep, PointTableSpec, place};
@@ -15,41 +15,32 @@ use crate::refusal::Refusal;
 use crate::report::shown;
 
 /// Least share of the tolerance that rounding must leave to the rows.
-const LEAST_SHARE: f64 = 0.2;
+pub(super) const LEAST_SHARE: f64 = 0.2;
 /// How far the wheel stands off the cam before and behind a pass, mm.
 const AWAY: f64 = 5.0;
 /// Most rows of a program.
-const MOST_ROWS: usize = 200_000;
-
-/// The programs for all parts of a body, in polar coordinates where its machine file says so, else by milling; none where they were not requested.
-///
-/// # Errors
-/// As [`milling::programs`]; also when the control has no feed by the time, or no wheel is given.
-pub fn programs(body: &dyn Body, request: &Request) -> Result<Vec<MillingProgram>, MillingError> {
-    match request.milling.filter(|_| is_asked(body)) {
-        Some(asked) => program(body, request, asked),
-        None => milling::programs(body, request),
-    }
-}
+pub(super) const MOST_ROWS: usize = 200_000;
 
 /// The program for a disc; C is counted from its angle 0 on.
 ///
 /// # Errors
 /// [`MillingError`] when the control has no feed by the time, no wheel is given, the cam has no such path, or its numbers are too coarse.
-fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<MillingProgram>, MillingError> {
+pub(super) fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<MillingProgram>, MillingError> {
     let cutting = body.machine().cutting();
     let controller = asked.controller.unwrap_or(cutting.controller);
     let decimals = cutting.decimals.unwrap_or(controller.decimals());
     if controller == Controller::Heidenhain {
-        let what = "cut.form \"polar\" needs a feed by the time (G93), which the dialogue of HEIDENHAIN does not have";
-        return Err(Refusal::new(what).remedy("give another --controller, or cut.form = \"milling\"").into());
+        return Err(without_time("cut.form \"polar\"")
+            .remedy("give another --controller, or cut.form = \"milling\"")
+            .into());
     }
+    let disc = &disc_of(body)?;
     let wheel = request.cutter_radius.ok_or_else(|| {
         let refusal = Refusal::new("cut.form \"polar\" moves the centre of a wheel whose size is not given");
         refusal.remedy("give --cutter-diameter")
     })?;
     let grid = Grid::of_decimals(decimals);
-    let mut rows = rows(body, request, (wheel, grid, decimals))?;
+    let mut rows = rows((body, disc), request, (wheel, grid, decimals))?;
     let climbs = cutting.direction == MillingDirection::Climb;
     if climbs == (sense(body) < 0.0) {
         rows.reverse();
@@ -61,7 +52,9 @@ fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<Mil
         return Err(Refusal::new(what).remedy("give a larger cut.depth_per_pass, or a coarser --tolerance").into());
     }
     let lengths = rows.windows(2).map(|pair| length(pair[0], pair[1])).collect();
-    let polar = Some(PolarPath { rows, lengths, away: grid.nearest(away) });
+    let rows = rows.into_iter().map(|[angle, x]| [angle, x, 0.0]).collect();
+    let round = TurnedRound { words: "profile".into(), rows, lengths, away: [grid.nearest(away), 0.0] };
+    let turned = Some(TurnedPath { axis: 'C', rounds: vec![round] });
     let cutter = Some(wheel);
     Ok(vec![MillingProgram {
         part: 0,
@@ -72,7 +65,7 @@ fn program(body: &dyn Body, request: &Request, asked: Milling) -> Result<Vec<Mil
         cutter,
         passes: Vec::new(),
         depths,
-        polar,
+        turned,
     }])
 }
 
@@ -87,20 +80,22 @@ fn sense(body: &dyn Body) -> f64 {
     if body.machine().cam.rotation == Rotation::Clockwise { -1.0 } else { 1.0 }
 }
 
+/// The one profile of a disc.
+fn disc_of(body: &dyn Body) -> Result<Cut<'_>, Refusal> {
+    let mut cuts = body.cuts();
+    let turns = |cut: &Cut<'_>| !cut.is_hollow() && cut.curves.is_some_and(|curves| curves.motion.period().is_some());
+    cuts.pop().filter(|cut| cuts.is_empty() && turns(cut)).ok_or_else(|| {
+        let what = format!("cut.form \"polar\" grinds the outside of a disc, and this is a {}", body.kind().noun);
+        Refusal::new(what).remedy("give cut.form = \"milling\"")
+    })
+}
+
 /// C and X by ascending cam angle, on the grid of the control, for a wheel of a radius, m.
 fn rows(
-    body: &dyn Body,
+    (body, disc): (&dyn Body, &Cut<'_>),
     request: &Request,
     (wheel, grid, decimals): (f64, Grid, u32),
 ) -> Result<Vec<[f64; 2]>, MillingError> {
-    let cuts = body.cuts();
-    let disc = match cuts.as_slice() {
-        [cut] if !cut.is_hollow() && cut.curves.is_some_and(|curves| curves.motion.period().is_some()) => cut,
-        _ => {
-            let what = format!("cut.form \"polar\" grinds the outside of a disc, and this is a {}", body.kind().noun);
-            return Err(Refusal::new(what).remedy("give cut.form = \"milling\"").into());
-        }
-    };
     let (middle, half) = request.fit.band();
     let path = traced(body, disc, PointCurve::Cutter, Some(wheel - middle)).map_err(|error| match error {
         TableError::Cutter(error) => MillingError::Cutter(error),
@@ -129,7 +124,7 @@ fn rows(
     Ok(rows)
 }
 
-/// Whether a body is to be ground in polar coordinates.
-fn is_asked(body: &dyn Body) -> bool {
-    body.machine().cutting().form == crate::machine::CuttingForm::Polar && milling::unfit(body).is_none()
+/// The refusal of a control that does not know how long a block takes.
+pub(super) fn without_time(what: &str) -> Refusal {
+    Refusal::new(format!("{what} needs a feed by the time (G93), which the dialogue of HEIDENHAIN does not have"))
 }

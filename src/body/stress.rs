@@ -121,6 +121,16 @@ pub(crate) fn of_sphere(force: f64, radius: f64, curvatures: (f64, f64), materia
     in_ellipse(force, (relative(curvatures.0), relative(curvatures.1)), contact_modulus(material))
 }
 
+/// Pressure in a line of contact of a length (m) of a steel roller under a force (N), where both curvatures add up to `curvature`, 1/m: Pa.
+pub(crate) fn along_line(force: f64, (curvature, length): (f64, f64), material: Material) -> f64 {
+    (force * contact_modulus(material) * curvature.max(0.0) / (PI * length)).sqrt()
+}
+
+/// Pressure under a crowned steel roller on a surface that is straight along it, Pa.
+pub(crate) fn under_crown(force: f64, (curvature, crown): (f64, f64), material: Material) -> f64 {
+    in_ellipse(force, (curvature, 1.0 / crown), contact_modulus(material))
+}
+
 /// Largest pressure between any two bodies, Pa, by the sums of their curvatures in the two principal directions, 2A and 2B in either order, 1/m, and E*, Pa.
 fn in_ellipse(force: f64, sums: (f64, f64), modulus: f64) -> f64 {
     let (first, second) = ((0.5 * sums.0).max(0.0), (0.5 * sums.1).max(0.0));

@@ -101,6 +101,11 @@ pub trait SweptFlanks: Sync {
     /// Outside, floor and ends.
     fn form(&self) -> RoundForm;
 
+    /// The body as a machine turns it about its axis under a tool, where one can cut it so.
+    fn turned(&self) -> Option<&dyn TurnedCam> {
+        None
+    }
+
     /// The layers of the developed view of the outside with the ends of the curve on each, mm; none where the outside cannot be developed.
     fn developed(&self) -> Vec<(Layer, [Vector2<f64>; 2])> {
         Vec::new()
@@ -110,4 +115,36 @@ pub trait SweptFlanks: Sync {
     fn developed_miss(&self, _layer: Layer, _point: Vector2<f64>) -> (f64, f64) {
         (f64::NAN, 0.0)
     }
+}
+
+/// A cam that a machine turns about the axis A under a tool, whose axis stands along Z: X is along A, Y beside it, and Z is 0 on the outside of the cam. A counts as
+/// ISO 841 does, as if the tool went about the cam by the right hand along X.
+pub trait TurnedCam: Sync {
+    /// Radius of a tool as wide as the groove, m.
+    fn widest_tool(&self) -> f64;
+
+    /// Depth of the groove, m.
+    fn depth(&self) -> f64;
+
+    /// Radius of the outside, m.
+    fn outside(&self) -> f64;
+
+    /// The joints of the motion as angles of A, degrees, from 0 on once round.
+    fn joints(&self) -> Vec<f64>;
+
+    /// The exact X and Y of the axis of a tool of a radius (m) at an angle of A (degrees) along a flank, in the middle of its depth, or in the middle of the groove; mm.
+    fn tool_place(&self, flank: Option<TurnedFlank>, tool: f64, a_deg: f64) -> [f64; 2];
+
+    /// By how much a tool at an angle of A that is moved by so much in X and Y (mm) cuts higher up along X, across the groove: the largest of floor and outside,
+    /// mm.
+    fn across(&self, a_deg: f64, moved: [f64; 2]) -> f64;
+}
+
+/// A flank of a groove in a turned cam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TurnedFlank {
+    /// That with the larger X.
+    Upper,
+    /// That with the smaller X.
+    Lower,
 }

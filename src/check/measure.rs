@@ -97,7 +97,8 @@ pub struct Subject<'a> {
 impl Subject<'_> {
     /// Whether the forces of a motion program are those without the inertia of a mass that is given, since no speed is.
     pub(super) fn lacks_inertia(&self) -> bool {
-        let of_program = self.curves.is_some_and(|curves| curves.motion.program().is_some());
+        // A body without plane curves, a barrel or a globoid, is that of a program.
+        let of_program = self.curves.is_none_or(|curves| curves.motion.program().is_some());
         of_program && self.machine.follower.mass.is_some() && self.speed.is_none()
     }
 }

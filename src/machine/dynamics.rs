@@ -6,7 +6,7 @@ use crate::document::cams::MAKE;
 use crate::document::range::{LARGEST_FORCE, LONGEST, STIFFEST};
 use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::FollowerData;
-use crate::motion;
+use crate::motion::Quantity;
 use crate::units::Dimension::{
     self, Damping, Force, Frequency, Length, Moment, Stiffness, TorsionalDamping, TorsionalStiffness,
 };
@@ -60,10 +60,11 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    pub(super) fn read(reader: &Reader<'_>, follower: &FollowerData) -> Self {
+    /// Of a file whose lift is of a quantity: of a turret an angle, whatever its roller would do without it.
+    pub(super) fn read(reader: &Reader<'_>, follower: &FollowerData, quantity: Quantity) -> Self {
         Self {
-            spring: spring(reader, follower),
-            guide: guide(reader, follower),
+            spring: spring(reader, follower, quantity),
+            guide: guide(reader, follower, quantity),
             vibration: vibration(reader),
             fluctuation: fluctuation(reader),
             bearing: bearing::read(reader, follower),
@@ -182,8 +183,12 @@ pub(super) const VIBRATION: KeySection = KeySection {
 };
 
 /// A key of `[spring]` in the kind of the follower, or a fault that names both.
-fn of_kind(table: &TableReader<'_>, field: &Field<(Dimension, f64)>, follower: &FollowerData) -> Option<f64> {
-    let swings = follower.shape.quantity() == motion::Quantity::Angle;
+fn of_kind(
+    table: &TableReader<'_>,
+    field: &Field<(Dimension, f64)>,
+    (follower, quantity): (&FollowerData, Quantity),
+) -> Option<f64> {
+    let swings = quantity == Quantity::Angle;
     let Some((dimension, value)) = table.get(field) else { return (!table.has(field)).then_some(0.0) };
     let about_pivot = matches!(dimension, Moment | TorsionalStiffness | TorsionalDamping);
     if about_pivot == swings {
@@ -191,26 +196,28 @@ fn of_kind(table: &TableReader<'_>, field: &Field<(Dimension, f64)>, follower: &
     }
     let crate::document::KeyForm::Either((straight, _), (swinging, _)) = field.key.form else { return None };
     let (moves, wanted) = if swings { ("swings", swinging) } else { ("moves on a straight path", straight) };
-    let message = format!(
-        "{}.{} is a {dimension}, but the follower of [{}] {moves}: it takes a {wanted}",
-        SPRING.path, field.key.name, follower.path
-    );
+    let moved = if follower.shape.quantity() == quantity {
+        format!("the follower of [{}] {moves}", follower.path)
+    } else {
+        "the turret turns".to_owned()
+    };
+    let message = format!("{}.{} is a {dimension}, but {moved}: it takes a {wanted}", SPRING.path, field.key.name);
     table.fail(field, message, Some(format!("give it in {}", wanted.unit_list())));
     None
 }
 
 /// The spring of a file, for its follower.
-fn spring(reader: &Reader<'_>, follower: &FollowerData) -> Option<SpringData> {
+fn spring(reader: &Reader<'_>, follower: &FollowerData, quantity: Quantity) -> Option<SpringData> {
     let table = reader.find(&SPRING)?;
     let [rate, preload, damping, load] =
-        [&RATE, &PRELOAD, &DAMPING, &LOAD].map(|field| of_kind(&table, field, follower));
+        [&RATE, &PRELOAD, &DAMPING, &LOAD].map(|field| of_kind(&table, field, (follower, quantity)));
     Some(SpringData { rate: rate?, preload: preload?, damping: damping?, load: load? })
 }
 
 /// The guide of a file, for its follower.
-fn guide(reader: &Reader<'_>, follower: &FollowerData) -> Option<GuideData> {
+fn guide(reader: &Reader<'_>, follower: &FollowerData, quantity: Quantity) -> Option<GuideData> {
     let table = reader.find(&GUIDE)?;
-    if follower.shape.quantity() == motion::Quantity::Angle {
+    if quantity == Quantity::Angle {
         let message = format!("a guide belongs to a straight path, but the follower of [{}] swings", follower.path);
         table.fail(&FRICTION, message, Some("leave out [guide]".into()));
         return None;

@@ -194,6 +194,7 @@ impl Machine {
         }
         let counter = track::read_counter(reader, &follower);
         let barrel = barrel::read(reader)?;
+        let follower = turret::carried(follower, turret);
         let cam = CamData { track: TrackData { counter, barrel, turret, ..cam.track }, ..cam };
         Some(Self {
             catalogue: source.catalogue,
@@ -201,7 +202,7 @@ impl Machine {
             motion: motion.map(Arc::new),
             cam,
             material_name: disc::material_name(reader),
-            dynamics: Dynamics::read(reader, &follower),
+            dynamics: Dynamics::read(reader, &follower, quantity),
             limits: limits::read(reader, &*follower.shape, quantity)?,
             title: title::read(reader),
             cutting: cutting::read(reader),

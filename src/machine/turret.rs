@@ -2,11 +2,11 @@
 
 use crate::document::Presence::{Default, Optional};
 use crate::document::cams::{GLOBOID, MAKE};
-use crate::document::range::LONGEST;
+use crate::document::range::{HEAVIEST, LONGEST};
 use crate::document::{Field, Key, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::follower::FollowerData;
 use crate::motion::Quantity;
-use crate::units::Dimension::{Angle, Length};
+use crate::units::Dimension::{Angle, Inertia, Length};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// A turret with rollers all round, and how far the cam reaches about it.
@@ -24,6 +24,8 @@ pub struct TurretData {
     pub rests_in_groove: bool,
     /// Angle about the turret from the middle of the cam to its ends, rad; `None` is `auto`.
     pub end_angle: Option<f64>,
+    /// Moment of inertia about its axis of everything that turns with it, kg·m².
+    pub inertia: Option<f64>,
 }
 
 impl TurretData {
@@ -95,8 +97,16 @@ const END_ANGLE: Field<Option<f64>> = Field::words_or_quantity(
     (Angle, above(0.0, FRAC_PI_2), Some),
 )
 .only(&[GLOBOID]);
+const INERTIA: Field<f64> = Field::quantity(
+    "turret_inertia",
+    "moment of inertia about its axis of the turret of a globoid cam and of all that turns with it; enables forces and torque",
+    Optional("0.4 kg*m2"),
+    Inertia,
+    above(0.0, HEAVIEST),
+)
+.only(&[GLOBOID]);
 
-const KEYS: [Key; 6] = [DISTANCE.key, ARM.key, ROLLERS.key, ADVANCE.key, RESTS_ON.key, END_ANGLE.key];
+const KEYS: [Key; 7] = [DISTANCE.key, ARM.key, ROLLERS.key, ADVANCE.key, RESTS_ON.key, END_ANGLE.key, INERTIA.key];
 
 /// The keys of `[cam]` that only a globoid has.
 pub(super) const SECTION: KeySection =
@@ -105,6 +115,14 @@ pub(super) const SECTION: KeySection =
 /// Whether a lift is a length or an angle: a turret turns, whatever its roller would do without it.
 pub(super) fn quantity(body: Option<&str>, of_follower: Quantity) -> Quantity {
     if body == Some(GLOBOID) { Quantity::Angle } else { of_follower }
+}
+
+/// A follower that moves with a turret: what turns with it is its mass.
+pub(super) fn carried(follower: FollowerData, turret: Option<TurretData>) -> FollowerData {
+    match turret {
+        Some(turret) => FollowerData { mass: turret.inertia, ..follower },
+        None => follower,
+    }
 }
 
 /// The turret of a globoid; what is missing or does not fit is reported.
@@ -141,6 +159,7 @@ pub(super) fn read(reader: &Reader<'_>, body: &str, follower: Option<&FollowerDa
         advance: advance?,
         rests_in_groove: table.get(&RESTS_ON)?,
         end_angle: end_angle?,
+        inertia: table.get(&INERTIA),
     };
     if found.index() >= PI {
         let degrees = found.index().to_degrees();
@@ -160,6 +179,11 @@ fn fits(reader: &Reader<'_>, follower: &FollowerData) {
             follower.path
         );
         reader.fail(message, Some("give [follower.roller] with its radius and no offset".into()));
+    }
+    if follower.mass.is_some() || follower.preload.is_some() || follower.spring_rate > 0.0 {
+        let message =
+            format!("[{}] gives a mass or a force along a straight path, but the turret turns", follower.path);
+        reader.fail(message, Some("give cam.turret_inertia, and moments in [spring]".into()));
     }
 }
 

@@ -38,7 +38,7 @@ pub(crate) use spec::{SolvedBodies, WantedCams};
 
 use crate::body::milling::MillingError;
 use crate::body::points::{self, PointTable, TableError};
-use crate::body::polar;
+use crate::body::programs;
 use crate::body::servo::{self, ServoTable};
 use crate::body::{self, Body, DrawError, Drawn, Request};
 use crate::document::Input;
@@ -105,7 +105,7 @@ impl Cam {
         let (drawn, points) = match self.body.draw(&request) {
             Ok(drawn) => {
                 let drawn = body::start::started(&*self.body, &request, drawn).map_err(Error::Draw)?;
-                let programs = match polar::programs(self.body(), &request) {
+                let programs = match programs::programs(self.body(), &request) {
                     Err(MillingError::Cutter(why)) => Err(why.to_string()),
                     Err(MillingError::Refused(why)) => return Err(Error::Draw(why.context("no program"))),
                     Ok(programs) => Ok(programs),

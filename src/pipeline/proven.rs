@@ -3,7 +3,7 @@
 use super::{Cam, Drawing, Error, report};
 use crate::body::gauge;
 use crate::body::inspection::{self, InspectionList};
-use crate::body::milling::{self, MillingProgram, PolarPath};
+use crate::body::milling::{self, MillingProgram, TurnedPath};
 use crate::body::points::{PointErrors, PointTable, by_travel, swings};
 use crate::body::servo::ServoTable;
 use crate::body::{Body, DrawingEvidence, Drawn, Request};
@@ -316,8 +316,8 @@ fn program_measures(drawn: Option<&Drawn>, read: Option<&Result<Vec<WrittenProgr
     let of = |(program, written): (&MillingProgram, &WrittenProgram)| {
         let found = written.program.as_ref().ok()?;
         let moves = &found.moves;
-        if let (Some(path), false) = (&program.polar, found.polar.is_empty()) {
-            return Some(polar_measures(program, path, found.polar.len()));
+        if let (Some(path), false) = (&program.turned, found.turned.is_empty()) {
+            return Some(turned_measures(program, path));
         }
         let at_feed = || moves.iter().filter(|moved| moved.kind != MoveKind::Rapid);
         let along: f64 = at_feed().flat_map(CutterMove::segments).map(|segment| segment.length()).sum();
@@ -335,14 +335,16 @@ fn program_measures(drawn: Option<&Drawn>, read: Option<&Result<Vec<WrittenProgr
     programs.iter().zip(read).filter_map(of).collect()
 }
 
-/// The figures of a program in polar coordinates.
-fn polar_measures(program: &MillingProgram, path: &PolarPath, passes: usize) -> ProgramMeasures {
+/// The figures of a program that turns the cam under its tool.
+fn turned_measures(program: &MillingProgram, path: &TurnedPath) -> ProgramMeasures {
+    let depths = program.depths.len();
+    let around: f64 = path.rounds.iter().flat_map(|round| &round.lengths).sum();
     #[expect(clippy::cast_precision_loss, reason = "at most a thousand passes")]
-    let length_mm = passes as f64 * path.lengths.iter().sum::<f64>();
+    let length_mm = depths as f64 * around;
     ProgramMeasures {
         controller: program.controller.word(),
-        moves: passes * path.rows.len(),
-        passes,
+        moves: depths * path.rounds.iter().map(|round| round.rows.len()).sum::<usize>(),
+        passes: depths * path.rounds.len(),
         depth_mm: program.depths.last().copied().unwrap_or(0.0),
         length_mm,
         minutes: length_mm / (MILLIMETRES * program.cutting.feed) / 60.0,

@@ -2,7 +2,7 @@
 
 use super::check::CutSection;
 use super::{Cam, Error, ExpectedFile, report};
-use crate::body::milling::{depth_of, groove_width};
+use crate::body::milling::{depth_of, widest_cutter};
 use crate::body::points::{PointCurve, PointErrors, PointTable, radius_of_roller, traced};
 use crate::body::{Layer, Request};
 use crate::geometry::MILLIMETRES;
@@ -102,10 +102,9 @@ impl Cam {
         let program = gcode::read_for(bytes, Some(self.body().machine().cutting().controller))
             .map_err(|why| Error::Read(why.context("not a program that can be checked")))?;
         let mut arcs = program.moves.iter().filter(|moved| matches!(moved.kind, MoveKind::Arc { .. }));
-        let kept = program.polar.is_empty() && arcs.all(|moved| moved.side != CutterSide::Centre);
+        let kept = program.turned.is_empty() && arcs.all(|moved| moved.side != CutterSide::Centre);
         let cuts = self.body().cuts();
-        let width = groove_width(&cuts).map(|width| 0.5 * width);
-        let cutter = match expected.cutter.or(request.cutter_radius).or(width) {
+        let cutter = match expected.cutter.or(request.cutter_radius).or_else(|| widest_cutter(self.body())) {
             _ if kept => None,
             Some(cutter) => Some(MILLIMETRES * cutter),
             None => {

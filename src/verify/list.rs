@@ -7,9 +7,9 @@ use super::{
 };
 use crate::body::barrel::measures as barrel;
 use crate::body::closure;
-use crate::body::disc::{residual_vibration, roller_life};
+use crate::body::disc::residual_vibration;
 use crate::body::globoid::measures as globoid;
-use crate::body::groove::switches;
+use crate::body::{flank_switch, roller_bearing};
 use crate::check::{
     contact_stress, continuity, curvature, cutter_radius, face_width, force_closure, guide, jump_speed, noise,
     overshoot, pivot_clearance, pressure_angle, size, wall,
@@ -62,15 +62,15 @@ pub const CHECKS: &[CheckEntry] = &[
     File(&flank::CHECK),
     Figure(&force_closure::CHECK),
     Figure(&jump_speed::CHECK),
-    Figure(&switches::CHECK),
+    Figure(&flank_switch::CHECK),
     Figure(&barrel::PLANE_OFFSET),
     Figure(&globoid::MESHING),
     Figure(&closure::CHECK),
     Figure(&guide::CHECK),
     Figure(&contact_stress::CHECK),
-    Figure(&roller_life::LIFE),
-    Figure(&roller_life::SPEED),
-    Figure(&roller_life::SLIP),
+    Figure(&roller_bearing::LIFE),
+    Figure(&roller_bearing::SPEED),
+    Figure(&roller_bearing::SLIP),
     Figure(&residual_vibration::CHECK),
     File(&felt::CHECK),
     File(&balance::CHECK),

@@ -6,8 +6,8 @@
 
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
 use super::cutter_path::left_behind;
-use super::polar;
 use super::program::{JudgedProgram, ProgramFault};
+use super::turned;
 use crate::body::milling::groove_width;
 use crate::body::{Cut, Layer};
 use crate::check::{Check, CheckExplanation, CheckScope};
@@ -163,8 +163,8 @@ impl<'m> ClosedPass<'m> {
 /// The result for a program.
 fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedProgram, ProgramFault> {
     let program = written.program.as_ref().map_err(|why| ProgramFault::new(why.clone()))?;
-    if !program.polar.is_empty() {
-        return polar::judged(evidence, written, &program.polar);
+    if !program.turned.is_empty() {
+        return turned::judged(evidence, written, program);
     }
     let (cuts, limit) = (evidence.body.cuts(), evidence.tolerance_mm);
     fits_between(&cuts, written)?;

@@ -21,7 +21,6 @@ mod outline;
 mod patches;
 mod plate_ends;
 mod points;
-mod polar;
 mod program;
 pub mod rolling;
 mod servo;
@@ -31,6 +30,7 @@ mod swept;
 mod swept_files;
 mod table;
 mod tangency;
+mod turned;
 mod walls;
 
 pub use check::{

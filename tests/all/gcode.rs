@@ -209,3 +209,74 @@ fn a_program_that_a_control_reads_otherwise_is_refused() {
         assert!(found.contains("DR") || found.contains("not the profile that it says"), "{line}: {found}");
     }
 }
+
+/// The line of a program that has these words, with them replaced.
+fn with_line(text: &str, of: impl Fn(&str) -> bool, by: impl Fn(&str) -> String) -> String {
+    let at = text.lines().position(of).expect("such a line");
+    text.lines().enumerate().map(|(line, own)| if line == at { by(own) } else { own.to_owned() } + "\n").collect()
+}
+
+#[test]
+fn a_barrel_is_milled_on_four_axes() {
+    for (overrides, cutter, rounds) in [
+        (&[][..], None, 1),
+        (&["cam.rotation=ccw", "cut.depth_per_pass=5mm"], Some(6e-3), 2),
+        (&["follower.roller.offset=4mm", "cam.clearance_share=0.5", "cut.direction=conventional"], Some(8e-3), 2),
+    ] {
+        let cam = cam("barrel", overrides);
+        for controller in [Controller::LinuxCnc, Controller::Fanuc, Controller::Sinumerik] {
+            let text = program(&cam, request(controller, cutter));
+            let (passes, value, note) = checked(&cam, &text, cutter).expect("a program");
+            assert!(passes && value <= 0.005, "{overrides:?} {controller:?}: {value} {note}");
+            let found = read(text.as_bytes()).expect("a program");
+            let deep = found.turned.iter().filter(|pass| pass.depth == 12.0).count();
+            assert_eq!(deep, rounds, "{overrides:?}");
+            // Under the upper flank a tool that climbs goes against A, along the lower one with it.
+            if let [first, second, ..] = found.turned.as_slice() {
+                let rises = |pass: &camgen::reading::gcode::TurnedPass| pass.rows[1][0] > pass.rows[0][0];
+                let conventional = overrides.contains(&"cut.direction=conventional");
+                assert_eq!([rises(first), rises(second)], [conventional, !conventional], "{overrides:?}");
+            }
+        }
+        assert!(cam.draw(request(Controller::Heidenhain, cutter)).is_err_and(|why| why.to_string().contains("G93")));
+    }
+    let too_wide = cam("barrel", &[]).draw(request(Controller::LinuxCnc, Some(12e-3)));
+    assert!(too_wide.is_err_and(|why| why.to_string().contains("does not fit")));
+}
+
+#[test]
+fn a_wrong_program_of_a_barrel_is_refused_for_its_own_reason() {
+    let cutter = Some(6e-3);
+    let cam = cam("barrel", &[]);
+    let text = program(&cam, request(Controller::LinuxCnc, cutter));
+    let turning = |line: &str| line.starts_with("G1 X20.") && line.contains('A');
+    let shifted = |line: &str| line.replacen("X20.", "X20.1", 1);
+    let to_flank = |line: &str| line.starts_with("G1 X4.") && !line.contains('A');
+    assert!(text.lines().any(to_flank), "{text}");
+    for (wrong, why) in [
+        (with_line(&text, turning, shifted), "off its path"),
+        (text.replace("G1 Z-12.0", "G1 Z-11.0"), "11 mm deep"),
+        (with_line(&text, to_flank, |line| format!("G1 X9.0 Y0.0 F300\n{line}")), "into a flank"),
+        (with_line(&text, |line| line == "G93", |_| String::new()), "G93"),
+    ] {
+        let found = checked(&cam, &wrong, cutter);
+        let found = found.map_or_else(|why| why.to_string(), |(passes, _, note)| format!("{passes} {note}"));
+        assert!(found.contains(why) && !found.starts_with("true"), "{why}: {found}");
+    }
+    let found = checked(&cam, &text, Some(6.1e-3)).expect("a program");
+    assert!(!found.0 && found.2.contains("off its path"), "{found:?}");
+    // The program of another body.
+    let groove = program(&self::cam("groove", &["cut.depth=8mm"]), request(Controller::LinuxCnc, None));
+    assert!(checked(&cam, &groove, None).is_ok_and(|(passes, ..)| !passes));
+}
+
+/// A wheel that is fed into a disc before its pass leaves a mark there.
+#[test]
+fn a_wheel_that_goes_too_deep_before_its_pass_is_refused() {
+    let cam = cam("feeder", &["cut.depth=8mm", "cut.form=polar"]);
+    let text = program(&cam, request(Controller::LinuxCnc, Some(0.03)));
+    let comes = |line: &str| line.starts_with("G1 X") && !line.contains('C');
+    let wrong = with_line(&text, comes, |line| format!("G1 X20.0 F100\n{line}"));
+    let (passes, value, note) = checked(&cam, &wrong, Some(0.03)).expect("a program");
+    assert!(!passes && value > 1.0 && note.contains("into the cam"), "{value} {note}");
+}

@@ -165,7 +165,7 @@ fn the_force_changes_flank_where_the_acceleration_changes_sign() {
     let found = groove.flank_switches().expect("a mass and a speed");
     let degrees: Vec<f64> = found.iter().map(|switch| switch.at.to_degrees()).collect();
     assert!((degrees[0] - 60.0).abs() < 1e-6 && (degrees[1] - 225.0).abs() < 1e-6 && degrees.len() == 2, "{degrees:?}");
-    assert!(!found[0].to_inner && found[1].to_inner);
+    assert!(!found[0].to_lifting && found[1].to_lifting);
     for switch in &found {
         let curves = camgen::body::curves(&groove).expect("plane");
         let (piece, angle) = curves.motion.locate(switch.at);

@@ -4,7 +4,8 @@ outside again.
 Shares nothing with camgen but the motion programs: the laws are those of laws.py, and the roller's centre line at each cam angle comes from the geometry
 of the follower. A place of the centre line must be as far from the surfaces of either flank as the roller's radius; a place of the developed view,
 wound round the outside, as far from the centre line of the turn. The volume is compared with the sum over cylinders of the area between the flanks, which
-come from that distance alone. Files of other cams must be refused: another roller, no clearance, a flank that is moved, the offset of the unrolled centre
+come from that distance alone. Programs for four axes are run block by block: the tool as wide as the groove must leave the surfaces within the tolerance, a smaller one
+must not cut into them. Files of other cams must be refused: another roller, no clearance, a flank that is moved, the offset of the unrolled centre
 line.
 
 usage: barrel.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
@@ -12,6 +13,7 @@ usage: barrel.py CAMGEN_BINARY DIRECTORY [--count N] [--seed S]
 import argparse
 import csv
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -251,6 +253,40 @@ def four_axes(found, binary, folder, surfaces, random):
     return most
 
 
+def moves(path):
+    """Angle of A, X and Y, degrees and mm, along the straight moves of a program below the outside."""
+    words, at, found = re.compile(r"([A-Z])(-?[0-9.]+)"), {"A": None, "X": None, "Y": None, "Z": None}, []
+    for block in re.sub(r"\([^)]*\)", "", path.read_text()).splitlines():
+        new = {letter: float(number) for letter, number in words.findall(block) if letter in at}
+        before, at = at, at | new
+        if "A" in new and at["Z"] < 0:
+            count = max(2, int(abs(at["A"] - before["A"]) / 0.02))
+            share = np.linspace(0, 1, count)[:, None]
+            start, end = (np.array([place[axis] for axis in "AXY"]) for place in (before, at))
+            found.append(start + share * (end - start))
+    return np.concatenate(found)
+
+
+def programmed(found, binary, folder, surfaces, random):
+    """What the tool of a program leaves of the surfaces, mm: as wide as the groove, then smaller."""
+    points = np.concatenate([samples(surface, random, 6) for surface in surfaces])
+    left = []
+    for tool in (None, 0.7 * found["radius"]):
+        asked = [] if tool is None else ["--cutter-diameter", f"{2 * tool!r}mm"]
+        done = make(binary, folder, toml(found), "gcode", *asked)
+        assert done.returncode == 0, done.stderr
+        places = moves(folder / "cam.ngc")
+        # A counts as if the tool went about the cam by the right hand; Y is against the angle of the drawing.
+        angle, x, y = np.radians(places[:, 0]), places[:, 1], places[:, 2]
+        across = points[:, 1][:, None] * np.cos(angle) - points[:, 0][:, None] * np.sin(angle) + y
+        front = points[:, 0][:, None] * np.cos(angle) + points[:, 1][:, None] * np.sin(angle)
+        distance = np.where(front > 0, np.hypot(across, points[:, 2][:, None] - x), np.inf).min(axis=1)
+        left.append(distance - (tool or sum(radii(found)) / 2))
+    assert np.abs(left[0]).max() < 1.1 * TOLERANCE, np.abs(left[0]).max()
+    assert left[1].min() > -1.1 * TOLERANCE, left[1].min()
+    return np.abs(left[0]).max()
+
+
 def refused(binary, path, *design):
     done = subprocess.run([binary, "check", str(path), "--json", *design], capture_output=True, text=True)
     assert done.returncode == 1, (path, done.returncode, done.stderr)
@@ -291,7 +327,7 @@ def main():
     random = __import__("random").Random(asked.seed)
     folder = asked.directory / "barrel"
     folder.mkdir(parents=True, exist_ok=True)
-    made, worst, axis, rolled, share, left = 0, 0.0, 0.0, 0.0, 0.0, 0.0
+    made, worst, axis, rolled, share, left, cut = 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for index in range(asked.count):
         found = design(random)
         done = make(asked.binary, folder, toml(found))
@@ -317,11 +353,13 @@ def main():
         assert share < 1e-6, (index, mass, expected, toml(found))
         if index % 5 == 0:
             left = max(left, four_axes(found, asked.binary, folder, surfaces, random))
+            cut = max(cut, programmed(found, asked.binary, folder, surfaces, random))
             faults(asked.binary, folder, found)
     assert made > asked.count // 2, made
     print(
         f"{made} of {asked.count} barrels: surfaces within {1e3 * worst:.4f} um of the rolled roller, centre lines within {1e3 * axis:.4f} um, developed "
-        f"views within {1e3 * rolled:.4f} um, volumes within {share:.1e}, a smaller tool leaves {1e3 * left:.2f} um at most, other cams refused"
+        f"views within {1e3 * rolled:.4f} um, volumes within {share:.1e}, a smaller tool leaves {1e3 * left:.2f} um at most, "
+        f"programs cut within {1e3 * cut:.2f} um, other cams refused"
     )
 
 

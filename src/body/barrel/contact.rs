@@ -175,6 +175,12 @@ impl LinePoint {
         self.speed / self.turn
     }
 
+    /// Derivative of [`Self::speed`] by the cam angle, m.
+    pub(super) fn speed_slope(&self, axis: &AxisLine) -> f64 {
+        let (sin, cos) = self.slope;
+        cos * axis.across[2] + sin * axis.along[2]
+    }
+
     /// The smallest distance from the centre line, m, above it (sign 1) or below it (−1), at which the flank folds over itself; infinite where it never does.
     ///
     /// The area of the flank by the cam angle and by v is S − d (χ' + y χ_v) + d² χ_v sin χ: 0 where it folds.

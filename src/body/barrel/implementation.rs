@@ -1,6 +1,7 @@
 //! The barrel as a [`Body`].
 
 use super::{BARREL, Barrel, BarrelCurve, FlankSide, mechanism, report, sheet};
+use crate::body::in_groove::GrooveForces;
 use crate::body::part;
 use crate::body::picture::RIGID;
 use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Kind, Request, SweptDrawing, SweptFlanks};
@@ -20,7 +21,7 @@ use nalgebra::Vector2;
 
 /// What is not modelled of a barrel.
 const NOT_MODELLED: &[&str] = &[
-    "Forces: contact stress, torque, the life of the roller and vibration are not computed for a barrel.",
+    "Vibration, friction and the guide of the follower are not computed for a barrel.",
     "The ends of the roller: it is a straight cylinder without a rounded edge.",
 ];
 
@@ -50,6 +51,7 @@ impl Barrel {
             position: self.motion.origin().map(|origin| origin + lift.s),
             pressure_angle_deg: Some(steepest.to_degrees()),
             swings,
+            force: GrooveForces::of(self).map(|forces| forces.row((piece, angle))),
             added: vec![(&UPPER_X, upper.x), (&UPPER_Z, upper.y), (&LOWER_X, lower.x), (&LOWER_Z, lower.y)],
             ..Row::default()
         }

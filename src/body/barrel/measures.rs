@@ -1,7 +1,7 @@
 //! What is checked of a barrel as it was solved.
 
 use super::Barrel;
-use crate::body::Body;
+use crate::body::{Body, in_groove};
 use crate::check::continuity::RunMotion;
 use crate::check::{
     Check, CheckExplanation, CheckScope, Measures, Subject, continuity, curvature, cutter_radius, pressure_angle, size,
@@ -61,6 +61,7 @@ impl Barrel {
         of.add(&wall::CHECK, |written| wall::measure((self.wall(), None), written, &subject));
         let longest = MILLIMETRES * (2.0 * self.outer).max(self.ends.1 - self.ends.0);
         of.add(&size::CHECK, |_| size::CHECK.measure(longest, Some(MILLIMETRES * self.machine.limits.largest_size())));
+        in_groove::measured(self, of, &subject);
         of.add(&PLANE_OFFSET, |_| {
             let [outside, floor] = [self.outer, self.floor()].map(|radius| self.offset_error(radius));
             let radial = self.radial_error(self.floor());

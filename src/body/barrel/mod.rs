@@ -2,11 +2,12 @@
 //!
 //! The axis of the roller meets that of the cam, or passes it at an offset. Both flanks follow from its motion exactly (`contact`); no unrolled curve is
 //! offset. The groove is drawn three times: as the developed view of the outside, as the solid with spline flanks, and as tables for a machine with
-//! four axes. Forces are not computed.
+//! four axes.
 
 mod contact;
 mod developed;
 mod flank;
+mod forces;
 mod implementation;
 pub mod measures;
 mod mechanism;
@@ -15,6 +16,7 @@ mod sheet;
 mod solid;
 mod swept;
 mod tables;
+mod tool;
 
 use super::Kind;
 use super::swept::refuse_jumps;

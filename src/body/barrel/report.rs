@@ -1,8 +1,9 @@
 //! The sections of the report on a barrel.
 
 use super::Barrel;
-use crate::body::DrawingEvidence;
 use crate::body::disc::program;
+use crate::body::flank_switch::SwitchFigures;
+use crate::body::{DrawingEvidence, in_groove};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
 use crate::motion::Quantity;
@@ -40,12 +41,15 @@ struct BarrelSection {
     spline_patches: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     spline_deviation_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    switches: Vec<SwitchFigures>,
 }
 
 /// Everything that is reported of a barrel.
 pub(super) fn sections(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Vec<Section> {
     let mut sections = vec![section(barrel, found)];
     sections.extend(program::of_motion(&*barrel.motion, barrel.speed()));
+    sections.extend(in_groove::sections(barrel));
     sections
 }
 
@@ -84,9 +88,11 @@ fn section(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Section {
         mass_kg: volume.map(|volume| volume / CUBIC * barrel.machine.cam.density()),
         spline_patches: drawn.map(|_| barrel.patches()),
         spline_deviation_mm: drawn.map(|drawn| drawn.deviation),
+        switches: in_groove::switches(barrel),
     };
     let words = words(&value, barrel, drawn.map(|drawn| drawn.developed.len()));
-    Section::new("barrel", &value).with_words(words)
+    let figures = words.iter().take(3).cloned().collect();
+    Section::new("barrel", &value).with_words(words).with_figures(figures)
 }
 
 fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<String> {
@@ -131,5 +137,6 @@ fn words(section: &BarrelSection, barrel: &Barrel, arcs: Option<usize>) -> Vec<S
     if bore.is_none() {
         words.push("without a bore".into());
     }
+    words.extend(section.switches.iter().map(SwitchFigures::words));
     words
 }

@@ -2,7 +2,7 @@
 
 use super::Barrel;
 use crate::body::Layer;
-use crate::body::swept::{FlankMiss, RoundFace, RoundForm, SweptFlanks};
+use crate::body::swept::{FlankMiss, RoundFace, RoundForm, SweptFlanks, TurnedCam};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Rotation;
 use nalgebra::{Vector2, Vector3};
@@ -161,6 +161,10 @@ impl Barrel {
 const PANELS_PER_RADIAN: f64 = 4.0;
 
 impl SweptFlanks for Barrel {
+    fn turned(&self) -> Option<&dyn TurnedCam> {
+        Some(self)
+    }
+
     fn miss(&self, point: Vector3<f64>) -> FlankMiss {
         let sense = self.sense();
         let own = Vector3::new(point.x, sense * point.y, point.z) / MILLIMETRES;

@@ -73,12 +73,12 @@ impl Barrel {
     /// A tool of the width of the groove, which is meant where none is given, runs in the middle between both flanks; a smaller one along either flank, which it touches exactly in the
     /// middle of the groove's depth.
     pub(super) fn four_axes_table(&self, samples: u32, tool: Option<f64>) -> Table {
-        let half = 0.5 * self.distances.iter().sum::<f64>();
+        let half = self.widest();
         let one = tool.is_none_or(|tool| tool >= half * (1.0 - ROUNDING));
         let passes: &[Option<FlankSide>] =
             if one { &[None] } else { &[Some(FlankSide::Upper), Some(FlankSide::Lower)] };
         let radius = if one { half } else { tool.unwrap_or(half) };
-        let middle = self.outer - 0.5 * self.depth;
+        let middle = self.half_deep();
         let mut rows = Vec::new();
         for (pass, side) in passes.iter().enumerate() {
             for index in 0..samples {
@@ -86,11 +86,7 @@ impl Barrel {
                 let (piece, angle) = self.motion.locate(at.angle);
                 let axis = self.axis(piece, angle);
                 let (sin, cos) = axis.point(middle).slope;
-                // In the middle between both flanks, or beside one of them.
-                let away = side.map_or(0.5 * (self.distances[0] - self.distances[1]), |side| {
-                    let distance = self.signed(side);
-                    distance - distance.signum() * radius
-                });
+                let away = self.tool_offset(*side, radius);
                 let across = self.sense() * (axis.across[0] - away * sin);
                 let along = axis.along[0] + away * cos;
                 let missed =

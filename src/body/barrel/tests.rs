@@ -1,4 +1,5 @@
 use super::{Barrel, FlankSide};
+use crate::body::in_groove::GrooveForces;
 use crate::body::swept::SweptFlanks;
 use crate::machine::Machine;
 use crate::pipeline::{Cam, Spec};
@@ -64,4 +65,78 @@ fn the_automatic_radius_keeps_the_pressure_angle() {
     let steepest = barrel.largest(|jet| jet.ds.abs()).value;
     let least = steepest / 30.0_f64.to_radians().tan() + barrel.reach;
     assert!(barrel.outer >= least && barrel.outer < least + 1.001e-3, "{} {least}", barrel.outer);
+}
+
+/// The force along the normal turns the cam as the torque says, on a straight path beside the axis and on an arm; over a turn the shaft gives back what it
+/// took.
+#[test]
+fn the_normal_force_turns_the_cam_by_the_torque() {
+    const ARM: &str = r#"name = "Arm"
+motion = { rpm = 150, start = "0 deg", segment = [
+    { law = "cycloidal", over = "150 deg", to = "18 deg" },
+    { law = "cycloidal", over = "150 deg", to = "0 deg" },
+    { law = "dwell" },
+] }
+follower.swinging-roller = { radius = "10 mm", arm = "120 mm", pivot_distance = "118 mm", inertia = "0.08 kg*m2" }
+spring.damping = "2 N*m*s/rad"
+cam = { body = "barrel", outer_radius = "65 mm", groove_depth = "12 mm", clearance = "0.03 mm" }
+"#;
+    let arm = Machine::from_toml("arm.toml", ARM, &[]).expect("valid");
+    let (motion, rpm) = arm.motion().expect("a motion");
+    let arm = Barrel::of(&arm, &motion, rpm).expect("a barrel");
+    let straight = barrel(&["follower.roller.mass=5 kg", "follower.roller.offset=4 mm", "spring.rate=3 N/mm"]).0;
+    for barrel in [straight, arm] {
+        let forces = GrooveForces::of(&barrel).expect("a mass and a speed");
+        let (inner, outer) = barrel.touched();
+        let middle = 0.5 * (inner + outer);
+        for i in 0..40 {
+            let (piece, angle) = barrel.motion.locate(0.157 * f64::from(i) + 0.01);
+            let row = forces.row((piece, angle));
+            let axis = barrel.axis(piece, angle);
+            let (sin, _) = axis.point(middle).slope;
+            let lift = barrel.motion.jet(piece, angle);
+            let sign = row.path.signum();
+            let turned = sign * row.contact.expect("in touch") * sin * middle;
+            assert!((turned - row.torque).abs() < 1e-9 * (1.0 + row.torque.abs()), "{i}: {turned} {row:?} {lift:?}");
+        }
+        let torque = forces.shaft_torque().expect("it turns");
+        let damped = barrel.machine.spring().is_some_and(|spring| spring.damping > 0.0);
+        assert!(if damped { torque.mean > 0.1 } else { torque.mean.abs() < 1e-12 }, "{torque:?}");
+    }
+}
+
+/// Pressure and life by their formulas, the life by a sum over the turn.
+#[test]
+fn pressure_and_life_are_those_of_the_formulas() {
+    let (barrel, _) = barrel(&["follower.roller.mass=8 kg", "follower.roller.bearing.dynamic_rating=20 kN"]);
+    let forces = GrooveForces::of(&barrel).expect("a mass and a speed");
+    let stress = forces.contact_stress().expect("a material");
+    let at = barrel.motion.locate(stress.at);
+    let axis = barrel.axis(at.0, at.1);
+    let (inner, outer) = barrel.touched();
+    let row = forces.row(at);
+    let side = if row.path > 0.0 { -barrel.distances[1] } else { barrel.distances[0] };
+    let sharpest = [inner, outer].map(|v| axis.point(v).reduced_curvature(&axis, side)).into_iter().fold(0.0, f64::max);
+    // Of the clearance, 1.5 µm a side of 10 mm, the pressure takes the roller.
+    let curvature = sharpest - side.abs().recip() + barrel.roller.recip();
+    let modulus = 210e9 / (2.0 * (1.0 - 0.3 * 0.3));
+    let due = (row.contact.expect("in touch") * modulus * curvature / (std::f64::consts::PI * 0.011)).sqrt();
+    assert!((stress.value / due - 1.0).abs() < 1e-9, "{stress:?} {due}");
+    // Mean over the turns of the roller; the midpoint rule has kinks at the changes of flank.
+    let (count, exponent) = (40_000, 10.0 / 3.0);
+    let (mut worn, mut turns) = (0.0, 0.0);
+    for i in 0..count {
+        let angle = std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count);
+        let at = barrel.motion.locate(angle);
+        let line = barrel.axis(at.0, at.1).point(0.5 * (inner + outer));
+        let n = line.speed / barrel.roller / f64::from(count);
+        worn += n * libm::pow(forces.row(at).contact.expect("in touch"), exponent);
+        turns += n;
+    }
+    let load = libm::pow(worn / turns, 1.0 / exponent);
+    let duty = forces.roller_duty().expect("a bearing");
+    assert!((duty.equivalent_load / load - 1.0).abs() < 1e-6, "{duty:?} {load}");
+    assert!((duty.mean_turns / turns - 1.0).abs() < 1e-7, "{duty:?} {turns}");
+    let life = libm::pow(20e3 / load, exponent) * 1e6 / (60.0 * 150.0 * turns);
+    assert!((duty.life.expect("a speed") / life - 1.0).abs() < 1e-5, "{duty:?} {life}");
 }

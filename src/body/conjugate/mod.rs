@@ -8,12 +8,12 @@ mod motion;
 mod report;
 
 use super::disc::{Disc, Hold};
-use super::{Body, Kind, ProgramCams};
+use super::{Kind, ProgramCams};
 use crate::document::cams;
 use crate::follower::{Follower, FollowerPlacement, SwingingRoller, TranslatingRoller};
 use crate::geometry::MILLIMETRES;
 use crate::machine::{CounterData, FollowerData, Machine};
-use crate::motion::Motion;
+use crate::motion::{Motion, Quantity};
 use crate::profile::lifts;
 use crate::refusal::Refusal;
 pub(in crate::body) use motion::CounterMotion;
@@ -43,7 +43,10 @@ pub fn main(machine: &Machine, motion: Arc<dyn Motion>, rpm: Option<f64>) -> Res
 /// As [`main`] and [`counter`].
 pub(super) fn pair(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
     let first = main(machine, Arc::clone(motion), rpm)?;
-    let counter: Arc<dyn Body> = Arc::new(counter(&first, machine, motion, rpm)?);
+    let counter = Arc::new(counter(&first, machine, motion, rpm)?);
+    // The roller of a straight path lies on the other side of the shaft.
+    let later = if motion.quantity() == Quantity::Length { PI } else { 0.0 };
+    let first = first.beside(Arc::clone(&counter), later);
     Ok(ProgramCams { first: (MAIN_NAME, Arc::new(first)), others: vec![(COUNTER.command, counter)] })
 }
 

@@ -1,12 +1,14 @@
 //! How a disc cam and its follower move.
 
 use super::Disc;
-use crate::body::picture::{FollowerPose, RIGID, Scene};
+use crate::body::picture::{FollowerPose, RIGID, Scene, SecondContact};
 use crate::body::{Body, Drawn};
 use crate::follower::Carrier;
 use crate::profile::Curves;
 use crate::report::mechanism::MovingMechanism;
 use crate::table::turned;
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
 
 const WITH_LOAD: &[&str] =
     &["Friction between roller and cam, in bearings and guides: forces and torque are without it."];
@@ -21,8 +23,33 @@ const AT_REST: &[&str] = &["Inertia and damping: without motion.rpm or --rpm the
 const WITHOUT_MASS: &[&str] = &["Inertia: the file gives no mass or inertia of the follower."];
 const WITHOUT_VIBRATION: &[&str] = &["Vibration behind the follower: the file has no table [vibration]."];
 
-/// The mechanism of a disc as it moves; with a second disc that turns with it, a cam angle (rad) later, the roller or face on that as well.
-pub(super) fn of(disc: &Disc, second: Option<(&Disc, f64)>, drawn: &Drawn, samples: u32) -> MovingMechanism {
+/// Places of the profile of a second disc.
+const PROFILE: u32 = 720;
+
+/// A disc whose follower is another roller, or face, of the same follower.
+#[derive(Clone, Copy)]
+pub(in crate::body) struct SecondDisc<'a> {
+    pub(in crate::body) disc: &'a Disc,
+    /// The cam angle (rad) by which its motion is later.
+    pub(in crate::body) later: f64,
+    /// Whether it is a disc of its own, beside the first.
+    pub(in crate::body) is_beside: bool,
+}
+
+impl SecondDisc<'_> {
+    fn profile(&self) -> Vec<Vector2<f64>> {
+        let curves = self.disc.curves();
+        let at = |index: u32| {
+            let (piece, angle) = curves.motion.locate(TAU * f64::from(index) / f64::from(PROFILE));
+            let curve = curves.touch(piece, angle).curve;
+            curve.point - curve.outward() * curves.offset()
+        };
+        if self.is_beside { (0..=PROFILE).map(at).collect() } else { Vec::new() }
+    }
+}
+
+/// The mechanism of a disc as it moves; with a second disc that turns with it the roller or face on that as well.
+pub(super) fn of(disc: &Disc, second: Option<SecondDisc<'_>>, drawn: &Drawn, samples: u32) -> MovingMechanism {
     let Some(part) = drawn.parts.first() else { return MovingMechanism::default() };
     let curves = disc.curves();
     let lobes = disc.motion.lobes();
@@ -51,7 +78,11 @@ pub(super) fn of(disc: &Disc, second: Option<(&Disc, f64)>, drawn: &Drawn, sampl
         carrier,
         part,
         places: places(curves, 0.0),
-        second: second.map_or_else(Vec::new, |(disc, later)| places(disc.curves(), later)),
+        second: second.map(|second| SecondContact {
+            element: second.disc.curves().element(),
+            places: places(second.disc.curves(), second.later),
+            profile: second.profile(),
+        }),
         behind,
         shaft_speed: disc.shaft_speed(),
         rpm: None,

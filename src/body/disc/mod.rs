@@ -11,15 +11,16 @@ mod loaded;
 mod mechanism;
 pub(in crate::body) mod program;
 pub mod residual_vibration;
-pub mod roller_life;
+mod roller_life;
 mod size;
 mod size_figures;
 mod steady_vibration;
 mod stress_remedies;
 mod vibration;
+pub use super::roller_bearing::RollerDuty;
+pub use super::shaft_torque::ShaftTorque;
 pub use duty::{Duty, Purpose};
-pub use dynamics::{ShaftTorque, Spin};
-pub use roller_life::RollerDuty;
+pub use dynamics::Spin;
 pub use vibration::{Movement, Resonance, Vibration};
 mod sheet;
 mod shop_views;
@@ -50,6 +51,7 @@ use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
 use crate::report::{CamMeasures, Section, Shaft, Speeds, degrees};
 use crate::table::{Row, TurnAngles, turned};
+use mechanism::SecondDisc;
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
@@ -91,6 +93,8 @@ pub struct Disc {
     duty: Option<Arc<dyn Duty>>,
     /// What holds its follower on it.
     hold: Hold,
+    /// The disc beside it in a pair, with the cam angle by which its motion is later, rad.
+    other: Option<(Arc<Self>, f64)>,
     /// Spring, guide, crown and vibration of the follower of a motion program.
     program_follower: forces::ProgramFollower,
     /// The sizes that keep every limit; `None` when none does.
@@ -148,8 +152,19 @@ impl Disc {
     }
 
     /// How its mechanism moves with the follower on a second disc that turns with it, a cam angle (rad) later.
-    pub(in crate::body) fn mechanism_with(&self, second: (&Self, f64), drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, Some(second), drawn, samples)
+    pub(in crate::body) fn mechanism_with(
+        &self,
+        (disc, later): (&Self, f64),
+        drawn: &Drawn,
+        samples: u32,
+    ) -> MovingMechanism {
+        mechanism::of(self, Some(SecondDisc { disc, later, is_beside: false }), drawn, samples)
+    }
+
+    /// With another disc beside it, whose motion is later by a cam angle, rad: its pictures show both.
+    #[must_use]
+    pub(in crate::body) fn beside(self, other: Arc<Self>, later: f64) -> Self {
+        Self { other: Some((other, later)), ..self }
     }
 
     fn unsized_of(machine: &Machine, motion: Arc<dyn Motion>) -> Self {
@@ -163,6 +178,7 @@ impl Disc {
             load: None,
             duty: None,
             hold: Hold::Force,
+            other: None,
             program_follower: forces::ProgramFollower::default(),
             smallest: None,
             exact: OnceLock::new(),
@@ -397,7 +413,8 @@ impl Body for Disc {
     }
 
     fn mechanism(&self, drawn: &Drawn, samples: u32) -> MovingMechanism {
-        mechanism::of(self, None, drawn, samples)
+        let second = self.other.as_ref().map(|(disc, later)| SecondDisc { disc, later: *later, is_beside: true });
+        mechanism::of(self, second, drawn, samples)
     }
 
     fn not_modelled(&self) -> Vec<&'static str> {

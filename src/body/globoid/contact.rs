@@ -85,6 +85,13 @@ impl TurretLine {
         }
     }
 
+    /// Derivative of |V| at a place of the centre line by the cam angle, m.
+    pub(super) fn speed_slope(&self, line: &LinePoint) -> f64 {
+        let [angle, by, second] = self.angle;
+        let (tilt, lean) = line.slope;
+        lean * line.v * libm::sin(angle) * by + tilt * line.v * second
+    }
+
     /// The flank at a signed distance from a place of the centre line (m, positive above).
     pub(super) fn flank(&self, line: &LinePoint, distance: f64) -> Vector3<f64> {
         let (sin, cos) = libm::sincos(self.angle[0]);

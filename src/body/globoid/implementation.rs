@@ -1,6 +1,7 @@
 //! The globoid as a [`Body`].
 
 use super::{GLOBOID, Globoid, mechanism, report, sheet};
+use crate::body::in_groove::GrooveForces;
 use crate::body::part;
 use crate::body::picture::RIGID;
 use crate::body::{Body, Cut, DrawError, DrawingEvidence, Drawn, Kind, Request, SweptDrawing, SweptFlanks};
@@ -19,7 +20,8 @@ use nalgebra::Vector2;
 
 /// What is not modelled of a globoid.
 const NOT_MODELLED: &[&str] = &[
-    "Forces: contact stress, torque, the life of the rollers and vibration are not computed for a globoid.",
+    "Vibration and friction are not computed for a globoid.",
+    "The sharing of the force by several rollers: each of those in touch is taken to bear all of it.",
     "The ends of the rollers: they are straight cylinders without a rounded edge.",
     "The lead-in of the grooves: rollers enter them as wide as they are.",
 ];
@@ -45,6 +47,7 @@ impl Globoid {
             position: self.motion.origin().map(|origin| origin + lift.s),
             pressure_angle_deg: Some(steepest.to_degrees()),
             swings: true,
+            force: GrooveForces::of(self).map(|forces| forces.row((piece, angle))),
             ..Row::default()
         }
     }

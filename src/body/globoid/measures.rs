@@ -1,7 +1,8 @@
 //! What is checked of a globoid as it was solved.
 
+use super::contact::TurretLine;
 use super::{Flank, Globoid};
-use crate::body::Body;
+use crate::body::{Body, in_groove};
 use crate::check::continuity::RunMotion;
 use crate::check::{
     Check, CheckExplanation, CheckScope, Measures, Subject, continuity, curvature, cutter_radius, pressure_angle, size,
@@ -39,14 +40,8 @@ impl Globoid {
             for i in 0..=PLACES {
                 let angle = piece.start + (piece.end - piece.start) * f64::from(i) / f64::from(PLACES);
                 for flank in Flank::BOTH {
-                    let inside = |roller: &i32| {
-                        let line = self.line((index, angle, 0.0), f64::from(*roller));
-                        self.touched().into_iter().all(|v| {
-                            let place = line.flank(&line.point(v), self.signed(flank));
-                            let about = libm::atan2(place.z, self.turret.distance - place.xy().norm());
-                            about.abs() <= self.end_angle + AT_END
-                        })
-                    };
+                    let inside =
+                        |roller: &i32| self.touches_wholly(&self.line((index, angle, 0.0), f64::from(*roller)), flank);
                     #[expect(clippy::cast_precision_loss, reason = "a few rollers")]
                     let count = self.rollers().filter(inside).count() as f64;
                     if count < least.0 {
@@ -56,6 +51,15 @@ impl Globoid {
             }
         }
         least
+    }
+
+    /// Whether a flank of a roller's groove lies between the ends over the whole reach of the roller.
+    pub(super) fn touches_wholly(&self, line: &TurretLine, flank: Flank) -> bool {
+        self.touched().into_iter().all(|v| {
+            let place = line.flank(&line.point(v), self.signed(flank));
+            let about = libm::atan2(place.z, self.turret.distance - place.xy().norm());
+            about.abs() <= self.end_angle + AT_END
+        })
     }
 
     /// Least metal, m: about the bore, and of the ribs on the outside, with the cam angle of the latter.
@@ -85,6 +89,7 @@ impl Globoid {
         let (radius, height) = self.rim(self.outside);
         let longest = MILLIMETRES * (2.0 * radius).max(2.0 * self.rim(self.floor).1.max(height));
         of.add(&size::CHECK, |_| size::CHECK.measure(longest, Some(MILLIMETRES * self.machine.limits.largest_size())));
+        in_groove::measured(self, of, &subject);
         of.add(&MESHING, |_| {
             let (count, at) = self.least_touching();
             let kept = count >= 1.0;

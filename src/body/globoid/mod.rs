@@ -2,10 +2,11 @@
 //!
 //! The axes of cam and turret cross at right angles at a distance. The axes of the rollers point away from that of the turret, and each roller passes through a
 //! groove from one end of the cam to the other. Both flanks follow from its motion exactly (`contact`). Outside and floor are parts of two tori about the
-//! turret, the ends are cones about it. Forces are not computed.
+//! turret, the ends are cones about it.
 
 mod contact;
 mod flank;
+mod forces;
 mod implementation;
 pub mod measures;
 mod mechanism;

@@ -1,8 +1,9 @@
 //! The sections of the report on a globoid.
 
 use super::Globoid;
-use crate::body::DrawingEvidence;
 use crate::body::disc::program;
+use crate::body::flank_switch::SwitchFigures;
+use crate::body::{DrawingEvidence, in_groove};
 use crate::geometry::MILLIMETRES;
 use crate::report::{Section, shown};
 use serde::Serialize;
@@ -38,12 +39,15 @@ struct GloboidSection {
     mass_kg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     spline_deviation_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    switches: Vec<SwitchFigures>,
 }
 
 /// Everything that is reported of a globoid.
 pub(super) fn sections(globoid: &Globoid, found: &DrawingEvidence<'_>) -> Vec<Section> {
     let mut sections = vec![section(globoid, found)];
     sections.extend(program::of_motion(&*globoid.motion, globoid.speed()));
+    sections.extend(in_groove::sections(globoid));
     sections
 }
 
@@ -85,9 +89,11 @@ fn section(globoid: &Globoid, found: &DrawingEvidence<'_>) -> Section {
         volume_mm3: volume,
         mass_kg: volume.map(|volume| volume / CUBIC * machine.cam.density()),
         spline_deviation_mm: drawn.map(|drawn| drawn.deviation),
+        switches: in_groove::switches(globoid),
     };
     let words = words(&value, globoid);
-    Section::new("globoid", &value).with_words(words)
+    let figures = words.iter().take(4).cloned().collect();
+    Section::new("globoid", &value).with_words(words).with_figures(figures)
 }
 
 fn words(section: &GloboidSection, globoid: &Globoid) -> Vec<String> {
@@ -131,5 +137,6 @@ fn words(section: &GloboidSection, globoid: &Globoid) -> Vec<String> {
     if globoid.holes().is_empty() {
         words.push("without a bore".into());
     }
+    words.extend(section.switches.iter().map(SwitchFigures::words));
     words
 }

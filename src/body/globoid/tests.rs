@@ -1,4 +1,5 @@
 use super::{End, Flank, Globoid};
+use crate::body::in_groove::{GrooveForces, InGroove};
 use crate::body::swept::SweptFlanks;
 use crate::machine::Machine;
 use crate::pipeline::{Cam, Spec};
@@ -64,4 +65,50 @@ fn a_globoid_is_proved_on_its_file() {
             assert!(proven.findings().iter().any(|finding| finding.check == name), "{name}");
         }
     }
+}
+
+/// The force along the normal turns the cam as the torque says; the turret is moved on against its load by the work of the shaft.
+#[test]
+fn the_normal_force_turns_the_cam_by_the_torque() {
+    let (globoid, _) = globoid(&["cam.turret_inertia=0.4 kg*m2", "spring.load=15 N*m"]);
+    let forces = GrooveForces::of(&globoid).expect("an inertia and a speed");
+    for i in 0..60 {
+        let (piece, angle) = globoid.motion.locate(0.1 * f64::from(i) + 0.01);
+        let row = forces.row((piece, angle));
+        let contacts = globoid.contacts((piece, angle), row.path >= 0.0);
+        assert!(!contacts.is_empty(), "{i}");
+        for contact in contacts {
+            let line = globoid.line((piece, angle, 0.0), f64::from(contact.roller)).point(globoid.turret.arm);
+            let force = row.path.abs() / libm::cos(contact.pressure_angle);
+            assert!(force <= row.contact.expect("in touch") * (1.0 + 1e-12));
+            let turned = row.path.signum() * force * line.slope.0 * line.run;
+            assert!((turned - row.torque).abs() < 1e-9 * (1.0 + row.torque.abs()), "{i}: {turned} {row:?}");
+        }
+    }
+    let torque = forces.shaft_torque().expect("it turns");
+    let work = 15.0 * globoid.turret.index() / std::f64::consts::TAU;
+    assert!((torque.mean - work).abs() < 1e-9, "{torque:?} {work}");
+}
+
+/// The turns of a roller, by a sum over the turns of the cam in which it passes, and the load on its bearing.
+#[test]
+fn a_roller_is_loaded_while_it_passes() {
+    let (globoid, _) = globoid(&["cam.turret_inertia=0.4 kg*m2", "follower.roller.bearing.dynamic_rating=20 kN"]);
+    let forces = GrooveForces::of(&globoid).expect("an inertia and a speed");
+    let duty = forces.roller_duty().expect("a bearing");
+    let (count, exponent) = (20_000, 10.0 / 3.0);
+    let (mut worn, mut turns) = (0.0, 0.0);
+    for i in 0..count {
+        let at = globoid.motion.locate(std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count));
+        let path = forces.row(at).path;
+        for contact in globoid.contacts(at, path >= 0.0) {
+            let sign = if path >= 0.0 { 1.0 } else { -1.0 };
+            let n = (sign * contact.by_path[0] - contact.carrier_turn[0]).abs() / f64::from(count);
+            worn += n * libm::pow(path.abs() / libm::cos(contact.pressure_angle), exponent);
+            turns += n;
+        }
+    }
+    // The midpoint rule errs by a cell wherever another roller comes into touch.
+    assert!((8.0 * duty.mean_turns / turns - 1.0).abs() < 1e-3, "{duty:?} {turns}");
+    assert!((duty.equivalent_load / libm::pow(worn / turns, 1.0 / exponent) - 1.0).abs() < 1e-3, "{duty:?}");
 }

@@ -1,8 +1,8 @@
 //! The figures of a groove or a ring that checks judge: those of the disc under the same roller, and those of the outer flank.
 
-use super::{Groove, RING, switches};
+use super::{Groove, RING};
 use crate::body::disc::delegate::figures_of_its_disc;
-use crate::body::{Body, Figures, stress};
+use crate::body::{Body, Figures, flank_switch, stress};
 use crate::check::{Measures, Subject, curvature};
 use crate::profile::{Contact, Worst};
 
@@ -70,6 +70,6 @@ impl Groove {
             let note = outer(measure.note.clone());
             measure.noted(note)
         });
-        of.add(&switches::CHECK, |_| switches::measure(self, subject));
+        of.add(&flank_switch::CHECK, |_| flank_switch::measure(self.flank_switches(), subject));
     }
 }

@@ -7,7 +7,7 @@
 mod figures;
 mod report;
 mod sheet;
-pub mod switches;
+mod switches;
 
 use super::disc::delegate::body_of_its_disc;
 use super::disc::{self, Disc, Hold};

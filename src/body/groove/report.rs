@@ -1,10 +1,10 @@
 //! The section of the report on a groove or a ring.
 
-use super::switches::FlankSwitch;
 use super::{Groove, RING};
+use crate::body::flank_switch::SwitchFigures;
 use crate::body::{Body, DrawingEvidence};
 use crate::geometry::MILLIMETRES;
-use crate::report::{OutlineMeasures, Rolled, Section, degrees, shown};
+use crate::report::{OutlineMeasures, Rolled, Section, shown};
 use serde::Serialize;
 
 /// A flank.
@@ -20,17 +20,6 @@ struct FlankFigures {
     outline: Option<OutlineMeasures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     rolling: Option<Rolled>,
-}
-
-/// A change of flank.
-#[derive(Debug, Serialize)]
-struct SwitchFigures {
-    cam_deg: f64,
-    to: &'static str,
-    spin_before: f64,
-    spin_after: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    impact_m_per_s: Option<f64>,
 }
 
 /// The section `groove`, or `ring`.
@@ -71,20 +60,10 @@ pub(super) fn section(groove: &Groove, found: &DrawingEvidence<'_>) -> Section {
         clearance_mm: (!is_ring).then_some(MILLIMETRES * track.clearance),
         depth_mm: track.groove_depth.filter(|_| !is_ring).map(|depth| MILLIMETRES * depth),
         flanks: groove.flanks.iter().enumerate().map(flank).collect(),
-        switches: switches.iter().map(switch).collect(),
+        switches: switches.iter().map(|found| SwitchFigures::of(found, ["inner", "outer"])).collect(),
     };
     let words = words(&value);
     Section::new(groove.kind.keys, &value).with_words(words)
-}
-
-fn switch(found: &FlankSwitch) -> SwitchFigures {
-    SwitchFigures {
-        cam_deg: degrees(found.at),
-        to: if found.to_inner { "inner" } else { "outer" },
-        spin_before: found.spin[0],
-        spin_after: found.spin[1],
-        impact_m_per_s: found.impact,
-    }
 }
 
 fn words(section: &TrackSection) -> Vec<String> {
@@ -105,12 +84,6 @@ fn words(section: &TrackSection) -> Vec<String> {
             shown(rolled.gap_mm.abs())
         ))
     }));
-    words.extend(switches.iter().map(|found| {
-        let hit = found.impact_m_per_s.map_or(String::new(), |hit| format!(", hit with {} m/s", shown(hit)));
-        format!(
-            "to the {} flank at {:.3}°: spin of the roller from {:.3} to {:.3}{hit}",
-            found.to, found.cam_deg, found.spin_before, found.spin_after
-        )
-    }));
+    words.extend(switches.iter().map(SwitchFigures::words));
     words
 }

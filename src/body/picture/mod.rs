@@ -68,6 +68,15 @@ pub trait DrivenMechanism {
     fn notes(&self) -> Vec<String>;
 }
 
+/// A second roller or face of the same follower.
+pub(crate) struct SecondContact {
+    pub(crate) element: Element,
+    /// Its places at the angles of the first.
+    pub(crate) places: Vec<FollowerPose>,
+    /// The profile of its own disc, which turns with the first, m; empty where it runs on the same part.
+    pub(crate) profile: Vec<Vector2<f64>>,
+}
+
 /// What is shown of a turning cam.
 pub(crate) struct Scene<'a> {
     pub(crate) machine: &'a Machine,
@@ -75,8 +84,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) carrier: Carrier,
     pub(crate) part: &'a Part,
     pub(crate) places: Vec<FollowerPose>,
-    /// A second roller or face of the same follower, at the same angles; empty where there is none.
-    pub(crate) second: Vec<FollowerPose>,
+    /// A second roller or face of the same follower.
+    pub(crate) second: Option<SecondContact>,
     /// The mechanism that the follower drives; its path then lies along +x.
     pub(crate) behind: Option<Box<dyn DrivenMechanism>>,
     pub(crate) shaft_speed: Option<f64>,
@@ -154,12 +163,13 @@ impl Scene<'_> {
         cover.add((-radius, radius), (-1.2 * radius, radius));
         more(&mut parts, &mut cover);
         parts.extend(self.follower(&mut cover));
+        parts.extend(self.second.iter().flat_map(|second| self.second_disc(second, &mut cover)));
         parts.extend(self.cam());
-        parts.extend(self.touching(&self.places));
-        if !self.second.is_empty() {
-            parts.extend(self.touching(&self.second));
-            parts.extend(self.second_face());
-            self.add_second(&mut cover);
+        parts.extend(self.touching(self.element, &self.places));
+        if let Some(second) = &self.second {
+            parts.extend(self.touching(second.element, &second.places));
+            parts.extend(self.second_face(second));
+            self.add_second(second, &mut cover);
         }
         let size = cover.0.largest - cover.0.least;
         MechanismView {
@@ -184,7 +194,7 @@ impl Scene<'_> {
 
     fn cam(&self) -> Vec<RigidPart> {
         let shapes = self.part.rims().into_iter().map(|rim| SheetShape::Entity(rim.curve)).collect();
-        let turn: Vec<f64> = self.places.iter().map(|placed| self.path_deg() - self.sense() * placed.cam_deg).collect();
+        let turn = self.turns();
         let bore = MILLIMETRES * self.machine.cam.bore_radius.unwrap_or(0.0);
         let edge = self.places.first().map_or(0.0, |placed| placed.curve.norm() - self.element.offset());
         // θ = 0 is the +X axis of the drawing.
@@ -198,6 +208,28 @@ impl Scene<'_> {
             RigidPart::new("mark", mark).turned(turn),
             RigidPart::new("ground", axis).named("cam", 0.0, -1.04 * self.largest_radius()),
         ]
+    }
+
+    /// How far the cam has turned, degrees.
+    fn turns(&self) -> Vec<f64> {
+        self.places.iter().map(|placed| self.path_deg() - self.sense() * placed.cam_deg).collect()
+    }
+
+    /// The other disc of a pair, behind the first, with the arm of its roller.
+    fn second_disc(&self, second: &SecondContact, cover: &mut Cover) -> Vec<RigidPart> {
+        if second.profile.is_empty() {
+            return Vec::new();
+        }
+        let sense = self.sense();
+        let on_drawing = |point: &Vector2<f64>| Vector2::new(point.x, sense * point.y) * MILLIMETRES;
+        let profile: Vec<Vector2<f64>> = second.profile.iter().map(on_drawing).collect();
+        let radius = profile.iter().map(Vector2::norm).fold(0.0, f64::max);
+        cover.add((-radius, radius), (-radius, radius));
+        let arm = match self.carrier {
+            Carrier::Arm { pivot } => self.arm(pivot * MILLIMETRES, &Self::locals_of(&second.places), cover),
+            _ => Vec::new(),
+        };
+        arm.into_iter().chain([RigidPart::new("cam", vec![SheetShape::Path(profile)]).turned(self.turns())]).collect()
     }
 
     /// How the cam turns: an arc about the shaft with a head.
@@ -216,24 +248,25 @@ impl Scene<'_> {
     }
 
     /// With the second roller or face.
-    fn add_second(&self, cover: &mut Cover) {
+    fn add_second(&self, second: &SecondContact, cover: &mut Cover) {
         let margin = self.roller();
-        for at in Self::locals_of(&self.second).iter().map(|p| self.shown(*p)) {
-            cover.add((at.x - margin, at.x + margin), (at.y - margin, at.y + margin));
+        for at in Self::locals_of(&second.places).iter().map(|p| self.shown(*p)) {
+            // With its name below it.
+            cover.add((at.x - margin, at.x + margin), (at.y - 1.5 * margin, at.y + margin));
         }
     }
 
     /// The second face, which is parallel to the first.
-    fn second_face(&self) -> Option<RigidPart> {
+    fn second_face(&self, second: &SecondContact) -> Option<RigidPart> {
         if self.element != Element::Face {
             return None;
         }
-        let (x, y) = self.tracks(&Self::locals_of(&self.second));
+        let (x, y) = self.tracks(&Self::locals_of(&second.places));
         let half = 0.6 * self.largest_radius();
         Some(
             RigidPart::new("follower", vec![line((0.0, -half), (0.0, half))])
                 .at(x, y)
-                .turned(self.normals(&self.second)),
+                .turned(self.normals(&second.places)),
         )
     }
 
@@ -249,11 +282,11 @@ impl Scene<'_> {
     }
 
     /// The roller or the contact on a face, with the normal there.
-    fn touching(&self, places: &[FollowerPose]) -> Vec<RigidPart> {
+    fn touching(&self, element: Element, places: &[FollowerPose]) -> Vec<RigidPart> {
         let locals = Self::locals_of(places);
         let (x, y) = self.tracks(&locals);
         let normal = self.normals(places);
-        match self.element {
+        match element {
             Element::Roller { radius: 0.0 } => {
                 let reach = 2.0 * self.roller();
                 vec![RigidPart::new("normal", vec![line((-0.5 * reach, 0.0), (reach, 0.0))]).at(x, y).turned(normal)]

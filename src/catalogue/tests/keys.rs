@@ -154,6 +154,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("cam.advance", "2"),
     ("cam.rests_on", "groove"),
     ("cam.end_angle", "50 deg"),
+    ("cam.turret_inertia", "0.3 kg*m2"),
     ("cam.roller_distance", "50 mm"),
     ("cam.breadth", "150 mm"),
     ("cam.length", "170 mm"),
@@ -299,8 +300,15 @@ fn alike(machine: Machine) -> String {
 }
 
 /// Keys that only a globoid has.
-const OF_A_TURRET: [&str; 6] =
-    ["cam.turret_distance", "cam.arm", "cam.rollers", "cam.advance", "cam.rests_on", "cam.end_angle"];
+const OF_A_TURRET: [&str; 7] = [
+    "cam.turret_distance",
+    "cam.arm",
+    "cam.rollers",
+    "cam.advance",
+    "cam.rests_on",
+    "cam.end_angle",
+    "cam.turret_inertia",
+];
 
 /// A file of a press and a motion program, with the follower that a key belongs to, or a roller.
 fn file_for(path: &str) -> String {

@@ -7,9 +7,9 @@ mod dialect;
 mod iso;
 mod klartext;
 mod machine_state;
-mod polar;
+mod turned;
 
-pub use polar::PolarPass;
+pub use turned::{StandingMove, TurnedPass};
 
 use crate::geometry::contour::Segment;
 use crate::machine::Controller;
@@ -137,8 +137,10 @@ pub struct CutterProgram {
     pub unknown: Vec<String>,
     /// The side of the cutter where it ends.
     pub side_at_end: CutterSide,
-    /// Passes in polar coordinates, in the place of moves, of a program that turns a disc.
-    pub polar: Vec<PolarPass>,
+    /// Passes, in the place of moves, of a program that turns the cam under its tool.
+    pub turned: Vec<TurnedPass>,
+    /// The moves of such a program to its passes and away from them.
+    pub standing: Vec<StandingMove>,
 }
 
 /// Whether bytes are a program: a dialogue begins with its name, other programs state in their head how their words are meant.
@@ -173,8 +175,8 @@ pub fn read_for(bytes: &[u8], design: Option<Controller>) -> Result<CutterProgra
         std::str::from_utf8(bytes).map_err(|_| Refusal::new("the program has characters that no control reads"))?;
     if text.to_ascii_uppercase().contains("BEGIN PGM") {
         klartext::read(text)
-    } else if polar::is_polar(text) {
-        polar::read(text, design)
+    } else if let Some(axis) = turned::axis_of(text) {
+        turned::read(text, axis, design)
     } else {
         iso::read(text, design)
     }

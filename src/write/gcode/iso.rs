@@ -26,8 +26,8 @@ pub(super) fn write(program: &MillingProgram, comments: &[String], name: &str) -
     let mut text = IsoText { program, decimals, text: String::new(), at: Vector2::zeros() };
     text.begin(comments, name);
     for depth in &program.depths {
-        if let Some(path) = &program.polar {
-            text.polar(path, *depth);
+        if let Some(path) = &program.turned {
+            text.turned(path, *depth);
         }
         for pass in &program.passes {
             text.pass(pass, *depth);

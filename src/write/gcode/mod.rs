@@ -5,7 +5,7 @@
 
 mod iso;
 mod klartext;
-mod polar;
+mod turned;
 
 use super::number::short;
 use super::{Format, FormatSelection, of_parts};
@@ -24,7 +24,9 @@ pub const FORMAT: Format = Format {
     unfit: milling::unfit,
     endings: |drawn| {
         let controller = drawn.programs.as_ref().ok().and_then(|programs| programs.first());
-        of_parts(drawn, controller.map_or(Controller::default(), |program| program.controller).ending())
+        let ending = controller.map_or(Controller::default(), |program| program.controller).ending();
+        // What a roller sweeps in space is drawn without parts.
+        if drawn.swept.is_some() { vec![ending.to_owned()] } else { of_parts(drawn, ending) }
     },
     write: |cam| match (cam.drawn.programs.as_ref(), cam.programs) {
         (Err(why), _) => Err(Refusal::new(why.clone())),
@@ -106,27 +108,25 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
         },
         |radius| format!("path of the centre of a cutter of diameter {} mm, {sense}", millimetres(2.0 * radius)),
     );
-    let polar = program.polar.is_some();
-    let flanks: Vec<&str> = program.passes.iter().map(|pass| pass.words.as_str()).collect();
+    let axis = program.turned.as_ref().map(|turned| turned.axis);
+    let turned = program.turned.iter().flat_map(|turned| turned.rounds.iter().map(|round| round.words.as_str()));
+    let flanks: Vec<&str> = program.passes.iter().map(|pass| pass.words.as_str()).chain(turned).collect();
     let count = program.depths.len();
     let passes = if count == 1 { "pass" } else { "passes" };
     let plate = curves(body).is_some_and(|curves| curves.motion.period().is_none());
-    let origin = if polar {
-        "X the distance of the wheel from the axis of the shaft, C0 as in the drawing, Y0"
-    } else if plate {
-        "X0 Y0 as in the drawing"
-    } else {
-        "X0 Y0 as in the drawing: the axis of the shaft"
+    let origin = match axis {
+        Some('C') => "X the distance of the wheel from the axis of the shaft, C0 as in the drawing, Y0",
+        Some(_) => {
+            "X along the axis of A from z = 0 of the drawing, Y0 on it, A0 as in the drawing, A as if the tool went about the cam by the right hand along X"
+        }
+        None if plate => "X0 Y0 as in the drawing",
+        None => "X0 Y0 as in the drawing: the axis of the shaft",
     };
+    let face = if axis == Some('A') { "the outside of the cam" } else { "the upper face" };
     vec![
-        format!(
-            "{}: {}, {}",
-            body.machine().name(),
-            body.kind().noun,
-            if polar { "profile".into() } else { flanks.join(", ") }
-        ),
+        format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
         path,
-        format!("{origin}, Z0 the upper face, {} mm deep in {count} {passes}", short(depth, 6)),
+        format!("{origin}, Z0 {face}, {} mm deep in {count} {passes}", short(depth, 6)),
         "bore, keyway and holes are not in this program".to_owned(),
     ]
 }

@@ -55,7 +55,7 @@ fn view(conoid: &Conoid, (rpm, z, section): (f64, f64, &Reversal), part: &Part, 
         under_a_linkage: conoid.machine.end().is_some(),
     };
     let scene = Scene {
-        second: Vec::new(),
+        second: None,
         machine: &conoid.machine,
         element: Element::Roller { radius: conoid.roller.radius },
         carrier: Carrier::Straight,

@@ -1,5 +1,5 @@
-//! Programs for grinding in polar coordinates: the axis C turns the disc, X moves the wheel, Z sets its depth, and the control goes straight in C
-//! and X at once, in the time that each block gives (G93).
+//! Programs for a cam that is turned under its tool: the axis C turns a disc, or A a barrel, X and Y move the tool, Z sets its depth, and the control goes straight
+//! in all at once, in the time that each block gives (G93).
 
 use super::dialect::{dialect, moves_the_profile};
 use super::iso::{counted, is_known, of, without_comments, words};
@@ -10,39 +10,56 @@ use crate::refusal::Refusal;
 
 /// Once round at a depth.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PolarPass {
+pub struct TurnedPass {
     /// Line of the file in which it begins.
     pub line: usize,
-    /// How deep it is, mm below the upper face.
+    /// The letter of the axis that turns.
+    pub axis: char,
+    /// How deep it is, mm below the upper face or the outside.
     pub depth: f64,
-    /// Angle of C, degrees, and X, mm, from its start to its end.
-    pub rows: Vec<[f64; 2]>,
+    /// Angle of the axis, degrees, X and Y, mm, from its start to its end.
+    pub rows: Vec<[f64; 3]>,
+}
+
+/// A straight move below the face while the cam stands still, to a pass or away from it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StandingMove {
+    /// Line of the file.
+    pub line: usize,
+    /// Angle of the axis that turns, degrees.
+    pub angle: f64,
+    /// X and Y of its ends, mm.
+    pub ends: [[f64; 2]; 2],
 }
 
 /// The state of a control.
 #[derive(Debug, Default)]
-struct PolarState {
+struct TurnedState {
     motion: Option<u32>,
     stated: [bool; 3],
     by_time: bool,
     ended: bool,
-    /// X, C and Z.
-    at: [Option<f64>; 3],
+    axis: char,
+    /// The angle, X, Y and Z.
+    at: [Option<f64>; 4],
     feed: Option<f64>,
     program: CutterProgram,
-    open: Option<PolarPass>,
+    open: Option<TurnedPass>,
 }
 
-/// Whether a program moves the axis C.
-pub(super) fn is_polar(text: &str) -> bool {
+/// The axis that a program turns, C or A; `None` where it turns none.
+pub(super) fn axis_of(text: &str) -> Option<char> {
     let blocks = text.lines().filter_map(without_comments);
-    blocks.filter_map(|block| words(block.trim())).any(|words| words.iter().any(|(letter, _)| *letter == 'C'))
+    let mut letters = blocks.filter_map(|block| words(block.trim())).flatten().map(|(letter, _)| letter);
+    letters.find(|letter| ['A', 'C'].contains(letter))
 }
 
 /// Reads a program.
-pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
+pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
     let control = dialect(text, design);
-    let mut state = PolarState::default();
+    // Of a disc the tool stays over the axis, whatever is not said.
+    let beside = (axis == 'C').then_some(0.0);
+    let mut state = TurnedState { axis, at: [None, None, beside, None], ..TurnedState::default() };
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         let block = without_comments(whole).ok_or_else(|| at_line(line, "a comment does not end"))?;
@@ -57,10 +74,10 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             counted(line, block)?;
         }
         match words(block) {
-            Some(words) if words.iter().all(|word| word.0 == 'C' || *word == ('G', 93.0) || is_known(*word)) => {
+            Some(words) if words.iter().all(|word| word.0 == axis || *word == ('G', 93.0) || is_known(*word)) => {
                 state.run(line, &words)?;
             }
-            _ if state.at == [None; 3] => state.program.unknown.push(block.to_owned()),
+            _ if [0, 1, 3].iter().all(|axis| state.at[*axis].is_none()) => state.program.unknown.push(block.to_owned()),
             _ => return Err(at_line(line, format!("`{block}` is not known, and what it does to the path neither"))),
         }
     }
@@ -71,13 +88,13 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
     }
 }
 
-impl PolarState {
+impl TurnedState {
     fn run(&mut self, line: usize, words: &[(char, f64)]) -> Result<(), Refusal> {
         let refused = |what: &str| Err(at_line(line, what));
         for (_, number) in words.iter().filter(|(letter, _)| *letter == 'G') {
             match (10.0 * number).round() {
                 0.0 | 10.0 => self.motion = Some(u32::from(*number > 0.5)),
-                20.0 | 30.0 => return refused("an arc (G2, G3) has no meaning between C and X"),
+                20.0 | 30.0 => return refused("an arc (G2, G3) has no meaning on a cam that is turned"),
                 170.0 => self.stated[0] = true,
                 210.0 | 710.0 | 7100.0 => self.stated[1] = true,
                 900.0 => self.stated[2] = true,
@@ -94,16 +111,15 @@ impl PolarState {
         let feed = of(line, words, 'F')?;
         // A time holds for its block alone.
         self.feed = if self.by_time { feed } else { feed.or(self.feed) };
-        if of(line, words, 'Y')?.is_some_and(|y| y != 0.0) {
+        let [angle, x, y, z] = [self.axis, 'X', 'Y', 'Z'].map(|axis| of(line, words, axis));
+        let to = [angle?, x?, y?, z?];
+        if self.axis == 'C' && to[2].is_some_and(|y| y != 0.0) {
             return refused("the wheel leaves the line through the axis (Y)");
         }
-        let to = ['X', 'C', 'Z'].map(|axis| of(line, words, axis));
-        let [x, c, z] = to;
-        let to = [x?, c?, z?];
-        if to == [None; 3] { Ok(()) } else { self.go(line, to) }
+        if to == [None; 4] { Ok(()) } else { self.go(line, to) }
     }
 
-    fn go(&mut self, line: usize, to: [Option<f64>; 3]) -> Result<(), Refusal> {
+    fn go(&mut self, line: usize, to: [Option<f64>; 4]) -> Result<(), Refusal> {
         let refused = |what: &str| Err(at_line(line, what));
         if self.stated != [true; 3] {
             return refused(
@@ -114,13 +130,14 @@ impl PolarState {
         for (own, new) in self.at.iter_mut().zip(to) {
             *own = new.or(*own);
         }
-        let moves = [0, 1, 2].map(|axis| before[axis] != self.at[axis]);
+        let moves = [0, 1, 2, 3].map(|axis| before[axis] != self.at[axis]);
+        let [turns, along, down] = [moves[0], moves[1] || moves[2], moves[3]];
         let below = |z: Option<f64>| z.is_some_and(|z| z < 0.0);
-        let deep = below(before[2]) || below(self.at[2]);
+        let deep = below(before[3]) || below(self.at[3]);
         match self.motion {
             None => return refused("the wheel is to move, and it is not stated how (G0, G1)"),
             Some(0) if !deep => return Ok(()),
-            Some(0) if !moves[0] && !moves[1] && self.at[2] > before[2] => return self.close(line),
+            Some(0) if !turns && !along && self.at[3] > before[3] => return self.close(line),
             Some(0) => return refused("a rapid move goes below the upper face"),
             Some(_) => {}
         }
@@ -135,41 +152,50 @@ impl PolarState {
             }
             Some(_) => {}
         }
-        if moves[2] && (moves[0] || moves[1]) {
+        if down && (turns || along) {
             return refused("a move changes place and depth at once");
         }
-        if moves[1] && !self.by_time {
-            return refused("C and X move together at a feed of X alone: it needs the time of each block (G93)");
+        if turns && !self.by_time {
+            let what = format!("{} moves at a feed of X alone: it needs the time of each block (G93)", self.axis);
+            return Err(at_line(line, what));
         }
-        let [Some(x), Some(c), Some(z)] = self.at else { return Ok(()) };
-        let [Some(from_x), Some(from_c), _] = before else { return Ok(()) };
-        if !deep {
+        if deep { self.cut(line, before, (turns, along)) } else { Ok(()) }
+    }
+
+    /// A move at a feed below the face.
+    fn cut(&mut self, line: usize, before: [Option<f64>; 4], (turns, along): (bool, bool)) -> Result<(), Refusal> {
+        let [Some(angle), Some(x), Some(y), Some(z)] = self.at else { return Ok(()) };
+        let [Some(from), Some(from_x), Some(from_y), _] = before else { return Ok(()) };
+        if turns {
+            let axis = self.axis;
+            let start = || TurnedPass { line, axis, depth: -z, rows: vec![[from, from_x, from_y]] };
+            self.open.get_or_insert_with(start).rows.push([angle, x, y]);
             return Ok(());
         }
-        if moves[1] {
-            let start = || PolarPass { line, depth: -z, rows: vec![[from_c, from_x]] };
-            self.open.get_or_insert_with(start).rows.push([c, x]);
-            return Ok(());
-        }
-        if moves[0] && self.open.as_ref().is_some_and(|pass| pass.turned() < 360.0 - SAME) {
-            // Straight towards or away from the axis within a pass.
+        if along && self.open.as_ref().is_some_and(|pass| pass.turned() < 360.0 - SAME) {
+            // Straight within a pass.
             if let Some(pass) = &mut self.open {
-                pass.rows.push([c, x]);
+                pass.rows.push([angle, x, y]);
             }
             return Ok(());
         }
-        self.close(line)
+        self.close(line)?;
+        if along {
+            self.program.standing.push(StandingMove { line, angle, ends: [[from_x, from_y], [x, y]] });
+        }
+        Ok(())
     }
 
     /// Ends a pass, where one is open.
     fn close(&mut self, line: usize) -> Result<(), Refusal> {
         let Some(pass) = self.open.take() else { return Ok(()) };
         let ends = pass.rows.first().zip(pass.rows.last());
-        let closes = ends.is_some_and(|(first, last)| (first[1] - last[1]).abs() < SAME);
-        if !closes || (pass.turned() - 360.0).abs() > SAME {
-            return Err(at_line(line, format!("the pass from line {} on does not close round the disc", pass.line)));
+        let same =
+            |(first, last): (&[f64; 3], &[f64; 3])| [1, 2].iter().all(|at| (first[*at] - last[*at]).abs() < SAME);
+        if !ends.is_some_and(same) || (pass.turned() - 360.0).abs() > SAME {
+            return Err(at_line(line, format!("the pass from line {} on does not close round the cam", pass.line)));
         }
-        self.program.polar.push(pass);
+        self.program.turned.push(pass);
         Ok(())
     }
 }
@@ -177,8 +203,8 @@ impl PolarState {
 /// Angles, degrees, and lengths, mm, that differ by less are equal.
 const SAME: f64 = 1e-7;
 
-impl PolarPass {
-    /// By how much C turns, degrees.
+impl TurnedPass {
+    /// By how much the axis turns, degrees.
     #[must_use]
     pub fn turned(&self) -> f64 {
         let ends = self.rows.first().zip(self.rows.last());
@@ -195,11 +221,34 @@ mod tests {
 
     #[test]
     fn a_turn_of_the_disc_is_read_as_its_rows() {
-        assert!(is_polar(PROGRAM) && !is_polar("G1 X1 (C1)\nCYCLE832(1)\n"));
-        let found = read(PROGRAM, None).expect("a program");
-        assert_eq!(found.polar.len(), 1);
-        assert_eq!(found.polar[0].rows, [[0.0, 30.0], [-90.0, 31.0], [-180.0, 32.0], [-360.0, 30.0]]);
-        assert_eq!(found.polar[0].depth, 2.0);
+        assert!(axis_of(PROGRAM) == Some('C') && axis_of("G1 X1 (C1)\nCYCLE832(1)\n").is_none());
+        let found = read(PROGRAM, 'C', None).expect("a program");
+        assert_eq!(found.turned.len(), 1);
+        let rows = [[0.0, 30.0, 0.0], [-90.0, 31.0, 0.0], [-180.0, 32.0, 0.0], [-360.0, 30.0, 0.0]];
+        assert_eq!(found.turned[0].rows, rows);
+        assert_eq!(found.turned[0].depth, 2.0);
+        let standing: Vec<_> = found.standing.iter().map(|moved| (moved.angle, moved.ends)).collect();
+        assert_eq!(standing, [(0.0, [[40.0, 0.0], [30.0, 0.0]]), (-360.0, [[30.0, 0.0], [40.0, 0.0]])]);
+    }
+
+    const OF_A_BARREL: &str = "G17 G21 G40 G90 G94\nG0 Z5.\nG0 X4. Y1. A0.\nG1 Z-2. F100\nG1 X3. Y0.5 F50\nG93\nG1 X2. Y0. A90. F4.\nG1 A180. F4.\n\
+                               G1 X3. Y0.5 A360. F4.\nG94\nG1 X4. Y1. F300\nG0 Z5.\nM30\n";
+
+    #[test]
+    fn a_turn_of_a_barrel_is_read_as_its_rows() {
+        assert_eq!(axis_of(OF_A_BARREL), Some('A'));
+        let found = read(OF_A_BARREL, 'A', None).expect("a program");
+        let rows = [[0.0, 3.0, 0.5], [90.0, 2.0, 0.0], [180.0, 2.0, 0.0], [360.0, 3.0, 0.5]];
+        assert_eq!(found.turned[0].rows, rows);
+        assert_eq!(found.standing.len(), 2);
+        for (from, to, why) in [
+            ("X3. Y0.5 A360.", "X3. Y0.6 A360.", "does not close"),
+            ("G0 X4. Y1. A0.", "G0 X4. A0.", "not known"),
+            ("G93\n", "", "G93"),
+        ] {
+            let found = read(&OF_A_BARREL.replacen(from, to, 1), 'A', None);
+            assert!(found.as_ref().is_err_and(|found| found.to_string().contains(why)), "{to}: {found:?}");
+        }
     }
 
     #[test]
@@ -217,10 +266,10 @@ mod tests {
             ("G0 X40. C0.", "G68 X0 Y0 R3\nG0 X40. C0.", "turns the profile"),
             ("G94\nG1 X40. F300\nG0 Z5.\n", "", "depth"),
         ] {
-            let found = read(&PROGRAM.replacen(from, to, 1), None);
+            let found = read(&PROGRAM.replacen(from, to, 1), 'C', None);
             assert!(found.as_ref().is_err_and(|found| found.to_string().contains(why)), "{to}: {found:?}");
         }
-        let fanuc = read(&PROGRAM.replacen("X31.", "X31", 1), Some(Controller::Fanuc));
+        let fanuc = read(&PROGRAM.replacen("X31.", "X31", 1), 'C', Some(Controller::Fanuc));
         assert!(fanuc.is_err_and(|why| why.to_string().contains("decimal point")));
     }
 }

@@ -1,0 +1,49 @@
+//! The roller of a barrel under force.
+
+use super::Barrel;
+use super::contact::RollerPath;
+use crate::body::in_groove::{GrooveContact, InGroove};
+use crate::motion::Motion;
+
+impl InGroove for Barrel {
+    fn motion(&self) -> &dyn Motion {
+        &*self.motion
+    }
+
+    fn rpm(&self) -> Option<f64> {
+        self.rpm
+    }
+
+    fn roller(&self) -> f64 {
+        self.roller
+    }
+
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn contacts(&self, (piece, angle): (usize, f64), _lifting: bool) -> Vec<GrooveContact> {
+        let lift = self.motion.jet(piece, angle);
+        let axis = self.path.at(&lift);
+        let (inner, outer) = self.touched();
+        let middle = 0.5 * (inner + outer);
+        let line = axis.point(middle);
+        let (leverage, carrier_turn) = match self.path {
+            RollerPath::Straight { .. } => (1.0, [0.0; 2]),
+            RollerPath::Arm { arm, side, .. } => (arm, [side * lift.ds, side * lift.dds]),
+        };
+        // The flank that lifts lies below.
+        let curvatures = [-self.distances[1], self.distances[0]].map(|distance| {
+            let flank = |v: f64| axis.point(v).reduced_curvature(&axis, distance) - distance.abs().recip();
+            self.roller.recip() + flank(inner).max(flank(middle)).max(flank(outer))
+        });
+        vec![GrooveContact {
+            roller: 0,
+            pressure_angle: self.path.pressure_angle(&lift, middle),
+            leverage,
+            curvatures,
+            by_path: [line.speed, line.speed_slope(&axis)].map(|speed| speed / self.roller),
+            carrier_turn,
+        }]
+    }
+}

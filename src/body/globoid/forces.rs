@@ -1,0 +1,67 @@
+//! The rollers of a turret under force.
+
+use super::contact::TurretLine;
+use super::{Flank, Globoid};
+use crate::body::in_groove::{GrooveContact, InGroove};
+use crate::motion::Motion;
+
+impl Globoid {
+    fn contact(&self, roller: i32, line: &TurretLine) -> GrooveContact {
+        let middle = self.turret.arm;
+        let point = line.point(middle);
+        let (tilt, lean) = point.slope;
+        // The flank that lifts lies below.
+        let curvatures = [Flank::Lower, Flank::Upper].map(|flank| {
+            let distance = self.signed(flank);
+            let of = |v: f64| line.reduced_curvature(&line.point(v), distance) - distance.abs().recip();
+            let [outside, reached] = self.touched();
+            self.roller.recip() + of(outside).max(of(middle)).max(of(reached))
+        });
+        let (sin, cos) = libm::sincos(line.angle[0]);
+        GrooveContact {
+            roller,
+            pressure_angle: libm::atan2(tilt, lean),
+            leverage: middle,
+            curvatures,
+            by_path: [point.speed, line.speed_slope(&point)].map(|speed| speed / self.roller),
+            carrier_turn: [sin, cos * line.angle[1]],
+        }
+    }
+}
+
+impl InGroove for Globoid {
+    fn motion(&self) -> &dyn Motion {
+        &*self.motion
+    }
+
+    fn rpm(&self) -> Option<f64> {
+        self.rpm
+    }
+
+    fn roller(&self) -> f64 {
+        self.roller
+    }
+
+    fn reach(&self) -> f64 {
+        self.reached - self.outside
+    }
+
+    /// Those that touch over their whole reach, else those whose centre lines lie between the ends.
+    fn contacts(&self, (piece, angle): (usize, f64), lifting: bool) -> Vec<GrooveContact> {
+        let flank = if lifting { Flank::Lower } else { Flank::Upper };
+        let lines = || self.rollers().map(|roller| (roller, self.line((piece, angle, 0.0), f64::from(roller))));
+        let whole: Vec<GrooveContact> = lines()
+            .filter(|(_, line)| self.touches_wholly(line, flank))
+            .map(|(roller, line)| self.contact(roller, &line))
+            .collect();
+        if !whole.is_empty() {
+            return whole;
+        }
+        let between = lines().filter(|(_, line)| line.angle[0].abs() <= self.end_angle);
+        between.map(|(roller, line)| self.contact(roller, &line)).collect()
+    }
+
+    fn share_of_turns(&self) -> f64 {
+        f64::from(self.turret.rollers).recip()
+    }
+}
