@@ -161,6 +161,9 @@ def offset_inwards(centre, speed, radius):
 class Roller:
     unit, flag = "mm", "roller"
 
+    def exists(self):
+        return True
+
     def __init__(self, rng, knife=False):
         self.radius = 0.0 if knife else round(rng.uniform(8, 20), 1)
         self.offset = 0.0 if rng.random() < 0.5 else round(rng.uniform(-12, 12), 1)
@@ -184,6 +187,9 @@ class Roller:
 class Flat:
     unit = "mm"
 
+    def exists(self):
+        return True
+
     def __init__(self, rng):
         self.base = float(rng.randint(60, 110))
         self.lift = round(rng.uniform(4, 12), 1)
@@ -198,6 +204,11 @@ class Flat:
 
 class SwingingRoller:
     unit = "deg"
+
+    def exists(self):
+        """Whether the arm reaches the roller at its lowest place."""
+        prime = self.base + self.radius
+        return abs(self.pivot - self.arm) < prime < self.pivot + self.arm
 
     def __init__(self, rng):
         self.radius = round(rng.uniform(8, 18), 1)
@@ -223,6 +234,9 @@ class SwingingRoller:
 
 class SwingingFlat:
     unit = "deg"
+
+    def exists(self):
+        return self.base + self.face < self.pivot
 
     def __init__(self, rng):
         self.pivot = float(rng.randint(140, 190))
@@ -305,7 +319,7 @@ def check_points(binary, folder, kind, seed):
     while True:
         follower = FOLLOWERS[kind](rng)
         motion = Motion(rng, follower.lift)
-        if is_sound(follower, motion):
+        if follower.exists() and is_sound(follower, motion):
             break
     count = rng.choice([720, 1000, 1440])
     angle = np.linspace(0, TAU, count, endpoint=False)
