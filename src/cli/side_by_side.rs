@@ -34,7 +34,7 @@ pub(super) fn run(args: &SideBySideArgs) -> Result<Outcome, Failure> {
         return Ok(Outcome::CheckFailed);
     }
     for report in [&mut one, &mut two] {
-        report.files = vec![args.out.join(&name).display().to_string()];
+        report.files = vec![camgen::report::listed_path(&args.out.join(&name))];
     }
     let page = {
         let shown = a.rendering(&one, SAMPLES, svg::TEMPLATE).map_err(Failure::new)?;

@@ -111,7 +111,7 @@ fn of_first(whole: &ProvenAssembly, writing: &Writing, other_names: &[String]) -
         return Err(Error::Unfit { format: format.name, why: "the flank of this cam was not drawn (Request::flank)" });
     }
     let names = names(proven, &ProvenAssembly::writing(whole.name(), writing))?;
-    let placed = names.iter().chain(other_names).map(|name| writing.directory.join(name).display().to_string());
+    let placed = names.iter().chain(other_names).map(|name| crate::report::listed_path(&writing.directory.join(name)));
     let files: Vec<String> = placed.collect();
     let assembly = whole.clone();
     let report = LazyReport::new(Box::new(move || Report { files, ..assembly.report() }));

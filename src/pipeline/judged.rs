@@ -157,7 +157,7 @@ impl Judged {
         // A report in a file names the files.
         let mut report = self.report();
         let all = names.iter().chain(cam_names);
-        report.files = all.map(|name| writing.directory.join(name).display().to_string()).collect();
+        report.files = all.map(|name| crate::report::listed_path(&writing.directory.join(name))).collect();
         let account = AnalysisRendering { analysis: &self.analysis, report: &report, template: &writing.template };
         let made: Vec<_> =
             formats.iter().map(|format| (format.write)(&account)).collect::<Result<_, _>>().map_err(Error::Format)?;

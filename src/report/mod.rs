@@ -205,6 +205,13 @@ impl Report {
 /// A report that is made when it is first read: its sections measure the cam again, and not every file shows them.
 pub type LazyReport = LazyLock<Report, Box<dyn FnOnce() -> Report + Send>>;
 
+/// A path as a report lists it: with the same separators on every system.
+#[must_use]
+pub fn listed_path(path: &std::path::Path) -> String {
+    let path = path.display().to_string();
+    if std::path::MAIN_SEPARATOR == '/' { path } else { path.replace(std::path::MAIN_SEPARATOR, "/") }
+}
+
 /// The warning for a cam with these findings, if any failed.
 #[must_use]
 pub fn warning(findings: &[Finding]) -> Option<String> {

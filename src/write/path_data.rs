@@ -1,4 +1,4 @@
-//! Shapes as path data of SVG: arcs are arcs, y is flipped once, in the coordinates.
+//! Shapes as path data of SVG: arcs are arcs, or cubics for a PDF; y is flipped once, in the coordinates.
 
 use super::number::short;
 #[cfg(feature = "html")]
@@ -10,11 +10,15 @@ use nalgebra::Vector2;
 
 /// Largest sweep of one arc, rad: the direction of a half circle is ambiguous within rounding.
 const LONGEST_SWEEP: f64 = 3.0;
+/// Largest sweep of one cubic, rad: it is off its arc by 4e-6 of the radius (M. Goldapp, Computer Aided Geometric Design 8, 1991).
+const CUBIC_SWEEP: f64 = std::f64::consts::FRAC_PI_4;
 
 /// Path data with this many decimals of a millimetre. The data of the crate svg are in single precision.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PathData {
     pub(super) decimals: usize,
+    /// Arcs as cubics: what converts arcs for a PDF does so with the sine and cosine of the system, and its bytes would differ from one system to the next.
+    pub(super) cubics: bool,
 }
 
 impl PathData {
@@ -76,11 +80,37 @@ impl PathData {
         if segment.bulge == 0.0 {
             return format!("L{}", self.place(segment.end));
         }
+        if self.cubics {
+            return self.as_cubics(segment);
+        }
         let radius = self.number(segment.radius().abs());
         // A left turn upwards is a right turn (sweep flag 0) once y points down.
         let sweep = u8::from(segment.bulge < 0.0);
         let middle = (segment.sweep().abs() > LONGEST_SWEEP).then(|| segment.middle());
         let to = |point| format!("A{radius},{radius} 0 0 {sweep} {}", self.place(point));
         middle.into_iter().chain([segment.end]).map(to).collect::<Vec<_>>().join(" ")
+    }
+
+    /// An arc as equal cubics.
+    fn as_cubics(self, segment: &Segment) -> String {
+        let (sweep, centre) = (segment.sweep(), segment.centre());
+        let count = (sweep.abs() / CUBIC_SWEEP).ceil().max(1.0);
+        let step = sweep / count;
+        let handle = 4.0 / 3.0 * libm::tan(0.25 * step);
+        let from = segment.start - centre;
+        let on = |turn: f64| {
+            let (sin, cos) = libm::sincos(turn);
+            Vector2::new(cos * from.x - sin * from.y, sin * from.x + cos * from.y)
+        };
+        let across = |at: Vector2<f64>| Vector2::new(-at.y, at.x) * handle;
+        let (mut words, mut number) = (Vec::new(), 0.0);
+        while number < count {
+            let [start, end] = [on(number * step), on((number + 1.0) * step)];
+            let last = if number + 1.0 < count { centre + end } else { segment.end };
+            let points = [centre + start + across(start), centre + end - across(end), last];
+            words.push(format!("C{}", self.places(&points, " ")));
+            number += 1.0;
+        }
+        words.join(" ")
     }
 }

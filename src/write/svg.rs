@@ -5,7 +5,7 @@ use super::path_data::PathData;
 use super::template;
 use super::{AnalysisFormat, Format, FormatSelection, Rendering, fits_all};
 use crate::body;
-use crate::geometry::contour::Segment;
+use crate::geometry::contour::{Contour, Segment};
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::profile::outline::Fit;
 use crate::refusal::Refusal;
@@ -80,7 +80,8 @@ const KNOWN: &str = "width, height, left, top, stroke, thick, heavy, dash, dot, 
 const FONT_RULE: &str = include_str!("../../templates/fonts/sheet-font.css");
 
 /// The coordinates of the sheet.
-const DATA: PathData = PathData { decimals: DECIMALS };
+const DATA: PathData = PathData { decimals: DECIMALS, cubics: false };
+const DATA_OF_PDF: PathData = PathData { cubics: true, ..DATA };
 
 fn number(value: f64) -> String {
     DATA.number(value)
@@ -187,23 +188,27 @@ fn layer(group: &ShapeGroup, scale: f64, with_lengths: bool) -> element::Group {
 }
 
 fn shape_element(shape: &SheetShape, with_lengths: bool) -> Box<dyn Node> {
+    let data = if with_lengths { DATA } else { DATA_OF_PDF };
     match shape {
-        SheetShape::Entity(Entity::Polyline(contour)) => element::Path::new().set("d", DATA.contour(contour)).into(),
+        SheetShape::Entity(Entity::Polyline(contour)) => element::Path::new().set("d", data.contour(contour)).into(),
+        SheetShape::Entity(Entity::Circle(centre, radius)) if data.cubics => {
+            element::Path::new().set("d", data.contour(&Contour::circle(*centre, *radius))).into()
+        }
         SheetShape::Entity(Entity::Circle(centre, radius)) => {
             let circle = element::Circle::new().set("cx", number(centre.x)).set("cy", number(-centre.y));
             circle.set("r", number(*radius)).into()
         }
-        SheetShape::Entity(Entity::Segment(segment)) => element::Path::new().set("d", DATA.open_arc(segment)).into(),
+        SheetShape::Entity(Entity::Segment(segment)) => element::Path::new().set("d", data.open_arc(segment)).into(),
         SheetShape::Line(a, b) => {
             let line = element::Line::new().set("x1", number(a.x)).set("y1", number(-a.y));
             line.set("x2", number(b.x)).set("y2", number(-b.y)).into()
         }
-        SheetShape::Path(points) => element::Polyline::new().set("points", DATA.places(points, " ")).into(),
+        SheetShape::Path(points) => element::Polyline::new().set("points", data.places(points, " ")).into(),
         SheetShape::Arc(start, end, bulge) => {
             let segment = Segment { start: *start, end: *end, bulge: *bulge };
-            element::Path::new().set("d", DATA.open_arc(&segment)).into()
+            element::Path::new().set("d", data.open_arc(&segment)).into()
         }
-        SheetShape::Triangle(corners) => element::Polygon::new().set("points", DATA.places(corners, " ")).into(),
+        SheetShape::Triangle(corners) => element::Polygon::new().set("points", data.places(corners, " ")).into(),
         SheetShape::Text { at, height, anchor, text } => {
             let anchor = match anchor {
                 TextAnchor::Start => "start",
@@ -228,7 +233,7 @@ fn shape_element(shape: &SheetShape, with_lengths: bool) -> Box<dyn Node> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::contour::{Contour, Extents};
+    use crate::geometry::contour::Extents;
     use nalgebra::Vector2;
 
     fn sheet(title: &str) -> Sheet {

@@ -20,7 +20,7 @@ const FEWEST: u32 = 120;
 /// Digits of a number in the table.
 const DIGITS: usize = 7;
 /// Shapes, in steps of a tenth of a micrometre.
-const DATA: PathData = PathData { decimals: 4 };
+const DATA: PathData = PathData { decimals: 4, cubics: false };
 /// Decimals of a place, mm, and of an angle, degrees.
 const PLACES: f64 = 1e4;
 const ANGLES: f64 = 1e5;
