@@ -25,14 +25,16 @@ const HILLS: usize = 3;
 const SECTIONS: u32 = 38;
 /// Halvings to the angle at which another roller bears the force.
 const HALVINGS: u32 = 48;
-/// A force below this share of the largest presses nothing on.
-const PRESSED: f64 = 1e-6;
+/// A force below this share of the largest presses nothing on: where it changes flank the roller crosses the play, and no friction turns it.
+const PRESSED: f64 = 0.01;
 
 /// A roller in touch with its groove at a cam angle, in the middle of its reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct GrooveContact {
     /// Which of the rollers it is.
     pub(crate) roller: i32,
+    /// Length of the line of contact along its axis, m.
+    pub(crate) length: f64,
     /// Pressure angle, rad.
     pub(crate) pressure_angle: f64,
     /// Way along its path for a lift, 1 or m/rad.
@@ -55,9 +57,6 @@ pub(crate) trait InGroove: Body {
 
     /// Radius of a roller, m.
     fn roller(&self) -> f64;
-
-    /// How far a roller reaches into its groove, m.
-    fn reach(&self) -> f64;
 
     /// The rollers in touch at a cam angle of a piece, with the flank that lifts the follower or with the other.
     fn contacts(&self, at: (usize, f64), lifting: bool) -> Vec<GrooveContact>;
@@ -189,7 +188,7 @@ impl<'a> GrooveForces<'a> {
                 let curvature = contact.curvatures[usize::from(!lifting)];
                 match crown {
                     Some(crown) => stress::under_crown(force, (curvature, crown), material),
-                    None => stress::along_line(force, (curvature, self.body.reach()), material),
+                    None => stress::along_line(force, (curvature, contact.length), material),
                 }
             };
             self.bearing(at).map(of).fold(0.0, f64::max)

@@ -145,6 +145,13 @@ pub fn widest_cutter(body: &dyn Body) -> Option<f64> {
     turned(body).map(TurnedCam::widest_tool).or_else(across)
 }
 
+/// Width of the rib that a cutter of a radius (m) leaves between its passes along both flanks of a groove, m; `None` where they meet.
+#[must_use]
+pub fn rib_between(body: &dyn Body, cutter: Option<f64>) -> Option<f64> {
+    let left = 2.0 * widest_cutter(body)? - 4.0 * cutter?;
+    (left > SAME_RADIUS).then_some(left)
+}
+
 /// The radius of the cutter of a request whose centre is moved, m: in a groove that of a cutter as wide as the groove where none is given.
 #[must_use]
 pub fn cutter_of(body: &dyn Body, request: &Request) -> Option<f64> {

@@ -49,8 +49,8 @@ pub const SLIP: Check = Check {
     explained: CheckExplanation {
         bound: Bound::AtMost,
         formula: "max J ω² |dn/dθ|/(μ N r) where the roller is pressed on; without friction in its bearing",
-        usual: "1, up to which the roller rolls everywhere",
-        change: "a lighter rim, more preload, or a larger `cam.base_radius`; a warning only, since most cams with rests slip for a moment",
+        usual: "1, up to which the roller rolls everywhere; between two flanks only where more than a hundredth of the largest force presses it on",
+        change: "a lighter rim, more preload, or a larger cam; a warning only, since most cams with rests slip for a moment",
     },
 };
 

@@ -11,6 +11,8 @@ const HALVINGS: u32 = 16;
 /// A turn below this, rad, or a sagitta below this, mm, is that of a straight line: the centre of so flat an arc has no digits left for its ends.
 const STRAIGHT: f64 = 1e-12;
 const FLAT: f64 = 1e-7;
+/// An arc of a larger radius is a line, mm: the ends of an arc that is written by its centre and its angles are off by 1e-14 of it.
+const LARGEST_RADIUS: f64 = 9e4;
 
 /// A place of a curve (mm) and its unit tangent, by a parameter.
 pub type Tangential<'a> = dyn Fn(f64) -> (Vector2<f64>, Vector2<f64>) + 'a;
@@ -58,12 +60,14 @@ fn between(
         ((along * along + 2.0 * apart * chord.norm_squared()).sqrt() - along) / (2.0 * apart)
     };
     let joint = 0.5 * (start + end + (leaves - arrives) * length);
-    let turn = |from: Vector2<f64>, to: Vector2<f64>| {
+    let turn = |from: Vector2<f64>, to: Vector2<f64>, chord: Vector2<f64>| {
         let bulge = libm::tan(0.5 * libm::atan2(from.perp(&to), from.dot(&to)));
-        if 0.5 * bulge.abs() * from.norm().max(to.norm()) < FLAT { 0.0 } else { bulge }
+        let flat = 0.5 * bulge.abs() * from.norm().max(to.norm()) < FLAT;
+        if flat || chord.norm() > 4.0 * bulge.abs() * LARGEST_RADIUS { 0.0 } else { bulge }
     };
-    let first = Segment { start, end: joint, bulge: turn(leaves, joint - start) };
-    let second = Segment { start: joint, end, bulge: turn(end - joint, arrives) };
+    let (to_joint, from_joint) = (joint - start, end - joint);
+    let first = Segment { start, end: joint, bulge: turn(leaves, to_joint, to_joint) };
+    let second = Segment { start: joint, end, bulge: turn(from_joint, arrives, from_joint) };
     if first.bulge == 0.0 && second.bulge == 0.0 {
         vec![Segment { start, end, bulge: 0.0 }]
     } else {

@@ -211,6 +211,12 @@ fn spring(reader: &Reader<'_>, follower: &FollowerData, quantity: Quantity) -> O
     let table = reader.find(&SPRING)?;
     let [rate, preload, damping, load] =
         [&RATE, &PRELOAD, &DAMPING, &LOAD].map(|field| of_kind(&table, field, (follower, quantity)));
+    // A turret goes on turning, and a spring on it would be wound up without end.
+    if quantity != follower.shape.quantity() && rate.is_some_and(|rate| rate > 0.0) {
+        let message = "spring.rate is that of a spring that pulls back, but the turret goes on turning".to_owned();
+        table.fail(&RATE, message, Some("leave it out; spring.load is a constant moment".into()));
+        return None;
+    }
     Some(SpringData { rate: rate?, preload: preload?, damping: damping?, load: load? })
 }
 

@@ -15,6 +15,8 @@ pub struct ReadPlace {
     pub ball: Vector2<f64>,
     /// How far the profile may lie along the normal, where the form has it.
     pub zone: Option<[f64; 2]>,
+    /// Radius of curvature of the profile, where the form has it.
+    pub curvature_radius: Option<f64>,
 }
 
 /// What the header of a list begins with.
@@ -67,7 +69,7 @@ fn row((index, line): (usize, &str)) -> Result<ReadPlace, String> {
     }
     let (normal, ball) = (Vector2::new(*normal_x, *normal_y), Vector2::new(*ball_x, *ball_y));
     let zone = if let [lower, upper, ..] = rest { Some([*lower, *upper]) } else { None };
-    Ok(ReadPlace { cam_deg: *cam_deg, point, normal, ball, zone })
+    Ok(ReadPlace { cam_deg: *cam_deg, point, normal, ball, zone, curvature_radius: rest.get(2).copied() })
 }
 
 /// Whether a place has the number that is due.
@@ -98,7 +100,14 @@ fn flat(what: &str, [x, y, z, i, j, k]: [f64; 6]) -> Result<ReadPlace, String> {
         return Err(format!("{what} does not lie in the plane of the drawing"));
     }
     let point = Vector2::new(x, y);
-    Ok(ReadPlace { cam_deg: f64::NAN, point, normal: Vector2::new(i, j), ball: point, zone: None })
+    Ok(ReadPlace {
+        cam_deg: f64::NAN,
+        point,
+        normal: Vector2::new(i, j),
+        ball: point,
+        zone: None,
+        curvature_radius: None,
+    })
 }
 
 /// Places without an angle: one for each equal part of a turn.

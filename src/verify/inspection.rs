@@ -38,6 +38,8 @@ const UPRIGHT: f64 = 1e-5;
 const EXACT: f64 = 1e-6;
 /// The largest error of the length of a normal, of components of six decimals.
 const NORMAL: f64 = 2e-6;
+/// Share of a curvature, 1/mm, by which two of them may differ: far above the rounding of a file.
+const SAME_BEND: f64 = 1e-4;
 /// Angles that differ by less are equal, degrees.
 const SAME_ANGLE: f64 = 1e-6;
 
@@ -81,11 +83,13 @@ fn of(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Vector2
     let curves = cuts.get(list.cut).and_then(|cut| cut.curves).ok_or("the cam has no such cut")?;
     let outline = evidence.outlines.iter().find(|outline| outline.cut == list.cut);
     let tree = outline.map(|outline| EdgeTree::new(&outline.contour));
-    let zone = evidence.body.machine().title.profile_tolerance.map(|width| 0.5 * MILLIMETRES * width);
+    let asked = evidence.body.machine().title.profile_tolerance.map(|width| 0.5 * MILLIMETRES * width);
+    let (zone, from) = asked.map_or((evidence.tolerance_mm, "the tolerance"), |zone| (zone, "title.profile_tolerance"));
     let flipped = evidence.body.machine().cam.rotation == Rotation::CounterClockwise;
     let turned = |v: Vector2<f64>| if flipped { Vector2::new(v.x, -v.y) } else { v };
     let mut worst = (0.0, Vector2::zeros());
-    for (index, ReadPlace { cam_deg, point, normal, ball, zone: given }) in places.iter().enumerate() {
+    for (index, ReadPlace { cam_deg, point, normal, ball, zone: given, curvature_radius }) in places.iter().enumerate()
+    {
         let at = |by: f64| {
             let (piece, angle) = curves.motion.locate(cam_deg.to_radians() + by);
             turned(curves.profile(piece, angle).point * MILLIMETRES)
@@ -99,14 +103,19 @@ fn of(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Vector2
         if !((normal.norm() - 1.0).abs() < NORMAL && upright && touches) {
             return Err(format!("at {} deg normal and ball do not fit the profile", shown(*cam_deg)));
         }
-        if let (Some(zone), Some([lower, upper])) = (zone, given)
+        if let Some([lower, upper]) = given
             && (lower + zone).abs().max((upper - zone).abs()) > EXACT
         {
-            return Err(format!(
-                "at {} deg the zone is not ±{} mm, as title.profile_tolerance is",
-                shown(*cam_deg),
-                shown(zone)
-            ));
+            let (at, zone) = (shown(*cam_deg), shown(zone));
+            return Err(format!("at {at} deg the zone is not ±{zone} mm, which is that of {from}"));
+        }
+        let bend = |radius: &f64| {
+            let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
+            let due = curves.metal_side() * curves.profile(piece, angle).curvature / MILLIMETRES;
+            (radius.recip() - due).abs() > SAME_BEND * (due.abs() + SAME_BEND)
+        };
+        if curvature_radius.as_ref().is_some_and(bend) {
+            return Err(format!("at {} deg the radius of curvature is not that of the profile", shown(*cam_deg)));
         }
         // Out of the metal: a step along the normal leaves it, or, in a ring, enters the space of the roller.
         let hollow = cuts.get(list.cut).is_some_and(crate::body::Cut::is_hollow);

@@ -6,7 +6,7 @@
 
 use super::check::{Evidence, FileCheck, WrittenProgram, place};
 use super::cutter_path::left_behind;
-use super::program::{JudgedProgram, ProgramFault};
+use super::program::{JudgedProgram, ProgramFault, remarks};
 use super::turned;
 use crate::body::milling::groove_width;
 use crate::body::{Cut, Layer};
@@ -203,10 +203,7 @@ fn judged(evidence: &Evidence<'_>, written: &WrittenProgram) -> Result<JudgedPro
         Some(radius) => format!("the centre of a cutter Ø{} mm", shown(2.0 * radius)),
         None => "the profile, along which the control keeps its cutter".to_owned(),
     };
-    let unknown = match program.unknown.as_slice() {
-        [] => String::new(),
-        blocks => format!("; of the preamble `{}` is passed over", blocks.join("`, `")),
-    };
+    let unknown = remarks(evidence.body, written);
     let (depth, passes) = (passes.iter().map(|pass| pass.depth).fold(0.0, f64::max), passes.len());
     let noun = if passes == 1 { "pass" } else { "passes" };
     let note =

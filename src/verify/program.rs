@@ -1,5 +1,10 @@
 //! What judging a program for a machine gives.
 
+use super::check::WrittenProgram;
+use crate::body::Body;
+use crate::body::milling::rib_between;
+use crate::geometry::MILLIMETRES;
+use crate::report::shown;
 use nalgebra::Vector2;
 
 /// A program that is not one of the cam.
@@ -22,4 +27,17 @@ pub(super) struct JudgedProgram {
     pub(super) value: f64,
     pub(super) at: Vector2<f64>,
     pub(super) note: String,
+}
+
+/// What else is to be known of a program: blocks that are passed over, and a rib that its passes leave; for a note.
+pub(super) fn remarks(body: &dyn Body, written: &WrittenProgram) -> String {
+    let unknown = match written.program.as_ref().map(|program| program.unknown.as_slice()) {
+        Ok([]) | Err(_) => String::new(),
+        Ok(blocks) => format!("; of the preamble `{}` is passed over", blocks.join("`, `")),
+    };
+    let rib = rib_between(body, written.cutter.map(|radius| radius / MILLIMETRES));
+    let rib = rib.map(|rib| {
+        format!("; a rib of {} mm stands between the passes, to be cleared before", shown(MILLIMETRES * rib))
+    });
+    unknown + &rib.unwrap_or_default()
 }

@@ -54,23 +54,19 @@ fn tables(body: &dyn Body, samples: u32, tool: Option<f64>) -> Vec<Table> {
 fn table_of(evidence: &Evidence<'_>, read: &NumberTable) -> Result<Table, String> {
     let body = evidence.body;
     let known = |table: &Table| table.columns.iter().filter(|own| read.columns.iter().any(|name| name == *own)).count();
-    let [few, more] = TRIED.map(|samples| tables(body, samples, None));
+    // A smaller tool has a pass along either flank.
+    let column = read.columns.iter().position(|name| name == "tool_mm");
+    let tool = column.and_then(|column| read.rows.first()?.get(column)).map(|diameter| 0.5e-3 * diameter);
+    let [few, more] = TRIED.map(|samples| tables(body, samples, tool));
     let most = few.iter().map(known).max().unwrap_or(0);
     let which = few.iter().position(|table| known(table) == most && most > 1);
     let which =
         which.ok_or_else(|| format!("a {} has no table with the column {}", body.kind().noun, read.columns[0]))?;
     let rows = [&few, &more].map(|all| all.get(which).map_or(0, |table| table.rows.len()));
-    let samples = samples_of(read.rows.len(), rows);
-    // A smaller tool has a pass along either flank.
-    let column = read.columns.iter().position(|name| name == "tool_mm");
-    let tool = column.and_then(|column| read.rows.first()?.get(column)).map(|diameter| 0.5e-3 * diameter);
-    let passes: &[(u32, Option<f64>)] = &[(1, None), (2, tool)];
-    let made = passes.iter().flat_map(|(divided, tool)| {
-        let whole = samples.iter().filter(move |samples| *samples % divided == 0);
-        whole.filter_map(move |samples| tables(body, samples / divided, *tool).into_iter().nth(which))
-    });
-    let mut fitting = made.filter(|table| table.rows.len() == read.rows.len());
-    fitting.next().ok_or_else(|| format!("it has {} rows, and no table of this cam has so many", read.rows.len()))
+    let samples = samples_of(read.rows.len(), rows).into_iter();
+    let mut made = samples.filter_map(|samples| tables(body, samples, tool).into_iter().nth(which));
+    let fitting = made.find(|table| table.rows.len() == read.rows.len());
+    fitting.ok_or_else(|| format!("it has {} rows, and no table of this cam has so many", read.rows.len()))
 }
 
 /// With how many samples a table may have so many rows, the likeliest first, by the rows that it has with [`TRIED`].

@@ -5,7 +5,8 @@
 //! flanks.
 
 use super::check::{Evidence, WrittenProgram};
-use super::program::{JudgedProgram, ProgramFault};
+use super::program::{JudgedProgram, ProgramFault, remarks};
+use crate::body::Body;
 use crate::body::four_axes::rounds;
 use crate::body::points::{PointCurve, traced};
 use crate::body::swept::{TurnedCam, TurnedFlank};
@@ -41,7 +42,7 @@ pub(super) fn judged(
 fn concluded(
     worst: (f64, Vector2<f64>),
     (passes, tool): (&[TurnedPass], &str),
-    written: &WrittenProgram,
+    (body, written): (&dyn Body, &WrittenProgram),
 ) -> Result<JudgedProgram, ProgramFault> {
     let deepest = passes.iter().map(|pass| pass.depth).fold(0.0, f64::max);
     if let Some(depth) = written.depth.filter(|depth| (deepest - depth).abs() > SAME_DEPTH) {
@@ -50,7 +51,9 @@ fn concluded(
     }
     let (rows, count) = (passes.iter().map(|pass| pass.rows.len()).sum::<usize>(), passes.len());
     let noun = if count == 1 { "pass" } else { "passes" };
-    let note = format!("{tool}, {rows} rows in {count} {noun} to {} mm, as the control reads them", shown(deepest));
+    let unknown = remarks(body, written);
+    let note =
+        format!("{tool}, {rows} rows in {count} {noun} to {} mm, as the control reads them{unknown}", shown(deepest));
     Ok(JudgedProgram { value: worst.0, at: worst.1, note })
 }
 
@@ -91,7 +94,7 @@ impl Barrel<'_> {
         }
         program.standing.iter().try_for_each(|moved| self.stays_between(moved, tool / MILLIMETRES))?;
         let words = format!("the axis of a tool Ø{} mm under A, X and Y", shown(2.0 * tool));
-        concluded((worst.0, self.place(worst.1)), (&program.turned, &words), self.written)
+        concluded((worst.0, self.place(worst.1)), (&program.turned, &words), (self.evidence.body, self.written))
     }
 
     /// By how much the tool is off its path along a flank at most, mm, and at which angle of A, degrees.
@@ -114,12 +117,13 @@ impl Barrel<'_> {
         worst
     }
 
-    /// Whether a tool that moves while the cam stands still stays between the flanks.
+    /// Whether a tool that moves while the cam stands still stays between the flanks: beside the path its axis is no longer that of the roller, so that it must
+    /// stay as near to the middle in every direction.
     fn stays_between(&self, moved: &StandingMove, tool: f64) -> Result<(), ProgramFault> {
         let room = MILLIMETRES * (self.cam.widest_tool() - tool);
         let middle = self.cam.tool_place(None, tool, moved.angle);
         for [x, y] in moved.ends {
-            let off = self.cam.across(moved.angle, [x - middle[0], y - middle[1]]).abs() - room;
+            let off = libm::hypot(x - middle[0], y - middle[1]) - room;
             if !(off <= self.evidence.tolerance_mm) {
                 let why = format!("the tool cuts {} mm into a flank in line {}", shown(off), moved.line);
                 return Err(ProgramFault { why, value: off, at: Some(self.place(moved.angle)) });
@@ -180,7 +184,7 @@ fn ground(
         }
     }
     let words = format!("the centre of a wheel Ø{} mm in C and X", shown(2.0 * wheel));
-    concluded(worst, (passes, &words), written)
+    concluded(worst, (passes, &words), (evidence.body, written))
 }
 
 /// X of the wheel on a pass at an angle of C, degrees, mm.

@@ -280,3 +280,54 @@ fn a_wheel_that_goes_too_deep_before_its_pass_is_refused() {
     let (passes, value, note) = checked(&cam, &wrong, Some(0.03)).expect("a program");
     assert!(!passes && value > 1.0 && note.contains("into the cam"), "{value} {note}");
 }
+
+/// What a control would do beside the passes: a hole, a place of the machine, another datum, a tool that changes in the metal, words hidden in a shop's own line.
+#[test]
+fn what_a_program_of_a_turned_cam_does_beside_its_passes_is_refused() {
+    let cutter = Some(6e-3);
+    let cam = cam("barrel", &[]);
+    let text = program(&cam, request(Controller::LinuxCnc, cutter));
+    let behind = |line: &str, more: &str| with_line(&text, |own| own.starts_with(line), |own| format!("{own}\n{more}"));
+    let instead = |line: &str, new: &str| with_line(&text, |own| own.starts_with(line), |own| format!("{new}{own}"));
+    for (wrong, why) in [
+        (behind("G0 Z5", "G0 X0 Y0 A90\nG1 Z-100 F100\nG0 Z5"), "no pass begins there"),
+        (instead("(lower flank)", "G0 X0 Y0 A90\nG1 Z-40 F100\nG0 Z5\n"), "no pass begins there"),
+        (instead("(lower flank)", "G55\n"), "datum"),
+        (instead("G1 X4.", "G53 "), "place of the machine"),
+        (instead("G93", "G1 Y-30 F300\nG1 Y0.0\n"), "into a flank"),
+        (instead("G93", "M5\n"), "spindle"),
+        (instead("G93", "T2 M6\n"), "tool changes"),
+        (behind("G17", "G91 G64 M13"), "not known"),
+        (behind("G17", "G91 G64 P0.1"), "incremental"),
+        (behind("G17", "G20 G64 P0.1"), "inch"),
+        (text.replace("F120.887", "F1000000"), "F1000000"),
+    ] {
+        let found = checked(&cam, &wrong, cutter);
+        let found = found.map_or_else(|why| why.to_string(), |(passes, _, note)| format!("{passes} {note}"));
+        assert!(found.contains(why) && !found.starts_with("true"), "{why}: {found}");
+    }
+    // What a shop adds, and a pause, changes nothing.
+    for right in [
+        behind("G17", "CYCLE832(0.01)\nG64 P0.01\nG91 G28 Z0\nG90"),
+        instead("M30", "G91 G28 Z0\nG90\n"),
+        behind("G1 Z-12", "G4 P1"),
+    ] {
+        let found = checked(&cam, &right, cutter).expect("a program");
+        assert!(found.0, "{found:?}");
+    }
+    let narrow = program(&cam, request(Controller::LinuxCnc, Some(4.5e-3)));
+    assert!(narrow.contains("a rib of 2.03 mm"), "{narrow}");
+}
+
+#[test]
+fn words_beside_unknown_ones_are_not_passed_over() {
+    let cam = cam("feeder", &["cut.depth=8mm"]);
+    let text = program(&cam, request(Controller::LinuxCnc, Some(4e-3)));
+    for line in ["G91 M13", "G0 X10 M13", "M98 P1000", "O<hole> call", "/G91", "G1 X10 Y=5 F100"] {
+        let wrong = with_line(&text, |own| own.starts_with("G17"), |own| format!("{own}\n{line}"));
+        let why = checked(&cam, &wrong, Some(4e-3)).expect_err("refused").to_string();
+        assert!(why.contains("not known") && why.contains("of their own"), "{line}: {why}");
+    }
+    let own = with_line(&text, |own| own.starts_with("G17"), |own| format!("M13\n{own} G98 G64 P0.01"));
+    assert!(checked(&cam, &own, Some(4e-3)).is_ok_and(|(passes, ..)| passes));
+}

@@ -113,6 +113,12 @@ impl RollerPath {
 }
 
 impl AxisLine {
+    /// Where the centre line is at a distance from the axis of the cam, as a place along it, m; NaN where it never is so near.
+    pub(super) fn at_distance(&self, from_axis: f64) -> f64 {
+        let beside = self.across[0];
+        ((from_axis - beside) * (from_axis + beside)).sqrt()
+    }
+
     /// The contact at a place along the roller's axis, m.
     pub(super) fn point(&self, v: f64) -> LinePoint {
         let (run, rise) = (v + self.across[1], self.along[1]);

@@ -18,14 +18,10 @@ impl InGroove for Barrel {
         self.roller
     }
 
-    fn reach(&self) -> f64 {
-        self.reach
-    }
-
     fn contacts(&self, (piece, angle): (usize, f64), _lifting: bool) -> Vec<GrooveContact> {
         let lift = self.motion.jet(piece, angle);
         let axis = self.path.at(&lift);
-        let (inner, outer) = self.touched();
+        let [inner, outer] = self.touched(&axis);
         let middle = 0.5 * (inner + outer);
         let line = axis.point(middle);
         let (leverage, carrier_turn) = match self.path {
@@ -39,6 +35,7 @@ impl InGroove for Barrel {
         });
         vec![GrooveContact {
             roller: 0,
+            length: outer - inner,
             pressure_angle: self.path.pressure_angle(&lift, middle),
             leverage,
             curvatures,

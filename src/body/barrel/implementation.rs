@@ -37,8 +37,7 @@ const LOWER_Z: AddedColumn = AddedColumn { name: "lower_flank_z_mm", after: "pre
 impl Barrel {
     fn row(&self, at: TurnAngles, (piece, angle): (usize, f64)) -> Row {
         let lift = self.motion.jet(piece, angle);
-        let (inner, outer) = self.touched();
-        let steepest = [inner, outer].map(|v| self.path.pressure_angle(&lift, v));
+        let steepest = self.touched(&self.path.at(&lift)).map(|v| self.path.pressure_angle(&lift, v));
         let steepest = if steepest[0].abs() > steepest[1].abs() { steepest[0] } else { steepest[1] };
         let flank = |side| self.developed_at(BarrelCurve::Flank(side), (piece, angle)).0;
         let (upper, lower) = (flank(FlankSide::Upper), flank(FlankSide::Lower));

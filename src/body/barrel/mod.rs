@@ -223,9 +223,10 @@ impl Barrel {
         self.outer - self.depth
     }
 
-    /// Radii between which the roller touches the flanks, m: its inner end, and the outside.
-    fn touched(&self) -> (f64, f64) {
-        (self.outer - self.reach, self.outer)
+    /// Places along the roller between which it touches the flanks, m: its inner end, which stands so far below the outside as it reaches into the groove, and
+    /// where it leaves the cylinder.
+    fn touched(&self, axis: &AxisLine) -> [f64; 2] {
+        [self.outer - self.reach, self.outer].map(|from_axis| axis.at_distance(from_axis))
     }
 
     /// The roller's centre line at a cam angle of a piece.
@@ -248,10 +249,12 @@ impl Barrel {
 
     /// Largest pressure angle with the lift growing, and falling as a positive number, rad, anywhere along the roller.
     fn signed_pressure_angles(&self) -> [Worst; 2] {
-        let (inner, outer) = self.touched();
         [1.0, -1.0].map(|sign| {
             let at = |jet: &Jet| {
-                [inner, outer].map(|v| sign * self.path.pressure_angle(jet, v)).into_iter().fold(0.0, f64::max)
+                let ends = self.touched(&self.path.at(jet));
+                // Where the roller misses the cylinder nothing keeps a limit.
+                let known = |v: f64| if v.is_nan() { f64::INFINITY } else { sign * self.path.pressure_angle(jet, v) };
+                ends.map(known).into_iter().fold(0.0, f64::max)
             };
             self.largest(at)
         })
@@ -262,8 +265,8 @@ impl Barrel {
     fn least_radius(&self) -> Worst {
         let sharpest = self.largest(|jet| {
             let axis = self.path.at(jet);
-            let (inner, outer) = self.touched();
-            [inner, outer].map(|v| axis.point(v).path_radius().abs().recip()).into_iter().fold(0.0, f64::max)
+            let bends = self.touched(&axis).map(|v| axis.point(v).path_radius().abs().recip());
+            bends.into_iter().fold(0.0, f64::max)
         });
         Worst { value: sharpest.value.recip(), ..sharpest }
     }
@@ -272,8 +275,8 @@ impl Barrel {
     fn least_fold(&self) -> Worst {
         let sharpest = self.largest(|jet| {
             let axis = self.path.at(jet);
-            let folds = [self.floor(), self.outer].map(|v| {
-                let point = axis.point(v);
+            let folds = [self.floor(), self.outer].map(|from_axis| {
+                let point = axis.point(axis.at_distance(from_axis));
                 point.folds_at(&axis, 1.0).min(point.folds_at(&axis, -1.0))
             });
             folds.into_iter().map(f64::recip).fold(0.0, f64::max)

@@ -6,7 +6,7 @@ use crate::body::flank_switch::SwitchFigures;
 use crate::body::{DrawingEvidence, in_groove};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
-use crate::motion::Quantity;
+use crate::motion::{Jet, Quantity};
 use crate::profile::lifts;
 use crate::report::{Section, shown};
 use serde::Serialize;
@@ -60,12 +60,15 @@ fn section(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Section {
     let drawn = found.drawn.and_then(|drawn| drawn.swept.as_deref());
     let swings = barrel.motion.quantity() == Quantity::Angle;
     let top = lifts(&*barrel.motion).1;
-    let (inner, outer) = barrel.touched();
-    let angle = |v: f64| barrel.largest(|jet| barrel.path.pressure_angle(jet, v).abs()).value.to_degrees();
+    let angle = |end: usize| {
+        let at = |jet: &Jet| barrel.path.pressure_angle(jet, barrel.touched(&barrel.path.at(jet))[end]).abs();
+        barrel.largest(at).value.to_degrees()
+    };
     let sharpest = barrel.largest(|jet| {
         let axis = barrel.path.at(jet);
         let of = |v: f64, distance: f64| axis.point(v).reduced_curvature(&axis, distance);
         let [upper, lower] = barrel.distances;
+        let [inner, outer] = barrel.touched(&axis);
         [of(inner, upper), of(inner, -lower), of(outer, upper), of(outer, -lower)].into_iter().fold(0.0, f64::max)
     });
     let volume = drawn.map(|drawn| drawn.solid.volume);
@@ -82,7 +85,7 @@ fn section(barrel: &Barrel, found: &DrawingEvidence<'_>) -> Section {
         max_lift_mm: (!swings).then_some(MILLIMETRES * top),
         max_lift_deg: swings.then_some(top.to_degrees()),
         smallest_outer_radius_mm: barrel.smallest_outer().ok().map(|radius| MILLIMETRES * radius),
-        pressure_angle_deg: [angle(inner), angle(outer)],
+        pressure_angle_deg: [angle(0), angle(1)],
         largest_reduced_curvature_per_mm: sharpest.value / MILLIMETRES,
         volume_mm3: volume,
         mass_kg: volume.map(|volume| volume / CUBIC * barrel.machine.cam.density()),

@@ -85,7 +85,7 @@ impl Barrel {
                 let at = turned(index, samples, self.motion.lobes());
                 let (piece, angle) = self.motion.locate(at.angle);
                 let axis = self.axis(piece, angle);
-                let (sin, cos) = axis.point(middle).slope;
+                let (sin, cos) = axis.point(axis.at_distance(middle)).slope;
                 let away = self.tool_offset(*side, radius);
                 let across = self.sense() * (axis.across[0] - away * sin);
                 let along = axis.along[0] + away * cos;
@@ -110,9 +110,10 @@ impl Barrel {
     /// What a tool leaves of a flank at the ends of its depth, m, where it stands so much (m) nearer to the flank than the roller: it touches the flank
     /// exactly at one place along its axis, and the normals elsewhere differ from that one.
     fn missed_by_tool(&self, axis: &AxisLine, nearer: f64, exact: f64) -> f64 {
-        let at_exact = axis.point(exact).slope;
-        let missed = [self.floor(), self.outer].map(|v| {
-            let there = axis.point(v).slope;
+        let slope = |from_axis: f64| axis.point(axis.at_distance(from_axis)).slope;
+        let at_exact = slope(exact);
+        let missed = [self.floor(), self.outer].map(|from_axis| {
+            let there = slope(from_axis);
             nearer * (1.0 - (there.0 * at_exact.0 + there.1 * at_exact.1))
         });
         missed.into_iter().fold(0.0, f64::max)

@@ -87,12 +87,11 @@ cam = { body = "barrel", outer_radius = "65 mm", groove_depth = "12 mm", clearan
     let straight = barrel(&["follower.roller.mass=5 kg", "follower.roller.offset=4 mm", "spring.rate=3 N/mm"]).0;
     for barrel in [straight, arm] {
         let forces = GrooveForces::of(&barrel).expect("a mass and a speed");
-        let (inner, outer) = barrel.touched();
-        let middle = 0.5 * (inner + outer);
         for i in 0..40 {
             let (piece, angle) = barrel.motion.locate(0.157 * f64::from(i) + 0.01);
             let row = forces.row((piece, angle));
             let axis = barrel.axis(piece, angle);
+            let middle = 0.5 * barrel.touched(&axis).iter().sum::<f64>();
             let (sin, _) = axis.point(middle).slope;
             let lift = barrel.motion.jet(piece, angle);
             let sign = row.path.signum();
@@ -113,7 +112,7 @@ fn pressure_and_life_are_those_of_the_formulas() {
     let stress = forces.contact_stress().expect("a material");
     let at = barrel.motion.locate(stress.at);
     let axis = barrel.axis(at.0, at.1);
-    let (inner, outer) = barrel.touched();
+    let [inner, outer] = barrel.touched(&axis);
     let row = forces.row(at);
     let side = if row.path > 0.0 { -barrel.distances[1] } else { barrel.distances[0] };
     let sharpest = [inner, outer].map(|v| axis.point(v).reduced_curvature(&axis, side)).into_iter().fold(0.0, f64::max);
@@ -139,4 +138,25 @@ fn pressure_and_life_are_those_of_the_formulas() {
     assert!((duty.mean_turns / turns - 1.0).abs() < 1e-7, "{duty:?} {turns}");
     let life = libm::pow(20e3 / load, exponent) * 1e6 / (60.0 * 150.0 * turns);
     assert!((duty.life.expect("a speed") / life - 1.0).abs() < 1e-5, "{duty:?} {life}");
+}
+
+/// A roller beside the axis reaches as far below the outside as one that points at it, so that its end runs nearer to the axis along its own.
+#[test]
+fn a_roller_beside_the_axis_runs_nearer_to_it() {
+    let (barrel, _) = barrel(&["follower.roller.offset=38mm"]);
+    let steepest = barrel.signed_pressure_angles()[0].value.to_degrees();
+    let v = (54.0_f64 * 54.0 - 38.0 * 38.0).sqrt();
+    let due = (31.020_9_f64 / v).atan().to_degrees();
+    assert!((steepest - due).abs() < 1e-3, "{steepest} {due}");
+}
+
+/// A large barrel has arcs that are nearly lines.
+#[test]
+fn the_developed_view_of_a_large_barrel_joins() {
+    for outer in ["600 mm", "900 mm"] {
+        let (_, cam) = barrel(&[&format!("cam.outer_radius={outer}")]);
+        let proven = cam.draw(5e-6).expect("drawn").prove().expect("proved");
+        let found = proven.findings().iter().find(|finding| finding.check == "unrolled").expect("checked");
+        assert_eq!(found.verdict, crate::report::Verdict::Pass, "{outer}: {found:?}");
+    }
 }

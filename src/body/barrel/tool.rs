@@ -57,7 +57,7 @@ impl TurnedCam for Barrel {
 
     fn tool_place(&self, flank: Option<TurnedFlank>, tool: f64, a_deg: f64) -> [f64; 2] {
         let axis = self.axis_at(a_deg);
-        let (sin, cos) = axis.point(self.half_deep()).slope;
+        let (sin, cos) = axis.point(axis.at_distance(self.half_deep())).slope;
         let side = flank.map(|flank| match flank {
             TurnedFlank::Upper => FlankSide::Upper,
             TurnedFlank::Lower => FlankSide::Lower,
@@ -70,8 +70,8 @@ impl TurnedCam for Barrel {
 
     fn across(&self, a_deg: f64, [along, beside]: [f64; 2]) -> f64 {
         let axis = self.axis_at(a_deg);
-        let of = |v: f64| {
-            let (sin, cos) = axis.point(v).slope;
+        let of = |from_axis: f64| {
+            let (sin, cos) = axis.point(axis.at_distance(from_axis)).slope;
             along * cos + self.sense() * beside * sin
         };
         let [floor, outside] = [self.floor(), self.outer].map(of);

@@ -10,8 +10,9 @@ use crate::report::Section;
 
 /// Cells of a stretch in which a force changes its sign once each.
 const CELLS: u32 = 128;
-/// A force below this share of the largest presses nothing on.
+/// A force below this share of the largest presses nothing on; between two flanks the roller crosses the play where the force changes sides.
 const PRESSED: f64 = 1e-6;
+const PRESSED_BETWEEN: f64 = 0.01;
 
 impl Disc {
     /// Force along the normal with its sign, N, and turns of the roller for a turn of the cam on the flank on which the force holds it.
@@ -65,7 +66,8 @@ impl Disc {
     pub fn roller_slip(&self) -> Option<Worst> {
         let (bearing, speed) = (self.machine.bearing()?, self.speed?);
         let (inertia, radius, curves) = (bearing.inertia?, self.curves().roller_radius()?, self.curves());
-        let pressed = PRESSED * self.largest_contact_force()?;
+        let least = if self.hold == Hold::Flanks { PRESSED_BETWEEN } else { PRESSED };
+        let pressed = least * self.largest_contact_force()?;
         let share = |piece: usize, at: f64| {
             let lift = curves.motion.jet(piece, at);
             let Some(([speed_slope, turn_slope], (force, _))) =

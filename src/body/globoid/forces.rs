@@ -20,6 +20,7 @@ impl Globoid {
         let (sin, cos) = libm::sincos(line.angle[0]);
         GrooveContact {
             roller,
+            length: self.reached - self.outside,
             pressure_angle: libm::atan2(tilt, lean),
             leverage: middle,
             curvatures,
@@ -40,10 +41,6 @@ impl InGroove for Globoid {
 
     fn roller(&self) -> f64 {
         self.roller
-    }
-
-    fn reach(&self) -> f64 {
-        self.reached - self.outside
     }
 
     /// Those that touch over their whole reach, else those whose centre lines lie between the ends.

@@ -2,41 +2,23 @@
 
 use super::dialect::{dialect, moves_the_profile};
 use super::machine_state::{MachineState, at_line};
+use super::modal::{ModalWords, Situation, are_known, passed_over};
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
 
 /// A word: its letter in capitals, and its number.
-type Word = (char, f64);
+pub(super) type Word = (char, f64);
 /// The words whose numbers FANUC counts in its least increments where they have no decimal point.
 const COUNTED: &str = "XYZABCIJKR";
 /// The least increment of a FANUC control in its increment system IS-B, mm.
 const INCREMENT: f64 = 1e-3;
 
-/// What holds until another word of the group is read.
-#[derive(Debug, Default)]
-struct ModalWords {
-    /// G0 to G3.
-    motion: Option<u32>,
-    plane: bool,
-    metric: bool,
-    absolute: bool,
-    /// Whether a block was read, and whether the last one was.
-    begun: bool,
-    ended: bool,
-    /// The tool that was called, whether it was changed in, and the number of the offset with its radius.
-    tool: Option<f64>,
-    changed: bool,
-    offset: Option<f64>,
-    /// The control, where it is known.
-    control: Option<Controller>,
-}
-
 /// Reads a program; where its head does not say for which control it is, for that of its design.
 pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
     let control = dialect(text, design);
-    let (mut state, mut modal) = (MachineState::default(), ModalWords { control, ..ModalWords::default() });
+    let (mut state, mut modal) = (MachineState::default(), ModalWords::of(control, false));
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         if modal.ended {
@@ -58,8 +40,11 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
             counted(line, block)?;
         }
         match words(block) {
-            Some(words) if words.iter().all(|word| is_known(*word)) => run(line, &words, &mut state, &mut modal)?,
-            _ => state.unknown(line, block)?,
+            Some(words) if are_known(&words, None) => run(line, &words, &mut state, &mut modal)?,
+            _ => {
+                state.unknown(line, block)?;
+                passed_over(line, block)?;
+            }
         }
     }
     if modal.ended { Ok(state.program()) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
@@ -122,25 +107,6 @@ pub(super) fn counted(line: usize, block: &str) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Whether a word is one whose effect on the path is known.
-pub(super) fn is_known((letter, number): Word) -> bool {
-    // In tenths: G91.1 is 911.
-    let tenths = 10.0 * number;
-    let g = [
-        0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0,
-        900.0, 901.0, 910.0, 911.0, 930.0, 940.0, 950.0, 90.0, 540.0, 550.0, 560.0, 570.0, 580.0, 590.0, 600.0, 610.0,
-        640.0, 430.0, 490.0, 690.0, 500.0, 501.0, 800.0,
-    ];
-    match letter {
-        // To a reference point, or to a place of the machine.
-        'G' if REFERENCE.contains(&number) => true,
-        'G' => g.iter().any(|known| (known - tenths).abs() < 1e-6),
-        'M' => number.fract() == 0.0 && ((0.0..=9.0).contains(&number) || number == 30.0),
-        'N' | 'O' | 'T' | 'D' | 'S' | 'F' | 'X' | 'Y' | 'Z' | 'I' | 'J' | 'H' => true,
-        _ => false,
-    }
-}
-
 /// The number behind a letter of a block.
 pub(super) fn of(line: usize, words: &[Word], letter: char) -> Result<Option<f64>, Refusal> {
     let mut found = words.iter().filter(|(own, _)| *own == letter);
@@ -151,7 +117,7 @@ pub(super) fn of(line: usize, words: &[Word], letter: char) -> Result<Option<f64
 }
 
 /// G28, G30 and G53: to a reference point, or to a place of the machine.
-const REFERENCE: [f64; 3] = [28.0, 30.0, 53.0];
+pub(super) const REFERENCE: [f64; 3] = [28.0, 30.0, 53.0];
 
 /// A block that goes to a place of the machine, such as `G91 G28 Z0`: only upwards, or with the cutter above the part.
 fn to_the_machine(
@@ -160,45 +126,12 @@ fn to_the_machine(
     state: &mut MachineState,
     modal: &mut ModalWords,
 ) -> Result<(), Refusal> {
-    modal.absolute &= !words.contains(&('G', 91.0));
+    modal.leave(words);
     let axes = ['X', 'Y', 'Z'].map(|axis| words.iter().any(|(letter, _)| *letter == axis));
     if state.side != CutterSide::Centre {
         return Err(at_line(line, "the cutter leaves for a place of the machine while it is kept beside its path"));
     }
     state.leave(line, axes)
-}
-
-/// What a block says of the tool and of the radius that is taken into account.
-fn tool(line: usize, words: &[Word], state: &MachineState, modal: &mut ModalWords) -> Result<(), Refusal> {
-    let offset = of(line, words, 'D')?;
-    modal.tool = of(line, words, 'T')?.or(modal.tool);
-    modal.changed |= modal.tool.is_some_and(|tool| tool > 0.0) && words.contains(&('M', 6.0));
-    modal.offset = offset.or(modal.offset);
-    if offset == Some(0.0) && state.side != CutterSide::Centre {
-        return Err(at_line(line, "D0 ends the compensation: the cutter would take its radius out of the cam"));
-    }
-    let begins = words.contains(&('G', 41.0)) || words.contains(&('G', 42.0));
-    if !begins || modal.offset.is_some_and(|offset| offset > 0.0 && offset.fract() == 0.0) {
-        return Ok(());
-    }
-    // LinuxCNC takes the radius of the tool in the spindle, SINUMERIK that of the first cutting edge of a tool that was changed in (machine data
-    // 20270); FANUC takes D00, a radius of 0.
-    let (why, known) = match modal.control {
-        Some(Controller::Fanuc) => ("FANUC then takes D00, a radius of 0", false),
-        Some(Controller::LinuxCnc) => {
-            ("LinuxCNC then takes the tool in the spindle, which the program does not change in", modal.changed)
-        }
-        Some(Controller::Sinumerik) => {
-            ("SINUMERIK then takes the tool that was changed in, and the program changes none", modal.changed)
-        }
-        Some(Controller::Heidenhain) | None => ("the control does not know the radius", modal.changed),
-    };
-    let zero = modal.offset == Some(0.0);
-    if known && !zero {
-        return Ok(());
-    }
-    let what = format!("the cutter is to be kept beside its path (G41, G42) without a number of its radius (D): {why}");
-    Err(at_line(line, what).remedy("write G41 D1 with the number of the offset"))
 }
 
 /// Does what a block says: first what is modal, then its move.
@@ -207,17 +140,12 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
     if REFERENCE.iter().any(is) {
         return to_the_machine(line, words, state, modal);
     }
-    for (_, number) in words.iter().filter(|(letter, _)| *letter == 'G') {
-        set(line, 10.0 * number, state, modal)?;
+    modal.block(line, words, &Situation { has_moved: state.has_moved(), is_deep: state.is_deep() })?;
+    (state.feed, state.side) = (modal.feed, modal.side);
+    if modal.dwells(words) {
+        return Ok(());
     }
     let of = |letter: char| of(line, words, letter);
-    state.feed = of('F')?.or(state.feed);
-    tool(line, words, state, modal)?;
-    let datum = |(letter, number): &Word| *letter == 'G' && (54.0..=59.0).contains(number);
-    if state.has_moved() && words.iter().any(datum) {
-        return Err(at_line(line, "the datum changes after the first move"));
-    }
-    modal.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
     let to = [of('X')?, of('Y')?, of('Z')?];
     let (i, j) = (of('I')?, of('J')?);
     // On a SINUMERIK these shift the datum by the coordinates that follow.
@@ -227,10 +155,7 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
     if to == [None; 3] && i.is_none() && j.is_none() {
         return Ok(());
     }
-    if !(modal.plane && modal.metric && modal.absolute) {
-        let what = "the cutter is to move before plane, unit and absolute coordinates are stated (G17, G21, G90)";
-        return Err(at_line(line, what));
-    }
+    modal.is_stated(line)?;
     let kind = match (modal.motion, state.place()) {
         (Some(0), _) => MoveKind::Rapid,
         (Some(1), _) => MoveKind::Line,
@@ -244,34 +169,6 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
         return Err(at_line(line, "a straight move has a centre (I, J)"));
     }
     state.go(line, kind, to)
-}
-
-/// Sets what a G word holds until another is read.
-fn set(line: usize, tenths: f64, state: &mut MachineState, modal: &mut ModalWords) -> Result<(), Refusal> {
-    let is = |number: f64| (number - tenths).abs() < 1e-6;
-    let refused = |what: &str| Err(at_line(line, what));
-    match () {
-        () if is(0.0) => modal.motion = Some(0),
-        () if is(10.0) => modal.motion = Some(1),
-        () if is(20.0) => modal.motion = Some(2),
-        () if is(30.0) => modal.motion = Some(3),
-        () if is(170.0) => modal.plane = true,
-        () if is(180.0) || is(190.0) => return refused("the plane is not XY: arcs of a cam lie in G17"),
-        () if is(210.0) || is(710.0) || is(7100.0) => modal.metric = true,
-        () if is(200.0) || is(700.0) || is(7000.0) => {
-            return refused("the unit is the inch: camgen writes millimetres (G21)");
-        }
-        () if is(900.0) => modal.absolute = true,
-        () if is(910.0) => return refused("coordinates become incremental (G91)"),
-        () if is(901.0) => return refused("centres become absolute (G90.1)"),
-        () if is(930.0) || is(950.0) => return refused("the feed is not in mm/min (G94)"),
-        () if is(400.0) => state.side = CutterSide::Centre,
-        () if is(410.0) => state.side = CutterSide::Left,
-        () if is(420.0) => state.side = CutterSide::Right,
-        // Datum, accuracy, feed in mm/min: nothing that changes the path.
-        () => {}
-    }
-    Ok(())
 }
 
 #[cfg(test)]

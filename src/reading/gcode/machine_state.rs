@@ -29,6 +29,11 @@ impl MachineState {
         !self.program.moves.is_empty()
     }
 
+    /// Whether the cutter is below the upper face.
+    pub(super) fn is_deep(&self) -> bool {
+        self.at[2].is_some_and(|z| z < 0.0)
+    }
+
     /// What was read.
     pub(super) fn program(self) -> CutterProgram {
         CutterProgram { side_at_end: self.side, ..self.program }

@@ -7,6 +7,7 @@ mod dialect;
 mod iso;
 mod klartext;
 mod machine_state;
+mod modal;
 mod turned;
 
 pub use turned::{StandingMove, TurnedPass};

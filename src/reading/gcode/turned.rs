@@ -2,8 +2,9 @@
 //! in all at once, in the time that each block gives (G93).
 
 use super::dialect::{dialect, moves_the_profile};
-use super::iso::{counted, is_known, of, without_comments, words};
+use super::iso::{REFERENCE, Word, counted, of, without_comments, words};
 use super::machine_state::at_line;
+use super::modal::{ModalWords, Situation, are_known, passed_over};
 use super::{CutterProgram, FASTEST};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -32,17 +33,18 @@ pub struct StandingMove {
     pub ends: [[f64; 2]; 2],
 }
 
-/// The state of a control.
+/// Blocks in a minute that no control reads as fast, where each has its time.
+const MOST_BLOCKS_A_MINUTE: f64 = 10_000.0;
+
+/// Where the tool is.
 #[derive(Debug, Default)]
 struct TurnedState {
-    motion: Option<u32>,
-    stated: [bool; 3],
-    by_time: bool,
-    ended: bool,
     axis: char,
     /// The angle, X, Y and Z.
     at: [Option<f64>; 4],
-    feed: Option<f64>,
+    has_moved: bool,
+    /// Where the tool went down, until a pass begins there.
+    plunged: Option<usize>,
     program: CutterProgram,
     open: Option<TurnedPass>,
 }
@@ -60,11 +62,12 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
     // Of a disc the tool stays over the axis, whatever is not said.
     let beside = (axis == 'C').then_some(0.0);
     let mut state = TurnedState { axis, at: [None, None, beside, None], ..TurnedState::default() };
+    let mut modal = ModalWords::of(control, true);
     for (index, whole) in text.lines().enumerate() {
         let line = index + 1;
         let block = without_comments(whole).ok_or_else(|| at_line(line, "a comment does not end"))?;
         let block = block.trim();
-        if state.ended || block.is_empty() || block == "%" {
+        if modal.ended || block.is_empty() || block == "%" {
             continue;
         }
         if let Some(what) = moves_the_profile(block) {
@@ -74,58 +77,55 @@ pub(super) fn read(text: &str, axis: char, design: Option<Controller>) -> Result
             counted(line, block)?;
         }
         match words(block) {
-            Some(words) if words.iter().all(|word| word.0 == axis || *word == ('G', 93.0) || is_known(*word)) => {
-                state.run(line, &words)?;
+            Some(words) if are_known(&words, Some(axis)) => state.run(line, &words, &mut modal)?,
+            _ if !state.has_moved && [0, 1, 3].iter().all(|axis| state.at[*axis].is_none()) => {
+                passed_over(line, block)?;
+                state.program.unknown.push(block.to_owned());
             }
-            _ if [0, 1, 3].iter().all(|axis| state.at[*axis].is_none()) => state.program.unknown.push(block.to_owned()),
             _ => return Err(at_line(line, format!("`{block}` is not known, and what it does to the path neither"))),
         }
     }
-    match (state.ended, state.open) {
+    match (modal.ended, state.open) {
         (false, _) => Err(Refusal::new("the program has no end (M2 or M30)")),
-        (true, Some(_)) => Err(Refusal::new("the program ends with the wheel at its depth")),
+        (true, Some(_)) => Err(Refusal::new("the program ends with the tool at its depth")),
         (true, None) => Ok(state.program),
     }
 }
 
 impl TurnedState {
-    fn run(&mut self, line: usize, words: &[(char, f64)]) -> Result<(), Refusal> {
+    fn run(&mut self, line: usize, words: &[Word], modal: &mut ModalWords) -> Result<(), Refusal> {
         let refused = |what: &str| Err(at_line(line, what));
-        for (_, number) in words.iter().filter(|(letter, _)| *letter == 'G') {
-            match (10.0 * number).round() {
-                0.0 | 10.0 => self.motion = Some(u32::from(*number > 0.5)),
-                20.0 | 30.0 => return refused("an arc (G2, G3) has no meaning on a cam that is turned"),
-                170.0 => self.stated[0] = true,
-                210.0 | 710.0 | 7100.0 => self.stated[1] = true,
-                900.0 => self.stated[2] = true,
-                180.0 | 190.0 => return refused("the plane is not XY"),
-                200.0 | 700.0 | 7000.0 => return refused("the unit is the inch"),
-                910.0 => return refused("coordinates become incremental (G91)"),
-                410.0 | 420.0 => return refused("the control keeps the wheel beside its path (G41, G42)"),
-                930.0 => self.by_time = true,
-                940.0 | 950.0 => self.by_time = false,
-                _ => {}
+        let is_deep = self.at[3].is_some_and(|z| z < 0.0);
+        let letters = [self.axis, 'X', 'Y', 'Z'];
+        if REFERENCE.iter().any(|code| words.contains(&('G', *code))) {
+            modal.leave(words);
+            let leaves = letters.map(|axis| words.iter().any(|(letter, _)| *letter == axis));
+            if is_deep && leaves != [false, false, false, true] {
+                return refused("the tool leaves for a place of the machine from below the upper face");
             }
+            if is_deep {
+                self.rise(line)?;
+            }
+            for (own, _) in self.at.iter_mut().zip(leaves).filter(|(_, leaves)| *leaves) {
+                *own = None;
+            }
+            return Ok(());
         }
-        self.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
-        let feed = of(line, words, 'F')?;
-        // A time holds for its block alone.
-        self.feed = if self.by_time { feed } else { feed.or(self.feed) };
-        let [angle, x, y, z] = [self.axis, 'X', 'Y', 'Z'].map(|axis| of(line, words, axis));
+        modal.block(line, words, &Situation { has_moved: self.has_moved, is_deep })?;
+        if modal.dwells(words) {
+            return Ok(());
+        }
+        let [angle, x, y, z] = letters.map(|axis| of(line, words, axis));
         let to = [angle?, x?, y?, z?];
         if self.axis == 'C' && to[2].is_some_and(|y| y != 0.0) {
-            return refused("the wheel leaves the line through the axis (Y)");
+            return refused("the tool leaves the line through the axis (Y)");
         }
-        if to == [None; 4] { Ok(()) } else { self.go(line, to) }
+        if to == [None; 4] { Ok(()) } else { self.go(line, to, modal) }
     }
 
-    fn go(&mut self, line: usize, to: [Option<f64>; 4]) -> Result<(), Refusal> {
+    fn go(&mut self, line: usize, to: [Option<f64>; 4], modal: &ModalWords) -> Result<(), Refusal> {
         let refused = |what: &str| Err(at_line(line, what));
-        if self.stated != [true; 3] {
-            return refused(
-                "the wheel is to move before plane, unit and absolute coordinates are stated (G17, G21, G90)",
-            );
-        }
+        modal.is_stated(line)?;
         let before = self.at;
         for (own, new) in self.at.iter_mut().zip(to) {
             *own = new.or(*own);
@@ -134,32 +134,44 @@ impl TurnedState {
         let [turns, along, down] = [moves[0], moves[1] || moves[2], moves[3]];
         let below = |z: Option<f64>| z.is_some_and(|z| z < 0.0);
         let deep = below(before[3]) || below(self.at[3]);
-        match self.motion {
-            None => return refused("the wheel is to move, and it is not stated how (G0, G1)"),
+        self.has_moved = true;
+        let rises = !turns && !along && self.at[3] > before[3];
+        match modal.motion {
+            None => return refused("the tool is to move, and it is not stated how (G0, G1)"),
             Some(0) if !deep => return Ok(()),
-            Some(0) if !turns && !along && self.at[3] > before[3] => return self.close(line),
+            Some(0) if rises => return self.rise(line),
             Some(0) => return refused("a rapid move goes below the upper face"),
             Some(_) => {}
         }
         if before.contains(&None) {
-            return refused("the wheel is to cut from a place that is not known");
+            return refused("the tool is to cut from a place that is not known");
         }
-        let fastest = if self.by_time { f64::INFINITY } else { FASTEST };
-        match self.feed {
-            None => return refused("the wheel is to move at a feed, or in a time, that is not given"),
+        let fastest = if modal.by_time { MOST_BLOCKS_A_MINUTE } else { FASTEST };
+        match modal.feed {
+            None => return refused("the tool is to move at a feed, or in a time, that is not given"),
             Some(feed) if !(feed > 0.0 && feed <= fastest) => {
-                return Err(at_line(line, format!("the wheel is to move at F{feed}")).remedy("give a feed above 0"));
+                let remedy = format!("give a feed above 0 and at most {fastest}");
+                return Err(at_line(line, format!("the tool is to move at F{feed}")).remedy(remedy));
             }
             Some(_) => {}
         }
         if down && (turns || along) {
             return refused("a move changes place and depth at once");
         }
-        if turns && !self.by_time {
+        if turns && !modal.by_time {
             let what = format!("{} moves at a feed of X alone: it needs the time of each block (G93)", self.axis);
             return Err(at_line(line, what));
         }
-        if deep { self.cut(line, before, (turns, along)) } else { Ok(()) }
+        match (deep, down) {
+            (false, _) => Ok(()),
+            (true, true) if rises => self.rise(line),
+            (true, true) => {
+                self.close(line)?;
+                self.plunged = Some(line);
+                Ok(())
+            }
+            (true, false) => self.cut(line, before, (turns, along)),
+        }
     }
 
     /// A move at a feed below the face.
@@ -167,6 +179,7 @@ impl TurnedState {
         let [Some(angle), Some(x), Some(y), Some(z)] = self.at else { return Ok(()) };
         let [Some(from), Some(from_x), Some(from_y), _] = before else { return Ok(()) };
         if turns {
+            self.plunged = None;
             let axis = self.axis;
             let start = || TurnedPass { line, axis, depth: -z, rows: vec![[from, from_x, from_y]] };
             self.open.get_or_insert_with(start).rows.push([angle, x, y]);
@@ -184,6 +197,14 @@ impl TurnedState {
             self.program.standing.push(StandingMove { line, angle, ends: [[from_x, from_y], [x, y]] });
         }
         Ok(())
+    }
+
+    /// The tool goes up, after a pass.
+    fn rise(&mut self, line: usize) -> Result<(), Refusal> {
+        if let Some(line) = self.plunged {
+            return Err(at_line(line, "the tool goes down, and no pass begins there"));
+        }
+        self.close(line)
     }
 
     /// Ends a pass, where one is open.

@@ -123,12 +123,16 @@ fn head(body: &dyn Body, program: &MillingProgram) -> Vec<String> {
         None => "X0 Y0 as in the drawing: the axis of the shaft",
     };
     let face = if axis == Some('A') { "the outside of the cam" } else { "the upper face" };
-    vec![
+    let rib = milling::rib_between(body, program.cutter);
+    let rib = rib.map(|rib| format!("a rib of {} mm stands between the passes: clear it before", millimetres(rib)));
+    let mut head = vec![
         format!("{}: {}, {}", body.machine().name(), body.kind().noun, flanks.join(", ")),
         path,
         format!("{origin}, Z0 {face}, {} mm deep in {count} {passes}", short(depth, 6)),
         "bore, keyway and holes are not in this program".to_owned(),
-    ]
+    ];
+    head.extend(rib);
+    head
 }
 
 /// The radius that a cutter must stay below where the control keeps it on the profile, mm: that of the lead-in.

@@ -1,0 +1,289 @@
+//! What holds in a program of letters and numbers until another word of its group is read, for a cutter that moves about a part and for a cam that is turned
+//! under its tool; and the blocks that are passed over because they are the shop's own.
+
+use super::CutterSide;
+use super::iso::{REFERENCE, Word, of};
+use super::machine_state::at_line;
+use crate::machine::Controller;
+use crate::refusal::Refusal;
+
+/// What holds until another word of the group is read.
+#[derive(Debug, Default)]
+pub(super) struct ModalWords {
+    /// G0 to G3.
+    pub(super) motion: Option<u32>,
+    /// Where the control keeps the cutter.
+    pub(super) side: CutterSide,
+    /// Feed, mm/min, or by the time of a block, 1/min.
+    pub(super) feed: Option<f64>,
+    /// Whether each block has its time (G93).
+    pub(super) by_time: bool,
+    /// The control, where it is known.
+    pub(super) control: Option<Controller>,
+    /// Whether a block was read, and whether the last one was.
+    pub(super) begun: bool,
+    pub(super) ended: bool,
+    plane: bool,
+    metric: bool,
+    absolute: bool,
+    /// Whether the cam is turned under its tool.
+    turned: bool,
+    /// The tool that was called, whether it was changed in, and the number of the offset with its radius.
+    tool: Option<f64>,
+    changed: bool,
+    offset: Option<f64>,
+}
+
+/// Where a program is when a block is read.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Situation {
+    pub(super) has_moved: bool,
+    /// Whether the tool is below the upper face.
+    pub(super) is_deep: bool,
+}
+
+impl ModalWords {
+    pub(super) fn of(control: Option<Controller>, turned: bool) -> Self {
+        Self { control, turned, ..Self::default() }
+    }
+
+    /// Takes what is modal in a block.
+    pub(super) fn block(&mut self, line: usize, words: &[Word], at: &Situation) -> Result<(), Refusal> {
+        let refused = |what: &str| Err(at_line(line, what));
+        let ways = words.iter().filter(|(letter, number)| *letter == 'G' && (0.0..=3.0).contains(number));
+        if ways.count() > 1 {
+            return refused("two ways to move are given (G0 to G3)");
+        }
+        for (_, number) in words.iter().filter(|(letter, _)| *letter == 'G') {
+            self.set(line, 10.0 * number)?;
+        }
+        let feed = of(line, words, 'F')?;
+        self.feed = if self.by_time { feed } else { feed.or(self.feed) };
+        self.tool(line, words, at.is_deep)?;
+        if at.is_deep && words.iter().any(|word| [('M', 4.0), ('M', 5.0), ('G', 43.0), ('G', 49.0)].contains(word)) {
+            return refused("the spindle stops or turns back, or the length of the tool changes, below the upper face");
+        }
+        let datum = |(letter, number): &Word| *letter == 'G' && (54.0..=59.0).contains(number);
+        if at.has_moved && words.iter().any(datum) {
+            return refused("the datum changes after the first move");
+        }
+        // On a SINUMERIK these shift the datum by the coordinates that follow.
+        let shifts = words.contains(&('G', 58.0)) || words.contains(&('G', 59.0));
+        let coordinates = words.iter().any(|(letter, _)| "XYZAC".contains(*letter));
+        if self.control == Some(Controller::Sinumerik) && shifts && coordinates {
+            return refused("G58 and G59 with coordinates move the datum");
+        }
+        self.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
+        Ok(())
+    }
+
+    /// Whether a block makes the control wait (G4): its X is a time then.
+    pub(super) fn dwells(&self, words: &[Word]) -> bool {
+        words.contains(&('G', 4.0))
+    }
+
+    /// Refuses a move before it is stated how coordinates are meant.
+    pub(super) fn is_stated(&self, line: usize) -> Result<(), Refusal> {
+        if self.plane && self.metric && self.absolute {
+            return Ok(());
+        }
+        let unit = if self.control == Some(Controller::Sinumerik) { "G71" } else { "G21" };
+        let stated = [(self.plane, "G17"), (self.metric, unit), (self.absolute, "G90")];
+        let missing: Vec<&str> = stated.iter().filter(|(stated, _)| !stated).map(|(_, word)| *word).collect();
+        let what = format!(
+            "the cutter is to move before plane, unit and absolute coordinates are stated: {} is missing",
+            missing.join(", ")
+        );
+        Err(at_line(line, what))
+    }
+
+    /// A block that leaves for a place of the machine may make coordinates incremental for it.
+    pub(super) fn leave(&mut self, words: &[Word]) {
+        self.absolute &= !words.contains(&('G', 91.0));
+    }
+
+    /// Sets what a G word holds until another is read.
+    fn set(&mut self, line: usize, tenths: f64) -> Result<(), Refusal> {
+        let is = |number: f64| (number - tenths).abs() < 1e-6;
+        let refused = |what: &str| Err(at_line(line, what));
+        match () {
+            () if is(0.0) => self.motion = Some(0),
+            () if is(10.0) => self.motion = Some(1),
+            () if (is(20.0) || is(30.0)) && self.turned => {
+                return refused("an arc (G2, G3) has no meaning on a cam that is turned");
+            }
+            () if is(20.0) => self.motion = Some(2),
+            () if is(30.0) => self.motion = Some(3),
+            () if is(170.0) => self.plane = true,
+            () if is(180.0) || is(190.0) => return refused("the plane is not XY: arcs of a cam lie in G17"),
+            () if is(210.0) || is(710.0) || is(7100.0) => self.metric = true,
+            () if is(200.0) || is(700.0) || is(7000.0) => {
+                return refused("the unit is the inch: camgen writes millimetres (G21)");
+            }
+            () if is(900.0) => self.absolute = true,
+            () if is(910.0) => return refused("coordinates become incremental (G91)"),
+            () if is(901.0) => return refused("centres become absolute (G90.1)"),
+            () if is(930.0) && self.turned => self.by_time = true,
+            () if is(940.0) => self.by_time = false,
+            () if is(930.0) || is(950.0) => return refused("the feed is not in mm/min (G94)"),
+            () if is(400.0) => self.side = CutterSide::Centre,
+            () if (is(410.0) || is(420.0)) && self.turned => {
+                return refused("the control keeps the tool beside its path (G41, G42)");
+            }
+            () if is(410.0) => self.side = CutterSide::Left,
+            () if is(420.0) => self.side = CutterSide::Right,
+            // Datum, accuracy: nothing that changes the path.
+            () => {}
+        }
+        Ok(())
+    }
+
+    /// What a block says of the tool and of the radius that is taken into account.
+    fn tool(&mut self, line: usize, words: &[Word], is_deep: bool) -> Result<(), Refusal> {
+        let changes = |word: &Word| *word == ('M', 6.0) || word.0 == 'T' || word.0 == 'H';
+        if is_deep && words.iter().any(changes) {
+            return Err(at_line(line, "the tool changes, or its length, while it is below the upper face"));
+        }
+        let offset = of(line, words, 'D')?;
+        self.tool = of(line, words, 'T')?.or(self.tool);
+        self.changed |= self.tool.is_some_and(|tool| tool > 0.0) && words.contains(&('M', 6.0));
+        self.offset = offset.or(self.offset);
+        if offset == Some(0.0) && self.side != CutterSide::Centre {
+            return Err(at_line(line, "D0 ends the compensation: the cutter would take its radius out of the cam"));
+        }
+        let begins = words.contains(&('G', 41.0)) || words.contains(&('G', 42.0));
+        if !begins || self.offset.is_some_and(|offset| offset > 0.0 && offset.fract() == 0.0) {
+            return Ok(());
+        }
+        // LinuxCNC takes the radius of the tool in the spindle, SINUMERIK that of the first cutting edge of a tool that was changed in (machine data
+        // 20270); FANUC takes D00, a radius of 0.
+        let (why, known) = match self.control {
+            Some(Controller::Fanuc) => ("FANUC then takes D00, a radius of 0", false),
+            Some(Controller::LinuxCnc) => {
+                ("LinuxCNC then takes the tool in the spindle, which the program does not change in", self.changed)
+            }
+            Some(Controller::Sinumerik) => {
+                ("SINUMERIK then takes the tool that was changed in, and the program changes none", self.changed)
+            }
+            Some(Controller::Heidenhain) | None => ("the control does not know the radius", self.changed),
+        };
+        let zero = self.offset == Some(0.0);
+        if known && !zero {
+            return Ok(());
+        }
+        let what =
+            format!("the cutter is to be kept beside its path (G41, G42) without a number of its radius (D): {why}");
+        Err(at_line(line, what).remedy("write G41 D1 with the number of the offset"))
+    }
+}
+
+/// Codes in tenths whose effect on the path is known: G91.1 is 911.
+const KNOWN: [f64; 44] = [
+    0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0, 900.0,
+    901.0, 910.0, 911.0, 930.0, 940.0, 950.0, 90.0, 540.0, 550.0, 560.0, 570.0, 580.0, 590.0, 600.0, 610.0, 611.0,
+    640.0, 430.0, 490.0, 690.0, 500.0, 501.0, 800.0, 970.0, 980.0, 990.0, 150.0,
+];
+
+/// Whether the effect of all words of a block on the path is known; of a cam that is turned about an axis that of its letter, too.
+pub(super) fn are_known(words: &[Word], axis: Option<char>) -> bool {
+    // G64 P0.01 is how exactly the control follows its path, G4 P1 a pause.
+    let exactly = words.iter().any(|word| [('G', 64.0), ('G', 61.1)].contains(word));
+    let waits = words.contains(&('G', 4.0));
+    let moves = words.iter().any(|(letter, number)| *letter == 'G' && (0.0..=3.0).contains(number));
+    let known = |(letter, number): &Word| match letter {
+        // To a reference point, or to a place of the machine.
+        'G' if REFERENCE.contains(number) => true,
+        'G' if *number == 4.0 => !moves,
+        'G' => KNOWN.iter().any(|known| (known - 10.0 * number).abs() < 1e-6),
+        'M' => number.fract() == 0.0 && ((0.0..=9.0).contains(number) || *number == 30.0),
+        'P' | 'Q' => exactly || waits,
+        'U' => waits,
+        'N' | 'O' | 'T' | 'D' | 'S' | 'F' | 'X' | 'Y' | 'Z' | 'I' | 'J' | 'H' => true,
+        letter => axis == Some(*letter),
+    };
+    words.iter().all(known)
+}
+
+/// G codes of a block with unknown words that would be lost with it: those that move, or say how coordinates and feeds are meant.
+const STATED: [f64; 26] = [
+    0.0, 1.0, 2.0, 3.0, 17.0, 18.0, 19.0, 20.0, 21.0, 28.0, 30.0, 40.0, 41.0, 42.0, 53.0, 65.0, 66.0, 70.0, 71.0, 90.0,
+    91.0, 93.0, 94.0, 95.0, 700.0, 710.0,
+];
+/// Words that call other programs, go elsewhere in this one, or change how the control calculates.
+const CALLS: [&str; 16] = [
+    "CALL", "SUB", "GOTO", "GOTOF", "GOTOB", "IF", "WHILE", "FOR", "REPEAT", "LOOP", "EXTCALL", "PCALL", "MCALL",
+    "TRAORI", "CYCLE81", "TRAANG",
+];
+
+/// Refuses a block that would be passed over where it has more than a shop's own words: it may do what is then not seen.
+pub(super) fn passed_over(line: usize, block: &str) -> Result<(), Refusal> {
+    let block = block.to_ascii_uppercase();
+    let refused = |word: &str| {
+        let what = format!("`{word}` stands in a block with words that are not known");
+        let remedy = "write what moves, calls a program or states coordinates in blocks of their own";
+        Err(at_line(line, what).remedy(remedy))
+    };
+    if block.starts_with('/') {
+        return refused("/");
+    }
+    let mut names = block.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+    if let Some(name) = names.find(|name| CALLS.contains(name)) {
+        return refused(name);
+    }
+    let mut rest = block.as_str();
+    let mut before = ' ';
+    while let Some(letter) = rest.chars().next() {
+        rest = rest.get(letter.len_utf8()..).unwrap_or_default();
+        let begins = letter.is_ascii_alphabetic() && !(before.is_ascii_alphabetic() || before == '_');
+        before = letter;
+        let number = rest.trim_start();
+        let end = number.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(number.len());
+        let Some(value) = number.get(..end).filter(|_| begins).and_then(|digits| digits.parse::<f64>().ok()) else {
+            continue;
+        };
+        let lost = match letter {
+            'G' => STATED.contains(&value),
+            'M' => [2.0, 30.0, 97.0, 98.0, 99.0].contains(&value),
+            letter => "XYZABCUVWL".contains(letter),
+        };
+        if lost {
+            return refused(&format!("{letter}{value}"));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_with_unknown_words_hides_nothing() {
+        for block in [
+            "G91 M13",
+            "M13 G91",
+            "G18 M13",
+            "G41 D1 M13",
+            "G93 M13",
+            "G0 X10 M13",
+            "/G91",
+            "/ G64",
+            "M98 P1000",
+            "G65 P9000",
+            "O<FOO> CALL",
+            "G91 G641 ADIS=1",
+            "G70 G642",
+            "G700 CYCLE832(0.1,1)",
+            "TRAORI",
+            "G1 X10 Z=IC(-30) F100",
+            "g20 g5.1 q1",
+            "IF #1 GT 2 GOTO 10",
+            "Y=5 A90",
+        ] {
+            assert!(passed_over(1, block).is_err(), "{block}");
+        }
+        for block in ["CYCLE832", "G641 ADIS=0.1", "G5.1 Q1", "M13", "M88 P3", "SOFT", "FFWON", "G187 P3 E0.01"] {
+            assert!(passed_over(1, block).is_ok(), "{block}");
+        }
+    }
+}
