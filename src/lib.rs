@@ -161,7 +161,7 @@
 //! - what is cut: [`machine`], [`load`], [`body`], [`analysis`]
 //! - what is found: [`report`], [`table`], [`check`], [`verify`]
 //! - files: [`reading`], [`mod@write`]
-//! - all of it together: [`pipeline`], [`mod@trade`], [`domain`], [`domains`], [`catalogue`]
+//! - all of it together: [`pipeline`], [`mod@trade`], [`domain`], [`domains`], [`catalogue`], [`study`]
 //!
 //! ARCHITECTURE.md describes them.
 #![forbid(unsafe_code)]
@@ -212,6 +212,7 @@ pub mod domain;
 pub mod domains;
 
 pub mod catalogue;
+pub mod study;
 
 #[doc(inline)]
 pub use analysis::Analysis;

@@ -2,7 +2,8 @@
 
 import builtins
 import os
-from collections.abc import Callable, Mapping, Sequence
+import pathlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, Optional, Union, final
 
 import numpy as np
@@ -29,6 +30,7 @@ __all__ = [
     "Machine",
     "Motion",
     "Proven",
+    "Study",
     "__version__",
     "analyse",
     "analyses",
@@ -421,3 +423,57 @@ def analyse(name: str, machine: Optional[Machine] = None, /, **options: Any) -> 
 
 def command(typed: Sequence[str]) -> int:
     """Runs a command line, the name of the program first, and returns its exit code."""
+
+@final
+class Study:
+    """A study file: many designs of one machine file, a row of figures for each. Row i depends on the file and on i alone."""
+
+    @staticmethod
+    def load(name_or_path: _Path) -> Study:
+        """An embedded study by its name, or a study file; its base is found from the folder of the file.
+
+        Raises MachineError with every fault of the study file or of its base.
+        """
+
+    @staticmethod
+    def from_toml(text: str, *, name: str = "study") -> Study:
+        """A study of TOML text; its base is an embedded machine or is found from the working folder."""
+
+    @property
+    def name(self) -> str:
+        """What the file calls it."""
+
+    @property
+    def stem(self) -> str:
+        """What the names of its files begin with."""
+
+    @property
+    def kind(self) -> str:
+        """sweep, monte-carlo or pareto."""
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of all that determines its rows: its text, its base and the version of camgen."""
+
+    @property
+    def proves(self) -> bool:
+        """Whether a column needs the cam to be drawn and proved."""
+
+    @property
+    def header(self) -> bytes:
+        """The first line of its table."""
+
+    def __len__(self) -> int: ...
+    def design(self, row: int) -> tuple[list[str], Optional[float]]:
+        """The overrides of a design as ``--set`` takes them, ``KEY=VALUE`` each, and its speed in rpm where one is given."""
+
+    def rows(self, start: int, end: int) -> bytes:
+        """The lines of the rows from ``start`` up to and without ``end``. The interpreter's lock is released."""
+
+    def collect(
+        self, stretches: Iterable[bytes], out: _Path, *, name: Optional[str] = None, page: bool = False, overwrite: bool = False
+    ) -> tuple[str, list[pathlib.Path]]:
+        """Puts stretches of rows, in their order, together to the files of ``camgen study``; every row must come once.
+
+        Returns the summary as JSON text, and the files.
+        """

@@ -113,7 +113,7 @@ impl Cam {
     /// The sections of its report as far as they need no drawing.
     fn sections(&self, py: Python<'_>) -> Vec<camgen::report::Section> {
         let tolerance_mm = MILLIMETRES * Accuracy::default().tolerance();
-        let none = DrawingEvidence { drawn: None, rolled: &[], tolerance_mm };
+        let none = DrawingEvidence { drawn: None, rolled: &[], tolerance_mm, wanted: None };
         py.detach(|| self.body().sections(&none))
     }
 

@@ -3,6 +3,7 @@
 use camgen::machine::{FileFault, MachineError};
 use camgen::pipeline::Error;
 use camgen::refusal::Refusal;
+use camgen::study::StudyError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -53,6 +54,16 @@ fn raised(class: &str, text: String, faults: Vec<Fault>) -> PyErr {
 /// A machine with faults.
 pub(crate) fn of_machine(error: &MachineError) -> PyErr {
     raised("MachineError", error.to_string(), error.faults.iter().map(Fault::from).collect())
+}
+
+/// A study that is refused, or whose files cannot be written.
+pub(crate) fn of_study(error: &StudyError) -> PyErr {
+    match error {
+        StudyError::Faults(faults) => {
+            raised("MachineError", error.to_string(), faults.iter().map(Fault::from).collect())
+        }
+        StudyError::Refused(refusal) => refused("FilesError", refusal),
+    }
 }
 
 /// What is refused before there is a cam, by the class of its exception.

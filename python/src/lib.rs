@@ -9,6 +9,7 @@ mod errors;
 mod machine;
 mod motion;
 mod options;
+mod study;
 mod table;
 
 use pyo3::prelude::*;
@@ -54,6 +55,7 @@ fn _camgen(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<analysis::Analysis>()?;
     module.add_class::<motion::Motion>()?;
     module.add_class::<motion::Law>()?;
+    module.add_class::<study::Study>()?;
     module.add_function(wrap_pyfunction!(motion::laws, module)?)?;
     module.add_function(wrap_pyfunction!(motion::law, module)?)?;
     module.add_function(wrap_pyfunction!(analyse, module)?)?;

@@ -454,6 +454,19 @@ pub struct DrawingEvidence<'a> {
     pub rolled: &'a [Rolled],
     /// Tolerance of the outline, mm.
     pub tolerance_mm: f64,
+    /// The figures that are wanted, by their paths in the report: a section with none of them may be left out. `None` for all.
+    pub wanted: Option<&'a [String]>,
+}
+
+impl DrawingEvidence<'_> {
+    /// Whether a section, or a figure of one, is wanted.
+    #[must_use]
+    pub fn wants(&self, path: &str) -> bool {
+        let is_of = |other: &String| {
+            other.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        self.wanted.is_none_or(|all| all.iter().any(is_of))
+    }
 }
 
 /// The flank that was drawn, if one was.

@@ -12,7 +12,7 @@ use crate::domains::press::motion::equation_18::EfficiencyModel;
 use crate::domains::press::template;
 use crate::domains::shaft::ShaftMachine;
 use crate::follower::{Crown, FOLLOWERS, FollowerKind, RollerData};
-use crate::machine::{CamData, Limits, Machine, MachineError, Rotation, schema};
+use crate::machine::{CamData, Limits, Machine, MachineError, MachineSource, Rotation, schema};
 use crate::pipeline::Spec;
 
 mod keys;
@@ -411,4 +411,40 @@ fn the_list_of_checks_is_the_only_one() {
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), all.len());
+}
+
+/// With overrides a machine is made of what is known of its text, where they change nothing else, and of the whole text otherwise. Both are the same
+/// machine. A key of a table whose header is not in the file makes the second, the header alone the first.
+#[test]
+fn a_machine_of_what_is_known_is_that_of_the_whole_text() {
+    let (mut made, mut refused) = (0, 0);
+    for embedded in &catalogue().embedded {
+        let (known, whole) = (format!("{}\n[title]\n", embedded.toml), embedded.toml);
+        let Ok(base) = Machine::from_toml("whole", whole, &[]) else { continue };
+        if whole.contains("[title]") {
+            continue;
+        }
+        let sources = [MachineSource::from_toml("x", &known), MachineSource::from_toml("x", whole)];
+        for input in [base.inputs("make"), base.inputs("rotary")].concat() {
+            for typed in
+                [input.typed.trim_start_matches('Ø'), "12 mm", "0.01 mm", "3 deg", "40", "auto", "cycloidal", "nothing"]
+            {
+                let set = ["title.owner=me".to_owned(), format!("{}={typed}", input.key)];
+                let [a, b] = sources.each_ref().map(|source| {
+                    Machine::of_source(source, &set).map_err(|error| error.to_string()).map(|machine| {
+                        let own = (machine.given().to_vec(), &machine.cam, &machine.follower, &machine.limits);
+                        format!(
+                            "{own:?} {:?} {:?}",
+                            [machine.inputs("make"), machine.inputs("rotary")],
+                            machine.motion()
+                        )
+                    })
+                });
+                made += usize::from(a.is_ok());
+                refused += usize::from(a.is_err());
+                assert_eq!(a, b, "{}: {set:?}", embedded.name);
+            }
+        }
+    }
+    assert!(made > 1000 && refused > 1000, "{made} {refused}");
 }

@@ -15,6 +15,7 @@ mod progress;
 mod put;
 mod side_by_side;
 mod signals;
+mod study;
 mod text;
 mod trade;
 mod watch;
@@ -98,6 +99,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::SideBySide(DeferredArgs(args)) => side_by_side::run(args),
         Command::Check(DeferredArgs(args)) => check::run(args),
         Command::Trade(DeferredArgs(args)) => trade::run(args),
+        Command::Study(DeferredArgs(args)) => study::run(args),
         Command::Machines(args) => machines::run(args),
         Command::Init(args) => pages::init(args),
         Command::Explain(args) => explain::run(args),

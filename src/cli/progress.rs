@@ -24,6 +24,19 @@ impl Progress {
         Self::new(shown, Some(steps as u64), "{bar:32} {pos}/{len} {elapsed}")
     }
 
+    /// Progress through rows of which some are done, with the rate and the time that is left.
+    pub(super) fn of_rows(shown: bool, rows: u64, done: u64) -> Self {
+        let progress = Self::new(shown, Some(rows), "{bar:32} {pos}/{len} {per_sec} {eta} left");
+        progress.0.set_position(done);
+        progress.0.reset_eta();
+        progress
+    }
+
+    /// So many rows are done.
+    pub(super) fn reached(&self, done: u64) {
+        self.0.set_position(done);
+    }
+
     fn new(shown: bool, steps: Option<u64>, template: &str) -> Self {
         let bar = ProgressBar::with_draw_target(steps, ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template(template) {

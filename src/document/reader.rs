@@ -38,6 +38,16 @@ pub struct Reader<'a> {
     /// Keys that misspelt ones may have meant: that they are absent is explained.
     meant_keys: BTreeSet<String>,
     faults: RefCell<Vec<PendingFault>>,
+    /// The keys of the file that count as given, where they are known.
+    given: Option<Arc<Vec<String>>>,
+}
+
+/// The values of a text without overrides and without a fault: with an override of one of them the others are as they are.
+#[derive(Debug)]
+pub(crate) struct KnownValues {
+    values: BTreeMap<String, KeyValue>,
+    inputs: BTreeMap<String, Input>,
+    given: Arc<Vec<String>>,
 }
 
 impl<'a> Reader<'a> {
@@ -59,8 +69,20 @@ impl<'a> Reader<'a> {
         let faults = RefCell::new(std::mem::take(&mut document.faults));
         let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
         let (inputs, doubled, meant, meant_keys) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
-        let mut reader =
-            Self { document, folder, sections, values, inputs, missing, misshapen, doubled, meant, meant_keys, faults };
+        let mut reader = Self {
+            document,
+            folder,
+            sections,
+            values,
+            inputs,
+            missing,
+            misshapen,
+            doubled,
+            meant,
+            meant_keys,
+            faults,
+            given: None,
+        };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -68,6 +90,69 @@ impl<'a> Reader<'a> {
             reader.unknown();
         }
         reader
+    }
+
+    /// What it has read, for [`Reader::of_known`]; `None` where there is a fault, or where a value is given by another key or by a word for
+    /// its table.
+    pub(crate) fn known(&self) -> Option<KnownValues> {
+        let by_word = |section: &KeySection| section.keys.iter().any(|key| key.for_table.is_some());
+        let as_word = |section: &&'a KeySection| {
+            by_word(section) && self.document.has(section.path) && !self.document.tables.contains_key(section.path)
+        };
+        let plain = self.doubled.is_empty() && !self.sections.iter().any(as_word);
+        if !self.is_faultless() || !plain {
+            return None;
+        }
+        let given = Arc::new(self.given(true));
+        Some(KnownValues { values: self.values.clone(), inputs: self.inputs.clone(), given })
+    }
+
+    /// As [`Reader::of_flat`], from what is known of the text without overrides: only what they set is read. `None` where they may change
+    /// more than the values that they set, or have a fault; then everything is to be read.
+    pub(crate) fn of_known(
+        (folder, source): (Option<&'a Path>, &'a str),
+        flat: &FlatText,
+        overrides: &[String],
+        sections: &'a [&'a KeySection],
+        known: &KnownValues,
+    ) -> Option<Self> {
+        let document = Document::new(source, flat.clone(), overrides);
+        if document.broken || !document.faults.is_empty() {
+            return None;
+        }
+        let (mut values, mut inputs) = (known.values.clone(), known.inputs.clone());
+        for path in document.overridden() {
+            let (pattern, _) = pattern(path);
+            let (section, key) = key_at(sections, &pattern)?;
+            let twin = section.keys.iter().find(|other| other.halved == Some(key.name));
+            let table = path.strip_suffix(key.name)?;
+            let by_twin = twin.is_some_and(|twin| flat.has_value(&format!("{table}{}", twin.name)));
+            let plain = key.halved.is_none() && key.for_table.is_none() && key.form != KeyForm::Columns;
+            if !plain || by_twin || !flat.holds(path) {
+                return None;
+            }
+            let entry = document.entries.get(path)?;
+            let value = value::read(key, path, &entry.value).ok()?;
+            inputs.insert(path.to_owned(), Input::new(path, value.canonical(key.form), entry.value.shown()));
+            values.insert(path.to_owned(), value);
+        }
+        let faults = RefCell::new(Vec::new());
+        let (missing, misshapen, doubled) = (BTreeMap::new(), BTreeSet::new(), BTreeMap::new());
+        let (meant, meant_keys, given) = (BTreeSet::new(), BTreeSet::new(), Some(Arc::clone(&known.given)));
+        Some(Self {
+            document,
+            folder,
+            sections,
+            values,
+            inputs,
+            missing,
+            misshapen,
+            doubled,
+            meant,
+            meant_keys,
+            faults,
+            given,
+        })
     }
 
     /// A word in the place of a table is that of each of its keys that may have it.
@@ -356,6 +441,13 @@ impl<'a> Reader<'a> {
     /// belongs to one kind of cam only those set by overrides count: a file may describe several kinds.
     #[must_use]
     pub fn given(&self, file: bool) -> Vec<String> {
+        if let Some(of_file) = &self.given {
+            let mut all: Vec<String> = if file { of_file.to_vec() } else { Vec::new() };
+            all.extend(self.document.overridden().map(str::to_owned));
+            all.sort_unstable();
+            all.dedup();
+            return all;
+        }
         let of_one_kind = |path: &str| {
             let (pattern, _) = pattern(path);
             key_at(self.sections, &pattern).is_some_and(|(section, _)| !section.cams.is_empty())

@@ -129,6 +129,17 @@ impl FlatText {
         flat
     }
 
+    /// Whether an override of a value changes nothing but that value: it is in the file, or the header of its table is.
+    pub(super) fn holds(&self, path: &str) -> bool {
+        let table = path.rsplit_once('.').map_or("", |(table, _)| table);
+        self.entries.contains_key(path) || self.tables.contains_key(table)
+    }
+
+    /// Whether there is a value at a path.
+    pub(super) fn has_value(&self, path: &str) -> bool {
+        self.entries.contains_key(path)
+    }
+
     fn parse(&mut self, text: &str, repeated: impl Fn(&str) -> bool) {
         let (table, errors) = DeTable::parse_recoverable(text);
         // Later faults of the parser are mostly consequences of the first.
@@ -214,6 +225,11 @@ impl<'a> Document<'a> {
             document.override_with(text);
         }
         document
+    }
+
+    /// The paths that overrides set, in their order.
+    pub(super) fn overridden(&self) -> impl Iterator<Item = &str> {
+        self.flags.iter().filter_map(|flag| flag.split_once('=')).map(|(path, _)| path)
     }
 
     /// A key with the elements of arrays of tables counted from 0, as paths have them; a number between dots counts them from 1,

@@ -139,7 +139,7 @@ pub struct Machine {
     /// The parts that domains have read.
     parts: MachineParts,
     /// Keys and values of the file.
-    key_values: KeyValues,
+    key_values: Arc<KeyValues>,
 }
 
 /// Keys and values of a machine file.
@@ -151,6 +151,20 @@ struct KeyValues {
     overridden: Vec<String>,
     /// Every value, defaults too.
     inputs: Vec<Input>,
+}
+
+/// Every value of a machine, for the hash of its inputs.
+#[derive(Debug, Clone)]
+pub(crate) struct MachineValues {
+    catalogue: &'static Catalogue,
+    key_values: Arc<KeyValues>,
+}
+
+impl MachineValues {
+    /// Those that have an effect on a kind of cam as a command names it, defaults too.
+    pub(crate) fn inputs(&self, command: &str) -> Vec<Input> {
+        self.catalogue.keys.with_effect(&self.key_values.inputs, command)
+    }
 }
 
 impl Machine {
@@ -207,11 +221,11 @@ impl Machine {
             title: title::read(reader),
             cutting: cutting::read(reader),
             parts,
-            key_values: KeyValues {
+            key_values: Arc::new(KeyValues {
                 keys: reader.given(source.by_user),
                 overridden: reader.given(false),
                 inputs: track::without_disc(limits::inputs(reader, &*follower.shape, quantity)),
-            },
+            }),
             follower,
         })
     }
@@ -235,15 +249,16 @@ impl Machine {
     /// The machine with a value that was changed after it was read, for the hash of its inputs.
     #[must_use]
     pub fn with_input(mut self, input: Input) -> Self {
-        self.key_values.inputs.retain(|other| other.key != input.key);
-        self.key_values.inputs.push(input);
+        let inputs = &mut Arc::make_mut(&mut self.key_values).inputs;
+        inputs.retain(|other| other.key != input.key);
+        inputs.push(input);
         self
     }
 
     /// Without the keys and values of its file.
     #[cfg(all(test, feature = "press", feature = "linkage", feature = "shaft", feature = "brake"))]
     pub(crate) fn without_given(self) -> Self {
-        Self { key_values: KeyValues::default(), ..self }
+        Self { key_values: Arc::default(), ..self }
     }
 
     /// The tables that it was read against.
@@ -256,7 +271,7 @@ impl Machine {
     #[must_use]
     pub fn with_opposite_offset(&self) -> Option<Self> {
         let mut machine = Self { follower: self.follower.with_opposite_offset()?, ..self.clone() };
-        let inputs = &mut machine.key_values.inputs;
+        let inputs = &mut Arc::make_mut(&mut machine.key_values).inputs;
         let before = inputs.len();
         inputs.retain(|input| input.key != OPPOSITE);
         if inputs.len() == before {
@@ -370,7 +385,7 @@ impl Machine {
         let limit = &mut self.limits.cutter_radius;
         let larger = limit.map_or(radius, |other| other.max(radius));
         *limit = Some(larger);
-        let inputs = &mut self.key_values.inputs;
+        let inputs = &mut Arc::make_mut(&mut self.key_values).inputs;
         inputs.retain(|input| input.key != LARGEST_CUTTER);
         inputs.push(Input::quantity(LARGEST_CUTTER, larger, ("mm", 1e-3)));
     }
@@ -378,7 +393,13 @@ impl Machine {
     /// Every value that has an effect on a kind of cam as a command names it, defaults too.
     #[must_use]
     pub fn inputs(&self, command: &str) -> Vec<Input> {
-        self.catalogue.keys.with_effect(&self.key_values.inputs, command)
+        self.values().inputs(command)
+    }
+
+    /// Every value of it, shared.
+    #[must_use]
+    pub(crate) fn values(&self) -> MachineValues {
+        MachineValues { catalogue: self.catalogue, key_values: Arc::clone(&self.key_values) }
     }
 
     /// Of the keys given, those that have no effect on a kind of cam as a command names it.

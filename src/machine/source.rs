@@ -4,8 +4,9 @@ use super::embedded::Embedded;
 use super::other_files::instead_of_machine;
 use super::{CamData, FollowerData, MachineError, MachineParts, stem};
 use crate::document::file;
-use crate::document::{FileFault, FlatText, Reader, Tables, similar};
+use crate::document::{FileFault, FlatText, KnownValues, Reader, Tables, similar};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
 
 /// Largest machine file, bytes.
 const LARGEST_FILE: u64 = 1 << 20;
@@ -49,6 +50,8 @@ pub struct MachineSource {
     /// What the names of its files begin with.
     stem: String,
     text: FlatText,
+    /// What it has without overrides, where that is without a fault.
+    known: Arc<OnceLock<Option<KnownValues>>>,
     /// The user wrote it.
     pub(super) by_user: bool,
     /// The folder of its file.
@@ -59,7 +62,8 @@ impl MachineSource {
     /// A text of the user that is not in a folder.
     pub(crate) fn of_user(catalogue: &'static Catalogue, name: &str, text: &str) -> Self {
         let (stem, text) = (stem::fitting(name), FlatText::new(text, &catalogue.keys.sections));
-        Self { catalogue, name: name.to_owned(), stem, text, by_user: true, folder: None }
+        let known = Arc::default();
+        Self { catalogue, name: name.to_owned(), stem, text, known, by_user: true, folder: None }
     }
 
     /// What the names of its files begin with.
@@ -73,14 +77,31 @@ impl MachineSource {
         Self { folder: Some(PathBuf::new()), ..self }
     }
 
+    /// Reads everything.
+    fn reader(&self, overrides: &[String]) -> Reader<'_> {
+        let place = (self.folder.as_deref(), self.name.as_str());
+        Reader::of_flat(place, self.text.clone(), overrides, &self.catalogue.keys.sections)
+    }
+
+    /// Reads what overrides set.
+    fn reader_of_known(&self, overrides: &[String], known: &KnownValues) -> Option<Reader<'_>> {
+        let place = (self.folder.as_deref(), self.name.as_str());
+        Reader::of_known(place, &self.text, overrides, &self.catalogue.keys.sections, known)
+    }
+
+    fn known(&self) -> Option<&KnownValues> {
+        self.known.get_or_init(|| self.reader(&[]).known()).as_ref()
+    }
+
     /// The result of `parts` for this text.
     pub(crate) fn read<T>(
         &self,
         overrides: &[String],
         parts: impl FnOnce(&Reader<'_>) -> Option<T>,
     ) -> Result<T, MachineError> {
-        let place = (self.folder.as_deref(), self.name.as_str());
-        let reader = Reader::of_flat(place, self.text.clone(), overrides, &self.catalogue.keys.sections);
+        let known = if overrides.is_empty() { None } else { self.known() };
+        let reader = known.and_then(|known| self.reader_of_known(overrides, known));
+        let reader = reader.unwrap_or_else(|| self.reader(overrides));
         let made = parts(&reader);
         reader.finish().map_err(|faults| MachineError { faults })?;
         // A part is missing only after a fault, so `finish` has returned before.

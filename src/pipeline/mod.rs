@@ -42,6 +42,7 @@ use crate::body::programs;
 use crate::body::servo::{self, ServoTable};
 use crate::body::{self, Body, DrawError, Drawn, Request};
 use crate::document::Input;
+use crate::machine::MachineValues;
 use crate::report::{Inputs, Report, Section};
 use std::sync::Arc;
 
@@ -66,11 +67,22 @@ pub struct Cam {
     body: Arc<dyn Body>,
     /// How it is solved for another speed, where it is made for one.
     resolver: Option<diagnosis::Resolver>,
-    /// What determines it.
-    inputs: Vec<Input>,
+    /// What determines it in addition to its machine.
+    own: Vec<Input>,
+    /// The values of its machine as it was before it was solved.
+    values: MachineValues,
 }
 
 impl Cam {
+    /// What determines it.
+    fn inputs(&self) -> Vec<Input> {
+        let kind = self.body.kind();
+        let mut inputs = vec![Input::word("command", kind.command)];
+        inputs.extend(self.values.inputs(kind.keys));
+        inputs.extend(self.own.iter().cloned());
+        inputs
+    }
+
     /// The cam itself: its curves, worst places and tables.
     #[must_use]
     pub fn body(&self) -> &dyn Body {
@@ -136,14 +148,15 @@ impl Cam {
     /// Whether it is made from the inputs of a recorded run; how it is drawn does not matter.
     #[must_use]
     pub fn is_made_from(&self, recorded: &[Input]) -> bool {
-        let known = |input: &Input| self.inputs.contains(input);
+        let inputs = self.inputs();
+        let known = |input: &Input| inputs.contains(input);
         let left = recorded.iter().filter(|input| !known(input));
-        self.inputs.iter().all(|input| recorded.contains(input)) && left.into_iter().all(inputs::is_of_request)
+        inputs.iter().all(|input| recorded.contains(input)) && left.into_iter().all(inputs::is_of_request)
     }
 
     /// Everything that determines the part as it is drawn.
     fn inputs_for(&self, request: &Request) -> Vec<Input> {
-        self.inputs.iter().cloned().chain(inputs::of_request(request)).collect()
+        self.inputs().into_iter().chain(inputs::of_request(request)).collect()
     }
 }
 

@@ -464,7 +464,7 @@ impl Proven {
     /// The report with more sections, and with the reason why there is no outline of a cam that belongs to it.
     pub(super) fn report_with(&self, more: Vec<Section>, no_outline: Option<&str>) -> Report {
         let ProvenData { rolled, point_measures, program_measures, hashed, findings, .. } = &*self.0;
-        let found = DrawingEvidence { drawn: self.drawn(), rolled, tolerance_mm: self.tolerance_mm() };
+        let found = DrawingEvidence { drawn: self.drawn(), rolled, tolerance_mm: self.tolerance_mm(), wanted: None };
         let mut sections = self.body().sections(&found);
         sections.extend(PointMeasures::section(point_measures));
         sections.extend(ProgramMeasures::section(program_measures));

@@ -226,12 +226,8 @@ impl Spec {
         let SolvedBodies { body, name, others, joint_report } =
             (self.solve)(&self.machine, wanted).map_err(Error::Solve)?;
         let own = self.inputs.unwrap_or_else(|| inputs::of_own(&*body));
-        let cam = |body: Arc<dyn Body>, resolver| {
-            let mut inputs = vec![Input::word("command", body.kind().command)];
-            inputs.extend(self.machine.inputs(body.kind().keys));
-            inputs.extend(own.iter().cloned());
-            Cam { body, resolver, inputs }
-        };
+        let values = self.machine.values();
+        let cam = |body: Arc<dyn Body>, resolver| Cam { body, resolver, own: own.clone(), values: values.clone() };
         let others = others.into_iter().map(|(name, body)| (name, cam(body, None))).collect();
         Ok((cam(body, self.resolver), name, others, joint_report))
     }

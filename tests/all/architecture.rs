@@ -3,7 +3,7 @@
 use crate::common::source::{Token, closing, code, sources, src, tokens, used};
 use std::path::{Path, PathBuf};
 
-const ROOMS: [&str; 23] = [
+const ROOMS: [&str; 24] = [
     "refusal",
     "units",
     "numeric",
@@ -27,6 +27,7 @@ const ROOMS: [&str; 23] = [
     "domain",
     "domains",
     "catalogue",
+    "study",
 ];
 
 /// Longest function, in lines from its name to its closing brace.

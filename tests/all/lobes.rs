@@ -69,7 +69,7 @@ fn n_lobes_are_a_cam() {
         assert!(moment.norm() < 1e-6 * area, "{turns}: {moment} of {area}");
         assert!(
             cam.body()
-                .sections(&camgen::body::DrawingEvidence { drawn: None, rolled: &[], tolerance_mm: 5e-3 })
+                .sections(&camgen::body::DrawingEvidence { drawn: None, rolled: &[], tolerance_mm: 5e-3, wanted: None })
                 .iter()
                 .any(|section| section.key == "cam"
                     && section.value.get("lobes").and_then(serde_json::Value::as_u64) == Some(u64::from(lobes)))

@@ -67,6 +67,7 @@ mod spline_solids;
 mod stability;
 mod starts;
 mod step;
+mod study;
 mod supply;
 mod surface;
 mod tables;

@@ -97,8 +97,8 @@ pub struct Disc {
     other: Option<(Arc<Self>, f64)>,
     /// Spring, guide, crown and vibration of the follower of a motion program.
     program_follower: forces::ProgramFollower,
-    /// The sizes that keep every limit; `None` when none does.
-    smallest: Option<SmallestSize>,
+    /// The sizes that keep every limit; `None` when none does. Computed on demand where the size is given.
+    smallest: OnceLock<Option<SmallestSize>>,
     /// The prime radius of the smallest cam before it is rounded, m, computed on demand.
     exact: OnceLock<f64>,
     /// The chosen position of the follower, where it was to be chosen.
@@ -180,7 +180,7 @@ impl Disc {
             hold: Hold::Force,
             other: None,
             program_follower: forces::ProgramFollower::default(),
-            smallest: None,
+            smallest: OnceLock::new(),
             exact: OnceLock::new(),
             placed: None,
             worst: WorstPlaces::default(),
@@ -208,13 +208,13 @@ impl Disc {
     /// The base radius `auto` would take, m: the smallest that passes, in whole millimetres.
     #[must_use]
     pub fn passing_base_radius(&self) -> Option<f64> {
-        self.smallest.map(|smallest| smallest.base_radius)
+        self.smallest().map(|smallest| smallest.base_radius)
     }
 
     /// Smallest prime radius that keeps every limit, m; `None` when none does.
     #[must_use]
     pub fn smallest_prime_radius(&self) -> Option<f64> {
-        self.smallest.map(|smallest| *self.exact.get_or_init(|| self.before_rounding(smallest).prime_radius))
+        self.smallest().map(|smallest| *self.exact.get_or_init(|| self.before_rounding(smallest).prime_radius))
     }
 
     /// Largest lift, m or rad.
@@ -382,15 +382,18 @@ impl Body for Disc {
     fn sections(&self, found: &DrawingEvidence<'_>) -> Vec<Section> {
         let part = found.drawn.and_then(|drawn| drawn.parts.first());
         let on_face = extremes::places_on_face(self.curves()).map(|places| places.map(|at| MILLIMETRES * at.value));
-        let lift = |quantity, unit: f64| (self.motion.quantity() == quantity).then(|| unit * self.max_lift());
-        let spin = if self.is_of_program() { self.spin() } else { None };
+        let wants_lift = found.wants("cam.max_lift_mm") || found.wants("cam.max_lift_deg");
+        let lift =
+            |quantity, unit: f64| (wants_lift && self.motion.quantity() == quantity).then(|| unit * self.max_lift());
+        let spin = if self.is_of_program() && found.wants("cam.roller_turns") { self.spin() } else { None };
+        let smallest = found.wants("cam.smallest_prime_radius_mm").then(|| self.smallest_prime_radius()).flatten();
         let cam = CamMeasures {
             prime_radius_mm: Some(MILLIMETRES * self.prime_radius()),
             base_radius_mm: Some(MILLIMETRES * self.base_radius()),
             roller_radius_mm: self.roller_radius().map(|radius| MILLIMETRES * radius),
             max_lift_mm: lift(Quantity::Length, MILLIMETRES),
             max_lift_deg: lift(Quantity::Angle, 1.0_f64.to_degrees()),
-            smallest_prime_radius_mm: self.smallest_prime_radius().map(|radius| MILLIMETRES * radius),
+            smallest_prime_radius_mm: smallest.map(|radius| MILLIMETRES * radius),
             face_mm: on_face,
             roller_turns: spin.map(|spin| [spin.mean, spin.largest.value]),
             lobes: self.load.as_ref().map(|_| self.motion.lobes()),
@@ -400,15 +403,18 @@ impl Body for Disc {
         let duty = self.duty.as_ref();
         let mut sections = vec![cam.section()];
         sections.extend(duty.and_then(|duty| duty.mounting(&self.machine)));
-        sections.extend(self.size_section());
-        sections.extend(self.program());
+        let wants = |key: &str| found.wants(key);
+        sections.extend(wants("size").then(|| self.size_section()).flatten());
+        sections.extend(wants("motion").then(|| self.program()).flatten());
         sections.extend(duty.map(|duty| duty.sections(self)).into_iter().flatten());
         sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
         sections.push(Section::new("rolling", &found.rolled.first()));
         sections.extend(duty.and_then(|duty| duty.forces(self, found.rolled.first())));
-        sections.extend(self.dynamics());
-        sections.extend(self.bearing_section());
-        sections.extend(self.vibration_sections());
+        sections.extend(wants("dynamics").then(|| self.dynamics()).flatten());
+        sections.extend(wants("roller_bearing").then(|| self.bearing_section()).flatten());
+        if wants("vibration") || wants("harmonics") {
+            sections.extend(self.vibration_sections());
+        }
         sections
     }
 

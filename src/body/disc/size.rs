@@ -74,14 +74,17 @@ impl Disc {
         }
         let offset = self.follower.element().offset();
         let required = self.required();
-        let by_shape = size::smallest(&*self.motion, &*self.follower, &required);
-        let smallest = by_shape.ok().and_then(|smallest| self.keeping_all(smallest));
-        let (base, smallest) = match (self.machine.cam.base_radius, smallest) {
-            (Some(base), smallest) => (base, smallest.map(|(smallest, _)| smallest)),
+        let base = if let Some(base) = self.machine.cam.base_radius {
+            base
+        } else {
+            let by_shape = size::smallest(&*self.motion, &*self.follower, &required);
             // Its worst places are known.
-            (None, Some((smallest, disc))) => return Ok(Self { smallest: Some(smallest), ..disc }),
+            if let Some((smallest, disc)) = by_shape.ok().and_then(|smallest| self.keeping_all(smallest)) {
+                return Ok(Self { smallest: OnceLock::from(Some(smallest)), ..disc });
+            }
             // A limit that no radius keeps: its check says so.
-            (None, None) => (by_shape.map_err(|_| self.without_radius())?.base_radius, None),
+            self.smallest = OnceLock::from(None);
+            by_shape.map_err(|_| self.without_radius())?.base_radius
         };
         let top = size::largest_lift_in_reach(&*self.motion, &*self.follower);
         let sized = self.follower.sized(base + offset).filter(|follower| top <= follower.reach().1);
@@ -97,8 +100,16 @@ impl Disc {
             }
         };
         self.follower = sized.ok_or_else(out_of_reach)?.into();
-        self.smallest = smallest;
         Ok(self)
+    }
+
+    /// The sizes that keep every limit; `None` when none does.
+    pub(super) fn smallest(&self) -> Option<SmallestSize> {
+        let found = || {
+            let by_shape = size::smallest(&*self.motion, &*self.follower, &self.required()).ok()?;
+            self.keeping_all(by_shape).map(|(smallest, _)| smallest)
+        };
+        *self.smallest.get_or_init(found)
     }
 
     /// What its limits and its bore require of its size; where a keyway stands under a lobe it does not matter.
@@ -139,7 +150,13 @@ impl Disc {
     #[must_use]
     pub fn placed_at(&self, place: FollowerPlacement, chosen: f64) -> Self {
         let follower = place.follower(chosen);
-        Self { follower, smallest: None, exact: OnceLock::new(), worst: WorstPlaces::default(), ..self.clone() }
+        Self {
+            follower,
+            smallest: OnceLock::new(),
+            exact: OnceLock::new(),
+            worst: WorstPlaces::default(),
+            ..self.clone()
+        }
     }
 
     /// From the smallest size that keeps pressure angle and curvature to the smallest that keeps every limit depending on it, each

@@ -133,6 +133,15 @@ Examples:
   camgen trade rotary --residual 5N --acceleration 5% --dry-run
       the cheapest setting that keeps both, without files";
 
+pub(super) const STUDY: &str = "\
+Examples:
+  camgen study feeder-roller
+      rollers and pressure angles of an embedded feeder, every combination, as output/feeder-roller.csv
+  camgen study lever-pareto --page
+      random designs, those that no other beats, and a page with charts
+
+`camgen study feeder-scatter --show > mine.toml` is a file to start from; docs/study.md describes its keys.";
+
 pub(super) const MACHINES: &str = "\
 Examples:
   camgen machines

@@ -9,6 +9,7 @@ mod files;
 mod help;
 pub(crate) mod parse;
 mod side_by_side;
+mod study;
 
 pub(crate) use analyses::{
     AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportForm, LawsArgs, RegimesArgs, SizeArgs, SpringArgs,
@@ -26,6 +27,7 @@ pub(super) use files::{CutterArgs, FileArgs, OutlineArgs, OutputArgs, PointsArgs
 pub(super) use parse::Order;
 pub(super) use parse::{LawOrSpline, Speed, gauge_follower};
 pub(super) use side_by_side::SideBySideArgs;
+pub(super) use study::StudyArgs;
 
 use camgen::analysis::size::FreeDimension;
 use camgen::domains::press::bed_motion::End;
@@ -146,6 +148,11 @@ pub(super) enum Command {
     /// Arcs, splines and tables of points side by side: time of each stage, pieces, bytes, true error and residual force.
     #[command(after_help = help::TRADE)]
     Trade(DeferredArgs<TradeArgs>),
+    /// Sweeps, Monte Carlo and Pareto fronts: a row of figures for each of many designs
+    ///
+    /// A study file names a base, the keys that vary and the figures that are wanted. An interrupted run is continued by the same command.
+    #[command(after_help = help::STUDY)]
+    Study(DeferredArgs<StudyArgs>),
     /// The machine files built into camgen
     #[command(after_help = help::MACHINES)]
     Machines(MachinesArgs),

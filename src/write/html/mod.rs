@@ -34,6 +34,9 @@ const SCRIPTS: [&str; 4] = [
     include_str!("../../../templates/report/solid.js"),
     include_str!("../../../templates/report/page.js"),
 ];
+/// The page of a study, with its own script.
+const STUDY: &str = include_str!("../../../templates/study.html");
+const STUDY_SCRIPT: &str = include_str!("../../../templates/report/study.js");
 const CHARTS: &str = include_str!("../../../templates/vendor/uplot/uPlot.iife.min.js");
 const CHARTS_STYLE: &str = include_str!("../../../templates/vendor/uplot/uPlot.min.css");
 const CHARTS_LICENCE: &str = include_str!("../../../templates/vendor/uplot/LICENSE");
@@ -47,10 +50,22 @@ pub fn side_by_side(first: &Rendering<'_>, second: &Rendering<'_>) -> Result<Vec
     page(&title, &[data::of(first), data::of(second)])
 }
 
-/// Fills the template: each placeholder occurs once, and inserted text is not searched again.
+/// The page of a study.
+///
+/// # Errors
+/// As [`side_by_side`].
+pub fn of_study(title: &str, data: &Value) -> Result<Vec<u8>, Refusal> {
+    filled(STUDY, title, data, STUDY_SCRIPT)
+}
+
+/// The page of cams.
 fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, Refusal> {
-    let data = serde_json::to_string(&json!({"schema": 1, "cams": cams})).map_err(Refusal::of)?;
-    let scripts = SCRIPTS.concat();
+    filled(PAGE, title, &json!({"schema": 1, "cams": cams}), &SCRIPTS.concat())
+}
+
+/// Fills a template: each placeholder occurs once or twice, and inserted text is not searched again.
+fn filled(template: &str, title: &str, data: &Value, script: &str) -> Result<Vec<u8>, Refusal> {
+    let data = serde_json::to_string(data).map_err(Refusal::of)?;
     let lookup = |name: &str| match name {
         "title" => text(title),
         "style" => format!("{CHARTS_STYLE}\n{STYLE}"),
@@ -58,11 +73,11 @@ fn page(title: &str, cams: &[Value]) -> Result<Vec<u8>, Refusal> {
         "data" => data.replace('<', "\\u003c"),
         "licence" => text(CHARTS_LICENCE),
         "charts" => CHARTS.to_owned(),
-        "script" => scripts.clone(),
+        "script" => script.to_owned(),
         _ => String::new(),
     };
-    let mut page = String::with_capacity(PAGE.len() + data.len() + CHARTS.len() + scripts.len());
-    let mut rest = PAGE;
+    let mut page = String::with_capacity(template.len() + data.len() + CHARTS.len() + script.len());
+    let mut rest = template;
     while let Some((before, behind)) = rest.split_once("{{") {
         let (name, after) = behind.split_once("}}").unwrap_or((behind, ""));
         page.push_str(before);

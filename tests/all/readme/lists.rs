@@ -14,6 +14,7 @@ pub(super) fn list(name: &str) -> String {
         "keys" => tables(|_| true).replace("### ", "## "),
         "limits" => tables(|section| section.path == "limits"),
         "laws" => laws(),
+        "study" => tables_of(camgen::study::SECTIONS, |_| true),
         "units" => units(),
         "flags" => super::flags::flags(),
         other => panic!("no list {other}"),
@@ -72,9 +73,14 @@ fn figure(value: f64) -> String {
 
 /// The tables of a machine file with their keys.
 fn tables(wanted: impl Fn(&KeySection) -> bool) -> String {
+    tables_of(&catalogue().keys.sections, wanted)
+}
+
+/// Tables of a file with their keys.
+fn tables_of(all: &[&KeySection], wanted: impl Fn(&KeySection) -> bool) -> String {
     let mut text = String::new();
     let mut path = None;
-    for section in catalogue().keys.sections.iter().filter(|section| wanted(section)) {
+    for section in all.iter().filter(|section| wanted(section)) {
         if path != Some((section.path, section.occurs == Occurrence::Repeated)) {
             path = Some((section.path, section.occurs == Occurrence::Repeated));
             write!(

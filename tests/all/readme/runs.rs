@@ -208,7 +208,9 @@ pub(super) fn columns(directory: &Path) -> BTreeSet<String> {
     let heads = tables.map(|path| fs::read_to_string(path).expect("a table"));
     let of = |text: String| {
         let head = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default().to_owned();
-        head.split(',').map(str::to_owned).collect::<Vec<_>>()
+        // The table of a study has the columns that its file names.
+        let of_study = head.starts_with("row,");
+        head.split(',').filter(|_| !of_study).map(str::to_owned).collect::<Vec<_>>()
     };
     heads.flat_map(of).collect()
 }

@@ -1,0 +1,189 @@
+"""Studies from Python: the bytes of the command line, on processes and on a Dask cluster with a real scheduler and workers over TCP."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+import camgen
+from camgen import study as studies
+
+STUDY = """
+name = "shards"
+base = "feeder"
+kind = "monte-carlo"
+rows = 3000
+set = ["cam.base_radius=60mm"]
+columns = ["cam.prime_radius_mm", "checks.pressure_angle.value"]
+[[parameter]]
+key = "follower.roller.radius"
+from = "-1 mm"
+to = "20 mm"
+[[constraint]]
+column = "checks.pressure_angle.value"
+at_most = 14
+"""
+
+
+@pytest.fixture
+def whole(tmp_path, program):
+    """The study file, and the table and summary of the command line."""
+    path = tmp_path / "shards.toml"
+    path.write_text(STUDY, "utf-8")
+    program("study", path, "--quiet", "--out", tmp_path / "whole", cwd=tmp_path, expected=(0,))
+    return path, (tmp_path / "whole" / "shards.csv").read_bytes(), (tmp_path / "whole" / "shards.json").read_bytes()
+
+
+def written(result, whole):
+    """The files of a run are those of the command line; every row is in one shard."""
+    path, table, summary = whole
+    by_ending = {file.suffix: file.read_bytes() for file in result.files}
+    assert by_ending[".csv"] == table
+    assert by_ending[".json"] == summary
+    assert result.summary == json.loads(summary)
+    ends = [(shard["start"], shard["end"]) for shard in result.shards]
+    assert ends[0][0] == 0 and ends[-1][1] == 3000
+    assert all(a[1] == b[0] for a, b in zip(ends, ends[1:]))
+
+
+def test_rows_are_those_of_the_command_line(whole):
+    path, table, _ = whole
+    study = camgen.Study.load(path)
+    assert len(study) == 3000 and study.kind == "monte-carlo" and not study.proves
+    assert study.header + study.rows(0, 7) + study.rows(7, 3000) == table
+    overrides, rpm = study.design(5)
+    assert overrides[0] == "cam.base_radius=60mm" and overrides[1].startswith("follower.roller.radius=") and rpm is None
+    with pytest.raises(camgen.OptionError):
+        study.rows(0, 3001)
+
+
+def test_faults_of_a_study_file_have_their_places(tmp_path):
+    with pytest.raises(camgen.MachineError) as raised:
+        camgen.Study.from_toml(STUDY.replace("rows = 3000", "row = 3000"), name="mine.toml")
+    assert any(fault.place and fault.place.startswith("mine.toml:5:") for fault in raised.value.faults)
+
+
+def test_collect_wants_every_row_once(whole, tmp_path):
+    study = camgen.Study.load(whole[0])
+    for stretches in ([study.rows(0, 10)], [study.rows(0, 10), study.rows(11, 3000)], [study.rows(0, 10), study.rows(0, 3000)]):
+        with pytest.raises(camgen.OptionError):
+            study.collect(stretches, tmp_path / "out")
+        assert not (tmp_path / "out" / "shards.csv").exists()
+
+
+def test_local_processes_and_a_stopped_run(whole, tmp_path):
+    result = studies.run(whole[0], out=tmp_path / "out", workers=2, size=1000)
+    written(result, whole)
+    # Without one shard, and with a changed one, both are made again.
+    folder = tmp_path / "out" / "shards-shards"
+    (folder / "rows-000000000001000.csv").unlink()
+    (folder / "rows-000000000002000.csv").write_bytes(b"wrong\n")
+    done = []
+    result = studies.run(whole[0], out=tmp_path / "out", workers=1, progress=lambda *counts: done.append(counts))
+    assert done == [(2, 3), (3, 3)]
+    written(result, whole)
+
+
+def test_a_full_disk_is_told(whole, tmp_path):
+    if not os.path.exists("/dev/full"):
+        pytest.skip("no /dev/full")
+    folder = tmp_path / "file"
+    folder.write_text("")
+    with pytest.raises((studies.StudyRunError, OSError)) as raised:
+        studies.run(whole[0], out=tmp_path / "out", shards=str(folder / "shards"), size=1000, workers=1)
+    assert "shards" in str(raised.value)
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler, and a function that starts a worker over TCP."""
+    distributed = pytest.importorskip("distributed")
+    processes = []
+    environment = {**os.environ, "DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "60s"}
+    log = (tmp_path / "cluster.log").open("wb")
+
+    def start(*words, **more):
+        process = subprocess.Popen([sys.executable, "-m", *words], cwd=tmp_path, env={**environment, **more}, stdout=log, stderr=log)
+        processes.append(process)
+        return process
+
+    place = tmp_path / "scheduler.json"
+    start("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(place))
+    began = time.monotonic()
+    while not place.exists():
+        assert time.monotonic() - began < 60, (tmp_path / "cluster.log").read_text()
+        time.sleep(0.1)
+
+    def worker(**more):
+        return start("distributed.cli.dask_worker", "--scheduler-file", str(place), "--nworkers", "1", "--nthreads", "1", "--no-nanny",
+                     "--no-dashboard", "--host", "127.0.0.1", **more)
+
+    client = distributed.Client(scheduler_file=str(place), timeout=60)
+    yield client, worker
+    client.close()
+    for process in processes:
+        process.kill()
+        process.wait()
+    log.close()
+
+
+def test_a_cluster_loses_a_worker_and_gains_one(whole, cluster, tmp_path):
+    client, worker = cluster
+    workers = [worker(), worker()]
+    client.wait_for_workers(2, timeout=60)
+    seen = []
+
+    def progress(done, count):
+        seen.append((done, count))
+        if done == 2:
+            os.kill(workers[0].pid, signal.SIGKILL)
+            worker()
+
+    result = studies.run(whole[0], client, out=tmp_path / "out", size=200, progress=progress)
+    assert seen[-1] == (15, 15) and result.refused == {}
+    written(result, whole)
+
+
+OTHER = """
+import sys
+import camgen, camgen._camgen
+camgen.__version__ = camgen._camgen.__version__ = "0.0.0"
+import camgen.study
+camgen.study.__version__ = "0.0.0"
+from distributed.cli.dask_worker import main
+sys.argv[0] = "dask-worker"
+main()
+"""
+
+
+def test_a_worker_of_another_version_is_refused_and_named(whole, cluster, tmp_path):
+    client, worker = cluster
+    module = tmp_path / "other_worker.py"
+    module.write_text(OTHER, "utf-8")
+    own = worker()
+    client.wait_for_workers(1, timeout=60)
+    address = next(iter(client.scheduler_info(n_workers=-1)["workers"]))
+    place = str(tmp_path / "scheduler.json")
+    other = subprocess.Popen([sys.executable, str(module), "--scheduler-file", place, "--nthreads", "1", "--no-nanny", "--no-dashboard",
+                              "--host", "127.0.0.1"], cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        client.wait_for_workers(2, timeout=60)
+        result = studies.run(whole[0], client, out=tmp_path / "out", size=500)
+        assert len(result.refused) == 1 and address not in result.refused
+        assert "0.0.0" in next(iter(result.refused.values()))
+        assert {shard["worker"] for shard in result.shards} == {address}
+        written(result, whole)
+        os.kill(own.pid, signal.SIGKILL)
+        began = time.monotonic()
+        while len(client.scheduler_info(n_workers=-1)["workers"]) > 1 and time.monotonic() - began < 60:
+            time.sleep(0.1)
+        with pytest.raises(studies.StudyRunError, match="0.0.0"):
+            studies.run(whole[0], client, out=tmp_path / "again", size=500)
+    finally:
+        other.kill()
+        other.wait()
