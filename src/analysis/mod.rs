@@ -11,6 +11,7 @@ pub mod size;
 use crate::body::Kind;
 use crate::check::Measure;
 use crate::document::Input;
+use crate::report::card::{self, Card};
 use crate::report::chart::{self, Chart};
 use crate::report::diagram::Diagram;
 use crate::report::mechanism::MovingMechanism;
@@ -64,6 +65,8 @@ pub enum Picture {
     Curves(Plot),
     /// Points by two quantities, in decades.
     Chart(Chart),
+    /// Curves, and a card with a sheet of its own.
+    CurvesWithCard(Plot, Card),
 }
 
 impl Picture {
@@ -71,9 +74,24 @@ impl Picture {
     #[must_use]
     pub fn sheet(&self, mark: &str) -> Sheet {
         match self {
-            Self::Curves(curves) => plot::sheet(curves, mark),
+            Self::Curves(curves) | Self::CurvesWithCard(curves, _) => plot::sheet(curves, mark),
             Self::Chart(points) => chart::sheet(points),
         }
+    }
+
+    /// The sheets, each with what the names of its files have after the stem.
+    #[must_use]
+    pub fn sheets(&self, mark: &str) -> Vec<(&'static str, Sheet)> {
+        let card =
+            if let Self::CurvesWithCard(_, card) = self { Some((card.ending, card::sheet(card, mark))) } else { None };
+        std::iter::once(("", self.sheet(mark))).chain(card).collect()
+    }
+
+    /// What the names of the files of its sheets have after the stem.
+    #[must_use]
+    pub fn endings(&self) -> Vec<&'static str> {
+        let card = if let Self::CurvesWithCard(_, card) = self { Some(card.ending) } else { None };
+        std::iter::once("").chain(card).collect()
     }
 }
 

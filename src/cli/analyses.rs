@@ -1,7 +1,7 @@
 //! The commands that analyse a machine and cut nothing.
 
 use super::args::{
-    AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, ReportArgs, SizeArgs, SpringArgs, at_end,
+    AnalysisArgs, CompareArgs, DriveArgs, LawsArgs, RegimesArgs, ReportArgs, ScatterArgs, SizeArgs, SpringArgs, at_end,
     machine_with_free,
 };
 #[cfg(feature = "linkage")]
@@ -20,6 +20,8 @@ use camgen::domains::linkage::analysis::{self as linkage, DragLinkGoal};
 use camgen::domains::press::analysis::{drive, regimes, spring};
 use camgen::domains::press::buffer::regime::Reset;
 use camgen::domains::press::machine::{DriveMachine, PressCams};
+use camgen::domains::press::scatter::analysis as scatter_analysis;
+use camgen::domains::press::scatter::monte_carlo::Sampling;
 #[cfg(feature = "shaft")]
 use camgen::domains::shaft::analysis::{self as shaft, CriticalSpeedSolver, ShaftOptions};
 #[cfg(feature = "shaft")]
@@ -69,6 +71,28 @@ pub(crate) fn spring_of(args: &SpringArgs, (machine, name): (Machine, String)) -
     let stiffnesses = if args.stiffness.is_empty() { &of_file } else { &args.stiffness };
     let analysis = spring::analysis(&machine, &args.rpm, stiffnesses, args.residual).map_err(Failure::new)?;
     Ok((analysis, name))
+}
+
+pub(super) fn scatter(args: &ScatterArgs) -> Result<Outcome, Failure> {
+    let varied = args.vary.iter().map(|varied| format!("scatter.{}", varied.trim()));
+    let overrides: Vec<String> = args.analysis.set.iter().cloned().chain(varied).collect();
+    let loaded = Machine::load(&args.machine, &overrides).map_err(Failure::new)?;
+    judge_and_write(scatter_of(args, loaded)?, &args.analysis)
+}
+
+/// The scatter of a loaded machine.
+pub(crate) fn scatter_of(args: &ScatterArgs, (machine, name): (Machine, String)) -> Result<NamedAnalysis, Failure> {
+    let design = machine.press().map_err(Failure::new)?.design_rpm;
+    let of_file = PressCams::of(&machine).scatter;
+    let sampling = Sampling {
+        distribution: args.distribution.unwrap_or(of_file.distribution),
+        samples: args.samples.unwrap_or(of_file.samples),
+        seed: args.seed.unwrap_or(of_file.seed),
+        rule: args.reset.unwrap_or(of_file.rule),
+        ..of_file
+    };
+    let analysis = scatter_analysis::analysis(&machine, args.rpm.unwrap_or(design), &args.fault, &sampling);
+    Ok((analysis.map_err(Failure::new)?, name))
 }
 
 pub(super) fn drive(args: &DriveArgs) -> Result<Outcome, Failure> {

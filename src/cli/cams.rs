@@ -15,7 +15,8 @@ use camgen::body::points::{PointCurve, Points};
 use camgen::catalogue::catalogue;
 use camgen::document::NamedChoice;
 use camgen::document::file::text_of;
-use camgen::domains::press::motion::equation_18::Solver;
+use camgen::domains::press::machine::PressCams;
+use camgen::domains::press::motion::equation_18::{ExactOn, Solver};
 use camgen::domains::press::wedge::LAW_TOLERANCE;
 use camgen::geometry::lead_in::{LeadIn, LeadInForm};
 use camgen::geometry::points::PointInterpolation;
@@ -55,7 +56,7 @@ pub(super) fn translating(args: &TranslatingArgs) -> Result<Outcome, Failure> {
             return Err(Failure("--stations belongs to --solver paper; the solver ode chooses its own steps".into()));
         }
     };
-    let spec = Spec::translating(machine, rpm, solver, args.balance);
+    let spec = Spec::translating(machine.clone(), rpm, solver, balance_of(args.balance, &machine));
     cut(spec, args.files.request(&args.common)?, &args.common, &args.files, &name)
 }
 
@@ -345,4 +346,10 @@ pub(super) fn show(report: &LazyReport, args: &ReportArgs) -> Result<(), Failure
     } else {
         print_painted(&text::report(report, args.page()))
     }
+}
+
+/// The direction of the bed in which the forces of a plate balance: that of a flag, else of the file.
+pub(super) fn balance_of(given: Option<ExactOn>, machine: &Machine) -> ExactOn {
+    let of_file = || PressCams::of(machine).translating.as_ref().and_then(|plate| plate.balance);
+    given.or_else(of_file).unwrap_or(ExactOn::Braking)
 }

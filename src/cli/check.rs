@@ -1,7 +1,7 @@
 //! `camgen check`: proves a DXF or STEP file, or a program for a milling machine, that may have been edited or written by another program.
 
 use super::args::{CheckArgs, CheckTarget, CommonArgs, ReportFormat};
-use super::cams::{of_conoid, of_program};
+use super::cams::{balance_of, of_conoid, of_program};
 use super::design::{self, Design};
 use super::progress::Progress;
 use super::{Failure, Outcome, print, print_painted, text};
@@ -149,7 +149,8 @@ fn spec(args: &CheckArgs) -> Result<Spec, Failure> {
         }
         CheckTarget::Translating => {
             let (rpm, solver) = (args.common.one_speed(&machine)?, Solver::Ode { tolerance: LAW_TOLERANCE });
-            Ok(Spec::translating(machine, rpm, solver, args.balance))
+            let balance = balance_of(args.balance, &machine);
+            Ok(Spec::translating(machine, rpm, solver, balance))
         }
         CheckTarget::Conoid => of_conoid(&args.common, machine, args.residual),
         #[cfg(feature = "brake")]

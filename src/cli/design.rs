@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::args::{CheckArgs, Speed, at_end};
-use super::cams::of_program;
+use super::cams::{balance_of, of_program};
 use camgen::body::conjugate::COUNTER;
 use camgen::body::{RateTolerance, Request};
 use camgen::catalogue::catalogue;
@@ -193,7 +193,10 @@ fn specs(args: &CheckArgs, machine: &Machine, name: &str) -> Vec<((&'static str,
     if let (Ok(_), Ok(rpm)) = (machine.press(), args.common.one_speed(machine)) {
         let solver = Solver::Ode { tolerance: LAW_TOLERANCE };
         all.push(((ROTARY, ROTARY), Spec::rotary(machine.clone(), rpm)));
-        all.push(((TRANSLATING, TRANSLATING), Spec::translating(machine.clone(), rpm, solver, args.balance)));
+        all.push((
+            (TRANSLATING, TRANSLATING),
+            Spec::translating(machine.clone(), rpm, solver, balance_of(args.balance, machine)),
+        ));
         all.push(((COMPENSATOR, ROTARY), Spec::compensator(machine.clone(), rpm)));
     }
     all

@@ -85,6 +85,7 @@ fn run(command: &Command) -> Result<Outcome, Failure> {
         Command::Make(DeferredArgs(args)) => cams::make(args),
         Command::Regimes(DeferredArgs(args)) => analyses::regimes(args),
         Command::Spring(DeferredArgs(args)) => analyses::spring(args),
+        Command::Scatter(DeferredArgs(args)) => analyses::scatter(args),
         Command::Drive(DeferredArgs(args)) => analyses::drive(args),
         #[cfg(feature = "linkage")]
         Command::Linkage(DeferredArgs(args)) => analyses::linkage(args),

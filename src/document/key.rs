@@ -21,6 +21,8 @@ pub enum KeyForm {
     Boolean,
     /// A bare number.
     Number(Bounds),
+    /// A share, `5 %`, or the same as a bare number, `0.05`; its bounds are those of the number.
+    Share(Bounds),
     /// A list of bare numbers.
     Numbers(Bounds),
     /// A list of texts or numbers, `["angle", 3]`.
@@ -428,6 +430,12 @@ impl Field<f64> {
     #[must_use]
     pub const fn number(name: &'static str, about: &'static str, presence: Presence, bounds: Bounds) -> Self {
         Self::new(name, about, presence, KeyForm::Number(bounds), Convert::Plain(number))
+    }
+
+    /// A key for a share, which may be typed as `5 %` or `0.05`; its value is the number.
+    #[must_use]
+    pub const fn share(name: &'static str, about: &'static str, presence: Presence, bounds: Bounds) -> Self {
+        Self::new(name, about, presence, KeyForm::Share(bounds), Convert::Plain(number))
     }
 
     /// A key for a quantity; its value is in SI units, as its bounds are.

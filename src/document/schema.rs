@@ -140,6 +140,7 @@ fn form(form: KeyForm) -> Value {
         KeyForm::TextOrNumber => json!({ "type": ["string", "number"], "minLength": 1 }),
         KeyForm::Boolean => json!({ "type": "boolean" }),
         KeyForm::Number(bounds) => number(bounds),
+        KeyForm::Share(bounds) => json!({ "anyOf": [number(bounds), pattern(&format!(r"{NUMBER}\s*%"))] }),
         KeyForm::Numbers(bounds) => json!({ "type": "array", "items": number(bounds) }),
         KeyForm::Texts => json!({ "type": "array", "items": { "type": ["string", "integer"] } }),
         KeyForm::Quantity(dimension, _) => pattern(&quantity(&[dimension])),

@@ -75,6 +75,7 @@ pub(super) fn read(key: &Key, path: &str, scalar: &Scalar) -> Result<KeyValue, M
         },
         KeyForm::Boolean => name.boolean(scalar),
         KeyForm::Number(bounds) => name.number(scalar, bounds).map(KeyValue::Number),
+        KeyForm::Share(bounds) => name.share(scalar, bounds).map(KeyValue::Number),
         KeyForm::Numbers(bounds) => name.numbers(scalar, bounds),
         KeyForm::Texts => name.texts(scalar),
         KeyForm::Quantity(dimension, bounds) => name.quantity(scalar, &[], dimension, bounds),
@@ -164,6 +165,25 @@ impl KeyAtPath<'_> {
             Err(error) => {
                 misfit(format!("`{path}`: {error}"), Some(format!("`{path}` is a bare number, without a unit")))
             }
+        }
+    }
+
+    /// A share with its sign, `5 %`, or a bare number.
+    fn share(&self, scalar: &Scalar, bounds: Bounds) -> Result<f64, Misfit> {
+        let Some(typed) = scalar.typed() else {
+            return misfit(format!("`{}` must be a share, not {}", self.path, scalar.kind()), Some(self.example()));
+        };
+        let read = match typed.trim().strip_suffix('%') {
+            Some(percent) => units::parse_bare(percent).map(|percent| percent / 100.0),
+            None => units::parse_bare(typed),
+        };
+        match read {
+            Ok(share) if bounds.holds(share) => Ok(share),
+            Ok(share) => {
+                let limit = bounds.broken(share, |share| format!("{} %", 100.0 * share));
+                misfit(format!("`{}` must be {limit}: {typed}", self.path), self.hint())
+            }
+            Err(error) => misfit(format!("`{}`: {error}", self.path), Some(self.example())),
         }
     }
 

@@ -5,6 +5,7 @@
 //! on a kind of cam.
 
 mod as_cut_error;
+pub mod card;
 pub mod chart;
 pub mod diagram;
 mod figures;

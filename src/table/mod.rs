@@ -177,6 +177,19 @@ pub struct Table {
     pub may_lack: Vec<bool>,
     /// A column of words before the others, with its name: a word for each row.
     pub words: Option<(&'static str, Vec<String>)>,
+    /// Further columns of words between the others.
+    pub more_words: Vec<WordColumn>,
+}
+
+/// A column of words.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WordColumn {
+    /// Its name.
+    pub name: &'static str,
+    /// The column of numbers before which it stands.
+    pub before: &'static str,
+    /// A word for each row.
+    pub words: Vec<String>,
 }
 
 /// A column of a table.
@@ -245,6 +258,7 @@ impl Table {
             rows: rows.iter().map(|row| columns.iter().map(|column| value(row, column)).collect()).collect(),
             may_lack: columns.iter().map(may_lack).collect(),
             words: None,
+            more_words: Vec::new(),
         }
     }
 
@@ -257,6 +271,7 @@ impl Table {
             rows: rows.iter().map(values).collect(),
             may_lack: vec![true; listed.len()],
             words: None,
+            more_words: Vec::new(),
         }
     }
 }

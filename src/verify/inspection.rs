@@ -9,6 +9,7 @@ use crate::check::{Check, CheckExplanation, CheckScope};
 use crate::geometry::MILLIMETRES;
 use crate::geometry::edge_tree::EdgeTree;
 use crate::machine::Rotation;
+use crate::profile::Curves;
 use crate::reading::inspection::ReadPlace;
 use crate::report::{Bound, Finding, Verdict, shown};
 use nalgebra::Vector2;
@@ -88,8 +89,8 @@ fn of(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Vector2
     let flipped = evidence.body.machine().cam.rotation == Rotation::CounterClockwise;
     let turned = |v: Vector2<f64>| if flipped { Vector2::new(v.x, -v.y) } else { v };
     let mut worst = (0.0, Vector2::zeros());
-    for (index, ReadPlace { cam_deg, point, normal, ball, zone: given, curvature_radius }) in places.iter().enumerate()
-    {
+    for (index, read) in places.iter().enumerate() {
+        let ReadPlace { cam_deg, point, normal, ball, .. } = read;
         let at = |by: f64| {
             let (piece, angle) = curves.motion.locate(cam_deg.to_radians() + by);
             turned(curves.profile(piece, angle).point * MILLIMETRES)
@@ -103,20 +104,7 @@ fn of(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Vector2
         if !((normal.norm() - 1.0).abs() < NORMAL && upright && touches) {
             return Err(format!("at {} deg normal and ball do not fit the profile", shown(*cam_deg)));
         }
-        if let Some([lower, upper]) = given
-            && (lower + zone).abs().max((upper - zone).abs()) > EXACT
-        {
-            let (at, zone) = (shown(*cam_deg), shown(zone));
-            return Err(format!("at {at} deg the zone is not ±{zone} mm, which is that of {from}"));
-        }
-        let bend = |radius: &f64| {
-            let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
-            let due = curves.metal_side() * curves.profile(piece, angle).curvature / MILLIMETRES;
-            (radius.recip() - due).abs() > SAME_BEND * (due.abs() + SAME_BEND)
-        };
-        if curvature_radius.as_ref().is_some_and(bend) {
-            return Err(format!("at {} deg the radius of curvature is not that of the profile", shown(*cam_deg)));
-        }
+        as_the_drawing_says((read, curves), (zone, from))?;
         // Out of the metal: a step along the normal leaves it, or, in a ring, enters the space of the roller.
         let hollow = cuts.get(list.cut).is_some_and(crate::body::Cut::is_hollow);
         let (piece, angle) = curves.motion.locate(cam_deg.to_radians());
@@ -138,4 +126,21 @@ fn of(evidence: &Evidence<'_>, list: &WrittenInspection) -> Result<(f64, Vector2
         }
     }
     Ok((worst.0, worst.1, places.len()))
+}
+
+/// Whether zone (mm) and curvature of a place are those that are due, where its form has them.
+fn as_the_drawing_says((read, curves): (&ReadPlace, Curves<'_>), (zone, from): (f64, &str)) -> Result<(), String> {
+    let at = shown(read.cam_deg);
+    if let Some([lower, upper]) = read.zone
+        && (lower + zone).abs().max((upper - zone).abs()) > EXACT
+    {
+        return Err(format!("at {at} deg the zone is not ±{} mm, which is that of {from}", shown(zone)));
+    }
+    let (piece, angle) = curves.motion.locate(read.cam_deg.to_radians());
+    let due = curves.metal_side() * curves.profile(piece, angle).curvature / MILLIMETRES;
+    let differs = |radius: f64| (radius.recip() - due).abs() > SAME_BEND * (due.abs() + SAME_BEND);
+    if read.curvature_radius.is_some_and(differs) {
+        return Err(format!("at {at} deg the radius of curvature is not that of the profile"));
+    }
+    Ok(())
 }

@@ -130,15 +130,18 @@ fn end_line(text: &mut String) {
 /// The table as text with line feeds.
 #[must_use]
 pub fn write(table: &Table) -> Vec<u8> {
-    let (name, words) = table.words.as_ref().map_or((None, &[][..]), |(name, words)| (Some(*name), words.as_slice()));
-    let names: Vec<&str> = name.into_iter().chain(table.columns.iter().copied()).collect();
+    let first = table.words.iter().map(|(name, words)| (*name, words));
+    let before = |column: &'static str| table.more_words.iter().filter(move |words| words.before == column);
+    let mut names: Vec<&str> = first.clone().map(|(name, _)| name).collect();
+    for column in &table.columns {
+        names.extend(before(column).map(|words| words.name).chain([*column]));
+    }
     let mut text = names.join(",") + "\n";
-    let mut words = words.iter();
-    for row in &table.rows {
-        if let Some(word) = words.next() {
-            push_cell(&mut text, &quoted(word));
-        }
-        for value in row {
+    for (index, row) in table.rows.iter().enumerate() {
+        let word = |words: &'_ [String]| quoted(words.get(index).map_or("", String::as_str)).into_owned();
+        first.clone().for_each(|(_, words)| push_cell(&mut text, &word(words)));
+        for (column, value) in table.columns.iter().zip(row) {
+            before(column).for_each(|column| push_cell(&mut text, &word(&column.words)));
             push_cell(&mut text, &shortest(*value));
         }
         end_line(&mut text);

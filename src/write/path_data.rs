@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 
 /// Largest sweep of one arc, rad: the direction of a half circle is ambiguous within rounding.
 const LONGEST_SWEEP: f64 = 3.0;
-/// Largest sweep of one cubic, rad: it is off its arc by 4e-6 of the radius (M. Goldapp, Computer Aided Geometric Design 8, 1991).
+/// Largest sweep of one cubic, rad.
 const CUBIC_SWEEP: f64 = std::f64::consts::FRAC_PI_4;
 
 /// Path data with this many decimals of a millimetre. The data of the crate svg are in single precision.
@@ -93,24 +93,7 @@ impl PathData {
 
     /// An arc as equal cubics.
     fn as_cubics(self, segment: &Segment) -> String {
-        let (sweep, centre) = (segment.sweep(), segment.centre());
-        let count = (sweep.abs() / CUBIC_SWEEP).ceil().max(1.0);
-        let step = sweep / count;
-        let handle = 4.0 / 3.0 * libm::tan(0.25 * step);
-        let from = segment.start - centre;
-        let on = |turn: f64| {
-            let (sin, cos) = libm::sincos(turn);
-            Vector2::new(cos * from.x - sin * from.y, sin * from.x + cos * from.y)
-        };
-        let across = |at: Vector2<f64>| Vector2::new(-at.y, at.x) * handle;
-        let (mut words, mut number) = (Vec::new(), 0.0);
-        while number < count {
-            let [start, end] = [on(number * step), on((number + 1.0) * step)];
-            let last = if number + 1.0 < count { centre + end } else { segment.end };
-            let points = [centre + start + across(start), centre + end - across(end), last];
-            words.push(format!("C{}", self.places(&points, " ")));
-            number += 1.0;
-        }
-        words.join(" ")
+        let cubics = segment.cubics(CUBIC_SWEEP);
+        cubics.iter().map(|points| format!("C{}", self.places(points, " "))).collect::<Vec<_>>().join(" ")
     }
 }

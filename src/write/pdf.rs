@@ -25,10 +25,10 @@ pub const FORMAT: Format = Format {
         Ok(vec![write_pages(&sheets, cam.template)?])
     },
     of_analysis: Some(AnalysisFormat {
-        endings: |_| vec![".pdf".into()],
+        endings: |analysis| analysis.picture.endings().iter().map(|ending| format!("{ending}.pdf")).collect(),
         write: |account| {
-            let sheet = account.analysis.picture.sheet(&account.report.mark());
-            Ok(vec![write(&sheet, account.template)?])
+            let sheets = account.analysis.picture.sheets(&account.report.mark());
+            sheets.iter().map(|(_, sheet)| write(sheet, account.template)).collect()
         },
     }),
 };

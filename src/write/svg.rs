@@ -23,10 +23,11 @@ pub const FORMAT: Format = Format {
     endings: |_| vec![".svg".into()],
     write: |cam| Ok(vec![fill(&sheet(cam)?, cam.template, true, &cam.report.mark())?]),
     of_analysis: Some(AnalysisFormat {
-        endings: |_| vec![".svg".into()],
+        endings: |analysis| analysis.picture.endings().iter().map(|ending| format!("{ending}.svg")).collect(),
         write: |account| {
-            let sheet = account.analysis.picture.sheet(&account.report.mark());
-            Ok(vec![fill(&sheet, account.template, true, &account.report.mark())?])
+            let mark = account.report.mark();
+            let sheets = account.analysis.picture.sheets(&mark);
+            sheets.iter().map(|(_, sheet)| fill(sheet, account.template, true, &mark)).collect()
         },
     }),
 };

@@ -144,6 +144,14 @@ fn machine(section: &KeySection, sets: &[String]) -> Option<Machine> {
         );
         return Machine::from_toml("shaft.toml", &text, sets).ok();
     }
+    if section.path == "spring_buffer.body" {
+        // Wire and coils are given together, in the place of the index.
+        let by_wire = sets.iter().any(|set| set.contains("body.wire") || set.contains("body.coil"));
+        let shape = if by_wire { "wire = \"18 mm\"\ncoil = \"108 mm\"\n" } else { "" };
+        let press = include_str!("../../profiles/dpi.toml");
+        let text = format!("{press}\n[spring_buffer.body]\nstress = \"700 MPa\"\n{shape}");
+        return Machine::from_toml("springs.toml", &text, sets).ok();
+    }
     if section.path.starts_with("brake") {
         let roll = include_str!("../../profiles/roll.toml");
         let text = if section.path == "brake.ends" {
@@ -200,8 +208,9 @@ fn hash(machine: &Machine, command: &str) -> String {
 /// Another value of a key than its example, by a share of it.
 fn another(key: &Key, share: f64, index: u32) -> String {
     let scaled = |text: &str| {
-        let end = text.find(|c: char| c.is_alphabetic() || c == '%').unwrap_or(text.len());
-        let (number, unit) = text.split_at(end);
+        let unit_at = || text.find(|c: char| c.is_alphabetic() || c == '%');
+        let is_bare = text.trim().parse::<f64>().is_ok();
+        let (number, unit) = text.split_at(if is_bare { None } else { unit_at() }.unwrap_or(text.len()));
         let number: f64 = number.trim().parse().unwrap_or(1.0);
         let changed = if number == 0.0 { share } else { number * share };
         format!("{changed} {unit}").trim().to_owned()
@@ -226,7 +235,9 @@ fn another(key: &Key, share: f64, index: u32) -> String {
             format!("[{0}, {0}, {0}, {1}]", 0.1 * share, 1.0 - 0.3 * share)
         }
         KeyForm::Numbers(_) if key.name == "amplitudes" => format!("[7, {share}, -2]"),
-        KeyForm::Number(_) if ["tool", "program", "decimals"].contains(&key.name) => (3 + index % 4).to_string(),
+        KeyForm::Number(_) if ["tool", "program", "decimals", "samples", "seed"].contains(&key.name) => {
+            (3 + index % 4).to_string()
+        }
         KeyForm::Number(_) if key.name == "repeat" => (index + 1).to_string(),
         KeyForm::Texts => format!("[1, {}]", 2 + index % 2),
         KeyForm::Text if key.name == "unit" => ["in", "cm", "um"][index as usize % 3].to_owned(),

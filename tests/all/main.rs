@@ -56,6 +56,7 @@ mod rows;
 // What is stored is made by every domain and format.
 #[cfg(all(feature = "brake", feature = "html", feature = "pdf"))]
 mod same_bytes;
+mod scatter;
 mod servo;
 mod shaft;
 mod sheets;

@@ -172,6 +172,7 @@ const WEDGE: TranslatingData = TranslatingData {
     friction_angle: 3.0 * PI / 180.0,
     efficiency: 0.95,
     efficiency_model: EfficiencyModel::Consistent,
+    balance: None,
     roller_radius: 0.030,
     plate_height: Some(0.120),
 };

@@ -202,6 +202,12 @@ fn analysis_of(kind: &Kind) -> analysis::Analysis {
     let press = || Machine::load("dpi", &[]).expect("valid").0;
     let found = match kind.command {
         "regimes" => press::analysis::regimes::analysis(&press(), 35.0, &SPEEDS, Reset::End).expect("a press"),
+        "scatter" => {
+            let press =
+                Machine::load("dpi", &["scatter.samples=100".into(), "buffer.leak=1%".into()]).expect("valid").0;
+            let sampling = press::machine::PressCams::of(&press).scatter;
+            press::scatter::analysis::analysis(&press, 35.0, &["mass=5%".into()], &sampling).expect("a press")
+        }
         "spring" => press::analysis::spring::analysis(&press(), &SPEEDS, &[], None).expect("a press"),
         "drive" => {
             let drive = DriveMachine::load("dp", &[]).expect("valid").0;
@@ -385,6 +391,17 @@ fn reports_on_files(made: &Cam) -> Vec<(String, Report)> {
     reports
 }
 
+/// A cam of a known hardness, presses that scatter and lose, and springs that are described.
+fn reports_on_presses() -> Vec<(String, Report)> {
+    let hard = Machine::load("dpi", &["cam.hardness=600".into()]).expect("valid").0;
+    let hard = report_of(&Spec::rotary(hard, 35.0).solve().expect("a cam"));
+    let springs = Machine::load("dpi", &["spring_buffer.body.stress=700MPa".into()]).expect("valid").0;
+    let springs = press::analysis::spring::analysis(&springs, &SPEEDS, &[], None).expect("springs");
+    let analyses = [analysis_of(&press::scatter::analysis::KIND), springs];
+    let analyses = analyses.map(|of| (of.kind.noun.to_owned(), Judged::new(of).report()));
+    std::iter::once(("a hard cam".to_owned(), hard)).chain(analyses).collect()
+}
+
 /// Every check is reached by some cam or some file, and is found in the order of the list, the worst verdicts first.
 #[test]
 fn every_check_is_run_for_some_cam() {
@@ -400,6 +417,7 @@ fn every_check_is_run_for_some_cam() {
     let six_bar = Machine::load("dpi-six-bar", &[]).expect("valid").0;
     let linkage = linkage::analysis::analysis(&six_bar, 35.0, None).expect("a linkage");
     let shaft = analysis_of(&shaft::analysis::KIND);
+    reports.extend(reports_on_presses());
     reports.extend([regimes, drive, linkage, shaft].map(|of| (of.kind.noun.to_owned(), Judged::new(of).report())));
     #[cfg(feature = "brake")]
     for set in ["brake.model=printed", "brake.mode=no-slip"] {

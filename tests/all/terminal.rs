@@ -238,6 +238,7 @@ fn a_report_has_figures_for_people_and_says_what_is_not_modelled() {
         &["shaft"],
         &["regimes"],
         &["spring"],
+        &["scatter"],
         &["laws", "feeder"],
         &["size", "feeder"],
     ];

@@ -24,6 +24,14 @@ const OTHERS: &[(&str, &str)] = &[
     ("buffer.end_pressure", "3 at"),
     ("buffer.column", "200 mm"),
     ("buffer.lead", "1 mm"),
+    ("buffer.expansion_exponent", "1.38"),
+    ("buffer.leak", "2 %"),
+    ("buffer.piston_friction", "3 %"),
+    ("bed.friction", "400 N"),
+    ("cam.train_stiffness", "2e8 N/m"),
+    ("cam.play", "0.2 mm"),
+    ("cam.hardness", "500"),
+    ("limits.life", "2e8"),
     ("design.rpm", "30"),
     ("motion.rpm", "120"),
     ("motion.start", "5 mm"),
@@ -180,6 +188,7 @@ const OTHERS: &[(&str, &str)] = &[
     ("translating.friction_angle", "2 deg"),
     ("translating.efficiency", "0.9"),
     ("translating.efficiency_model", "printed"),
+    ("translating.balance", "braking"),
     ("translating.roller_radius", "20 mm"),
     ("translating.roller_diameter", "40 mm"),
     ("translating.plate_height", "130 mm"),
@@ -221,6 +230,24 @@ const OTHERS: &[(&str, &str)] = &[
     ("regimes.rpm", "[20, 25]"),
     ("regimes.reset", "half"),
     ("spring_buffer.stiffness", "100 N/mm"),
+    ("spring_buffer.body.index", "8"),
+    ("spring_buffer.body.stress", "600 MPa"),
+    ("spring_buffer.body.wire", "17 mm"),
+    ("spring_buffer.body.coil", "100 mm"),
+    ("scatter.polytropic_exponent", "0.04"),
+    ("scatter.ambient_pressure", "2 %"),
+    ("scatter.mass", "4 %"),
+    ("scatter.speed", "2 %"),
+    ("scatter.column", "2 mm"),
+    ("scatter.lead", "0.3 mm"),
+    ("scatter.air_lost", "2 %"),
+    ("scatter.closing_pressure", "2 %"),
+    ("scatter.phase", "0.2 deg"),
+    ("scatter.screw", "0.2 mm"),
+    ("scatter.distribution", "normal"),
+    ("scatter.samples", "100"),
+    ("scatter.seed", "2"),
+    ("scatter.reset", "level"),
     ("limits.pressure_angle", "29 deg"),
     ("limits.pressure_angle_return", "40 deg"),
     ("limits.min_convex_pitch_radius_over_roller", "3"),
@@ -345,6 +372,12 @@ fn file_for(path: &str) -> String {
     let bearing = path
         .rsplit_once(".bearing.")
         .map_or(String::new(), |(own, _)| format!("[{own}.bearing]\ndynamic_rating = \"20 kN\"\n"));
+    // Wire and coils are given together, in the place of the index.
+    let springs = match path.strip_prefix("spring_buffer.body.") {
+        Some("wire" | "coil") => "[spring_buffer.body]\nstress = \"700 MPa\"\nwire = \"18 mm\"\ncoil = \"108 mm\"\n",
+        Some(_) => "[spring_buffer.body]\nstress = \"700 MPa\"\n",
+        None => "",
+    };
     let of_plate = path == "motion.stroke";
     let dynamics = if path.starts_with("follower.") || of_arc || of_arms || of_plate { "" } else { DYNAMICS };
     let press = if of_plate { press.replace("\n[cam]\n", "\n[cam]\nbody = \"wedge\"\n") } else { press };
@@ -353,7 +386,7 @@ fn file_for(path: &str) -> String {
         _ => motion_for(path),
     };
     format!(
-        "{press}\n{keyway}{linkage}{compensator}[{}]\n{keys}{width}{bearing}{motion}{dynamics}{shaft}",
+        "{press}\n{keyway}{linkage}{compensator}{springs}[{}]\n{keys}{width}{bearing}{motion}{dynamics}{shaft}",
         section.path
     )
 }

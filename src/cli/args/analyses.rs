@@ -17,6 +17,8 @@ use camgen::document::LengthOrAngle;
 use camgen::domains::press::analysis::drive;
 use camgen::domains::press::bed_motion::End;
 use camgen::domains::press::buffer::regime::Reset;
+use camgen::domains::press::scatter::monte_carlo::Distribution;
+use camgen::domains::press::scatter::reset::ScrewRule;
 #[cfg(feature = "shaft")]
 use camgen::domains::shaft::mechanics::Whirl;
 use camgen::motion::laws::Law;
@@ -90,6 +92,47 @@ pub(crate) struct SpringArgs {
     /// Speeds of the main shaft, rpm [default: the design speed]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = rpm, allow_hyphen_values = true)]
     pub(in crate::cli) rpm: Vec<f64>,
+
+    #[command(flatten)]
+    pub(in crate::cli) analysis: AnalysisArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ScatterArgs {
+    /// An embedded machine or the path of a machine file
+    #[arg(default_value = "dpi", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) machine: String,
+
+    /// Speed the cam is cut for, rpm [default: the design speed]
+    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
+    pub(in crate::cli) rpm: Option<f64>,
+
+    /// One machine that differs: a deviation (mass=5%, column=-2mm), a true value with its unit (mass=1020kg, speed=34rpm), or the true
+    /// exponent (polytropic_exponent=1.40); repeatable
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub(in crate::cli) fault: Vec<String>,
+
+    /// Half width of a parameter, as a key of the table [scatter], e.g. --vary mass=8%; repeatable
+    #[arg(long, value_name = "KEY=HALF")]
+    pub(in crate::cli) vary: Vec<String>,
+
+    /// Setting of the screw in each press: none, end (no residual force at the end of the stroke) or level (the least largest one)
+    /// [default: that of the file, else end]
+    #[arg(long, value_name = "RULE", ignore_case = true, value_parser = word::<ScrewRule>())]
+    pub(in crate::cli) reset: Option<ScrewRule>,
+
+    /// Distribution of every parameter over its band: uniform, triangular, or normal with the half width as two standard deviations
+    /// [default: that of the file, else uniform]
+    #[arg(long, value_name = "NAME", ignore_case = true, value_parser = word::<Distribution>())]
+    pub(in crate::cli) distribution: Option<Distribution>,
+
+    /// Presses that are drawn, 0 to 1000000 [default: that of the file, else 20000]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    pub(in crate::cli) samples: Option<u32>,
+
+    /// Seed of the draws [default: that of the file, else 1]
+    #[arg(long, value_name = "N")]
+    pub(in crate::cli) seed: Option<u64>,
 
     #[command(flatten)]
     pub(in crate::cli) analysis: AnalysisArgs,

@@ -48,6 +48,13 @@ Examples:
   camgen spring dpi-paper --residual 50kgf --rpm 25,35 --dry-run
       the spring that leaves 50 kgf at the design speed, and what it leaves at 25 rpm; only the report";
 
+pub(super) const SCATTER: &str = "\
+Examples:
+  camgen scatter
+      what each parameter leaves, 20000 presses, and the settings of the screw, as tables and a plot
+  camgen scatter dpi --fault mass=5% --fault polytropic_exponent=1.40 --vary speed=2% --samples 1000 --dry-run
+      one machine that differs, and a wider band of the speed; only the report";
+
 pub(super) const DRIVE: &str = "\
 Examples:
   camgen drive

@@ -12,7 +12,8 @@ mod side_by_side;
 mod study;
 
 pub(crate) use analyses::{
-    AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportForm, LawsArgs, RegimesArgs, SizeArgs, SpringArgs,
+    AnalysisArgs, CompareArgs, DriveArgs, ImportArgs, ImportForm, LawsArgs, RegimesArgs, ScatterArgs, SizeArgs,
+    SpringArgs,
 };
 #[cfg(feature = "linkage")]
 pub(crate) use analyses::{LinkageArgs, LinkageGoal};
@@ -88,6 +89,12 @@ pub(super) enum Command {
     /// Equations (26) to (28): travel of the springs, air, residual force and setting of the screw, for each stiffness and speed.
     #[command(after_help = help::SPRING)]
     Spring(DeferredArgs<SpringArgs>),
+    /// What is left of a cam of a press in practice: machines that differ, and the screw
+    ///
+    /// Mass, speed, weather, air and setting differ from those the cam is cut for: what each leaves, what the screw takes back, and what a fixed
+    /// bottom leaves in the same presses.
+    #[command(after_help = help::SCATTER)]
+    Scatter(DeferredArgs<ScatterArgs>),
     /// Drive of a bed without a cam: the crank speed that plain buffers need
     ///
     /// The drive slows down so that the crank carries no load while plain buffers brake the bed.
@@ -209,6 +216,7 @@ impl Command {
         let (machine, args) = match self {
             Command::Regimes(DeferredArgs(args)) => (&args.machine, &args.analysis),
             Command::Spring(DeferredArgs(args)) => (&args.machine, &args.analysis),
+            Command::Scatter(DeferredArgs(args)) => (&args.machine, &args.analysis),
             Command::Drive(DeferredArgs(args)) => (&args.machine, &args.analysis),
             #[cfg(feature = "linkage")]
             Command::Linkage(DeferredArgs(args)) => (&args.machine, &args.analysis),
@@ -310,9 +318,9 @@ pub(super) struct CheckArgs {
     #[arg(long, value_name = "DIAMETER", value_parser = cutter_diameter)]
     pub(super) cutter_diameter: Option<f64>,
 
-    /// Direction of the bed in which the forces of a plate balance
-    #[arg(long, value_name = "DIRECTION", default_value = "braking", ignore_case = true, value_parser = word::<ExactOn>())]
-    pub(super) balance: ExactOn,
+    /// Direction of the bed in which the forces of a plate balance [default: that of the file, else braking]
+    #[arg(long, value_name = "DIRECTION", ignore_case = true, value_parser = word::<ExactOn>())]
+    pub(super) balance: Option<ExactOn>,
 
     /// Speed of the section of a conoid that a DXF file should contain, one of those of --rpm
     #[arg(long, value_name = "RPM", value_parser = rpm, allow_hyphen_values = true)]
@@ -374,9 +382,9 @@ pub(super) struct TranslatingArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub(super) stations: Option<u32>,
 
-    /// Direction of the bed in which the forces balance, or mean: equal residual forces in both
-    #[arg(long, value_name = "DIRECTION", default_value = "braking", ignore_case = true, value_parser = word::<ExactOn>())]
-    pub(super) balance: ExactOn,
+    /// Direction of the bed in which the forces balance, or mean: equal residual forces in both [default: that of the file, else braking]
+    #[arg(long, value_name = "DIRECTION", ignore_case = true, value_parser = word::<ExactOn>())]
+    pub(super) balance: Option<ExactOn>,
 }
 
 #[derive(Debug, Args)]

@@ -6,7 +6,7 @@ use super::machine::{
     AirColumn, CompensatorData, ConoidData, ConoidMode, DriveData, DriveMachine, Shift, TranslatingData,
 };
 use super::motion::Transition;
-use super::motion::equation_18::EfficiencyModel;
+use super::motion::equation_18::{EfficiencyModel, ExactOn};
 use crate::pipeline::{Builder, Error, OF_BUILDER};
 
 /// The air buffers of a press: `[buffer]`. Pressures are absolute.
@@ -125,7 +125,13 @@ impl Builder {
             EfficiencyModel::Consistent => "consistent",
             EfficiencyModel::Printed => "printed",
         };
-        self.length("translating.roller_arm", roller_arm)
+        let balanced = match wedge.balance {
+            Some(ExactOn::Mean) => self.set("translating.balance", "level"),
+            Some(ExactOn::Braking) => self.set("translating.balance", "braking"),
+            _ => self,
+        };
+        balanced
+            .length("translating.roller_arm", roller_arm)
             .length("translating.bottom_arm", bottom_arm)
             .angle("translating.delta", delta)
             .angle("translating.friction_angle", friction_angle)

@@ -13,6 +13,8 @@ pub const CONOID: &str = "conoid";
 pub const REGIMES: &str = "regimes";
 /// Buffers of a press on springs.
 pub const SPRING: &str = "spring";
+/// What is left of a cam of a press in practice.
+pub const SCATTER: &str = "scatter";
 /// The drive of a bed without a cam.
 pub const DRIVE: &str = "drive";
 
@@ -28,20 +30,21 @@ pub const KINDS: &[CamKind] = &[
     CamKind::cam(CONOID, OF_A_SURFACE),
     CamKind::analysis(REGIMES),
     CamKind::analysis(SPRING),
+    CamKind::analysis(SCATTER),
     CamKind::analysis(DRIVE),
 ];
 
 /// The cams of a press.
 pub const OF_A_PRESS: &[&str] = &[ROTARY, TRANSLATING, CONOID];
 /// Kinds on which the bed and its air have an effect.
-pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, BED_MOTION];
+pub const OF_A_BED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, DRIVE, BED_MOTION];
 /// Kinds with air buffers.
-pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, DRIVE, BED_MOTION];
+pub const OF_AIR: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, DRIVE, BED_MOTION];
 /// Kinds that depend on the speed of the main shaft.
-pub const OF_A_SPEED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, BED_MOTION];
+pub const OF_A_SPEED: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, BED_MOTION];
 /// Kinds with an air column.
-pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, DRIVE, BED_MOTION];
+pub const OF_A_COLUMN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SCATTER, DRIVE, BED_MOTION];
 /// Kinds on which the law of the bottom has an effect.
-pub const OF_A_LAW: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, BED_MOTION];
+pub const OF_A_LAW: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SCATTER, BED_MOTION];
 /// Kinds that depend on the design of a press.
-pub const OF_A_DESIGN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, BED_MOTION];
+pub const OF_A_DESIGN: &[&str] = &[ROTARY, TRANSLATING, CONOID, REGIMES, SPRING, SCATTER, BED_MOTION];

@@ -17,6 +17,7 @@ mod picture;
 pub mod raised_disc;
 pub mod report;
 pub mod rotary;
+pub mod scatter;
 mod smoother;
 mod spec;
 pub mod wedge;
@@ -35,6 +36,7 @@ pub const DOMAIN: Domain = Domain {
     analyses: &[
         &analysis::regimes::KIND,
         &analysis::spring::KIND,
+        &scatter::analysis::KIND,
         &analysis::drive::KIND,
         &analysis::trade::ROTARY,
         &analysis::trade::TRANSLATING,

@@ -2,6 +2,7 @@
 
 use super::balance::{allowed_error, fitting_speed, reversal_of_bed};
 use super::checks::balanced::of_balance;
+use super::checks::contact_life;
 use super::load::{AirBuffer, AsCut, Balance, ForceBalanced, RunUp};
 use super::machine::{Press, PressCams};
 use super::motion::{RaiseSeries, Reversal, ReversalLaw, Transition};
@@ -9,7 +10,7 @@ use super::picture::{BufferPicture, PressPicture, not_modelled_of, press_poses};
 use super::raised_disc::CutForShaft;
 use super::report::ForceMeasures;
 use super::smoother::smoother;
-use super::{cams, raised_disc};
+use super::{cams, raised_disc, scatter};
 use crate::body::disc::{Disc, Duty, Purpose};
 use crate::body::picture::DrivenMechanism;
 use crate::body::{Body, Figures, Kind};
@@ -163,6 +164,7 @@ impl Duty for BedBalanceDuty {
         let mut sections = vec![self.buffer.section()];
         sections.extend(reversal_of_bed(disc.machine()));
         sections.extend(self.cut_for_shaft.then(|| raised_disc::section(disc)));
+        sections.extend(scatter::section::of_cam(disc.machine(), self.rpm));
         sections
     }
 
@@ -184,6 +186,7 @@ impl Duty for BedBalanceDuty {
 
     fn measures(&self, disc: &Disc, of: &mut Measures<'_>, subject: &Subject<'_>) {
         of_balance(&BalancedDisc { disc, duty: self }, of, subject);
+        of.add(&contact_life::CHECK, |_| contact_life::measure(disc.contact_stress(), disc.touching(), subject));
     }
 
     fn smoother(&self, machine: &Machine) -> Option<String> {

@@ -434,5 +434,5 @@ fn error_of(lowered: &LoadedFollower) -> f64 {
 fn named(mut columns: Vec<&'static str>, more: &[&'static str], rows: Vec<Vec<f64>>) -> Table {
     columns.extend(more);
     let may_lack = vec![true; columns.len()];
-    Table { columns, rows, may_lack, words: None }
+    Table { columns, rows, may_lack, words: None, more_words: Vec::new() }
 }

@@ -2,18 +2,12 @@
 
 use super::dialect::{dialect, moves_the_profile};
 use super::machine_state::{MachineState, at_line};
-use super::modal::{ModalWords, Situation, are_known, passed_over};
+use super::modal::{ModalWords, Situation, are_known, dwells, passed_over};
+use super::words::{REFERENCE, Word, counted, of, without_comments, words};
 use super::{CutterProgram, CutterSide, MoveKind};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 use nalgebra::Vector2;
-
-/// A word: its letter in capitals, and its number.
-pub(super) type Word = (char, f64);
-/// The words whose numbers FANUC counts in its least increments where they have no decimal point.
-const COUNTED: &str = "XYZABCIJKR";
-/// The least increment of a FANUC control in its increment system IS-B, mm.
-const INCREMENT: f64 = 1e-3;
 
 /// Reads a program; where its head does not say for which control it is, for that of its design.
 pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgram, Refusal> {
@@ -50,75 +44,6 @@ pub(super) fn read(text: &str, design: Option<Controller>) -> Result<CutterProgr
     if modal.ended { Ok(state.program()) } else { Err(Refusal::new("the program has no end (M2 or M30)")) }
 }
 
-/// A block without what stands in parentheses or behind a semicolon; `None` where a parenthesis is left open.
-pub(super) fn without_comments(block: &str) -> Option<String> {
-    let mut depth = 0_u32;
-    let mut kept = String::with_capacity(block.len());
-    for character in block.chars() {
-        match character {
-            ';' if depth == 0 => break,
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ if depth == 0 => kept.push(character),
-            _ => {}
-        }
-    }
-    (depth == 0).then_some(kept)
-}
-
-/// The words of a block; `None` where it has something else.
-pub(super) fn words(block: &str) -> Option<Vec<Word>> {
-    let mut words = Vec::new();
-    let mut rest = block;
-    while let Some(letter) = rest.chars().next() {
-        rest = rest.get(letter.len_utf8()..)?;
-        if letter.is_ascii_whitespace() {
-            continue;
-        }
-        let number = rest.trim_start();
-        let end = number.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(number.len());
-        let (digits, after) = (number.get(..end)?, number.get(end..)?);
-        if !letter.is_ascii_alphabetic() || after.starts_with(['=', '[', '#']) {
-            return None;
-        }
-        words.push((letter.to_ascii_uppercase(), digits.parse().ok().filter(|number: &f64| number.is_finite())?));
-        rest = after;
-    }
-    Some(words)
-}
-
-/// Refuses a number without a decimal point that FANUC reads in its least increments (parameter 3401, DPI = 0, as delivered): `X10` is
-/// 0.010 mm for it.
-pub(super) fn counted(line: usize, block: &str) -> Result<(), Refusal> {
-    let mut rest = block;
-    while let Some(at) = rest.find(|c: char| c.is_ascii_alphabetic()) {
-        let (letter, after) = rest.split_at(at + 1);
-        let letter = letter.chars().last().unwrap_or(' ').to_ascii_uppercase();
-        let after = after.trim_start();
-        let end = after.find(|c: char| !(c.is_ascii_digit() || ['.', '+', '-'].contains(&c))).unwrap_or(after.len());
-        let (number, next) = after.split_at(end);
-        if COUNTED.contains(letter) && !number.contains('.') && number.parse().is_ok_and(|whole: f64| whole != 0.0) {
-            let read = INCREMENT * number.parse().unwrap_or(f64::NAN);
-            let what = format!("{letter}{number} has no decimal point: a FANUC control reads it as {read} mm");
-            return Err(at_line(line, what).remedy(format!("write {letter}{number}. with a point")));
-        }
-        rest = next;
-    }
-    Ok(())
-}
-
-/// The number behind a letter of a block.
-pub(super) fn of(line: usize, words: &[Word], letter: char) -> Result<Option<f64>, Refusal> {
-    let mut found = words.iter().filter(|(own, _)| *own == letter);
-    match (found.next(), found.next()) {
-        (Some(_), Some(_)) => Err(at_line(line, format!("{letter} is given twice"))),
-        (found, _) => Ok(found.map(|(_, number)| *number)),
-    }
-}
-
-/// G28, G30 and G53: to a reference point, or to a place of the machine.
-pub(super) const REFERENCE: [f64; 3] = [28.0, 30.0, 53.0];
-
 /// A block that goes to a place of the machine, such as `G91 G28 Z0`: only upwards, or with the cutter above the part.
 fn to_the_machine(
     line: usize,
@@ -140,9 +65,9 @@ fn run(line: usize, words: &[Word], state: &mut MachineState, modal: &mut ModalW
     if REFERENCE.iter().any(is) {
         return to_the_machine(line, words, state, modal);
     }
-    modal.block(line, words, &Situation { has_moved: state.has_moved(), is_deep: state.is_deep() })?;
+    modal.block(line, words, Situation { has_moved: state.has_moved(), is_deep: state.is_deep() })?;
     (state.feed, state.side) = (modal.feed, modal.side);
-    if modal.dwells(words) {
+    if dwells(words) {
         return Ok(());
     }
     let of = |letter: char| of(line, words, letter);

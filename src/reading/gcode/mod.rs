@@ -9,6 +9,7 @@ mod klartext;
 mod machine_state;
 mod modal;
 mod turned;
+mod words;
 
 pub use turned::{StandingMove, TurnedPass};
 

@@ -2,8 +2,8 @@
 //! under its tool; and the blocks that are passed over because they are the shop's own.
 
 use super::CutterSide;
-use super::iso::{REFERENCE, Word, of};
 use super::machine_state::at_line;
+use super::words::{REFERENCE, Word, of};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
 
@@ -48,7 +48,7 @@ impl ModalWords {
     }
 
     /// Takes what is modal in a block.
-    pub(super) fn block(&mut self, line: usize, words: &[Word], at: &Situation) -> Result<(), Refusal> {
+    pub(super) fn block(&mut self, line: usize, words: &[Word], at: Situation) -> Result<(), Refusal> {
         let refused = |what: &str| Err(at_line(line, what));
         let ways = words.iter().filter(|(letter, number)| *letter == 'G' && (0.0..=3.0).contains(number));
         if ways.count() > 1 {
@@ -75,11 +75,6 @@ impl ModalWords {
         }
         self.ended |= words.contains(&('M', 2.0)) || words.contains(&('M', 30.0));
         Ok(())
-    }
-
-    /// Whether a block makes the control wait (G4): its X is a time then.
-    pub(super) fn dwells(&self, words: &[Word]) -> bool {
-        words.contains(&('G', 4.0))
     }
 
     /// Refuses a move before it is stated how coordinates are meant.
@@ -177,6 +172,11 @@ impl ModalWords {
     }
 }
 
+/// Whether a block makes the control wait (G4): its X is a time then.
+pub(super) fn dwells(words: &[Word]) -> bool {
+    words.contains(&('G', 4.0))
+}
+
 /// Codes in tenths whose effect on the path is known: G91.1 is 911.
 const KNOWN: [f64; 44] = [
     0.0, 10.0, 20.0, 30.0, 170.0, 180.0, 190.0, 200.0, 210.0, 400.0, 410.0, 420.0, 700.0, 710.0, 7000.0, 7100.0, 900.0,
@@ -188,7 +188,7 @@ const KNOWN: [f64; 44] = [
 pub(super) fn are_known(words: &[Word], axis: Option<char>) -> bool {
     // G64 P0.01 is how exactly the control follows its path, G4 P1 a pause.
     let exactly = words.iter().any(|word| [('G', 64.0), ('G', 61.1)].contains(word));
-    let waits = words.contains(&('G', 4.0));
+    let waits = dwells(words);
     let moves = words.iter().any(|(letter, number)| *letter == 'G' && (0.0..=3.0).contains(number));
     let known = |(letter, number): &Word| match letter {
         // To a reference point, or to a place of the machine.

@@ -2,9 +2,9 @@
 //! in all at once, in the time that each block gives (G93).
 
 use super::dialect::{dialect, moves_the_profile};
-use super::iso::{REFERENCE, Word, counted, of, without_comments, words};
 use super::machine_state::at_line;
-use super::modal::{ModalWords, Situation, are_known, passed_over};
+use super::modal::{ModalWords, Situation, are_known, dwells, passed_over};
+use super::words::{REFERENCE, Word, counted, of, without_comments, words};
 use super::{CutterProgram, FASTEST};
 use crate::machine::Controller;
 use crate::refusal::Refusal;
@@ -111,8 +111,8 @@ impl TurnedState {
             }
             return Ok(());
         }
-        modal.block(line, words, &Situation { has_moved: self.has_moved, is_deep })?;
-        if modal.dwells(words) {
+        modal.block(line, words, Situation { has_moved: self.has_moved, is_deep })?;
+        if dwells(words) {
             return Ok(());
         }
         let [angle, x, y, z] = letters.map(|axis| of(line, words, axis));

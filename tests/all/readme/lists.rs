@@ -171,6 +171,7 @@ fn value(form: KeyForm) -> String {
         KeyForm::TextOrNumber => "text or number".into(),
         KeyForm::Boolean => "true or false".into(),
         KeyForm::Number(_) => "number".into(),
+        KeyForm::Share(_) => "share".into(),
         KeyForm::Numbers(_) => "list of numbers".into(),
         KeyForm::Texts => "list of texts or numbers".into(),
         KeyForm::Quantity(dimension, _) => dimension.to_string(),

@@ -2,10 +2,13 @@
 
 use crate::analysis::{Analysis, Picture, places};
 use crate::body::Kind;
+use crate::check::Measure;
 use crate::document::Input;
 use crate::domains::press::buffer::spring::{self, SpringBuffer};
+use crate::domains::press::buffer::spring_body::SpringBody;
 use crate::domains::press::cams;
-use crate::domains::press::machine::{Press, only_under_a_yoke};
+use crate::domains::press::checks::{spring_stress, surge};
+use crate::domains::press::machine::{Press, PressCams, only_under_a_yoke};
 use crate::geometry::MILLIMETRES;
 use crate::machine::Machine;
 use crate::refusal::{Refusal, WorkBound};
@@ -118,20 +121,10 @@ pub fn analysis(
         all.extend(USUAL.map(|over| over * highest));
     }
     SETS.allow(all.len().saturating_mul(speeds.len()))?;
-    // The speed that needs the stiffest spring comes first: its report serves for all.
-    let fastest = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    for stiffness in &all {
-        spring::set_for(&bed, &cylinder, *stiffness, fastest).map_err(|soft| soft.at(format!("{fastest} rpm")))?;
-    }
-    let mut sets = Vec::new();
-    for stiffness in &all {
-        for rpm in speeds {
-            let set = spring::set_for(&bed, &cylinder, *stiffness, *rpm);
-            sets.push((*rpm, set.map_err(|soft| soft.at(format!("{rpm} rpm")))?));
-        }
-    }
+    let sets = sets_of(press, &all, speeds)?;
     let rows: Vec<SpringSet> = sets.iter().map(|(rpm, spring)| set_of(*rpm, spring)).collect();
     let curves: Vec<SpringRow> = sets.iter().flat_map(|(rpm, spring)| curve(press, *rpm, spring)).collect();
+    let bodies = bodies_of(machine, &sets);
     let springs = Springs {
         least_stiffness_n_per_mm: least / MILLIMETRES,
         residual_fixed_bottom_max_n: spring::plain_residual(&bed, &cylinder, press.design_rpm).value,
@@ -146,18 +139,123 @@ pub fn analysis(
         machine: machine.name().to_owned(),
         speeds: Speeds::Several(speeds.to_vec()),
         inputs,
-        sections: vec![Section::new(KIND.command, &springs).with_words(words(&springs, press.design_rpm))],
-        measures: Vec::new(),
+        sections: std::iter::once(Section::new(KIND.command, &springs).with_words(words(&springs, press.design_rpm)))
+            .chain(bodies.as_ref().map(|(rows, _)| section_of_bodies(rows)))
+            .collect(),
+        measures: bodies.as_ref().map_or_else(Vec::new, |(rows, stress)| measures_of(rows, *stress)),
         notes: machine.idle_key_notes(KIND.keys, KIND.noun),
         picture: Picture::Curves(curves_of(machine.name(), press, &sets)),
         mechanism: None,
         document: None,
-        tables: vec![("", Table::listed(COLUMNS, &rows)), ("-curves", Table::listed(CURVES, &curves))],
+        tables: std::iter::once(("", Table::listed(COLUMNS, &rows)))
+            .chain(bodies.as_ref().map(|(rows, _)| ("-bodies", Table::listed(BODIES, rows))))
+            .chain([("-curves", Table::listed(CURVES, &curves))])
+            .collect(),
         by: &["stiffness_n_per_mm", "rpm"],
         along: "x_mm",
         diagrams: &[],
         not_modelled: NOT_MODELLED.to_vec(),
     })
+}
+
+/// A spring of a stiffness, for the largest force of all speeds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct SpringBodyRow {
+    stiffness_n_per_mm: f64,
+    force_max_n: f64,
+    wire_mm: f64,
+    coil_mm: f64,
+    coils: f64,
+    stress_mpa: f64,
+    surge_hz: f64,
+    crank_hz: f64,
+    solid_length_mm: f64,
+}
+
+const BODIES: &[ListedColumn<SpringBodyRow>] = &[
+    ("stiffness_n_per_mm", |row| row.stiffness_n_per_mm),
+    ("force_max_n", |row| row.force_max_n),
+    ("wire_mm", |row| row.wire_mm),
+    ("coil_mm", |row| row.coil_mm),
+    ("coils", |row| row.coils),
+    ("stress_mpa", |row| row.stress_mpa),
+    ("surge_hz", |row| row.surge_hz),
+    ("crank_hz", |row| row.crank_hz),
+    ("solid_length_mm", |row| row.solid_length_mm),
+];
+
+/// The springs of each stiffness, with the allowable stress, Pa; `None` where the file does not describe them.
+fn bodies_of(machine: &Machine, sets: &[(f64, SpringBuffer)]) -> Option<(Vec<SpringBodyRow>, f64)> {
+    let (data, bed) = (PressCams::of(machine).spring_body?, machine.bed()?);
+    let fastest = sets.iter().map(|(rpm, _)| *rpm).fold(0.0, f64::max);
+    let crank_hz = bed.crank_speed(fastest) / std::f64::consts::TAU;
+    let of = |of_one: &[(f64, SpringBuffer)]| {
+        let rate = of_one.first()?.1.stiffness;
+        let force = of_one.iter().map(|(_, spring)| spring.spring_force_max).fold(0.0, f64::max);
+        let body = SpringBody::new(data.shape, force, rate, data.stress);
+        Some(SpringBodyRow {
+            stiffness_n_per_mm: rate / MILLIMETRES,
+            force_max_n: force,
+            wire_mm: MILLIMETRES * body.wire,
+            coil_mm: MILLIMETRES * body.coil,
+            coils: body.coils,
+            stress_mpa: 1e-6 * body.stress,
+            surge_hz: body.surge,
+            crank_hz,
+            solid_length_mm: MILLIMETRES * body.solid_length,
+        })
+    };
+    let rows = sets.chunk_by(|(_, a), (_, b)| a.stiffness == b.stiffness).filter_map(of).collect();
+    Some((rows, data.stress))
+}
+
+fn section_of_bodies(rows: &[SpringBodyRow]) -> Section {
+    let mut words = vec![format!(
+        "{:>10} {:>10} {:>9} {:>9} {:>8} {:>10} {:>9} {:>9}",
+        "N/mm each", "force/N", "wire/mm", "coil/mm", "coils", "stress/MPa", "surge/Hz", "solid/mm"
+    )];
+    words.extend(rows.iter().map(|row| {
+        format!(
+            "{:>10.3} {:>10.1} {:>9.3} {:>9.2} {:>8.2} {:>10.1} {:>9.2} {:>9.1}",
+            row.stiffness_n_per_mm,
+            row.force_max_n,
+            row.wire_mm,
+            row.coil_mm,
+            row.coils,
+            row.stress_mpa,
+            row.surge_hz,
+            row.solid_length_mm
+        )
+    }));
+    Section::new("spring_bodies", &serde_json::json!({ "springs": rows })).with_words(words)
+}
+
+/// Rounding of the stress of a wire that is found for it.
+const ROUNDING: f64 = 1e-12;
+
+fn measures_of(rows: &[SpringBodyRow], allowable: f64) -> Vec<Measure> {
+    let largest = rows.iter().map(|row| row.stress_mpa).fold(0.0, f64::max);
+    let slowest = rows.iter().map(|row| row.surge_hz / row.crank_hz).fold(f64::INFINITY, f64::min);
+    let limit = 1e-6 * allowable;
+    vec![
+        spring_stress::CHECK.measure(largest, Some(limit)).kept(largest <= limit * (1.0 + ROUNDING)),
+        surge::CHECK.measure(slowest, Some(surge::LEAST)),
+    ]
+}
+
+/// Every spring at every speed.
+fn sets_of(press: &Press, stiffnesses: &[f64], speeds: &[f64]) -> Result<Vec<(f64, SpringBuffer)>, Refusal> {
+    let set = |stiffness: f64, rpm: f64| {
+        let set = spring::set_for(&press.bed, &press.cylinder(), stiffness, rpm);
+        set.map_err(|soft| soft.at(format!("{rpm} rpm")))
+    };
+    // The speed that needs the stiffest spring comes first: its report serves for all.
+    let fastest = speeds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    for stiffness in stiffnesses {
+        set(*stiffness, fastest)?;
+    }
+    let all = stiffnesses.iter().flat_map(|stiffness| speeds.iter().map(|rpm| (*stiffness, *rpm)));
+    all.map(|(stiffness, rpm)| Ok((rpm, set(stiffness, rpm)?))).collect()
 }
 
 const NOT_MODELLED: &[&str] = &[

@@ -11,6 +11,7 @@ pub mod energy;
 pub mod place_law;
 pub mod regime;
 pub mod spring;
+pub mod spring_body;
 
 use crate::report::Shaft;
 use crank_law::CrankLaw;

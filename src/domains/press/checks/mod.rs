@@ -6,8 +6,14 @@ pub(super) mod balanced;
 pub mod closing;
 pub mod column;
 pub mod compensator;
+pub mod contact_life;
+pub mod half_loop;
 pub mod residual;
 pub mod run_up;
+pub mod scatter;
+pub mod setting;
+pub mod spring_stress;
+pub mod surge;
 
 use super::conoid::{between_sections, cylinder_contact, shift};
 use super::wedge::roller_clearance;
@@ -21,5 +27,19 @@ pub(super) const CHECKS: &[Added<&Check>] = &[
     Added { after: "flank", entries: &[&shift::AXIAL_REACH, &cylinder_contact::CHECK] },
     Added { after: "vibration", entries: &[&residual::CHECK, &air::CHECK, &run_up::CHECK] },
     Added { after: "acceleration", entries: &[&between_sections::CHECK] },
-    Added { after: "balance", entries: &[&compensator::CHECK, &added_volume::CHECK, &column::CHECK, &closing::CHECK] },
+    Added {
+        after: "balance",
+        entries: &[
+            &compensator::CHECK,
+            &contact_life::CHECK,
+            &added_volume::CHECK,
+            &column::CHECK,
+            &closing::CHECK,
+            &scatter::CHECK,
+            &half_loop::CHECK,
+            &setting::CHECK,
+            &spring_stress::CHECK,
+            &surge::CHECK,
+        ],
+    },
 ];

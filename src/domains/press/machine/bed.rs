@@ -1,5 +1,6 @@
 //! The bed and its crank.
 
+use super::losses::BED_FRICTION;
 use super::press::PRESS;
 use crate::document::Presence::{Default, Required};
 use crate::document::range::{HEAVIEST, LARGEST_NUMBER, LONGEST};
@@ -31,7 +32,7 @@ pub(in crate::domains) const SECTION: KeySection = KeySection {
     about: "the bed and its crank",
     occurs: Occurrence::With(PRESS),
     cams: OF_A_BED,
-    keys: &[MASS.key, CRANK_RADIUS.key, CRANK_TURNS.key],
+    keys: &[MASS.key, CRANK_RADIUS.key, CRANK_TURNS.key, BED_FRICTION.key],
 };
 
 pub(in crate::domains) fn read(reader: &Reader<'_>) -> Option<Bed> {

@@ -1,5 +1,6 @@
 //! The air buffer: cylinder, column, and the speed it is sized for.
 
+use super::losses::{EXPANSION_EXPONENT, LEAK, PISTON_FRICTION};
 use super::press::{AirColumn, DRIVE, PRESS, Press};
 use crate::document::Presence::{Default, Required, RequiredUnless};
 use crate::document::range::{HIGHEST_PRESSURE, LARGEST_NUMBER, LEAST_RPM, LONGEST, THINNEST, TURNS_FORWARD};
@@ -54,7 +55,16 @@ pub(super) const SECTION: KeySection = KeySection {
     about: "the air buffer",
     occurs: Occurrence::With(PRESS),
     cams: OF_AIR,
-    keys: &[POLYTROPIC_EXPONENT.key, AMBIENT_PRESSURE.key, END_PRESSURE.key, COLUMN.key, LEAD.key],
+    keys: &[
+        POLYTROPIC_EXPONENT.key,
+        AMBIENT_PRESSURE.key,
+        END_PRESSURE.key,
+        COLUMN.key,
+        LEAD.key,
+        EXPANSION_EXPONENT.key,
+        LEAK.key,
+        PISTON_FRICTION.key,
+    ],
 };
 
 const RPM: Field<f64> = Field::number(

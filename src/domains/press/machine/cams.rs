@@ -2,14 +2,19 @@
 
 use super::compensator::{self, CompensatorData};
 use super::conoid::{self, ConoidData};
-use super::settings::{self, RegimesData};
+use super::losses::{self, PLAY, TRAIN_STIFFNESS};
+use super::scatter;
+use super::settings::{self, RegimesData, SpringBodyData};
 use super::transition;
 use super::translating::{self, TranslatingData};
+use super::{bed, buffer};
 use crate::document::Presence::{Default, Optional};
 use crate::document::range::{LARGEST_NUMBER, LONGEST};
-use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above};
+use crate::document::{Field, KeySection, Occurrence, Reader, TableReader, above, within};
 use crate::domains::press::cams::{CONOID, OF_A_COLUMN, OF_A_PRESS, REGIMES, ROTARY};
 use crate::domains::press::motion::Transition;
+use crate::domains::press::scatter::losses::Losses;
+use crate::domains::press::scatter::monte_carlo::{CUSTOMARY, Sampling};
 use crate::machine::Machine;
 use crate::units::Dimension::Length;
 
@@ -32,6 +37,16 @@ pub struct PressCams {
     pub regimes: RegimesData,
     /// Stiffness of springs under the bottoms, N/m.
     pub spring_stiffness: Option<f64>,
+    /// Brinell hardness of the surface of the cam.
+    pub hardness: Option<f64>,
+    /// Least turns before it pits.
+    pub life: Option<f64>,
+    /// The springs themselves, when described.
+    pub spring_body: Option<SpringBodyData>,
+    /// What the press loses in a reversal.
+    pub losses: Losses,
+    /// How far presses differ from the one a cam is cut for.
+    pub scatter: Sampling,
     /// Largest residual force over the largest inertia force; where it is absent it must stay below a fixed bottom's.
     pub residual_share: Option<f64>,
     /// Longest air column, m; where it is absent the customary one holds.
@@ -48,6 +63,11 @@ static WITHOUT_PRESS: PressCams = PressCams {
     compensator: None,
     regimes: RegimesData { speeds: Vec::new(), reset: None },
     spring_stiffness: None,
+    hardness: None,
+    life: None,
+    spring_body: None,
+    losses: Losses::NONE,
+    scatter: CUSTOMARY,
     residual_share: None,
     largest_column: None,
 };
@@ -82,6 +102,21 @@ const RESIDUAL_SHARE: Field<f64> = Field::number(
 )
 .only(OF_A_PRESS);
 
+const HARDNESS: Field<f64> = Field::number(
+    "hardness",
+    "Brinell hardness of the surface of the cam: for the check contact_life",
+    Optional("600"),
+    within(100.0, 1000.0),
+)
+.only(&[ROTARY]);
+const LIFE: Field<f64> = Field::number(
+    "life",
+    "least turns of the cam before its surface pits, 1e4 to 1e10; for the check contact_life",
+    Optional("1e9"),
+    within(1e4, 1e10),
+)
+.only(&[ROTARY]);
+
 const COLUMN: Field<f64> = Field::quantity(
     "column",
     "longest air column; 2 m when absent, the room behind the bed of a flat-bed press",
@@ -92,8 +127,13 @@ const COLUMN: Field<f64> = Field::quantity(
 .only(OF_A_COLUMN);
 
 /// The keys that are added to `[cam]`.
-pub(super) const CAM: KeySection =
-    KeySection { path: "cam", about: "", occurs: Occurrence::Once, cams: &[], keys: &[TURNS.key, LEVER.key] };
+pub(super) const CAM: KeySection = KeySection {
+    path: "cam",
+    about: "",
+    occurs: Occurrence::Once,
+    cams: &[],
+    keys: &[TURNS.key, LEVER.key, TRAIN_STIFFNESS.key, PLAY.key, HARDNESS.key],
+};
 
 /// The keys that are added to `[limits]`.
 pub(super) const LIMITS: KeySection = KeySection {
@@ -101,14 +141,14 @@ pub(super) const LIMITS: KeySection = KeySection {
     about: "",
     occurs: Occurrence::Once,
     cams: &[],
-    keys: &[RESIDUAL_SHARE.key, COLUMN.key],
+    keys: &[RESIDUAL_SHARE.key, COLUMN.key, LIFE.key],
 };
 
 /// The cams, whose wedge has a roller of this radius (m) unless its table gives one.
 pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<PressCams> {
     let table = reader.table(&CAM);
     let (regimes, spring_stiffness) = settings::read(reader);
-    let lobes = read_lobes(&table);
+    let (lobes, scatter) = (read_lobes(&table), scatter::read(reader));
     let (translating, conoid) = (translating::read(reader, roller_radius), conoid::read(reader));
     Some(PressCams {
         lobes: lobes?,
@@ -119,9 +159,27 @@ pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<Pr
         compensator: compensator::read(reader),
         regimes,
         spring_stiffness,
+        hardness: table.get(&HARDNESS),
+        life: reader.table(&LIMITS).get(&LIFE),
+        spring_body: settings::read_body(reader),
+        losses: read_losses(reader),
+        scatter: scatter?,
         residual_share: reader.table(&LIMITS).get(&RESIDUAL_SHARE),
         largest_column: reader.table(&LIMITS).get(&COLUMN),
     })
+}
+
+/// What is given of losses; what is not is no loss.
+fn read_losses(reader: &Reader<'_>) -> Losses {
+    let (buffer, bed, cam) = (reader.table(&buffer::SECTION), reader.table(&bed::SECTION), reader.table(&CAM));
+    Losses {
+        expansion_exponent: buffer.get(&losses::EXPANSION_EXPONENT),
+        leak: buffer.get(&losses::LEAK).unwrap_or(0.0),
+        piston_friction: buffer.get(&losses::PISTON_FRICTION).unwrap_or(0.0),
+        bed_friction: bed.get(&losses::BED_FRICTION).unwrap_or(0.0),
+        train_stiffness: cam.get(&TRAIN_STIFFNESS),
+        play: cam.get(&PLAY).unwrap_or(0.0),
+    }
 }
 
 /// Most lobes: more would be teeth.

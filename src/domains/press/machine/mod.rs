@@ -6,7 +6,9 @@ pub(super) mod cams;
 mod compensator;
 mod conoid;
 mod drive;
+mod losses;
 mod press;
+mod scatter;
 mod settings;
 mod transition;
 mod translating;
@@ -17,7 +19,7 @@ pub use conoid::{ConoidData, ConoidMode, Shift};
 pub use drive::{DriveData, DriveMachine};
 pub(in crate::domains::press) use press::only_under_a_yoke;
 pub use press::{AirColumn, LinkageData, Press};
-pub use settings::RegimesData;
+pub use settings::{RegimesData, SpringBodyData};
 pub use translating::TranslatingData;
 
 use super::bed_motion::{End, Linkage, StrokeEnd};
@@ -44,6 +46,8 @@ pub(super) const SECTIONS: &[Added<&KeySection>] = &[
             &compensator::SECTION,
             &settings::REGIMES_SECTION,
             &settings::SPRING_SECTION,
+            &settings::SPRING_BODY_SECTION,
+            &scatter::SECTION,
             &drive::SECTION,
         ],
     },

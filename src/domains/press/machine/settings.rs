@@ -1,11 +1,12 @@
 //! What the analyses of a press look at by default.
 
-use crate::document::Presence::{Default, Optional};
-use crate::document::range::{LARGEST_NUMBER, LEAST_RPM, STIFFEST};
+use crate::document::Presence::{Default, Optional, Required};
+use crate::document::range::{HIGHEST_STRESS, LARGEST_NUMBER, LEAST_RPM, LONGEST, STIFFEST};
 use crate::document::{Field, KeySection, Occurrence, Reader, above, within};
 use crate::domains::press::buffer::regime::Reset;
+use crate::domains::press::buffer::spring_body::SpringShape;
 use crate::domains::press::cams::{REGIMES, SPRING};
-use crate::units::Dimension::Stiffness;
+use crate::units::Dimension::{Length, Pressure, Stiffness};
 
 /// Other speeds of a press.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -55,6 +56,69 @@ pub(super) const SPRING_SECTION: KeySection = KeySection {
     cams: &[SPRING],
     keys: &[STIFFNESS.key],
 };
+
+const INDEX: Field<f64> = Field::number(
+    "index",
+    "mean diameter of the coils over that of the wire; the wire is the thinnest that keeps the stress",
+    Default("6"),
+    within(2.0, 30.0),
+);
+const STRESS: Field<f64> = Field::quantity(
+    "stress",
+    "allowable shear stress of the wire",
+    Required("700 MPa"),
+    Pressure,
+    above(0.0, HIGHEST_STRESS),
+);
+const WIRE: Field<f64> = Field::quantity(
+    "wire",
+    "diameter of the wire, with coil in the place of index",
+    Optional("18 mm"),
+    Length,
+    above(0.0, LONGEST),
+);
+const COIL: Field<f64> =
+    Field::quantity("coil", "mean diameter of the coils", Optional("108 mm"), Length, above(0.0, LONGEST));
+
+/// `[spring_buffer.body]`.
+pub(super) const SPRING_BODY_SECTION: KeySection = KeySection {
+    path: "spring_buffer.body",
+    about: "the coil springs themselves: wire, coils, stress and surge",
+    occurs: Occurrence::Optional,
+    cams: &[SPRING],
+    keys: &[INDEX.key, STRESS.key, WIRE.key, COIL.key],
+};
+
+/// The springs themselves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpringBodyData {
+    /// Index, or wire and coils.
+    pub shape: SpringShape,
+    /// Allowable shear stress, Pa.
+    pub stress: f64,
+}
+
+/// The table of the springs themselves.
+pub(super) fn read_body(reader: &Reader<'_>) -> Option<SpringBodyData> {
+    let table = reader.find(&SPRING_BODY_SECTION)?;
+    let (wire, coil) = (table.get(&WIRE), table.get(&COIL));
+    let shape = match (wire, coil) {
+        (None, None) => SpringShape::Index(table.get(&INDEX)?),
+        (Some(wire), Some(coil)) if coil >= 2.0 * wire => SpringShape::Wire { wire, coil },
+        (Some(_), Some(_)) => {
+            let message = "the coils must be at least twice as wide as the wire is thick".to_owned();
+            table.fail(&COIL, message, Some("give the mean diameter, 4 to 12 times that of the wire".into()));
+            return None;
+        }
+        (wire, _) => {
+            let (given, lacks) = if wire.is_some() { (&WIRE, "coil") } else { (&COIL, "wire") };
+            let message = format!("`spring_buffer.body.{}` is given without `{lacks}`", given.key.name);
+            table.fail(given, message, Some("give both, or neither: then the index finds the wire".into()));
+            return None;
+        }
+    };
+    Some(SpringBodyData { shape, stress: table.get(&STRESS)? })
+}
 
 pub(super) fn read(reader: &Reader<'_>) -> (RegimesData, Option<f64>) {
     let regimes = reader.table(&REGIMES_SECTION);

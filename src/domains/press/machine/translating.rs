@@ -4,7 +4,7 @@ use crate::document::Presence::{Default, Optional, Required};
 use crate::document::range::LONGEST;
 use crate::document::{Bounds, Field, Key, KeySection, Occurrence, Reader, above, within};
 use crate::domains::press::cams::TRANSLATING;
-use crate::domains::press::motion::equation_18::EfficiencyModel;
+use crate::domains::press::motion::equation_18::{EfficiencyModel, ExactOn};
 use crate::units::Dimension::{Angle, Length};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -23,6 +23,8 @@ pub struct TranslatingData {
     pub efficiency: f64,
     /// Model of the efficiency.
     pub efficiency_model: EfficiencyModel,
+    /// Where the forces balance, unless a flag says so.
+    pub balance: Option<ExactOn>,
     /// Radius of the roller, m.
     pub roller_radius: f64,
     /// Height of the plate over both flanks where it is highest, m; chosen automatically when not given.
@@ -61,6 +63,13 @@ const MODEL: Field<EfficiencyModel> = Field::words(
     &["consistent", "printed"],
     &[EfficiencyModel::Consistent, EfficiencyModel::Printed],
 );
+const BALANCE: Field<ExactOn> = Field::words(
+    "balance",
+    "where the forces balance: \"braking\", exact while the bed is braked, or \"level\", half of the friction left in each direction of the bed; --balance replaces it",
+    Optional("level"),
+    &["braking", "level"],
+    &[ExactOn::Braking, ExactOn::Mean],
+);
 const ROLLER_RADIUS: Field<f64> = Field::quantity(
     "roller_radius",
     "radius of its roller; follower.roller.radius when absent",
@@ -91,6 +100,7 @@ pub(super) const SECTION: KeySection = KeySection {
         FRICTION_ANGLE.key,
         EFFICIENCY.key,
         MODEL.key,
+        BALANCE.key,
         ROLLER_RADIUS.key,
         ROLLER_DIAMETER,
         PLATE_HEIGHT.key,
@@ -112,6 +122,7 @@ pub(super) fn read(reader: &Reader<'_>, roller_radius: Option<f64>) -> Option<Tr
         friction_angle: table.get(&FRICTION_ANGLE)?,
         efficiency: table.get(&EFFICIENCY)?,
         efficiency_model: table.get(&MODEL)?,
+        balance: table.get(&BALANCE),
         roller_radius: roller_radius?,
         plate_height: table.get(&PLATE_HEIGHT),
     })

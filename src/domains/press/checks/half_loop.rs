@@ -1,0 +1,32 @@
+//! What neither cam nor screw can cure: the force that differs between the ways in and back.
+
+use crate::check::{Check, CheckExplanation, Measure};
+use crate::domains::press::load::USEFUL;
+use crate::report::{Bound, Verdict, shown};
+
+/// The check.
+pub const CHECK: Check = Check::on_analysis(
+    "half_loop",
+    "1",
+    "Half of the largest difference of the residual forces on the ways in and back, over what a buffer with a fixed bottom leaves: expansion of the air, leak \
+     and friction leave it whatever the cam is.",
+    CheckExplanation {
+        bound: Bound::AtMost,
+        formula: "max |r_back − r_in|/2 at the same overrun, over the largest residual force of a fixed bottom",
+        usual: "camgen's own rule: below 1; it warns above ½",
+        change: "less leak or friction (`buffer.leak`, `buffer.piston_friction`, `bed.friction`), or a larger bore: a lower `buffer.end_pressure`",
+    },
+);
+
+/// The measure of the largest h and of what a fixed bottom leaves, N.
+#[must_use]
+pub fn measure(half_loop: f64, fixed: f64) -> Measure {
+    let share = half_loop.abs() / fixed;
+    let verdict = match share {
+        share if !(share < 1.0) => Verdict::Fail,
+        share if share > USEFUL => Verdict::Warn,
+        _ => Verdict::Pass,
+    };
+    let note = format!("half of the loop is {} N, a fixed bottom leaves {} N", shown(half_loop.abs()), shown(fixed));
+    CHECK.measure(share, Some(1.0)).judged(verdict).noted(note)
+}

@@ -1,0 +1,51 @@
+//! What a press loses in a reversal: air, friction, and a train that gives way.
+
+use crate::document::Presence::Optional;
+use crate::document::range::{LARGEST_FORCE, STIFFEST};
+use crate::document::{Field, above, within};
+use crate::domains::press::cams::SCATTER;
+use crate::units::Dimension::{Force, Length, Stiffness};
+
+/// The only analysis that they have an effect on: no cam is cut for them.
+const ONLY: &[&str] = &[SCATTER];
+
+pub(super) const EXPANSION_EXPONENT: Field<f64> = Field::number(
+    "expansion_exponent",
+    "polytropic exponent of the air on its way back, at least polytropic_exponent; the same when absent",
+    Optional("1.40"),
+    within(1.0, 3.0),
+)
+.only(ONLY);
+pub(super) const LEAK: Field<f64> = Field::share(
+    "leak",
+    "share of the air that leaks out by the dead point, to first order; about twice as much by the end of the reversal",
+    Optional("1 %"),
+    within(0.0, 0.2),
+)
+.only(ONLY);
+pub(super) const PISTON_FRICTION: Field<f64> = Field::share(
+    "piston_friction",
+    "friction of the pistons over the force of the air",
+    Optional("2 %"),
+    within(0.0, 0.5),
+)
+.only(ONLY);
+pub(super) const BED_FRICTION: Field<f64> = Field::quantity(
+    "friction",
+    "friction of the bed on its rails",
+    Optional("480 N"),
+    Force,
+    within(0.0, LARGEST_FORCE),
+)
+.only(ONLY);
+pub(super) const TRAIN_STIFFNESS: Field<f64> = Field::quantity(
+    "train_stiffness",
+    "stiffness of the train from the cam to the bottoms of both cylinders, at the bottoms; rigid when absent",
+    Optional("100 kN/mm"),
+    Stiffness,
+    above(0.0, STIFFEST),
+)
+.only(ONLY);
+pub(super) const PLAY: Field<f64> =
+    Field::quantity("play", "play of that train at the bottoms", Optional("0.1 mm"), Length, within(0.0, 0.1))
+        .only(ONLY);

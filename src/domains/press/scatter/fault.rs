@@ -1,0 +1,304 @@
+//! A cam as it is cut, in a machine that differs from the one it was cut for.
+//!
+//! Without a difference the air column has the length L w at every place, w = (1 + u)^(−1/k), u = A x, and balances the bed. The
+//! bottom is where the cam puts it, so that w belongs to the place whatever the machine is. In a machine that differs
+//!
+//! ```text
+//! r = U [M u − π (τ (s/(w + t))^κ − 1)],   s = f (1 + d),   t = d − ε        > 0: the air is too weak, the crank carries the rest
+//! ```
+//!
+//! with U = 2 p0 F, d = ΔL/L and ε = Δe/L. Air that is left in the cylinder keeps p (v/mass)^κ.
+
+use super::error::ScatterError;
+use crate::domains::press::buffer::Cylinder;
+use crate::domains::press::buffer::bottom_law::{BottomLaw, column_for};
+use crate::numeric::extremum::{self, Extremum};
+use crate::numeric::root;
+use std::f64::consts::FRAC_PI_2;
+
+/// Cells of the braking half in which the largest residual force with a phase error is searched.
+const CELLS: u32 = 64;
+
+/// A machine that differs. Ratios are those of the true value to the one that the cam was cut for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fault {
+    /// M: mass ratio times the square of the speed ratio.
+    pub square: f64,
+    /// π: ratio of the ambient pressures.
+    pub ambient: f64,
+    /// κ: the true exponent.
+    pub exponent: f64,
+    /// τ: pressure where the port closes, over the true ambient pressure.
+    pub closing: f64,
+    /// f: share of the air that is left.
+    pub air: f64,
+    /// ΔL: how much longer the column is, m.
+    pub column: f64,
+    /// Δe: how much earlier the port shuts, m.
+    pub lead: f64,
+    /// How far the cam is ahead, rad of the crank.
+    pub phase: f64,
+}
+
+impl Fault {
+    /// The machine the cam was cut for, with the exponent k.
+    #[must_use]
+    pub fn none(exponent: f64) -> Self {
+        Self { square: 1.0, ambient: 1.0, exponent, closing: 1.0, air: 1.0, column: 0.0, lead: 0.0, phase: 0.0 }
+    }
+
+    /// v = M/π, the one variable of mass, speed and ambient pressure.
+    #[must_use]
+    pub fn variable(&self) -> f64 {
+        self.square / self.ambient
+    }
+
+    /// With this change of the column, m.
+    #[must_use]
+    pub fn with_column(self, column: f64) -> Self {
+        Self { column, ..self }
+    }
+}
+
+/// A buffer whose bottom is where it is, whatever the machine is: that of a cam, or a fixed one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrozenBuffer {
+    /// U = 2 p0 F, N.
+    pub unit_force: f64,
+    /// k, for which it was made.
+    pub exponent: f64,
+    /// L, m.
+    pub column: f64,
+    /// A, 1/m.
+    pub loading: f64,
+    /// r, m.
+    pub stroke: f64,
+}
+
+impl FrozenBuffer {
+    /// That of a cam for this law.
+    #[must_use]
+    pub fn of_cam(law: &BottomLaw, cylinder: &Cylinder) -> Self {
+        Self {
+            unit_force: cylinder.unit_force(),
+            exponent: law.exponent,
+            column: law.column,
+            loading: law.loading,
+            stroke: law.stroke,
+        }
+    }
+
+    /// The same cylinder with a fixed bottom, its column by (7).
+    #[must_use]
+    pub fn with_fixed_bottom(&self) -> Self {
+        Self { column: column_for(self.stroke, self.end_load(), self.exponent), ..*self }
+    }
+
+    /// `u_r` = A r.
+    #[must_use]
+    pub fn end_load(&self) -> f64 {
+        self.loading * self.stroke
+    }
+
+    /// w of a cam at a load u.
+    #[must_use]
+    pub fn length(&self, load: f64) -> f64 {
+        libm::exp(-libm::log1p(load) / self.exponent)
+    }
+
+    /// `w_r`, of a cam and of the fixed bottom.
+    #[must_use]
+    pub fn end_length(&self) -> f64 {
+        self.length(self.end_load())
+    }
+
+    /// u of a cam where the air has the length L w.
+    fn load(&self, length: f64) -> f64 {
+        libm::expm1(-self.exponent * libm::log(length))
+    }
+
+    /// s and t.
+    fn air(&self, fault: &Fault) -> [f64; 2] {
+        let longer = fault.column / self.column;
+        [fault.air * (1.0 + longer), longer - fault.lead / self.column]
+    }
+
+    /// Residual force at a load u where the undisturbed air has the length L w, N, without the phase error.
+    #[must_use]
+    pub fn residual(&self, fault: &Fault, load: f64, length: f64) -> f64 {
+        let [s, t] = self.air(fault);
+        let pressure = fault.closing * libm::exp(fault.exponent * libm::log(s / (length + t)));
+        self.unit_force * (fault.square * load - fault.ambient * (pressure - 1.0))
+    }
+
+    /// That force over the stations of the crank, the loads and lengths of `at`, its largest size with the phase error both ways.
+    #[must_use]
+    pub fn largest_at(&self, fault: &Fault, at: &[Station]) -> f64 {
+        let [s, t] = self.air(fault);
+        let (log_s, weight) = (libm::log(s), fault.ambient * fault.closing);
+        let size = |station: &Station| {
+            let air = weight * libm::exp(fault.exponent * (log_s - libm::log(station.length + t))) - fault.ambient;
+            let force = fault.square * station.load - air;
+            force.abs() + (fault.phase * station.phase).abs()
+        };
+        self.unit_force * at.iter().map(size).fold(0.0, f64::max)
+    }
+
+    /// Refuses a machine whose column is used up.
+    pub(super) fn fits(&self, fault: &Fault) -> Result<(), ScatterError> {
+        let [s, t] = self.air(fault);
+        let left = self.end_length() + t;
+        if left > 0.0 && s > 0.0 {
+            return Ok(());
+        }
+        Err(ScatterError::ColumnUsedUp { short_mm: -1e3 * self.column * left.min(s) })
+    }
+
+    /// Least and largest residual force of a cam over the stroke, N, with the overrun x, m; without the phase error.
+    ///
+    /// dr/dw = 0 where (κ+1) ln(w+t) − (k+1) ln w = ln(π τ κ s^κ/(k M)). The left side turns at `w0 = (k+1) t/(κ−k)` at most, so
+    /// that either part has one root at most.
+    ///
+    /// # Errors
+    /// When the column is used up.
+    pub fn extremes(&self, fault: &Fault) -> Result<[Extremum; 2], ScatterError> {
+        self.fits(fault)?;
+        let ([s, t], k, kappa) = (self.air(fault), self.exponent, fault.exponent);
+        let scale = fault.ambient * fault.closing * kappa / (k * fault.square);
+        let level = libm::log(scale) + kappa * libm::log(s);
+        let slope = |w: f64| (kappa + 1.0) * libm::log(w + t) - (k + 1.0) * libm::log(w) - level;
+        let end = self.end_length();
+        let turn = Some((k + 1.0) * t / (kappa - k)).filter(|turn| *turn > end && *turn < 1.0);
+        let parts = [Some(end), turn, Some(1.0)];
+        let edges: Vec<f64> = parts.into_iter().flatten().collect();
+        let stationary = edges.windows(2).filter_map(|part| match part {
+            [low, high] => root::bracketed(slope, *low, *high, 0.0).ok(),
+            _ => None,
+        });
+        let places = [1.0, end].into_iter().chain(stationary);
+        let mut found: Vec<Extremum> = places
+            .map(|w| {
+                let load = if w == end { self.end_load() } else { self.load(w) };
+                Extremum { at: load / self.loading, value: self.residual(fault, load, w) }
+            })
+            .collect();
+        found.sort_by(|a, b| a.value.total_cmp(&b.value));
+        match found[..] {
+            [least, .., largest] => Ok([least, largest]),
+            _ => Err(ScatterError::ColumnUsedUp { short_mm: 0.0 }),
+        }
+    }
+
+    /// The residual force of a cam of largest size, N, signed, with the overrun x, m, and the phase error in the worse direction.
+    ///
+    /// # Errors
+    /// When the column is used up.
+    pub fn worst(&self, fault: &Fault) -> Result<Extremum, ScatterError> {
+        let [least, largest] = self.extremes(fault)?;
+        if fault.phase == 0.0 {
+            return Ok(if -least.value > largest.value { least } else { largest });
+        }
+        let of = |way: f64, sign: f64| {
+            let value = |at: f64| {
+                let (load, phase) = (self.end_load() * libm::sin(at), way * fault.phase * self.phase_force(at)[0]);
+                sign * (self.residual(fault, load, self.length(load)) + phase)
+            };
+            let slope = |at: f64| {
+                let load = self.end_load() * libm::sin(at);
+                let by_load = self.slope(fault, load) * self.end_load() * libm::cos(at);
+                sign * (by_load + way * fault.phase * self.phase_force(at)[1])
+            };
+            let found = extremum::largest(value, slope, (0.0, FRAC_PI_2), CELLS);
+            Extremum { at: self.stroke * libm::sin(found.at), value: sign * found.value }
+        };
+        let all = [of(1.0, 1.0), of(1.0, -1.0), of(-1.0, 1.0), of(-1.0, -1.0)];
+        Ok(all.into_iter().fold(largest, |best, next| if next.value.abs() > best.value.abs() { next } else { best }))
+    }
+
+    /// dr/du, N.
+    fn slope(&self, fault: &Fault, load: f64) -> f64 {
+        let ([s, t], w) = (self.air(fault), self.length(load));
+        let pressure = fault.closing * libm::exp(fault.exponent * libm::log(s / (w + t)));
+        let fall = w / (self.exponent * (1.0 + load));
+        self.unit_force * (fault.square - fault.ambient * pressure * fault.exponent * fall / (w + t))
+    }
+
+    /// Residual force on the way in for a cam that is ahead, N a radian of the crank, to first order, and its slope by the crank angle;
+    /// opposite on the way back: U k (r/L) cos φ [(1+u)^(1+p) − c], c = L A/k.
+    #[must_use]
+    pub fn phase_force(&self, angle: f64) -> [f64; 2] {
+        let (k, (sin, cos)) = (self.exponent, (libm::sin(angle), libm::cos(angle)));
+        let power = 1.0 + 1.0 / k;
+        let load = self.end_load() * sin;
+        let grown = libm::exp(power * libm::log1p(load)) - self.column * self.loading / k;
+        let scale = self.unit_force * k * self.stroke / self.column;
+        let growth = power * libm::exp((power - 1.0) * libm::log1p(load)) * self.end_load() * cos;
+        [scale * cos * grown, scale * (cos * growth - sin * grown)]
+    }
+}
+
+/// A place of the crank at which a buffer is looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Station {
+    /// Crank angle φ, rad.
+    pub angle: f64,
+    /// u.
+    pub load: f64,
+    /// w.
+    pub length: f64,
+    /// The force of a phase error of a radian over U.
+    pub phase: f64,
+}
+
+/// Steps of half a degree in the braking half.
+pub const STEPS: u32 = 180;
+
+impl FrozenBuffer {
+    /// A place of the way in, rad of the crank, of a cam.
+    #[must_use]
+    pub fn station_of_cam(&self, angle: f64) -> Station {
+        let load = self.load_at(angle);
+        Station { angle, load, length: self.length(load), phase: self.phase_force(angle)[0] / self.unit_force }
+    }
+
+    /// That of a fixed bottom, w = 1 − x/L.
+    #[must_use]
+    pub fn station_of_fixed_bottom(&self, angle: f64) -> Station {
+        let load = self.load_at(angle);
+        Station { angle, load, length: 1.0 - load / (self.loading * self.column), phase: 0.0 }
+    }
+
+    fn load_at(&self, angle: f64) -> f64 {
+        if angle == FRAC_PI_2 { self.end_load() } else { self.end_load() * libm::sin(angle) }
+    }
+
+    /// The stations φ = 0, ½ … 90° of a cam.
+    #[must_use]
+    pub fn stations_of_cam(&self) -> Vec<Station> {
+        braking().map(|angle| self.station_of_cam(angle)).collect()
+    }
+
+    /// Those of a fixed bottom.
+    #[must_use]
+    pub fn stations_of_fixed_bottom(&self) -> Vec<Station> {
+        braking().map(|angle| self.station_of_fixed_bottom(angle)).collect()
+    }
+}
+
+/// The crank angles of the stations, rad.
+fn braking() -> impl Iterator<Item = f64> {
+    (0..=STEPS).map(|step| if step == STEPS { FRAC_PI_2 } else { FRAC_PI_2 * f64::from(step) / f64::from(STEPS) })
+}
+
+impl FrozenBuffer {
+    /// The largest size of the force of a phase error of a radian over the stroke, N, and the crank angle, rad.
+    #[must_use]
+    pub fn largest_phase_force(&self) -> Extremum {
+        let of = |sign: f64| {
+            let value = |at: f64| sign * self.phase_force(at)[0];
+            extremum::largest(value, |at| sign * self.phase_force(at)[1], (0.0, FRAC_PI_2), CELLS)
+        };
+        let (with, against) = (of(1.0), of(-1.0));
+        if with.value > against.value { with } else { against }
+    }
+}

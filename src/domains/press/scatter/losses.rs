@@ -1,0 +1,288 @@
+//! Air that does not come back as it went in, friction, play, and a train that gives way: the residual force of both ways.
+//!
+//! With P̂ = p/p0', pressure continuous at the dead point, and W = w + t + b/L + g (P̂ − 1) the length of the air where a train of the stiffness
+//! `c_t` and the play b let the bottom stand too far, g = π U/(`c_t` L):
+//!
+//! ```text
+//! in:   P̂ = τ (f s/W)^κ1                     r = U [M u − (1 + c_p) π (P̂ − 1)] − R0
+//! back: P̂ = P̂_r ((f/f_r) W_r/W)^κ2           r = U [M u − (1 − c_p) π (P̂ − 1)] + R0,      df/dφ = −(leak/u_r)(P̂ − 1)
+//! ```
+//!
+//! The mean of both ways is curable by cam or screw, half of their difference h, the loop, by neither.
+
+use super::error::ScatterError;
+use super::fault::{Fault, FrozenBuffer};
+use crate::numeric::extremum::{self, Extremum};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// What a press loses.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Losses {
+    /// Exponent of the air on the way back.
+    pub expansion_exponent: Option<f64>,
+    /// Share of the air that leaks out by the dead point, to first order.
+    pub leak: f64,
+    /// Friction of the pistons over the force of the air.
+    pub piston_friction: f64,
+    /// Friction of the bed, N.
+    pub bed_friction: f64,
+    /// Stiffness of the train from the cam to the bottoms of both cylinders, N/m.
+    pub train_stiffness: Option<f64>,
+    /// Play of the train at the bottom, m.
+    pub play: f64,
+}
+
+impl Losses {
+    /// Nothing is lost.
+    pub const NONE: Self = Self {
+        expansion_exponent: None,
+        leak: 0.0,
+        piston_friction: 0.0,
+        bed_friction: 0.0,
+        train_stiffness: None,
+        play: 0.0,
+    };
+
+    /// Whether anything is lost.
+    #[must_use]
+    pub fn is_any(&self) -> bool {
+        *self != Self::NONE
+    }
+}
+
+/// Steps of Runge and Kutta in a quarter of a turn: an error of 1e-13.
+const STEPS: u32 = 1000;
+/// Cells of a quarter of a turn in which the largest force is searched.
+const CELLS: u32 = 90;
+/// Newton's steps end by themselves: each doubles the digits.
+const NEWTON: u32 = 60;
+
+/// The reversal of a press that loses.
+#[derive(Debug, Clone)]
+pub struct LossyReversal {
+    cam: FrozenBuffer,
+    fault: Fault,
+    losses: Losses,
+    /// f where the steps begin, in and back; empty without a leak.
+    air: [Vec<f64>; 2],
+    /// P̂, f and W at the dead point.
+    dead: [f64; 3],
+}
+
+/// A way of the bed: in, while it is braked, or back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BedWay {
+    /// The bed is braked.
+    In,
+    /// The bed is accelerated.
+    Back,
+}
+
+impl LossyReversal {
+    /// The reversal of a cam in a machine.
+    ///
+    /// # Errors
+    /// When the air would give work, the column is used up, or the train gives way faster than the bed comes.
+    pub fn new(cam: &FrozenBuffer, fault: &Fault, losses: &Losses) -> Result<Self, ScatterError> {
+        cam.fits(fault)?;
+        if let Some(expansion) = losses.expansion_exponent.filter(|expansion| *expansion < fault.exponent) {
+            return Err(ScatterError::ExpansionBelowCompression { expansion, compression: fault.exponent });
+        }
+        let per_overrun = fault.square * cam.unit_force * cam.loading;
+        if let Some(stiffness) = losses.train_stiffness.filter(|stiffness| *stiffness <= per_overrun) {
+            return Err(ScatterError::TrainTooSoft { stiffness, needed: per_overrun });
+        }
+        let mut reversal = Self {
+            cam: *cam,
+            fault: *fault,
+            losses: *losses,
+            air: [Vec::new(), Vec::new()],
+            dead: [1.0, fault.air, 1.0],
+        };
+        let at_dead = if losses.leak > 0.0 { reversal.leak_through(BedWay::In, fault.air) } else { fault.air };
+        let pressure = reversal.pressure_of(BedWay::In, FRAC_PI_2, at_dead);
+        reversal.dead = [pressure, at_dead, reversal.length(FRAC_PI_2, pressure)];
+        if losses.leak > 0.0 {
+            reversal.leak_through(BedWay::Back, at_dead);
+        }
+        Ok(reversal)
+    }
+
+    /// W at a crank angle in the reversal with the ratio P̂.
+    fn length(&self, angle: f64, pressure: f64) -> f64 {
+        let [closed, give] = self.closed(angle);
+        closed + give * (pressure - 1.0)
+    }
+
+    /// W at the ambient pressure, and g.
+    fn closed(&self, angle: f64) -> [f64; 2] {
+        let (cam, longer) = (&self.cam, self.fault.column / self.cam.column);
+        let shift = longer + (self.losses.play - self.fault.lead) / cam.column;
+        let give = self
+            .losses
+            .train_stiffness
+            .map_or(0.0, |stiffness| self.fault.ambient * cam.unit_force / (stiffness * cam.column));
+        [cam.length(self.load(angle)) + shift, give]
+    }
+
+    /// u at a crank angle in the reversal.
+    fn load(&self, angle: f64) -> f64 {
+        let braking = if angle > FRAC_PI_2 { PI - angle } else { angle };
+        if braking == FRAC_PI_2 { self.cam.end_load() } else { self.cam.end_load() * libm::sin(braking) }
+    }
+
+    /// P̂ with the share f of the air left: (K/W)^κ, where a train gives way by Newton's steps from the ambient pressure.
+    fn pressure_of(&self, way: BedWay, angle: f64, air: f64) -> f64 {
+        let [closed, give] = self.closed(angle);
+        let (amount, kappa) = match way {
+            BedWay::In => {
+                let share = air * (1.0 + self.fault.column / self.cam.column);
+                (libm::exp(libm::log(self.fault.closing) / self.fault.exponent) * share, self.fault.exponent)
+            }
+            BedWay::Back => {
+                let ([pressure, left, length], kappa) = (self.dead, self.expansion());
+                (libm::exp(libm::log(pressure) / kappa) * (air / left) * length, kappa)
+            }
+        };
+        if give == 0.0 {
+            return libm::exp(kappa * libm::log(amount / closed));
+        }
+        let mut pressure = 1.0_f64;
+        for _ in 0..NEWTON {
+            let held = amount * libm::exp(-libm::log(pressure) / kappa);
+            let step = (closed + give * (pressure - 1.0) - held) / (give + held / (kappa * pressure));
+            let next = (pressure - step).max(0.5 * pressure);
+            if (next - pressure).abs() <= 2.0 * f64::EPSILON * pressure {
+                return next;
+            }
+            pressure = next;
+        }
+        pressure
+    }
+
+    /// κ2.
+    fn expansion(&self) -> f64 {
+        self.losses.expansion_exponent.unwrap_or(self.fault.exponent)
+    }
+
+    /// df/dφ.
+    fn rate(&self, way: BedWay, angle: f64, air: f64) -> f64 {
+        -self.losses.leak / self.cam.end_load() * (self.pressure_of(way, angle, air) - 1.0)
+    }
+
+    /// f after a step of Runge and Kutta.
+    fn stepped(&self, way: BedWay, angle: f64, step: f64, air: f64) -> f64 {
+        let half = angle + 0.5 * step;
+        let first = self.rate(way, angle, air);
+        let second = self.rate(way, half, air + 0.5 * step * first);
+        let third = self.rate(way, half, air + 0.5 * step * second);
+        let fourth = self.rate(way, angle + step, air + step * third);
+        air + step / 6.0 * (first + 2.0 * (second + third) + fourth)
+    }
+
+    /// Integrates a way, and returns f at its end.
+    fn leak_through(&mut self, way: BedWay, from: f64) -> f64 {
+        let (start, step) = (Self::start(way), FRAC_PI_2 / f64::from(STEPS));
+        let mut all = vec![from];
+        let mut air = from;
+        for index in 0..STEPS {
+            air = self.stepped(way, start + step * f64::from(index), step, air);
+            all.push(air);
+        }
+        let [of_in, of_back] = &mut self.air;
+        *(if way == BedWay::In { of_in } else { of_back }) = all;
+        air
+    }
+
+    fn start(way: BedWay) -> f64 {
+        if way == BedWay::In { 0.0 } else { FRAC_PI_2 }
+    }
+
+    /// f at a crank angle.
+    #[must_use]
+    pub fn air(&self, way: BedWay, angle: f64) -> f64 {
+        let [of_in, of_back] = &self.air;
+        let all = if way == BedWay::In { of_in } else { of_back };
+        let (start, step) = (Self::start(way), FRAC_PI_2 / f64::from(STEPS));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a step of the list")]
+        let index = (((angle - start) / step).floor().max(0.0) as usize).min(STEPS as usize);
+        let Some(air) = all.get(index) else { return self.fault.air };
+        #[expect(clippy::cast_precision_loss, reason = "a thousand steps")]
+        let from = start + step * index as f64;
+        if angle == from { *air } else { self.stepped(way, from, angle - from, *air) }
+    }
+
+    /// P̂ at a crank angle.
+    #[must_use]
+    pub fn pressure(&self, way: BedWay, angle: f64) -> f64 {
+        self.pressure_of(way, angle, self.air(way, angle))
+    }
+
+    /// Residual force on a way at the crank angle of the way in that has the same overrun, N.
+    #[must_use]
+    pub fn residual(&self, way: BedWay, braking: f64) -> f64 {
+        let (angle, sign) = if way == BedWay::In { (braking, 1.0) } else { (PI - braking, -1.0) };
+        let (cam, fault, losses) = (&self.cam, &self.fault, &self.losses);
+        let air = fault.ambient * (self.pressure(way, angle) - 1.0);
+        let force = cam.unit_force * (fault.square * self.load(angle) - (1.0 + sign * losses.piston_friction) * air);
+        force + sign * (fault.phase * cam.phase_force(braking)[0] - losses.bed_friction)
+    }
+
+    /// The mean of both ways, and h, N, at a crank angle of the way in.
+    #[must_use]
+    pub fn mean_and_half_loop(&self, braking: f64) -> [f64; 2] {
+        let [on_way_in, back] = [BedWay::In, BedWay::Back].map(|way| self.residual(way, braking));
+        [0.5 * (on_way_in + back), 0.5 * (back - on_way_in)]
+    }
+
+    /// The value of a force of largest size over the stroke, N, signed, and the overrun, m.
+    fn largest(&self, force: impl Fn(f64) -> f64) -> Extremum {
+        let of = |sign: f64| {
+            let found =
+                extremum::largest_without_slope(|at| sign * force(at), (0.0, FRAC_PI_2), CELLS, extremum::TO_ROUNDING);
+            Extremum { at: self.cam.stroke * libm::sin(found.at), value: sign * found.value }
+        };
+        let (above, below) = (of(1.0), of(-1.0));
+        if above.value.abs() >= below.value.abs() { above } else { below }
+    }
+
+    /// The residual force of a way of largest size, N, signed, and the overrun, m.
+    #[must_use]
+    pub fn worst(&self, way: BedWay) -> Extremum {
+        self.largest(|braking| self.residual(way, braking))
+    }
+
+    /// The largest h, N, and the overrun, m.
+    #[must_use]
+    pub fn largest_half_loop(&self) -> Extremum {
+        self.largest(|braking| self.mean_and_half_loop(braking)[1])
+    }
+
+    /// Share of the air that is left at the end of the reversal.
+    #[must_use]
+    pub fn air_left(&self) -> f64 {
+        if self.losses.leak > 0.0 { self.air(BedWay::Back, PI) } else { self.fault.air }
+    }
+
+    /// Work that the air takes from the bed in a reversal, J: U L ∮ (P̂ − 1)(−dw), by Simpson's rule over each way.
+    #[must_use]
+    pub fn work_lost(&self) -> f64 {
+        let cam = &self.cam;
+        let power = |way: BedWay, angle: f64| {
+            let load = self.load(angle);
+            let fall = cam.length(load) / (cam.exponent * (1.0 + load)) * cam.end_load() * libm::cos(angle);
+            (self.pressure(way, angle) - 1.0) * fall
+        };
+        let step = FRAC_PI_2 / f64::from(STEPS);
+        let of = |way: BedWay| {
+            let weight = |index: u32| match index {
+                0 | STEPS => 1.0,
+                index if index % 2 == 1 => 4.0,
+                _ => 2.0,
+            };
+            let at = |index: u32| Self::start(way) + step * f64::from(index);
+            (0..=STEPS).map(|index| weight(index) * power(way, at(index))).sum::<f64>() * step / 3.0
+        };
+        (self.fault.ambient * cam.unit_force * cam.column * (of(BedWay::In) + of(BedWay::Back))).max(0.0)
+    }
+}

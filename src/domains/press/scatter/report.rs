@@ -1,0 +1,271 @@
+//! The section `scatter` of a report.
+
+use super::propagation::ParameterBand;
+use super::tables::{ParameterRow, PercentileRow, SettingRow};
+use crate::report::{Section, shown};
+use serde::Serialize;
+
+/// One machine that differs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct FaultReport {
+    /// v = M/π.
+    pub v: f64,
+    /// Of largest size, signed.
+    pub residual_n: f64,
+    pub residual_at_mm: f64,
+    pub residual_at_end_n: f64,
+    pub end_pressure_pa: f64,
+    /// ΔL of the rules.
+    pub column_end_mm: f64,
+    pub added_volume_end_mm3: f64,
+    pub residual_end_n: f64,
+    pub residual_end_at_mm: f64,
+    pub column_level_mm: f64,
+    pub residual_level_n: f64,
+    /// ΔL and Δe of screw and port together, and what they leave.
+    pub column_with_port_mm: f64,
+    pub lead_with_port_mm: f64,
+    pub residual_with_port_n: f64,
+}
+
+/// What a reversal with losses leaves.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct LossReport {
+    pub residual_in_n: f64,
+    pub residual_in_at_mm: f64,
+    pub residual_back_n: f64,
+    pub residual_back_at_mm: f64,
+    /// Half of what the way back leaves more.
+    pub half_loop_n: f64,
+    pub half_loop_at_mm: f64,
+    /// In a reversal.
+    pub work_lost_j: f64,
+    /// Share of the air at its end.
+    pub air_left: f64,
+}
+
+impl LossReport {
+    fn words(&self) -> Vec<String> {
+        vec![
+            format!(
+                "with its losses {} N at x = {} mm on the way in, {} N at x = {} mm back",
+                shown(self.residual_in_n),
+                shown(self.residual_in_at_mm),
+                shown(self.residual_back_n),
+                shown(self.residual_back_at_mm)
+            ),
+            format!(
+                "half of the loop {} N at x = {} mm, which neither cam nor screw takes out; {} J lost in a reversal, {} % of the air left",
+                shown(self.half_loop_n),
+                shown(self.half_loop_at_mm),
+                shown(self.work_lost_j),
+                shown(100.0 * self.air_left)
+            ),
+        ]
+    }
+}
+
+/// The range in which the cam leaves less than a fixed bottom with its own setting.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct UsefulRange {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub v_min: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rpm_min: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub v_max: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rpm_max: Option<f64>,
+}
+
+impl UsefulRange {
+    /// For the bounds of v of a cam that is cut for a speed, rpm.
+    #[must_use]
+    pub fn of([least, most]: [Option<f64>; 2], rpm: f64) -> Self {
+        let speed = |variable: f64| rpm * libm::sqrt(variable);
+        Self { v_min: least, rpm_min: least.map(speed), v_max: most, rpm_max: most.map(speed) }
+    }
+
+    /// A sentence.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let at = |v: Option<f64>, rpm: Option<f64>| {
+            v.zip(rpm).map(|(v, rpm)| format!("v = {} ({} rpm)", shown(v), shown(rpm)))
+        };
+        match (at(self.v_min, self.rpm_min), at(self.v_max, self.rpm_max)) {
+            (Some(least), Some(most)) => {
+                format!("with the screw reset the cam leaves less than a fixed bottom from {least} to {most} only")
+            }
+            (Some(least), None) => format!("below {least} a fixed bottom with its own reset leaves less than the cam"),
+            (None, Some(most)) => format!("above {most} a fixed bottom with its own reset leaves less than the cam"),
+            (None, None) => "at every speed the cam leaves less than a fixed bottom with its own reset".into(),
+        }
+    }
+}
+
+/// What the bands of all parameters leave together.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct BandsReport {
+    pub parameters: Vec<ParameterRow>,
+    pub worst_weak_n: f64,
+    pub worst_weak_at_mm: f64,
+    pub worst_strong_n: f64,
+    pub worst_strong_at_mm: f64,
+    pub linear_bound_n: f64,
+    /// Standard deviation at the end of the stroke as built, to first order.
+    pub sigma_n: f64,
+}
+
+impl BandsReport {
+    /// The rows of the parameters, that which leaves most as built first.
+    #[must_use]
+    pub fn ranked(&self) -> Vec<&ParameterRow> {
+        let mut ranked: Vec<&ParameterRow> = self.parameters.iter().collect();
+        let size = |row: &ParameterRow| row.residual_n.abs().max(row.residual_end_n.abs() * 1e-9);
+        ranked.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        ranked
+    }
+
+    /// The parameters in words, that which leaves most as built first.
+    #[must_use]
+    pub fn words(&self) -> Vec<String> {
+        let mut lines = vec![format!(
+            "{:<20} {:>10} {:>11} {:>10} {:>10} {:>10} {:>10}",
+            "band of", "half width", "as built/N", "screw/mm", "then/N", "level/N", "variance/%"
+        )];
+        lines.extend(self.ranked().into_iter().map(|row| {
+            format!(
+                "{:<20} {:>10} {:>11.2} {:>10.3} {:>10.2} {:>10.2} {:>10.2}",
+                row.parameter,
+                row.half_width_words(),
+                row.residual_n,
+                row.column_end_mm,
+                row.residual_end_n.abs(),
+                row.residual_level_n.unwrap_or(f64::NAN),
+                100.0 * row.share_of_variance
+            )
+        }));
+        lines.push(format!(
+            "all at once as built: {} to {} N, standard deviation {} N",
+            shown(self.worst_strong_n),
+            shown(self.worst_weak_n),
+            shown(self.sigma_n)
+        ));
+        lines
+    }
+}
+
+/// The rows of bands.
+#[must_use]
+pub fn rows(bands: &[ParameterBand]) -> Vec<ParameterRow> {
+    bands.iter().map(ParameterRow::from).collect()
+}
+
+/// The section of the analysis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it, with their units")]
+pub struct ScatterReport<'a> {
+    pub cam_rpm: f64,
+    pub column_length_mm: f64,
+    pub reset: &'static str,
+    pub distribution: &'static str,
+    pub samples: u32,
+    pub seed: u64,
+    pub residual_fixed_bottom_max_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<FaultReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub losses: Option<LossReport>,
+    #[serde(flatten)]
+    pub bands: BandsReport,
+    pub percentiles: &'a [PercentileRow],
+    pub useful: UsefulRange,
+    pub settings: &'a [SettingRow],
+}
+
+impl ScatterReport<'_> {
+    /// The section.
+    #[must_use]
+    pub fn section(&self) -> Section {
+        let mut words = vec![format!(
+            "cam for {} rpm, column {} mm; a fixed bottom leaves {} N",
+            shown(self.cam_rpm),
+            shown(self.column_length_mm),
+            shown(self.residual_fixed_bottom_max_n)
+        )];
+        words.extend(self.fault.iter().flat_map(FaultReport::words));
+        words.extend(self.losses.iter().flat_map(LossReport::words));
+        words.extend(self.bands.words());
+        words.extend(self.drawn());
+        words.push(self.useful.words());
+        words.push(format!(
+            "{:>6} {:>9} {:>10} {:>13} {:>9} {:>11} {:>9}",
+            "v", "rpm", "column/mm", "volume/cm³", "left/N", "fixed/mm", "left/N"
+        ));
+        words.extend(self.settings.iter().filter(|row| (20.0 * row.v).round() % 2.0 == 0.0).map(|row| {
+            format!(
+                "{:>6} {:>9.3} {:>10.2} {:>13.0} {:>9.1} {:>11.2} {:>9.1}",
+                shown(row.v),
+                row.rpm,
+                row.column_mm,
+                1e-3 * row.added_volume_mm3,
+                row.residual_n,
+                row.fixed_column_mm,
+                row.fixed_residual_n
+            )
+        }));
+        Section::new("scatter", self).with_words(words)
+    }
+
+    /// The percentiles in words.
+    fn drawn(&self) -> Vec<String> {
+        let of = |row: &PercentileRow| {
+            let body = row.body.replace('-', " ");
+            let state = match row.reset {
+                "none" => "as built".to_owned(),
+                rule => format!("reset to {rule}"),
+            };
+            format!(
+                "P{:.0} of a {body}, {state}: {} N ({} to {})",
+                row.percentile,
+                shown(row.residual_n),
+                shown(row.low_n),
+                shown(row.high_n)
+            )
+        };
+        let head = format!("{} presses drawn, {}, seed {}", self.samples, self.distribution, self.seed);
+        if self.percentiles.is_empty() {
+            Vec::new()
+        } else {
+            std::iter::once(head).chain(self.percentiles.iter().map(of)).collect()
+        }
+    }
+}
+
+impl FaultReport {
+    fn words(&self) -> Vec<String> {
+        vec![
+            format!(
+                "this machine leaves {} N at x = {} mm, {} N at the end of the stroke; v = {}",
+                shown(self.residual_n),
+                shown(self.residual_at_mm),
+                shown(self.residual_at_end_n),
+                shown(self.v)
+            ),
+            format!(
+                "screw by {:+.3} mm: {} N; by {:+.3} mm (level): {} N; with the port by {:+.3} mm and {:+.3} mm: {} N",
+                self.column_end_mm,
+                shown(self.residual_end_n.abs()),
+                self.column_level_mm,
+                shown(self.residual_level_n.abs()),
+                self.column_with_port_mm,
+                self.lead_with_port_mm,
+                shown(self.residual_with_port_n.abs())
+            ),
+        ]
+    }
+}

@@ -1,0 +1,102 @@
+//! What the screw of the bottom takes back: the column that balances the end of the stroke, or that leaves least.
+
+use super::error::ScatterError;
+use super::fault::{Fault, FrozenBuffer};
+use crate::document::NamedChoice;
+use crate::numeric::root;
+
+/// The rule by which the screw is set in a machine that differs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ScrewRule {
+    /// It stays where it is.
+    None,
+    /// No residual force at the end of the stroke.
+    #[default]
+    End,
+    /// The least largest residual force.
+    Level,
+}
+
+impl NamedChoice for ScrewRule {
+    const ALL: &'static [(&'static str, Self)] = &[("none", Self::None), ("end", Self::End), ("level", Self::Level)];
+}
+
+/// Doublings of the air at the end of the stroke in which the level setting is bracketed.
+const DOUBLINGS: u32 = 60;
+
+impl FrozenBuffer {
+    /// ΔL with which the air holds the bed at the end of the stroke, m: L (f − Y (w_r − ε))/(Y − f),
+    /// Y = ((1 + M u_r/π)/τ)^(1/κ). The change of the column that the fault has is replaced by it.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn end_reset(&self, fault: &Fault) -> Result<f64, ScatterError> {
+        let pressure = (1.0 + fault.variable() * self.end_load()) / fault.closing;
+        let needed = libm::exp(libm::log(pressure) / fault.exponent);
+        let none = ScatterError::NoColumn { share: fault.air, needed };
+        if !(needed > fault.air) {
+            return Err(none);
+        }
+        let closed = self.end_length() - fault.lead / self.column;
+        let longer = self.column * (fault.air - needed * closed) / (needed - fault.air);
+        if self.column + longer > 0.0 { Ok(longer) } else { Err(none) }
+    }
+
+    /// ΔL with the least largest residual force, m.
+    ///
+    /// At every place r grows with ΔL, so that the largest and the least force are equal and opposite at one ΔL. The force at the start
+    /// does not depend on ΔL where the port shuts in time: where it is the largest after [`FrozenBuffer::end_reset`], that one is kept.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn level_reset(&self, fault: &Fault) -> Result<f64, ScatterError> {
+        let end = self.end_reset(fault)?;
+        let both = |column: f64| {
+            self.extremes(&fault.with_column(column)).map_or(f64::NAN, |[least, largest]| least.value + largest.value)
+        };
+        let [least, largest] = self.extremes(&fault.with_column(end))?;
+        let start = if least.value.abs() > largest.value.abs() { least.at } else { largest.at };
+        let sum = least.value + largest.value;
+        if sum == 0.0 || (start == 0.0 && fault.lead == 0.0) {
+            return Ok(end);
+        }
+        // The air at the end of the stroke is multiplied, so that it never is used up.
+        let left = self.end_length() + (end - fault.lead) / self.column;
+        let column = |doublings: u32| {
+            let share = libm::exp2(f64::from(doublings) / 16.0 * if sum > 0.0 { -1.0 } else { 1.0 });
+            end + self.column * left * (share - 1.0)
+        };
+        let beyond = (1..=16 * DOUBLINGS).map(column).find(|column| {
+            let value = both(*column);
+            value.is_nan() || (value > 0.0) != (sum > 0.0)
+        });
+        Ok(beyond.and_then(|beyond| root::bracketed(both, end, beyond, 0.0).ok()).unwrap_or(end))
+    }
+
+    /// The setting of the screw by a rule, m; that of the fault where it stays.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn setting(&self, fault: &Fault, rule: ScrewRule) -> Result<f64, ScatterError> {
+        match rule {
+            ScrewRule::None => Ok(fault.column),
+            ScrewRule::End => self.end_reset(fault),
+            ScrewRule::Level => self.level_reset(fault),
+        }
+    }
+
+    /// ΔL and Δe, m, that leave nothing at both ends of the braking half: the screw, and the place of the port.
+    ///
+    /// # Errors
+    /// When no column balances the end.
+    pub fn reset_of_column_and_port(&self, fault: &Fault) -> Result<[f64; 2], ScatterError> {
+        let power = |ratio: f64| libm::exp(libm::log(ratio) / fault.exponent);
+        let rise = power(1.0 + fault.variable() * self.end_load());
+        if !(rise > 1.0) {
+            return Err(ScatterError::NoColumn { share: 1.0, needed: rise });
+        }
+        let share = rise * (1.0 - self.end_length()) / (rise - 1.0);
+        let longer = self.column * (share / (fault.air * power(fault.closing)) - 1.0);
+        Ok([longer, longer - self.column * (share - 1.0)])
+    }
+}

@@ -1,0 +1,109 @@
+//! The screw for forme and speed: one variable, v = (n/n_c)² (m/m_c)/(p0'/p0), gives the setting and what it leaves.
+
+use super::error::ScatterError;
+use super::fault::{Fault, FrozenBuffer};
+use crate::numeric::extremum::Extremum;
+use crate::numeric::root;
+
+/// A setting of the screw, and a fixed bottom with its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// v.
+    pub variable: f64,
+    /// ΔL of the cam's buffer, m, levelled.
+    pub column: f64,
+    /// What it leaves where that is largest, N, signed, and the overrun, m.
+    pub residual: Extremum,
+    /// Column of a fixed bottom for the same v, m, levelled.
+    pub fixed_column: f64,
+    /// What the fixed bottom leaves, N, at least 0.
+    pub fixed_residual: f64,
+}
+
+/// Least and largest residual force of a fixed bottom of a column (m) at a variable v, N, over its stroke: 0 at the start, one stationary
+/// place x = L − (k L^k/(v A))^(1/(k+1)), and the end.
+fn extremes_of_fixed(cam: &FrozenBuffer, column: f64, variable: f64) -> [f64; 2] {
+    let (k, load) = (cam.exponent, variable * cam.loading);
+    let residual = |x: f64| load * x - libm::expm1(-k * libm::log1p(-x / column));
+    let still = libm::exp((libm::log(k / load) + k * libm::log(column)) / (k + 1.0));
+    let place = (column - still).clamp(0.0, cam.stroke);
+    let values = [0.0, residual(place), residual(cam.stroke)].map(|value| cam.unit_force * value);
+    [values.into_iter().fold(0.0, f64::min), values.into_iter().fold(0.0, f64::max)]
+}
+
+/// Halvings of the air at the end of the stroke, and doublings of the column, in which a fixed bottom is bracketed.
+const REACH: i32 = 200;
+
+/// Column of a fixed bottom that leaves least at a variable v, m, and what it leaves, N.
+#[must_use]
+pub fn level_of_fixed(cam: &FrozenBuffer, variable: f64) -> (f64, f64) {
+    let beyond = |octave: f64| cam.stroke * (1.0 + libm::exp2(octave));
+    let sum = |octave: f64| {
+        let [least, largest] = extremes_of_fixed(cam, beyond(octave), variable);
+        least + largest
+    };
+    // A short column stops the bed early, a long one hardly brakes it.
+    let low = (1..REACH).map(|octave| f64::from(-octave)).find(|octave| sum(*octave) < 0.0).unwrap_or(-1.0);
+    let high = (1..REACH).map(f64::from).find(|octave| sum(*octave) > 0.0).unwrap_or(1.0);
+    let column = beyond(root::bracketed(sum, low, high, 0.0).unwrap_or(0.0));
+    let [least, largest] = extremes_of_fixed(cam, column, variable);
+    (column, largest.max(-least))
+}
+
+fn at_variable(cam: &FrozenBuffer, variable: f64) -> Fault {
+    Fault { square: variable, ..Fault::none(cam.exponent) }
+}
+
+/// The setting for a variable v.
+///
+/// # Errors
+/// When no column balances the end.
+pub fn setting(cam: &FrozenBuffer, variable: f64) -> Result<Setting, ScatterError> {
+    let fault = at_variable(cam, variable);
+    // At v = 1 the cam is in the machine it was cut for.
+    let column = if variable == 1.0 { 0.0 } else { cam.level_reset(&fault)? };
+    let residual =
+        if variable == 1.0 { Extremum { at: 0.0, value: 0.0 } } else { cam.worst(&fault.with_column(column))? };
+    let (fixed_column, fixed_residual) = level_of_fixed(cam, variable);
+    Ok(Setting { variable, column, residual, fixed_column, fixed_residual })
+}
+
+/// Steps of v, each this many times the one before, in which the end of the useful range is searched, and how many.
+const STEP: f64 = 1.25;
+const STEPS: i32 = 20;
+
+/// What the cam leaves more than a fixed bottom, each with its own level setting, N.
+fn more(cam: &FrozenBuffer, variable: f64) -> Result<f64, ScatterError> {
+    let setting = setting(cam, variable)?;
+    Ok(setting.residual.value.abs() - setting.fixed_residual)
+}
+
+/// Where the cam begins to leave more than a fixed bottom, on a side of v = 1.
+fn bound(cam: &FrozenBuffer, side: f64, tolerance: f64) -> Result<Option<f64>, ScatterError> {
+    let mut inside = 1.0;
+    for step in 1..=STEPS {
+        let outside = libm::pow(STEP, side * f64::from(step));
+        if more(cam, outside)? > 0.0 {
+            let more = |v: f64| more(cam, v).unwrap_or(f64::NAN);
+            return Ok(root::bracketed(more, inside, outside, tolerance).ok());
+        }
+        inside = outside;
+    }
+    Ok(None)
+}
+
+/// The least v at which the cam leaves less than a fixed bottom, to a tolerance; `None` where it does at every one.
+///
+/// # Errors
+/// When no column balances the end.
+pub fn least_useful(cam: &FrozenBuffer, tolerance: f64) -> Result<Option<f64>, ScatterError> {
+    bound(cam, -1.0, tolerance)
+}
+
+/// The range of v in which the cam leaves less than a fixed bottom, each with its own level setting; `None` on a side where it always does.
+///
+/// # Errors
+/// When no column balances the end.
+pub fn useful(cam: &FrozenBuffer) -> Result<[Option<f64>; 2], ScatterError> {
+    Ok([bound(cam, -1.0, 0.0)?, bound(cam, 1.0, 0.0)?])
+}

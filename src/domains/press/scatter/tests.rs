@@ -1,0 +1,278 @@
+//! Figures found with 34 digits outside of the project.
+
+use super::fault::{Fault, FrozenBuffer};
+use super::losses::{BedWay, Losses, LossyReversal};
+use super::monte_carlo::{self, CUSTOMARY, Distribution, Sampling, number, percentile};
+use super::parameter::{HalfWidths, Parameter};
+use super::propagation::{self, Corners};
+use super::reset::ScrewRule;
+use super::settings;
+use crate::domains::press::machine::PressCams;
+use crate::machine::Machine;
+
+fn cam(name: &str) -> FrozenBuffer {
+    let machine = Machine::load(name, &[]).expect("valid").0;
+    let press = machine.press().expect("a press");
+    let law = *press.bottom_law(35.0).of_yoke().expect("a yoke");
+    FrozenBuffer::of_cam(&law, &press.cylinder())
+}
+
+/// Digits of the printed figures.
+fn near(got: f64, golden: f64, what: &str) {
+    assert!((got - golden).abs() < 1e-9 * golden.abs(), "{what}: {got} is not {golden}");
+}
+
+fn fault(changes: &[(Parameter, f64)]) -> Fault {
+    changes.iter().fold(Fault::none(1.35), |fault, (parameter, by)| parameter.changed(fault, *by))
+}
+
+const DEFAULTS: HalfWidths = [0.05, 0.03, 0.05, 0.01, 1e-3, 2e-4, 0.01, 0.01, 0.1 * std::f64::consts::PI / 180.0, 1e-4];
+
+fn end(cam: &FrozenBuffer, fault: &Fault) -> (f64, f64) {
+    let column = cam.end_reset(fault).expect("a column");
+    (1e3 * column, cam.worst(&fault.with_column(column)).expect("it fits").value)
+}
+
+#[test]
+fn a_machine_that_differs_and_both_settings_of_the_screw() {
+    use Parameter::{Exponent, Mass};
+    let cases = [
+        ("dpi", Exponent, -1_107.169_837, [6.891_746_120, -49.789_305_24], [7.129_964_709, 36.343_014_07]),
+        ("dpi", Mass, 1_064.402_785, [-6.390_795_147, 119.728_344_3], [-6.901_680_472, 89.638_032_16]),
+        ("dpi-paper", Exponent, -1_634.423_728, [4.994_859_430, -124.335_825_4], [5.304_490_384, 94.042_436_00]),
+        ("dpi-paper", Mass, 1_064.402_785, [-3.186_037_711, 187.955_779_1], [-3.608_338_297, 148.737_960_4]),
+    ];
+    for (name, parameter, built, at_end, level) in cases {
+        let (cam, fault) = (cam(name), fault(&[(parameter, 0.05)]));
+        near(cam.worst(&fault).expect("it fits").value, built, "as built");
+        let (column, left) = end(&cam, &fault);
+        near(column, at_end[0], "end column");
+        near(left, at_end[1], "after end");
+        let column = cam.level_reset(&fault).expect("a column");
+        near(1e3 * column, level[0], "level column");
+        near(cam.worst(&fault.with_column(column)).expect("it fits").value.abs(), level[1], "after level");
+    }
+}
+
+#[test]
+fn what_the_other_parameters_leave() {
+    use Parameter::{AirLost, Ambient, Closing, Speed};
+    let cases = [
+        ("dpi", Ambient, -0.03, 638.641_670_7, 70.866_868_56),
+        ("dpi", Speed, 0.01, 427.889_919_4, 47.109_278_04),
+        ("dpi", AirLost, 0.01, 573.769_454_6, 286.884_727_3),
+        ("dpi", Closing, 0.01, -425.761_113_8, -212.880_556_9),
+        ("dpi-paper", Ambient, -0.03, 638.641_670_7, 111.565_295_3),
+        ("dpi-paper", Speed, 0.01, 427.889_919_4, 74.284_696_47),
+        ("dpi-paper", AirLost, 0.01, 358.605_909_1, 104.152_381_0),
+        ("dpi-paper", Closing, 0.01, -266.100_696_1, -76.672_566_62),
+    ];
+    for (name, parameter, by, built, after) in cases {
+        let (cam, fault) = (cam(name), fault(&[(parameter, by)]));
+        let load = cam.end_load();
+        near(cam.residual(&fault, load, cam.end_length()), built, name);
+        near(end(&cam, &fault).1, after, name);
+    }
+}
+
+#[test]
+fn sensitivities_and_what_the_screw_leaves_of_them() {
+    use Parameter::{Column, Exponent, Lead, Mass};
+    for (name, column, lead, exponent, variable) in [
+        ("dpi", 158_722.229_0, 395_256.181_1, 1_032.798_543, 2_309.190_474),
+        ("dpi-paper", 318_882.243_1, 457_874.634_0, 2_580.111_603, 3_652.460_459),
+    ] {
+        let cam = cam(name);
+        near(propagation::sensitivity(&cam, Column), column, name);
+        near(propagation::sensitivity(&cam, Lead), lead, name);
+        // r_i − r_L r_i(r)/r_L(r), by the forces to first order on a fine scan.
+        let half = std::f64::consts::FRAC_PI_2;
+        let left = |parameter: Parameter| {
+            let share = parameter.first_order(&cam, half) / Column.first_order(&cam, half);
+            (0..=20_000)
+                .map(|i| half * f64::from(i) / 20_000.0)
+                .map(|at| (parameter.first_order(&cam, at) - share * Column.first_order(&cam, at)).abs())
+                .fold(0.0, f64::max)
+        };
+        for (got, golden) in [(left(Exponent), exponent), (left(Mass), variable)] {
+            assert!((got / golden - 1.0).abs() < 1e-7, "{name}: {got} {golden}");
+        }
+    }
+}
+
+#[test]
+fn several_differences_at_once() {
+    use Parameter::{AirLost, Closing, Column, Exponent, Mass};
+    let mixed = fault(&[(Exponent, 0.05), (Mass, 0.02), (Column, 4.15e-3)]);
+    let [least, largest] = cam("dpi").extremes(&mixed).expect("it fits");
+    near(1e3 * largest.at, 10.403_937_13, "the place on dpi");
+    near(largest.value, 0.222_023_573_6, "dpi");
+    near(1e3 * least.at, 124.079_365_6, "the other place on dpi");
+    near(least.value, -6.487_319_835, "dpi");
+    let [least, _] = cam("dpi-paper").extremes(&mixed).expect("it fits");
+    near(1e3 * least.at, 53.516_450_34, "the place on dpi-paper");
+    near(least.value, -10.784_722_43, "dpi-paper");
+    let all = fault(&[(AirLost, 0.01), (Closing, 0.01), (Mass, 0.05), (Exponent, 0.05)]);
+    for (name, column, port, left) in [
+        ("dpi", 0.970_654_423_7, 0.716_939_586_9, 65.845_280_16),
+        ("dpi-paper", 2.429_872_350, 0.766_650_894_1, 58.701_073_28),
+    ] {
+        let cam = cam(name);
+        let [longer, early] = cam.reset_of_column_and_port(&all).expect("a column");
+        near(1e3 * longer, column, name);
+        near(1e3 * early, port, name);
+        let set = Fault { column: longer, lead: early, ..all };
+        near(cam.worst(&set).expect("it fits").value.abs(), left, name);
+        for load in [0.0, cam.end_load()] {
+            assert!(cam.residual(&set, load, cam.length(load)).abs() < 1e-9, "nothing is left at either end");
+        }
+    }
+}
+
+#[test]
+fn a_phase_error_is_worst_between_the_ends() {
+    for (name, force, degrees) in [("dpi", 40.550_586_91, 47.562_512), ("dpi-paper", 41.545_122_42, 54.865_559)] {
+        let found = cam(name).largest_phase_force();
+        near(found.value * 0.1_f64.to_radians(), force, name);
+        assert!((found.at.to_degrees() - degrees).abs() < 1e-6, "{name}: {}", found.at.to_degrees());
+    }
+}
+
+#[test]
+fn worst_case_bound_and_deviation() {
+    for (name, weak, strong, bound, deviation) in [
+        ("dpi", 4_328.512_267, -3_961.416_635, 4_460.136_598, 1_034.744_104),
+        ("dpi-paper", 4_548.714_798, -4_558.286_959, 4_750.794_000, 1_218.092_284),
+    ] {
+        let cam = cam(name);
+        let [least, most] = Corners::of(&cam, &DEFAULTS).worst(&cam).expect("it fits");
+        near(most.value, weak, name);
+        near(least.value, strong, name);
+        near(propagation::linear_bound(&cam, &DEFAULTS), bound, name);
+        let of = propagation::variance(&cam, &DEFAULTS, Distribution::Uniform);
+        near(of.sqrt(), deviation, name);
+    }
+}
+
+fn sampling(samples: u32, rule: ScrewRule) -> Sampling {
+    Sampling { half_widths: DEFAULTS, distribution: Distribution::Uniform, samples, seed: 1, rule }
+}
+
+#[test]
+fn percentiles_of_twenty_thousand_presses() {
+    assert_eq!((number(1, 0, 0), number(1, 1, 0)), (0.566_561_575_172_281, 0.645_334_640_219_506_2));
+    let first = monte_carlo::draw(&cam("dpi"), &sampling(1, ScrewRule::End)).expect("drawn");
+    near(first.as_built[0], 855.718_772_844, "sample 0");
+    near(first.reset[0], 242.187_401_817, "sample 0 after its reset");
+    for (name, built, reset, fixed) in [
+        (
+            "dpi",
+            [741.752_658_5, 2_050.933_968, 2_544.237_214],
+            [187.471_066_5, 418.206_080_0, 486.634_040_8],
+            3_657.763_304,
+        ),
+        (
+            "dpi-paper",
+            [876.395_802_9, 2_310.876_826, 2_812.611_219],
+            [128.313_017_8, 337.204_765_0, 425.836_687_3],
+            7_766.446_583,
+        ),
+    ] {
+        let drawn = monte_carlo::draw(&cam(name), &sampling(20_000, ScrewRule::End)).expect("drawn");
+        for (index, q) in [0.5, 0.95, 0.99].into_iter().enumerate() {
+            near(percentile(&drawn.as_built, q).expect("samples")[0], built[index], name);
+            near(percentile(&drawn.reset, q).expect("samples")[0], reset[index], name);
+        }
+        near(percentile(&drawn.fixed, 0.95).expect("samples")[0], fixed, name);
+    }
+}
+
+#[test]
+fn the_setting_for_a_lighter_forme_and_the_useful_range() {
+    for (name, column, left, fixed, of_fixed, useful) in [
+        ("dpi", 279.278_936_8, 285.103_236_5, 482.353_236_2, 1_674.526_566, 0.400_827_876_9),
+        ("dpi-paper", 277.409_964_4, 491.146_933_0, 257.788_026_1, 4_473.082_741, 0.278_694_191_8),
+    ] {
+        let cam = cam(name);
+        let setting = settings::setting(&cam, 0.8).expect("a setting");
+        near(1e3 * (cam.column + setting.column), column, name);
+        near(setting.residual.value.abs(), left, name);
+        near(1e3 * setting.fixed_column, fixed, name);
+        near(setting.fixed_residual, of_fixed, name);
+        near(settings::useful(&cam).expect("a range")[0].expect("a lower end"), useful, name);
+    }
+}
+
+#[test]
+fn air_that_does_not_come_back_as_it_went() {
+    let reversal =
+        |name: &str, losses: &Losses| LossyReversal::new(&cam(name), &Fault::none(1.35), losses).expect("a reversal");
+    let expands = Losses { expansion_exponent: Some(1.40), ..Losses::NONE };
+    for (name, back, at, work) in
+        [("dpi", 539.554_092_5, 0.0, 35.927_003_65), ("dpi-paper", 355.994_071_4, 39.282_479_61, 55.379_502_99)]
+    {
+        let of = reversal(name, &expands);
+        near(of.worst(BedWay::Back).value, back, name);
+        // The place of a flat top is known to the root of the rounding.
+        assert!((1e3 * of.worst(BedWay::Back).at - at).abs() < 1e-4, "{name}: {:?}", of.worst(BedWay::Back));
+        assert!(of.worst(BedWay::In).value.abs() < 1e-9, "exact on the way in");
+        near(of.work_lost(), work, name);
+    }
+    let leaks = Losses { leak: 0.01, ..Losses::NONE };
+    for (name, left, back, work) in [
+        ("dpi", 0.980_677_775_8, 814.988_203_1, 61.786_015_62),
+        ("dpi-paper", 0.980_370_637_3, 475.808_326_8, 45.429_681_45),
+    ] {
+        let of = reversal(name, &leaks);
+        near(of.air_left(), left, name);
+        near(of.worst(BedWay::Back).value, back, name);
+        near(of.work_lost(), work, name);
+    }
+    let both = reversal("dpi", &Losses { leak: 0.01, ..expands });
+    near(both.worst(BedWay::Back).value, 1_141.129_188, "leak and expansion");
+    near(both.work_lost(), 97.600_365_46, "leak and expansion");
+}
+
+#[test]
+fn friction_play_and_a_train_that_gives_way() {
+    for name in ["dpi", "dpi-paper"] {
+        let cam = cam(name);
+        let of = |losses: Losses| LossyReversal::new(&cam, &Fault::none(1.35), &losses).expect("a reversal");
+        let bed_friction = 0.05 * 978.2 * 9.80665;
+        for (piston_friction, largest) in [(0.0, 479.643_251_5), (0.02, 905.404_365_3)] {
+            let of = of(Losses { piston_friction, bed_friction, ..Losses::NONE });
+            near(of.worst(BedWay::In).value, -largest, name);
+            near(of.worst(BedWay::Back).value, largest, name);
+            near(of.largest_half_loop().value, largest, name);
+        }
+        let [alone, with_play] =
+            if name == "dpi" { [83.668_287_80, 122.872_857_1] } else { [96.722_723_13, 141.947_853_4] };
+        for (play, left) in [(0.0, alone), (1e-4, with_play)] {
+            let of = of(Losses { train_stiffness: Some(1e8), play, ..Losses::NONE });
+            near(of.residual(BedWay::In, std::f64::consts::FRAC_PI_2), left, name);
+        }
+    }
+}
+
+#[test]
+fn losses_that_cannot_be_are_refused() {
+    let of =
+        |losses: Losses| LossyReversal::new(&cam("dpi"), &Fault::none(1.35), &losses).err().map(|why| why.to_string());
+    let gives_work = of(Losses { expansion_exponent: Some(1.3), ..Losses::NONE }).expect("refused");
+    assert!(gives_work.starts_with("expansion exponent below the compression's"), "{gives_work}");
+    let soft = of(Losses { train_stiffness: Some(1e5), ..Losses::NONE }).expect("refused");
+    assert!(soft.starts_with("train too soft"), "{soft}");
+    let used_up = cam("dpi").extremes(&fault(&[(Parameter::Column, -0.2)])).expect_err("no air").to_string();
+    assert!(used_up.starts_with("column used up"), "{used_up}");
+    let no_column = cam("dpi").end_reset(&Fault { closing: 2.0, ..fault(&[(Parameter::Mass, -0.9)]) });
+    assert!(no_column.expect_err("none").to_string().starts_with("no column balances the end"));
+}
+
+#[test]
+fn a_file_without_the_table_has_its_defaults() {
+    let of = |sets: &[String]| PressCams::of(&Machine::load("dpi", sets).expect("valid").0).scatter;
+    assert_eq!(of(&[]), CUSTOMARY);
+    assert_eq!(of(&["scatter.seed=1".to_owned()]), CUSTOMARY);
+    assert_eq!(of(&["scatter.mass=8 %".to_owned()]).half_widths[2], 0.08);
+    assert_eq!(of(&["scatter.mass=0.08".to_owned()]).half_widths[2], 0.08);
+}

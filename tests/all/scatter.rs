@@ -1,0 +1,115 @@
+//! `camgen scatter` as a command: files with the columns that scripts rely on, the same bytes again, refusals that name their cause.
+
+use crate::common::program::{Run, close, finding, number, report, run};
+use std::fs;
+
+fn text(run: &Run, ending: &str) -> String {
+    let path = run.directory.path().join("output").join(format!("dpi-scatter-35rpm{ending}"));
+    fs::read_to_string(path).expect("a file")
+}
+
+#[test]
+fn its_files_have_the_columns_that_are_relied_on() {
+    let told = run(0, &["scatter", "--samples", "500", "--seed", "7", "--format", "csv,svg"]);
+    for (ending, head, rows) in [
+        (
+            ".csv",
+            "parameter,half_width,unit,sensitivity_n,residual_n,residual_at_mm,column_end_mm,residual_end_n,residual_end_at_mm,\
+             column_level_mm,residual_level_n,share_of_variance",
+            10,
+        ),
+        ("-percentiles.csv", "body,reset,percentile,residual_n,low_n,high_n", 9),
+        (
+            "-settings.csv",
+            "v,rpm,column_mm,added_volume_mm3,residual_n,residual_at_mm,fixed_column_mm,fixed_residual_n",
+            23,
+        ),
+        ("-curves.csv", "x_mm,way,mean_n,half_loop_n,weak_n,strong_n,", 361),
+    ] {
+        let text = text(&told, ending);
+        let mut lines = text.lines();
+        let first = lines.next().expect("a head");
+        assert!(first.starts_with(head), "{ending}: {first}");
+        assert_eq!(lines.count(), rows, "{ending}");
+    }
+    let again = run(0, &["scatter", "--samples", "500", "--seed", "7", "--format", "csv,svg"]);
+    for ending in [".csv", "-percentiles.csv", "-settings.csv", "-curves.csv", ".svg", "-card.svg"] {
+        assert_eq!(text(&told, ending), text(&again, ending), "{ending}");
+    }
+    assert_eq!(text(&told, "-card.svg").matches("<svg").count(), 1);
+}
+
+/// For small bands the draws are those of the linear sum, within their sampling error; a shared thread pool changes no byte.
+#[test]
+fn small_bands_scatter_as_their_linear_sum() {
+    let small: Vec<String> = [
+        "polytropic_exponent=5e-5",
+        "ambient_pressure=3e-5",
+        "mass=5e-5",
+        "speed=1e-5",
+        "column=1e-3mm",
+        "lead=0mm",
+        "air_lost=0%",
+        "closing_pressure=0%",
+        "phase=0deg",
+    ]
+    .iter()
+    .flat_map(|vary| ["--vary".to_owned(), (*vary).to_owned()])
+    .collect();
+    let mut args = vec!["scatter", "--samples", "20000", "--dry-run", "--json", "--distribution", "normal"];
+    args.extend(small.iter().map(String::as_str));
+    let scatter = report(&run(0, &args))["scatter"].clone();
+    let sigma = number(&scatter["sigma_n"]);
+    // Of a normal force the size is below 1.96 σ in 95 % of all presses; the percentile of 20 000 has an error of 1 %.
+    let row = &scatter["percentiles"][1];
+    assert_eq!(
+        (row["body"].as_str(), row["reset"].as_str(), number(&row["percentile"])),
+        (Some("cam"), Some("none"), 95.0)
+    );
+    let share = number(&row["residual_n"]) / (1.959_964 * sigma);
+    assert!((share - 1.0).abs() < 0.02, "{share}");
+    assert!(number(&row["low_n"]) < number(&row["residual_n"]) && number(&row["residual_n"]) < number(&row["high_n"]));
+}
+
+#[test]
+fn one_machine_that_differs_is_told_and_judged() {
+    let told =
+        report(&run(0, &["scatter", "--fault", "polytropic_exponent=1.40", "--samples", "0", "--dry-run", "--json"]));
+    let fault = &told["scatter"]["fault"];
+    close(number(&fault["residual_n"]), -1_107.169_837, 1e-9);
+    close(number(&fault["column_end_mm"]), 6.891_746_12, 1e-9);
+    close(number(&fault["residual_level_n"]), 36.343_014_07, 1e-9);
+    assert!(finding(&told, "scatter")["note"].as_str().is_some_and(|note| note.contains("--samples 0")));
+    // At 20 rpm a fixed bottom with its own reset leaves less.
+    let slow = run(1, &["scatter", "--fault", "speed=20rpm", "--samples", "0"]);
+    assert!(slow.out.contains("FAIL  setting") && slow.out.contains("22.1588 rpm"), "{}", slow.out);
+    let losses = ["--set", "buffer.expansion_exponent=1.40", "--samples", "0", "--dry-run", "--json"];
+    let told = report(&run(0, &[&["scatter"], &losses[..]].concat()));
+    close(number(&told["scatter"]["losses"]["residual_back_n"]), 539.554_092_5, 1e-9);
+    assert_eq!(finding(&told, "half_loop")["verdict"], "pass");
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_its_cause() {
+    for (args, why) in [
+        (&["--fault", "mas=5%"][..], "did you mean `mass`?"),
+        (&["--fault", "mass"], "KEY=VALUE is expected"),
+        (&["--fault", "mass=0.97"], "may be a ratio or a deviation"),
+        (&["--fault", "mass=5%", "--fault", "mass=6%"], "given twice"),
+        (&["--fault", "polytropic_exponent=4"], "the true exponent is from 1 to 3"),
+        (&["--fault", "phase=6deg"], "within 5 deg"),
+        (&["--fault", "column=-200mm"], "column used up"),
+        (&["--fault", "mass=-90%", "--fault", "closing_pressure=90%"], "no column balances the end"),
+        (&["--set", "buffer.expansion_exponent=1.3"], "expansion exponent below the compression's"),
+        (&["--set", "cam.train_stiffness=1000 N/m"], "train too soft"),
+        (&["--vary", "mass=80%"], "must be at most 50 %"),
+        (&["--vary", "nothing=1"], "unknown key"),
+        (&["--set", "scatter.samples=1.5"], "must be a whole number"),
+    ] {
+        let refused = run(2, &[&["scatter", "--samples", "0"], args].concat());
+        assert!(refused.err.contains(why), "{args:?}: {}", refused.err);
+        assert!(!refused.directory.path().join("output").exists());
+    }
+    let linkage = run(2, &["scatter", "dpi-six-bar"]);
+    assert!(linkage.err.contains("for a yoke only"), "{}", linkage.err);
+}

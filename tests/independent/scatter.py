@@ -1,0 +1,366 @@
+"""What is left of a cam in machines that differ: every figure against air that is integrated step by step.
+
+Shares nothing with camgen but the machine file. The bottom of the cylinder is taken from the CSV of `camgen rotary`, so that the cam is the one
+that is cut. The bed is a mass on a crank; its inertia is the second derivative of the place of the crank pin. The air of the true machine is a
+closed amount of gas whose pressure is integrated over the volume by Runge and Kutta, dp/dV = −κ p/V, from the pressure at which the port closes.
+Residual forces are searched on dense scans; settings of the screw by bisection of the force at the end and by golden section of the largest
+force; presses are drawn with a generator that is written down here.
+
+usage: scatter.py CAMGEN_BINARY DIRECTORY [--count N] [--seed N] [--jobs N]
+"""
+import csv
+import math
+
+import cases
+import numpy as np
+from press import Wrong, X, press, run  # the harness and random machines; no formula of the scatter
+
+# Runge and Kutta's error of the pressure with 400 steps an e-fold is below 1e-12; a scan with a zoom finds a value to the square of its place.
+EXACT = 1e-8
+# A compromise is as good as the search that found it.
+LEVELLED = 1e-7
+# What is small is told by differences of large forces, N over the largest inertia.
+ROUNDING = 1e-13
+
+PARAMETERS = ["polytropic_exponent", "ambient_pressure", "mass", "speed", "column", "lead", "air_lost", "closing_pressure", "phase", "screw"]
+
+
+def random_numbers(seed, count):
+    """SplitMix64."""
+    mask = (1 << 64) - 1
+    state = seed
+    for _ in range(count):
+        state = (state + 0x9E3779B97F4A7C15) & mask
+        z = state
+        z = ((z ^ (z >> 30)) * 0xBF58476D1CE4E5B9) & mask
+        z = ((z ^ (z >> 27)) * 0x94D049BB133111EB) & mask
+        yield ((z ^ (z >> 31)) >> 11, 0.5)
+
+
+class Gas:
+    """p(V) of a closed amount of gas, dp/dV = −κ p/V, by Runge and Kutta in steps of the volume; volumes over that where the port closes."""
+
+    def __init__(self, kappa, least, most):
+        steps = 400
+        self.table = {1.0: 0.0}
+        self.kappa = kappa
+        # ln p is tabulated where it is asked for: integrated along ln V the right side is constant, so it is integrated along V itself.
+        grid = [1.0]
+        while grid[-1] > least:
+            grid.append(grid[-1] * (1 - 1 / steps))
+        down, p = [(1.0, 1.0)], 1.0
+        for a, b in zip(grid, grid[1:]):
+            p = self.step(a, b, p)
+            down.append((b, p))
+        grid = [1.0]
+        while grid[-1] < most:
+            grid.append(grid[-1] * (1 + 1 / steps))
+        up, p = [(1.0, 1.0)], 1.0
+        for a, b in zip(grid, grid[1:]):
+            p = self.step(a, b, p)
+            up.append((b, p))
+        nodes = down[::-1] + up[1:]
+        self.volume, self.pressure = (np.array(column) for column in zip(*nodes))
+
+    def step(self, a, b, p):
+        h, f = b - a, lambda v, p: -self.kappa * p / v
+        k1 = f(a, p)
+        k2 = f(a + h / 2, p + h / 2 * k1)
+        k3 = f(a + h / 2, p + h / 2 * k2)
+        k4 = f(b, p + h * k3)
+        return p + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+
+    def at(self, volume):
+        """One more step of Runge and Kutta from the nearest node."""
+        volume = np.asarray(volume, dtype=float)
+        i = np.clip(np.searchsorted(self.volume, volume), 1, len(self.volume) - 1)
+        i = i - (volume - self.volume[i - 1] < self.volume[i] - volume)
+        a, p = self.volume[i], self.pressure[i]
+        return self.step(a, volume, p)
+
+
+class Cam:
+    """The bottom of the cylinder over the overrun, as the table of `camgen rotary` has it, or a fixed one."""
+
+    def __init__(self, m, rpm, rows, column):
+        self.m, self.rpm, self.column = m, rpm, column
+        braking = [row for row in rows if 0 <= row[0] <= 90]
+        self.angle = np.array([math.radians(row[0]) for row in braking])
+        self.x = np.array([row[1] for row in braking])
+        self.bottom = np.array([row[2] for row in braking])
+        self.closed = column - self.x - float(m.lead) - self.bottom
+        both = float(m.both)
+        self.unit = both * float(m.p0)
+        self.inertia = np.array([float(m.inertia(rpm, X(x))) for x in self.x])
+
+    def residual(self, mass, speed, ambient, kappa, closing, air, column, lead):
+        """Inertia less air at the places of the table, N."""
+        p0 = float(self.m.p0) * ambient
+        volume = self.closed + column - lead
+        if volume.min() <= 0:
+            return None
+        # The amount of gas is that of the length where the port closes, less what is lost, at the closing pressure.
+        amount = air * (self.column + column)
+        gas = Gas(kappa, volume.min() / amount * 0.99, max(volume.max() / amount * 1.01, 1.001))
+        pressure = closing * p0 * gas.at(volume / amount)
+        return self.inertia * mass * speed**2 - float(self.m.both) * (pressure - p0)
+
+
+def bisected(f, low, high):
+    for _ in range(80):
+        middle = (low + high) / 2
+        if f(middle) < 0:
+            low = middle
+        else:
+            high = middle
+    return (low + high) / 2
+
+
+def fault(rng, k):
+    """A machine that differs, of any number of parameters."""
+    true = dict(mass=1.0, speed=1.0, ambient=1.0, kappa=k, closing=1.0, air=1.0, column=0.0, lead=0.0)
+    words = []
+
+    def maybe(name, key, value, text):
+        if rng.random() < 0.5:
+            true[name] = value
+            words.extend(["--fault", f"{key}={text}"])
+
+    by = rng.uniform(-0.3, 0.3)
+    maybe("mass", "mass", 1 + by, repr(by))
+    by = rng.uniform(-0.3, 0.2)
+    maybe("speed", "speed", 1 + by, f"{100 * by!r}%")
+    by = rng.uniform(-0.2, 0.2)
+    maybe("ambient", "ambient_pressure", 1 + by, repr(by))
+    kappa = rng.uniform(max(1.0, k - 0.1), min(3.0, k + 0.1))
+    maybe("kappa", "polytropic_exponent", kappa, repr(kappa))
+    by = rng.uniform(-0.05, 0.05)
+    maybe("closing", "closing_pressure", 1 + by, repr(by))
+    by = rng.uniform(0, 0.05)
+    maybe("air", "air_lost", 1 - by, repr(by))
+    return true, words
+
+
+def scan(values):
+    """Largest size, signed: a parabola through the three values about the largest."""
+    i = int(np.abs(values).argmax())
+    if i in (0, len(values) - 1):
+        return values[i]
+    a, b, c = values[i - 1], values[i], values[i + 1]
+    bend = a - 2 * b + c
+    return b if bend == 0 else b - (a - c) ** 2 / (8 * bend)
+
+
+def one(binary, directory, number, rng):
+    m, name, wrong = press(rng), f"scatter-{number}", Wrong()
+    m.lead = X(0)
+    m.lobes, m.lever = 1, X(1)
+    true, words = fault(rng, float(m.k))
+    # A cam is looked up every 1/40 of a degree.
+    rows_of_turn = 14400
+    cut, report = run(binary, ["rotary", *m.sets(), "--samples", str(rows_of_turn), "--force", "--set", "transition.kind=run-up"],
+                      directory, name + "-cam")
+    if report is None or not report["files"]:
+        return "no cam", [], words
+    with open(report["files"][0], newline="") as file:
+        rows = [(float(row["crank_deg"]), float(row["x_mm"]) / 1000, float(row["dx_mm"]) / 1000) for row in csv.DictReader(file)]
+    column = report["law"]["column_length_mm"] / 1000
+    cam = Cam(m, m.rpm, rows, column)
+    if abs(cam.angle[-1] - math.pi / 2) > 1e-9:
+        return "no place at the end", ["the table has no row at 90 deg"], words
+    longer, early = rng.choice([0.0, rng.uniform(-0.02, 0.05) * column]), rng.choice([0.0, rng.uniform(0, 0.01) * column])
+    true["column"], true["lead"] = longer, early
+    words += ["--fault", f"column={1000 * longer!r}mm", "--fault", f"lead={1000 * early!r}mm"]
+    seed = rng.randrange(1 << 40)
+    samples = 40
+    asked = ["scatter", *m.sets(), *words, "--samples", str(samples), "--seed", str(seed), "--force"]
+    got, told = run(binary, asked, directory, name)
+    size = float(m.inertia(m.rpm, m.r))
+    largest = max(size, cam.unit) * 4
+    here = cam.residual(**true)
+    if told is None:
+        used_up = here is None or "column used up" in got.stderr
+        balanced = "no column balances" in got.stderr
+        cause = got.stderr.strip().partition(":")[2].partition(":")[0].strip()
+        return f"refused: {cause}", [] if used_up or balanced else [got.stderr.strip()], asked
+    part = told["scatter"]
+    of_fault = part["fault"]
+    rounding = ROUNDING * largest
+    wrong.close(of_fault["residual_n"], scan(here), "residual", EXACT, rounding)
+    wrong.close(of_fault["residual_at_end_n"], here[-1], "residual at the end", EXACT, rounding)
+
+    def after(column):
+        return cam.residual(**{**true, "column": column})
+
+    # The screw: the force at the end is 0.
+    reach = float(column) * 50
+    low = -min(column, cam.closed.min() - early) * (1 - 1e-9)
+    end = bisected(lambda at: after(at)[-1], low, reach)
+    wrong.close(of_fault["column_end_mm"], 1000 * end, "column of end", EXACT, 1e-8 * 1000 * column)
+    wrong.close(of_fault["residual_end_n"], scan(after(end)), "residual of end", EXACT * 10, 10 * rounding)
+    told_level = scan(after(of_fault["column_level_mm"] / 1000))
+    wrong.close(of_fault["residual_level_n"], abs(told_level), "residual of level", EXACT * 10, 10 * rounding)
+    for step in (-1e-3, -1e-4, 1e-4, 1e-3):
+        beside = after(of_fault["column_level_mm"] / 1000 + step * column)
+        if beside is not None and abs(scan(beside)) < abs(told_level) * (1 - LEVELLED) - rounding:
+            wrong.append(f"a screw {step} of the column beside the level setting leaves less: {scan(beside)} {told_level}")
+    both = cam.residual(**{**true, "column": of_fault["column_with_port_mm"] / 1000, "lead": of_fault["lead_with_port_mm"] / 1000})
+    for at in (0, -1):
+        wrong.close(1 + both[at] / largest, 1, "screw and port leave nothing at the ends", 1e-9)
+    percentiles(part, cam, m, seed, samples, wrong, rounding)
+    settings(part, cam, m, column, wrong, rounding)
+    losses(binary, directory, name, m, cam, rng, wrong, rounding)
+    return "scatter", wrong, asked
+
+
+def drawn(m, seed, samples):
+    """The presses, in the order of their draws."""
+    half = dict(zip(PARAMETERS, [0.05, 0.03, 0.05, 0.01, 1e-3, 2e-4, 0.01, 0.01, math.radians(0.1), 1e-4]))
+    numbers = [(bits + half_bit) / 2**53 for bits, half_bit in random_numbers(seed, 16 * samples)]
+    for j in range(samples):
+        at = {name: half[name] * (2 * numbers[16 * j + i] - 1) for i, name in enumerate(PARAMETERS)}
+        yield dict(mass=1 + at["mass"], speed=1 + at["speed"], ambient=1 + at["ambient_pressure"], kappa=float(m.k) + at["polytropic_exponent"],
+                   closing=1 + at["closing_pressure"], air=1 - abs(at["air_lost"]), column=at["column"], lead=at["lead"]), at["phase"], at["screw"]
+
+
+def percentiles(part, cam, m, seed, samples, wrong, rounding):
+    """The presses that the command draws, each with a phase error by differences of the bottom along the crank."""
+    coarse = slice(0, None, 20)
+    at = Cam.__new__(Cam)
+    at.__dict__.update(cam.__dict__)
+    for name in ("angle", "x", "bottom", "closed", "inertia"):
+        setattr(at, name, getattr(cam, name)[coarse])
+    if len(at.x) != 181:
+        wrong.append(f"{len(at.x)} stations")
+        return
+    # A cam that is ahead by δ lifts the bottom by Δx' δ: the force of that to first order, by central differences of the air.
+    slope = np.gradient(cam.bottom, cam.angle, edge_order=2)[coarse]
+    nominal = dict(mass=1.0, speed=1.0, ambient=1.0, kappa=float(m.k), closing=1.0, air=1.0, column=0.0, lead=0.0)
+    tiny = 1e-6 * float(cam.column)
+    stiffness = (at.residual(**{**nominal, "lead": tiny}) - at.residual(**{**nominal, "lead": -tiny})) / (2 * tiny)
+    by_phase = slope * stiffness
+    fixed = Cam.__new__(Cam)
+    fixed.__dict__.update(at.__dict__)
+    # A fixed bottom whose air holds the bed at the end.
+    q = 1 + float(m.inertia(m.rpm, m.r)) / cam.unit
+    gas = Gas(float(m.k), q ** (-1 / float(m.k)) * 0.98, 1.001)
+    ratio = bisected(lambda v: q - float(gas.at(v)), gas.volume[0], 1.0)
+    fixed.column = at.x[-1] / (1 - ratio)
+    fixed.closed = fixed.column - at.x
+    built, reset, plain = [], [], []
+
+    def end(body, true):
+        low = -min(body.column, body.closed.min() - abs(true["lead"])) * 0.999
+        return bisected(lambda column: body.residual(**{**true, "column": column})[-1], low, 50 * body.column)
+
+    for true, phase, screw in drawn(m, seed, samples):
+        with_phase = lambda values: float((np.abs(values) + np.abs(by_phase * phase)).max())
+        built.append(with_phase(at.residual(**true)))
+        reset.append(with_phase(at.residual(**{**true, "column": end(at, true) + screw})))
+        plain.append(float(np.abs(fixed.residual(**{**true, "column": end(fixed, true) + screw})).max()))
+    for body, rule, sizes in (("cam", "none", built), ("cam", "end", reset), ("fixed-bottom", "end", plain)):
+        sizes.sort()
+        for row in part["percentiles"]:
+            if (row["body"], row["reset"]) == (body, rule):
+                rank = math.ceil(row["percentile"] / 100 * samples - 1e-9)
+                # The phase force is by differences along a table of 1/40 of a degree.
+                wrong.close(row["residual_n"], sizes[rank - 1], f"P{row['percentile']:.0f} {body} {rule}", 1e-6, 10 * rounding)
+
+
+def settings(part, cam, m, column, wrong, rounding):
+    """The level settings over v: what the cam leaves there, and that no column near the fixed bottom's leaves less."""
+    for row in part["settings"][::5]:
+        true = dict(mass=row["v"], speed=1.0, ambient=1.0, kappa=float(m.k), closing=1.0, air=1.0, column=row["column_mm"] / 1000 - column, lead=0.0)
+        wrong.close(row["residual_n"], abs(scan(cam.residual(**true))), "residual of a setting", 10 * EXACT, 10 * rounding)
+        fixed = Cam.__new__(Cam)
+        fixed.__dict__.update(cam.__dict__)
+
+        def left(length):
+            fixed.column, fixed.closed = length, length - cam.x
+            return abs(scan(fixed.residual(**{**true, "column": 0.0})))
+
+        own = row["fixed_column_mm"] / 1000
+        wrong.close(row["fixed_residual_n"], left(own), "residual of a fixed bottom", 10 * EXACT, 10 * rounding)
+        if min(left(own * (1 - 1e-4)), left(own * (1 + 1e-4))) < row["fixed_residual_n"] * (1 - LEVELLED) - rounding:
+            wrong.append(f"a fixed bottom at v = {row['v']} is not levelled")
+
+
+def losses(binary, directory, name, m, cam, rng, wrong, rounding):
+    """A reversal that loses air and has friction, and whose air expands on another exponent: the air step by step along the crank."""
+    k = float(m.k)
+    back = rng.choice([k, rng.uniform(k, min(3.0, k + 0.2))])
+    leak, piston, bed = rng.choice([0.0, rng.uniform(0, 0.03)]), rng.choice([0.0, rng.uniform(0, 0.05)]), rng.choice([0.0, rng.uniform(0, 0.1)])
+    friction = bed * float(m.inertia(m.rpm, m.r))
+    asked = ["scatter", *m.sets(), "--samples", "0", "--force", "--set", f"buffer.expansion_exponent={back!r}", "--set", f"buffer.leak={leak!r}",
+             "--set", f"buffer.piston_friction={piston!r}", "--set", f"bed.friction={friction!r} N"]
+    got, told = run(binary, asked, directory, name + "-losses")
+    if told is None:
+        wrong.append(f"losses refused: {got.stderr.strip()}")
+        return
+    p0, both, volume = float(m.p0), float(m.both), cam.closed
+    rise = cam.inertia[-1] / (both * p0)
+    step = 2 * (cam.angle[1] - cam.angle[0])
+    rate = lambda p: -leak / rise * (p - 1)
+    # Every second place of the table is an end of a step, those between are its middle.
+    f, pressures = 1.0, [1.0]
+    law = lambda f, v: (f * cam.column / v) ** k
+    for i in range(0, len(volume) - 2, 2):
+        a, b, c = volume[i : i + 3]
+        k1 = rate(law(f, a))
+        k2 = rate(law(f + step / 2 * k1, b))
+        k3 = rate(law(f + step / 2 * k2, b))
+        k4 = rate(law(f + step * k3, c))
+        f += step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        pressures.append(law(f, c))
+    on_way_in = np.array(pressures)
+    dead, left, shortest = on_way_in[-1], f, volume[-1]
+    law = lambda f, v: dead * (f / left * shortest / v) ** back
+    returning, way = [dead], volume[::-1]
+    for i in range(0, len(way) - 2, 2):
+        a, b, c = way[i : i + 3]
+        k1 = rate(law(f, a))
+        k2 = rate(law(f + step / 2 * k1, b))
+        k3 = rate(law(f + step / 2 * k2, b))
+        k4 = rate(law(f + step * k3, c))
+        f += step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+        returning.append(law(f, c))
+    returning = np.array(returning)[::-1]
+    inertia = cam.inertia[::2]
+    air = both * p0
+    r_in = inertia - (1 + piston) * air * (on_way_in - 1) - friction
+    r_back = inertia - (1 - piston) * air * (returning - 1) + friction
+    part = told["scatter"].get("losses")
+    if part is None:
+        if leak or piston or friction or back != k:
+            wrong.append("no losses in the report")
+        return
+    wrong.close(part["air_left"], f, "air left", 1e-9)
+    wrong.close(part["residual_in_n"], scan(r_in), "residual in", 1e-7, 10 * rounding)
+    wrong.close(part["residual_back_n"], scan(r_back), "residual back", 1e-7, 10 * rounding)
+    wrong.close(abs(part["half_loop_n"]), abs(scan((r_back - r_in) / 2)), "half loop", 1e-7, 10 * rounding)
+    # The work is the area of the loop over the volume, by trapezoids between places a twentieth of a degree apart.
+    area = np.trapezoid if hasattr(np, "trapezoid") else np.trapz
+    work = -both * p0 * (area(on_way_in - 1, volume[::2]) - area(returning - 1, volume[::2]))
+    if work > 1e-6 * size_of(cam):
+        wrong.close(part["work_lost_j"], work, "work lost", 1e-5, 1e-9 * size_of(cam))
+
+
+def size_of(cam):
+    """The work of the largest force over the stroke, J."""
+    return float(cam.inertia[-1] * cam.x[-1])
+
+
+def main():
+    words = cases.given("scatter", 12)
+
+    def judged(number, rng):
+        state, wrong, arguments = one(words.binary, words.directory, number, rng)
+        return state, wrong, " ".join(arguments)
+
+    states, failed = cases.judged(words, judged)
+    cases.show_largest(Wrong.largest)
+    cases.finish(states, failed)
+
+
+if __name__ == "__main__":
+    main()
