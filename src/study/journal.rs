@@ -155,6 +155,10 @@ impl Journal {
     ///
     /// # Errors
     /// [`Refusal`] where a file cannot be written; the table then keeps its temporary name.
+    #[cfg_attr(
+        not(feature = "html"),
+        expect(unused_variables, reason = "which files are wanted matters to the page alone")
+    )]
     pub fn finish(self, study: &Study, files: StudyFiles) -> Result<(Summary, Value, Vec<PathBuf>), StudyError> {
         self.file.sync_all().map_err(failed(&self.part, "write"))?;
         let open = || File::open(&self.part).map(|file| BufReader::with_capacity(BUFFER, file));

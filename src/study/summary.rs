@@ -13,6 +13,7 @@ const SCHEMA: u32 = 1;
 /// Cells of the distribution of a column: a quantile is right to this part of the range.
 const CELLS: usize = 4096;
 /// Bars of a histogram.
+#[cfg(feature = "html")]
 pub(super) const BARS: usize = 64;
 /// The quantiles told.
 const QUANTILES: [f64; 7] = [0.001, 0.01, 0.05, 0.5, 0.95, 0.99, 0.999];
@@ -87,6 +88,7 @@ impl Distribution {
     }
 
     /// The bars of a histogram from the least number to the largest.
+    #[cfg(feature = "html")]
     pub(super) fn bars(&self) -> Vec<u64> {
         self.cells.chunks(CELLS / BARS).map(|cells| cells.iter().sum()).collect()
     }
@@ -118,6 +120,7 @@ pub struct Summary {
     /// The lines of the designs that no other beats, in the order of their rows.
     pub front: Vec<String>,
     /// Rows for a page, evenly from all.
+    #[cfg_attr(not(feature = "html"), expect(dead_code, reason = "shown on the page alone"))]
     pub(super) shown: Vec<Vec<String>>,
 }
 

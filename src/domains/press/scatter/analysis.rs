@@ -119,7 +119,7 @@ fn lost_in(reversal: &LossyReversal) -> LossReport {
 /// let (machine, _) = Machine::load("dpi", &[])?;
 /// let sampling = PressCams::of(&machine).scatter;
 /// let judged = Judged::new(analysis(&machine, 35.0, &["mass=5%".to_owned()], &sampling)?);
-/// let scatter = judged.report().section("scatter").expect("a section").value.clone();
+/// let scatter = judged.report().section("scatter").expect("a section").clone();
 /// assert!((scatter["fault"]["residual_n"].as_f64().unwrap() - 1064.4).abs() < 0.1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
