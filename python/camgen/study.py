@@ -7,6 +7,7 @@ together of the shards has the bytes of the one that ``camgen study`` writes by 
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 import json
@@ -30,6 +31,8 @@ __all__ = ["Result", "StudyRunError", "run"]
 FEWEST, SECONDS = 1000, 10.0
 #: Designs with which the cost of a row is measured.
 MEASURED = 32
+#: Least time between two writes of the manifest, s: it lists all shards, and with many of them one write for each would take the most of a run.
+BETWEEN_SAVES = 1.0
 #: How often a shard is given to another worker after its worker was lost.
 RETRIES = 5
 
@@ -66,10 +69,19 @@ def _worker() -> tuple[str, int]:
         return f"{socket.gethostname()}:{os.getpid()}", 1
 
 
-@functools.lru_cache(maxsize=4)
-def _study(path: Optional[str], text: str, name: str) -> Study:
-    """The study of a file, or of a text, read once by each process."""
-    return Study.from_toml(text, name=name) if path is None else Study.load(path)
+#: The study that this process has read last, by its digest.
+_READ: dict[str, Study] = {}
+
+
+def _study(source: tuple[Optional[str], str, str], digest: str) -> Study:
+    """The study of a file, or of a text; read again where another one is wanted, so that a worker outlives a change of the file."""
+    study = _READ.get(digest)
+    if study is None:
+        path, text, name = source
+        study = Study.from_toml(text, name=name) if path is None else Study.load(path)
+        _READ.clear()
+        _READ[study.digest] = study
+    return study
 
 
 def _filesystem(place: str) -> tuple[Any, str]:
@@ -121,7 +133,7 @@ def _read(place: str, name: str) -> Optional[bytes]:
             return data
         with open(os.path.join(folder, name), "rb") as file:
             return file.read()
-    except FileNotFoundError:
+    except (FileNotFoundError, NotADirectoryError):
         return None
 
 
@@ -137,7 +149,7 @@ def _shard(source: tuple[Optional[str], str, str], expected: tuple[str, str], st
     if __version__ != version:
         raise WorkerMismatch(worker, f"it has camgen {__version__}, and the study is run by {version}")
     try:
-        study = _study(*source)
+        study = _study(source, digest)
     except CamgenError as error:
         raise WorkerMismatch(worker, f"it cannot read the study: {error}") from error
     if study.digest != digest:
@@ -175,6 +187,7 @@ class _Manifest:
     def __init__(self, study: Study, place: str, size: Optional[int]) -> None:
         self.place = place
         self.digest = study.digest
+        self.saved = -math.inf
         self.shards: dict[int, dict[str, Any]] = {}
         kept = json.loads(_read(place, "manifest.json") or b"{}")
         if kept.get("digest") == study.digest:
@@ -191,12 +204,17 @@ class _Manifest:
 
     def add(self, shard: dict[str, Any]) -> None:
         self.shards[shard["start"]] = shard
-        self.save()
+        if time.monotonic() - self.saved >= BETWEEN_SAVES:
+            self.save()
 
     def save(self) -> None:
         shards = [self.shards[start] for start in sorted(self.shards)]
         data = {"schema": 1, "camgen": __version__, "digest": self.digest, "size": self.size, "shards": shards}
-        _write(self.place, "manifest.json", json.dumps(data, indent=1).encode())
+        try:
+            _write(self.place, "manifest.json", json.dumps(data, indent=1).encode())
+        except OSError as error:
+            raise StudyRunError(f"cannot write the manifest to {self.place}: {error}; make room and run again: what is done is kept") from error
+        self.saved = time.monotonic()
 
     def proved(self) -> Iterator[bytes]:
         """The bytes of the shards in their order, each as its hash says: every row once."""
@@ -246,9 +264,10 @@ def _on_cluster(client: Any, manifest: _Manifest, job: Callable[..., Any], told:
         raise StudyRunError("every worker is refused: " + "; ".join(f"{worker}: {why}" for worker, why in refused.items()))
 
     def submit(stretch: tuple[int, int]) -> Any:
+        if not refused:
+            return client.submit(job, stretch, pure=False)
         able = [worker for worker in client.scheduler_info(n_workers=-1)["workers"] if worker not in refused]
-        chosen = {"workers": able, "allow_other_workers": False} if refused else {}
-        return client.submit(job, stretch, pure=False, **chosen)
+        return client.submit(job, stretch, pure=False, workers=able, allow_other_workers=False)
 
     tries = {stretch[0]: 0 for stretch in manifest.missing()}
     pending = {submit(stretch): stretch for stretch in manifest.missing()}
@@ -314,10 +333,17 @@ def run(
     job = functools.partial(_job, source, (__version__, loaded.digest), place)
     told = progress or (lambda _done, _all: None)
     refused: dict[str, str] = {}
-    if client is None:
-        _on_processes(manifest, job, workers, told)
-    else:
-        refused = _on_cluster(client, manifest, job, told)
+    try:
+        if client is None:
+            _on_processes(manifest, job, workers, told)
+        else:
+            refused = _on_cluster(client, manifest, job, told)
+    except BaseException:
+        # What is done is kept, and the first error is the one that is told.
+        with contextlib.suppress(StudyRunError):
+            manifest.save()
+        raise
+    manifest.save()
     summary, files = loaded.collect(manifest.proved(), out, name=name, page=page, overwrite=overwrite)
     done = [manifest.shards[start] for start, _ in manifest.stretches]
     return Result(json.loads(summary), [pathlib.Path(file) for file in files], done, refused)

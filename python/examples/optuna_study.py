@@ -1,6 +1,6 @@
 """The smallest cam of the lever that keeps a pressure angle, found by optuna: each trial is a design from Python.
 
-Needs optuna (pip install optuna); without it the example says so and ends.
+Needs optuna 5 or later (pip install optuna); without it the example says so and ends.
 """
 
 import sys
@@ -24,15 +24,14 @@ def size(trial):
         cam = MACHINE.with_overrides(overrides).cam()
     except camgen.CamgenError:
         raise optuna.TrialPruned from None
-    trial.set_user_attr("excess", (cam.pressure_angle_deg - 35.0,))
+    trial.set_constraint("pressure angle over 35 deg", cam.pressure_angle_deg - 35.0)
+    trial.set_user_attr("pressure_angle_deg", cam.pressure_angle_deg)
     return base
 
 
 if __name__ == "__main__":
     optuna.logging.set_verbosity(optuna.logging.WARNING)
-    sampler = optuna.samplers.TPESampler(seed=1, constraints_func=lambda trial: trial.user_attrs.get("excess", (1.0,)))
-    study = optuna.create_study(sampler=sampler)
+    study = optuna.create_study(sampler=optuna.samplers.TPESampler(seed=1))
     study.optimize(size, n_trials=60)
-    kept = [trial for trial in study.trials if trial.value is not None and trial.user_attrs.get("excess", (1.0,))[0] <= 0.0]
-    best = min(kept, key=lambda trial: trial.value)
-    print(f"base radius {best.value:.2f} mm with a roller of {best.params['roller_radius_mm']:.2f} mm: {35 + best.user_attrs['excess'][0]:.2f} deg")
+    best = study.best_trial
+    print(f"base radius {best.value:.2f} mm with a roller of {best.params['roller_radius_mm']:.2f} mm: {best.user_attrs['pressure_angle_deg']:.2f} deg")

@@ -38,8 +38,8 @@ pub struct Reader<'a> {
     /// Keys that misspelt ones may have meant: that they are absent is explained.
     meant_keys: BTreeSet<String>,
     faults: RefCell<Vec<PendingFault>>,
-    /// The keys of the file that count as given, where they are known.
-    given: Option<Arc<Vec<String>>>,
+    /// What is known of the text without overrides; values and inputs are then only those that overrides set.
+    known: Option<&'a KnownValues>,
 }
 
 /// The values of a text without overrides and without a fault: with an override of one of them the others are as they are.
@@ -47,7 +47,7 @@ pub struct Reader<'a> {
 pub(crate) struct KnownValues {
     values: BTreeMap<String, KeyValue>,
     inputs: BTreeMap<String, Input>,
-    given: Arc<Vec<String>>,
+    given: Vec<String>,
 }
 
 impl<'a> Reader<'a> {
@@ -81,7 +81,7 @@ impl<'a> Reader<'a> {
             meant,
             meant_keys,
             faults,
-            given: None,
+            known: None,
         };
         if !reader.document.broken {
             for section in sections {
@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
         if !self.is_faultless() || !plain {
             return None;
         }
-        let given = Arc::new(self.given(true));
+        let given = self.given(true);
         Some(KnownValues { values: self.values.clone(), inputs: self.inputs.clone(), given })
     }
 
@@ -114,13 +114,13 @@ impl<'a> Reader<'a> {
         flat: &FlatText,
         overrides: &[String],
         sections: &'a [&'a KeySection],
-        known: &KnownValues,
+        known: &'a KnownValues,
     ) -> Option<Self> {
         let document = Document::new(source, flat.clone(), overrides);
         if document.broken || !document.faults.is_empty() {
             return None;
         }
-        let (mut values, mut inputs) = (known.values.clone(), known.inputs.clone());
+        let (mut values, mut inputs) = (BTreeMap::new(), BTreeMap::new());
         for path in document.overridden() {
             let (pattern, _) = pattern(path);
             let (section, key) = key_at(sections, &pattern)?;
@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
         }
         let faults = RefCell::new(Vec::new());
         let (missing, misshapen, doubled) = (BTreeMap::new(), BTreeSet::new(), BTreeMap::new());
-        let (meant, meant_keys, given) = (BTreeSet::new(), BTreeSet::new(), Some(Arc::clone(&known.given)));
+        let (meant, meant_keys) = (BTreeSet::new(), BTreeSet::new());
         Some(Self {
             document,
             folder,
@@ -151,8 +151,18 @@ impl<'a> Reader<'a> {
             meant,
             meant_keys,
             faults,
-            given,
+            known: Some(known),
         })
+    }
+
+    fn value(&self, path: &str) -> Option<&KeyValue> {
+        self.values.get(path).or_else(|| self.known?.values.get(path))
+    }
+
+    /// Whether a table and all within it are as in the text, and without a fault there.
+    pub(crate) fn is_known(&self, section: &KeySection) -> bool {
+        let within = |path: &str| path.strip_prefix(section.path).is_some_and(|rest| rest.starts_with(['.', '[']));
+        self.known.is_some() && !self.document.overridden().any(within)
     }
 
     /// A word in the place of a table is that of each of its keys that may have it.
@@ -357,7 +367,7 @@ impl<'a> Reader<'a> {
             };
             faults.push(PendingFault::at(message, help, Some(entry.key.clone())));
         }
-        for (path, span) in &self.document.tables {
+        for (path, span) in self.document.tables.iter() {
             let (pattern, _) = pattern(path);
             let expected = self.sections.iter().any(|section| is_around(&pattern, section));
             if !expected && !self.document.has_inside(path) && !self.is_inside_misshapen(path) {
@@ -441,8 +451,8 @@ impl<'a> Reader<'a> {
     /// belongs to one kind of cam only those set by overrides count: a file may describe several kinds.
     #[must_use]
     pub fn given(&self, file: bool) -> Vec<String> {
-        if let Some(of_file) = &self.given {
-            let mut all: Vec<String> = if file { of_file.to_vec() } else { Vec::new() };
+        if let Some(known) = self.known {
+            let mut all: Vec<String> = if file { known.given.clone() } else { Vec::new() };
             all.extend(self.document.overridden().map(str::to_owned));
             all.sort_unstable();
             all.dedup();
@@ -460,7 +470,11 @@ impl<'a> Reader<'a> {
     /// Every value without a fault, defaults too, in the order of their paths.
     #[must_use]
     pub fn inputs(&self) -> Vec<Input> {
-        self.inputs.values().cloned().collect()
+        let Some(known) = self.known else { return self.inputs.values().cloned().collect() };
+        let kept = known.inputs.iter().filter(|(path, _)| !self.inputs.contains_key(*path));
+        let mut all: Vec<(&String, &Input)> = kept.chain(&self.inputs).collect();
+        all.sort_by_key(|(path, _)| *path);
+        all.into_iter().map(|(_, input)| input.clone()).collect()
     }
 
     /// Ends the reading.
@@ -488,7 +502,7 @@ impl TableReader<'_> {
     /// The value of a key; `None` when it is absent without a default, or has a fault, which has been reported.
     #[must_use]
     pub fn get<T: Clone>(&self, field: &Field<T>) -> Option<T> {
-        self.reader.values.get(&self.path_of(&field.key)).and_then(|value| field.of(value))
+        self.reader.value(&self.path_of(&field.key)).and_then(|value| field.of(value))
     }
 
     /// Whether a key is in the file or is set by an override, with a fault or without.

@@ -84,9 +84,9 @@ pub(crate) struct FlatText {
     /// Every value.
     entries: BTreeMap<String, TomlEntry>,
     /// Every table, elements of arrays of tables too, by where its name was written.
-    tables: BTreeMap<String, Range<usize>>,
+    tables: Arc<BTreeMap<String, Range<usize>>>,
     /// Every array of tables: where its name comes first, and its length.
-    arrays: BTreeMap<String, (Range<usize>, usize)>,
+    arrays: Arc<BTreeMap<String, (Range<usize>, usize)>>,
     /// The text is not TOML; faults that follow from that are not reported.
     broken: bool,
     /// Faults of the text itself, independent of what its keys mean.
@@ -103,9 +103,9 @@ pub(super) struct Document<'a> {
     /// Every value.
     pub(super) entries: BTreeMap<String, TomlEntry>,
     /// Every table, elements of arrays of tables too, by where its name was written.
-    pub(super) tables: BTreeMap<String, Range<usize>>,
+    pub(super) tables: Arc<BTreeMap<String, Range<usize>>>,
     /// Every array of tables: where its name comes first, and its length.
-    pub(super) arrays: BTreeMap<String, (Range<usize>, usize)>,
+    pub(super) arrays: Arc<BTreeMap<String, (Range<usize>, usize)>>,
     /// The text is not TOML; faults that follow from that are not reported.
     pub(super) broken: bool,
     /// Faults of the text itself, independent of what its keys mean.
@@ -120,8 +120,8 @@ impl FlatText {
         let mut flat = Self {
             text: text.into(),
             entries: BTreeMap::new(),
-            tables: BTreeMap::new(),
-            arrays: BTreeMap::new(),
+            tables: Arc::default(),
+            arrays: Arc::default(),
             broken: false,
             faults: Vec::new(),
         };
@@ -179,17 +179,17 @@ impl FlatText {
             match value.get_ref() {
                 DeValue::Table(inner) => {
                     self.table(&path, inner, depth + 1);
-                    self.tables.insert(path, key.span());
+                    Arc::make_mut(&mut self.tables).insert(path, key.span());
                 }
                 DeValue::Array(items) if is_array_of_tables(items) => {
                     for (index, item) in items.iter().enumerate() {
                         if let DeValue::Table(inner) = item.get_ref() {
                             let path = format!("{path}[{index}]");
                             self.table(&path, inner, depth + 1);
-                            self.tables.insert(path, item.span());
+                            Arc::make_mut(&mut self.tables).insert(path, item.span());
                         }
                     }
-                    self.arrays.insert(path, (key.span(), items.len()));
+                    Arc::make_mut(&mut self.arrays).insert(path, (key.span(), items.len()));
                 }
                 other => {
                     let scalar = self.scalar(other, &value.span());

@@ -195,7 +195,7 @@ impl Machine {
         });
         // A follower that swings is refused on a plate, whatever its motion.
         let moves = moves.filter(|moves| span != Some(ProgramSpan::Stroke) || moves.quantity == Quantity::Length);
-        let motion = program::read::read(reader, moves, span);
+        let motion = source.motion(reader, moves, span);
         let mut parts = MachineParts::default();
         for read in &source.catalogue.parts {
             read(reader, (cam.as_ref(), follower.as_ref()), &mut parts);
@@ -213,7 +213,7 @@ impl Machine {
         Some(Self {
             catalogue: source.catalogue,
             name: reader.table(&ROOT).get(&NAME)?,
-            motion: motion.map(Arc::new),
+            motion,
             cam,
             material_name: disc::material_name(reader),
             dynamics: Dynamics::read(reader, &follower, quantity),

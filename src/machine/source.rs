@@ -5,6 +5,7 @@ use super::other_files::instead_of_machine;
 use super::{CamData, FollowerData, MachineError, MachineParts, stem};
 use crate::document::file;
 use crate::document::{FileFault, FlatText, KnownValues, Reader, Tables, similar};
+use crate::motion::program::{self, FollowerMovement, Program, ProgramSpan};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -52,6 +53,8 @@ pub struct MachineSource {
     text: FlatText,
     /// What it has without overrides, where that is without a fault.
     known: Arc<OnceLock<Option<KnownValues>>>,
+    /// Its motion without overrides of a key of it, and for what follower and cam it was read.
+    motion: Arc<OnceLock<(Option<FollowerMovement>, Option<ProgramSpan>, Arc<Program>)>>,
     /// The user wrote it.
     pub(super) by_user: bool,
     /// The folder of its file.
@@ -62,8 +65,8 @@ impl MachineSource {
     /// A text of the user that is not in a folder.
     pub(crate) fn of_user(catalogue: &'static Catalogue, name: &str, text: &str) -> Self {
         let (stem, text) = (stem::fitting(name), FlatText::new(text, &catalogue.keys.sections));
-        let known = Arc::default();
-        Self { catalogue, name: name.to_owned(), stem, text, known, by_user: true, folder: None }
+        let (known, motion) = (Arc::default(), Arc::default());
+        Self { catalogue, name: name.to_owned(), stem, text, known, motion, by_user: true, folder: None }
     }
 
     /// What the names of its files begin with.
@@ -84,13 +87,35 @@ impl MachineSource {
     }
 
     /// Reads what overrides set.
-    fn reader_of_known(&self, overrides: &[String], known: &KnownValues) -> Option<Reader<'_>> {
+    fn reader_of_known<'s>(&'s self, overrides: &[String], known: &'s KnownValues) -> Option<Reader<'s>> {
         let place = (self.folder.as_deref(), self.name.as_str());
         Reader::of_known(place, &self.text, overrides, &self.catalogue.keys.sections, known)
     }
 
     fn known(&self) -> Option<&KnownValues> {
         self.known.get_or_init(|| self.reader(&[]).known()).as_ref()
+    }
+
+    /// The motion; it is read once for all machines that have the same one.
+    pub(super) fn motion(
+        &self,
+        reader: &Reader<'_>,
+        follower: Option<FollowerMovement>,
+        span: Option<ProgramSpan>,
+    ) -> Option<Arc<Program>> {
+        let read = || program::read::read(reader, follower, span).map(Arc::new);
+        if !reader.is_known(&program::keys::SECTION) {
+            return read();
+        }
+        if let Some((of_follower, of_span, motion)) = self.motion.get() {
+            return if (*of_follower, *of_span) == (follower, span) { Some(Arc::clone(motion)) } else { read() };
+        }
+        let motion = read()?;
+        if reader.is_faultless() {
+            // Another thread may have been first, with the same.
+            _ = self.motion.set((follower, span, Arc::clone(&motion)));
+        }
+        Some(motion)
     }
 
     /// The result of `parts` for this text.

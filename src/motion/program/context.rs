@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 pub(super) const WHOLE_TURN: f64 = 1e-9 * PI / 180.0;
 
 /// How the follower of a file moves, which its motion must fit.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FollowerMovement {
     /// The path of its table.
     pub(crate) table: &'static str,
