@@ -28,6 +28,9 @@ pub struct Catalogue {
 /// Reads what a domain finds in a machine file, with the cam and the follower where they have no fault.
 pub type ReadParts = fn(&Reader<'_>, (Option<&CamData>, Option<&FollowerData>), &mut MachineParts);
 
+/// A motion program as it was read, and what it was read for.
+type ReadMotion = (Option<FollowerMovement>, Option<ProgramSpan>, Arc<Program>);
+
 /// The text of a machine file, read once: machines of it with other values are made without reading the text again.
 ///
 /// ```
@@ -54,7 +57,7 @@ pub struct MachineSource {
     /// What it has without overrides, where that is without a fault.
     known: Arc<OnceLock<Option<KnownValues>>>,
     /// Its motion without overrides of a key of it, and for what follower and cam it was read.
-    motion: Arc<OnceLock<(Option<FollowerMovement>, Option<ProgramSpan>, Arc<Program>)>>,
+    motion: Arc<OnceLock<ReadMotion>>,
     /// The user wrote it.
     pub(super) by_user: bool,
     /// The folder of its file.

@@ -283,8 +283,12 @@ def fault_texts(text, control, random):
     arcs = [i for i, line in enumerate(lines) if re.search(r"\bG[23]\b| DR[+-]", line)]
     if len(arcs) < 8:
         return
-    # Within the first of one or two passes: a lead-in that is turned over may stay in the groove, and cuts nothing wrong.
-    middle = arcs[len(arcs) // 4]
+    # Between two other arcs: a lead-in that is turned over may keep clear of the metal, and cuts nothing wrong.
+    near = 2 if control == "heidenhain" else 1
+    inner = [i for i in arcs if i - near in arcs and i + near in arcs]
+    if not inner:
+        return
+    middle = inner[len(inner) // 2]
 
     def changed(name, index, how):
         other = lines.copy()
