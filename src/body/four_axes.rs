@@ -1,4 +1,4 @@
-//! A barrel that is milled on four axes: A turns it, X and Y move the tool along and beside it, Z sets the depth.
+//! A barrel that is milled on four axes: A turns it, X and Y move the tool along it and across it, Z sets the depth.
 //!
 //! A tool as wide as the groove runs in its middle; a smaller one along either flank, which it cuts exactly in the middle of its depth. The rows are as few as keep the
 //! tolerance where a control goes straight in A, X and Y at once; between two joints of the motion a stretch is halved until it does.

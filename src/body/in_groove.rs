@@ -1,7 +1,7 @@
 //! Forces on the rollers in the groove of a barrel or the grooves of a globoid.
 //!
 //! What goes with the lift is the force F = m s'' ω² + c s' ω + k s + F0, of an arm or a turret the moment with its inertia; the shaft turns against F s'. One
-//! roller bears all of it in the middle of its reach, along the normal: N = F/(l cos α) with its way l for a lift, and on the flank that the sign of F
+//! roller carries all of it in the middle of its reach, along the normal: N = F/(l cos α) with its way l for a lift, and on the flank that the sign of F
 //! names. The pressure is that of N spread evenly over the reach b, p² = N E* κ/(π b), with the largest reduced curvature κ along it. On that flank the
 //! roller turns n = ±|V|/r − the turn of what carries it, for a turn of the cam. Friction is left out.
 
@@ -23,7 +23,7 @@ use crate::table::ForceRow;
 const CELLS: u32 = 48;
 const HILLS: usize = 3;
 const SECTIONS: u32 = 38;
-/// Halvings to the angle at which another roller bears the force.
+/// Halvings to the angle at which another roller carries the force.
 const HALVINGS: u32 = 48;
 /// A force below this share of the largest presses nothing on: where it changes flank the roller crosses the play, and no friction turns it.
 const PRESSED: f64 = 0.01;

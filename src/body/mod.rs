@@ -18,6 +18,7 @@ pub mod globoid;
 pub mod groove;
 pub mod in_groove;
 pub mod inspection;
+mod list;
 mod load_as_cut;
 pub(crate) mod loaded;
 pub mod mesh;
@@ -46,6 +47,8 @@ pub mod yoke;
 pub use cut::Cut;
 pub use figures::Figures;
 pub use flank::Flank;
+pub(crate) use list::needs_base_circle;
+pub use list::{BODIES, MADE_WITH, ProgramBody, SolveProgram, of_motion};
 pub use load_as_cut::LoadAsCut;
 pub use loaded::{LoadedFollower, ShaftCompliance};
 pub use part::{Inertia, Layer, NEGLIGIBLE_MM, Part, PartFlank, Rim, Track};
@@ -64,7 +67,7 @@ use crate::geometry::contour::Contour;
 use crate::geometry::lead_in::LeadIn;
 use crate::geometry::{Entity, MILLIMETRES};
 use crate::machine::Machine;
-use crate::motion::{Jet, Motion, Quantity};
+use crate::motion::{Jet, Quantity};
 use crate::numeric::extremum;
 use crate::profile::envelope::NoEnvelope;
 use crate::profile::outline::{Fit, MotionTolerance, Outline, OutlineError};
@@ -74,8 +77,6 @@ use crate::report::mechanism::MovingMechanism;
 use crate::report::sheet::SheetView;
 use crate::report::{Place, Rolled, Section, Shaft, Speeds, shown};
 use crate::table::{Row, Table};
-use disc::Disc;
-use groove::Groove;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -94,20 +95,6 @@ pub struct Kind {
     pub keys: &'static str,
 }
 
-/// Solves a body for a motion, at a speed of the cam (rpm) where it is known.
-pub type SolveProgram = fn(&Machine, &Arc<dyn Motion>, Option<f64>) -> Result<ProgramCams, Refusal>;
-
-/// A body of a motion program, chosen by `cam.body`.
-#[derive(Debug)]
-pub struct ProgramBody {
-    /// Its kind, whose keys are those of the body's name.
-    pub kind: &'static Kind,
-    /// Whether its outline is that of a disc about a base circle, so that it has the size of one.
-    pub has_base_circle: bool,
-    /// How it is solved.
-    pub solve: SolveProgram,
-}
-
 /// The body of a motion, with those that are made for it.
 #[derive(Debug)]
 pub struct ProgramCams {
@@ -119,78 +106,9 @@ pub struct ProgramCams {
 
 impl ProgramCams {
     /// A body that is made alone.
-    fn alone(body: impl Body + 'static) -> Self {
+    pub(in crate::body) fn alone(body: impl Body + 'static) -> Self {
         Self { first: ("", Arc::new(body)), others: Vec::new() }
     }
-}
-
-/// Every body of a motion program: a new one is a folder, and a line here and in [`cams`].
-pub const BODIES: &[ProgramBody] = &[
-    ProgramBody {
-        kind: &disc::GENERAL,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Disc::of_motion(machine, Arc::clone(motion), rpm)?)),
-    },
-    ProgramBody {
-        kind: &groove::RING,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::ring(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &groove::GROOVE,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(Groove::between_flanks(machine, motion, rpm)?)),
-    },
-    ProgramBody { kind: &conjugate::MAIN, has_base_circle: true, solve: conjugate::pair },
-    ProgramBody {
-        kind: &rib::RIB,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(rib::Rib::of(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &yoke::YOKE,
-        has_base_circle: true,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(yoke::Yoke::of(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &barrel::BARREL,
-        has_base_circle: false,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(barrel::Barrel::of(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &globoid::GLOBOID,
-        has_base_circle: false,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(globoid::Globoid::of(machine, motion, rpm)?)),
-    },
-    ProgramBody {
-        kind: &wedge::WEDGE,
-        has_base_circle: false,
-        solve: |machine, motion, rpm| Ok(ProgramCams::alone(wedge::Wedge::at_speed(machine, motion, rpm)?)),
-    },
-];
-
-/// Refuses what is only known of a disc for a machine whose body is none.
-///
-/// # Errors
-/// [`Refusal`] where the body has no base circle.
-pub(crate) fn needs_base_circle(machine: &Machine, what: &str) -> Result<(), Refusal> {
-    let other = BODIES.iter().find(|body| body.kind.keys == machine.body() && !body.has_base_circle);
-    let Some(other) = other else { return Ok(()) };
-    let refusal = Refusal::new(format!("{what} is that of a disc, and this is a {}", other.kind.noun));
-    Err(refusal.remedy("`camgen make` reports the sizes and angles of other bodies"))
-}
-
-/// Kinds that are made with one of these.
-pub const MADE_WITH: &[&Kind] = &[&conjugate::COUNTER];
-
-/// Solves the body of a motion that a machine names.
-///
-/// # Errors
-/// [`Refusal`] when there is no such cam.
-pub fn of_motion(machine: &Machine, motion: &Arc<dyn Motion>, rpm: Option<f64>) -> Result<ProgramCams, Refusal> {
-    let named = BODIES.iter().find(|body| body.kind.keys == machine.body());
-    let body = named.ok_or_else(|| Refusal::new(format!("no body is called {}", machine.body())))?;
-    (body.solve)(machine, motion, rpm)
 }
 
 /// Least tolerance of velocity or acceleration, over the largest of the motion.

@@ -66,23 +66,8 @@ impl<'a> Reader<'a> {
         sections: &'a [&'a KeySection],
     ) -> Self {
         let mut document = Document::new(source, flat, overrides);
-        let faults = RefCell::new(std::mem::take(&mut document.faults));
-        let (values, missing, misshapen) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
-        let (inputs, doubled, meant, meant_keys) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
-        let mut reader = Self {
-            document,
-            folder,
-            sections,
-            values,
-            inputs,
-            missing,
-            misshapen,
-            doubled,
-            meant,
-            meant_keys,
-            faults,
-            known: None,
-        };
+        let faults = std::mem::take(&mut document.faults);
+        let mut reader = Self { faults: RefCell::new(faults), ..Self::unread(document, folder, sections) };
         if !reader.document.broken {
             for section in sections {
                 reader.section(section, source);
@@ -136,23 +121,26 @@ impl<'a> Reader<'a> {
             inputs.insert(path.to_owned(), Input::new(path, value.canonical(key.form), entry.value.shown()));
             values.insert(path.to_owned(), value);
         }
-        let faults = RefCell::new(Vec::new());
-        let (missing, misshapen, doubled) = (BTreeMap::new(), BTreeSet::new(), BTreeMap::new());
-        let (meant, meant_keys) = (BTreeSet::new(), BTreeSet::new());
-        Some(Self {
+        let unread = Self::unread(document, folder, sections);
+        Some(Self { values, inputs, known: Some(known), ..unread })
+    }
+
+    /// Of a document of which nothing is read.
+    fn unread(document: Document<'a>, folder: Option<&'a Path>, sections: &'a [&'a KeySection]) -> Self {
+        Self {
             document,
             folder,
             sections,
-            values,
-            inputs,
-            missing,
-            misshapen,
-            doubled,
-            meant,
-            meant_keys,
-            faults,
-            known: Some(known),
-        })
+            values: BTreeMap::new(),
+            inputs: BTreeMap::new(),
+            missing: BTreeMap::new(),
+            misshapen: BTreeSet::new(),
+            doubled: BTreeMap::new(),
+            meant: BTreeSet::new(),
+            meant_keys: BTreeSet::new(),
+            faults: RefCell::new(Vec::new()),
+            known: None,
+        }
     }
 
     fn value(&self, path: &str) -> Option<&KeyValue> {

@@ -67,7 +67,7 @@ fn the_automatic_radius_keeps_the_pressure_angle() {
     assert!(barrel.outer >= least && barrel.outer < least + 1.001e-3, "{} {least}", barrel.outer);
 }
 
-/// The force along the normal turns the cam as the torque says, on a straight path beside the axis and on an arm; over a turn the shaft gives back what it
+/// The force along the normal turns the cam as the torque says, on a straight path with an offset and on an arm; over a turn the shaft gives back what it
 /// took.
 #[test]
 fn the_normal_force_turns_the_cam_by_the_torque() {
@@ -140,7 +140,7 @@ fn pressure_and_life_are_those_of_the_formulas() {
     assert!((duty.life.expect("a speed") / life - 1.0).abs() < 1e-5, "{duty:?} {life}");
 }
 
-/// A roller beside the axis reaches as far below the outside as one that points at it, so that its end runs nearer to the axis along its own.
+/// A roller with an offset reaches as far below the outside as one that points at it, so that its end runs nearer to the axis along its own.
 #[test]
 fn a_roller_beside_the_axis_runs_nearer_to_it() {
     let (barrel, _) = barrel(&["follower.roller.offset=38mm"]);

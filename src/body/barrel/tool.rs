@@ -11,7 +11,7 @@ impl Barrel {
         0.5 * self.distances.iter().sum::<f64>()
     }
 
-    /// Distance of the axis of a tool of a radius (m) above the roller's centre line, m: beside a flank, or in the middle between both.
+    /// Distance of the axis of a tool of a radius (m) above the roller's centre line, m: next to a flank, or in the middle between both.
     pub(super) fn tool_offset(&self, flank: Option<FlankSide>, tool: f64) -> f64 {
         flank.map_or(0.5 * (self.distances[0] - self.distances[1]), |flank| {
             let distance = self.signed(flank);

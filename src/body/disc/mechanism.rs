@@ -32,7 +32,7 @@ pub(in crate::body) struct SecondDisc<'a> {
     pub(in crate::body) disc: &'a Disc,
     /// The cam angle (rad) by which its motion is later.
     pub(in crate::body) later: f64,
-    /// Whether it is a disc of its own, beside the first.
+    /// Whether it is a disc of its own, next to the first.
     pub(in crate::body) is_beside: bool,
 }
 

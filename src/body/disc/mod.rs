@@ -93,7 +93,7 @@ pub struct Disc {
     duty: Option<Arc<dyn Duty>>,
     /// What holds its follower on it.
     hold: Hold,
-    /// The disc beside it in a pair, with the cam angle by which its motion is later, rad.
+    /// The disc next to it in a pair, with the cam angle by which its motion is later, rad.
     other: Option<(Arc<Self>, f64)>,
     /// Spring, guide, crown and vibration of the follower of a motion program.
     program_follower: forces::ProgramFollower,
@@ -161,7 +161,7 @@ impl Disc {
         mechanism::of(self, Some(SecondDisc { disc, later, is_beside: false }), drawn, samples)
     }
 
-    /// With another disc beside it, whose motion is later by a cam angle, rad: its pictures show both.
+    /// With another disc next to it, whose motion is later by a cam angle, rad: its pictures show both.
     #[must_use]
     pub(in crate::body) fn beside(self, other: Arc<Self>, later: f64) -> Self {
         Self { other: Some((other, later)), ..self }

@@ -21,7 +21,7 @@ use nalgebra::Vector2;
 /// What is not modelled of a globoid.
 const NOT_MODELLED: &[&str] = &[
     "Vibration and friction are not computed for a globoid.",
-    "The sharing of the force by several rollers: each of those in touch is taken to bear all of it.",
+    "The sharing of the force by several rollers: each of those in contact is taken to carry all of it.",
     "The ends of the rollers: they are straight cylinders without a rounded edge.",
     "The lead-in of the grooves: rollers enter them as wide as they are.",
 ];
