@@ -25,7 +25,7 @@ pub(super) fn of(
     let braking = || places.iter().filter(|place| place.angle <= FRAC_PI_2);
     let effect = |(index, parameter): (usize, Parameter)| {
         let points = braking().map(|place| [MILLIMETRES * place.x, place.effects.get(index).copied().unwrap_or(0.0)]);
-        curve(parameter.name(), index, true, points.collect())
+        curve(&parameter.name().replace('_', " "), index, true, points.collect())
     };
     let effects = Parameter::ALL.into_iter().enumerate().filter(|(_, parameter)| *parameter != Parameter::Screw);
     let mut own = Vec::new();

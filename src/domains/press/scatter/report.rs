@@ -93,7 +93,7 @@ impl UsefulRange {
     #[must_use]
     pub fn words(&self) -> String {
         let at = |v: Option<f64>, rpm: Option<f64>| {
-            v.zip(rpm).map(|(v, rpm)| format!("v = {} ({} rpm)", shown(v), shown(rpm)))
+            v.zip(rpm).map(|(v, rpm)| format!("v = {v:.2} ({rpm:.1} rpm)"))
         };
         match (at(self.v_min, self.rpm_min), at(self.v_max, self.rpm_max)) {
             (Some(least), Some(most)) => {
