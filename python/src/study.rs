@@ -87,7 +87,7 @@ impl Study {
         overwrite: bool,
     ) -> PyResult<(String, Vec<PathBuf>)> {
         let stem = crate::cam::written::stem(name, self.0.stem())?;
-        let files = StudyFiles { page, overwrite, restart: true };
+        let files = StudyFiles { page, parquet: false, overwrite, restart: true };
         let mut journal = Journal::open(&self.0, &out, &stem, files).map_err(|error| of_study(&error))?;
         for stretch in stretches.try_iter()? {
             let stretch = stretch?;

@@ -171,7 +171,7 @@ impl<'a> GrooveForces<'a> {
             machine: self.body.machine(),
             speed: self.body.shaft_speed(),
             torque: self.shaft_torque()?,
-            force: [self.largest(|at| self.normal(at)), Worst { value: -least.value, ..least }],
+            force: Some([self.largest(|at| self.normal(at)), Worst { value: -least.value, ..least }]),
             jump: None,
             is_closed: true,
         };

@@ -16,6 +16,11 @@ const KINKED_PANELS: u32 = 256;
 /// Share of the largest torque below which the mean is rounding.
 const ROUNDING: f64 = 1e-11;
 
+/// The figures of the section that need the force along the normal, and those that need the speed at which the follower leaves the cam.
+pub(super) const OF_CONTACT_FORCE: [&str; 3] =
+    ["dynamics.contact_force_max_n", "dynamics.contact_force_max_at_deg", "dynamics.contact_force_min_n"];
+pub(super) const OF_JUMP: [&str; 2] = ["dynamics.jump_rpm", "dynamics.jump_at_deg"];
+
 /// The section `dynamics`. Power and work need the speed of the cam.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct DynamicsSection {
@@ -34,8 +39,10 @@ struct DynamicsSection {
     flywheel_kg_m2: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     contact_force_max_n: Option<f64>,
-    contact_force_max_at_deg: f64,
-    contact_force_min_n: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact_force_max_at_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact_force_min_n: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     jump_rpm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,8 +107,8 @@ pub(super) struct DynamicsFigures<'a> {
     /// Angular speed of the cam, rad/s, where it is known.
     pub(super) speed: Option<f64>,
     pub(super) torque: ShaftTorque,
-    /// Largest and least force along the normal, N; the largest infinite where the follower jams.
-    pub(super) force: [Worst; 2],
+    /// Largest and least force along the normal, N; the largest infinite where the follower jams. `None` where they are not wanted.
+    pub(super) force: Option<[Worst; 2]>,
     /// Angular speed of the cam at which the follower first leaves it, rad/s, and where.
     pub(super) jump: Option<Worst>,
     /// Whether the cam holds the follower from both sides.
@@ -111,7 +118,8 @@ pub(super) struct DynamicsFigures<'a> {
 impl DynamicsFigures<'_> {
     /// The section.
     pub(super) fn section(&self) -> Section {
-        let Self { machine, speed, torque, force: [force, least], jump, .. } = *self;
+        let Self { machine, speed, torque, jump, .. } = *self;
+        let [force, least] = [0, 1].map(|end| self.force.map(|force| force[end]));
         let flywheel = machine.fluctuation().zip(speed);
         let figures = DynamicsSection {
             torque_mean_nm: torque.mean,
@@ -123,9 +131,9 @@ impl DynamicsFigures<'_> {
             power_max_w: speed.map(|speed| speed * torque.largest.value),
             work_fluctuation_j: torque.fluctuation,
             flywheel_kg_m2: flywheel.map(|(share, speed)| torque.fluctuation / (share * speed * speed)),
-            contact_force_max_n: Some(force.value).filter(|force| force.is_finite()),
-            contact_force_max_at_deg: degrees(force.at),
-            contact_force_min_n: least.value,
+            contact_force_max_n: force.map(|force| force.value).filter(|force| force.is_finite()),
+            contact_force_max_at_deg: force.map(|force| degrees(force.at)),
+            contact_force_min_n: least.map(|least| least.value),
             jump_rpm: jump.map(|jump| 60.0 * jump.value / TAU),
             jump_at_deg: jump.map(|jump| degrees(jump.at)),
         };
@@ -154,16 +162,11 @@ impl DynamicsFigures<'_> {
             _ => String::new(),
         };
         words.push(format!("work of the speed fluctuation {} J{flywheel}", shown(figures.work_fluctuation_j)));
-        let force = figures.contact_force_max_n.map(|force| {
-            format!(
-                "force along the normal up to {} N at {:.3}°, least {} N",
-                shown(force),
-                figures.contact_force_max_at_deg,
-                shown(figures.contact_force_min_n)
-            )
-        });
-        words.extend(force);
-        if figures.contact_force_min_n <= 0.0 && !self.is_closed {
+        let force = figures.contact_force_max_n.zip(figures.contact_force_max_at_deg).zip(figures.contact_force_min_n);
+        words.extend(force.map(|((most, at), least)| {
+            format!("force along the normal up to {} N at {at:.3}°, least {} N", shown(most), shown(least))
+        }));
+        if figures.contact_force_min_n.is_some_and(|least| least <= 0.0) && !self.is_closed {
             words.push("the follower leaves the cam: torque, power and work are as if it were held on it".into());
         }
         words

@@ -240,9 +240,17 @@ impl ProvenAssembly {
     /// The report of the first cam, with what all do together, without files.
     #[must_use]
     pub fn report(&self) -> Report {
-        let joint_report =
-            self.joint_report.iter().flat_map(|joint_report| joint_report.sections(&self.first, &self.others));
-        self.first.report_with(joint_report.collect(), self.no_outline())
+        self.first.report_with(self.joint_sections(), self.no_outline())
+    }
+
+    /// The sections of that report with these figures, by their paths; `None` for all.
+    pub(crate) fn sections(&self, wanted: Option<&[String]>) -> Vec<Section> {
+        self.first.sections(wanted).into_iter().chain(self.joint_sections()).collect()
+    }
+
+    fn joint_sections(&self) -> Vec<Section> {
+        let sections = |joint_report: &Arc<dyn AssemblyReport>| joint_report.sections(&self.first, &self.others);
+        self.joint_report.iter().flat_map(sections).collect()
     }
 
     /// The report, made when it is first read.

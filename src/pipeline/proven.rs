@@ -461,15 +461,20 @@ impl Proven {
         self.report_with(Vec::new(), self.no_outline())
     }
 
-    /// The report with more sections, and with the reason why there is no outline of a cam that belongs to it.
-    pub(super) fn report_with(&self, more: Vec<Section>, no_outline: Option<&str>) -> Report {
-        let ProvenData { rolled, point_measures, program_measures, hashed, findings, .. } = &*self.0;
-        let found = DrawingEvidence { drawn: self.drawn(), rolled, tolerance_mm: self.tolerance_mm(), wanted: None };
+    /// The sections of the report with these figures, by their paths; `None` for all.
+    pub(super) fn sections(&self, wanted: Option<&[String]>) -> Vec<Section> {
+        let ProvenData { rolled, point_measures, program_measures, .. } = &*self.0;
+        let found = DrawingEvidence { drawn: self.drawn(), rolled, tolerance_mm: self.tolerance_mm(), wanted };
         let mut sections = self.body().sections(&found);
         sections.extend(PointMeasures::section(point_measures));
         sections.extend(ProgramMeasures::section(program_measures));
-        sections.extend(more);
-        let mut report = report(self.body(), hashed.clone(), sections, findings.clone());
+        sections
+    }
+
+    /// The report with more sections, and with the reason why there is no outline of a cam that belongs to it.
+    pub(super) fn report_with(&self, more: Vec<Section>, no_outline: Option<&str>) -> Report {
+        let sections = self.sections(None).into_iter().chain(more).collect();
+        let mut report = report(self.body(), self.0.hashed.clone(), sections, self.0.findings.clone());
         report.notes.extend(no_outline.map(|why| format!("there is no outline: {why}")));
         report
     }

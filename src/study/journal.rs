@@ -22,6 +22,8 @@ const BUFFER: usize = 1 << 16;
 pub struct StudyFiles {
     /// The page with charts, which the feature `html` makes.
     pub page: bool,
+    /// The table as Parquet too, which the feature `parquet` writes.
+    pub parquet: bool,
     /// Replace a table that camgen has not written, or that was changed.
     pub overwrite: bool,
     /// Begin anew where an interrupted run could be continued.
@@ -53,14 +55,19 @@ fn with(path: &Path, end: &str) -> PathBuf {
 
 /// Writes a file whole: under a temporary name, synced and renamed.
 fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+    place_whole(path, |file| file.write_all(bytes))
+}
+
+/// Puts what `write` writes into a file whole.
+fn place_whole(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> Result<(), StudyError> {
     let temporary = with(path, ".tmp");
-    let write = || {
+    let place = || {
         let mut file = File::create(&temporary)?;
-        file.write_all(bytes)?;
+        write(&mut file)?;
         file.sync_all()?;
         fs::rename(&temporary, path)
     };
-    write().map_err(|error| {
+    place().map_err(|error| {
         _ = fs::remove_file(&temporary);
         failed(path, "write")(error)
     })
@@ -180,6 +187,13 @@ impl Journal {
         if files.page {
             let path = side(".html");
             write_whole(&path, &super::page::of(study, &summary).map_err(StudyError::Refused)?)?;
+            written.push(path);
+        }
+        #[cfg(feature = "parquet")]
+        if files.parquet {
+            let path = side(".parquet");
+            let header = study.header();
+            place_whole(&path, |file| super::parquet::write(&header, open, file))?;
             written.push(path);
         }
         let bytes = serde_json::to_vec_pretty(&json).unwrap_or_default();

@@ -31,6 +31,8 @@ mod kind;
 #[cfg(feature = "html")]
 mod page;
 mod parameter;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod row;
 mod run;
 pub mod sampling;

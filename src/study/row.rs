@@ -110,7 +110,7 @@ impl Study {
         let request = Request { flank, ..Request::usual(self.tolerance) };
         let proven = assembly.draw(request).and_then(AssemblyDrawing::prove).map_err(|why| why.to_string())?;
         let no_outline = proven.no_outline().map(|why| format!("there is no outline: {why}"));
-        let sections = if plan.wants_sections() { proven.report().sections } else { Vec::new() };
+        let sections = if plan.wants_sections() { proven.sections(plan.paths()) } else { Vec::new() };
         Ok((plan.figures(sections, proven.findings(), Some(proven.passed())), no_outline))
     }
 

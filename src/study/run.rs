@@ -6,7 +6,7 @@ use crate::numeric::parallel;
 /// Rows that one thread makes at a time: of solved cams, and of proved ones.
 const BLOCK: [u64; 2] = [8, 1];
 /// Blocks between two writes: enough that all processors are busy to the end of them.
-const BLOCKS: u64 = 64;
+const BLOCKS: u64 = 256;
 
 impl Study {
     fn block(&self) -> u64 {

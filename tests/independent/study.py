@@ -214,7 +214,7 @@ def main():
     parser.add_argument("binary")
     parser.add_argument("directory")
     parser.add_argument("--count", type=int, default=4, help="rows of each study that are compared")
-    parser.add_argument("--rows", type=int, default=1500, help="rows of the study that is killed")
+    parser.add_argument("--rows", type=int, default=8000, help="rows of the study that is killed")
     parser.add_argument("--kills", type=int, default=3)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()

@@ -1,8 +1,8 @@
 //! Torque of the shaft of a motion program, and the spin of a roller.
 
 use super::Disc;
-use crate::body::plane;
-use crate::body::shaft_torque::{DynamicsFigures, ShaftTorque, TorqueOverTurn};
+use crate::body::shaft_torque::{self, DynamicsFigures, ShaftTorque, TorqueOverTurn};
+use crate::body::{DrawingEvidence, plane};
 use crate::follower::Element;
 use crate::numeric::quadrature;
 use crate::profile::Worst;
@@ -73,20 +73,25 @@ impl Disc {
         Some(Spin { mean, largest: plane(extremes::largest_smooth(curves, (&[], SPIN_MATTERS * mean), spin)) })
     }
 
-    /// The section `dynamics` of a motion program whose forces are known.
-    pub(super) fn dynamics(&self) -> Option<Section> {
+    /// The section `dynamics` of a motion program whose forces are known, with the figures that are wanted.
+    pub(super) fn dynamics(&self, found: &DrawingEvidence<'_>) -> Option<Section> {
         if !self.is_of_program() {
             return None;
         }
         let torque = self.shaft_torque()?;
         let normal = |piece: usize, angle: f64| self.normal_force(piece, angle).unwrap_or(f64::NAN);
-        let (force, least) = (self.largest_force(normal), self.largest_force(|piece, angle| -normal(piece, angle)));
+        let force = || {
+            let least = self.largest_force(|piece, angle| -normal(piece, angle));
+            [self.largest_force(normal), Worst { value: -least.value, ..least }]
+        };
+        let wants = |keys: &[&str]| keys.iter().any(|key| found.wants(key));
+        let jump = wants(&shaft_torque::OF_JUMP).then(|| self.jump()).flatten();
         let figures = DynamicsFigures {
             machine: &self.machine,
             speed: self.speed,
             torque,
-            force: [force, Worst { value: -least.value, ..least }],
-            jump: self.jump().and_then(Result::ok).filter(|jump| jump.value.is_finite()),
+            force: wants(&shaft_torque::OF_CONTACT_FORCE).then(force),
+            jump: jump.and_then(Result::ok).filter(|jump| jump.value.is_finite()),
             is_closed: self.is_closed(),
         };
         Some(figures.section())

@@ -410,7 +410,7 @@ impl Body for Disc {
         sections.push(outline.map_or_else(|| Section::new("outline", &()), |outline| outline.section()));
         sections.push(Section::new("rolling", &found.rolled.first()));
         sections.extend(duty.and_then(|duty| duty.forces(self, found.rolled.first())));
-        sections.extend(wants("dynamics").then(|| self.dynamics()).flatten());
+        sections.extend(wants("dynamics").then(|| self.dynamics(found)).flatten());
         sections.extend(wants("roller_bearing").then(|| self.bearing_section()).flatten());
         if wants("vibration") || wants("harmonics") {
             sections.extend(self.vibration_sections());

@@ -26,6 +26,11 @@ pub(in crate::cli) struct StudyArgs {
     #[arg(long)]
     pub(in crate::cli) page: bool,
 
+    /// Also write the table as Parquet
+    #[cfg(feature = "parquet")]
+    #[arg(long)]
+    parquet: bool,
+
     /// Also replace a table that was changed or not written by camgen; an unchanged table of camgen is always replaced
     #[arg(long)]
     pub(in crate::cli) overwrite: bool,
@@ -45,4 +50,14 @@ pub(in crate::cli) struct StudyArgs {
     /// Print nothing
     #[arg(long, short)]
     pub(in crate::cli) quiet: bool,
+}
+
+impl StudyArgs {
+    /// Whether the table is written as Parquet too.
+    pub(in crate::cli) fn parquet(&self) -> bool {
+        #[cfg(feature = "parquet")]
+        return self.parquet;
+        #[cfg(not(feature = "parquet"))]
+        false
+    }
 }

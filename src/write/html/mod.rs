@@ -26,6 +26,13 @@ pub const FORMAT: Format = Format {
     }),
 };
 
+/// The unit of a figure by the end of its path, as people write it; `None` where it has none.
+#[cfg(feature = "parquet")]
+pub(crate) fn unit_of(path: &str) -> Option<&'static str> {
+    let name = path.rsplit('.').next().unwrap_or(path);
+    Some(units::named(name.split('[').next().unwrap_or(name)).unit).filter(|unit| !unit.is_empty())
+}
+
 const PAGE: &str = include_str!("../../../templates/report.html");
 const STYLE: &str = include_str!("../../../templates/report.css");
 const SCRIPTS: [&str; 4] = [

@@ -92,9 +92,7 @@ impl UsefulRange {
     /// A sentence.
     #[must_use]
     pub fn words(&self) -> String {
-        let at = |v: Option<f64>, rpm: Option<f64>| {
-            v.zip(rpm).map(|(v, rpm)| format!("v = {v:.2} ({rpm:.1} rpm)"))
-        };
+        let at = |v: Option<f64>, rpm: Option<f64>| v.zip(rpm).map(|(v, rpm)| format!("v = {v:.2} ({rpm:.1} rpm)"));
         match (at(self.v_min, self.rpm_min), at(self.v_max, self.rpm_max)) {
             (Some(least), Some(most)) => {
                 format!("with the screw reset the cam leaves less than a fixed bottom from {least} to {most} only")
