@@ -1,16 +1,23 @@
 //! `camgen trade`: speed against accuracy, measured on the user's computer.
 
 use super::analyses::judge_and_write_as;
-use super::args::{TradeArgs, TradeTarget, at_end, machine_with_free};
+use super::args::{Speed, TradeArgs, TradeTarget, at_end, machine_with_free};
 use super::progress::Progress;
 use super::{Failure, Outcome};
+use camgen::analysis::Analysis;
+#[cfg(feature = "brake")]
+use camgen::catalogue::catalogue;
 use camgen::document::similar;
+#[cfg(feature = "brake")]
+use camgen::domains::brake::{BrakeMachine, BrakeOutput, analysis::trade as of_brake};
 use camgen::domains::press::analysis::trade as of_press;
+use camgen::domains::press::machine::{DriveMachine, PressCams};
 #[cfg(feature = "shaft")]
 use camgen::domains::shaft::{analysis::trade as of_shaft, machine::ShaftMachine};
 use camgen::machine::Machine;
+use camgen::refusal::Refusal;
 use camgen::report::Speeds;
-use camgen::trade::{self, TradeRun};
+use camgen::trade::{self, LeftOver, TradeRun};
 use camgen::write::number::names;
 use clap::ValueEnum as _;
 use std::time::Instant;
@@ -18,6 +25,9 @@ use std::time::Instant;
 /// The default machine of the flags, and those that are measured for it where another is needed.
 const PRESS: &str = "dpi";
 const PROGRAM: &str = "feeder";
+const DRIVE: &str = "dp";
+#[cfg(feature = "brake")]
+const BRAKE: &str = "roll";
 #[cfg(feature = "shaft")]
 const SHAFT: &str = "press-cylinder";
 
@@ -30,7 +40,7 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let mut progress = |_: usize, steps: usize| {
         let bar = bar.get_or_insert_with(|| {
             let bar = Progress::of_steps(shown, steps);
-            bar.stage("measuring until the order is stable");
+            bar.stage("measuring");
             bar
         });
         bar.step();
@@ -38,48 +48,117 @@ pub(super) fn run(args: &TradeArgs) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let clock = || start.elapsed();
     let run = TradeRun { clock: &clock, progress: &mut progress };
-    let limits = of_press::PressTradeLimits { residual: args.residual, acceleration: args.acceleration };
-    let set = &args.analysis.set;
     let (analysis, name, kind) = match target {
         #[cfg(feature = "shaft")]
         Some(TradeTarget::Shaft) => {
-            if args.residual.is_some() || args.acceleration.is_some() {
-                return Err(Failure("--residual and --acceleration belong to a cam, not to a shaft".into()));
-            }
-            let (machine, name) = ShaftMachine::load(file.unwrap_or(SHAFT), set).map_err(Failure::new)?;
+            args.without_limits(target)?;
+            let (machine, name) =
+                ShaftMachine::load(file.unwrap_or(SHAFT), &args.analysis.set).map_err(Failure::new)?;
             (of_shaft::analysis(&machine, &clock), name, "shaft")
         }
-        target => {
-            let default = if target == Some(TradeTarget::Make) { PROGRAM } else { PRESS };
-            let loaded = machine_with_free(file.unwrap_or(default), set, &args.free);
-            let (machine, name) = at_end(args.end, loaded.map_err(|failure| without_kind(args, failure))?)?;
-            match target.unwrap_or_else(|| kind_of(&machine)) {
-                TradeTarget::Make if args.residual.is_some() => {
-                    return Err(Failure(
-                        "--residual belongs to the cams of a press: a motion program balances no force".into(),
-                    ));
-                }
-                TradeTarget::Make if machine.program().is_some_and(|program| program.stroke().is_some()) => {
-                    return Err(Failure("trade measures cams that turn, and this motion is that of a plate".into()));
-                }
-                TradeTarget::Make => (trade::of_program(&machine, args.rpm, args.acceleration, run), name, "make"),
-                target => {
-                    let design = machine.press().map_err(Failure::new)?.design_rpm;
-                    let rpm = args.rpm.unwrap_or(design);
-                    match target {
-                        TradeTarget::Translating => {
-                            (of_press::translating(&machine, rpm, limits, run), name, "translating")
-                        }
-                        _ => (of_press::rotary(&machine, rpm, limits, run), name, "rotary"),
-                    }
-                }
-            }
+        Some(TradeTarget::Drive) => {
+            args.without_limits(target)?;
+            let (machine, name) =
+                DriveMachine::load(file.unwrap_or(DRIVE), &args.analysis.set).map_err(Failure::new)?;
+            (of_press::drive(&machine, &clock), name, "drive")
         }
+        #[cfg(feature = "brake")]
+        Some(TradeTarget::Brake) => {
+            if args.residual.is_some() {
+                return Err(Failure("--residual belongs to the cams of a press: a brake balances no inertia".into()));
+            }
+            args.without_speed("a brake")?;
+            let (file, set) = (file.unwrap_or(BRAKE), &args.analysis.set);
+            let loaded = BrakeMachine::load(catalogue(), file, set, BrakeOutput::Disc);
+            let (machine, name) = loaded.map_err(Failure::new)?;
+            (of_brake::analysis(&machine, args.acceleration, run), name, "brake")
+        }
+        target => of_cam(args, (target, file), run)?,
     };
     drop(bar);
     let analysis = analysis.map_err(Failure::new)?;
     let stem = format!("{name}-trade-{kind}{}", speed(&analysis.speeds));
     judge_and_write_as(analysis, &args.analysis, stem)
+}
+
+/// An analysis, the name of its machine, and its kind.
+type NamedTrade = (Result<Analysis, Refusal>, String, &'static str);
+
+/// The cams of a press, and those of motion programs.
+fn of_cam(
+    args: &TradeArgs,
+    (target, file): (Option<TradeTarget>, Option<&str>),
+    run: TradeRun<'_>,
+) -> Result<NamedTrade, Failure> {
+    let limits = of_press::PressTradeLimits { residual: args.residual, acceleration: args.acceleration };
+    let default = if target == Some(TradeTarget::Make) { PROGRAM } else { PRESS };
+    let file = file.unwrap_or(default);
+    let loaded = machine_with_free(file, &args.analysis.set, &args.free);
+    let (machine, name) = at_end(args.end, loaded.map_err(|failure| without_kind(args, failure))?)?;
+    let target = target.unwrap_or_else(|| kind_of(&machine));
+    if target == TradeTarget::Conoid {
+        let range = match (args.rpm, PressCams::of(&machine).regimes.speeds.as_slice()) {
+            (Some(Speed::Range(from, to)), _) => (from, to),
+            (None, [from, .., to]) => (*from, *to),
+            _ => {
+                let why = "a conoid is measured over a range of speeds: give --rpm A..B, e.g. --rpm 20..35";
+                return Err(Failure(why.into()));
+            }
+        };
+        if args.acceleration.is_some() {
+            return Err(Failure("--acceleration belongs to one outline, not to the sections of a conoid".into()));
+        }
+        return Ok((of_press::conoid(&machine, range, limits, run.clock), name, "conoid"));
+    }
+    let rpm = match args.rpm {
+        None => None,
+        Some(Speed::One(rpm)) => Some(rpm),
+        Some(Speed::Range(..)) => return Err(Failure("a range of speeds belongs to `camgen trade conoid`".into())),
+    };
+    if target == TradeTarget::Make {
+        if args.residual.is_some() {
+            return Err(Failure(
+                "--residual belongs to the cams of a press: a motion program balances no force".into(),
+            ));
+        }
+        if machine.program().is_some_and(|program| program.stroke().is_some()) {
+            return Err(Failure("trade measures cams that turn, and this motion is that of a plate".into()));
+        }
+        return Ok((trade::of_program(&machine, rpm, args.acceleration, run), name, "make"));
+    }
+    let rpm = rpm.map_or_else(|| machine.press().map(|press| press.design_rpm), Ok).map_err(Failure::new)?;
+    if target == TradeTarget::Translating {
+        return Ok((of_press::translating(&machine, rpm, limits, run), name, "translating"));
+    }
+    Ok((of_press::rotary(&machine, rpm, limits, others(args, file, rpm), run), name, "rotary"))
+}
+
+/// What the camshaft of a file leaves, where it has one.
+fn others(args: &TradeArgs, file: &str, rpm: f64) -> Vec<LeftOver> {
+    #[cfg(feature = "shaft")]
+    if let Ok((machine, _)) = ShaftMachine::load(file, &args.analysis.set) {
+        return of_shaft::left_by_shaft(&machine, rpm).into_iter().collect();
+    }
+    _ = (args, file, rpm);
+    Vec::new()
+}
+
+impl TradeArgs {
+    /// Refuses limits of a cam where nothing is cut.
+    fn without_limits(&self, target: Option<TradeTarget>) -> Result<(), Failure> {
+        let what = if target == Some(TradeTarget::Drive) { "a drive" } else { "a shaft" };
+        if self.residual.is_some() || self.acceleration.is_some() {
+            return Err(Failure(format!("--residual and --acceleration belong to a cam, not to {what}")));
+        }
+        self.without_speed(what)
+    }
+
+    fn without_speed(&self, what: &str) -> Result<(), Failure> {
+        if self.rpm.is_some() {
+            return Err(Failure(format!("--rpm has no effect on the trade of {what}; leave it out")));
+        }
+        Ok(())
+    }
 }
 
 /// The speed, as the stem of the files has it.

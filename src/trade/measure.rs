@@ -2,6 +2,7 @@
 
 use crate::body::points::{self, Points};
 use crate::body::{RateTolerance, Request};
+use crate::geometry::MILLIMETRES;
 use crate::geometry::contour::Contour;
 use crate::geometry::points::{Interpolant, PointCoordinates, PointInterpolation, PointStep};
 use crate::pipeline::Cam;
@@ -16,12 +17,10 @@ use std::time::Duration;
 
 /// Rows of the point table.
 const SAMPLES: u32 = 720;
-/// Fewest and most rounds over all settings: every setting is made once in each round, so that other work of the computer
-/// affects all of them equally.
-const LEAST_ROUNDS: usize = 7;
-const MOST_ROUNDS: usize = 40;
-/// Rounds over which the order of the settings must not have changed.
-const UNCHANGED: usize = 5;
+/// Most rounds over all settings: every setting is made once in each round, so that other work of the computer affects all of them equally.
+const MOST_ROUNDS: usize = 5;
+/// No round is begun that would end after this, by the time of the one before it.
+const BUDGET: Duration = Duration::from_secs(8);
 
 /// What a measurement needs of its caller: camgen itself looks at no clock.
 pub struct TradeRun<'a> {
@@ -40,10 +39,17 @@ impl fmt::Debug for TradeRun<'_> {
 /// The time since any fixed moment.
 pub(crate) type TradeClock<'a> = &'a dyn Fn() -> Duration;
 
-/// One setting, measured: medians over the rounds.
+/// One setting, measured. Times are the least of the rounds.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct TradeRow {
     pub(super) setting: String,
+    /// The flags of the command that make it; `None` of a law that no flag asks for.
+    pub(super) flags: Option<String>,
+    pub(super) entity: Entity,
+    /// Place among the settings that keep the limits, from 1, the one that costs the shop least.
+    pub(super) rank: Option<usize>,
+    /// Along the outline at the feed of the machine file.
+    pub(super) machining_s: f64,
     pub(super) law_us: f64,
     pub(super) outline_us: f64,
     pub(super) checks_us: f64,
@@ -51,6 +57,7 @@ pub(super) struct TradeRow {
     pub(super) svg_us: f64,
     pub(super) step_us: Option<f64>,
     pub(super) csv_us: f64,
+    /// The sum of the stages.
     pub(super) total_us: f64,
     pub(super) arcs: usize,
     pub(super) bytes: usize,
@@ -63,12 +70,25 @@ pub(super) struct TradeRow {
     pub(super) rolled_mm: Option<f64>,
     pub(super) velocity_error_mm_per_rad: Option<f64>,
     pub(super) acceleration_error_mm_per_rad2: Option<f64>,
+    /// At the speed of the cam, where it is known.
+    pub(super) acceleration_error_m_per_s2: Option<f64>,
     pub(super) acceleration_share: Option<f64>,
     /// Roller force times velocity error, at its largest, on the camshaft.
     pub(super) torque_error_nm: Option<f64>,
-    /// Quartiles of the total: half of the rounds lie between them.
+    /// Whether every check of the setting passed.
+    pub(super) passed: bool,
+    /// Least and largest total of a round.
     pub(super) total_low_us: f64,
     pub(super) total_high_us: f64,
+}
+
+/// What an outline is written as; every control reads arcs, fewer read splines, and a table of points is read by its interpolation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Entity {
+    Arcs,
+    Splines,
+    Points,
 }
 
 /// Times of one round, µs.
@@ -112,6 +132,8 @@ impl fmt::Debug for TradeLaw {
 #[derive(Debug)]
 pub(crate) struct TradeSetting {
     pub(crate) name: String,
+    /// The flags of the command that make it, where there are some.
+    pub(crate) flags: Option<String>,
     /// Its law, by number.
     pub(crate) law: usize,
     /// Tolerance of the outline, m.
@@ -126,6 +148,26 @@ pub(crate) enum TradeProduct {
     Outline { laid: SegmentKind, share: Option<f64> },
     /// A table of points, in x and y by equal chord error, which may also keep the acceleration to a share of its largest.
     Points { between: PointInterpolation, share: Option<f64> },
+}
+
+impl Entity {
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Arcs => "arcs",
+            Self::Splines => "splines",
+            Self::Points => "points",
+        }
+    }
+}
+
+impl TradeProduct {
+    fn entity(self) -> Entity {
+        match self {
+            Self::Outline { laid: SegmentKind::Arcs, .. } => Entity::Arcs,
+            Self::Outline { laid: SegmentKind::Splines, .. } => Entity::Splines,
+            Self::Points { .. } => Entity::Points,
+        }
+    }
 }
 
 /// The limits that the advice must keep.
@@ -155,9 +197,10 @@ impl TradeLimits {
         if self.residual.is_some() { format!("{} N", shown(left)) } else { format!("{} % of it", shown(100.0 * left)) }
     }
 
+    /// Whether a row keeps them, can be asked for, and passes its own checks.
     fn keeps(self, row: &TradeRow) -> bool {
         let share = self.acceleration.is_none_or(|limit| row.acceleration_share.is_some_and(|share| share <= limit));
-        self.residual.is_none_or(|limit| row.residual_n <= limit) && share
+        self.residual.is_none_or(|limit| row.residual_n <= limit) && share && row.passed && row.flags.is_some()
     }
 }
 
@@ -168,15 +211,15 @@ pub(crate) fn timed<T>(clock: TradeClock<'_>, work: impl FnOnce() -> Result<T, R
     Ok((1e6 * clock().saturating_sub(start).as_secs_f64(), made))
 }
 
-/// Rows, and how they were measured.
+/// Rows, in how many rounds they were measured, and why settings are missing.
 pub(super) struct TradeMeasurement {
     pub(super) rows: Vec<TradeRow>,
     pub(super) rounds: usize,
-    /// Whether the order of the rows that keep the limit is stable, and the first of them is faster than the others by more than its spread.
-    pub(super) stable: bool,
+    pub(super) missing: Vec<String>,
 }
 
-/// Rounds over all settings, until their order is stable.
+/// Rounds over all settings. The rows are of the first one; the others only measure its times again. A setting that cannot be made is left out;
+/// where none can, the reason of the first is the error.
 pub(super) fn measure(
     laws: &[TradeLaw],
     settings: &[TradeSetting],
@@ -184,60 +227,55 @@ pub(super) fn measure(
     TradeRun { clock, progress }: TradeRun<'_>,
 ) -> Result<TradeMeasurement, Refusal> {
     let mut rows: Vec<TradeRow> = Vec::with_capacity(settings.len());
-    let mut times: Vec<Vec<RoundTimes>> = vec![Vec::new(); settings.len()];
-    let (mut order, mut unchanged, mut done) = (Vec::new(), 0, 0);
-    for round in 1..=MOST_ROUNDS {
+    let mut times: Vec<Vec<RoundTimes>> = Vec::with_capacity(settings.len());
+    let (mut made, mut missing, mut first_refusal) = (Vec::new(), Vec::new(), None);
+    let (start, mut rounds, mut done) = (clock(), 0, 0);
+    let mut last = Duration::ZERO;
+    while rounds < MOST_ROUNDS && (rounds == 0 || clock().saturating_sub(start) + last <= BUDGET) {
+        let begun = clock();
         let solved = laws.iter().map(|law| Ok(timed(clock, &law.solve)?.0)).collect::<Result<Vec<f64>, Refusal>>()?;
-        for (setting, measured) in settings.iter().zip(&mut times) {
+        let now: Vec<&TradeSetting> = if rounds == 0 { settings.iter().collect() } else { made.clone() };
+        for (number, setting) in now.into_iter().enumerate() {
             let (Some(law), Some(law_us)) = (laws.get(setting.law), solved.get(setting.law)) else { continue };
-            let (row, now) = one_round(clock, law, setting, *law_us)?;
-            measured.push(now);
             done += 1;
             progress(done, MOST_ROUNDS * settings.len());
-            if round == 1 {
-                rows.push(row);
+            match one_round(clock, law, setting, *law_us) {
+                Ok((row, now)) if rounds == 0 => {
+                    rows.push(row);
+                    times.push(vec![now]);
+                    made.push(setting);
+                }
+                Ok((_, now)) => times.get_mut(number).into_iter().for_each(|times| times.push(now)),
+                Err(why) => {
+                    missing.push(format!("{} cannot be made: {why}", setting.name));
+                    first_refusal = first_refusal.or(Some(why));
+                }
             }
         }
-        rows.iter_mut().zip(&times).for_each(|(row, times)| row.take(times));
-        let now = ranking(&rows, limits);
-        unchanged = if now == order { unchanged + 1 } else { 0 };
-        order = now;
-        if round >= LEAST_ROUNDS && unchanged >= UNCHANGED && is_clearly_fastest(&rows, &order) {
-            return Ok(TradeMeasurement { rows, rounds: round, stable: true });
+        if let (true, Some(why)) = (made.is_empty(), first_refusal.take()) {
+            return Err(why);
+        }
+        rounds += 1;
+        last = clock().saturating_sub(begun);
+    }
+    rows.iter_mut().zip(&times).for_each(|(row, times)| row.take(times));
+    for (place, index) in ranking(&rows, limits).into_iter().enumerate() {
+        if let Some(row) = rows.get_mut(index) {
+            row.rank = Some(place + 1);
         }
     }
-    Ok(TradeMeasurement { rows, rounds: MOST_ROUNDS, stable: false })
+    Ok(TradeMeasurement { rows, rounds, missing })
 }
 
-/// The rows that keep the limit, by number, the fastest first.
-pub(super) fn ranking(rows: &[TradeRow], limits: TradeLimits) -> Vec<usize> {
-    let mut keep: Vec<(usize, f64)> =
-        rows.iter().enumerate().filter(|(_, row)| limits.keeps(row)).map(|(i, row)| (i, row.total_us)).collect();
-    keep.sort_by(|a, b| a.1.total_cmp(&b.1));
+/// The rows that keep the limits, by number, the one first that costs the shop least: by what it is written as, its pieces, its bytes, and what it
+/// leaves. No time of this computer is among them, so the order is the same in every run.
+fn ranking(rows: &[TradeRow], limits: TradeLimits) -> Vec<usize> {
+    let mut keep: Vec<(usize, &TradeRow)> = rows.iter().enumerate().filter(|(_, row)| limits.keeps(row)).collect();
+    keep.sort_by(|(_, a), (_, b)| {
+        let cost = |row: &TradeRow| (row.entity, row.pieces, row.bytes);
+        cost(a).cmp(&cost(b)).then(limits.left(a).total_cmp(&limits.left(b)))
+    });
     keep.into_iter().map(|(index, _)| index).collect()
-}
-
-/// Whether three quarters of the rounds of the first row were faster than three quarters of those of the second.
-fn is_clearly_fastest(rows: &[TradeRow], order: &[usize]) -> bool {
-    let row = |place: usize| order.get(place).and_then(|index| rows.get(*index));
-    match (row(0), row(1)) {
-        (Some(first), Some(second)) => first.total_high_us < second.total_low_us,
-        _ => true,
-    }
-}
-
-/// The value below which a share of the values lies.
-pub(crate) fn quantile(values: impl Iterator<Item = f64>, share: f64) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    #[expect(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "40 rounds"
-    )]
-    let index = (share * sorted.len().saturating_sub(1) as f64).round() as usize;
-    sorted.get(index).copied().unwrap_or(0.0)
 }
 
 impl TradeRow {
@@ -245,6 +283,10 @@ impl TradeRow {
     fn of(law: &TradeLaw, setting: &TradeSetting, law_us: f64, step_us: Option<f64>) -> Self {
         Self {
             setting: setting.name.clone(),
+            flags: setting.flags.clone(),
+            entity: setting.made.entity(),
+            rank: None,
+            machining_s: 0.0,
             law_us,
             outline_us: 0.0,
             checks_us: 0.0,
@@ -262,26 +304,29 @@ impl TradeRow {
             rolled_mm: None,
             velocity_error_mm_per_rad: None,
             acceleration_error_mm_per_rad2: None,
+            acceleration_error_m_per_s2: None,
             acceleration_share: None,
             torque_error_nm: None,
+            passed: true,
             total_low_us: 0.0,
             total_high_us: 0.0,
         }
     }
 
-    /// Medians and quartiles of the rounds so far.
+    /// The least time of every stage: other work of the computer only adds to it.
     fn take(&mut self, times: &[RoundTimes]) {
-        let median = |of: fn(&RoundTimes) -> f64| quantile(times.iter().map(of), 0.5);
-        self.law_us = median(|t| t.law);
-        self.outline_us = median(|t| t.outline);
-        self.checks_us = median(|t| (t.proof - t.dxf).max(0.0));
-        self.dxf_us = median(|t| t.dxf);
-        self.svg_us = median(|t| t.svg.unwrap_or(0.0));
-        self.step_us = self.step_us.map(|_| median(|t| t.step.unwrap_or(0.0)));
-        self.csv_us = median(|t| t.csv.unwrap_or(0.0));
-        self.total_us = median(RoundTimes::total);
-        self.total_low_us = quantile(times.iter().map(RoundTimes::total), 0.25);
-        self.total_high_us = quantile(times.iter().map(RoundTimes::total), 0.75);
+        let least = |of: fn(&RoundTimes) -> f64| times.iter().map(of).fold(f64::INFINITY, f64::min);
+        self.law_us = least(|t| t.law);
+        self.outline_us = least(|t| t.outline);
+        self.dxf_us = least(|t| t.dxf);
+        self.checks_us = (least(|t| t.proof) - self.dxf_us).max(0.0);
+        self.svg_us = least(|t| t.svg.unwrap_or(0.0));
+        self.step_us = self.step_us.map(|_| least(|t| t.step.unwrap_or(0.0)));
+        self.csv_us = least(|t| t.csv.unwrap_or(0.0));
+        let formats = self.svg_us + self.step_us.unwrap_or(0.0) + self.csv_us;
+        self.total_us = self.law_us + self.outline_us + self.dxf_us + self.checks_us + formats;
+        self.total_low_us = least(RoundTimes::total);
+        self.total_high_us = times.iter().map(RoundTimes::total).fold(0.0, f64::max);
     }
 }
 
@@ -340,6 +385,8 @@ fn outline(
     let row = TradeRow {
         arcs: contour.map_or(0, Contour::arcs),
         pieces: contour.map_or(0, |contour| contour.vertices.len()),
+        machining_s: contour.map_or(0.0, |contour| machining(law, contour)),
+        passed: proven.passed(),
         bytes: bytes + sizes,
         deviation_mm: deviation,
         torque_error_nm: torque_error(law, proven.outlines()),
@@ -382,12 +429,18 @@ fn points(
     };
     let row = TradeRow {
         pieces: table.rows.rows.len(),
+        machining_s: machining(law, &outline.contour),
         bytes: bytes.len(),
         deviation_mm: table.rows.error,
         torque_error_nm: torque_error(law, &[outline]),
         ..rolled(TradeRow::of(law, setting, law_us, None), law, rolled_on.as_ref())
     };
     Ok((row, times))
+}
+
+/// Seconds along an outline at the feed of the machine file.
+fn machining(law: &TradeLaw, contour: &Contour) -> f64 {
+    contour.length() / (MILLIMETRES * law.cam.body().machine().cutting().feed)
 }
 
 /// A row with the results of rolling.
@@ -397,6 +450,9 @@ fn rolled(row: TradeRow, law: &TradeLaw, rolled: Option<&Rolled>) -> TradeRow {
         rolled_mm: rolled.map(|rolled| rolled.gap_mm.abs()),
         velocity_error_mm_per_rad: as_cut.map(|error| error.velocity_error.0),
         acceleration_error_mm_per_rad2: as_cut.map(|error| error.acceleration_error.0),
+        acceleration_error_m_per_s2: as_cut
+            .filter(|error| !error.swings)
+            .and_then(|error| error.acceleration(error.acceleration_error.0)),
         acceleration_share: as_cut.and_then(|error| error.acceleration_share()),
         // The residual force of the law itself does not depend on the outline.
         residual_n: rolled.map_or(0.0, |rolled| rolled.residual_max_n).max(law.residual_n),

@@ -1,12 +1,15 @@
 //! Speed against accuracy: every setting of an outline, a table of points or a law, made and measured on this computer.
 
+mod chain;
 pub(crate) mod measure;
 mod report;
 mod settings;
+pub(crate) mod solver;
 
+pub use chain::LeftOver;
 pub use measure::TradeRun;
 pub(crate) use measure::{TradeLaw, TradeLimits, TradeProduct, TradeSetting};
-pub(crate) use settings::{SettingLadder, ladder, of_disc};
+pub(crate) use settings::{SettingLadder, flags, ladder, of_disc};
 
 use crate::analysis::{Analysis, Picture};
 use crate::body::{Kind, needs_base_circle};
@@ -24,7 +27,7 @@ pub(crate) const COMMAND: &str = "trade";
 pub const KIND: Kind = Kind { command: COMMAND, noun: "time and accuracy of a disc cam", keys: cams::MAKE };
 
 /// Largest error of the acceleration of a motion program by default, as a share: that of `--accuracy standard`.
-const ACCELERATION: f64 = 0.05;
+pub(crate) const ACCELERATION: f64 = 0.05;
 
 /// What is measured, and the limits that the advice keeps.
 pub(crate) struct TradeTask<'a> {
@@ -35,10 +38,14 @@ pub(crate) struct TradeTask<'a> {
     pub(crate) rpm: Option<f64>,
     pub(crate) settings: SettingLadder,
     pub(crate) limits: TradeLimits,
+    pub(crate) inputs: Vec<Input>,
+    /// What the rest of the machine leaves of the balance, whatever the outline.
+    pub(crate) others: Vec<LeftOver>,
 }
 
 /// The disc cam of a motion program over all settings: times of every stage, sizes, and errors of distance, velocity and acceleration. The
-/// advice is the fastest setting whose acceleration is off by no more than a share of its largest, 5 % where none is given.
+/// advice is the setting that costs a shop least of those whose acceleration is off by no more than a share of its largest, 5 % where none is
+/// given.
 ///
 /// ```no_run
 /// use camgen::Machine;
@@ -68,7 +75,8 @@ pub fn of_program(
     needs_base_circle(machine, "the outline of `camgen trade`")?;
     let settings = of_disc(move || Spec::of_program(own.clone(), rpm).ok_or_else(no_motion))?;
     let limits = TradeLimits { residual: None, acceleration: Some(acceleration.unwrap_or(ACCELERATION)) };
-    analysis(&TradeTask { kind: &KIND, cam: "make", machine, rpm: rpm.or(of_file), settings, limits }, run)
+    let (cam, rpm, inputs, others) = ("make", rpm.or(of_file), machine.inputs(cams::MAKE), Vec::new());
+    analysis(&TradeTask { kind: &KIND, cam, machine, rpm, settings, limits, inputs, others }, run)
 }
 
 /// Measures a task.
@@ -76,12 +84,14 @@ pub(crate) fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analys
     let (laws, settings) = &task.settings;
     let limits = task.limits;
     let measured = measure::measure(laws, settings, limits, run)?;
-    let advice = report::advice(&measured.rows, limits, measured.stable);
+    let (advised, chosen) = (report::advice(&measured.rows, limits), report::chosen(&measured.rows));
+    let chain = chain::of(chosen, &task.others);
+    let advice = chain::not_the_outline(&chain).map_or(advised.clone(), |why| format!("{advised}; {why}"));
     let against = if limits.residual.is_some() { "force" } else { "gap" };
     let speed = task.rpm.map_or(String::new(), |rpm| format!(" at {} rpm", shortest(rpm)));
     let (machine, cam) = (task.machine.name(), if task.cam == "make" { "disc" } else { task.cam });
     let title = format!("{machine}: time against {against} and acceleration of a {cam} cam{speed}");
-    let mut inputs = task.machine.inputs(task.cam);
+    let mut inputs = task.inputs.clone();
     inputs.push(Input::word("command", format!("{COMMAND} {}", task.cam)));
     inputs.extend(task.rpm.map(|rpm| Input::number("rpm", rpm)));
     let limit = |key, limit: Option<f64>| limit.map(|limit| Section::new(key, &limit));
@@ -89,9 +99,10 @@ pub(crate) fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analys
     sections.extend(limit("residual_limit_n", limits.residual));
     sections.extend(limit("acceleration_limit", limits.acceleration));
     sections.push(Section::new("rounds", &measured.rounds));
-    sections.push(Section::new("ranking_stable", &measured.stable));
-    sections.push(Section::new("rows", &measured.rows).with_words(report::words(&measured, &advice)));
-    sections.push(Section::new("advice", &advice));
+    sections.push(Section::new("rows", &measured.rows).with_words(report::words(&measured)));
+    sections.push(Section::new("chain", &chain).with_words(chain.iter().map(LeftOver::words).collect()));
+    sections.push(Section::new("advice", &advice).with_words(report::advice_words(&advice, chosen)));
+    sections.extend(chosen.and_then(|row| row.flags.as_ref()).map(|flags| Section::new("flags", flags)));
     Ok(Analysis {
         kind: task.kind,
         machine: machine.to_owned(),
@@ -99,10 +110,10 @@ pub(crate) fn analysis(task: &TradeTask<'_>, run: TradeRun<'_>) -> Result<Analys
         inputs,
         sections,
         measures: Vec::new(),
-        notes: Vec::new(),
         tables: vec![("", report::table(&measured.rows))],
+        notes: measured.missing,
         by: &[],
-        along: "total_us",
+        along: "pieces",
         picture: Picture::Chart(report::chart_of(&measured.rows, limits, title)),
         mechanism: None,
         document: None,

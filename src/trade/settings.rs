@@ -1,10 +1,12 @@
 //! The settings that are measured: arcs by distance and by acceleration, splines, points.
 
 use super::measure::{TradeLaw, TradeProduct, TradeSetting};
+use crate::document::NamedChoice;
 use crate::geometry::points::PointInterpolation;
 use crate::pipeline::Spec;
 use crate::profile::outline::SegmentKind;
 use crate::refusal::Refusal;
+use crate::write::number::shortest;
 
 /// Distances of the ladder, m, from coarse to fine.
 const TOLERANCES: [(&str, f64); 9] = [
@@ -40,12 +42,21 @@ const POINTS: [(&str, f64, Option<f64>, PointInterpolation); 5] = [
 /// Laws, and settings that use them.
 pub(crate) type SettingLadder = (Vec<TradeLaw>, Vec<TradeSetting>);
 
+/// The flags of an outline that is drawn to a distance, m, and keeps a share of the acceleration.
+pub(crate) fn flags(tolerance: f64, share: Option<f64>) -> String {
+    // A tolerance is told in micrometres, and the conversion would leave digits of its own.
+    let micrometres = shortest((1e12 * tolerance).round() / 1e6);
+    let share = share.map_or("none".to_owned(), |share| format!("{}%", shortest((1e8 * share).round() / 1e6)));
+    format!("--tolerance {micrometres}um --tolerance-acceleration {share}")
+}
+
 /// Outlines from coarse to fine, with the first law.
 pub(crate) fn ladder() -> Vec<TradeSetting> {
     let arcs = TOLERANCES.iter().map(|(name, tolerance)| (*name, *tolerance, None, SegmentKind::Arcs));
     let all = arcs.chain(WITH_ACCELERATION);
     all.map(|(name, tolerance, share, laid)| TradeSetting {
         name: name.into(),
+        flags: Some(flags(tolerance, share) + if laid == SegmentKind::Splines { " --outline spline" } else { "" }),
         law: 0,
         tolerance,
         made: TradeProduct::Outline { laid, share },
@@ -59,6 +70,11 @@ pub(crate) fn of_disc(spec: impl Fn() -> Result<Spec, Refusal> + 'static) -> Res
     let law = TradeLaw { cam: solve()?, solve: Box::new(solve), error_mm: 0.0, residual_n: 0.0 };
     let points = POINTS.iter().map(|(name, tolerance, share, between)| TradeSetting {
         name: (*name).into(),
+        flags: Some(format!(
+            "{} --format points --points-as xy --points-step chord --points-between {}",
+            flags(*tolerance, *share),
+            between.word()
+        )),
         law: 0,
         tolerance: *tolerance,
         made: TradeProduct::Points { between: *between, share: *share },

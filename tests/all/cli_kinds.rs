@@ -274,15 +274,65 @@ fn trade_measures_a_ladder_and_advises() {
             );
         }
         assert!(report["advice"].as_str().is_some_and(|advice| advice.contains("cheapest")), "{report}");
+        // The stages add up to the total.
+        for row in found {
+            let stages = ["law_us", "outline_us", "checks_us", "dxf_us", "svg_us", "step_us", "csv_us"];
+            let sum: f64 = stages.iter().filter_map(|stage| row[stage].as_f64()).sum();
+            assert!((sum - of(row, "total_us")).abs() < 1e-6 * sum, "{row}");
+        }
         let stem = format!("dpi-trade-{kind}-35rpm");
         assert_eq!(files(run.directory.path()), [format!("{stem}.csv"), format!("{stem}.svg")]);
     }
     assert_eq!(camgen(&["trade", "conoid"]).code, 2);
+    assert_eq!(camgen(&["trade", "rotary", "--rpm", "20..35"]).code, 2);
     assert_eq!(camgen(&["trade", "--acceleration", "2mm/rad2"]).code, 2);
     let run = camgen(&["trade", "--json", "--residual", "5N", "--acceleration", "2%"]);
     let report = report(&run);
     let advice = report["advice"].as_str().expect("an advice");
-    assert!(advice.starts_with("5 µm, 2 % ") || advice.starts_with("0.5 µm, 1 % "), "{advice}");
+    assert!(advice.starts_with("5 µm, 2 % "), "{advice}");
+    // The flags, pasted, make a cam that keeps what was asked.
+    let flags: Vec<&str> = report["flags"].as_str().expect("flags").split(' ').collect();
+    let made = camgen(&[&["rotary", "--json", "--dry-run"], &flags[..]].concat());
+    assert_eq!(made.code, 0, "{}", made.err);
+    let made = self::report(&made);
+    assert!(made["force"]["residual_max_n"].as_f64().is_some_and(|left| left <= 5.0), "{made}");
+    let [error, of] = ["acceleration_error_max_mm_per_rad2", "acceleration_of_motion_max_mm_per_rad2"]
+        .map(|key| made["rolling"][key].as_f64().expect("a number"));
+    assert!(error <= 0.02 * of, "{error} {of}");
+}
+
+/// The advice does not depend on the clock, names the part of the machine that limits, and is there for every kind.
+#[test]
+fn trade_names_what_limits_and_knows_every_kind() {
+    let once = || report(&camgen(&["trade", "rotary", "dpi-shaft", "--json", "--dry-run"]));
+    let (first, second) = (once(), once());
+    assert_eq!([&first["advice"], &first["flags"]], [&second["advice"], &second["flags"]]);
+    let part = |name: &str| {
+        let chain = first["chain"].as_array().expect("a chain");
+        let found = chain.iter().find(|part| part["part"] == name).unwrap_or_else(|| panic!("no {name}: {chain:?}"));
+        found["residual_n"].as_f64().expect("a force")
+    };
+    assert!((part("shaft") - 143.689).abs() < 1e-3 && part("outline") < 2.2 && part("scatter") > 400.0);
+    let advice = first["advice"].as_str().expect("an advice");
+    assert!(advice.contains("the outline is not what limits: the part `scatter`"), "{advice}");
+    // A cam that is cut for its shaft leaves next to nothing there.
+    let cut = ["trade", "rotary", "dpi-shaft", "--set", "shaft.compensate=true", "--json", "--dry-run"];
+    let cut = report(&camgen(&cut));
+    let shaft = cut["chain"].as_array().and_then(|chain| chain.iter().find(|part| part["part"] == "shaft").cloned());
+    assert!(shaft.and_then(|part| part["residual_n"].as_f64()).is_some_and(|left| left < 1.0), "{cut}");
+    let sections = report(&camgen(&["trade", "conoid", "--rpm", "20..35", "--residual", "1N", "--json", "--dry-run"]));
+    assert_eq!(sections["flags"], "--rpm 20,25,30,35", "{sections}");
+    let stepped = report(&camgen(&["trade", "drive", "--json", "--dry-run"]));
+    assert!(stepped["rows"].as_array().is_some_and(|rows| rows.len() == 7), "{stepped}");
+    let braked = report(&camgen(&["trade", "brake", "--json", "--dry-run"]));
+    assert!(braked["flags"].as_str().is_some_and(|flags| flags.starts_with("--tolerance ")), "{braked}");
+    for wrong in [
+        &["trade", "drive", "--residual", "2N"][..],
+        &["trade", "brake", "--rpm", "3"],
+        &["trade", "shaft", "--rpm", "3"],
+    ] {
+        assert_eq!(camgen(wrong).code, 2, "{wrong:?}");
+    }
 }
 
 /// A limit that no setting keeps: the tolerance matters all the same, and the setting that leaves least is named.
@@ -298,10 +348,10 @@ fn trade_says_how_near_it_comes_and_how_sure_it_is() {
     assert!(advice.contains("leaves least") && !advice.contains("does not depend"), "{advice}");
     assert!(advice.contains(least["setting"].as_str().expect("a name")), "{advice}");
     for row in rows {
-        let [low, middle, high] = ["total_low_us", "total_us", "total_high_us"].map(|key| of(row, key));
-        assert!(0.0 < low && low <= middle && middle <= high, "{row}");
+        let [sum, low, high] = ["total_us", "total_low_us", "total_high_us"].map(|key| of(row, key));
+        assert!(0.0 < sum && sum <= low * (1.0 + 1e-9) && low <= high, "{row}");
     }
-    assert!(report["rounds"].as_u64().is_some_and(|rounds| rounds >= 7) && report["ranking_stable"].is_boolean());
+    assert!(report["rounds"].as_u64().is_some_and(|rounds| (1..=5).contains(&rounds)));
 }
 
 #[test]

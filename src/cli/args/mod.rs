@@ -36,7 +36,7 @@ use camgen::domains::press::motion::equation_18::ExactOn;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 pub(super) use parse::rpm;
-use parse::{cutter_diameter, cutter_radius, force, share, word};
+use parse::{cutter_diameter, cutter_radius, force, share, speed, word};
 use std::path::PathBuf;
 
 /// Cams a CNC shop can cut: solved exactly, drawn as tangent arcs, proved on the written file
@@ -358,8 +358,15 @@ pub(super) enum CheckTarget {
 pub(super) enum TradeTarget {
     Rotary,
     Translating,
+    /// The sections of a conoid, over a range of speeds.
+    Conoid,
     /// The disc cam of a motion program.
     Make,
+    /// The steps of the paper's method for the drive without a cam, dp by default.
+    Drive,
+    /// The disc of a belt brake, roll by default.
+    #[cfg(feature = "brake")]
+    Brake,
     /// The first critical speed of a shaft, press-cylinder by default.
     #[cfg(feature = "shaft")]
     Shaft,
@@ -389,8 +396,9 @@ pub(super) struct TranslatingArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct TradeArgs {
-    /// A machine or motion program, embedded or the path of a file; or, before it, a kind of cam: rotary, translating or make (a motion program,
-    /// by default feeder), or shaft: the first critical speed of the shaft of a file (by default press-cylinder) [default: rotary]
+    /// A machine or motion program, embedded or the path of a file; or, before it, a kind: rotary, translating, conoid (its sections), make (a motion
+    /// program, by default feeder), drive (its steps, by default dp), shaft (the first critical speed, by default press-cylinder) or brake (its disc,
+    /// by default roll) [default: rotary]
     #[arg(value_name = "KIND|FILE", value_hint = ValueHint::FilePath)]
     pub(super) kind: Option<String>,
 
@@ -398,9 +406,9 @@ pub(super) struct TradeArgs {
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) machine: Option<String>,
 
-    /// Main-shaft speed the cam is cut for (for `make` the speed of the cam), rpm [default: that of the machine file]
-    #[arg(long, value_name = "N", value_parser = rpm, allow_hyphen_values = true)]
-    pub(super) rpm: Option<f64>,
+    /// Main-shaft speed the cam is cut for (for `make` the speed of the cam), rpm, or A..B for a conoid [default: that of the machine file]
+    #[arg(long, value_name = "N", value_parser = speed, allow_hyphen_values = true)]
+    pub(super) rpm: Option<Speed>,
 
     /// End of the bed's stroke that has the buffers; needs [linkage] in the machine file [default: outer]
     #[arg(long, value_name = "END", ignore_case = true, value_parser = word::<End>())]

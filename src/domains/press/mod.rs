@@ -39,6 +39,8 @@ pub const DOMAIN: Domain = Domain {
         &scatter::analysis::KIND,
         &analysis::drive::KIND,
         &analysis::trade::ROTARY,
+        &analysis::trade::CONOID,
+        &analysis::trade::DRIVE,
         &analysis::trade::TRANSLATING,
     ],
     checks: checks::CHECKS,

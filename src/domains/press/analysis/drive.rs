@@ -173,7 +173,7 @@ pub fn analysis(machine: &DriveMachine, solver: DriveSolver, step: f64) -> Resul
     let mut inputs = vec![Input::word("command", KIND.command)];
     inputs.extend(machine.inputs().iter().cloned());
     inputs.extend([Input::word("solver", solver.word()), Input::quantity("step", step, ("deg", PI / 180.0))]);
-    let table = Table::listed(COLUMNS, &rows);
+    let table = Table::listed(COLUMNS, &rows).without_unknown();
     Ok(Analysis {
         kind: &KIND,
         machine: machine.name().to_owned(),
@@ -292,6 +292,15 @@ fn by_sections(machine: &DriveMachine, drive: &Drive, nodes: &[SectionEnd]) -> V
 }
 
 /// Largest error of the speed by sections over it, at the nodes that have one.
+/// Largest error of the crank's speed that the sections of the paper leave at a step of the crank angle (rad), as a share.
+///
+/// # Errors
+/// As [`analysis`].
+pub(super) fn error_of_sections(machine: &DriveMachine, step: f64) -> Result<f64, DriveError> {
+    let (drive, _) = solved(machine)?;
+    Ok(error(&drive, &drive::sections(&drive, step), f64::INFINITY))
+}
+
 fn error(drive: &Drive, nodes: &[SectionEnd], within: f64) -> f64 {
     let lead = drive.machine.lead_angle;
     let of = |node: &SectionEnd| {

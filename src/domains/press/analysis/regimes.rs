@@ -272,21 +272,29 @@ fn words(regimes: &Regimes<'_>) -> Vec<String> {
     ));
     lines.extend(regimes.speeds.iter().map(|row| {
         format!(
-            "{:>8} {:>11.3} {:>8.5} {:>13.1} {:>11.2} {:>8.3} {:>9.3} {:>10.3} {:>9.4} {:>11.2} {:>11.2}",
+            "{:>8} {:>11.3} {:>8.5} {:>13} {:>11.2} {:>8.3} {:>9.3} {:>10} {:>9.4} {:>11.2} {:>11.2}",
             row.rpm,
             row.column_length_mm,
             row.lambda,
-            1e-3 * row.added_volume_mm3,
+            unsigned_zero(1e-3 * row.added_volume_mm3, 1),
             row.residual_max_n,
             100.0 * row.residual_share,
             row.residual_at_mm,
-            row.end_residual_n,
+            unsigned_zero(row.end_residual_n, 3),
             row.end_pressure_pa / TECHNICAL_ATMOSPHERE,
             row.crank_torque_max_nm,
             row.camshaft_torque_max_nm
         )
     }));
     lines
+}
+
+/// A number with so many decimals; what is 0 with them has no sign.
+fn unsigned_zero(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    text.strip_prefix('-')
+        .filter(|size| size.bytes().all(|c| matches!(c, b'0' | b'.')))
+        .map_or(text.clone(), str::to_owned)
 }
 
 /// Figure 5 of the paper, with the residual below.

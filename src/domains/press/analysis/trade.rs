@@ -1,18 +1,26 @@
 //! Speed against accuracy of the cams of a press.
 
+use super::drive;
 use crate::analysis::Analysis;
 use crate::body::Kind;
 use crate::domains::press::cams;
+use crate::domains::press::conoid::Conoid;
+use crate::domains::press::machine::DriveMachine;
 use crate::domains::press::motion::equation_18::{BedDirection, BottomMotion, ExactOn, Solver};
+use crate::domains::press::scatter;
 use crate::domains::press::wedge::Wedge;
 use crate::machine::Machine;
 use crate::pipeline::Spec;
 use crate::profile::outline::SegmentKind;
 use crate::refusal::Refusal;
+use crate::report::Speeds;
+use crate::trade::solver::{self, SolverRow, SolverTask};
 use crate::trade::{
-    self, COMMAND, SettingLadder, TradeLaw, TradeLimits, TradeProduct, TradeRun, TradeSetting, TradeTask, ladder,
-    of_disc,
+    self, COMMAND, LeftOver, SettingLadder, TradeLaw, TradeLimits, TradeProduct, TradeRun, TradeSetting, TradeTask,
+    flags, ladder, of_disc,
 };
+use crate::write::number::shortest;
+use std::time::Duration;
 
 /// The disc cam.
 pub const ROTARY: Kind = Kind { command: COMMAND, noun: "time and accuracy of a rotary cam", keys: cams::ROTARY };
@@ -20,6 +28,18 @@ pub const ROTARY: Kind = Kind { command: COMMAND, noun: "time and accuracy of a 
 pub const TRANSLATING: Kind =
     Kind { command: COMMAND, noun: "time and accuracy of a translating cam", keys: cams::TRANSLATING };
 
+/// The sections of a conoid.
+pub const CONOID: Kind =
+    Kind { command: COMMAND, noun: "time and accuracy of the sections of a conoid", keys: cams::CONOID };
+/// The steps of the drive.
+pub const DRIVE: Kind =
+    Kind { command: COMMAND, noun: "time and accuracy of the drive by sections", keys: drive::KIND.keys };
+
+/// Numbers of sections, and steps in degrees that divide a right angle.
+const SECTIONS: [u32; 8] = [2, 3, 4, 5, 6, 8, 10, 12];
+const STEPS: [f64; 7] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1];
+/// Error of the speed that is kept, as a share.
+const DRIVE_SHARE: f64 = 1e-3;
 /// Largest residual force by default, as a share of the largest inertia.
 const SHARE: f64 = 1e-4;
 /// Tolerances of the differential equation, by name in mm and in m, and stations of the paper's method.
@@ -39,14 +59,20 @@ pub struct PressTradeLimits {
     pub acceleration: Option<f64>,
 }
 
-/// The disc cam of a press for a speed (rpm) over all settings.
+/// The disc cam of a press for a speed (rpm) over all settings, with what other parts of the machine leave.
 ///
 /// # Errors
 /// [`Refusal`] when the machine is no press, or a setting cannot be made.
-pub fn rotary(machine: &Machine, rpm: f64, limits: PressTradeLimits, run: TradeRun<'_>) -> Result<Analysis, Refusal> {
+pub fn rotary(
+    machine: &Machine,
+    rpm: f64,
+    limits: PressTradeLimits,
+    others: Vec<LeftOver>,
+    run: TradeRun<'_>,
+) -> Result<Analysis, Refusal> {
     let own = machine.clone();
     let settings = of_disc(move || Ok(Spec::rotary(own.clone(), rpm)))?;
-    of_press(&ROTARY, cams::ROTARY, (machine, rpm), limits, settings, run)
+    of_press(&ROTARY, cams::ROTARY, (machine, rpm), limits, (settings, others), run)
 }
 
 /// The plate of a press for a speed (rpm) over all settings, those of its differential equation among them.
@@ -60,7 +86,10 @@ pub fn translating(
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
     let settings = of_plate(machine, rpm)?;
-    of_press(&TRANSLATING, cams::TRANSLATING, (machine, rpm), limits, settings, run)
+    let law = settings.0.first().map(|law| law.residual_n);
+    let about = "equation (18), which holds in one direction of the bed";
+    let others = law.map(|force| LeftOver::of_force("law", force, about)).into_iter().collect();
+    of_press(&TRANSLATING, cams::TRANSLATING, (machine, rpm), limits, (settings, others), run)
 }
 
 fn of_press(
@@ -68,13 +97,92 @@ fn of_press(
     cam: &'static str,
     (machine, rpm): (&Machine, f64),
     limits: PressTradeLimits,
-    settings: SettingLadder,
+    (settings, mut others): (SettingLadder, Vec<LeftOver>),
     run: TradeRun<'_>,
 ) -> Result<Analysis, Refusal> {
+    others.extend(scatter::section::left_in_practice(machine, rpm).map(|force| {
+        LeftOver::of_force(
+            "scatter",
+            force,
+            "presses that differ, 19 of 20 of them, with the screw set for each (`camgen scatter`)",
+        )
+    }));
     let inertia = machine.press()?.largest_inertia(rpm);
     let limits =
         TradeLimits { residual: Some(limits.residual.unwrap_or(SHARE * inertia)), acceleration: limits.acceleration };
-    trade::analysis(&TradeTask { kind, cam, machine, rpm: Some(rpm), settings, limits }, run)
+    trade::analysis(
+        &TradeTask { kind, cam, machine, rpm: Some(rpm), settings, limits, inputs: machine.inputs(cam), others },
+        run,
+    )
+}
+
+/// The sections of a conoid for speeds from one to another (rpm): what they leave between them.
+///
+/// # Errors
+/// [`Refusal`] when the machine has no conoid, or not for these speeds.
+pub fn conoid(
+    machine: &Machine,
+    (from, to): (f64, f64),
+    limits: PressTradeLimits,
+    clock: &dyn Fn() -> Duration,
+) -> Result<Analysis, Refusal> {
+    let limit = limits.residual.unwrap_or(SHARE * machine.press()?.largest_inertia(to));
+    let row = |count: &u32| {
+        let rounded = |rpm: f64| (1e3 * rpm).round() / 1e3;
+        let inner = |i: u32| rounded(from + (to - from) * f64::from(i) / f64::from(count - 1));
+        let speeds: Vec<f64> = (0..*count)
+            .map(|i| {
+                if i == 0 {
+                    from
+                } else if i + 1 == *count {
+                    to
+                } else {
+                    inner(i)
+                }
+            })
+            .collect();
+        let typed: Vec<String> = speeds.iter().map(|rpm| shortest(*rpm)).collect();
+        let setting = (format!("{count} sections"), format!("--rpm {}", typed.join(",")), *count as usize);
+        SolverRow::measured(setting, clock, || Ok(Conoid::unsized_of(machine, &speeds)?.residual_between().force))
+    };
+    let rows: Vec<SolverRow> = SECTIONS.iter().map(row).collect::<Result<_, _>>()?;
+    let task = SolverTask {
+        kind: &CONOID,
+        machine: machine.name(),
+        word: "conoid",
+        speeds: Speeds::Several(vec![from, to]),
+        inputs: machine.inputs(cams::CONOID),
+        error: ("residual_n", "N", "largest residual force between the sections of a conoid"),
+        limit,
+    };
+    Ok(solver::analysis(task, &rows))
+}
+
+/// The steps of the paper's method for a bed that plain buffers brake: the error of the crank's speed.
+///
+/// # Errors
+/// [`Refusal`] when the column is used up within the stroke.
+pub fn drive(machine: &DriveMachine, clock: &dyn Fn() -> Duration) -> Result<Analysis, Refusal> {
+    let row = |degrees: &f64| {
+        let word = shortest(*degrees);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "steps of a quarter of a turn")]
+        let steps = (90.0 / degrees).round() as usize;
+        let setting = (format!("step {word}°"), format!("--solver paper --step {word}deg"), steps);
+        SolverRow::measured(setting, clock, || {
+            drive::error_of_sections(machine, degrees.to_radians()).map_err(Refusal::of)
+        })
+    };
+    let rows: Vec<SolverRow> = STEPS.iter().map(row).collect::<Result<_, _>>()?;
+    let task = SolverTask {
+        kind: &DRIVE,
+        machine: machine.name(),
+        word: "drive",
+        speeds: Speeds::Any(()),
+        inputs: machine.inputs().to_vec(),
+        error: ("error", "", "largest error of the crank's speed by the paper's sections"),
+        limit: DRIVE_SHARE,
+    };
+    Ok(solver::analysis(task, &rows))
 }
 
 /// The plate: all outlines with the finest law, then every law at 1 µm. Every law is solved once a round.
@@ -101,7 +209,14 @@ fn of_plate(machine: &Machine, rpm: f64) -> Result<SettingLadder, Refusal> {
         }
         let number = if is_finest { 0 } else { laws.len() - 1 };
         let made = TradeProduct::Outline { laid: SegmentKind::Arcs, share: None };
-        settings.push(TradeSetting { name, law: number, tolerance: LAW_LADDER_TOLERANCE, made });
+        // The command integrates to a tolerance of its own.
+        let flags = match solver {
+            Solver::Paper { stations } => {
+                Some(format!("{} --solver paper --stations {stations}", flags(LAW_LADDER_TOLERANCE, None)))
+            }
+            Solver::Ode { .. } => None,
+        };
+        settings.push(TradeSetting { name, flags, law: number, tolerance: LAW_LADDER_TOLERANCE, made });
     }
     Ok((laws, settings))
 }
